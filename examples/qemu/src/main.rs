@@ -1,0 +1,92 @@
+//! Draws the test scenes on a Cortex-M in QEMU (mps2-an386, an M4; mps2-an385, an M3).
+//!
+//! What it prints, a line each, is what the host's firmware runner reads:
+//! ```text
+//! count name=loop expected=2000000 counted=2000000 ok=1
+//! frame scene=memory crc=1234abcd instructions=123456
+//! figure name=stack_bytes value=1234
+//! done frames=1
+//! ```
+//! The checksum is the CRC-32 of PNG and zip over the bytes of a frame in scan-out order. A frame is
+//! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
+//! give the same number of bytes. Exit code 0 only if everything held.
+#![no_std]
+#![no_main]
+
+mod console;
+mod count;
+mod frames;
+mod rooms;
+
+use core::hint::black_box;
+
+// Supplies the critical-section implementation, also where nothing else names it.
+use cortex_m as _;
+use cortex_m::Peripherals;
+use cortex_m_rt::entry;
+use crc::{CRC_32_ISO_HDLC, Crc};
+
+use console::Console;
+use count::Counter;
+use frames::{Frame, frames};
+use rooms::Rooms;
+
+static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
+#[entry]
+fn main() -> ! {
+    let mut console = Console::open();
+    let peripherals = Peripherals::take().expect("main runs once");
+    let mut counter = Counter::start(peripherals.SYST);
+    let mut all_hold = true;
+
+    for check in count::check(&mut counter) {
+        all_hold &= check.holds();
+        console.line(format_args!(
+            "count name={} expected={} counted={} ok={}",
+            check.name,
+            check.expected,
+            check.counted,
+            u8::from(check.holds())
+        ));
+    }
+
+    let mut rooms = Rooms::take();
+    let mut count = 0;
+    for frame in frames() {
+        let name = frame.name;
+        let (crc, bytes) = hash(&frame, &mut rooms);
+        let mut counted_bytes = 0;
+        let instructions = counter.instructions(|| {
+            frame.draw(&mut rooms, &mut |line| {
+                counted_bytes += black_box(line).len();
+            });
+        });
+        assert_eq!(
+            counted_bytes, bytes,
+            "{name} has another length when redrawn"
+        );
+        console.line(format_args!(
+            "frame scene={name} crc={crc:08x} instructions={instructions}"
+        ));
+        count += 1;
+    }
+
+    console.line(format_args!(
+        "figure name=stack_bytes value={}",
+        rooms::stack_peak()
+    ));
+    console.line(format_args!("done frames={}", count));
+    console::exit(all_hold)
+}
+
+/// Draws a frame for its checksum and its length in bytes.
+fn hash(frame: &Frame, rooms: &mut Rooms) -> (u32, usize) {
+    let mut digest = CRC.digest();
+    let mut bytes = 0;
+    frame.draw(rooms, &mut |line| {
+        digest.update(line);
+        bytes += line.len();
+    });
+    (digest.finalize(), bytes)
+}

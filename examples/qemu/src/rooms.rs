@@ -1,0 +1,114 @@
+//! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
+
+use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
+use core::ptr;
+use scanbeam::{
+    CellOf, LineRenderer, Link, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, VertexOf,
+};
+use scenes::{HEIGHT, OBJECTS, VERTICES, WIDTH};
+
+/// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
+/// `&'static mut` slice. Each place in the source can lend once; a second time panics.
+macro_rules! lend {
+    ($section:literal, $element:ty, $len:expr, $value:expr) => {{
+        use core::{
+            mem::MaybeUninit,
+            sync::atomic::{AtomicBool, Ordering},
+        };
+        type Room = [MaybeUninit<$element>; $len];
+        // Beside the room, not in it: the sections are not cleared at start-up.
+        static TAKEN: AtomicBool = AtomicBool::new(false);
+        #[unsafe(link_section = $section)]
+        static mut ROOM: Room = [const { MaybeUninit::uninit() }; $len];
+        // Not swap: ARMv6-M has none.
+        let taken = cortex_m::interrupt::free(|_| {
+            let taken = TAKEN.load(Ordering::Relaxed);
+            TAKEN.store(true, Ordering::Relaxed);
+            taken
+        });
+        assert!(!taken, "lent twice");
+        // SAFETY: `TAKEN` lets one caller ever come here, so this is the only reference.
+        let room: &'static mut Room = unsafe { &mut *(&raw mut ROOM) };
+        for element in room.iter_mut() {
+            element.write($value);
+        }
+        // SAFETY: every element was written just above.
+        let lent: &'static mut [$element] =
+            unsafe { &mut *(ptr::from_mut::<[MaybeUninit<$element>]>(room) as *mut [$element]) };
+        lent
+    }};
+}
+
+/// Slots of the object cache.
+const SLOTS: usize = 43;
+
+/// What one pipeline is lent.
+pub(crate) struct RoomsOf<P: Pipeline> {
+    /// External RAM, `.slow`.
+    pub(crate) vertices: &'static mut [VertexOf<P>],
+    pub(crate) objects: &'static mut [ObjectOf<P>],
+    pub(crate) buckets: &'static mut [Link],
+    pub(crate) links: &'static mut [Link],
+    /// Tightly coupled RAM, `.fast`.
+    pub(crate) slots: &'static mut [SlotOf<P>],
+    pub(crate) depth: &'static mut [CellOf<P>],
+}
+
+/// What frames are drawn with.
+pub(crate) struct Rooms {
+    pub(crate) smooth: RoomsOf<Smooth>,
+    pub(crate) faceted: RoomsOf<Faceted>,
+    /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
+    pub(crate) lines: Option<[&'static mut [[u8; 2]]; 2]>,
+}
+
+macro_rules! rooms_of {
+    ($pipeline:ty) => {
+        RoomsOf::<$pipeline> {
+            vertices: lend!(".slow", VertexOf<$pipeline>, VERTICES, SceneVertex::empty()),
+            objects: lend!(".slow", ObjectOf<$pipeline>, OBJECTS, Object::default()),
+            buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
+            links: lend!(".slow", Link, OBJECTS, Link::NONE),
+            slots: lend!(
+                ".fast",
+                SlotOf<$pipeline>,
+                SLOTS,
+                LineRenderer::<$pipeline>::empty_slot()
+            ),
+            depth: lend!(".fast", CellOf<$pipeline>, WIDTH as usize, 0),
+        }
+    };
+}
+
+impl Rooms {
+    /// Takes all of them, once.
+    pub(crate) fn take() -> Self {
+        const WORDS: usize = WIDTH as usize * LINES_PER_TRANSFER as usize;
+        Self {
+            smooth: rooms_of!(Smooth),
+            faceted: rooms_of!(Faceted),
+            lines: Some([
+                lend!(".dma", [u8; 2], WORDS, [0; 2]),
+                lend!(".dma", [u8; 2], WORDS, [0; 2]),
+            ]),
+        }
+    }
+}
+
+/// The most bytes of stack that were in use at once since the start.
+pub(crate) fn stack_peak() -> usize {
+    unsafe extern "C" {
+        static _stack_end: u32;
+        static _stack_start: u32;
+    }
+    let low = &raw const _stack_end;
+    let high = &raw const _stack_start;
+    let mut at = low;
+    // SAFETY: all words from `_stack_end` up to the stack's start are RAM of nobody else (there is no
+    // heap), painted before `main`; volatile, because the stack below us is not Rust's to reason on.
+    while at < high && unsafe { at.read_volatile() } == cortex_m_rt::STACK_PAINT_VALUE {
+        // SAFETY: still at most `high`, one past the region.
+        at = unsafe { at.add(1) };
+    }
+    high as usize - at as usize
+}

@@ -1,0 +1,160 @@
+//! The frames that are drawn on the host and on every target, and compared bit for bit.
+
+use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, TEAPOT};
+use scanbeam::{
+    Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Pipeline, Scene, SceneError,
+    Screen,
+};
+
+/// Pixels a line of every shot.
+pub const WIDTH: u16 = 320;
+/// Lines of every shot.
+pub const HEIGHT: u16 = 240;
+/// Vertices that suffice for every shot.
+pub const VERTICES: usize = 4096;
+/// Objects that suffice for every shot.
+pub const OBJECTS: usize = 4096;
+
+/// A frame by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shot {
+    /// The Utah teapot, lit.
+    Teapot,
+    /// A cube whose sides have their own colours.
+    Cube,
+    /// Scene A: 2,048 triangles submitted, radius 1 at distance 3.94, focal length 320 pixels.
+    Sphere,
+    /// A quad strip and a cube of quads that cut into each other; nothing is culled.
+    Quads,
+    /// A cube around the eye and the teapot across the near plane.
+    Inside,
+}
+
+/// Every shot, in the order in which they are drawn.
+pub const SHOTS: [Shot; 5] = [
+    Shot::Teapot,
+    Shot::Cube,
+    Shot::Sphere,
+    Shot::Quads,
+    Shot::Inside,
+];
+
+/// Why a shot could not be built; none of them fails where the arenas are as large as said here.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShotError {
+    /// The camera.
+    Camera(CameraError),
+    /// The scene.
+    Scene(SceneError),
+    /// A mesh.
+    Draw(DrawError),
+}
+
+impl From<CameraError> for ShotError {
+    fn from(error: CameraError) -> Self {
+        Self::Camera(error)
+    }
+}
+
+impl From<SceneError> for ShotError {
+    fn from(error: SceneError) -> Self {
+        Self::Scene(error)
+    }
+}
+
+impl From<DrawError> for ShotError {
+    fn from(error: DrawError) -> Self {
+        Self::Draw(error)
+    }
+}
+
+impl Shot {
+    /// The name that reports use.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Teapot => "teapot",
+            Self::Cube => "cube",
+            Self::Sphere => "sphere",
+            Self::Quads => "quads",
+            Self::Inside => "inside",
+        }
+    }
+
+    /// The colour where nothing is, 8-bit levels.
+    #[must_use]
+    pub const fn background(self) -> [u8; 3] {
+        match self {
+            Self::Sphere => [0, 0, 0],
+            _ => [24, 32, 48],
+        }
+    }
+
+    /// The size of every shot.
+    #[must_use]
+    pub fn screen() -> Screen {
+        match Screen::new(WIDTH, HEIGHT) {
+            Ok(screen) => screen,
+            // A size within the limits.
+            Err(_) => unreachable!(),
+        }
+    }
+
+    /// Draws the shot into `scene`, whose screen must be [`screen`](Shot::screen).
+    ///
+    /// # Errors
+    /// When the scene's arenas are smaller than [`VERTICES`] and [`OBJECTS`].
+    pub fn build<P: Pipeline>(self, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
+        let light = Light::new([0.3, 0.8, 0.6], 0.2);
+        let looking =
+            |eye, focal, near| Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], focal, near, 100.0);
+        let lit = |model| Instance {
+            model,
+            light,
+            ..Instance::default()
+        };
+        match self {
+            Self::Teapot => {
+                scene.begin(&looking([0.0, 1.2, 2.6], 300.0, 0.1)?)?;
+                let instance = Instance {
+                    colour: [236, 196, 112],
+                    ..lit(Affine::rotation_y(0.6))
+                };
+                scene.draw(&TEAPOT, &instance)?;
+            }
+            Self::Cube => {
+                scene.begin(&looking([1.5, 2.0, 4.0], 260.0, 0.1)?)?;
+                scene.draw(&CUBE, &lit(Affine::rotation_y(0.3)))?;
+            }
+            Self::Sphere => {
+                scene.begin(&looking([0.0, 0.0, 3.94], 320.0, 0.1)?)?;
+                let instance = Instance {
+                    light: Light::new([0.5, 0.7, 0.8], 0.15),
+                    ..Instance::default()
+                };
+                scene.draw(&SPHERE, &instance)?;
+            }
+            Self::Quads => {
+                scene.begin(&looking([0.8, 1.4, 3.6], 240.0, 0.1)?)?;
+                let open = |model| Instance {
+                    cull: Cull::None,
+                    ..lit(model)
+                };
+                scene.draw(&RIBBON, &open(Affine::rotation_y(0.4)))?;
+                let small = Affine::placed(0.45, [0.1, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
+                scene.draw(&CUBE_QUADS, &open(Affine::rotation_x(0.5).then(&small)))?;
+            }
+            Self::Inside => {
+                scene.begin(&looking([0.35, 0.3, 0.55], 150.0, 0.3)?)?;
+                let open = |model| Instance {
+                    cull: Cull::None,
+                    ..lit(model)
+                };
+                let room = Affine::placed(9.0, [0.0, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
+                scene.draw(&CUBE, &open(Affine::rotation_y(0.2).then(&room)))?;
+                scene.draw(&TEAPOT, &open(Affine::rotation_y(2.0)))?;
+            }
+        }
+        Ok(())
+    }
+}

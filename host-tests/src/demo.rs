@@ -1,0 +1,335 @@
+//! `demo`: one full turn of the Utah teapot, drawn as firmware would draw it, and what it took.
+//!
+//! Every frame goes through both passes and the pump into the mocked display, which refuses
+//! missing, repeated and disordered lines; the pictures are what arrived there. The memory lent is
+//! as small as a microcontroller's, and the tables say how much of it was used (M4, S5, K12).
+
+use crate::args::DemoArgs;
+use crate::image_out::{Frame, ImageError, write_animation, write_image, write_strip};
+use crate::mock::{HostLine, MockFrameBuffer};
+use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
+use indicatif::{ProgressBar, ProgressStyle};
+use scanbeam::scan_out::Pump;
+use scanbeam::{
+    Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, LineDepth,
+    LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
+    Screen, SlotOf, VertexOf, WordOf, draw_frame,
+};
+use scenes::TEAPOT;
+use std::error::Error;
+use std::f32::consts::TAU;
+use std::fmt::Display;
+use std::path::{Path, PathBuf};
+
+/// Pixels a line.
+pub const WIDTH: u16 = 320;
+/// Lines.
+pub const HEIGHT: u16 = 240;
+/// The colour where nothing is, 8-bit levels.
+pub const BACKGROUND: [u8; 3] = [34, 42, 56];
+
+/// Gouraud, 32-bit depth, 16-bit pixels as an SPI panel takes them; counted.
+type Drawn = Counted<GouraudDepth<Rgb565Be>>;
+
+/// Slots of the object cache.
+const SLOTS: usize = 64;
+/// Vertices that the scene has room for: a teapot that is never clipped has 1,178.
+const VERTICES: usize = 1_184;
+/// Objects that the scene has room for: about half of the 2,256 triangles look away.
+const OBJECTS: usize = 1_280;
+/// Lines of one transfer, and of each of the two line buffers.
+const LINES: u16 = 8;
+/// Polls that the mocked display is late by, so that the pump has to wait.
+const LATE: u32 = 2;
+
+/// Frames of the strip, at most.
+const STRIP_FRAMES: usize = 6;
+/// Milliseconds of the animated turn, and the bounds of one frame.
+const TURN_MS: u32 = 4_000;
+const FRAME_MS: (u32, u32) = (20, 500);
+
+/// Where the eye is, what it looks at, the focal length in pixels.
+const EYE: [f32; 3] = [0.0, 1.45, 3.7];
+const AT: [f32; 3] = [0.0, -0.03, 0.0];
+const FOCAL: f32 = 570.0;
+/// Towards the light: from the upper left, and a little behind the viewer.
+const LIGHT: [f32; 3] = [-0.9, 0.8, 0.55];
+const AMBIENT: f32 = 0.14;
+/// Brass.
+const COLOUR: [u8; 3] = [255, 176, 84];
+/// The turn of the first frame in radians: the spout to the right, towards the viewer.
+const FIRST_TURN: f32 = -0.4;
+
+/// Draws the turn, writes the pictures and prints what it took.
+///
+/// # Errors
+/// When the folder or a picture cannot be written. Drawing fails only when this file lends too
+/// little memory.
+pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
+    let folder = &args.output;
+    std::fs::create_dir_all(folder).map_err(|error| ImageError {
+        file: folder.clone(),
+        reason: format!("cannot be made: {}", error.kind()),
+    })?;
+    // Draws nothing when stderr is not a terminal.
+    let style = ProgressStyle::with_template("{msg:9} {wide_bar} {pos}/{len} frames")?;
+    let bar = ProgressBar::new(u64::from(args.frames)).with_style(style);
+    let turn = Turn::draw(args.frames, || bar.inc(1))?;
+    bar.finish_and_clear();
+    let pictures = turn.write(folder)?;
+
+    println!("The Utah teapot, one turn of {} frames.", args.frames);
+    println!("{WIDTH}x{HEIGHT} pixels of 16 bits, {LINES} lines a transfer.\n");
+    println!("{}\n", turn.figures());
+    println!("{}\n", turn.memory());
+    println!("Pictures:");
+    for picture in pictures {
+        println!("  {}", picture.display());
+    }
+    Ok(())
+}
+
+/// All frames of a turn.
+struct Turn {
+    frames: Vec<Frame>,
+    stats: Vec<FrameStats>,
+}
+
+impl Turn {
+    /// Draws `count` frames, each one the same angle on, and calls `done` after each.
+    fn draw(count: u32, mut done: impl FnMut()) -> Result<Self, Box<dyn Error>> {
+        let mut vertices = vec![VertexOf::<Drawn>::empty(); VERTICES];
+        let mut objects = vec![ObjectOf::<Drawn>::default(); OBJECTS];
+        let mut buckets = [Link::NONE; HEIGHT as usize];
+        let mut slots = [LineRenderer::<Drawn>::empty_slot(); SLOTS];
+        let mut links = [Link::NONE; OBJECTS];
+        let mut depth = [<Drawn as Pipeline>::Depth::FARTHEST; WIDTH as usize];
+        let mut scene = Scene::<Drawn>::new(
+            Screen::new(WIDTH, HEIGHT)?,
+            SceneMemory {
+                vertices: &mut vertices,
+                objects: &mut objects,
+                buckets: &mut buckets,
+            },
+        );
+        let mut renderer = LineRenderer::<Drawn>::new(LineMemory {
+            slots: &mut slots,
+            links: &mut links,
+            depth: &mut depth,
+        });
+        let words = usize::from(WIDTH * LINES);
+        let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
+        let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+
+        let camera = Camera::look_at(EYE, AT, [0.0, 1.0, 0.0], FOCAL, 0.1, 100.0)?;
+        let light = Light::new(LIGHT, AMBIENT);
+        let background = Rgb565Be::from_rgb8(BACKGROUND);
+        let mut turn = Self {
+            frames: Vec::new(),
+            stats: Vec::new(),
+        };
+        for frame in 0..count {
+            let angle = FIRST_TURN + TAU * frame as f32 / count as f32;
+            scene.begin(&camera)?;
+            let instance = Instance {
+                model: Affine::rotation_y(angle),
+                light,
+                colour: COLOUR,
+                ..Instance::default()
+            };
+            scene.draw(&TEAPOT, &instance)?;
+            let stats = draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
+            let pixels = pump.sink().frame()?;
+            let rgb = pixels.into_iter().flat_map(Rgb565Be::to_rgb8).collect();
+            let frame = Frame::new(u32::from(WIDTH), u32::from(HEIGHT), rgb);
+            turn.frames
+                .push(frame.ok_or("the display has another size")?);
+            turn.stats.push(stats);
+            done();
+        }
+        Ok(turn)
+    }
+
+    /// Writes the pictures into `folder` and returns their paths.
+    fn write(&self, folder: &Path) -> Result<[PathBuf; 3], ImageError> {
+        let count = self.frames.len();
+        let paths = ["teapot.png", "strip.png", "turn.png"].map(|name| folder.join(name));
+        let [still, strip, animation] = &paths;
+        let first = self.frames.first().ok_or_else(|| ImageError {
+            file: still.clone(),
+            reason: "no frames".into(),
+        })?;
+        write_image(still, first)?;
+        let shown = count.min(STRIP_FRAMES);
+        let some: Vec<Frame> = (0..shown)
+            .map(|i| self.frames[i * count / shown].clone())
+            .collect();
+        write_strip(strip, &some)?;
+        let frame_ms = (TURN_MS / count as u32).clamp(FRAME_MS.0, FRAME_MS.1);
+        write_animation(animation, &self.frames, frame_ms as u16)?;
+        Ok(paths)
+    }
+
+    /// What each frame took.
+    fn figures(&self) -> Table {
+        type Figure = (&'static str, fn(&FrameStats) -> u64);
+        const FIGURES: [Figure; 15] = [
+            ("triangles in", |s| s.pass_one.triangles.into()),
+            ("triangles culled", |s| s.pass_one.culled.into()),
+            ("objects kept", |s| s.pass_one.objects.into()),
+            ("lines with nothing on", |s| s.scanlines_skipped.into()),
+            ("spans", |s| s.spans.spans.into()),
+            ("spans hidden", |s| s.spans.spans_hidden.into()),
+            ("pixels shaded", |s| s.spans.pixels_shaded.into()),
+            ("pixels hidden", |s| s.spans.pixels_hidden.into()),
+            ("depth tests", |s| s.spans.depth_tests.into()),
+            ("cache hits", |s| s.cache.hits.into()),
+            ("cache misses", |s| s.cache.misses.into()),
+            ("peak cache slots", |s| s.cache.peak_slots.into()),
+            ("slow bytes read", |s| s.slow_read_bytes),
+            ("slow bytes written", |s| s.slow_write_bytes),
+            ("bytes sent", |s| s.scan_out.bytes_sent),
+        ];
+        let mut table = table(["per frame", "min", "median", "max"]);
+        for (name, figure) in FIGURES {
+            let mut values: Vec<u64> = self.stats.iter().map(figure).collect();
+            values.sort_unstable();
+            let at = |index: usize| number(values.get(index).copied().unwrap_or(0));
+            let last = values.len().saturating_sub(1);
+            table.add_row([Cell::new(name), at(0), at(values.len() / 2), at(last)]);
+        }
+        table
+    }
+
+    /// The memory that was lent, and how much of it the largest frame used.
+    fn memory(&self) -> Table {
+        let most = |figure: fn(&FrameStats) -> u32| {
+            let values = self.stats.iter().map(figure);
+            values.max().unwrap_or(0) as usize
+        };
+        let objects = most(|s| s.pass_one.objects);
+        let vertices = most(|s| s.pass_one.vertices);
+        let slots = most(|s| s.cache.peak_slots);
+        let (width, height) = (usize::from(WIDTH), usize::from(HEIGHT));
+        let line_words = 2 * width * usize::from(LINES);
+        let fast = [
+            Lent::new::<SlotOf<Drawn>>("object cache", SLOTS, slots),
+            Lent::new::<CellOf<Drawn>>("depth of one line", width, width),
+            Lent::new::<WordOf<Drawn>>("two line buffers", line_words, line_words),
+        ];
+        let slow = [
+            Lent::new::<VertexOf<Drawn>>("vertices", VERTICES, vertices),
+            Lent::new::<ObjectOf<Drawn>>("objects", OBJECTS, objects),
+            Lent::new::<Link>("links", OBJECTS, objects),
+            Lent::new::<Link>("line buckets", height, height),
+        ];
+        let mut table = table(["RAM", "what", "count", "bytes each", "bytes", "bytes used"]);
+        for (region, rooms) in [("fast", &fast[..]), ("slow", &slow[..])] {
+            let mut sums = [0; 2];
+            for lent in rooms {
+                let bytes = [lent.count, lent.used].map(|count| count * lent.each);
+                sums = [sums[0] + bytes[0], sums[1] + bytes[1]];
+                let [lent_bytes, used_bytes] = bytes.map(number);
+                table.add_row([
+                    Cell::new(region),
+                    Cell::new(lent.what),
+                    number(lent.count),
+                    number(lent.each),
+                    lent_bytes,
+                    used_bytes,
+                ]);
+            }
+            let [lent_bytes, used_bytes] = sums.map(number);
+            let empty = || Cell::new("");
+            table.add_row([
+                Cell::new(region),
+                Cell::new("together"),
+                empty(),
+                empty(),
+                lent_bytes,
+                used_bytes,
+            ]);
+        }
+        table
+    }
+}
+
+/// Memory of one kind.
+struct Lent {
+    what: &'static str,
+    /// Bytes of one element.
+    each: usize,
+    /// Elements lent.
+    count: usize,
+    /// Most elements that were in use.
+    used: usize,
+}
+
+impl Lent {
+    fn new<T>(what: &'static str, count: usize, used: usize) -> Self {
+        let each = size_of::<T>();
+        Self {
+            what,
+            each,
+            count,
+            used,
+        }
+    }
+}
+
+/// An empty table with a header.
+fn table<const N: usize>(header: [&str; N]) -> Table {
+    let mut table = Table::new();
+    table.load_preset(UTF8_FULL_CONDENSED).set_header(header);
+    table
+}
+
+/// A number on the right of its column, its thousands apart.
+fn number(value: impl Display) -> Cell {
+    Cell::new(thousands(&value.to_string())).set_alignment(CellAlignment::Right)
+}
+
+/// Digits with a comma before every third from the right.
+fn thousands(digits: &str) -> String {
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index) % 3 == 0 {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// The code that the README shows compiles as it stands there.
+#[cfg(doctest)]
+#[doc = include_str!("../../README.md")]
+struct Readme;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        for (digits, text) in [
+            ("0", "0"),
+            ("999", "999"),
+            ("1000", "1,000"),
+            ("1234567", "1,234,567"),
+        ] {
+            assert_eq!(thousands(digits), text);
+        }
+    }
+
+    #[test]
+    fn a_turn_fits_the_memory_at_any_angle() {
+        let turn = Turn::draw(97, || ()).unwrap();
+        assert_eq!(turn.frames.len(), 97);
+        for stats in &turn.stats {
+            assert_eq!(stats.pass_one.dropped, 0);
+            assert_eq!(stats.pass_one.clipped, 0, "the whole teapot is in sight");
+            assert_eq!(stats.scan_out.bytes_sent, 320 * 240 * 2);
+        }
+    }
+}

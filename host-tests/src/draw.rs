@@ -1,0 +1,380 @@
+//! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
+
+use crate::args::PixelFormatArg;
+use crate::image_out::Frame;
+use crate::mock::{HostLine, MockError, MockFrameBuffer};
+use crate::model::Model;
+use crate::reference::{Cull, Shade, View};
+use scanbeam::scan_out::Pump;
+use scanbeam::{
+    Affine, CacheCounts, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError,
+    FrameStats, GouraudDepth, Instance, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh,
+    ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene, SceneMemory, Screen, SlotOf,
+    VertexOf, WordOf,
+};
+use serde_json::json;
+
+/// Slots of the object cache when nothing else is asked.
+pub const SLOTS: usize = 64;
+/// Lines that one transfer takes.
+pub const LINES_PER_TRANSFER: u16 = 8;
+/// Polls that the mocked display is late by, so that buffers are really swapped.
+const LATE: u32 = 2;
+
+/// Why a picture could not be drawn.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum DrawFailure {
+    /// The size, the camera or the light cannot be had in the crate's ranges.
+    #[error("{0}")]
+    View(String),
+    /// A single line has more triangles than an arena can hold.
+    #[error("line {line}: {error}")]
+    Full {
+        /// The line.
+        line: u16,
+        /// What did not fit.
+        error: DrawError,
+    },
+    /// The mocked display refused something.
+    #[error("display: {0}")]
+    Display(FrameError<MockError>),
+    /// The frame did not arrive whole.
+    #[error("display: {0:?}")]
+    Incomplete(MockError),
+}
+
+/// A finished picture and what it took.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    /// The picture, converted back to 8-bit levels.
+    pub frame: Frame,
+    /// The figures, summed over bands.
+    pub stats: FrameStats,
+    /// Bands that the picture was put together from; 1 unless an arena was too small.
+    pub bands: u32,
+    /// Most bytes of slow memory in use: the scene and one link column.
+    pub slow_bytes: usize,
+    /// Bytes of fast memory: cache slots and line depth.
+    pub fast_bytes: usize,
+    /// Bytes of the two line buffers.
+    pub line_bytes: usize,
+}
+
+impl Drawn {
+    /// The figures as `render --stats` writes them.
+    #[must_use]
+    pub fn to_json(&self) -> serde_json::Value {
+        let s = &self.stats;
+        json!({
+            "objects_in": s.pass_one.triangles,
+            "objects_culled": s.pass_one.culled,
+            "objects_clipped": s.pass_one.clipped,
+            "objects_kept": s.pass_one.objects,
+            "vertices_kept": s.pass_one.vertices,
+            "spans": s.spans.spans,
+            "spans_hidden": s.spans.spans_hidden,
+            "pixels_shaded": s.spans.pixels_shaded,
+            "pixels_hidden": s.spans.pixels_hidden,
+            "depth_tests": s.spans.depth_tests,
+            "texture_fetches": 0,
+            "scanlines_skipped": s.scanlines_skipped,
+            "bytes_sent": s.scan_out.bytes_sent,
+            "transfers": s.scan_out.transfers,
+            "bands": self.bands,
+            "cache": {
+                "hits": s.cache.hits,
+                "misses": s.cache.misses,
+                "spills": s.cache.spills,
+                "set_ups": s.cache.set_ups,
+                "slow_read_bytes": s.slow_read_bytes,
+                "slow_write_bytes": s.slow_write_bytes,
+                "peak_slots": s.cache.peak_slots,
+            },
+            "ram": {
+                "slow_bytes": self.slow_bytes,
+                "fast_bytes": self.fast_bytes,
+                "line_bytes": self.line_bytes,
+            },
+        })
+    }
+}
+
+/// A model in the crate's number formats.
+pub struct Prepared {
+    chunks: Vec<Chunk>,
+    /// Where the middle of the model is, and what one unit of its coordinates means.
+    centre: [f64; 3],
+    scale: f64,
+}
+
+/// At most 65,536 vertices and the triangles among them.
+struct Chunk {
+    positions: Vec<[i32; 3]>,
+    normals: Vec<[i16; 3]>,
+    colours: Vec<[u8; 3]>,
+    faces: Vec<[u16; 3]>,
+}
+
+impl Prepared {
+    /// Rounds a model to Q1.30 coordinates about its middle, Q1.14 normals and 8-bit colours.
+    #[must_use]
+    pub fn new(model: &Model) -> Self {
+        let (low, high) = model.bounds().unwrap_or(([-1.0; 3], [1.0; 3]));
+        let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
+        let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));
+        // A power of two, so that the matrix holds it exactly.
+        let scale = if reach > 0.0 {
+            reach.log2().ceil().exp2()
+        } else {
+            1.0
+        };
+        let mut prepared = Self {
+            chunks: Vec::new(),
+            centre,
+            scale,
+        };
+        // Few enough vertices a mesh that a part outside the picture can be given up as a whole.
+        const CHUNK: usize = 4096;
+        let mut new_index = vec![u16::MAX; model.vertices.len()];
+        let mut used = Vec::new();
+        let mut chunk = Chunk::new();
+        for triangle in &model.triangles {
+            if chunk.positions.len() + 3 > CHUNK {
+                prepared
+                    .chunks
+                    .push(std::mem::replace(&mut chunk, Chunk::new()));
+                for index in used.drain(..) {
+                    new_index[index] = u16::MAX;
+                }
+            }
+            let face = triangle.map(|index| {
+                let index = index as usize;
+                if new_index[index] == u16::MAX {
+                    new_index[index] = chunk.positions.len() as u16;
+                    used.push(index);
+                    let vertex = &model.vertices[index];
+                    let q30 = |v: f64| (v * f64::from(1 << 30)).round() as i32;
+                    let q14 = |v: f64| (v * f64::from(1 << 14)).round() as i16;
+                    let p = [0, 1, 2].map(|i| q30((vertex.position[i] - centre[i]) / scale));
+                    chunk.positions.push(p);
+                    chunk.normals.push(vertex.normal.map(q14));
+                    chunk
+                        .colours
+                        .push(vertex.colour.map(|c| (c * 255.0).round() as u8));
+                }
+                new_index[index]
+            });
+            chunk.faces.push(face);
+        }
+        prepared.chunks.push(chunk);
+        prepared
+    }
+
+    fn model_matrix(&self) -> Option<Affine> {
+        Affine::placed(self.scale as f32, [0.0; 3])
+    }
+}
+
+impl Chunk {
+    fn new() -> Self {
+        Self {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            colours: Vec::new(),
+            faces: Vec::new(),
+        }
+    }
+
+    fn mesh(&self) -> Mesh<'_, i32> {
+        Mesh {
+            positions: &self.positions,
+            normals: &self.normals,
+            colours: &self.colours,
+            faces: Faces::Triangles(&self.faces),
+        }
+    }
+}
+
+/// Draws a model with the pipeline that the view and the format ask for.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub fn draw(model: &Model, view: &View, format: PixelFormatArg) -> Result<Drawn, DrawFailure> {
+    let prepared = Prepared::new(model);
+    match (view.shade, format) {
+        (Shade::Flat, PixelFormatArg::Rgb888) => {
+            draw_as::<Counted<FlatDepth<Rgb888>>>(&prepared, view)
+        }
+        (Shade::Flat, PixelFormatArg::Rgb565) => {
+            draw_as::<Counted<FlatDepth<Rgb565Be>>>(&prepared, view)
+        }
+        (_, PixelFormatArg::Rgb888) => draw_as::<Counted<GouraudDepth<Rgb888>>>(&prepared, view),
+        (_, PixelFormatArg::Rgb565) => draw_as::<Counted<GouraudDepth<Rgb565Be>>>(&prepared, view),
+    }
+}
+
+/// Draws a prepared model with the pipeline `P`.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure> {
+    let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
+    let (width, height) = (view.width as u16, view.height as u16);
+    let screen = Screen::new(width, height).map_err(|e| bad(&e))?;
+    let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
+    // The model's middle is the origin, so that floats are spent on distances that matter.
+    let from_centre = |p: [f64; 3]| [0, 1, 2].map(|i| (p[i] - prepared.centre[i]) as f32);
+    let unit = |v: [f64; 3]| {
+        let largest = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+        v.map(|c| (c / largest) as f32)
+    };
+    let camera = Camera::look_at(
+        from_centre(view.eye),
+        from_centre(view.at),
+        unit(view.up),
+        focal as f32,
+        view.near as f32,
+        view.far as f32,
+    )
+    .map_err(|e| bad(&e))?;
+    let light = Light::new(unit(view.light), view.ambient as f32);
+    let instance = Instance {
+        model: prepared
+            .model_matrix()
+            .ok_or_else(|| bad(&"the model is too large"))?,
+        cull: match view.cull {
+            Cull::Back => scanbeam::Cull::Back,
+            Cull::None => scanbeam::Cull::None,
+        },
+        light: light.filter(|_| view.shade != Shade::None),
+        colour: [255; 3],
+    };
+    let mut memory = Memory::<P>::new(prepared, width, height);
+    let rooms = &mut memory.scene;
+    let mut scene = Scene::new(
+        screen,
+        SceneMemory {
+            vertices: &mut rooms.vertices,
+            objects: &mut rooms.objects,
+            buckets: &mut rooms.buckets,
+        },
+    );
+    let mut renderer = LineRenderer::<P>::new(LineMemory {
+        slots: &mut memory.slots,
+        links: &mut memory.links,
+        depth: &mut memory.depth,
+    });
+    let lines = LINES_PER_TRANSFER.min(height);
+    let words = usize::from(width) * usize::from(lines);
+    let sink = MockFrameBuffer::new(width, height).late_by(LATE);
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    let background = P::Pixel::from_rgb8(view.background);
+
+    let mut total = FrameStats::default();
+    let mut bands = 0;
+    let mut slow_bytes = 0;
+    let mut start = 0;
+    let mut count = height;
+    while start < height {
+        count = count.min(height - start);
+        scene
+            .begin_band(&camera, start..start + count)
+            .map_err(|e| bad(&e))?;
+        let mut full = None;
+        for chunk in &prepared.chunks {
+            if let Err(error) = scene.draw(&chunk.mesh(), &instance) {
+                full = Some(error);
+                break;
+            }
+        }
+        if let Some(error) = full {
+            if count == 1 {
+                return Err(DrawFailure::Full { line: start, error });
+            }
+            // Fewer lines have fewer triangles.
+            count = count.div_ceil(2);
+            continue;
+        }
+        let stats = scanbeam::draw_frame(&scene, &mut renderer, &mut pump, background, lines)
+            .map_err(DrawFailure::Display)?;
+        add(&mut total, &stats);
+        bands += 1;
+        slow_bytes =
+            slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * size_of::<Link>());
+        start += count;
+    }
+    let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
+    let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
+    let frame = Frame::new(view.width, view.height, rgb)
+        .ok_or_else(|| bad(&"the picture has another size"))?;
+    let fast_bytes = SLOTS * size_of::<SlotOf<P>>() + usize::from(width) * size_of::<CellOf<P>>();
+    Ok(Drawn {
+        frame,
+        stats: total,
+        bands,
+        slow_bytes,
+        fast_bytes,
+        line_bytes: 2 * words * size_of::<WordOf<P>>(),
+    })
+}
+
+/// What the host lends to a scene.
+struct SceneRooms<P: Pipeline> {
+    vertices: Vec<VertexOf<P>>,
+    objects: Vec<ObjectOf<P>>,
+    buckets: Vec<Link>,
+}
+
+/// All that the host lends.
+struct Memory<P: Pipeline> {
+    scene: SceneRooms<P>,
+    slots: Vec<SlotOf<P>>,
+    links: Vec<Link>,
+    depth: Vec<CellOf<P>>,
+}
+
+impl<P: Pipeline> Memory<P> {
+    fn new(prepared: &Prepared, width: u16, height: u16) -> Self {
+        let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
+        let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
+        // Clipping can make several triangles of one; a scene that needs more is drawn in bands.
+        let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
+        let vertices = (vertices + 8 * faces + 64).min(1 << 16);
+        Self {
+            scene: SceneRooms {
+                vertices: vec![VertexOf::<P>::empty(); vertices],
+                objects: vec![ObjectOf::<P>::default(); objects],
+                buckets: vec![Link::NONE; usize::from(height)],
+            },
+            slots: vec![LineRenderer::<P>::empty_slot(); SLOTS],
+            links: vec![Link::NONE; objects],
+            depth: vec![P::Depth::FARTHEST; usize::from(width)],
+        }
+    }
+}
+
+/// Adds the figures of a band.
+fn add(total: &mut FrameStats, band: &FrameStats) {
+    let (a, b): (&mut PassOne, &PassOne) = (&mut total.pass_one, &band.pass_one);
+    a.triangles += b.triangles;
+    a.culled += b.culled;
+    a.clipped += b.clipped;
+    a.objects += b.objects;
+    a.vertices += b.vertices;
+    a.dropped += b.dropped;
+    total.spans += band.spans;
+    let (a, b): (&mut CacheCounts, &CacheCounts) = (&mut total.cache, &band.cache);
+    a.hits += b.hits;
+    a.misses += b.misses;
+    a.spills += b.spills;
+    a.set_ups += b.set_ups;
+    a.link_reads += b.link_reads;
+    a.link_writes += b.link_writes;
+    a.peak_slots = a.peak_slots.max(b.peak_slots);
+    total.slow_read_bytes += band.slow_read_bytes;
+    total.slow_write_bytes += band.slow_write_bytes;
+    total.scanlines_skipped += band.scanlines_skipped;
+    total.scan_out.bytes_sent += band.scan_out.bytes_sent;
+    total.scan_out.transfers += band.scan_out.transfers;
+    total.scan_out.stall_polls += band.scan_out.stall_polls;
+}

@@ -1,0 +1,181 @@
+//! `firmware`: every frame of the firmware against the same frame drawn here, bit for bit (X1).
+
+use crate::args::FirmwareArgs;
+use crate::firmware::{self, BOARDS, Measured, Profile, Toolchain};
+use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::scan_out::Pump;
+use scanbeam::{
+    FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
+    Rgb565Be, Scene, SceneMemory, VertexOf, draw_frame,
+};
+use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VERTICES, WIDTH};
+use serde_json::{Value, json};
+use std::collections::BTreeMap;
+use std::error::Error;
+
+/// Builds and runs the firmware on every board and compares; `false` when a frame differs.
+///
+/// # Errors
+/// When the firmware cannot be built or run, or did not say what it should.
+pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
+    let toolchain = Toolchain::find()?;
+    let host = host_frames()?;
+    let mut boards = Vec::new();
+    for board in &BOARDS {
+        let measured = firmware::measure(&toolchain, board, Profile::Release, &[])?;
+        boards.push(Compared::new(measured, &host)?);
+    }
+    let all_match = boards.iter().all(Compared::matches);
+    if args.json {
+        let reports: Vec<Value> = boards.iter().map(Compared::to_json).collect();
+        // The first board's figures stand at the top, where the contract has them.
+        let mut report = reports.first().cloned().unwrap_or_default();
+        report["toolchain"] = json!(toolchain.version);
+        report["targets"] = json!(reports);
+        println!("{}", serde_json::to_string_pretty(&report)?);
+    } else {
+        println!("{}", toolchain.version);
+        for board in &boards {
+            board.print();
+        }
+    }
+    Ok(all_match)
+}
+
+/// The checksums of all frames as this machine draws them, by name.
+///
+/// # Errors
+/// When a shot does not fit the arenas that it asks for.
+pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
+    let mut frames = BTreeMap::new();
+    for shot in SHOTS {
+        frames.insert(
+            shot.name(),
+            crc32fast::hash(&draw::<GouraudDepth<Rgb565Be>>(shot)?),
+        );
+    }
+    let flat = draw::<FlatDepth<Rgb565Be>>(Shot::Teapot)?;
+    frames.insert("teapot_flat", crc32fast::hash(&flat));
+    Ok(frames)
+}
+
+/// The bytes of a shot in scan-out order.
+fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    use scanbeam::LineDepth;
+    const SLOTS: usize = 64;
+    const LINES: u16 = 3;
+    let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
+    let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
+    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
+    let mut scene = Scene::<P>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: &mut vertices,
+            objects: &mut objects,
+            buckets: &mut buckets,
+        },
+    );
+    shot.build(&mut scene)
+        .map_err(|error| format!("{}: {error:?}", shot.name()))?;
+    let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
+    let mut links = vec![Link::NONE; OBJECTS];
+    let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
+    let mut renderer = LineRenderer::new(LineMemory {
+        slots: &mut slots,
+        links: &mut links,
+        depth: &mut depth,
+    });
+    let words = usize::from(WIDTH) * usize::from(LINES);
+    let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    let background = Rgb565Be::from_rgb8(shot.background());
+    draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
+    Ok(pump.sink().frame()?.into_flattened())
+}
+
+/// A board's frames beside the host's.
+struct Compared {
+    measured: Measured,
+    /// Name, host's checksum, target's checksum, instructions.
+    frames: Vec<(String, u32, u32, u64)>,
+}
+
+impl Compared {
+    fn new(measured: Measured, host: &BTreeMap<&str, u32>) -> Result<Self, String> {
+        let name = measured.board.name;
+        let mut frames = Vec::new();
+        for frame in &measured.output.frames {
+            let host = host
+                .get(frame.scene.as_str())
+                .ok_or_else(|| format!("{name}: the host has no frame `{}`", frame.scene))?;
+            frames.push((frame.scene.clone(), *host, frame.crc, frame.instructions));
+        }
+        if frames.len() != host.len() {
+            return Err(format!(
+                "{name}: drew {} frames of {}",
+                frames.len(),
+                host.len()
+            ));
+        }
+        Ok(Self { measured, frames })
+    }
+
+    fn matches(&self) -> bool {
+        self.frames
+            .iter()
+            .all(|(_, host, target, _)| host == target)
+    }
+
+    fn to_json(&self) -> Value {
+        let sections = &self.measured.sections;
+        let frames: Vec<Value> = self
+            .frames
+            .iter()
+            .map(|(scene, host, target, instructions)| {
+                json!({
+                    "scene": scene,
+                    "crc_host": format!("{host:08x}"),
+                    "crc_target": format!("{target:08x}"),
+                    "match": host == target,
+                    "instructions": instructions,
+                })
+            })
+            .collect();
+        json!({
+            "board": self.measured.board.name,
+            "target": self.measured.board.target,
+            "machine": self.measured.board.machine,
+            "text_bytes": sections.text_bytes(),
+            "ram_bytes": sections.ram_bytes(),
+            "fast_bytes": sections.fast.bytes,
+            "line_bytes": sections.dma.bytes,
+            "slow_bytes": sections.slow_bytes(),
+            "stack_bytes": self.measured.output.figures.get("stack_bytes"),
+            "frames": frames,
+        })
+    }
+
+    fn print(&self) {
+        let (board, sections) = (&self.measured.board, &self.measured.sections);
+        println!(
+            "{} ({}, {}): code {} bytes, fast RAM {}, line buffers {}, slow RAM {}",
+            board.name,
+            board.target,
+            board.machine,
+            sections.text_bytes(),
+            sections.fast.bytes,
+            sections.dma.bytes,
+            sections.slow_bytes()
+        );
+        for (scene, host, target, instructions) in &self.frames {
+            let verdict = if host == target {
+                "same bits"
+            } else {
+                "DIFFERS"
+            };
+            println!(
+                "  {scene:12} {host:08x} {target:08x} {verdict}  {instructions:>10} instructions"
+            );
+        }
+    }
+}

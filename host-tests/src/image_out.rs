@@ -1,0 +1,441 @@
+//! Pictures to files: PNG, PPM, strips, animated PNG; and a reader of the same for tests and textures.
+//!
+//! A picture is encoded whole, written to a temporary file in the same folder and renamed, so that an error leaves
+//! what was there before, and never half a file. The animated picture is an APNG: true colour, and viewers that know
+//! only PNG show its first frame.
+
+use std::fmt;
+use std::io::{Cursor, Write};
+use std::path::{Path, PathBuf};
+
+/// Longest side of a picture that is read or written, in pixels, inclusive.
+pub const MAX_SIDE: u32 = 1 << 16;
+/// Most pixels of a picture that is read or written, inclusive.
+pub const MAX_PIXELS: u64 = 1 << 28;
+
+/// A picture of 8 bits per channel, rows from the top, no padding.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Frame {
+    width: u32,
+    height: u32,
+    rgb: Vec<u8>,
+}
+
+impl Frame {
+    /// Takes `width * height * 3` bytes: red, green, blue, row by row from the top. `None` when the count differs, a
+    /// side is zero or more than [`MAX_SIDE`], or there are more than [`MAX_PIXELS`] pixels.
+    #[must_use]
+    pub fn new(width: u32, height: u32, rgb: Vec<u8>) -> Option<Self> {
+        let pixels = pixel_count(width, height)?;
+        (rgb.len() == pixels * 3).then_some(Self { width, height, rgb })
+    }
+
+    /// Pixels per row, at least 1.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows, at least 1.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All channels, row by row from the top.
+    #[must_use]
+    pub fn rgb(&self) -> &[u8] {
+        &self.rgb
+    }
+
+    /// Red, green, blue at a place; `None` outside.
+    #[must_use]
+    pub fn pixel(&self, x: u32, y: u32) -> Option<[u8; 3]> {
+        if x >= self.width {
+            return None;
+        }
+        let at = (y as usize * self.width as usize + x as usize) * 3;
+        self.rgb.get(at..at + 3)?.try_into().ok()
+    }
+
+    fn rows(&self) -> impl Iterator<Item = &[u8]> {
+        self.rgb.chunks_exact(self.width as usize * 3)
+    }
+}
+
+/// Pixels of a picture with allowed sides.
+fn pixel_count(width: u32, height: u32) -> Option<usize> {
+    let sides = 1..=MAX_SIDE;
+    let pixels = u64::from(width) * u64::from(height);
+    (sides.contains(&width) && sides.contains(&height) && pixels <= MAX_PIXELS)
+        .then(|| usize::try_from(pixels).ok())?
+}
+
+/// How a picture is stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ImageFormat {
+    /// `.png`
+    Png,
+    /// `.ppm`, the binary kind (P6)
+    Ppm,
+}
+
+impl ImageFormat {
+    /// By the extension, in either case.
+    ///
+    /// # Errors
+    /// Any other extension, or none.
+    pub fn from_path(path: &Path) -> Result<Self, ImageError> {
+        let extension = path.extension().map(|text| text.to_ascii_lowercase());
+        match extension.as_ref().and_then(|text| text.to_str()) {
+            Some("png") => Ok(Self::Png),
+            Some("ppm") => Ok(Self::Ppm),
+            _ => Err(ImageError::new(
+                path,
+                "unknown picture extension, .png or .ppm is needed",
+            )),
+        }
+    }
+}
+
+/// Why a picture could not be written or read: one line, `FILE: reason`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ImageError {
+    /// The file that was to be written or read.
+    pub file: PathBuf,
+    /// What went wrong, without the file's name.
+    pub reason: String,
+}
+
+impl ImageError {
+    fn new(file: &Path, reason: impl fmt::Display) -> Self {
+        Self {
+            file: file.to_path_buf(),
+            reason: reason.to_string(),
+        }
+    }
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let text = format!("{}: {}", self.file.display(), self.reason);
+        // Names come from outside: a control character must not break the one line into two.
+        let text: String = text
+            .chars()
+            .map(|c| if c.is_control() { '?' } else { c })
+            .collect();
+        f.write_str(&text)
+    }
+}
+
+impl std::error::Error for ImageError {}
+
+/// Writes all bytes or, on error, leaves what was there before.
+///
+/// # Errors
+/// The folder is missing, or anything that the file system refuses.
+pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+    let cannot_write = |error: std::io::Error| ImageError::new(path, cannot("written", &error));
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".scanbeam-");
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        // As an ordinary new file: the umask takes away from this.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    let mut file = builder.tempfile_in(folder).map_err(cannot_write)?;
+    file.write_all(bytes).map_err(cannot_write)?;
+    file.persist(path)
+        .map_err(|error| cannot_write(error.error))?;
+    Ok(())
+}
+
+/// The system's own words, without the name of the temporary file that some errors carry.
+fn cannot(what: &str, error: &std::io::Error) -> String {
+    format!("cannot be {what}: {}", error.kind())
+}
+
+/// Writes one picture as PNG or PPM, by the extension.
+///
+/// # Errors
+/// Unknown extension, or a file that cannot be written.
+pub fn write_image(path: &Path, frame: &Frame) -> Result<(), ImageError> {
+    let bytes = match ImageFormat::from_path(path)? {
+        ImageFormat::Png => encode_png(std::slice::from_ref(frame), 0)
+            .map_err(|error| ImageError::new(path, error))?,
+        ImageFormat::Ppm => encode_ppm(frame),
+    };
+    write_atomically(path, &bytes)
+}
+
+/// Writes frames side by side, the first at the left, as one picture.
+///
+/// # Errors
+/// No frames, frames of different heights, a strip of too many pixels, and as [`write_image`].
+pub fn write_strip(path: &Path, frames: &[Frame]) -> Result<(), ImageError> {
+    let strip = strip(frames).ok_or_else(|| {
+        ImageError::new(path, "frames of one height, and not too many, are needed")
+    })?;
+    write_image(path, &strip)
+}
+
+fn strip(frames: &[Frame]) -> Option<Frame> {
+    let height = frames.first()?.height;
+    let width = frames
+        .iter()
+        .try_fold(0_u32, |width, frame| width.checked_add(frame.width))?;
+    pixel_count(width, height)?;
+    let mut rows = vec![Vec::with_capacity(width as usize * 3); height as usize];
+    for frame in frames {
+        if frame.height != height {
+            return None;
+        }
+        for (row, part) in rows.iter_mut().zip(frame.rows()) {
+            row.extend_from_slice(part);
+        }
+    }
+    Frame::new(width, height, rows.concat())
+}
+
+/// Writes an animated PNG that repeats for ever, `frame_ms` milliseconds a frame.
+///
+/// # Errors
+/// No frames, frames of different sizes, an extension that is not `.png`, or a file that cannot be written.
+pub fn write_animation(path: &Path, frames: &[Frame], frame_ms: u16) -> Result<(), ImageError> {
+    if ImageFormat::from_path(path)? != ImageFormat::Png {
+        return Err(ImageError::new(path, "an animated picture needs .png"));
+    }
+    let bytes = encode_png(frames, frame_ms).map_err(|error| ImageError::new(path, error))?;
+    write_atomically(path, &bytes)
+}
+
+/// One frame as a plain PNG, several as an animated one.
+fn encode_png(frames: &[Frame], frame_ms: u16) -> Result<Vec<u8>, String> {
+    let first = frames.first().ok_or("no frames")?;
+    if frames
+        .iter()
+        .any(|f| (f.width, f.height) != (first.width, first.height))
+    {
+        return Err("frames differ in size".into());
+    }
+    let encode = || -> Result<Vec<u8>, png::EncodingError> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, first.width, first.height);
+        encoder.set_color(png::ColorType::Rgb);
+        encoder.set_depth(png::BitDepth::Eight);
+        if frames.len() > 1 {
+            encoder.set_animated(frames.len() as u32, 0)?;
+            encoder.set_frame_delay(frame_ms, 1000)?;
+        }
+        let mut writer = encoder.write_header()?;
+        for frame in frames {
+            writer.write_image_data(&frame.rgb)?;
+        }
+        writer.finish()?;
+        Ok(bytes)
+    };
+    encode().map_err(|error| format!("cannot be encoded: {error}"))
+}
+
+fn encode_ppm(frame: &Frame) -> Vec<u8> {
+    let mut bytes = format!("P6\n{} {}\n255\n", frame.width, frame.height).into_bytes();
+    bytes.extend_from_slice(&frame.rgb);
+    bytes
+}
+
+/// Reads a PNG (any colour type; transparency is dropped; of an animation the first frame) or a binary PPM of 8 bits,
+/// by the extension.
+///
+/// # Errors
+/// Unknown extension, missing file, malformed or oversized picture.
+pub fn read_image(path: &Path) -> Result<Frame, ImageError> {
+    let format = ImageFormat::from_path(path)?;
+    let bytes =
+        std::fs::read(path).map_err(|error| ImageError::new(path, cannot("read", &error)))?;
+    match format {
+        ImageFormat::Png => decode_png(&bytes),
+        ImageFormat::Ppm => decode_ppm(&bytes),
+    }
+    .map_err(|reason| ImageError::new(path, reason))
+}
+
+fn decode_png(bytes: &[u8]) -> Result<Frame, String> {
+    let malformed = |error: png::DecodingError| format!("is not a good PNG: {error}");
+    let mut decoder = png::Decoder::new(Cursor::new(bytes));
+    decoder.set_transformations(png::Transformations::normalize_to_color8());
+    let mut reader = decoder.read_info().map_err(malformed)?;
+    let (width, height) = (reader.info().width, reader.info().height);
+    pixel_count(width, height).ok_or("is too large")?;
+    let mut data = vec![0; reader.output_buffer_size().ok_or("is too large")?];
+    let info = reader.next_frame(&mut data).map_err(malformed)?;
+    data.truncate(info.buffer_size());
+    let rgb = match info.color_type {
+        png::ColorType::Rgb => data,
+        png::ColorType::Rgba => data
+            .chunks_exact(4)
+            .flat_map(|p| [p[0], p[1], p[2]])
+            .collect(),
+        png::ColorType::Grayscale => data.iter().flat_map(|&grey| [grey; 3]).collect(),
+        png::ColorType::GrayscaleAlpha => data.chunks_exact(2).flat_map(|p| [p[0]; 3]).collect(),
+        png::ColorType::Indexed => return Err("is not a good PNG: no palette".into()),
+    };
+    Frame::new(width, height, rgb).ok_or_else(|| "is not a good PNG: wrong length".into())
+}
+
+fn decode_ppm(bytes: &[u8]) -> Result<Frame, String> {
+    let malformed = || "is not a good binary PPM of 8 bits".to_owned();
+    let mut rest = bytes.strip_prefix(b"P6").ok_or_else(malformed)?;
+    let mut header = [0_u32; 3];
+    for number in &mut header {
+        // White space and comments, then digits.
+        loop {
+            match rest.first() {
+                Some(b'#') => {
+                    let end = rest.iter().position(|&byte| byte == b'\n');
+                    rest = &rest[end.ok_or_else(malformed)?..];
+                }
+                Some(byte) if byte.is_ascii_whitespace() => rest = &rest[1..],
+                _ => break,
+            }
+        }
+        let digits = rest.iter().take_while(|byte| byte.is_ascii_digit()).count();
+        let text = std::str::from_utf8(&rest[..digits]).map_err(|_| malformed())?;
+        *number = text.parse().map_err(|_| malformed())?;
+        rest = &rest[digits..];
+    }
+    let [width, height, 255] = header else {
+        return Err(malformed());
+    };
+    let pixels = pixel_count(width, height).ok_or("is too large, or empty")?;
+    // One white space ends the header; bytes after the picture are allowed.
+    let data = rest.get(1..1 + pixels * 3).ok_or_else(malformed)?;
+    Frame::new(width, height, data.to_vec()).ok_or_else(malformed)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn frame(width: u32, height: u32, seed: u8) -> Frame {
+        let count = width * height * 3;
+        let rgb = (0..count).map(|i| (i as u8).wrapping_mul(7) ^ seed);
+        Frame::new(width, height, rgb.collect()).unwrap()
+    }
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn what_is_written_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        for (width, height) in [(1, 1), (5, 3), (320, 2), (1, 40)] {
+            for name in ["a.png", "a.ppm", "A.PNG"] {
+                let path = folder.path().join(name);
+                let picture = frame(width, height, 3);
+                write_image(&path, &picture).unwrap();
+                assert_eq!(read_image(&path).unwrap(), picture);
+            }
+        }
+        assert_eq!(names(folder.path()), ["A.PNG", "a.png", "a.ppm"]);
+    }
+
+    #[test]
+    fn a_strip_holds_the_frames_side_by_side() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("s.png");
+        let frames = [frame(3, 2, 1), frame(2, 2, 2), frame(4, 2, 3)];
+        write_strip(&path, &frames).unwrap();
+        let strip = read_image(&path).unwrap();
+        assert_eq!((strip.width(), strip.height()), (9, 2));
+        assert_eq!(strip.pixel(2, 1), frames[0].pixel(2, 1));
+        assert_eq!(strip.pixel(3, 1), frames[1].pixel(0, 1));
+        assert_eq!(strip.pixel(8, 0), frames[2].pixel(3, 0));
+        assert_eq!(strip.pixel(9, 0), None);
+        assert_eq!(strip.pixel(0, 2), None);
+        for bad in [&[][..], &[frame(1, 1, 0), frame(1, 2, 0)]] {
+            assert!(write_strip(&path, bad).is_err());
+        }
+        assert_eq!(read_image(&path).unwrap(), strip, "left as it was");
+    }
+
+    #[test]
+    fn an_animation_holds_all_frames() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let frames = [frame(6, 4, 1), frame(6, 4, 2), frame(6, 4, 3)];
+        write_animation(&path, &frames, 40).unwrap();
+        assert_eq!(read_image(&path).unwrap(), frames[0]);
+        let bytes = std::fs::read(&path).unwrap();
+        let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+        assert_eq!(reader.info().animation_control().unwrap().num_frames, 3);
+        for frame in &frames {
+            let mut data = vec![0; frame.rgb.len()];
+            reader.next_frame(&mut data).unwrap();
+            assert_eq!(data, frame.rgb);
+        }
+        assert!(write_animation(&folder.path().join("a.ppm"), &frames, 40).is_err());
+        assert!(write_animation(&path, &[], 40).is_err());
+        assert!(write_animation(&path, &[frame(1, 1, 0), frame(1, 2, 0)], 40).is_err());
+    }
+
+    #[test]
+    fn an_error_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["x.bmp", "x", "png", ".png", "no/such/x.png"] {
+            let error = write_image(&folder.path().join(name), &frame(2, 2, 0)).unwrap_err();
+            assert_eq!(error.to_string().lines().count(), 1, "{error}");
+        }
+        std::fs::create_dir(folder.path().join("d.png")).unwrap();
+        assert!(write_image(&folder.path().join("d.png"), &frame(2, 2, 0)).is_err());
+        assert_eq!(names(folder.path()), ["d.png"]);
+    }
+
+    #[test]
+    fn bad_pictures_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let good = encode_png(&[frame(9, 9, 0)], 0).unwrap();
+        let mut cases: Vec<(&str, Vec<u8>)> = (0..good.len() - 16)
+            .map(|length| ("c.png", good[..length].to_vec()))
+            .collect();
+        for text in [
+            "",
+            "P6",
+            "P6\n",
+            "P6 1 1 255",
+            "P6 1 1 255\n12",
+            "P6 0 1 255\n",
+            "P6 2 2 254\n123456789012",
+            "P5 1 1 255\n123",
+            "P6 99999999999 1 255\n",
+            "P6 65536 65536 255\n",
+            "P6 -1 1 255\n123",
+            "P6 # no end",
+        ] {
+            cases.push(("c.ppm", text.as_bytes().to_vec()));
+        }
+        for (name, bytes) in cases {
+            let path = folder.path().join(name);
+            std::fs::write(&path, &bytes).unwrap();
+            assert!(read_image(&path).is_err(), "{name} {bytes:?}");
+        }
+        assert!(read_image(&folder.path().join("none.png")).is_err());
+        assert_eq!(
+            decode_ppm(b"P6 # c\n1 #\n1 255\nabc!").unwrap().rgb(),
+            b"abc"
+        );
+        assert!(Frame::new(1, 1, vec![0; 4]).is_none());
+        assert!(Frame::new(0, 1, vec![]).is_none());
+        assert!(Frame::new(u32::MAX, u32::MAX, vec![]).is_none());
+    }
+}

@@ -1,0 +1,76 @@
+//! A lent slice that fills from the front (S3).
+
+/// Storage for up to `items.len()` values, lent by the application.
+#[derive(Debug)]
+pub(crate) struct Arena<'m, T> {
+    items: &'m mut [T],
+    /// Never above `items.len()` and never above [`Arena::LIMIT`].
+    len: usize,
+}
+
+impl<'m, T> Arena<'m, T> {
+    /// Indices are 16 bits, the upper half of whose range the object links keep for themselves.
+    pub(crate) const LIMIT: usize = 1 << 16;
+
+    pub(crate) fn new(items: &'m mut [T]) -> Self {
+        Self { items, len: 0 }
+    }
+
+    pub(crate) fn clear(&mut self) {
+        self.len = 0;
+    }
+
+    /// Forgets all but the first `len` values.
+    pub(crate) fn truncate(&mut self, len: usize) {
+        self.len = self.len.min(len);
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.len
+    }
+
+    /// How many more values fit below index `limit`.
+    pub(crate) fn free_below(&self, limit: usize) -> usize {
+        self.items.len().min(limit) - self.len.min(limit).min(self.items.len())
+    }
+
+    /// Appends; `None` when the arena is full.
+    #[inline]
+    pub(crate) fn push(&mut self, value: T) -> Option<u16> {
+        let index = self.len;
+        if index >= Self::LIMIT {
+            return None;
+        }
+        *self.items.get_mut(index)? = value;
+        self.len = index + 1;
+        Some(index as u16)
+    }
+
+    /// The values so far.
+    #[inline]
+    pub(crate) fn as_slice(&self) -> &[T] {
+        self.items.get(..self.len).unwrap_or(&[])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Arena;
+
+    #[test]
+    fn fills_and_refuses() {
+        let mut memory = [0; 2];
+        let mut arena = Arena::new(&mut memory);
+        assert_eq!(arena.free_below(9), 2);
+        assert_eq!(arena.push(5), Some(0));
+        assert_eq!(arena.free_below(1), 0);
+        assert_eq!(arena.push(6), Some(1));
+        assert_eq!(arena.push(7), None);
+        assert_eq!(arena.as_slice(), [5, 6]);
+        arena.truncate(1);
+        arena.truncate(2);
+        assert_eq!((arena.len(), arena.as_slice()), (1, &[5][..]));
+        arena.clear();
+        assert!(arena.as_slice().is_empty());
+    }
+}

@@ -1,0 +1,470 @@
+//! Meshes into objects: vertices transformed and lit once, faces culled, clipped and handed on
+//! with the first line they are on (K1, K2).
+
+use super::camera::{Camera, Screen};
+use super::clip::{Corner, guard, near_far};
+use super::colour::Colour;
+use super::light::Light;
+use super::mesh::{Coordinate, Faces, Mesh, QuadSplit};
+use super::object::{OUTSIDE, Object, SceneVertex};
+use super::project::Projection;
+use super::shading::Shading;
+use super::transform::{Affine, unit};
+use crate::arena::Arena;
+use crate::num::first_at;
+use core::ops::Range;
+
+/// Which faces are dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Cull {
+    /// Those seen from behind.
+    #[default]
+    Back,
+    /// None.
+    None,
+}
+
+/// Which arena had no room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Room {
+    /// That of the vertices.
+    Vertices,
+    /// That of the objects.
+    Objects,
+}
+
+/// Faces that could not be kept; all others are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Dropped {
+    /// The arena that was full when the first was dropped.
+    pub room: Room,
+    /// Index of the first face that lost a triangle.
+    pub first_face: u32,
+    /// How many triangles were dropped.
+    pub triangles: u32,
+}
+
+/// A mesh that contradicts itself. Nothing of it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum MeshError {
+    /// An attribute slice is neither empty nor as long as the positions.
+    AttributeLength,
+    /// This face names a vertex that does not exist.
+    Index {
+        /// Index of the face.
+        face: u32,
+    },
+    /// A quad strip has an odd number of indices, or two.
+    StripLength,
+}
+
+/// What became of a mesh.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Assembled {
+    /// Triangles submitted.
+    pub triangles: u32,
+    /// Triangles that cannot be seen: outside, from behind, or between pixel centres.
+    pub culled: u32,
+    /// Triangles that crossed a near, far or guard plane.
+    pub clipped: u32,
+    /// Objects kept, pieces of clipped triangles included.
+    pub kept: u32,
+    /// What found no room.
+    pub dropped: Option<Dropped>,
+}
+
+/// One mesh on its way to the screen.
+pub(crate) struct Assembler<'a, 'm, S: Shading> {
+    /// Where vertices go.
+    vertices: &'a mut Arena<'m, SceneVertex<S::Vertex>>,
+    projection: Projection,
+    /// Columns and lines of guard space that are drawn.
+    columns: Range<i32>,
+    lines: Range<i32>,
+    cull: Cull,
+    /// The light in model space.
+    light: Option<Light>,
+    /// Colour of vertices without one.
+    colour: [u8; 3],
+    done: Assembled,
+}
+
+/// The arena in which pass one keeps vertices.
+pub(crate) struct Store<'m, S: Shading> {
+    pub(crate) vertices: Arena<'m, SceneVertex<S::Vertex>>,
+}
+
+impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
+    /// Prepares for meshes at `model` seen by `camera`; only objects on `lines` of the picture
+    /// are kept.
+    pub(crate) fn new(
+        store: &'a mut Store<'m, S>,
+        camera: &Camera,
+        screen: Screen,
+        lines: Range<u16>,
+        model: &Affine,
+        (cull, light, colour): (Cull, Option<Light>, [u8; 3]),
+    ) -> Self {
+        let light = light.map(|l| Light {
+            direction: model.direction_to_model(l.direction),
+            ..l
+        });
+        let (left, top) = (screen.left(), screen.top());
+        Self {
+            vertices: &mut store.vertices,
+            projection: Projection::new(camera, screen, model),
+            columns: left..left + i32::from(screen.width()),
+            lines: top + i32::from(lines.start)..top + i32::from(lines.end),
+            cull,
+            light,
+            colour,
+            done: Assembled::default(),
+        }
+    }
+
+    /// Takes a mesh; `file` keeps an object that is first seen on a line of guard space, or says
+    /// that it has no room for it.
+    ///
+    /// # Errors
+    /// When the mesh contradicts itself; then nothing of it has been kept.
+    pub(crate) fn mesh<C: Coordinate>(
+        mut self,
+        mesh: &Mesh<'_, C>,
+        mut file: impl FnMut(Object<S::Face>, i32) -> bool,
+    ) -> Result<Assembled, MeshError> {
+        check(mesh)?;
+        let base = self.vertices.len();
+        // Where all vertices fit they are transformed and lit once and shared; where they do
+        // not, each face brings its own, and only those of kept faces take room.
+        let shared = mesh.positions.len() <= self.vertices.free_below(Arena::<()>::LIMIT);
+        if shared {
+            for i in 0..mesh.positions.len() {
+                let point = self.projection.transform(mesh.positions[i]);
+                let attribute = if S::PER_FACE {
+                    S::Vertex::default()
+                } else {
+                    S::vertex(self.vertex_colour(mesh, i))
+                };
+                let code = self.projection.outcode(point);
+                let vertex = if code == 0 {
+                    let p = self.projection.project(point);
+                    SceneVertex {
+                        x: p.x,
+                        y: p.y,
+                        depth: p.depth,
+                        attribute,
+                    }
+                } else {
+                    SceneVertex {
+                        x: code,
+                        y: 0,
+                        depth: OUTSIDE,
+                        attribute,
+                    }
+                };
+                // Room for all was found above.
+                let _ = self.vertices.push(vertex);
+            }
+        }
+        each_triangle(mesh.faces, |face, corners, provoking| {
+            self.done.triangles += 1;
+            let kept = self.done.kept;
+            let before = self.vertices.len();
+            if shared {
+                self.shared(mesh, base, (face, corners, provoking), &mut file);
+            } else {
+                self.alone(mesh, (face, corners, provoking), &mut file);
+            }
+            if self.done.kept == kept {
+                self.vertices.truncate(before);
+                self.done.culled += 1;
+            }
+        });
+        if self.done.kept == 0 {
+            self.vertices.truncate(base);
+        }
+        if let Some(dropped) = &self.done.dropped {
+            // A dropped triangle is not a culled one.
+            self.done.culled = self.done.culled.saturating_sub(dropped.triangles);
+        }
+        Ok(self.done)
+    }
+
+    /// A triangle whose vertices lie in the arena from `base` on.
+    #[inline]
+    fn shared<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        base: usize,
+        (face, corners, provoking): (u32, [u16; 3], u16),
+        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+    ) {
+        let index = corners.map(|c| base + usize::from(c));
+        let v = index.map(|i| self.vertices.as_slice()[i]);
+        let mut outside = 0;
+        let mut all = u16::MAX;
+        for v in &v {
+            if v.depth == OUTSIDE {
+                outside |= v.x;
+                all &= v.x;
+            } else {
+                all = 0;
+            }
+        }
+        if outside != 0 {
+            if all == 0 {
+                self.alone(mesh, (face, corners, provoking), file);
+            }
+            return;
+        }
+        let Some(first) = self.first_line(v.map(|v| (v.x, v.y))) else {
+            return;
+        };
+        let face_colour = self.face_colour(mesh, corners, provoking);
+        let object = Object::new(index.map(|i| i as u16), face_colour);
+        self.keep(object, first, face, file);
+    }
+
+    /// A triangle that brings its own vertices, clipped where needed.
+    #[cold]
+    #[inline(never)]
+    fn alone<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        (face, corners, provoking): (u32, [u16; 3], u16),
+        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+    ) {
+        let corner = corners.map(|i| {
+            let i = usize::from(i);
+            Corner {
+                point: self.projection.transform(mesh.positions[i]),
+                attribute: if S::PER_FACE {
+                    S::Vertex::default()
+                } else {
+                    S::vertex(self.vertex_colour(mesh, i))
+                },
+            }
+        });
+        let codes = corner.map(|c| self.projection.outcode(c.point));
+        if codes[0] & codes[1] & codes[2] != 0 {
+            return;
+        }
+        let face_colour = self.face_colour(mesh, corners, provoking);
+        if codes == [0; 3] {
+            self.piece(corner, face_colour, face, file);
+            return;
+        }
+        self.done.clipped += 1;
+        let cut = near_far::<S>(corner, &self.projection);
+        for i in 2..cut.len() {
+            let part = guard::<S>([cut[0], cut[i - 1], cut[i]], &self.projection);
+            for k in 2..part.len() {
+                self.piece([part[0], part[k - 1], part[k]], face_colour, face, file);
+            }
+        }
+    }
+
+    /// A triangle within all planes.
+    fn piece(
+        &mut self,
+        corner: [Corner<S::Vertex>; 3],
+        face_colour: S::Face,
+        face: u32,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+    ) {
+        let place = corner.map(|c| self.projection.project(c.point));
+        let Some(first) = self.first_line(place.map(|p| (p.x, p.y))) else {
+            return;
+        };
+        let before = self.vertices.len();
+        let mut index = [0; 3];
+        for i in 0..3 {
+            let vertex = SceneVertex {
+                x: place[i].x,
+                y: place[i].y,
+                depth: place[i].depth,
+                attribute: corner[i].attribute,
+            };
+            match self.vertices.push(vertex) {
+                Some(at) => index[i] = at,
+                None => {
+                    self.vertices.truncate(before);
+                    self.dropped(Room::Vertices, face);
+                    return;
+                }
+            }
+        }
+        self.keep(Object::new(index, face_colour), first, face, file);
+    }
+
+    #[inline]
+    fn keep(
+        &mut self,
+        object: Object<S::Face>,
+        first: i32,
+        face: u32,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+    ) {
+        if file(object, first) {
+            self.done.kept += 1;
+        } else {
+            self.dropped(Room::Objects, face);
+        }
+    }
+
+    #[cold]
+    fn dropped(&mut self, room: Room, face: u32) {
+        self.done
+            .dropped
+            .get_or_insert(Dropped {
+                room,
+                first_face: face,
+                triangles: 0,
+            })
+            .triangles += 1;
+    }
+
+    /// The first line on which a triangle can be seen; `None` when it faces away, or covers no
+    /// pixel centre's line or column of the picture.
+    #[inline]
+    fn first_line(&self, p: [(u16, u16); 3]) -> Option<i32> {
+        let d = |a: u16, b: u16| i64::from(b) - i64::from(a);
+        let area = d(p[0].0, p[1].0) * d(p[0].1, p[2].1) - d(p[0].0, p[2].0) * d(p[0].1, p[1].1);
+        // y points down, so a counter-clockwise face has a negative area.
+        if area == 0 || (area > 0 && self.cull == Cull::Back) {
+            return None;
+        }
+        let least = |a: u16, b: u16, c: u16| a.min(b).min(c);
+        let most = |a: u16, b: u16, c: u16| a.max(b).max(c);
+        let first = first_at(least(p[0].1, p[1].1, p[2].1)).max(self.lines.start);
+        let end = first_at(most(p[0].1, p[1].1, p[2].1)).min(self.lines.end);
+        let left = first_at(least(p[0].0, p[1].0, p[2].0)).max(self.columns.start);
+        let right = first_at(most(p[0].0, p[1].0, p[2].0)).min(self.columns.end);
+        (first < end && left < right).then_some(first)
+    }
+
+    /// The lit colour of a vertex.
+    #[inline]
+    fn vertex_colour<C>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
+        let colour = mesh.colours.get(i).copied().unwrap_or(self.colour);
+        match (&self.light, mesh.normals.get(i)) {
+            (Some(light), Some(&normal)) => lit(colour, light, normal),
+            _ => Colour::from_rgb8(colour),
+        }
+    }
+
+    /// The lit colour of a face, by its own normal.
+    #[inline]
+    fn face_colour<C: Coordinate>(
+        &self,
+        mesh: &Mesh<'_, C>,
+        corners: [u16; 3],
+        provoking: u16,
+    ) -> S::Face {
+        if !S::PER_FACE {
+            return S::Face::default();
+        }
+        let colour = mesh.colours.get(usize::from(provoking)).copied();
+        let colour = colour.unwrap_or(self.colour);
+        S::face(match &self.light {
+            Some(light) => {
+                let p = corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30));
+                lit(colour, light, face_normal(p))
+            }
+            None => Colour::from_rgb8(colour),
+        })
+    }
+}
+
+#[inline]
+fn lit(colour: [u8; 3], light: &Light, normal: [i16; 3]) -> Colour {
+    let level = u32::from(light.level(normal).to_bits());
+    Colour::from_levels(colour.map(|c| ((u32::from(c) << 8) * level + (1 << 14)) >> 15))
+}
+
+/// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
+fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
+    let d = |a: usize, i: usize| i64::from(p[a][i]) - i64::from(p[0][i]);
+    // Shifted together until they have 30 bits, so that the products fit, and small faces keep
+    // all of theirs.
+    let mut bits = 1;
+    for i in 0..3 {
+        bits |= d(1, i).unsigned_abs() | d(2, i).unsigned_abs();
+    }
+    let down = 34u32.saturating_sub(bits.leading_zeros());
+    let e = |a: usize, i: usize| d(a, i) >> down;
+    let axis = |i: usize, k: usize| e(1, i) * e(2, k) - e(1, k) * e(2, i);
+    let n = [axis(1, 2), axis(2, 0), axis(0, 1)];
+    let bits = n.iter().fold(1, |b, c| b | c.unsigned_abs());
+    let down = 32u32.saturating_sub(bits.leading_zeros());
+    unit(n.map(|c| c >> down)).map(|c| c.to_bits())
+}
+
+/// Whether all slices agree and all indices exist.
+fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
+    let count = mesh.positions.len();
+    let fits = |len: usize| len == 0 || len == count;
+    if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
+        return Err(MeshError::AttributeLength);
+    }
+    let good = |face: &[u16]| face.iter().all(|&i| usize::from(i) < count);
+    let bad = match mesh.faces {
+        Faces::Triangles(faces) => faces.iter().position(|f| !good(f)),
+        Faces::Quads(faces, _) => faces.iter().position(|f| !good(f)),
+        Faces::QuadStrip(strip, _) => {
+            if strip.len() % 2 != 0 || strip.len() == 2 {
+                return Err(MeshError::StripLength);
+            }
+            strip
+                .iter()
+                .position(|&i| usize::from(i) >= count)
+                .map(|i| i.saturating_sub(2) / 2)
+        }
+    };
+    match bad {
+        Some(face) => Err(MeshError::Index { face: face as u32 }),
+        None => Ok(()),
+    }
+}
+
+/// Calls `f` with face, corners and provoking vertex of each triangle.
+#[inline]
+fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
+    let mut quad = |face: u32, q: [u16; 4], split| {
+        let [a, b, c, d] = q;
+        match split {
+            QuadSplit::Corner0To2 => {
+                f(face, [a, b, c], a);
+                f(face, [a, c, d], a);
+            }
+            QuadSplit::Corner1To3 => {
+                f(face, [a, b, d], a);
+                f(face, [b, c, d], a);
+            }
+        }
+    };
+    match faces {
+        Faces::Triangles(faces) => {
+            for (face, &corners) in (0..).zip(faces) {
+                f(face, corners, corners[0]);
+            }
+        }
+        Faces::Quads(faces, split) => {
+            for (face, &q) in (0..).zip(faces) {
+                quad(face, q, split);
+            }
+        }
+        Faces::QuadStrip(strip, split) => {
+            // Two new vertices reuse the last two and take their roles crosswise, so a constant
+            // split gives a cross-hatch.
+            for (face, p) in (0..).zip(strip.windows(4).step_by(2)) {
+                let split = if face % 2 == 0 { split } else { split.other() };
+                quad(face, [p[0], p[1], p[3], p[2]], split);
+            }
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The screen and the camera: what stays the same for a whole frame.
+
+use super::transform::{Affine, inverse_sqrt};
+use crate::num::{Block, GUARD_CENTRE};
+
+/// The size of the picture, 1 to 8192 pixels each way (K3).
+///
+/// Guard space is the 8192 x 8192 pixel plane of 13.3 coordinates with the picture in its
+/// middle; everything between geometry and spans is measured in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Screen {
+    width: u16,
+    height: u16,
+}
+
+/// The picture's size is not within 1 to 8192.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScreenError {
+    /// The width that was asked for.
+    pub width: u16,
+    /// The height that was asked for.
+    pub height: u16,
+}
+
+impl core::fmt::Display for ScreenError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(
+            f,
+            "screen of {} x {} pixels: each side must be 1 to 8192",
+            self.width, self.height
+        )
+    }
+}
+
+impl core::error::Error for ScreenError {}
+
+impl Screen {
+    /// A screen of `width` x `height` pixels.
+    ///
+    /// # Errors
+    /// When a side is 0 or above 8192.
+    pub const fn new(width: u16, height: u16) -> Result<Self, ScreenError> {
+        if width == 0 || height == 0 || width > 8192 || height > 8192 {
+            return Err(ScreenError { width, height });
+        }
+        Ok(Self { width, height })
+    }
+
+    /// Pixels a line.
+    #[must_use]
+    pub const fn width(self) -> u16 {
+        self.width
+    }
+
+    /// Lines.
+    #[must_use]
+    pub const fn height(self) -> u16 {
+        self.height
+    }
+
+    /// The column of guard space at which the picture starts.
+    #[inline]
+    #[must_use]
+    pub const fn left(self) -> i32 {
+        GUARD_CENTRE - (self.width / 2) as i32
+    }
+
+    /// The line of guard space at which the picture starts.
+    #[inline]
+    #[must_use]
+    pub const fn top(self) -> i32 {
+        GUARD_CENTRE - (self.height / 2) as i32
+    }
+
+    /// The principal point in units of 1/8 pixel of guard space: 4 more on an odd side, so that
+    /// pixels lie on the grid.
+    pub(super) const fn centre(self) -> [i32; 2] {
+        [
+            8 * GUARD_CENTRE + 4 * (self.width & 1) as i32,
+            8 * GUARD_CENTRE + 4 * (self.height & 1) as i32,
+        ]
+    }
+}
+
+/// Where the eye is and how it sees.
+#[derive(Clone, Copy, Debug)]
+pub struct Camera {
+    /// World to camera: x right, y down, z ahead.
+    pub(super) view: Affine,
+    /// Focal length in units of 1/8 pixel.
+    pub(super) focal: Block<1>,
+    pub(super) near: Block<1>,
+    pub(super) far: Block<1>,
+}
+
+/// Why a camera cannot be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum CameraError {
+    /// A number is not finite, or beyond 2^90.
+    NotFinite,
+    /// The eye is at the point it looks at.
+    NoDirection,
+    /// The up vector is zero or along the view.
+    NoUp,
+    /// The focal length is not within 2^-10 to 2^20 pixels.
+    Focal,
+    /// Not 0 < near < far, or near below 2^-60.
+    Range,
+}
+
+impl core::fmt::Display for CameraError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::NotFinite => "camera: a number is not finite or too large",
+            Self::NoDirection => "camera: the eye is at the point it looks at",
+            Self::NoUp => "camera: the up vector is zero or along the view",
+            Self::Focal => "camera: the focal length is not within 2^-10 to 2^20 pixels",
+            Self::Range => "camera: near and far must satisfy 0 < near < far",
+        })
+    }
+}
+
+impl core::error::Error for CameraError {}
+
+impl Camera {
+    /// A camera at `eye` that looks at `at` with `up` upwards, right-handed, world units.
+    ///
+    /// `focal` is the focal length in pixels: half the picture's height divided by the tangent
+    /// of half the vertical field of view. What is nearer than `near` or farther than `far`,
+    /// measured along the view, is not seen.
+    ///
+    /// Float is used here alone, with IEEE basic operations, so every target gets the same bits.
+    ///
+    /// # Errors
+    /// [`CameraError`] says which argument is wrong.
+    pub fn look_at(
+        eye: [f32; 3],
+        at: [f32; 3],
+        up: [f32; 3],
+        focal: f32,
+        near: f32,
+        far: f32,
+    ) -> Result<Self, CameraError> {
+        const LIMIT: f32 = (1u128 << 90) as f32;
+        let all = [eye, at, up];
+        if !all.iter().flatten().all(|c| c.abs() < LIMIT) {
+            return Err(CameraError::NotFinite);
+        }
+        if !(focal >= 1.0 / 1024.0 && focal <= (1 << 20) as f32) {
+            return Err(CameraError::Focal);
+        }
+        if !(near >= 1.0 / (1u64 << 60) as f32 && near < far && far < LIMIT) {
+            return Err(CameraError::Range);
+        }
+        let ahead = normalised(sub(at, eye)).ok_or(CameraError::NoDirection)?;
+        let up = normalised(up).ok_or(CameraError::NoUp)?;
+        let right = cross(ahead, up);
+        if dot(right, right) < 1e-10 {
+            return Err(CameraError::NoUp);
+        }
+        let right = normalised(right).ok_or(CameraError::NoUp)?;
+        let down = cross(ahead, right);
+        let rows = [right, down, ahead];
+        let turn = Affine::from_rows(rows, [0.0; 3]).ok_or(CameraError::NotFinite)?;
+        let eye = Block::from_f32(eye.map(|c| -c)).ok_or(CameraError::NotFinite)?;
+        let view = Affine {
+            offset: turn.linear_times(eye),
+            ..turn
+        };
+        let one = |v| Block::from_f32([v]).ok_or(CameraError::NotFinite);
+        Ok(Self {
+            view,
+            focal: one(focal * 8.0)?,
+            near: one(near)?,
+            far: one(far)?,
+        })
+    }
+}
+
+fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+/// The unit vector along `v`; `None` for zero. Scaled first, so that no square leaves the range.
+fn normalised(v: [f32; 3]) -> Option<[f32; 3]> {
+    let largest = v.iter().fold(0.0f32, |m, c| m.max(c.abs()));
+    if largest < f32::MIN_POSITIVE {
+        return None;
+    }
+    let v = v.map(|c| c / largest);
+    let scale = inverse_sqrt(dot(v, v));
+    Some(v.map(|c| c * scale))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_cameras_are_refused() {
+        let make =
+            |eye, at, up, focal, near, far| Camera::look_at(eye, at, up, focal, near, far).err();
+        let (o, z, y) = ([0.0; 3], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]);
+        assert_eq!(make(z, o, y, 100.0, 0.1, 10.0), None);
+        assert_eq!(
+            make(o, o, y, 100.0, 0.1, 10.0),
+            Some(CameraError::NoDirection)
+        );
+        assert_eq!(make(z, o, z, 100.0, 0.1, 10.0), Some(CameraError::NoUp));
+        assert_eq!(make(z, o, o, 100.0, 0.1, 10.0), Some(CameraError::NoUp));
+        assert_eq!(
+            make([f32::NAN, 0.0, 0.0], o, y, 100.0, 0.1, 10.0),
+            Some(CameraError::NotFinite)
+        );
+        assert_eq!(make(z, o, y, 0.0, 0.1, 10.0), Some(CameraError::Focal));
+        assert_eq!(make(z, o, y, f32::NAN, 0.1, 10.0), Some(CameraError::Focal));
+        assert_eq!(make(z, o, y, 100.0, 0.0, 10.0), Some(CameraError::Range));
+        assert_eq!(make(z, o, y, 100.0, 2.0, 1.0), Some(CameraError::Range));
+    }
+
+    #[test]
+    fn screens_lie_in_the_middle() {
+        let s = Screen::new(320, 241).unwrap();
+        assert_eq!((s.left(), s.top()), (3936, 3976));
+        assert_eq!(s.centre(), [32_768, 32_772]);
+        assert!(Screen::new(0, 1).is_err() && Screen::new(1, 8193).is_err());
+        assert_eq!(Screen::new(8192, 1).unwrap().left(), 0);
+    }
+}

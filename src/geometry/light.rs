@@ -1,0 +1,73 @@
+//! Light at a vertex: ambient and one infinite light, Lambert's law (K10).
+
+use super::transform::{inverse_sqrt, unit};
+use crate::num::{I2F14, U1F15};
+
+/// An infinite light and the ambient level.
+///
+/// A lit colour is `colour (ambient + (1 - ambient) max(0, N.L))`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Light {
+    /// Unit vector towards the light, world space.
+    pub direction: [I2F14; 3],
+    /// Level where the light does not reach, 0 to 1.
+    pub ambient: U1F15,
+}
+
+impl Light {
+    /// From a direction of any length towards the light, world space, and an ambient level,
+    /// which is clamped to 0..=1.
+    ///
+    /// `None` when the direction is zero or not finite.
+    #[must_use]
+    pub fn new(direction: [f32; 3], ambient: f32) -> Option<Self> {
+        let largest = direction.iter().fold(0.0f32, |m, c| m.max(c.abs()));
+        if !(largest > 0.0 && largest < f32::INFINITY) || direction.iter().any(|c| c.is_nan()) {
+            return None;
+        }
+        let v = direction.map(|c| c / largest);
+        let scale = inverse_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        let ambient = if ambient > 0.0 { ambient.min(1.0) } else { 0.0 };
+        Some(Self {
+            direction: unit(v.map(|c| (c * scale * (1 << 30) as f32) as i64)),
+            ambient: U1F15::from_bits((ambient * 32_768.0 + 0.5) as u16),
+        })
+    }
+
+    /// The light level for a normal, both in the space of [`direction`](Light::direction); 0 to 1.
+    #[inline]
+    #[must_use]
+    pub fn level(&self, normal: [i16; 3]) -> U1F15 {
+        let l = self.direction;
+        let mut dot = 0i32;
+        for i in 0..3 {
+            dot += i32::from(normal[i]) * i32::from(l[i].to_bits());
+        }
+        // Q28 to Q15; a normal a little longer than 1 must not lift the level above 1.
+        let lambert = ((dot + (1 << 12)) >> 13).clamp(0, 1 << 15) as u32;
+        let ambient = u32::from(self.ambient.to_bits());
+        let level = ambient + ((((1 << 15) - ambient) * lambert + (1 << 14)) >> 15);
+        U1F15::from_bits(level as u16)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_follow_lambert() {
+        let light = Light::new([0.0, 3.0, 4.0], 0.25).unwrap();
+        let level = |n| light.level(n).to_num::<f64>();
+        assert!((level([0, 0, 16_384]) - (0.25 + 0.75 * 0.8)).abs() < 1e-4);
+        assert_eq!(level([0, 0, -16_384]), 0.25);
+        assert!((level([0, 9_830, 13_107]) - 1.0).abs() < 1e-4);
+        assert!(level([32_767; 3]) <= 1.0);
+        let _ = level([-32_768; 3]);
+        assert_eq!(Light::new([0.0; 3], 0.0), None);
+        assert_eq!(Light::new([f32::NAN, 1.0, 0.0], 0.0), None);
+        let tiny = Light::new([1e-30, 0.0, 0.0], 2.0).unwrap();
+        assert_eq!(tiny.direction[0], I2F14::ONE);
+        assert_eq!(tiny.ambient, U1F15::ONE);
+    }
+}

@@ -1,0 +1,30 @@
+//! Vertices in, objects out: pass one but for the filing (K1, K2, K10).
+//!
+//! `mesh` is what the application hands in; `transform`, `camera` and `light` are where it
+//! stands and how it is lit; `project` takes one vertex to the screen; `clip` mends triangles
+//! that cross the near, far or guard planes; `assemble` runs them and culls; `setup` makes of an
+//! object's corners what drawing needs, once it is reached.
+
+mod assemble;
+mod camera;
+mod clip;
+mod colour;
+mod light;
+mod mesh;
+mod object;
+mod project;
+mod setup;
+mod shading;
+mod transform;
+
+pub use assemble::{Assembled, Cull, Dropped, MeshError, Room};
+pub(crate) use assemble::{Assembler, Store};
+pub use camera::{Camera, CameraError, Screen, ScreenError};
+pub use colour::Colour;
+pub use light::Light;
+pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
+pub use object::{Object, SceneVertex};
+pub(crate) use setup::at_pixel;
+pub use setup::{Drawable, Parameters};
+pub use shading::{Flat, FlatLevels, Gouraud, GouraudPlanes, Shading};
+pub use transform::Affine;

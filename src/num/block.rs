@@ -1,0 +1,145 @@
+//! Block fixed point: some mantissas that share one exponent.
+//!
+//! Matrices and planes of a camera span many magnitudes; a shared power of two keeps every
+//! product exact in 64 bits and needs no float.
+
+/// `N` numbers `mantissa[i] 2^(exponent - 30)`.
+///
+/// Normalised: the largest magnitude among the mantissas is in `2^29 ..< 2^30`, or all are 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Block<const N: usize> {
+    /// The mantissas, each below 2^30 in magnitude.
+    pub mantissa: [i32; N],
+    /// The common exponent.
+    pub exponent: i32,
+}
+
+impl<const N: usize> Block<N> {
+    /// All zero.
+    pub const ZERO: Self = Self {
+        mantissa: [0; N],
+        exponent: -128,
+    };
+
+    /// Normalises `value[i] 2^(exponent - 30)`, rounding to nearest.
+    #[must_use]
+    pub fn new(value: [i64; N], exponent: i32) -> Self {
+        let mut bits = 0u64;
+        for v in value {
+            bits |= v.unsigned_abs();
+        }
+        if bits == 0 {
+            return Self::ZERO;
+        }
+        let mut shift = 30 - (64 - bits.leading_zeros() as i32);
+        // Rounding may carry into one bit more.
+        if value
+            .iter()
+            .any(|&v| shift_round(v, shift).unsigned_abs() >> 30 != 0)
+        {
+            shift -= 1;
+        }
+        let mut mantissa = [0; N];
+        for (m, v) in mantissa.iter_mut().zip(value) {
+            *m = shift_round(v, shift) as i32;
+        }
+        Self {
+            mantissa,
+            exponent: exponent - shift,
+        }
+    }
+
+    /// Converts floats; `None` when one is not finite or beyond 2^96 in magnitude.
+    #[must_use]
+    pub fn from_f32(value: [f32; N]) -> Option<Self> {
+        let mut largest = 0;
+        for v in value {
+            largest = largest.max(v.to_bits() & 0x7FFF_FFFF);
+        }
+        let exponent = (largest >> 23) as i32 - 126;
+        if exponent > 96 {
+            return None;
+        }
+        if exponent < -90 {
+            return Some(Self::ZERO);
+        }
+        // A power of two, so each product is exact.
+        let scale = f32::from_bits(((127 + 30 - exponent) as u32) << 23);
+        let mut wide = [0i64; N];
+        for (w, v) in wide.iter_mut().zip(value) {
+            *w = (v * scale) as i64;
+        }
+        Some(Self::new(wide, exponent))
+    }
+
+    /// The number at `i` times 2^`shift`, rounded to an integer.
+    #[must_use]
+    pub fn scaled(&self, i: usize, shift: i32) -> i64 {
+        shift_round(i64::from(self.mantissa[i]), self.exponent - 30 + shift)
+    }
+
+    /// How many bits the integer part of the sum of all magnitudes needs at most.
+    #[must_use]
+    pub fn magnitude_bits(&self) -> i32 {
+        let mut sum = 0u64;
+        for m in self.mantissa {
+            sum += u64::from(m.unsigned_abs());
+        }
+        64 - sum.leading_zeros() as i32 + self.exponent - 30
+    }
+}
+
+/// `value 2^shift`, rounded to nearest (half up) where it shifts right.
+///
+/// Shifts left saturate, so a number that does not fit keeps its sign.
+#[inline]
+#[must_use]
+pub const fn shift_round(value: i64, shift: i32) -> i64 {
+    if shift >= 0 {
+        if value == 0 {
+            0
+        } else if shift >= 63 || value.unsigned_abs() > (i64::MAX as u64) >> shift {
+            if value < 0 { i64::MIN } else { i64::MAX }
+        } else {
+            value << shift
+        }
+    } else if shift <= -63 {
+        0
+    } else {
+        let half = 1i64 << (-shift - 1);
+        // The half is added after the first part of the shift, so that it cannot overflow.
+        ((value >> (-shift - 1)) + (half >> (-shift - 1))) >> 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn floats_come_in_exactly() {
+        let b = Block::from_f32([1.0, -0.375, 1000.0]).unwrap();
+        for (i, v) in [1.0f64, -0.375, 1000.0].into_iter().enumerate() {
+            let got = f64::from(b.mantissa[i]) * 2f64.powi(b.exponent - 30);
+            assert_eq!(got, v);
+        }
+        assert!(b.mantissa[2] >= 1 << 29 && b.mantissa[2] < 1 << 30);
+        assert_eq!(Block::from_f32([f32::NAN]), None);
+        assert_eq!(Block::from_f32([f32::INFINITY]), None);
+        assert_eq!(Block::from_f32([0.0, -0.0]), Some(Block::ZERO));
+    }
+
+    #[test]
+    fn shifts_round_and_saturate() {
+        assert_eq!(shift_round(5, -1), 3);
+        assert_eq!(shift_round(-5, -1), -2);
+        assert_eq!(shift_round(3, 2), 12);
+        assert_eq!(shift_round(i64::MAX, -62), 2);
+        assert_eq!(shift_round(-3, 70), i64::MIN);
+        assert_eq!(shift_round(3, -70), 0);
+        let b = Block::new([i64::MAX, -1], 0);
+        assert_eq!(b.mantissa, [1 << 29, 0]);
+        let b = Block::new([(1 << 30) - 1], 0);
+        assert!(b.mantissa[0] < 1 << 30);
+    }
+}

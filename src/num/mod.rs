@@ -1,0 +1,28 @@
+//! The one home of fixed point (S4, K3, K4, K5).
+//!
+//! Formats come from the `fixed` crate; hot loops work on their raw bits with wrapping adds and
+//! widening products only, so the same input gives the same bits on every target. Nothing in
+//! here knows what a number means.
+//!
+//! | format | type | range | used for |
+//! |---|---|---|---|
+//! | 13.3 unsigned | [`U13F3`] | 0 ..= 8191.875 | screen coordinates in guard space |
+//! | 2.14 signed | [`I2F14`] | -2 ..< 2 | model coordinates, normals |
+//! | 2.30 signed | [`I2F30`] | -2 ..< 2 | exact model coordinates, matrix mantissas |
+//! | 1.15 unsigned | [`U1F15`] | 0 ..< 2 | light levels |
+//! | 16.16 signed | `i32` | modulo 2^32 | planes of colour |
+//! | 1.31 unsigned | `u32` | 0 ..= 1 | depth, 1/w with the near plane at 1 |
+
+mod block;
+mod edge;
+mod plane;
+mod recip;
+
+pub use block::{Block, shift_round};
+pub use edge::{Edge, WideEdge, first_at};
+pub use fixed::types::{I2F14, I2F30, U1F15, U13F3};
+pub use plane::{InverseArea, Plane};
+pub use recip::recip;
+
+/// The pixel column and line that lies at the middle of guard space.
+pub const GUARD_CENTRE: i32 = 4096;

@@ -1,0 +1,70 @@
+//! The one type parameter of the crate: which method does each step (DESIGN rule 2).
+//!
+//! | preset | shading | depth | pixel |
+//! |---|---|---|---|
+//! | [`GouraudDepth`] | [`Gouraud`] | [`Depth32`] | any |
+//! | [`FlatDepth`] | [`Flat`] | [`Depth32`] | any |
+//! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any |
+//! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any |
+//! | [`Counted`] | as the preset it wraps | | counts spans and pixels |
+
+use crate::composite::PixelFormat;
+use crate::geometry::{Flat, Gouraud, Shading};
+use crate::shade::Levels;
+use crate::stats::{SpanCounter, SpanCounts};
+use crate::visible::{Depth32, LineDepth};
+use core::marker::PhantomData;
+
+/// The choices of a renderer, made at compile time: what is not chosen has no code and no bytes.
+pub trait Pipeline {
+    /// What colours an object carries.
+    type Shading: Shading<Levels: Levels>;
+    /// How hidden surfaces are found.
+    type Depth: LineDepth;
+    /// What a pixel looks like in the line buffer.
+    type Pixel: PixelFormat;
+    /// Whether spans and pixels are counted: [`SpanCounts`] or `()`.
+    type Counter: SpanCounter;
+}
+
+/// A pipeline by its parts.
+#[derive(Clone, Copy, Debug)]
+pub struct Parts<S, D, F, C = ()>(PhantomData<(S, D, F, C)>);
+
+impl<S, D, F, C> Pipeline for Parts<S, D, F, C>
+where
+    S: Shading<Levels: Levels>,
+    D: LineDepth,
+    F: PixelFormat,
+    C: SpanCounter,
+{
+    type Shading = S;
+    type Depth = D;
+    type Pixel = F;
+    type Counter = C;
+}
+
+/// Colours linear between vertices, 32-bit depth.
+pub type GouraudDepth<F> = Parts<Gouraud, Depth32, F>;
+/// One colour a face, 32-bit depth.
+pub type FlatDepth<F> = Parts<Flat, Depth32, F>;
+/// Colours linear between vertices, later objects over earlier ones.
+pub type GouraudPainter<F> = Parts<Gouraud, (), F>;
+/// One colour a face, later objects over earlier ones.
+pub type FlatPainter<F> = Parts<Flat, (), F>;
+/// The pipeline `P`, and its spans and pixels are counted.
+pub type Counted<P> =
+    Parts<<P as Pipeline>::Shading, <P as Pipeline>::Depth, <P as Pipeline>::Pixel, SpanCounts>;
+
+/// The word of a pipeline's pixels.
+pub type WordOf<P> = <<P as Pipeline>::Pixel as PixelFormat>::Word;
+/// The vertex record of a pipeline.
+pub type VertexOf<P> = crate::geometry::SceneVertex<<<P as Pipeline>::Shading as Shading>::Vertex>;
+/// The object record of a pipeline.
+pub type ObjectOf<P> = crate::geometry::Object<<<P as Pipeline>::Shading as Shading>::Face>;
+/// The cache slot of a pipeline.
+pub type SlotOf<P> = crate::active::Slot<DrawableOf<P>>;
+/// An object of a pipeline, set up for drawing.
+pub type DrawableOf<P> = crate::geometry::Drawable<<<P as Pipeline>::Shading as Shading>::Levels>;
+/// The depth cell of a pipeline.
+pub type CellOf<P> = <<P as Pipeline>::Depth as LineDepth>::Cell;

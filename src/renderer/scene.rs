@@ -1,0 +1,337 @@
+//! Pass one: meshes into the slow arena, each object under the first line it is on (K1, S3).
+
+use crate::active::Buckets;
+use crate::arena::Arena;
+use crate::geometry::{
+    Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, Mesh, MeshError, Room,
+    Screen, Store,
+};
+use crate::link::Link;
+use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, VertexOf};
+use core::ops::Range;
+
+/// The memory of a scene, lent by the application; best in large, slow RAM.
+///
+/// A vertex of a Gouraud pipeline is 12 bytes, an object 8.
+pub struct SceneMemory<'m, P: Pipeline> {
+    /// Vertices on the screen; at most 65,536 are used.
+    pub vertices: &'m mut [VertexOf<P>],
+    /// Objects; at most 61,440 are used.
+    pub objects: &'m mut [ObjectOf<P>],
+    /// One for each line of the picture, or of the largest band that is begun.
+    pub buckets: &'m mut [Link],
+}
+
+/// How and where a mesh stands in the world.
+#[derive(Clone, Copy, Debug)]
+pub struct Instance {
+    /// Model space to world space.
+    pub model: Affine,
+    /// Which faces are dropped.
+    pub cull: Cull,
+    /// The light, where the mesh is to be lit.
+    pub light: Option<Light>,
+    /// Colour of vertices that have none of their own.
+    pub colour: [u8; 3],
+}
+
+impl Default for Instance {
+    /// At the origin, white, not lit, faces seen from behind dropped.
+    fn default() -> Self {
+        Self {
+            model: Affine::IDENTITY,
+            cull: Cull::Back,
+            light: None,
+            colour: [255; 3],
+        }
+    }
+}
+
+/// Why a scene cannot be begun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum SceneError {
+    /// There are fewer buckets than lines.
+    Buckets {
+        /// How many lines were to be begun.
+        needed: u16,
+        /// How many buckets there are.
+        have: usize,
+    },
+    /// The lines are not within the picture, or there are none.
+    Lines {
+        /// The first line.
+        start: u16,
+        /// The line after the last.
+        end: u16,
+        /// The picture's height.
+        height: u16,
+    },
+}
+
+impl core::fmt::Display for SceneError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Buckets { needed, have } => {
+                write!(
+                    f,
+                    "scene: {needed} lines need as many buckets, there are {have}"
+                )
+            }
+            Self::Lines { start, end, height } => {
+                write!(
+                    f,
+                    "scene: lines {start}..{end} of a picture of {height} lines"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for SceneError {}
+
+/// Why a mesh was not drawn, or not all of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum DrawError {
+    /// An arena is full; what was kept is drawn.
+    Full(Dropped),
+    /// The mesh contradicts itself; nothing of it is drawn.
+    Mesh(MeshError),
+}
+
+impl core::fmt::Display for DrawError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Full(Dropped {
+                room,
+                first_face,
+                triangles,
+            }) => {
+                let room = match room {
+                    Room::Vertices => "vertex",
+                    Room::Objects => "object",
+                };
+                write!(
+                    f,
+                    "the {room} arena is full: {triangles} triangles dropped, from face {first_face} on"
+                )
+            }
+            Self::Mesh(MeshError::AttributeLength) => {
+                f.write_str("mesh: normals or colours are not as many as the positions")
+            }
+            Self::Mesh(MeshError::Index { face }) => {
+                write!(f, "mesh: face {face} names a vertex that does not exist")
+            }
+            Self::Mesh(MeshError::StripLength) => {
+                f.write_str("mesh: a quad strip needs an even number of indices, and not two")
+            }
+        }
+    }
+}
+
+impl core::error::Error for DrawError {}
+
+/// What pass one has done since the scene was begun.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PassOne {
+    /// Triangles submitted.
+    pub triangles: u32,
+    /// Triangles that cannot be seen, and never cost anything again.
+    pub culled: u32,
+    /// Triangles that crossed a near, far or guard plane.
+    pub clipped: u32,
+    /// Objects in the arena.
+    pub objects: u32,
+    /// Vertices in the arena.
+    pub vertices: u32,
+    /// Triangles that found no room.
+    pub dropped: u32,
+}
+
+/// A scene in memory: shared by any number of line renderers, read-only while they draw.
+pub struct Scene<'m, P: Pipeline> {
+    screen: Screen,
+    camera: Option<Camera>,
+    store: Store<'m, P::Shading>,
+    objects: Arena<'m, ObjectOf<P>>,
+    buckets: Buckets<'m>,
+    /// Lines of the picture that are drawn.
+    lines: Range<u16>,
+    pass_one: PassOne,
+    /// Counts scenes, so that a renderer notices a new one.
+    generation: u32,
+}
+
+impl<'m, P: Pipeline> Scene<'m, P> {
+    /// An empty scene for pictures of the size of `screen`.
+    #[must_use]
+    pub fn new(screen: Screen, memory: SceneMemory<'m, P>) -> Self {
+        let objects = memory.objects.len().min(usize::from(Link::CACHED));
+        Self {
+            screen,
+            camera: None,
+            store: Store {
+                vertices: Arena::new(memory.vertices),
+            },
+            objects: Arena::new(&mut memory.objects[..objects]),
+            buckets: Buckets::new(memory.buckets),
+            lines: 0..0,
+            pass_one: PassOne::default(),
+            generation: 0,
+        }
+    }
+
+    /// Empties the scene and begins a whole picture seen by `camera`.
+    ///
+    /// # Errors
+    /// When there are fewer buckets than lines.
+    pub fn begin(&mut self, camera: &Camera) -> Result<(), SceneError> {
+        self.begin_band(camera, 0..self.screen.height())
+    }
+
+    /// Empties the scene and begins the `lines` of a picture; what is on other lines alone is
+    /// culled. Bands one after the other give the same picture as all at once, with smaller
+    /// arenas (H18).
+    ///
+    /// # Errors
+    /// When the lines are not within the picture, or are more than there are buckets; then the
+    /// scene is as it was.
+    pub fn begin_band(&mut self, camera: &Camera, lines: Range<u16>) -> Result<(), SceneError> {
+        let height = self.screen.height();
+        if lines.start >= lines.end || lines.end > height {
+            return Err(SceneError::Lines {
+                start: lines.start,
+                end: lines.end,
+                height,
+            });
+        }
+        let have = self.buckets.room();
+        if lines.len() > have {
+            return Err(SceneError::Buckets {
+                needed: lines.len() as u16,
+                have,
+            });
+        }
+        let top = self.screen.top();
+        self.buckets
+            .reset(top + i32::from(lines.start)..top + i32::from(lines.end));
+        self.store.vertices.clear();
+        self.objects.clear();
+        self.lines = lines;
+        self.camera = Some(*camera);
+        self.pass_one = PassOne::default();
+        self.generation = self.generation.wrapping_add(1);
+        Ok(())
+    }
+
+    /// Draws a mesh into the scene. Before [`begin`](Scene::begin) it does nothing.
+    ///
+    /// # Errors
+    /// [`DrawError::Full`] when an arena had no room for all of it: what was kept is drawn.
+    /// [`DrawError::Mesh`] when the mesh contradicts itself: nothing of it is drawn.
+    pub fn draw<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        instance: &Instance,
+    ) -> Result<Assembled, DrawError> {
+        let Some(camera) = &self.camera else {
+            return Ok(Assembled::default());
+        };
+        let assembler = Assembler::new(
+            &mut self.store,
+            camera,
+            self.screen,
+            self.lines.clone(),
+            &instance.model,
+            (instance.cull, instance.light, instance.colour),
+        );
+        let (objects, buckets) = (&mut self.objects, &mut self.buckets);
+        let done = assembler
+            .mesh(mesh, |mut object, first| {
+                if objects.free_below(usize::from(Link::CACHED)) == 0 {
+                    return false;
+                }
+                let Some(chain) = buckets.file(objects.len() as u16, first) else {
+                    return false;
+                };
+                object.chain(chain);
+                objects.push(object).is_some()
+            })
+            .map_err(DrawError::Mesh)?;
+        self.pass_one.triangles += done.triangles;
+        self.pass_one.culled += done.culled;
+        self.pass_one.clipped += done.clipped;
+        self.pass_one.objects = self.objects.len() as u32;
+        self.pass_one.vertices = self.store.vertices.len() as u32;
+        match done.dropped {
+            Some(dropped) => {
+                self.pass_one.dropped += dropped.triangles;
+                Err(DrawError::Full(dropped))
+            }
+            None => Ok(done),
+        }
+    }
+
+    /// What pass one has done since the scene was begun.
+    #[must_use]
+    pub fn pass_one(&self) -> PassOne {
+        self.pass_one
+    }
+
+    /// The size of the picture.
+    #[must_use]
+    pub fn screen(&self) -> Screen {
+        self.screen
+    }
+
+    /// The lines of the picture that were begun.
+    #[must_use]
+    pub fn lines(&self) -> Range<u16> {
+        self.lines.clone()
+    }
+
+    /// Bytes of the slow arena in use: vertices, objects and buckets.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.store.vertices.len() * size_of::<VertexOf<P>>()
+            + self.objects.len() * size_of::<ObjectOf<P>>()
+            + self.buckets.lines().len() * size_of::<Link>()
+    }
+
+    pub(crate) fn generation(&self) -> u32 {
+        self.generation
+    }
+
+    /// The objects first seen on `line` of guard space, latest first.
+    #[inline]
+    pub(crate) fn bucket(&self, line: i32) -> impl Iterator<Item = u16> + '_ {
+        let mut link = self.buckets.head(line);
+        core::iter::from_fn(move || {
+            let index = link.is_some().then(|| link.object())?;
+            link = self.objects.as_slice().get(usize::from(index))?.next();
+            Some(index)
+        })
+    }
+
+    /// The object at `index`, if there is one.
+    #[inline]
+    pub(crate) fn object(&self, index: u16) -> Option<&ObjectOf<P>> {
+        self.objects.as_slice().get(usize::from(index))
+    }
+
+    #[inline]
+    pub(crate) fn vertices(&self) -> &[VertexOf<P>] {
+        self.store.vertices.as_slice()
+    }
+
+    /// The object at `index`, set up for `line` of guard space.
+    #[inline]
+    pub(crate) fn set_up(&self, index: u16, line: i32) -> Option<DrawableOf<P>> {
+        self.object(index)?
+            .set_up::<P::Shading>(self.vertices(), super::spans::steps::<P>(), line)
+    }
+}

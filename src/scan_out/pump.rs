@@ -1,0 +1,471 @@
+//! The double-buffered pump: one buffer is filled while the other is sent (SPEC K12, S5, X5, M4).
+//!
+//! Two buffers and no third: the CPU is either ahead of the bus, and then has to wait whatever the number, or behind
+//! it, and then never waits. What helps instead is a band of several lines per transfer, which spreads the cost of
+//! starting one, and evens out slow and fast lines within the band.
+//!
+//! Waiting happens in two places only, both counted in [`ScanStats::stall_polls`]: in [`Pump::line`] when no buffer is
+//! home, and before a start when the last transfer still runs and the sink does not chain (the swap waits for
+//! the running scan-out, K12).
+//!
+//! Every error ends the frame, brings the buffers home and closes the sink's rectangle, so the next
+//! [`Pump::begin`] starts a whole new frame.
+
+use core::fmt::{self, Display};
+use core::task::Poll;
+
+use super::dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
+
+/// How many line buffers a pump holds.
+pub const PUMP_BUFFERS: usize = 2;
+
+/// One pixel of the buffers that the sink `D` takes.
+type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
+
+/// Why a frame could not be sent. Lines count from 0 at the top of the window, not of the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum ScanError<E> {
+    /// The sink refused or failed.
+    Sink {
+        /// The first line of the transfer that failed; 0 when opening and the window's height when closing failed.
+        line: u16,
+        /// What the sink said.
+        error: E,
+    },
+    /// A buffer does not hold the lines of one transfer. Nothing was sent.
+    BufferTooShort {
+        /// Words that one transfer takes.
+        needed: usize,
+        /// Words that the buffer holds.
+        have: usize,
+    },
+    /// The window has no pixels, or a transfer was to have no lines. Nothing was sent.
+    Empty,
+    /// A call out of turn: a line before `begin` or after the last one, `line_done` without `line`, `finish`
+    /// without `begin`. Nothing has changed.
+    OutOfTurn {
+        /// The line that would have been next.
+        line: u16,
+    },
+    /// The frame was finished before its last line. What was complete has been sent.
+    LinesMissing {
+        /// The first line that is missing.
+        line: u16,
+    },
+    /// The sink did not give a buffer back within `max_polls` polls. The next `begin` asks for it again.
+    Timeout {
+        /// The first line of the transfer that hangs.
+        line: u16,
+    },
+    /// The sink says that it is idle, but has not given a buffer back. The pump cannot go on without it.
+    BufferLost {
+        /// The first line of the transfer that took the buffer along; 0 when it was lost in an earlier frame.
+        line: u16,
+    },
+}
+
+impl<E: Error> ScanError<E> {
+    /// The kind of the error, in the terms of the sinks.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::Sink { error, .. } => error.kind(),
+            Self::BufferTooShort { .. } | Self::Empty => ErrorKind::Length,
+            Self::OutOfTurn { .. } | Self::LinesMissing { .. } => ErrorKind::Sequence,
+            Self::Timeout { .. } => ErrorKind::Timeout,
+            Self::BufferLost { .. } => ErrorKind::Other,
+        }
+    }
+}
+
+impl<E: Error> Display for ScanError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Sink { line, error } => write!(f, "scan-out at line {line}: {}", error.kind()),
+            Self::BufferTooShort { needed, have } => {
+                write!(
+                    f,
+                    "a line buffer holds {have} words, one transfer takes {needed}"
+                )
+            }
+            Self::Empty => f.write_str("the window or the transfer is empty"),
+            Self::OutOfTurn { line } => write!(f, "scan-out call out of turn at line {line}"),
+            Self::LinesMissing { line } => {
+                write!(f, "the frame was finished, but line {line} is missing")
+            }
+            Self::Timeout { line } => {
+                write!(f, "the transfer that starts at line {line} does not end")
+            }
+            Self::BufferLost { line } => {
+                write!(f, "the sink lost the buffer of the transfer at line {line}")
+            }
+        }
+    }
+}
+
+impl<E: Error> core::error::Error for ScanError<E> {}
+
+/// What was sent and what it cost, summed up since the pump was made or the figures were taken.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ScanStats {
+    /// Bytes of pixels in all transfers that the sink accepted, also in those that failed later.
+    pub bytes_sent: u64,
+    /// Transfers that the sink accepted. Stays at its maximum when it gets there.
+    pub transfers: u32,
+    /// Polls that found the sink busy while the pump had to wait. Stays at its maximum when it gets there.
+    pub stall_polls: u32,
+}
+
+/// Owns a sink and its two line buffers, and swaps them.
+///
+/// ```
+/// # use core::{convert::Infallible, task::Poll};
+/// # use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanoutDma, Window};
+/// # struct Null(Option<&'static mut [u16]>);
+/// # impl ErrorType for Null { type Error = Infallible; }
+/// # impl ScanoutDma for Null {
+/// #     type Buf = &'static mut [u16];
+/// #     fn begin(&mut self, _: Window) -> Result<(), Infallible> { Ok(()) }
+/// #     fn start(&mut self, buf: Self::Buf, _: usize) -> Result<(), (Infallible, Self::Buf)> { self.0 = Some(buf); Ok(()) }
+/// #     fn poll(&mut self) -> Poll<Result<Option<Self::Buf>, Infallible>> { Poll::Ready(Ok(self.0.take())) }
+/// #     fn end(&mut self) -> Result<(), Infallible> { Ok(()) }
+/// # }
+/// # fn buffer() -> &'static mut [u16] { Box::leak(vec![0; 320 * 4].into()) }
+/// # fn main() -> Result<(), ScanError<Infallible>> {
+/// # let (sink, buf0, buf1) = (Null(None), buffer(), buffer());
+/// let window = Window { x: 0, y: 0, width: 320, height: 240 };
+/// let mut pump = Pump::new(sink, [buf0, buf1]);
+/// pump.begin(window, 4)?; // four lines per transfer
+/// for y in 0..window.height {
+///     pump.line()?.fill(y); // draw: the old content is whatever was there
+///     pump.line_done()?;
+/// }
+/// pump.finish()?;
+/// assert_eq!(pump.stats().transfers, 60);
+/// # Ok(())
+/// # }
+/// ```
+#[derive(Debug)]
+pub struct Pump<D: ScanoutDma> {
+    dma: D,
+    /// Buffers that are home and not being filled, in no order.
+    idle: [Option<D::Buf>; PUMP_BUFFERS],
+    /// The buffer of the band that is being filled.
+    filling: Option<D::Buf>,
+    /// First lines of the bands that the sink has, oldest first; `in_flight` of them count.
+    flights: [u16; PUMP_BUFFERS],
+    /// Buffers that the sink has. With `idle` and `filling` it makes `PUMP_BUFFERS`, unless one is lost.
+    in_flight: usize,
+    /// The frame in work; `None` between frames and after an error.
+    window: Option<Window>,
+    /// Whether the sink has an open rectangle. Outlives `window` when a transfer hangs.
+    open: bool,
+    /// Lines of a full band, 1..=`window.height`.
+    band_lines: u16,
+    /// First line of the band that is being filled.
+    band_first: u16,
+    /// Complete lines in the band that is being filled, `< band_lines` between calls.
+    band_filled: u16,
+    /// Whether the line `band_first + band_filled` was handed out.
+    handed: bool,
+    max_polls: Option<u32>,
+    stats: ScanStats,
+}
+
+impl<D: ScanoutDma> Pump<D> {
+    /// A pump over an idle sink. Any buffer length goes here: `begin` checks it against the band.
+    pub fn new(dma: D, buffers: [D::Buf; PUMP_BUFFERS]) -> Self {
+        Self {
+            dma,
+            idle: buffers.map(Some),
+            filling: None,
+            flights: [0; PUMP_BUFFERS],
+            in_flight: 0,
+            window: None,
+            open: false,
+            band_lines: 1,
+            band_first: 0,
+            band_filled: 0,
+            handed: false,
+            max_polls: None,
+            stats: ScanStats::default(),
+        }
+    }
+
+    /// Bounds each wait: a transfer that is still busy after so many polls is reported as [`ScanError::Timeout`].
+    ///
+    /// `None`, which is how it starts, waits for ever, for systems with a watchdog. How long a poll takes is the
+    /// sink's affair, so the bound is best set to some hundred times the usual [`ScanStats::stall_polls`] of a band.
+    pub fn set_max_polls(&mut self, max_polls: Option<u32>) {
+        self.max_polls = max_polls;
+    }
+
+    /// Starts a frame, or a part of one: opens `window`, to be filled line by line from its top.
+    ///
+    /// `lines_per_transfer` is the band: how many lines are collected in a buffer before it is sent, cut to the
+    /// window's height. The last band may be shorter. A frame that is still open is abandoned.
+    ///
+    /// # Errors
+    /// `Empty` and `BufferTooShort` before anything is sent; `Timeout` and `BufferLost` when a buffer of an earlier
+    /// frame is still away; `Sink` when the sink does not open the window.
+    pub fn begin(
+        &mut self,
+        window: Window,
+        lines_per_transfer: u16,
+    ) -> Result<(), ScanError<D::Error>> {
+        self.recover()?;
+        let band_lines = lines_per_transfer.min(window.height);
+        if window.width == 0 || band_lines == 0 {
+            return Err(ScanError::Empty);
+        }
+        if self.idle.iter().any(Option::is_none) {
+            return Err(ScanError::BufferLost { line: 0 });
+        }
+        let needed = usize::from(window.width).saturating_mul(usize::from(band_lines));
+        for buf in self.idle.iter_mut().flatten() {
+            let have = buf.pixels().len();
+            if have < needed {
+                return Err(ScanError::BufferTooShort { needed, have });
+            }
+        }
+        self.dma
+            .begin(window)
+            .map_err(|error| ScanError::Sink { line: 0, error })?;
+        self.open = true;
+        self.window = Some(window);
+        self.band_lines = band_lines;
+        self.band_first = 0;
+        self.band_filled = 0;
+        self.handed = false;
+        Ok(())
+    }
+
+    /// The words of the next line, `window.width` of them, with any old content.
+    ///
+    /// Waits only when no buffer is home. Gives the same line again until [`line_done`](Self::line_done).
+    ///
+    /// # Errors
+    /// `OutOfTurn` when no line is due; `Sink`, `Timeout` or `BufferLost`, for an earlier line, when waiting failed.
+    pub fn line(&mut self) -> Result<&mut [WordOf<D>], ScanError<D::Error>> {
+        let Some(window) = self.window else {
+            return Err(ScanError::OutOfTurn { line: 0 });
+        };
+        let line = self.next_line();
+        if line >= window.height {
+            return Err(ScanError::OutOfTurn { line });
+        }
+        if self.filling.is_none() {
+            if self.idle.iter().all(Option::is_none) {
+                self.wait_home().map_err(|error| self.fail(error))?;
+            }
+            self.filling = self.idle.iter_mut().find_map(Option::take);
+        }
+        self.handed = true;
+        let width = usize::from(window.width);
+        let at = usize::from(self.band_filled) * width; // `begin` saw that this fits
+        let words = match self.filling.as_mut() {
+            Some(buf) => buf.pixels(),
+            None => return Err(ScanError::BufferLost { line }),
+        };
+        let have = words.len();
+        // A sink that swaps buffers behind our back can hand back a shorter one: an error, not a panic.
+        words
+            .get_mut(at..)
+            .and_then(|rest| rest.get_mut(..width))
+            .ok_or(ScanError::BufferTooShort {
+                needed: at + width,
+                have,
+            })
+    }
+
+    /// The line that [`line`](Self::line) gave is complete. Starts the transfer when it fills the band or the window.
+    ///
+    /// # Errors
+    /// `OutOfTurn` when `line` was not called for this line; `Sink`, `Timeout` or `BufferLost` when sending failed.
+    pub fn line_done(&mut self) -> Result<(), ScanError<D::Error>> {
+        let Some(window) = self.window else {
+            return Err(ScanError::OutOfTurn { line: 0 });
+        };
+        if !self.handed {
+            return Err(ScanError::OutOfTurn {
+                line: self.next_line(),
+            });
+        }
+        self.handed = false;
+        self.band_filled += 1;
+        if self.band_filled == self.band_lines || self.next_line() == window.height {
+            self.start_band(window).map_err(|error| self.fail(error))?;
+        }
+        Ok(())
+    }
+
+    /// Ends the frame: sends what is complete, waits until both buffers are home, and closes the window.
+    ///
+    /// # Errors
+    /// `OutOfTurn` without a frame; `LinesMissing` when not every line was done; else what sending or closing said.
+    pub fn finish(&mut self) -> Result<(), ScanError<D::Error>> {
+        let Some(window) = self.window else {
+            return Err(ScanError::OutOfTurn { line: 0 });
+        };
+        let line = self.next_line();
+        self.start_band(window).map_err(|error| self.fail(error))?;
+        while self.in_flight > 0 {
+            self.wait_home().map_err(|error| self.fail(error))?;
+        }
+        self.put_back_filling();
+        self.window = None;
+        self.open = false;
+        let closed = self.dma.end();
+        if line < window.height {
+            return Err(ScanError::LinesMissing { line });
+        }
+        closed.map_err(|error| ScanError::Sink { line, error })
+    }
+
+    /// The figures so far.
+    pub fn stats(&self) -> ScanStats {
+        self.stats
+    }
+
+    /// The figures so far, which start again from zero, for figures per frame.
+    pub fn take_stats(&mut self) -> ScanStats {
+        core::mem::take(&mut self.stats)
+    }
+
+    /// The sink.
+    pub fn sink(&self) -> &D {
+        &self.dma
+    }
+
+    /// The sink, for settings between frames. A rectangle or transfer started here confuses the pump's frame.
+    pub fn sink_mut(&mut self) -> &mut D {
+        &mut self.dma
+    }
+
+    /// Takes the pump apart, after waiting for what still runs. A buffer that did not come home is `None`.
+    pub fn release(mut self) -> (D, [Option<D::Buf>; PUMP_BUFFERS]) {
+        // Whatever is wrong shows as a `None`.
+        let _ = self.recover();
+        (self.dma, self.idle)
+    }
+
+    /// The first line that is not complete.
+    fn next_line(&self) -> u16 {
+        self.band_first.saturating_add(self.band_filled)
+    }
+
+    /// Sends the complete lines of the band, if there are any.
+    fn start_band(&mut self, window: Window) -> Result<(), ScanError<D::Error>> {
+        if self.band_filled == 0 {
+            return Ok(());
+        }
+        while self.in_flight > 0 && !self.dma.chains() {
+            self.wait_home()?;
+        }
+        let line = self.band_first;
+        let Some(buf) = self.filling.take() else {
+            return Err(ScanError::BufferLost { line });
+        };
+        let len = usize::from(window.width) * usize::from(self.band_filled);
+        if let Err((error, buf)) = self.dma.start(buf, len) {
+            self.put_idle(buf);
+            return Err(ScanError::Sink { line, error });
+        }
+        if let Some(flight) = self.flights.get_mut(self.in_flight) {
+            *flight = line;
+        }
+        self.in_flight += 1;
+        debug_assert!(self.in_flight <= PUMP_BUFFERS);
+        let bytes = len as u64 * size_of::<WordOf<D>>() as u64;
+        self.stats.bytes_sent = self.stats.bytes_sent.wrapping_add(bytes);
+        self.stats.transfers = self.stats.transfers.saturating_add(1);
+        self.band_first = self.next_line();
+        self.band_filled = 0;
+        Ok(())
+    }
+
+    /// Polls until the oldest transfer has given its buffer back. Called with `in_flight > 0`.
+    fn wait_home(&mut self) -> Result<(), ScanError<D::Error>> {
+        let line = self.flights[0];
+        let mut polls = 0_u32;
+        loop {
+            match self.dma.poll() {
+                Poll::Pending => {
+                    self.stats.stall_polls = self.stats.stall_polls.saturating_add(1);
+                    if self.max_polls.is_some_and(|max| polls >= max) {
+                        return Err(ScanError::Timeout { line });
+                    }
+                    polls = polls.saturating_add(1);
+                    core::hint::spin_loop();
+                }
+                Poll::Ready(Ok(Some(buf))) => {
+                    self.put_idle(buf);
+                    self.flights.rotate_left(1);
+                    self.in_flight = self.in_flight.saturating_sub(1);
+                    return Ok(());
+                }
+                Poll::Ready(Ok(None)) => {
+                    // An idle sink gives nothing back any more.
+                    self.in_flight = 0;
+                    return Err(ScanError::BufferLost { line });
+                }
+                Poll::Ready(Err(error)) => return Err(ScanError::Sink { line, error }),
+            }
+        }
+    }
+
+    /// Ends the frame after `error`, which is handed through.
+    fn fail(&mut self, error: ScanError<D::Error>) -> ScanError<D::Error> {
+        match error {
+            // A wait has just been in vain. `begin` and `release` will wait again.
+            ScanError::Timeout { .. } => {
+                self.put_back_filling();
+                self.window = None;
+            }
+            // The first error is the one that tells; a second one shows again in `begin`.
+            _ => {
+                let _ = self.recover();
+            }
+        }
+        error
+    }
+
+    /// Ends the frame, brings the buffers home and closes the sink's rectangle.
+    ///
+    /// Each running transfer may fail once more on its way, which no longer matters. A sink that goes on failing is
+    /// not asked for ever: its error is returned.
+    fn recover(&mut self) -> Result<(), ScanError<D::Error>> {
+        self.put_back_filling();
+        self.window = None;
+        let mut failures = 0;
+        while self.in_flight > 0 {
+            match self.wait_home() {
+                Err(ScanError::Sink { .. }) if failures < PUMP_BUFFERS => failures += 1,
+                done => done?,
+            }
+        }
+        if self.open {
+            self.open = false;
+            // The frame is given up, so the sink may well find that lines are missing.
+            let _ = self.dma.end();
+        }
+        Ok(())
+    }
+
+    fn put_back_filling(&mut self) {
+        self.handed = false;
+        self.band_filled = 0;
+        if let Some(buf) = self.filling.take() {
+            self.put_idle(buf);
+        }
+    }
+
+    /// A buffer too many, which only a sink that makes buffers of its own could give, is dropped.
+    fn put_idle(&mut self, buf: D::Buf) {
+        if let Some(slot) = self.idle.iter_mut().find(|slot| slot.is_none()) {
+            *slot = Some(buf);
+        }
+    }
+}

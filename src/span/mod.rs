@@ -1,0 +1,52 @@
+//! From columns of guard space to pixels of the line buffer.
+
+use crate::num::GUARD_CENTRE;
+
+/// The pixels of one object on one line, clipped to the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Span {
+    /// First column of guard space.
+    pub column: i32,
+    /// Line of guard space.
+    pub line: i32,
+    /// First pixel of the line buffer.
+    pub start: usize,
+    /// Pixel after the last; above `start`.
+    pub end: usize,
+}
+
+impl Span {
+    /// Clips the columns `from .. to` exactly to the `width` columns that begin at `left`.
+    ///
+    /// `None` when nothing is left.
+    #[inline]
+    #[must_use]
+    pub fn clipped(line: i32, (from, to): (i32, i32), left: i32, width: usize) -> Option<Self> {
+        debug_assert!((0..2 * GUARD_CENTRE).contains(&left));
+        let column = from.max(left);
+        let end = to.min(left + width as i32);
+        (column < end).then(|| Self {
+            column,
+            line,
+            start: (column - left) as usize,
+            end: (end - left) as usize,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Span;
+
+    #[test]
+    fn spans_are_cut_at_both_sides() {
+        let span =
+            |from, to| Span::clipped(7, (from, to), 100, 10).map(|s| (s.column, s.start, s.end));
+        assert_eq!(span(90, 120), Some((100, 0, 10)));
+        assert_eq!(span(103, 105), Some((103, 3, 5)));
+        assert_eq!(span(103, 103), None);
+        assert_eq!(span(105, 103), None);
+        assert_eq!(span(90, 100), None);
+        assert_eq!(span(110, 120), None);
+    }
+}
