@@ -72,8 +72,10 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
         reason: format!("cannot be made: {}", error.kind()),
     })?;
     // Draws nothing when stderr is not a terminal.
-    let style = ProgressStyle::with_template("{msg:9} {wide_bar} {pos}/{len} frames")?;
-    let bar = ProgressBar::new(u64::from(args.frames)).with_style(style);
+    let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} frames")?;
+    let bar = ProgressBar::new(u64::from(args.frames))
+        .with_style(style)
+        .with_message("drawing");
     let turn = Turn::draw(args.frames, || bar.inc(1))?;
     bar.finish_and_clear();
     let pictures = turn.write(folder)?;
@@ -293,7 +295,7 @@ fn number(value: impl Display) -> Cell {
 fn thousands(digits: &str) -> String {
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index) % 3 == 0 {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);

@@ -193,6 +193,30 @@ impl Chunk {
             faces: Faces::Triangles(&self.faces),
         }
     }
+
+    /// Draws the chunk with shared vertices or, `alone`, triangle by triangle: then only the
+    /// vertices of triangles that can be seen take room. The pixels are the same.
+    fn draw<P: Pipeline>(
+        &self,
+        scene: &mut Scene<'_, P>,
+        instance: &Instance,
+        alone: bool,
+    ) -> Result<(), DrawError> {
+        if !alone {
+            return scene.draw(&self.mesh(), instance).map(drop);
+        }
+        for face in &self.faces {
+            let corners = face.map(usize::from);
+            let mesh = Mesh {
+                positions: &corners.map(|i| self.positions[i]),
+                normals: &corners.map(|i| self.normals[i]),
+                colours: &corners.map(|i| self.colours[i]),
+                faces: Faces::Triangles(&[[0, 1, 2]]),
+            };
+            scene.draw(&mesh, instance)?;
+        }
+        Ok(())
+    }
 }
 
 /// Draws a model with the pipeline that the view and the format ask for.
@@ -275,19 +299,32 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
     let mut slow_bytes = 0;
     let mut start = 0;
     let mut count = height;
+    // Chunks whose triangles bring their own vertices.
+    let mut alone = vec![false; prepared.chunks.len()];
     while start < height {
         count = count.min(height - start);
         scene
             .begin_band(&camera, start..start + count)
             .map_err(|e| bad(&e))?;
         let mut full = None;
-        for chunk in &prepared.chunks {
-            if let Err(error) = scene.draw(&chunk.mesh(), &instance) {
+        let mut changed = false;
+        for (chunk, alone) in prepared.chunks.iter().zip(&mut alone) {
+            let before = scene.pass_one();
+            if let Err(error) = chunk.draw(&mut scene, &instance, *alone) {
                 full = Some(error);
                 break;
             }
+            let after = scene.pass_one();
+            // A chunk most of which lies outside the band takes less room without sharing.
+            if !*alone && after.vertices - before.vertices > 3 * (after.objects - before.objects) {
+                *alone = true;
+                changed = true;
+            }
         }
         if let Some(error) = full {
+            if changed {
+                continue;
+            }
             if count == 1 {
                 return Err(DrawFailure::Full { line: start, error });
             }

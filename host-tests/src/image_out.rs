@@ -135,6 +135,44 @@ impl std::error::Error for ImageError {}
 /// # Errors
 /// The folder is missing, or anything that the file system refuses.
 pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
+    Staged::new(path, bytes)?.commit()
+}
+
+/// A file that is written in full beside its place, but not yet there: so that several files
+/// come into being together or not at all. Dropping it leaves nothing.
+pub struct Staged<'a> {
+    file: tempfile::NamedTempFile,
+    path: &'a Path,
+}
+
+impl<'a> Staged<'a> {
+    /// Writes the bytes into the folder of `path`.
+    ///
+    /// # Errors
+    /// The folder is missing, `path` is a folder itself, or anything that the file system refuses.
+    pub fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, ImageError> {
+        let file = stage(path, bytes)?;
+        if path.is_dir() {
+            return Err(ImageError::new(path, "is a folder"));
+        }
+        Ok(Self { file, path })
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// Anything that the file system refuses.
+    pub fn commit(self) -> Result<(), ImageError> {
+        let persisted = self.file.persist(self.path);
+        match persisted {
+            Ok(_) => Ok(()),
+            Err(error) => Err(ImageError::new(self.path, cannot("written", &error.error))),
+        }
+    }
+}
+
+/// A temporary file with the bytes, in the folder of `path`.
+fn stage(path: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile, ImageError> {
     let cannot_write = |error: std::io::Error| ImageError::new(path, cannot("written", &error));
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -150,9 +188,7 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
     }
     let mut file = builder.tempfile_in(folder).map_err(cannot_write)?;
     file.write_all(bytes).map_err(cannot_write)?;
-    file.persist(path)
-        .map_err(|error| cannot_write(error.error))?;
-    Ok(())
+    Ok(file)
 }
 
 /// The system's own words, without the name of the temporary file that some errors carry.
@@ -165,12 +201,20 @@ fn cannot(what: &str, error: &std::io::Error) -> String {
 /// # Errors
 /// Unknown extension, or a file that cannot be written.
 pub fn write_image(path: &Path, frame: &Frame) -> Result<(), ImageError> {
-    let bytes = match ImageFormat::from_path(path)? {
-        ImageFormat::Png => encode_png(std::slice::from_ref(frame), 0)
-            .map_err(|error| ImageError::new(path, error))?,
-        ImageFormat::Ppm => encode_ppm(frame),
-    };
-    write_atomically(path, &bytes)
+    write_atomically(path, &encode_image(path, frame)?)
+}
+
+/// The bytes that [`write_image`] writes.
+///
+/// # Errors
+/// Unknown extension.
+pub fn encode_image(path: &Path, frame: &Frame) -> Result<Vec<u8>, ImageError> {
+    match ImageFormat::from_path(path)? {
+        ImageFormat::Png => {
+            encode_png(std::slice::from_ref(frame), 0).map_err(|error| ImageError::new(path, error))
+        }
+        ImageFormat::Ppm => Ok(encode_ppm(frame)),
+    }
 }
 
 /// Writes frames side by side, the first at the left, as one picture.

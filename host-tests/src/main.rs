@@ -1,7 +1,7 @@
 //! The command line tool: see `scanbeam --help`.
 
 use host_tests::args::{self, Command, EXIT_BAD_INPUT, RenderArgs, Stop};
-use host_tests::image_out::{write_atomically, write_image};
+use host_tests::image_out::{Staged, encode_image};
 use host_tests::model::Model;
 use host_tests::{demo, draw, firmware_report};
 use std::error::Error;
@@ -42,11 +42,13 @@ fn main() -> ExitCode {
 fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let model = Model::load(&args.model)?;
     let drawn = draw::draw(&model, &args.view(), args.format)?;
-    write_image(&args.output, &drawn.frame)?;
+    let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
         let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
         text.push('\n');
-        write_atomically(path, text.as_bytes())?;
+        // Both files, or none.
+        Staged::new(path, text.as_bytes())?.commit()?;
     }
+    picture.commit()?;
     Ok(())
 }

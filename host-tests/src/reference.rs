@@ -12,7 +12,7 @@
 //!   eye. `gouraud`: each corner's colour times the light at its normal. Light is `A + (1 - A) max(0, N.L)`.
 //! - Back-face culling drops what is clockwise on the screen.
 //! - The depth test compares 1/w; nearer or equal wins, in submission order.
-//! - Coverage is by the top-left rule, evaluated so that a shared edge gives each pixel to one side exactly.
+//! - A pixel is covered when `min < x <= max` and `top < y <= bottom` at its centre (K4), evaluated so that a shared edge gives each pixel to one side exactly.
 //!
 //! An object of the output is a triangle of the model; its id is the index in [`Model::triangles`].
 //!

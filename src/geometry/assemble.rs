@@ -42,7 +42,7 @@ pub struct Dropped {
     pub room: Room,
     /// Index of the first face that lost a triangle.
     pub first_face: u32,
-    /// How many triangles were dropped.
+    /// How many triangles were dropped, or lost a piece that clipping had made of them.
     pub triangles: u32,
 }
 
@@ -90,6 +90,8 @@ pub(crate) struct Assembler<'a, 'm, S: Shading> {
     light: Option<Light>,
     /// Colour of vertices without one.
     colour: [u8; 3],
+    /// A piece of the current triangle found no room.
+    lost: bool,
     done: Assembled,
 }
 
@@ -122,6 +124,7 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
             cull,
             light,
             colour,
+            lost: false,
             done: Assembled::default(),
         }
     }
@@ -181,15 +184,18 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
             }
             if self.done.kept == kept {
                 self.vertices.truncate(before);
+            }
+            // A triangle that was cut into pieces counts once.
+            if core::mem::take(&mut self.lost) {
+                if let Some(dropped) = &mut self.done.dropped {
+                    dropped.triangles += 1;
+                }
+            } else if self.done.kept == kept {
                 self.done.culled += 1;
             }
         });
         if self.done.kept == 0 {
             self.vertices.truncate(base);
-        }
-        if let Some(dropped) = &self.done.dropped {
-            // A dropped triangle is not a culled one.
-            self.done.culled = self.done.culled.saturating_sub(dropped.triangles);
         }
         Ok(self.done)
     }
@@ -318,14 +324,12 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
 
     #[cold]
     fn dropped(&mut self, room: Room, face: u32) {
-        self.done
-            .dropped
-            .get_or_insert(Dropped {
-                room,
-                first_face: face,
-                triangles: 0,
-            })
-            .triangles += 1;
+        self.lost = true;
+        self.done.dropped.get_or_insert(Dropped {
+            room,
+            first_face: face,
+            triangles: 0,
+        });
     }
 
     /// The first line on which a triangle can be seen; `None` when it faces away, or covers no

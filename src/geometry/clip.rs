@@ -61,31 +61,38 @@ pub(super) fn guard<S: Shading>(
 }
 
 /// Keeps what lies where `inside` is not negative.
+///
+/// The result begins with the first corner inside, or with the new one just before it: of a
+/// polygon drawn as a fan, the first corner decides how colours run.
 fn cut<S: Shading>(
     polygon: &[Corner<S::Vertex>],
     inside: impl Fn(ClipPoint) -> i64,
     on_screen: bool,
 ) -> Polygon<S::Vertex> {
     let mut kept = Polygon::new();
-    let Some(mut last) = polygon.last() else {
+    let Some(first) = polygon.first() else {
         return kept;
     };
-    let mut last_in = inside(last.point);
-    for corner in polygon {
-        let this_in = inside(corner.point);
-        if (last_in < 0) != (this_in < 0) {
-            let new = if last_in < 0 {
-                between::<S>((corner, this_in), (last, last_in), on_screen)
+    let first_in = inside(first.point);
+    let (mut this, mut this_in) = (first, first_in);
+    for i in 1..=polygon.len() {
+        let (next, next_in) = match polygon.get(i) {
+            Some(next) => (next, inside(next.point)),
+            None => (first, first_in),
+        };
+        if this_in >= 0 {
+            let _ = kept.push(*this);
+        }
+        if (this_in < 0) != (next_in < 0) {
+            let new = if this_in < 0 {
+                between::<S>((next, next_in), (this, this_in), on_screen)
             } else {
-                between::<S>((last, last_in), (corner, this_in), on_screen)
+                between::<S>((this, this_in), (next, next_in), on_screen)
             };
             // A convex polygon crosses a plane twice and loses a corner for the two it gains.
             let _ = kept.push(new);
         }
-        if this_in >= 0 {
-            let _ = kept.push(*corner);
-        }
-        (last, last_in) = (corner, this_in);
+        (this, this_in) = (next, next_in);
     }
     kept
 }

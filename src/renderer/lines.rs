@@ -85,11 +85,22 @@ impl core::error::Error for RendererError {}
 pub struct LineRenderer<'m, P: Pipeline> {
     list: ActiveList<'m, DrawableOf<P>>,
     depth: &'m mut [CellOf<P>],
-    /// The line of guard space drawn last, and the scene it was of.
-    last: Option<(i32, u32)>,
+    /// What was drawn last.
+    last: Option<Last>,
     /// Lines from one drawn line to the next.
     step: u16,
     counter: P::Counter,
+}
+
+/// The line that was drawn last.
+#[derive(Clone, Copy)]
+struct Last {
+    /// The line, in guard space.
+    line: i32,
+    /// The first line for which the list still holds all that is active.
+    next: i32,
+    /// Which content of which scene it was.
+    content: (usize, u32),
 }
 
 impl<L> Member for Drawable<L> {
@@ -148,6 +159,9 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     }
 
     /// Forgets the lines drawn so far and starts counting anew.
+    ///
+    /// Needed before the first line of a `Scene` that was made anew in the memory of the last
+    /// one; a change of scene, camera or content is noticed without.
     pub fn restart(&mut self) {
         self.last = None;
         self.counter = P::Counter::default();
@@ -181,8 +195,10 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         let (left, top) = (screen.left(), screen.top());
         let now = top + i32::from(line);
+        let content = scene.content();
+        let next = now + i32::from(self.step);
         let last = match self.last {
-            Some((last, generation)) if last < now && generation == scene.generation() => last,
+            Some(last) if last.next <= now && last.content == content => last.line,
             _ => {
                 self.list.clear();
                 top + i32::from(scene.lines().start) - 1
@@ -191,7 +207,11 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         for bucket in last + 1..=now {
             self.list.admit(scene.bucket(bucket));
         }
-        self.last = Some((now, scene.generation()));
+        self.last = Some(Last {
+            line: now,
+            next,
+            content,
+        });
         if self.list.is_empty() {
             return Ok(false);
         }
@@ -201,7 +221,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         let counter = &mut self.counter;
         self.list.walk(
-            (last, now, now + i32::from(self.step)),
+            (last, now, next),
             |object| scene.set_up(object, now),
             |object, drawable| {
                 let Some(span) = Span::clipped(now, drawable.columns(now), left, width) else {

@@ -162,7 +162,7 @@ pub struct Scene<'m, P: Pipeline> {
     /// Lines of the picture that are drawn.
     lines: Range<u16>,
     pass_one: PassOne,
-    /// Counts scenes, so that a renderer notices a new one.
+    /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
 }
 
@@ -241,6 +241,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         let Some(camera) = &self.camera else {
             return Ok(Assembled::default());
         };
+        self.generation = self.generation.wrapping_add(1);
         let assembler = Assembler::new(
             &mut self.store,
             camera,
@@ -302,8 +303,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             + self.buckets.lines().len() * size_of::<Link>()
     }
 
-    pub(crate) fn generation(&self) -> u32 {
-        self.generation
+    /// What the lines of a renderer's list must agree on: where the objects lie and how often
+    /// they have changed.
+    pub(crate) fn content(&self) -> (usize, u32) {
+        (self.objects.as_slice().as_ptr().addr(), self.generation)
     }
 
     /// The objects first seen on `line` of guard space, latest first.

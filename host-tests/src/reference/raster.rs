@@ -53,8 +53,8 @@ impl Edge {
             low,
             high,
             sign: if ordered { 1.0 } else { -1.0 },
-            // Clockwise: left edges go up, top edges go right.
-            inclusive: b.y < a.y || (b.y == a.y && b.x > a.x),
+            // K4, `min < x <= max`. Clockwise: right edges go down, bottom edges go left.
+            inclusive: b.y > a.y || (b.y == a.y && b.x < a.x),
         }
     }
 
