@@ -13,7 +13,7 @@ use scanbeam::scan_out::Pump;
 use scanbeam::{
     Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, LineDepth,
     LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
-    Screen, SlotOf, VertexOf, WordOf, draw_frame,
+    Screen, SlotOf, SpanRecord, VertexOf, WordOf, draw_frame,
 };
 use scenes::TEAPOT;
 use std::error::Error;
@@ -103,6 +103,7 @@ impl Turn {
         let mut buckets = [Link::NONE; HEIGHT as usize];
         let mut slots = [LineRenderer::<Drawn>::empty_slot(); SLOTS];
         let mut links = [Link::NONE; OBJECTS];
+        let mut spans = vec![SpanRecord::default(); 64];
         let mut depth = [<Drawn as Pipeline>::Depth::FARTHEST; WIDTH as usize];
         let mut scene = Scene::<Drawn>::new(
             Screen::new(WIDTH, HEIGHT)?,
@@ -116,6 +117,7 @@ impl Turn {
             slots: &mut slots,
             links: &mut links,
             depth: &mut depth,
+            spans: &mut spans,
         });
         let words = usize::from(WIDTH * LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
