@@ -24,8 +24,8 @@ pub use active::{CacheCounts, Slot};
 pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
-    Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, SceneVertex, Screen, ScreenError,
-    Shading,
+    Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,
+    ScreenError, Shading,
 };
 pub use link::Link;
 pub use num::{I2F14, I2F30, U1F15, U13F3};
@@ -35,7 +35,7 @@ pub use pipeline::{
 };
 pub use renderer::{
     DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, PassOne, RendererError,
-    Scene, SceneError, SceneMemory, draw_frame,
+    Scene, SceneError, SceneMemory, SpanRecord, draw_frame,
 };
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

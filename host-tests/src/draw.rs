@@ -10,12 +10,14 @@ use scanbeam::{
     Affine, CacheCounts, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError,
     FrameStats, GouraudDepth, Instance, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh,
     ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene, SceneMemory, Screen, SlotOf,
-    VertexOf, WordOf,
+    SpanRecord, VertexOf, WordOf,
 };
 use serde_json::json;
 
 /// Slots of the object cache when nothing else is asked.
 pub const SLOTS: usize = 64;
+/// Spans that are noted on a line.
+pub const SPANS: usize = 64;
 /// Lines that one transfer takes.
 pub const LINES_PER_TRANSFER: u16 = 8;
 /// Polls that the mocked display is late by, so that buffers are really swapped.
@@ -287,6 +289,7 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
         slots: &mut memory.slots,
         links: &mut memory.links,
         depth: &mut memory.depth,
+        spans: &mut memory.spans,
     });
     let lines = LINES_PER_TRANSFER.min(height);
     let words = usize::from(width) * usize::from(lines);
@@ -344,7 +347,9 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
     let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
     let frame = Frame::new(view.width, view.height, rgb)
         .ok_or_else(|| bad(&"the picture has another size"))?;
-    let fast_bytes = SLOTS * size_of::<SlotOf<P>>() + usize::from(width) * size_of::<CellOf<P>>();
+    let fast_bytes = SLOTS * size_of::<SlotOf<P>>()
+        + SPANS * size_of::<SpanRecord>()
+        + usize::from(width) * size_of::<CellOf<P>>();
     Ok(Drawn {
         frame,
         stats: total,
@@ -368,6 +373,7 @@ struct Memory<P: Pipeline> {
     slots: Vec<SlotOf<P>>,
     links: Vec<Link>,
     depth: Vec<CellOf<P>>,
+    spans: Vec<SpanRecord>,
 }
 
 impl<P: Pipeline> Memory<P> {
@@ -386,6 +392,7 @@ impl<P: Pipeline> Memory<P> {
             slots: vec![LineRenderer::<P>::empty_slot(); SLOTS],
             links: vec![Link::NONE; objects],
             depth: vec![P::Depth::FARTHEST; usize::from(width)],
+            spans: vec![SpanRecord::default(); SPANS],
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
-    Rgb565Be, Scene, SceneMemory, VertexOf, draw_frame,
+    Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
 };
 use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VERTICES, WIDTH};
 use serde_json::{Value, json};
@@ -80,17 +80,20 @@ fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Er
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
     let mut links = vec![Link::NONE; OBJECTS];
     let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
+    let mut spans = vec![SpanRecord::default(); SLOTS];
     let mut renderer = LineRenderer::new(LineMemory {
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
+        spans: &mut spans,
     });
     let words = usize::from(WIDTH) * usize::from(LINES);
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
-    Ok(pump.sink().frame()?.into_flattened())
+    let words = pump.sink().frame()?;
+    Ok(words.into_iter().flat_map(u16::to_ne_bytes).collect())
 }
 
 /// A board's frames beside the host's.

@@ -244,6 +244,7 @@ fn sheet(n: u32) -> String {
 #[test]
 fn a_hundred_thousand_triangles_of_a_sheet_give_a_whole_picture() {
     // 100,352 of them.
+    let fine = Desk::new(sheet(224));
     let flags = "render m.obj -o o.png --size 320x240 --background 255,0,255 --stats s.json";
     let frame = fine.drawn(flags);
     // A sheet of far fewer triangles has nearly the same colours everywhere.

@@ -96,7 +96,7 @@ fn the_spi_sink_sends_three_byte_pixels() {
         .concat(),
     );
     let mut pin = dc(3);
-    let mut sink = SpiSink::<_, _, 3>::new(spi.clone(), pin.clone());
+    let mut sink = SpiSink::<_, _, [u8; 3]>::new(spi.clone(), pin.clone());
     sink.begin(Window {
         x: 0,
         y: 0,
@@ -134,7 +134,7 @@ fn the_spi_sink_refuses_misuse_without_a_byte_on_the_bus() {
         .concat(),
     );
     let mut pin = dc(3);
-    let mut sink = SpiSink::<_, _, 2>::new(spi.clone(), pin.clone());
+    let mut sink = SpiSink::<_, _, [u8; 2]>::new(spi.clone(), pin.clone());
     let (error, _) = sink.start(leak(2), 2).unwrap_err();
     assert_eq!(error, SpiSinkError::Sequence);
     for window in [
@@ -173,7 +173,7 @@ fn an_spi_sink_whose_pin_fails_says_so() {
     let mut spi = SpiMock::<u8>::new(&[]);
     let failed = embedded_hal_mock::eh1::MockError::Io(std::io::ErrorKind::Other);
     let mut pin = PinMock::new(&[PinTransaction::set(PinState::Low).with_error(failed.clone())]);
-    let sink = SpiSink::<_, _, 2>::new(spi.clone(), pin.clone());
+    let sink = SpiSink::<_, _, [u8; 2]>::new(spi.clone(), pin.clone());
     let mut pump = Pump::new(sink, [leak(6), leak(6)]);
     let window = Window {
         x: 0,

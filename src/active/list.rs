@@ -12,9 +12,22 @@ use crate::link::Link;
 pub trait Member {
     /// The first line below the object.
     fn end(&self) -> i32;
+}
 
-    /// Whether it has to be set up again for `line`, having been drawn on `last` before.
-    fn stale(&self, last: i32, line: i32) -> bool;
+/// Takes the objects of a line, in order of submission.
+pub trait Visitor<T> {
+    /// Sets an object up from slow memory; `false` when it ends above the line.
+    fn set_up(&mut self, object: u16, body: &mut T) -> bool;
+
+    /// An object in slot `index`, which stays as it is until the walk is over; `false` to be asked
+    /// again after [`flush`](Visitor::flush).
+    fn visit(&mut self, index: usize, slot: &mut Slot<T>) -> bool;
+
+    /// Makes room for more visits, with all slots at hand.
+    fn flush(&mut self, slots: &[Slot<T>]);
+
+    /// An object for which there is no slot, set up for this call alone.
+    fn visit_spilled(&mut self, object: u16, body: &mut T, slots: &[Slot<T>]);
 }
 
 /// A slot of the cache.
@@ -35,6 +48,24 @@ impl<T> Slot<T> {
             next: Link::NONE,
             object: 0,
         }
+    }
+
+    /// The object, set up.
+    #[inline(always)]
+    pub(crate) const fn body(&self) -> &T {
+        &self.body
+    }
+
+    /// The object, set up.
+    #[inline(always)]
+    pub(crate) const fn body_mut(&mut self) -> &mut T {
+        &mut self.body
+    }
+
+    /// Index of the object in slow memory.
+    #[inline(always)]
+    pub(crate) const fn object(&self) -> u16 {
+        self.object
     }
 }
 
@@ -89,6 +120,12 @@ impl<'m, T: Member> ActiveList<'m, T> {
         };
         list.clear();
         list
+    }
+
+    /// The cache.
+    #[inline(always)]
+    pub(crate) fn slots(&self) -> &[Slot<T>] {
+        self.slots
     }
 
     /// How many objects the link column has room for.
@@ -170,66 +207,62 @@ impl<'m, T: Member> ActiveList<'m, T> {
         }
     }
 
-    /// The object of a node.
-    #[inline]
-    fn object(&self, node: Link) -> u16 {
-        if node.is_cached() {
-            self.slots[node.slot()].object
-        } else {
-            node.object()
-        }
-    }
-
     /// Walks the objects of `line` in order of submission.
     ///
-    /// `last` is the line walked before and `next` the line that will come after: objects that
-    /// are on neither `line` nor later ones that matter leave the list, and their slots are free
-    /// at once. `make` sets an object up from slow memory; `visit` draws it.
-    #[inline]
+    /// `next` is the line that will come after: objects that end before it leave the list, and
+    /// their slots are free when the walk is over. `spare` takes objects for which there is no
+    /// slot.
+    #[inline(always)]
     pub(crate) fn walk(
         &mut self,
-        (last, line, next): (i32, i32, i32),
-        mut make: impl FnMut(u16) -> Option<T>,
-        mut visit: impl FnMut(u16, &T),
+        (line, next): (i32, i32),
+        spare: &mut T,
+        visitor: &mut impl Visitor<T>,
     ) {
         // The node whose link leads to `current`; NONE stands for the head.
         let mut before = Link::NONE;
         let mut current = self.head;
+        // Slots that become free are joined to the others afterwards, so that what was visited
+        // stays where it is for the whole line.
+        let mut released = Released {
+            head: Link::NONE,
+            first: 0,
+            count: 0,
+        };
+        let mut hits = 0;
         loop {
-            let is_new = self.incoming.is_some()
-                && (!current.is_some() || self.incoming.object() < self.object(current));
-            if !is_new && current.is_cached() {
-                if !current.is_some() {
-                    break;
-                }
+            // NONE is above every object.
+            let new = self.incoming.object();
+            if current.is_cached() {
                 let index = current.slot();
-                let slot = &mut self.slots[index];
-                if slot.body.end() > line {
-                    if slot.body.stale(last, line) {
-                        if let Some(body) = make(slot.object) {
-                            slot.body = body;
-                            self.counts.set_ups += 1;
+                match self.slots.get_mut(index) {
+                    Some(slot) if slot.object < new => {
+                        if slot.body.end() > line {
+                            hits += 1;
+                            if !visitor.visit(index, slot) {
+                                visitor.flush(self.slots);
+                                visitor.visit(index, &mut self.slots[index]);
+                            }
                         }
+                        let slot = &mut self.slots[index];
+                        let after = slot.next;
+                        if slot.body.end() > next {
+                            before = current;
+                        } else {
+                            released.add(slot, current, index);
+                            self.set_next(before, after);
+                        }
+                        current = after;
+                        continue;
                     }
-                    visit(slot.object, &slot.body);
-                    self.counts.hits += 1;
+                    None if !self.incoming.is_some() => break,
+                    _ => {}
                 }
-                let after = slot.next;
-                if slot.body.end() > next {
-                    before = current;
-                } else {
-                    slot.next = self.free;
-                    self.free = current;
-                    self.used -= 1;
-                    self.set_next(before, after);
-                }
-                current = after;
-                continue;
             }
+            let is_new = current.is_cached() || new < current.object();
             let (object, after) = if is_new {
-                let object = self.incoming.object();
-                self.incoming = self.links[usize::from(object)];
-                (object, current)
+                self.incoming = self.links[usize::from(new)];
+                (new, current)
             } else {
                 let object = current.object();
                 self.counts.misses += 1;
@@ -237,43 +270,72 @@ impl<'m, T: Member> ActiveList<'m, T> {
             };
             self.counts.link_reads += 1;
             self.counts.set_ups += 1;
-            let kept = match make(object) {
-                Some(body) => {
-                    if body.end() > line {
-                        visit(object, &body);
-                    }
-                    (body.end() > next).then_some(body)
-                }
-                None => None,
-            };
-            if let Some(body) = kept {
-                let node = if self.free.is_some() {
-                    let node = self.free;
-                    let slot = &mut self.slots[node.slot()];
+            // The node that stays in the list, if any.
+            let mut node = Link::NONE;
+            let free = self.free;
+            if let Some(slot) = self.slots.get_mut(free.slot()) {
+                if visitor.set_up(object, &mut slot.body) {
                     self.free = slot.next;
-                    *slot = Slot {
-                        body,
-                        next: after,
-                        object,
-                    };
+                    slot.object = object;
                     self.used += 1;
                     self.counts.peak_slots = self.counts.peak_slots.max(self.used);
-                    self.set_next(before, node);
-                    node
-                } else {
-                    let node = Link::slow(object);
-                    if is_new {
-                        self.counts.spills += 1;
-                        self.set_next(node, after);
-                        self.set_next(before, node);
+                    if !visitor.visit(free.slot(), slot) {
+                        visitor.flush(self.slots);
+                        visitor.visit(free.slot(), &mut self.slots[free.slot()]);
                     }
-                    node
-                };
+                    let slot = &mut self.slots[free.slot()];
+                    if slot.body.end() > next {
+                        slot.next = after;
+                        node = free;
+                    } else {
+                        released.add(slot, free, free.slot());
+                    }
+                }
+            } else if visitor.set_up(object, spare) {
+                visitor.visit_spilled(object, spare, self.slots);
+                if spare.end() > next {
+                    node = Link::slow(object);
+                }
+            }
+            if node.is_some() {
+                if is_new && !node.is_cached() {
+                    self.counts.spills += 1;
+                    self.set_next(node, after);
+                }
+                if is_new || node.is_cached() {
+                    self.set_next(before, node);
+                }
                 before = node;
             } else if !is_new {
                 self.set_next(before, after);
             }
             current = after;
         }
+        self.counts.hits += hits;
+        if released.count > 0 {
+            self.slots[released.first].next = self.free;
+            self.free = released.head;
+            self.used -= released.count;
+        }
+    }
+}
+
+/// Slots that have become free during a walk, chained.
+struct Released {
+    head: Link,
+    /// The slot at the other end of the chain.
+    first: usize,
+    count: u32,
+}
+
+impl Released {
+    #[inline]
+    fn add<T>(&mut self, slot: &mut Slot<T>, link: Link, index: usize) {
+        if self.count == 0 {
+            self.first = index;
+        }
+        slot.next = self.head;
+        self.head = link;
+        self.count += 1;
     }
 }

@@ -7,4 +7,4 @@ mod bucket;
 mod list;
 
 pub use bucket::Buckets;
-pub use list::{ActiveList, CacheCounts, Member, Slot};
+pub use list::{ActiveList, CacheCounts, Member, Slot, Visitor};

@@ -3,7 +3,7 @@
 
 use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
-use super::colour::Colour;
+use super::colour::{Colour, Scale};
 use super::light::Light;
 use super::mesh::{Coordinate, Faces, Mesh, QuadSplit};
 use super::object::{OUTSIDE, Object, SceneVertex};
@@ -92,6 +92,8 @@ pub(crate) struct Assembler<'a, 'm, S: Shading> {
     colour: [u8; 3],
     /// A piece of the current triangle found no room.
     lost: bool,
+    /// How levels become steps of the output.
+    scale: &'a Scale,
     done: Assembled,
 }
 
@@ -110,6 +112,7 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         lines: Range<u16>,
         model: &Affine,
         (cull, light, colour): (Cull, Option<Light>, [u8; 3]),
+        scale: &'a Scale,
     ) -> Self {
         let light = light.map(|l| Light {
             direction: model.direction_to_model(l.direction),
@@ -125,6 +128,7 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
             light,
             colour,
             lost: false,
+            scale,
             done: Assembled::default(),
         }
     }
@@ -351,13 +355,19 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         (first < end && left < right).then_some(first)
     }
 
+    /// A colour in the light that falls on a normal.
+    #[inline]
+    fn lit(&self, colour: [u8; 3], light: &Light, normal: [i16; 3]) -> Colour {
+        Colour::lit(colour, u32::from(light.level(normal).to_bits()), self.scale)
+    }
+
     /// The lit colour of a vertex.
     #[inline]
     fn vertex_colour<C>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
         let colour = mesh.colours.get(i).copied().unwrap_or(self.colour);
         match (&self.light, mesh.normals.get(i)) {
-            (Some(light), Some(&normal)) => lit(colour, light, normal),
-            _ => Colour::from_rgb8(colour),
+            (Some(light), Some(&normal)) => self.lit(colour, light, normal),
+            _ => Colour::from_rgb8(colour, self.scale),
         }
     }
 
@@ -377,17 +387,11 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         S::face(match &self.light {
             Some(light) => {
                 let p = corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30));
-                lit(colour, light, face_normal(p))
+                self.lit(colour, light, face_normal(p))
             }
-            None => Colour::from_rgb8(colour),
+            None => Colour::from_rgb8(colour, self.scale),
         })
     }
-}
-
-#[inline]
-fn lit(colour: [u8; 3], light: &Light, normal: [i16; 3]) -> Colour {
-    let level = u32::from(light.level(normal).to_bits());
-    Colour::from_levels(colour.map(|c| ((u32::from(c) << 8) * level + (1 << 14)) >> 15))
 }
 
 /// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.

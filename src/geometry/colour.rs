@@ -1,62 +1,145 @@
-//! The colour of a vertex in one word: 11-11-10 bits (K15), 1/8 level of red and green and 1/4
-//! level of blue, half a step off at most.
+//! The colour of a vertex in one word: 11, 10 and 11 bits (K15).
+//!
+//! The channels are steps of the output, such as 31, 63 and 31, with the fraction bits that are
+//! left, and half a step added, so that to cut off the fraction rounds to nearest. All values
+//! lie half a step within the fields: an interpolation that errs by less than that at either
+//! end cannot leave its field, so no colour ever wraps (P4).
 
-/// A colour with red in 8.3, green in 8.3 and blue in 8.2 bits, 0 to 255 a channel.
+/// Red in bits 31..21, blue in bits 20..11, green in bits 10..0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Colour(u32);
 
+/// Bits of the red, green and blue fields.
+const FIELD_BITS: [u32; 3] = [11, 11, 10];
+
+/// How 8-bit levels become steps of the output.
+#[derive(Clone, Copy, Debug)]
+pub struct Scale {
+    /// A field is `(level 2^7 factor + 2^14) >> 15`.
+    factor: [u32; 3],
+    /// Fraction bits of each field.
+    fraction: [u32; 3],
+}
+
+impl Scale {
+    /// For `steps` above 0 in red, green and blue, each 1 to 255.
+    #[must_use]
+    pub const fn new(steps: [u16; 3]) -> Self {
+        let mut scale = Self {
+            factor: [0; 3],
+            fraction: [0; 3],
+        };
+        let mut i = 0;
+        while i < 3 {
+            let steps = steps[i] as u32;
+            let fraction = FIELD_BITS[i] - 1 - steps.ilog2();
+            scale.fraction[i] = fraction;
+            scale.factor[i] = (((steps << fraction) << 8) + 127) / 255;
+            i += 1;
+        }
+        scale
+    }
+
+    /// Fraction bits of the red, green and blue fields.
+    #[must_use]
+    pub const fn fraction(&self) -> [u32; 3] {
+        self.fraction
+    }
+}
+
 impl Colour {
-    /// From 8-bit levels, exactly.
-    #[must_use]
-    pub const fn from_rgb8(rgb: [u8; 3]) -> Self {
-        Self((rgb[0] as u32) << 24 | (rgb[1] as u32) << 13 | (rgb[2] as u32) << 2)
-    }
-
-    /// From channels in 8.8 bits, 0 to 0xFF00, rounded to nearest.
+    /// From 8-bit levels times `light`, 1 being 2^15; within 1/64 of a level, and half a field's
+    /// unit.
     #[inline]
     #[must_use]
-    pub const fn from_levels(rgb: [u32; 3]) -> Self {
-        Self((((rgb[0] + 16) >> 5) << 21) | (((rgb[1] + 16) >> 5) << 10) | ((rgb[2] + 32) >> 6))
+    pub const fn lit(rgb: [u8; 3], light: u32, scale: &Scale) -> Self {
+        let mut field = [0; 3];
+        let mut i = 0;
+        while i < 3 {
+            // 8 + 15 bits, of which 15 are kept, times at most 12 bits.
+            let level = (rgb[i] as u32 * light + (1 << 7)) >> 8;
+            let half = (1 << scale.fraction[i]) >> 1;
+            field[i] = ((level * scale.factor[i] + (1 << 14)) >> 15) + half;
+            i += 1;
+        }
+        Self::from_fields(field)
     }
 
-    /// The channels in 8.8 bits, 0 to 0xFF00.
+    /// From 8-bit levels.
+    #[must_use]
+    pub const fn from_rgb8(rgb: [u8; 3], scale: &Scale) -> Self {
+        Self::lit(rgb, 1 << 15, scale)
+    }
+
+    /// From fields of red, green and blue.
+    #[inline]
+    const fn from_fields(f: [u32; 3]) -> Self {
+        Self(f[0] << 21 | f[2] << 11 | f[1])
+    }
+
+    /// The fields of red, green and blue.
     #[inline]
     #[must_use]
-    pub const fn levels(self) -> [u32; 3] {
+    pub const fn fields(self) -> [u32; 3] {
+        [self.0 >> 21, self.0 & 0x7FF, (self.0 >> 11) & 0x3FF]
+    }
+
+    /// Whole steps of red, green and blue.
+    #[must_use]
+    pub const fn steps(self, scale: &Scale) -> [u8; 3] {
+        let f = self.fields();
         [
-            (self.0 >> 21) << 5,
-            ((self.0 >> 10) & 0x7FF) << 5,
-            (self.0 & 0x3FF) << 6,
+            (f[0] >> scale.fraction[0]) as u8,
+            (f[1] >> scale.fraction[1]) as u8,
+            (f[2] >> scale.fraction[2]) as u8,
         ]
     }
 
     /// The colour at `t` (0 to 2^30 for 0 to 1) on the way to `other`.
     #[must_use]
     pub fn lerp(self, other: Self, t: i64) -> Self {
-        let (a, b) = (self.levels(), other.levels());
-        let mix = |i: usize| {
+        let (a, b) = (self.fields(), other.fields());
+        Self::from_fields([0, 1, 2].map(|i| {
             let (a, b) = (i64::from(a[i]), i64::from(b[i]));
             (a + (((b - a) * t + (1 << 29)) >> 30)) as u32
-        };
-        Self::from_levels([mix(0), mix(1), mix(2)])
+        }))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Colour;
+    use super::*;
 
     #[test]
-    fn both_ends_survive() {
-        for level in [0u8, 1, 127, 254, 255] {
-            let c = Colour::from_rgb8([level, 255 - level, level]);
-            let l = u32::from(level) << 8;
-            assert_eq!(c.levels(), [l, 0xFF00 - l, l]);
-            assert_eq!(Colour::from_levels(c.levels()), c);
+    fn all_levels_round_to_the_nearest_step() {
+        for steps in [[255, 255, 255], [31, 63, 31], [15, 15, 15], [1, 1, 1]] {
+            let scale = Scale::new(steps);
+            for level in 0..=255u8 {
+                let got = Colour::from_rgb8([level; 3], &scale).steps(&scale);
+                for i in 0..3 {
+                    let exact = f64::from(level) * f64::from(steps[i]) / 255.0;
+                    // 1/64 of a step off where two are equally near.
+                    assert!(
+                        (f64::from(got[i]) - exact).abs() <= 0.52,
+                        "{level}: {got:?}"
+                    );
+                }
+            }
         }
-        let (a, b) = (Colour::from_rgb8([0; 3]), Colour::from_rgb8([255; 3]));
+    }
+
+    #[test]
+    fn light_and_lerp_reach_both_ends() {
+        let scale = Scale::new([31, 63, 31]);
+        let (a, b) = (
+            Colour::from_rgb8([0; 3], &scale),
+            Colour::from_rgb8([255; 3], &scale),
+        );
+        assert_eq!(a.steps(&scale), [0; 3]);
+        assert_eq!(b.steps(&scale), [31, 63, 31]);
+        assert_eq!(Colour::lit([255; 3], 0, &scale), a);
         assert_eq!(a.lerp(b, 0), a);
         assert_eq!(a.lerp(b, 1 << 30), b);
-        assert_eq!(a.lerp(b, 1 << 29).levels(), [0x7F80; 3]);
+        assert_eq!(a.lerp(b, 1 << 29).steps(&scale), [16, 32, 16]);
     }
 }

@@ -3,19 +3,10 @@
 //! Done when an object becomes active, and again on each line for one that found no room in the
 //! cache: the same function of the same corners, so the same bits.
 
+use super::colour::Scale;
 use super::object::{Object, SceneVertex};
 use super::shading::Shading;
-use crate::num::{Edge, GUARD_CENTRE, InverseArea, Plane, WideEdge, first_at};
-
-/// The edges of a triangle, for any of its lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edges {
-    /// All three in 32 bits: the long one, the upper and the lower short one.
-    Narrow([Edge; 3]),
-    /// The long one and the short one of either the upper or the lower part, in 64 bits as
-    /// words; the other is set up when the scan comes to it.
-    Wide([[i32; 4]; 2]),
-}
+use crate::num::{Edge, GUARD_CENTRE, InverseArea, Plane, SmallArea, column_exact, first_at};
 
 /// How colour and depth are found at a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -26,72 +17,99 @@ pub enum Parameters<L> {
     Corners,
 }
 
-/// A triangle, ready to be drawn on any of its lines.
+/// A triangle, ready to be drawn on any of its lines from the one it was set up for on.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawable<L> {
-    edges: Edges,
-    /// Depth and colour.
-    pub parameters: Parameters<L>,
-    /// First line below the middle corner, guard space.
-    middle: u16,
+    /// The edges at the left and at the right of the part that is being drawn, and the one that
+    /// takes over from one of them below the middle corner.
+    left: Edge,
+    right: Edge,
+    third: Edge,
+    /// The first line for which `left` and `right` are not right any more: that below the middle
+    /// corner, 0 for a triangle that no 32-bit edge can hold, the largest when nothing more comes.
+    turn: u16,
     /// First line below the triangle.
     end: u16,
-    /// The long edge is the left one.
-    long_left: bool,
+    sides: Sides,
+    /// Depth and colour.
+    pub parameters: Parameters<L>,
+}
+
+/// What happens at [`Drawable::turn`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Sides {
+    /// The third edge goes on at the left.
+    ThirdLeft,
+    /// The third edge goes on at the right.
+    ThirdRight,
+    /// The edges are divided out on each line, from corners sorted from top to bottom, which
+    /// are kept in place of the edges.
+    Divided {
+        /// The edge from top to bottom is the left one.
+        long_left: bool,
+    },
 }
 
 impl<L> Drawable<L> {
     /// What an empty slot holds.
     pub const EMPTY: Self = Self {
-        edges: Edges::Narrow([Edge::NONE; 3]),
-        parameters: Parameters::Corners,
-        middle: 0,
+        left: Edge::NONE,
+        right: Edge::NONE,
+        third: Edge::NONE,
+        turn: u16::MAX,
         end: 0,
-        long_left: false,
+        sides: Sides::ThirdLeft,
+        parameters: Parameters::Corners,
     };
 
     /// First line of guard space below the triangle.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub const fn end(&self) -> u16 {
         self.end
     }
 
-    /// First covered column of guard space on `line`, and the first column after the last.
+    /// First covered column on `line` and the first after the last, counted from the middle
+    /// column of guard space; the span is empty where the second is not above the first.
     ///
-    /// Right of the first is never left of it by more than rounding gives: an empty span has
-    /// `end <= start`.
-    #[inline]
+    /// Lines must not go up.
+    #[inline(always)]
     #[must_use]
-    pub fn columns(&self, line: i32) -> (i32, i32) {
-        let (long, short) = match &self.edges {
-            Edges::Narrow([long, upper, lower]) => {
-                let short = if line < i32::from(self.middle) {
-                    upper
-                } else {
-                    lower
-                };
-                (long.column(line), short.column(line))
+    pub fn columns(&mut self, line: i32) -> (i32, i32) {
+        if line >= i32::from(self.turn) {
+            if let Sides::Divided { long_left } = self.sides {
+                return self.divided(line, long_left);
             }
-            Edges::Wide([long, short]) => (
-                WideEdge::from_words(*long).column(line),
-                WideEdge::from_words(*short).column(line),
-            ),
-        };
-        if self.long_left {
-            (long + GUARD_CENTRE, short + GUARD_CENTRE)
-        } else {
-            (short + GUARD_CENTRE, long + GUARD_CENTRE)
+            self.take_turn();
         }
+        (self.left.column(line), self.right.column(line))
     }
 
-    /// Whether the edges have to be set up again before `line` is drawn, because the scan has
-    /// come from `last` past the middle corner of a wide triangle.
-    #[inline]
-    #[must_use]
-    pub const fn stale(&self, last: i32, line: i32) -> bool {
-        let middle = self.middle as i32;
-        matches!(self.edges, Edges::Wide(_)) && last < middle && line >= middle
+    #[inline(always)]
+    fn take_turn(&mut self) {
+        if self.sides == Sides::ThirdLeft {
+            self.left = self.third;
+        } else {
+            self.right = self.third;
+        }
+        self.turn = u16::MAX;
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn divided(&self, line: i32, long_left: bool) -> (i32, i32) {
+        let [top, middle, bottom] = [self.left, self.right, self.third].map(Edge::as_corner);
+        let long = column_exact(top, bottom, line) - GUARD_CENTRE;
+        let short = if line < first_at(middle.1) {
+            column_exact(top, middle, line)
+        } else {
+            column_exact(middle, bottom, line)
+        } - GUARD_CENTRE;
+        if long_left {
+            (long, short)
+        } else {
+            (short, long)
+        }
     }
 }
 
@@ -110,45 +128,53 @@ impl<F: Copy> Object<F> {
         ])
     }
 
-    /// Sets the object up for `line`; right for all further lines until
-    /// [`stale`](Drawable::stale).
-    ///
-    /// `None` when the object does not exist in this arena or covers nothing.
-    #[inline]
+    /// Sets the object up in `out` for `line` and all below; `false` when the object does not
+    /// exist in this arena or ends above.
+    #[inline(always)]
     pub(crate) fn set_up<S: Shading<Face = F>>(
         &self,
         vertices: &[SceneVertex<S::Vertex>],
-        steps: [u16; 3],
+        scale: &Scale,
         line: i32,
-    ) -> Option<Drawable<S::Levels>> {
-        let corners = self.corners(vertices)?;
+        out: &mut Drawable<S::Levels>,
+    ) -> bool {
+        let Some(corners) = self.corners(vertices) else {
+            return false;
+        };
         let place = corners.map(|c| (c.x, c.y));
-        let area = InverseArea::new(place)?;
-        let parameters = parameters::<S>(&area, corners, self.face, steps)
-            .map_or(Parameters::Corners, |(depth, levels)| {
-                Parameters::Planes(depth, levels)
-            });
-        let [top, middle, bottom] = sorted(place);
-        Some(Drawable {
-            edges: edges([top, middle, bottom], line),
-            parameters,
-            middle: first_at(middle.1) as u16,
-            end: first_at(bottom.1) as u16,
-            long_left: long_is_left(top, middle, bottom),
-        })
+        if !edges(place, line, out) {
+            return false;
+        }
+        out.parameters = match SmallArea::new(place) {
+            Some(area) => {
+                let depth = area.wide_plane(corners.map(|c| c.depth as i32));
+                let levels = S::set_up_small(&area, corners.map(|c| c.attribute), self.face, scale);
+                match (depth, levels) {
+                    (Some(depth), Some(levels)) => Parameters::Planes(depth, levels),
+                    _ => large::<S>(corners, self.face, scale),
+                }
+            }
+            None => large::<S>(corners, self.face, scale),
+        };
+        true
     }
 }
 
-#[inline]
-fn parameters<S: Shading>(
-    area: &InverseArea,
+/// Parameters of a triangle that is large or thin.
+#[cold]
+#[inline(never)]
+fn large<S: Shading>(
     corners: [SceneVertex<S::Vertex>; 3],
     face: S::Face,
-    steps: [u16; 3],
-) -> Option<(Plane, S::Levels)> {
-    let depth = area.plane(corners.map(|c| c.depth as i32))?;
-    let levels = S::set_up(area, corners.map(|c| c.attribute), face, steps)?;
-    Some((depth, levels))
+    scale: &Scale,
+) -> Parameters<S::Levels> {
+    let planes = || {
+        let area = InverseArea::new(corners.map(|c| (c.x, c.y)))?;
+        let depth = area.plane(corners.map(|c| c.depth as i32))?;
+        let levels = S::set_up(&area, corners.map(|c| c.attribute), face, scale)?;
+        Some(Parameters::Planes(depth, levels))
+    };
+    planes().unwrap_or(Parameters::Corners)
 }
 
 /// The corners from top to bottom; equal heights keep their order.
@@ -167,46 +193,59 @@ fn sorted(p: [(u16, u16); 3]) -> [(u16, u16); 3] {
     [a, b, c]
 }
 
-/// Whether the middle corner lies right of the edge from top to bottom.
-#[inline]
-fn long_is_left(top: (u16, u16), middle: (u16, u16), bottom: (u16, u16)) -> bool {
-    let d = |a: u16, b: u16| i64::from(b) - i64::from(a);
-    d(top.0, middle.0) * d(top.1, bottom.1) > d(top.0, bottom.0) * d(top.1, middle.1)
-}
-
-/// The edges between corners sorted from top to bottom; of a wide triangle those on `line`.
-#[inline]
-fn edges(p: [(u16, u16); 3], line: i32) -> Edges {
+/// Sets up the edges of `out` for `line` and all below; `false` when the triangle ends above.
+#[inline(always)]
+fn edges<L>(p: [(u16, u16); 3], line: i32, out: &mut Drawable<L>) -> bool {
     const LOW: u16 = 8 * (GUARD_CENTRE - 511) as u16;
-    const HIGH: u16 = 8 * (GUARD_CENTRE + 511) as u16;
-    let [top, middle, bottom] = p;
-    let holds = |a: (u16, u16), b: (u16, u16)| {
-        Edge::holds(
+    const SPAN: u16 = 8 * 1022;
+    let [top, middle, bottom] = sorted(p);
+    let turn = first_at(middle.1);
+    let end = first_at(bottom.1);
+    out.end = end as u16;
+    if line >= end {
+        return false;
+    }
+    let d = |a: (u16, u16), b: (u16, u16)| {
+        (
             i32::from(b.0) - i32::from(a.0),
             i32::from(b.1) - i32::from(a.1),
         )
     };
-    let inside = p.iter().all(|p| p.0 >= LOW && p.0 < HIGH);
-    if inside && holds(top, bottom) && holds(top, middle) && holds(middle, bottom) {
-        let edge = |a: (u16, u16), b: (u16, u16)| {
-            if first_at(a.1) < first_at(b.1) {
-                Edge::new(a, b)
-            } else {
-                Edge::NONE
-            }
-        };
-        return Edges::Narrow([edge(top, bottom), edge(top, middle), edge(middle, bottom)]);
+    let (long, upper, lower) = (d(top, bottom), d(top, middle), d(middle, bottom));
+    let near = p.iter().all(|p| p.0.wrapping_sub(LOW) < SPAN);
+    let flat_enough = long.1 < 1024
+        || (Edge::holds(long.0, long.1)
+            && Edge::holds(upper.0, upper.1)
+            && Edge::holds(lower.0, lower.1));
+    if !(near && flat_enough) {
+        // The middle corner is right of the long edge, which is the left one then.
+        let long_left =
+            i64::from(upper.0) * i64::from(long.1) > i64::from(long.0) * i64::from(upper.1);
+        out.sides = Sides::Divided { long_left };
+        out.turn = 0;
+        [out.left, out.right, out.third] = [top, middle, bottom].map(Edge::from_corner);
+        return true;
     }
-    let long = WideEdge::new(top, bottom).words();
-    let short = if line < first_at(middle.1) {
-        WideEdge::new(top, middle)
-    } else if middle.1 < bottom.1 {
-        WideEdge::new(middle, bottom)
+    // Products of 14 and 17 bits; a vertical edge may be that tall.
+    let long_left = upper.0 * long.1 > long.0 * upper.1;
+    let edge = Edge::new(top, long);
+    let above = line < turn;
+    let short = if above {
+        Edge::new(top, upper)
     } else {
-        // No line below the middle corner.
-        return Edges::Wide([long, long]);
+        Edge::new(middle, lower)
     };
-    Edges::Wide([long, short.words()])
+    out.turn = u16::MAX;
+    if above && turn < end {
+        out.third = Edge::new(middle, lower);
+        out.turn = turn as u16;
+    }
+    if long_left {
+        (out.left, out.right, out.sides) = (edge, short, Sides::ThirdRight);
+    } else {
+        (out.left, out.right, out.sides) = (short, edge, Sides::ThirdLeft);
+    }
+    true
 }
 
 /// Depth and levels of a thin triangle at a pixel of guard space, from exact weights.
@@ -216,7 +255,7 @@ fn edges(p: [(u16, u16); 3], line: i32) -> Edges {
 pub(crate) fn at_pixel<S: Shading>(
     corners: [SceneVertex<S::Vertex>; 3],
     face: S::Face,
-    steps: [u16; 3],
+    scale: &Scale,
     (column, line): (i32, i32),
 ) -> (u32, S::Levels) {
     let (x, y) = (8 * i64::from(column) + 4, 8 * i64::from(line) + 4);
@@ -232,6 +271,6 @@ pub(crate) fn at_pixel<S: Shading>(
     let w2 = weight(cross(p[0], p[1])).min((1 << 30) - w1);
     let d = corners.map(|c| i64::from(c.depth));
     let depth = d[0] + (((d[1] - d[0]) * w1 + (d[2] - d[0]) * w2) >> 30);
-    let levels = S::weighted([w1, w2], corners.map(|c| c.attribute), face, steps);
+    let levels = S::weighted([w1, w2], corners.map(|c| c.attribute), face, scale);
     (depth as u32, levels)
 }

@@ -2,8 +2,8 @@
 //!
 //! A shading that needs nothing somewhere has `()` there: no bytes in the records, no code.
 
-use super::colour::Colour;
-use crate::num::{InverseArea, Plane};
+use super::colour::{Colour, Scale};
+use crate::num::{InverseArea, Plane, SmallArea};
 
 /// Which colours an object carries, from vertex to plane.
 pub trait Shading {
@@ -27,14 +27,20 @@ pub trait Shading {
     /// The vertex's value at `t` (0 to 2^30) on the way from `a` to `b`.
     fn lerp(a: Self::Vertex, b: Self::Vertex, t: i64) -> Self::Vertex;
 
-    /// Sets up an object. `steps` are the output's steps a channel, such as 31, 63, 31.
-    ///
-    /// `None` when the triangle is too thin for planes.
+    /// Sets up an object of at most 64 x 64 pixels; `None` when it is too thin.
+    fn set_up_small(
+        area: &SmallArea,
+        corners: [Self::Vertex; 3],
+        face: Self::Face,
+        scale: &Scale,
+    ) -> Option<Self::Levels>;
+
+    /// Sets up an object of any size; `None` when it is too thin.
     fn set_up(
         area: &InverseArea,
         corners: [Self::Vertex; 3],
         face: Self::Face,
-        steps: [u16; 3],
+        scale: &Scale,
     ) -> Option<Self::Levels>;
 
     /// The levels of one pixel from its weights at corners 1 and 2 (0 to 2^30 each, their sum
@@ -43,7 +49,7 @@ pub trait Shading {
         weights: [i64; 2],
         corners: [Self::Vertex; 3],
         face: Self::Face,
-        steps: [u16; 3],
+        scale: &Scale,
     ) -> Self::Levels;
 }
 
@@ -59,25 +65,22 @@ pub struct FlatLevels(pub [u8; 3]);
 #[derive(Clone, Copy, Debug)]
 pub struct Gouraud;
 
-/// The three channels as planes, 16.16 steps of the output, half a step added for rounding.
+/// Colour as planes, in steps of the output plus one half.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct GouraudPlanes(pub [Plane; 3]);
-
-/// A channel from 8.8 levels to 16.16 steps of the output plus one half, so that cutting off
-/// the fraction rounds to nearest.
-///
-/// The result is within `0.5 ..= steps + 0.5`: an error below one half at either end cannot
-/// leave the range, so no colour ever wraps (P4).
-#[inline]
-fn to_steps(level: u32, steps: u16) -> i32 {
-    // steps 2^16 / (255 * 2^8), in 2^-13: 255 gives 2^21 exactly.
-    let factor = ((u32::from(steps) << 21) + 127) / 255;
-    ((u64::from(level) * u64::from(factor) + (1 << 12)) >> 13) as i32 + (1 << 15)
-}
-
-fn all_to_steps(colour: Colour, steps: [u16; 3]) -> [i32; 3] {
-    let level = colour.levels();
-    [0, 1, 2].map(|i| to_steps(level[i], steps[i]))
+pub enum GouraudLevels {
+    /// Of a triangle of at most 64 x 64 pixels, in two words.
+    ///
+    /// A field of `n` bits has 5 more fraction bits here (blue 6): 16 a channel.
+    Small {
+        /// Red in the upper and blue in the lower half.
+        red_blue: Plane,
+        /// Green in the upper half.
+        green: Plane,
+        /// The step to the next column in the fields of [`Colour`].
+        step: i32,
+    },
+    /// Red, green and blue in 16.16 steps.
+    Large([Plane; 3]),
 }
 
 impl Shading for Flat {
@@ -95,20 +98,31 @@ impl Shading for Flat {
 
     fn lerp((): (), (): (), _: i64) {}
 
-    fn set_up(_: &InverseArea, _: [(); 3], face: Colour, steps: [u16; 3]) -> Option<FlatLevels> {
-        Some(Self::weighted([0; 2], [(); 3], face, steps))
+    #[inline]
+    fn set_up_small(_: &SmallArea, _: [(); 3], face: Colour, scale: &Scale) -> Option<FlatLevels> {
+        Some(FlatLevels(face.steps(scale)))
     }
 
-    fn weighted(_: [i64; 2], _: [(); 3], face: Colour, steps: [u16; 3]) -> FlatLevels {
-        FlatLevels(all_to_steps(face, steps).map(|c| (c >> 16) as u8))
+    fn set_up(_: &InverseArea, _: [(); 3], face: Colour, scale: &Scale) -> Option<FlatLevels> {
+        Some(FlatLevels(face.steps(scale)))
     }
+
+    fn weighted(_: [i64; 2], _: [(); 3], face: Colour, scale: &Scale) -> FlatLevels {
+        FlatLevels(face.steps(scale))
+    }
+}
+
+/// 16.16 steps of a colour's channels.
+fn wide_steps(colour: Colour, scale: &Scale) -> [i32; 3] {
+    let (fields, fraction) = (colour.fields(), scale.fraction());
+    [0, 1, 2].map(|i| (fields[i] << (16 - fraction[i])) as i32)
 }
 
 impl Shading for Gouraud {
     type Vertex = Colour;
     type Face = ();
-    type Levels = GouraudPlanes;
-    const NO_LEVELS: GouraudPlanes = GouraudPlanes([Plane::ZERO; 3]);
+    type Levels = GouraudLevels;
+    const NO_LEVELS: GouraudLevels = GouraudLevels::Large([Plane::ZERO; 3]);
     const PER_FACE: bool = false;
 
     #[inline]
@@ -123,43 +137,64 @@ impl Shading for Gouraud {
     }
 
     #[inline]
+    fn set_up_small(
+        area: &SmallArea,
+        corners: [Colour; 3],
+        (): (),
+        _: &Scale,
+    ) -> Option<GouraudLevels> {
+        /// From the fields to 16 bits a channel.
+        const UP: [u32; 3] = [5, 5, 6];
+        /// A rise of 2^18 bounds the error by 2^5 of 2^16, an eighth of a step of 8 bits.
+        const RISE: i32 = 18;
+        let f = corners.map(Colour::fields);
+        let value = |k: usize, i: usize| (f[k][i] << UP[i]) as i32;
+        let rise = |i: usize| area.gradient(value(1, i) - value(0, i), value(2, i) - value(0, i));
+        let (r, g, b) = (rise(0), rise(1), rise(2));
+        let most = area
+            .rise_bits(r, 0)
+            .max(area.rise_bits(g, 0))
+            .max(area.rise_bits(b, 0));
+        if most > RISE {
+            return None;
+        }
+        let (rs, gs, bs) = (area.step(r, 0), area.step(g, 0), area.step(b, 0));
+        let at = |i: usize, g| value(0, i) + area.offset(g);
+        let pair = |high: i32, low: i32| (high << 16).wrapping_add(low);
+        // Fields of the step, rounded: an error of half a unit of a field a column.
+        let field = |step: i32, i: usize| (step + (1 << UP[i] >> 1)) >> UP[i];
+        Some(GouraudLevels::Small {
+            red_blue: area.plane_of_steps(
+                pair(at(0, r), at(2, b)),
+                (pair(rs.0, bs.0), pair(rs.1, bs.1)),
+            ),
+            green: area.plane_of_steps(at(1, g) << 16, (gs.0 << 16, gs.1 << 16)),
+            step: (field(rs.0, 0) << 21)
+                .wrapping_add(field(bs.0, 2) << 11)
+                .wrapping_add(field(gs.0, 1)),
+        })
+    }
+
+    #[inline(never)]
     fn set_up(
         area: &InverseArea,
         corners: [Colour; 3],
         (): (),
-        steps: [u16; 3],
-    ) -> Option<GouraudPlanes> {
-        let c = corners.map(|c| all_to_steps(c, steps));
+        scale: &Scale,
+    ) -> Option<GouraudLevels> {
+        let c = corners.map(|c| wide_steps(c, scale));
         let plane = |i: usize| area.plane([c[0][i], c[1][i], c[2][i]]);
-        Some(GouraudPlanes([plane(0)?, plane(1)?, plane(2)?]))
+        Some(GouraudLevels::Large([plane(0)?, plane(1)?, plane(2)?]))
     }
 
-    fn weighted(w: [i64; 2], corners: [Colour; 3], (): (), steps: [u16; 3]) -> GouraudPlanes {
-        let c = corners.map(|c| all_to_steps(c, steps));
-        GouraudPlanes([0, 1, 2].map(|i| {
+    fn weighted(w: [i64; 2], corners: [Colour; 3], (): (), scale: &Scale) -> GouraudLevels {
+        let c = corners.map(|c| wide_steps(c, scale));
+        GouraudLevels::Large([0, 1, 2].map(|i| {
             let to = |k: usize| i64::from(c[k][i] - c[0][i]) * w[k - 1];
             Plane {
                 at: c[0][i] + ((to(1) + to(2)) >> 30) as i32,
                 ..Plane::ZERO
             }
         }))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn channels_reach_both_ends() {
-        for steps in [255u16, 63, 31] {
-            assert_eq!(to_steps(0, steps), 1 << 15);
-            let top = to_steps(0xFF00, steps) - (1 << 15);
-            assert!(
-                (top - (i32::from(steps) << 16)).abs() <= 1,
-                "{steps}: {top}"
-            );
-        }
-        assert_eq!(to_steps(100 << 8, 255), (100 << 16) + (1 << 15));
     }
 }

@@ -8,9 +8,9 @@
 //!
 //! The floor is taken by one multiply-add: the true value is a multiple of `1 / (8 dy)`, so a
 //! fixed-point line that starts a bias above it and errs by less than that bias has the same
-//! floor. [`Edge`] does it in 32 bits (columns within 511 of the middle, at most 127 lines, or
-//! a vertical edge of any height); [`WideEdge`] in 64 bits for all of guard space. Both are
-//! evaluated for any line alone, without state, and are tested against an exact division.
+//! floor. [`Edge`] does it in 32 bits for columns within 511 of the middle and at most 127 lines,
+//! or a vertical edge of any height; all others are divided out by [`column_exact`]. Both are
+//! evaluated for any line alone, without state.
 
 use super::GUARD_CENTRE;
 
@@ -25,10 +25,10 @@ pub const fn first_at(at: u16) -> i32 {
 
 /// The first column right of the edge on scanline `line`, by an exact 64-bit division.
 ///
-/// The definition that the fast forms are held against. `a` is the upper end (`a.1 < b.1`);
+/// The definition that the fast form is held against. `a` is the upper end (`a.1 < b.1`);
 /// coordinates are 13.3.
-#[cfg(test)]
-pub(super) const fn column_exact(a: (u16, u16), b: (u16, u16), line: i32) -> i32 {
+#[inline(never)]
+pub const fn column_exact(a: (u16, u16), b: (u16, u16), line: i32) -> i32 {
     let dy = b.1 as i64 - a.1 as i64;
     let dx = b.0 as i64 - a.0 as i64;
     let down = 8 * line as i64 + 4 - a.1 as i64;
@@ -55,16 +55,14 @@ impl Edge {
         dy < 1024 || dx == 0
     }
 
-    /// Sets up the edge from `a` down to `b` (`a.1 < b.1`), both 13.3.
+    /// Sets up the edge from the 13.3 point `a` down by `(dx, dy)`, `dy` above 0.
     ///
     /// Error: the slope is a floor to 2^-22 column, so after 127 lines the line lies less than
     /// 130 units of 2^-22 below the truth; the bias is 256 and the truth a multiple of at least
     /// 512 of them.
-    #[inline]
+    #[inline(always)]
     #[must_use]
-    pub fn new(a: (u16, u16), b: (u16, u16)) -> Self {
-        let dx = i32::from(b.0) - i32::from(a.0);
-        let dy = i32::from(b.1) - i32::from(a.1);
+    pub fn new(a: (u16, u16), (dx, dy): (i32, i32)) -> Self {
         debug_assert!(dy > 0 && Self::holds(dx, dy));
         let start = ((i32::from(a.0) + 4 - 8 * GUARD_CENTRE) << 19).wrapping_add(256);
         if dx == 0 {
@@ -73,9 +71,16 @@ impl Edge {
                 slope: 0,
             };
         }
-        let whole = dx.div_euclid(dy);
-        let rest = (dx - whole * dy) as u32;
-        let part = ((rest << 22) / dy as u32) as i32;
+        // dy is above 0; said so that no check for it is compiled in.
+        let height = dy.max(1);
+        let mut whole = dx / height;
+        let mut rest = dx - whole * height;
+        if rest < 0 {
+            whole -= 1;
+            rest += height;
+        }
+        let part = ((rest as u32) << 22) / height as u32;
+        let part = part as i32;
         let slope = (whole << 22).wrapping_add(part);
         let first = first_at(a.1);
         let down = 8 * first + 4 - i32::from(a.1);
@@ -88,64 +93,26 @@ impl Edge {
         }
     }
 
+    /// A corner kept in place of an edge, for triangles that are divided out.
+    #[must_use]
+    pub fn from_corner((x, y): (u16, u16)) -> Self {
+        Self {
+            at: i32::from(x),
+            slope: i32::from(y),
+        }
+    }
+
+    /// The corner of [`from_corner`](Edge::from_corner).
+    #[must_use]
+    pub const fn as_corner(self) -> (u16, u16) {
+        (self.at as u16, self.slope as u16)
+    }
+
     /// The first column right of the edge on scanline `line`, counted from the middle column.
     #[inline(always)]
     #[must_use]
     pub const fn column(self, line: i32) -> i32 {
         self.at.wrapping_add(self.slope.wrapping_mul(line)) >> 22
-    }
-}
-
-/// An edge as `column = (at + slope line) >> 40`, modulo 2^64, for all of guard space.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct WideEdge {
-    at: i64,
-    slope: i64,
-}
-
-impl WideEdge {
-    /// Sets up the edge from `a` down to `b` (`a.1 < b.1`), both 13.3.
-    #[must_use]
-    pub fn new(a: (u16, u16), b: (u16, u16)) -> Self {
-        let dx = i64::from(b.0) - i64::from(a.0);
-        let dy = i64::from(b.1) - i64::from(a.1);
-        debug_assert!(dy > 0);
-        let slope = (dx << 40).div_euclid(dy);
-        let first = first_at(a.1);
-        let down = i64::from(8 * first + 4 - i32::from(a.1));
-        let start = ((i64::from(a.0) + 4 - 8 * i64::from(GUARD_CENTRE)) << 37) + (1 << 20);
-        let at = start + ((slope * down) >> 3);
-        Self {
-            at: at.wrapping_sub(slope.wrapping_mul(i64::from(first))),
-            slope,
-        }
-    }
-
-    /// The first column right of the edge on scanline `line`, counted from the middle column.
-    #[inline]
-    #[must_use]
-    pub const fn column(self, line: i32) -> i32 {
-        (self.at.wrapping_add(self.slope.wrapping_mul(line as i64)) >> 40) as i32
-    }
-
-    /// The four words of the edge, for storage beside 32-bit edges.
-    #[must_use]
-    pub const fn words(self) -> [i32; 4] {
-        [
-            self.at as i32,
-            (self.at >> 32) as i32,
-            self.slope as i32,
-            (self.slope >> 32) as i32,
-        ]
-    }
-
-    /// The edge with these four [`words`](WideEdge::words).
-    #[must_use]
-    pub const fn from_words(w: [i32; 4]) -> Self {
-        Self {
-            at: (w[1] as i64) << 32 | w[0] as u32 as i64,
-            slope: (w[3] as i64) << 32 | w[2] as u32 as i64,
-        }
     }
 }
 
@@ -182,7 +149,10 @@ mod tests {
             let x1 = (low as u32 + rng.below(range)) as u16;
             let y0 = rng.below(64_000) as u16;
             let y1 = y0 + 1 + rng.below(height) as u16;
-            let edge = Edge::new((x0, y0), (x1, y1));
+            let edge = Edge::new(
+                (x0, y0),
+                (i32::from(x1) - i32::from(x0), i32::from(y1) - i32::from(y0)),
+            );
             for line in first_at(y0)..first_at(y1) {
                 let exact = column_exact((x0, y0), (x1, y1), line);
                 assert_eq!(
@@ -197,30 +167,9 @@ mod tests {
     }
 
     #[test]
-    fn wide_edges_are_exact() {
-        let mut rng = Rng(2);
-        for i in 0..20_000 {
-            let height = [65_535, 3_000, 9][i % 3];
-            let (x0, x1) = (rng.below(65_536) as u16, rng.below(65_536) as u16);
-            let y0 = rng.below(65_535) as u16;
-            let y1 = (u32::from(y0) + 1 + rng.below(height)).min(65_535) as u16;
-            if y1 == y0 {
-                continue;
-            }
-            let edge = WideEdge::new((x0, y0), (x1, y1));
-            let step = 1 + rng.below(40) as usize;
-            for line in (first_at(y0)..first_at(y1)).step_by(step) {
-                let exact = column_exact((x0, y0), (x1, y1), line);
-                assert_eq!(edge.column(line) + GUARD_CENTRE, exact);
-            }
-            assert_eq!(WideEdge::from_words(edge.words()), edge);
-        }
-    }
-
-    #[test]
     fn vertical_edges_of_any_height_are_narrow() {
         let a = (8 * 4200 + 4, 3);
-        let edge = Edge::new(a, (a.0, 65_000));
+        let edge = Edge::new(a, (0, 65_000 - 3));
         for line in [1, 100, 5000, 8000] {
             assert_eq!(edge.column(line), 4201 - GUARD_CENTRE);
         }

@@ -17,12 +17,14 @@ mod block;
 mod edge;
 mod plane;
 mod recip;
+mod small;
 
 pub use block::{Block, shift_round};
-pub use edge::{Edge, WideEdge, first_at};
+pub use edge::{Edge, column_exact, first_at};
 pub use fixed::types::{I2F14, I2F30, U1F15, U13F3};
 pub use plane::{InverseArea, Plane};
 pub use recip::recip;
+pub use small::SmallArea;
 
 /// The pixel column and line that lies at the middle of guard space.
 pub const GUARD_CENTRE: i32 = 4096;

@@ -3,6 +3,7 @@
 use super::lines::{LineRenderer, RendererError};
 use super::scene::{PassOne, Scene};
 use crate::active::CacheCounts;
+use crate::composite::PixelFormat;
 use crate::pipeline::{ObjectOf, Pipeline, VertexOf, WordOf};
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window};
 use crate::stats::SpanCounts;
@@ -90,7 +91,7 @@ where
     let mut skipped = 0;
     for line in lines {
         let pixels = pump.line()?;
-        pixels.fill(background);
+        P::Pixel::fill(pixels, background);
         // The pump lends whole lines and the scene was checked, so this does not fail.
         if !renderer.draw_line(scene, line, pixels)? {
             skipped += 1;

@@ -2,7 +2,7 @@
 
 use super::scene::Scene;
 use super::spans::draw_span;
-use crate::active::{ActiveList, CacheCounts, Member};
+use crate::active::{ActiveList, CacheCounts, Member, Slot, Visitor};
 use crate::geometry::Drawable;
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, Pipeline, SlotOf, WordOf};
@@ -20,6 +20,20 @@ pub struct LineMemory<'m, P: Pipeline> {
     /// The depth of one line, a cell a pixel; in fast RAM. Without depth a cell has no size, and
     /// `[(); 8192]` will do.
     pub depth: &'m mut [CellOf<P>],
+    /// Spans of one line, in fast RAM. While a line has no more of them than this, and none
+    /// overlap, it is drawn without depth. Any length, also 0, gives the same picture.
+    pub spans: &'m mut [SpanRecord],
+}
+
+/// A span that waits until all of its line are known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SpanRecord {
+    /// Slot of the cache.
+    slot: u16,
+    /// First pixel of the line.
+    start: u16,
+    /// Pixel after the last.
+    end: u16,
 }
 
 /// A line renderer has less memory than the scene needs. Nothing was drawn.
@@ -85,6 +99,11 @@ impl core::error::Error for RendererError {}
 pub struct LineRenderer<'m, P: Pipeline> {
     list: ActiveList<'m, DrawableOf<P>>,
     depth: &'m mut [CellOf<P>],
+    spans: &'m mut [SpanRecord],
+    /// Whether depth cells are not all at their farthest.
+    dirty: bool,
+    /// Where an object is set up that has no slot.
+    spare: DrawableOf<P>,
     /// What was drawn last.
     last: Option<Last>,
     /// Lines from one drawn line to the next.
@@ -108,11 +127,6 @@ impl<L> Member for Drawable<L> {
     fn end(&self) -> i32 {
         i32::from(Drawable::end(self))
     }
-
-    #[inline(always)]
-    fn stale(&self, last: i32, line: i32) -> bool {
-        Drawable::stale(self, last, line)
-    }
 }
 
 impl<'m, P: Pipeline> LineRenderer<'m, P> {
@@ -122,6 +136,9 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         Self {
             list: ActiveList::new(memory.slots, memory.links),
             depth: memory.depth,
+            spans: memory.spans,
+            dirty: true,
+            spare: Drawable::EMPTY,
             last: None,
             step: 1,
             counter: P::Counter::default(),
@@ -215,23 +232,27 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         if self.list.is_empty() {
             return Ok(false);
         }
-        let depth = &mut *self.depth;
+        let Some(cells) = self.depth.get_mut(..width) else {
+            return Ok(false);
+        };
+        let mut pass = LinePass {
+            scene,
+            pixels,
+            cells,
+            records: &mut *self.spans,
+            count: 0,
+            together: P::Depth::TESTS,
+            dirty: &mut self.dirty,
+            line: now,
+            left,
+            reach: (width, 0),
+            counter: &mut self.counter,
+        };
         if P::Depth::TESTS {
-            depth[..width].fill(P::Depth::FARTHEST);
+            pass.clear();
         }
-        let counter = &mut self.counter;
-        self.list.walk(
-            (last, now, next),
-            |object| scene.set_up(object, now),
-            |object, drawable| {
-                let Some(span) = Span::clipped(now, drawable.columns(now), left, width) else {
-                    return;
-                };
-                let pixels = &mut pixels[span.start..span.end];
-                let depth = &mut depth[span.start..span.end];
-                draw_span::<P>(scene, object, drawable, span, (pixels, depth), counter);
-            },
-        );
+        self.list.walk((now, next), &mut self.spare, &mut pass);
+        pass.finish(self.list.slots());
         Ok(true)
     }
 
@@ -244,5 +265,175 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     /// What has been counted along spans since [`take_span_counts`](Self::take_span_counts).
     pub fn take_span_counts(&mut self) -> SpanCounts {
         core::mem::take(&mut self.counter).counts()
+    }
+}
+
+impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
+    #[inline(always)]
+    fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
+        self.scene.set_up(object, self.line, body)
+    }
+
+    #[inline(always)]
+    fn visit(&mut self, index: usize, slot: &mut Slot<DrawableOf<P>>) -> bool {
+        let Some(span) = self.span(slot.body_mut()) else {
+            return true;
+        };
+        if !self.together {
+            self.draw(slot.object(), slot.body(), span, P::Depth::TESTS);
+            return true;
+        }
+        let Some(record) = self.records.get_mut(self.count) else {
+            return false;
+        };
+        *record = SpanRecord {
+            slot: index as u16,
+            start: span.start as u16,
+            end: span.end as u16,
+        };
+        self.count += 1;
+        self.reach.0 = self.reach.0.min(span.start);
+        self.reach.1 = self.reach.1.max(span.end);
+        if let Some(cell) = self.cells.get_mut(span.start) {
+            P::Depth::mark(cell, span.end as u16);
+        }
+        true
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn flush(&mut self, slots: &[Slot<DrawableOf<P>>]) {
+        self.part(slots);
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn visit_spilled(
+        &mut self,
+        object: u16,
+        body: &mut DrawableOf<P>,
+        slots: &[Slot<DrawableOf<P>>],
+    ) {
+        if self.together {
+            self.part(slots);
+        }
+        if let Some(span) = self.span(body) {
+            self.draw(object, body, span, P::Depth::TESTS);
+        }
+    }
+}
+
+/// One line on its way from objects to pixels.
+///
+/// Where no two spans of a line overlap, no depth has to be compared, stored or cleared. So
+/// spans are only noted at first, each marked in the depth cell of its first pixel with its end.
+/// Walking from mark to mark then meets all of them exactly if none overlap; if not, or if
+/// there are too many, or one has no slot, they are drawn with depth.
+struct LinePass<'a, 's, P: Pipeline> {
+    scene: &'a Scene<'s, P>,
+    pixels: &'a mut [WordOf<P>],
+    cells: &'a mut [CellOf<P>],
+    records: &'a mut [SpanRecord],
+    /// Records in use.
+    count: usize,
+    /// Whether spans are noted, not yet drawn.
+    together: bool,
+    dirty: &'a mut bool,
+    line: i32,
+    left: i32,
+    /// Least first pixel and largest end among the records.
+    reach: (usize, usize),
+    counter: &'a mut P::Counter,
+}
+
+impl<P: Pipeline> LinePass<'_, '_, P> {
+    /// Sets all depth cells to their farthest, if they are not.
+    #[inline]
+    fn clear(&mut self) {
+        if *self.dirty {
+            self.cells.fill(P::Depth::FARTHEST);
+            *self.dirty = false;
+        }
+    }
+
+    /// The pixels of an object on this line.
+    #[inline(always)]
+    fn span(&self, body: &mut DrawableOf<P>) -> Option<Span> {
+        let columns = body.columns(self.line);
+        Span::clipped(self.line, columns, self.left, self.pixels.len())
+    }
+
+    /// Draws what was noted with depth; what comes will be drawn at once.
+    #[cold]
+    #[inline(never)]
+    fn part(&mut self, slots: &[Slot<DrawableOf<P>>]) {
+        self.together = false;
+        self.cells.fill(P::Depth::FARTHEST);
+        *self.dirty = true;
+        self.draw_noted(slots, true);
+    }
+
+    /// Draws what was noted: without depth if no two spans overlap.
+    #[inline(always)]
+    fn finish(mut self, slots: &[Slot<DrawableOf<P>>]) {
+        if self.together {
+            if self.disjoint() {
+                self.draw_noted(slots, false);
+            } else {
+                self.part(slots);
+            }
+        }
+    }
+
+    /// Whether no two noted spans overlap; then their marks are gone.
+    #[inline(always)]
+    fn disjoint(&mut self) -> bool {
+        let (mut at, end) = self.reach;
+        let mut met = 0;
+        while at < end {
+            match self.cells.get_mut(at).map_or(0, P::Depth::unmark) {
+                0 => at += 1,
+                next => {
+                    met += 1;
+                    at = usize::from(next);
+                }
+            }
+        }
+        met == self.count
+    }
+
+    #[inline(always)]
+    fn draw_noted(&mut self, slots: &[Slot<DrawableOf<P>>], tested: bool) {
+        for i in 0..self.count {
+            let record = self.records[i];
+            let slot = &slots[usize::from(record.slot)];
+            let (start, end) = (usize::from(record.start), usize::from(record.end));
+            let span = Span {
+                column: self.left + start as i32,
+                line: self.line,
+                start,
+                end,
+            };
+            self.draw(slot.object(), slot.body(), span, tested);
+        }
+    }
+
+    #[inline(always)]
+    fn draw(&mut self, object: u16, body: &DrawableOf<P>, span: Span, tested: bool) {
+        let cells = if tested {
+            self.cells.get_mut(span.start..span.end)
+        } else {
+            None
+        };
+        if let Some(pixels) = self.pixels.get_mut(span.start..span.end) {
+            draw_span::<P>(
+                self.scene,
+                object,
+                body,
+                span,
+                (pixels, cells),
+                self.counter,
+            );
+        }
     }
 }

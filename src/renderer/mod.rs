@@ -6,5 +6,5 @@ mod scene;
 mod spans;
 
 pub use frame::{FrameError, FrameStats, draw_frame};
-pub use lines::{LineMemory, LineRenderer, RendererError};
+pub use lines::{LineMemory, LineRenderer, RendererError, SpanRecord};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};

@@ -1,5 +1,6 @@
 //! Pass one: meshes into the slow arena, each object under the first line it is on (K1, S3).
 
+use super::spans::scale;
 use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::geometry::{
@@ -249,6 +250,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             self.lines.clone(),
             &instance.model,
             (instance.cull, instance.light, instance.colour),
+            scale::<P>(),
         );
         let (objects, buckets) = (&mut self.objects, &mut self.buckets);
         let done = assembler
@@ -331,10 +333,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.store.vertices.as_slice()
     }
 
-    /// The object at `index`, set up for `line` of guard space.
-    #[inline]
-    pub(crate) fn set_up(&self, index: u16, line: i32) -> Option<DrawableOf<P>> {
-        self.object(index)?
-            .set_up::<P::Shading>(self.vertices(), super::spans::steps::<P>(), line)
+    /// Sets up the object at `index` in `out` for `line` of guard space and all below.
+    #[inline(always)]
+    pub(crate) fn set_up(&self, index: u16, line: i32, out: &mut DrawableOf<P>) -> bool {
+        self.object(index)
+            .is_some_and(|o| o.set_up::<P::Shading>(self.vertices(), scale::<P>(), line, out))
     }
 }

@@ -1,7 +1,7 @@
 //! A blocking sink for SPI panels that speak MIPI DCS: ILI9341, ST7789 and their kin (SPEC S5, X5).
 //!
 //! `embedded-hal` has no DMA, but every HAL has its `SpiDevice`, so this is what works everywhere. The window is set
-//! once per rectangle, then only pixels go out. Pixels are `[u8; N]` words already in the order of the wire
+//! once per rectangle, then only pixels go out. Pixels are words already in the order of the wire
 //! (`N = 2`: big-endian RGB565, `N = 3`: RGB888), so a line is sent as the bytes that it is, without a copy.
 //! Initialisation (orientation, pixel format, sleep out) is the display driver's, for example `mipidsi`, before.
 
@@ -61,11 +61,12 @@ impl<S: spi::Error, P: digital::Error> Display for SpiSinkError<S, P> {
 
 impl<S: spi::Error, P: digital::Error> core::error::Error for SpiSinkError<S, P> {}
 
-/// An SPI panel with a data/command pin, written in `start` before it returns. A pixel is `N` bytes.
+/// An SPI panel with a data/command pin, written in `start` before it returns. A pixel is a word `W`
+/// whose bytes in memory are in the order of the wire, such as those of `Rgb565Be` and `Rgb888`.
 ///
 /// Chip select may go up between lines: the panels stay in memory write until the next command.
 #[derive(Debug)]
-pub struct SpiSink<SPI, DC, const N: usize> {
+pub struct SpiSink<SPI, DC, W: 'static> {
     spi: SPI,
     dc: DC,
     /// Columns and lines to add to each window, for panels smaller than their controller's memory.
@@ -75,10 +76,10 @@ pub struct SpiSink<SPI, DC, const N: usize> {
     /// Pixels of the open window that were not sent yet, a multiple of `width`. 65535 squared fits.
     left: u32,
     /// The buffer that was sent, until it is polled.
-    sent: Option<&'static mut [[u8; N]]>,
+    sent: Option<&'static mut [W]>,
 }
 
-impl<SPI, DC, const N: usize> SpiSink<SPI, DC, N> {
+impl<SPI, DC, W: 'static> SpiSink<SPI, DC, W> {
     /// A sink over a panel that is initialised already. `dc` is low for commands and high for data.
     pub fn new(spi: SPI, dc: DC) -> Self {
         Self {
@@ -104,7 +105,7 @@ impl<SPI, DC, const N: usize> SpiSink<SPI, DC, N> {
     }
 }
 
-impl<SPI: SpiDevice, DC: OutputPin, const N: usize> SpiSink<SPI, DC, N> {
+impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> SpiSink<SPI, DC, W> {
     /// Sends a command and leaves the pin at data.
     fn command(
         &mut self,
@@ -121,10 +122,7 @@ impl<SPI: SpiDevice, DC: OutputPin, const N: usize> SpiSink<SPI, DC, N> {
     }
 
     /// Writes `words` when they are whole lines of what is left of the window.
-    fn send(
-        &mut self,
-        words: Option<&[[u8; N]]>,
-    ) -> Result<(), SpiSinkError<SPI::Error, DC::Error>> {
+    fn send(&mut self, words: Option<&[W]>) -> Result<(), SpiSinkError<SPI::Error, DC::Error>> {
         if self.width == 0 || self.sent.is_some() {
             return Err(SpiSinkError::Sequence);
         }
@@ -134,7 +132,7 @@ impl<SPI: SpiDevice, DC: OutputPin, const N: usize> SpiSink<SPI, DC, N> {
             return Err(SpiSinkError::Length);
         }
         self.spi
-            .write(words.as_flattened())
+            .write(bytemuck::cast_slice(words))
             .map_err(SpiSinkError::Spi)?;
         self.left -= len;
         Ok(())
@@ -149,12 +147,16 @@ fn span_bytes(start: u16, len: u16, offset: u16) -> Option<[u8; 4]> {
     Some([a, b, c, d])
 }
 
-impl<SPI: SpiDevice, DC: OutputPin, const N: usize> ErrorType for SpiSink<SPI, DC, N> {
+impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> ErrorType
+    for SpiSink<SPI, DC, W>
+{
     type Error = SpiSinkError<SPI::Error, DC::Error>;
 }
 
-impl<SPI: SpiDevice, DC: OutputPin, const N: usize> ScanoutDma for SpiSink<SPI, DC, N> {
-    type Buf = &'static mut [[u8; N]];
+impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> ScanoutDma
+    for SpiSink<SPI, DC, W>
+{
+    type Buf = &'static mut [W];
 
     fn begin(&mut self, window: Window) -> Result<(), Self::Error> {
         self.width = 0;

@@ -1,75 +1,57 @@
-//! Colour along a span.
+//! Colour along a stretch of a line.
 
-use crate::geometry::{FlatLevels, GouraudPlanes};
+use crate::geometry::{FlatLevels, GouraudLevels};
 
-/// The levels of an object, evaluated along a line.
-pub trait Levels: Copy {
-    /// What steps from pixel to pixel.
-    type Walker: Walker;
-
-    /// Starts at the centre of pixel (`column`, `line`) of guard space.
-    fn walk(&self, column: i32, line: i32) -> Self::Walker;
+/// The colours of a span from its first pixel on, steps of the output.
+#[derive(Clone, Copy, Debug)]
+pub enum Stretch {
+    /// One colour, in whole steps.
+    Constant([u8; 3]),
+    /// Two words, as [`GouraudLevels::Small`]; for spans of at most 64 pixels.
+    Packed {
+        /// Red in the upper and blue in the lower half.
+        red_blue: i32,
+        /// Green in the upper half.
+        green: i32,
+        /// The steps of the two words to the next pixel.
+        steps: (i32, i32),
+        /// The step in the fields of a vertex's colour.
+        field_step: i32,
+    },
+    /// Red, green and blue in 16.16 steps, and their steps to the next pixel.
+    Channels([i32; 3], [i32; 3]),
 }
 
-/// Colour that steps along a line.
-pub trait Walker {
-    /// The colour of this pixel, in whole steps of the output.
-    fn colour(&self) -> [u8; 3];
-
-    /// Goes to the next pixel.
-    fn step(&mut self);
+/// The levels of an object.
+pub trait Levels: Copy {
+    /// The colours from the centre of pixel (`column`, `line`) of guard space on.
+    fn stretch(&self, column: i32, line: i32) -> Stretch;
 }
 
 impl Levels for FlatLevels {
-    type Walker = Self;
-
     #[inline(always)]
-    fn walk(&self, _: i32, _: i32) -> Self {
-        *self
+    fn stretch(&self, _: i32, _: i32) -> Stretch {
+        Stretch::Constant(self.0)
     }
 }
 
-impl Walker for FlatLevels {
+impl Levels for GouraudLevels {
     #[inline(always)]
-    fn colour(&self) -> [u8; 3] {
-        self.0
-    }
-
-    #[inline(always)]
-    fn step(&mut self) {}
-}
-
-/// Three 16.16 accumulators and their steps.
-#[derive(Clone, Copy, Debug)]
-pub struct GouraudWalker {
-    value: [i32; 3],
-    step: [i32; 3],
-}
-
-impl Levels for GouraudPlanes {
-    type Walker = GouraudWalker;
-
-    #[inline(always)]
-    fn walk(&self, column: i32, line: i32) -> GouraudWalker {
-        let [r, g, b] = &self.0;
-        GouraudWalker {
-            value: [r.at(column, line), g.at(column, line), b.at(column, line)],
-            step: [r.dx, g.dx, b.dx],
-        }
-    }
-}
-
-impl Walker for GouraudWalker {
-    #[inline(always)]
-    fn colour(&self) -> [u8; 3] {
-        let [r, g, b] = self.value;
-        [(r >> 16) as u8, (g >> 16) as u8, (b >> 16) as u8]
-    }
-
-    #[inline(always)]
-    fn step(&mut self) {
-        for (v, s) in self.value.iter_mut().zip(self.step) {
-            *v = v.wrapping_add(s);
+    fn stretch(&self, column: i32, line: i32) -> Stretch {
+        match self {
+            Self::Small {
+                red_blue,
+                green,
+                step,
+            } => Stretch::Packed {
+                red_blue: red_blue.at(column, line),
+                green: green.at(column, line),
+                steps: (red_blue.dx, green.dx),
+                field_step: *step,
+            },
+            Self::Large(planes) => {
+                Stretch::Channels(planes.map(|p| p.at(column, line)), planes.map(|p| p.dx))
+            }
         }
     }
 }

@@ -16,32 +16,34 @@ pub struct Span {
 }
 
 impl Span {
-    /// Clips the columns `from .. to` exactly to the `width` columns that begin at `left`.
+    /// Clips the columns `from .. to`, counted from the middle of guard space, exactly to the
+    /// `width` columns that begin at `left` of guard space.
     ///
     /// `None` when nothing is left.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn clipped(line: i32, (from, to): (i32, i32), left: i32, width: usize) -> Option<Self> {
-        debug_assert!((0..2 * GUARD_CENTRE).contains(&left));
-        let column = from.max(left);
-        let end = to.min(left + width as i32);
-        (column < end).then(|| Self {
-            column,
+        let from = (from + GUARD_CENTRE - left).max(0);
+        let to = (to + GUARD_CENTRE - left).min(width as i32);
+        (from < to).then(|| Self {
+            column: left + from,
             line,
-            start: (column - left) as usize,
-            end: (end - left) as usize,
+            start: from as usize,
+            end: to as usize,
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Span;
+    use super::*;
 
     #[test]
     fn spans_are_cut_at_both_sides() {
-        let span =
-            |from, to| Span::clipped(7, (from, to), 100, 10).map(|s| (s.column, s.start, s.end));
+        let span = |from, to| {
+            Span::clipped(7, (from - GUARD_CENTRE, to - GUARD_CENTRE), 100, 10)
+                .map(|s| (s.column, s.start, s.end))
+        };
         assert_eq!(span(90, 120), Some((100, 0, 10)));
         assert_eq!(span(103, 105), Some((103, 3, 5)));
         assert_eq!(span(103, 103), None);

@@ -13,6 +13,12 @@ pub trait LineDepth {
 
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32) -> bool;
+
+    /// Keeps a number above 0 in a cell that is at its farthest.
+    fn mark(cell: &mut Self::Cell, mark: u16);
+
+    /// Takes the number out again, 0 for none; the cell is at its farthest then.
+    fn unmark(cell: &mut Self::Cell) -> u16;
 }
 
 /// 32 bits of 1/w: nearer or equal wins.
@@ -32,6 +38,16 @@ impl LineDepth for Depth32 {
         }
         seen
     }
+
+    #[inline(always)]
+    fn mark(cell: &mut u32, mark: u16) {
+        *cell = u32::from(mark);
+    }
+
+    #[inline(always)]
+    fn unmark(cell: &mut u32) -> u16 {
+        core::mem::take(cell) as u16
+    }
 }
 
 impl LineDepth for () {
@@ -42,5 +58,56 @@ impl LineDepth for () {
     #[inline(always)]
     fn test((): &mut (), _: u32) -> bool {
         true
+    }
+
+    fn mark((): &mut (), _: u16) {}
+
+    fn unmark((): &mut ()) -> u16 {
+        0
+    }
+}
+
+/// Tells of each pixel of a span in turn whether it is seen.
+pub trait Visible {
+    /// Gives `each` the next pixels in turn, and whether each is seen.
+    fn each<W>(&mut self, pixels: &mut [W], each: impl FnMut(&mut W, bool));
+}
+
+/// All pixels are seen: nothing else was or will be drawn there.
+#[derive(Clone, Copy, Debug)]
+pub struct Everywhere;
+
+impl Visible for Everywhere {
+    #[inline(always)]
+    fn each<W>(&mut self, pixels: &mut [W], mut each: impl FnMut(&mut W, bool)) {
+        for pixel in pixels {
+            each(pixel, true);
+        }
+    }
+}
+
+/// The depth line decides.
+#[derive(Debug)]
+pub struct Tested<'d, D: LineDepth> {
+    /// The cells of the pixels to come.
+    pub cells: &'d mut [D::Cell],
+    /// Depth of the next pixel.
+    pub depth: u32,
+    /// The step to the pixel after it.
+    pub step: u32,
+}
+
+impl<D: LineDepth> Visible for Tested<'_, D> {
+    #[inline(always)]
+    fn each<W>(&mut self, pixels: &mut [W], mut each: impl FnMut(&mut W, bool)) {
+        let cells = core::mem::take(&mut self.cells);
+        let (now, later) = cells.split_at_mut(pixels.len().min(cells.len()));
+        let (mut depth, step) = (self.depth, self.step);
+        for (pixel, cell) in pixels.iter_mut().zip(now) {
+            each(pixel, D::test(cell, depth));
+            depth = depth.wrapping_add(step);
+        }
+        self.cells = later;
+        self.depth = depth;
     }
 }

@@ -75,6 +75,7 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
         slots: rooms.slots,
         links: rooms.links,
         depth: rooms.depth,
+        spans: rooms.spans,
     });
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
@@ -84,7 +85,7 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
 /// A sink that is done as soon as it starts.
 struct Emit<'e> {
     emit: &'e mut dyn FnMut(&[u8]),
-    sent: Option<&'static mut [[u8; 2]]>,
+    sent: Option<&'static mut [u16]>,
 }
 
 impl ErrorType for Emit<'_> {
@@ -92,14 +93,14 @@ impl ErrorType for Emit<'_> {
 }
 
 impl ScanoutDma for Emit<'_> {
-    type Buf = &'static mut [[u8; 2]];
+    type Buf = &'static mut [u16];
 
     fn begin(&mut self, _: Window) -> Result<(), Infallible> {
         Ok(())
     }
 
     fn start(&mut self, line: Self::Buf, len: usize) -> Result<(), (Infallible, Self::Buf)> {
-        (self.emit)(line[..len].as_flattened());
+        (self.emit)(bytemuck::cast_slice(&line[..len]));
         self.sent = Some(line);
         Ok(())
     }

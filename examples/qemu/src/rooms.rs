@@ -3,7 +3,8 @@
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
 use core::ptr;
 use scanbeam::{
-    CellOf, LineRenderer, Link, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, VertexOf,
+    CellOf, LineRenderer, Link, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, SpanRecord,
+    VertexOf,
 };
 use scenes::{HEIGHT, OBJECTS, VERTICES, WIDTH};
 
@@ -52,6 +53,7 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     /// Tightly coupled RAM, `.fast`.
     pub(crate) slots: &'static mut [SlotOf<P>],
     pub(crate) depth: &'static mut [CellOf<P>],
+    pub(crate) spans: &'static mut [SpanRecord],
 }
 
 /// What frames are drawn with.
@@ -59,7 +61,7 @@ pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
     pub(crate) faceted: RoomsOf<Faceted>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
-    pub(crate) lines: Option<[&'static mut [[u8; 2]]; 2]>,
+    pub(crate) lines: Option<[&'static mut [u16]; 2]>,
 }
 
 macro_rules! rooms_of {
@@ -76,6 +78,7 @@ macro_rules! rooms_of {
                 LineRenderer::<$pipeline>::empty_slot()
             ),
             depth: lend!(".fast", CellOf<$pipeline>, WIDTH as usize, 0),
+            spans: lend!(".fast", SpanRecord, SLOTS, SpanRecord::default()),
         }
     };
 }
@@ -87,10 +90,7 @@ impl Rooms {
         Self {
             smooth: rooms_of!(Smooth),
             faceted: rooms_of!(Faceted),
-            lines: Some([
-                lend!(".dma", [u8; 2], WORDS, [0; 2]),
-                lend!(".dma", [u8; 2], WORDS, [0; 2]),
-            ]),
+            lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
     }
 }

@@ -4,7 +4,7 @@
 
 use scanbeam::{
     CellOf, LineDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, Scene, SceneMemory,
-    Screen, SlotOf, VertexOf, WordOf,
+    Screen, SlotOf, SpanRecord, VertexOf, WordOf,
 };
 
 /// xorshift64*: small, and the same everywhere.
@@ -87,6 +87,7 @@ pub struct LineRooms<P: Pipeline> {
     slots: Vec<SlotOf<P>>,
     links: Vec<Link>,
     depth: Vec<CellOf<P>>,
+    spans: Vec<SpanRecord>,
 }
 
 impl<P: Pipeline> LineRooms<P> {
@@ -96,6 +97,8 @@ impl<P: Pipeline> LineRooms<P> {
             slots: vec![LineRenderer::<P>::empty_slot(); slots],
             links: vec![Link::NONE; links],
             depth: vec![P::Depth::FARTHEST; depth],
+            // As many as slots: small caches also try lines with more spans than records.
+            spans: vec![SpanRecord::default(); slots],
         }
     }
 
@@ -114,6 +117,7 @@ impl<P: Pipeline> LineRooms<P> {
             slots: &mut self.slots,
             links: &mut self.links,
             depth: &mut self.depth,
+            spans: &mut self.spans,
         })
     }
 }

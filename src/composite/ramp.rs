@@ -1,0 +1,134 @@
+//! Colours into pixels, span by span.
+//!
+//! Three channels run in one or two registers: the sum of packed steps is the packed sum, and a
+//! field is right as long as all fields below it stay in range, which half a step at either end
+//! of each field guarantees (see `Colour`). One register has few fraction bits, so it is
+//! anchored anew every [`RUN`] pixels from the two words with 16 bits a channel.
+
+use super::PixelFormat;
+use crate::shade::Stretch;
+use crate::visible::Visible;
+
+/// Pixels between two anchors of a single word.
+///
+/// A field of 5 + 6 (blue 5 + 5) bits whose step is rounded drifts by 2^-7 (2^-6) steps a
+/// pixel: 1/8 of a step over 8 pixels of blue.
+pub(super) const RUN: usize = 8;
+
+/// Writes the pixels of a span that are seen; returns how many were.
+#[inline(always)]
+pub(crate) fn paint<F: PixelFormat>(
+    pixels: &mut [F::Word],
+    stretch: Stretch,
+    mut visible: impl Visible,
+) -> u32 {
+    let mut seen = 0;
+    match stretch {
+        Stretch::Constant(steps) => {
+            let word = F::pack(steps);
+            visible.each(pixels, |pixel, shown| {
+                if shown {
+                    *pixel = word;
+                    seen += 1;
+                }
+            });
+        }
+        Stretch::Packed {
+            mut red_blue,
+            mut green,
+            steps,
+            field_step,
+        } => {
+            for run in pixels.chunks_mut(RUN) {
+                let mut ramp = F::ramp(red_blue, green, steps, field_step);
+                visible.each(run, |pixel, shown| {
+                    if shown {
+                        *pixel = F::ramp_pixel(&ramp);
+                        seen += 1;
+                    }
+                    F::ramp_step(&mut ramp);
+                });
+                red_blue = red_blue.wrapping_add(steps.0.wrapping_mul(RUN as i32));
+                green = green.wrapping_add(steps.1.wrapping_mul(RUN as i32));
+            }
+        }
+        Stretch::Channels([mut r, mut g, mut b], step) => {
+            visible.each(pixels, |pixel, shown| {
+                if shown {
+                    *pixel = F::pack([(r >> 16) as u8, (g >> 16) as u8, (b >> 16) as u8]);
+                    seen += 1;
+                }
+                r = r.wrapping_add(step[0]);
+                g = g.wrapping_add(step[1]);
+                b = b.wrapping_add(step[2]);
+            });
+        }
+    }
+    seen
+}
+
+/// Two words and their steps, 16 bits a channel: for formats of 8 bits a channel.
+#[derive(Clone, Copy, Debug)]
+pub struct TwoWords {
+    red_blue: i32,
+    green: i32,
+    steps: (i32, i32),
+}
+
+impl TwoWords {
+    #[inline(always)]
+    pub(super) fn new(red_blue: i32, green: i32, steps: (i32, i32)) -> Self {
+        Self {
+            red_blue,
+            green,
+            steps,
+        }
+    }
+
+    /// The upper 8 bits of red, green and blue.
+    #[inline(always)]
+    pub(super) fn top(&self) -> [u8; 3] {
+        [
+            (self.red_blue >> 24) as u8,
+            (self.green >> 24) as u8,
+            (self.red_blue >> 8) as u8,
+        ]
+    }
+
+    #[inline(always)]
+    pub(super) fn step(&mut self) {
+        self.red_blue = self.red_blue.wrapping_add(self.steps.0);
+        self.green = self.green.wrapping_add(self.steps.1);
+    }
+}
+
+/// One word, red 5.6 in bits 31..21, blue 5.5 in 20..11, green 6.5 in 10..0, and its step: for
+/// formats of 5, 6 and 5 bits.
+#[derive(Clone, Copy, Debug)]
+pub struct OneWord {
+    word: u32,
+    step: u32,
+}
+
+impl OneWord {
+    #[inline(always)]
+    pub(super) fn new(red_blue: i32, green: i32, field_step: i32) -> Self {
+        let (rb, g) = (red_blue as u32, green as u32);
+        Self {
+            word: (rb & 0xFFE0_0000) | (rb & 0xFFC0) << 5 | g >> 21,
+            step: field_step as u32,
+        }
+    }
+
+    /// The pixel, 5, 6 and 5 bits.
+    #[inline(always)]
+    pub(super) fn rgb565(&self) -> u16 {
+        let whole = self.word & 0xF81F_07E0;
+        (whole | whole >> 16) as u16
+    }
+
+    #[inline(always)]
+    pub(super) fn step(&mut self) {
+        self.word = self.word.wrapping_add(self.step);
+    }
+}

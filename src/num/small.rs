@@ -1,0 +1,222 @@
+//! Planes of triangles of at most 64 x 64 pixels, in 32-bit arithmetic.
+//!
+//! Most triangles of a mesh are small. Then differences, areas and numerators fit 32 bits, and
+//! a 15-bit reciprocal of the area is enough: its error is common to both gradients, so it acts
+//! on the rise across the triangle, not on positions. No product is wider than
+//! `floor(a b / 2^16)` with a 15-bit `b`, one instruction on a Cortex-M4 and two multiplications
+//! on a Cortex-M0+.
+
+use super::Plane;
+
+/// What the planes of a small triangle share.
+#[derive(Clone, Copy, Debug)]
+pub struct SmallArea {
+    dx1: i32,
+    dy1: i32,
+    dx2: i32,
+    dy2: i32,
+    /// From the first corner to the centre of its pixel, units of 1/8 pixel.
+    sub: (i32, i32),
+    /// Pixel of the first corner.
+    pixel: (i32, i32),
+    /// `8 / area = recip 2^-shift`, 14 to 15 bits, with the sign of the area.
+    recip: i32,
+    shift: i32,
+    /// Bits of the larger side, in pixels.
+    extent_bits: u32,
+}
+
+/// A gradient before its final shift: `true value = x 2^-shift` per pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Gradient {
+    x: i32,
+    y: i32,
+}
+
+impl SmallArea {
+    /// From the three corners, 13.3; `None` when the triangle is larger than 64 pixels either
+    /// way or has no area.
+    #[inline]
+    #[must_use]
+    pub fn new(p: [(u16, u16); 3]) -> Option<Self> {
+        let [(x0, y0), (x1, y1), (x2, y2)] = p;
+        let dx1 = i32::from(x1) - i32::from(x0);
+        let dy1 = i32::from(y1) - i32::from(y0);
+        let dx2 = i32::from(x2) - i32::from(x0);
+        let dy2 = i32::from(y2) - i32::from(y0);
+        // One test for all sides: a difference within +-511 leaves no bit above.
+        let extent =
+            (dx1 ^ (dx1 >> 31)) | (dx2 ^ (dx2 >> 31)) | (dy1 ^ (dy1 >> 31)) | (dy2 ^ (dy2 >> 31));
+        if extent > 511 {
+            return None;
+        }
+        let area = dx1 * dy2 - dx2 * dy1;
+        if area == 0 {
+            return None;
+        }
+        let size = area.unsigned_abs();
+        let up = size.leading_zeros();
+        // area = a 2^(16 - up), a in 2^15 ..< 2^16, to nearest
+        let a = ((size << up) >> 16).max(1 << 15);
+        let recip = (((1u32 << 30) + a / 2) / a).min(0x7FFF) as i32;
+        Some(Self {
+            dx1,
+            dy1,
+            dx2,
+            dy2,
+            sub: (4 - i32::from(x0 & 7), 4 - i32::from(y0 & 7)),
+            pixel: (i32::from(x0 >> 3), i32::from(y0 >> 3)),
+            recip: if area < 0 { -recip } else { recip },
+            // n 8 / area = (n recip / 2^16) 2^(16 + 3 - 30 - 16 + up)
+            shift: 27 - up as i32,
+            extent_bits: 32 - (extent as u32 >> 2).leading_zeros(),
+        })
+    }
+
+    /// The gradient of a quantity by its rises from the first corner to the others, each below
+    /// 2^17 in magnitude.
+    #[inline(always)]
+    #[must_use]
+    pub fn gradient(&self, d1: i32, d2: i32) -> Gradient {
+        let times = |n: i32| ((i64::from(n) * i64::from(self.recip as i16)) >> 16) as i32;
+        Gradient {
+            x: times(d1 * self.dy2 - d2 * self.dy1),
+            y: times(d2 * self.dx1 - d1 * self.dx2),
+        }
+    }
+
+    /// How many bits the rise across the triangle needs at most, in units of 2^-`up`.
+    ///
+    /// A plane errs by at most 2^-13 of that; long slivers rise far more than their corners.
+    #[inline(always)]
+    #[must_use]
+    pub fn rise_bits(&self, g: Gradient, up: i32) -> i32 {
+        let g = (g.x ^ (g.x >> 31)) | (g.y ^ (g.y >> 31));
+        32 - g.leading_zeros() as i32 + self.extent_bits as i32 + up - self.shift
+    }
+
+    /// The step of a gradient to the next column and line, times 2^`up`.
+    #[inline(always)]
+    #[must_use]
+    pub fn step(&self, g: Gradient, up: i32) -> (i32, i32) {
+        let down = self.shift - up;
+        (shift_by(g.x, down), shift_by(g.y, down))
+    }
+
+    /// The plane of a gradient with this value at the first corner, in units of 2^-`up`.
+    #[inline(always)]
+    #[must_use]
+    pub fn plane(&self, value: i32, g: Gradient, up: i32) -> Plane {
+        let (dx, dy) = self.step(g, up);
+        let off = shift_by(g.x * self.sub.0 + g.y * self.sub.1, self.shift - up + 3);
+        self.plane_of_steps(value.wrapping_add(off), (dx, dy))
+    }
+
+    /// The plane with this value at the centre of the first corner's pixel, and these steps.
+    #[inline(always)]
+    #[must_use]
+    pub fn plane_of_steps(&self, value: i32, (dx, dy): (i32, i32)) -> Plane {
+        let at = value
+            .wrapping_sub(dx.wrapping_mul(self.pixel.0))
+            .wrapping_sub(dy.wrapping_mul(self.pixel.1));
+        Plane { at, dx, dy }
+    }
+
+    /// The rise from the first corner to the centre of its pixel.
+    #[inline(always)]
+    #[must_use]
+    pub fn offset(&self, g: Gradient) -> i32 {
+        shift_by(g.x * self.sub.0 + g.y * self.sub.1, self.shift + 3)
+    }
+
+    /// The plane of a quantity of up to 31 bits; `None` where it would err by more than 2^13.
+    ///
+    /// Its differences are kept to 15 bits and a sign.
+    #[inline]
+    #[must_use]
+    pub fn wide_plane(&self, value: [i32; 3]) -> Option<Plane> {
+        let d1 = value[1] - value[0];
+        let d2 = value[2] - value[0];
+        let bits = 32 - ((d1 ^ (d1 >> 31)) | (d2 ^ (d2 >> 31))).leading_zeros() as i32;
+        let down = (bits - 15).max(0);
+        let half = (1 << down) >> 1;
+        let g = self.gradient((d1 + half) >> down, (d2 + half) >> down);
+        (self.rise_bits(g, down) <= 26).then(|| self.plane(value[0], g, down))
+    }
+}
+
+/// `value 2^-down`, rounded to nearest where it shifts right.
+#[inline(always)]
+#[must_use]
+const fn shift_by(value: i32, down: i32) -> i32 {
+    if down > 0 {
+        ((value >> (down - 1)) + 1) >> 1
+    } else {
+        value << -down
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    struct Rng(u64);
+
+    impl Rng {
+        fn below(&mut self, n: u32) -> u32 {
+            self.0 = self
+                .0
+                .wrapping_mul(6364136223846793005)
+                .wrapping_add(1442695040888963407);
+            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
+        }
+    }
+
+    #[test]
+    fn planes_of_small_triangles_keep_their_bound() {
+        let mut rng = Rng(3);
+        let (mut made, mut refused) = (0, 0);
+        for i in 0..400_000 {
+            let size = [8, 40, 200, 512][i % 4];
+            let range = [1 << 12, 1 << 20, 0x7FFF_0000][i / 4 % 3];
+            let base = (rng.below(60_000), rng.below(60_000));
+            let p = [(); 3].map(|()| {
+                (
+                    (base.0 + rng.below(size)) as u16,
+                    (base.1 + rng.below(size)) as u16,
+                )
+            });
+            let v = [(); 3].map(|()| rng.below(range) as i32);
+            let Some(area) = SmallArea::new(p) else {
+                continue;
+            };
+            let Some(plane) = area.wide_plane(v) else {
+                refused += 1;
+                continue;
+            };
+            made += 1;
+            let f = |i: usize| (f64::from(p[i].0), f64::from(p[i].1), f64::from(v[i]));
+            let ((x0, y0, v0), (x1, y1, v1), (x2, y2, v2)) = (f(0), f(1), f(2));
+            let size = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
+            let gx = ((v1 - v0) * (y2 - y0) - (v2 - v0) * (y1 - y0)) / size;
+            let gy = ((x1 - x0) * (v2 - v0) - (x2 - x0) * (v1 - v0)) / size;
+            for (x, y) in p {
+                let (column, line) = (i32::from(x >> 3), i32::from(y >> 3));
+                let exact = v0
+                    + gx * (f64::from(column) * 8.0 + 4.0 - x0)
+                    + gy * (f64::from(line) * 8.0 + 4.0 - y0);
+                let error = f64::from(plane.at(column, line)) - exact;
+                let error = error - (error / 4294967296.0).round() * 4294967296.0;
+                assert!(error.abs() <= 8192.0 + 130.0, "{p:?} {v:?}: {error}");
+            }
+        }
+        assert!(made > 200_000, "{made} made, {refused} refused");
+    }
+
+    #[test]
+    fn large_and_empty_ones_are_refused() {
+        assert!(SmallArea::new([(0, 0), (512, 0), (0, 8)]).is_none());
+        assert!(SmallArea::new([(0, 0), (511, 0), (0, 511)]).is_some());
+        assert!(SmallArea::new([(9, 9), (10, 10), (11, 11)]).is_none());
+    }
+}
