@@ -50,10 +50,9 @@ impl SpanWeight {
         let zeros = length.leading_zeros();
         let normalise = if zeros > 14 { 14 } else { zeros };
         let upper = ((length as u32) << normalise) >> 4;
-        let inverse = if upper == 0 {
-            0
-        } else {
-            ((1 << 23) + upper / 2) / upper
+        let inverse = match ((1u32 << 23) + upper / 2).checked_div(upper) {
+            Some(inverse) => inverse,
+            None => 0,
         };
         Self { normalise, inverse }
     }
