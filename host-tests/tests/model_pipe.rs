@@ -227,7 +227,6 @@ fn composited(mode: GlobalMode, force_additive: bool, argb: [u64; 4]) -> Argb10 
         pixel.force_additive = force_additive;
     }
     send(&mut pipe, second);
-    drop(pipe);
     Argb10::from_word(lines.0[3][0])
 }
 
@@ -291,7 +290,6 @@ fn specular_colour_is_added_and_saturates() {
     };
     send(&mut pipe, [Token::SpecularSetup(specular)]);
     send(&mut pipe, span(0, 1, [1; 2], [[OPAQUE, 400, 0, 0]; 2]));
-    drop(pipe);
     let colour = Argb10::from_word(lines.0[3][0]);
     assert_eq!(
         (colour.a, colour.r, colour.g, colour.b),

@@ -60,7 +60,7 @@ impl SpanWeight {
     /// The weight at `distance` right of the span's left end, in units of 1/8 pixel; rounded to
     /// nearest, all ones from the right end on.
     ///
-    /// Off the true weight by at most 1.13 units of the tenth bit, by 0.77 up to 512 pixels; 0
+    /// Off the true weight by at most 1.08 units of the tenth bit, by 0.74 up to 512 pixels; 0
     /// and all ones at the ends.
     #[inline]
     #[must_use]
@@ -109,51 +109,30 @@ mod tests {
         assert_eq!(SpanWeight::new(1).at(u16::MAX), 1023);
     }
 
+    /// All 2^31 of them, with no gaps: some ten seconds.
     #[test]
-    fn every_length_keeps_its_ten_bits() {
+    fn every_length_keeps_its_ten_bits_at_every_distance() {
         let mut worst = [0.0f64; 2];
         for length in 1..=u16::MAX {
             let weight = SpanWeight::new(length);
-            let mut last = 0;
-            let mut check = |distance: u16| {
+            let scale = 1024.0 / f64::from(length);
+            let (mut largest, mut last) = (0.0f64, 0);
+            for distance in 0..=length {
                 let code = weight.at(distance);
                 assert!(code >= last, "{length} at {distance}");
                 last = code;
-                let exact = 1024.0 * f64::from(distance) / f64::from(length);
                 // All ones stand for 1.
-                let error = (f64::from(code) - exact.min(1023.0)).abs();
-                let long = usize::from(length >= 4096);
-                worst[long] = worst[long].max(error);
-            };
-            // Every pixel of a span up to 255 units, 256 places in longer ones.
-            let step = length / 256 + 1;
-            let mut distance = 0u16;
-            while distance < length {
-                check(distance);
-                distance = distance.saturating_add(step);
+                let exact = (scale * f64::from(distance)).min(1023.0);
+                largest = largest.max((f64::from(code) - exact).abs());
             }
-            check(length);
+            let long = usize::from(length >= 4096);
+            worst[long] = worst[long].max(largest);
         }
         println!(
             "W(X), units of the tenth bit: {:.4} up to 512 pixels, {:.4} beyond",
             worst[0], worst[1]
         );
-        assert!(worst[0] <= 0.77 && worst[1] <= 1.13, "{worst:?}");
-        assert!(worst[0] > 0.6 && worst[1] > 0.9, "the bounds are loose");
-    }
-
-    #[test]
-    fn spans_that_are_cut_are_measured_at_every_distance() {
-        let mut worst = 0.0f64;
-        for length in [
-            4096u16, 4097, 4111, 5000, 8191, 8193, 32_767, 32_783, 40_001,
-        ] {
-            let weight = SpanWeight::new(length);
-            for distance in 0..=length {
-                let exact = 1024.0 * f64::from(distance) / f64::from(length);
-                worst = worst.max((f64::from(weight.at(distance)) - exact.min(1023.0)).abs());
-            }
-        }
-        assert!(worst <= 1.13, "{worst}");
+        assert!(worst[0] <= 0.74 && worst[1] <= 1.08, "{worst:?}");
+        assert!(worst[0] > 0.7 && worst[1] > 1.0, "the bounds are loose");
     }
 }
