@@ -11,6 +11,7 @@ mod arena;
 mod composite;
 mod geometry;
 mod link;
+pub mod model;
 mod num;
 mod pipeline;
 mod renderer;

@@ -37,6 +37,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Draw the Utah teapot: frames, a strip, an animated picture (the default)
     Demo(DemoArgs),
+    /// Print the tokens that the hardware model makes of one line
+    Trace(TraceArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
 }
@@ -50,6 +52,15 @@ pub enum PixelFormatArg {
     Rgb565,
 }
 
+/// How colour and depth are found between the corners of a triangle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum InterpArg {
+    /// The fast path: planes
+    Plane,
+    /// The hardware model: 12-bit weights down edges, 10-bit weights along spans
+    Model,
+}
+
 /// Width and height of a picture in pixels, each `1..=`[`MAX_SIDE`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Size {
@@ -59,15 +70,9 @@ pub struct Size {
     pub height: u32,
 }
 
-/// Flags of `render`.
+/// What picture is to be drawn: the flags that `render` and `trace` share.
 #[derive(Debug, Clone, PartialEq, Args)]
-pub struct RenderArgs {
-    /// Model to draw
-    #[arg(value_name = "MODEL.obj")]
-    pub model: PathBuf,
-    /// Picture to write, .png or .ppm
-    #[arg(short = 'o', long = "output", value_name = "OUT")]
-    pub output: PathBuf,
+pub struct PictureArgs {
     /// Size of the picture in pixels, 1x1 to 8192x8192
     #[arg(long, value_name = "WxH", default_value = "320x240", value_parser = parse_size, allow_hyphen_values = true)]
     pub size: Size,
@@ -107,12 +112,9 @@ pub struct RenderArgs {
     /// Colour where nothing is drawn, each 0 to 255
     #[arg(long, value_name = "r,g,b", default_value = "0,0,0", value_parser = parse_colour, allow_hyphen_values = true)]
     pub background: [u8; 3],
-    /// Also write figures of the frame, as JSON
-    #[arg(long, value_name = "OUT.json")]
-    pub stats: Option<PathBuf>,
 }
 
-impl RenderArgs {
+impl PictureArgs {
     /// The view that the flags describe; already checked when it comes from [`parse`].
     #[must_use]
     pub fn view(&self) -> View {
@@ -132,6 +134,34 @@ impl RenderArgs {
             background: self.background,
         }
     }
+}
+
+/// Flags of `render`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct RenderArgs {
+    /// Model to draw
+    #[arg(value_name = "MODEL.obj")]
+    pub model: PathBuf,
+    /// Picture to write, .png or .ppm
+    #[arg(short = 'o', long = "output", value_name = "OUT")]
+    pub output: PathBuf,
+    /// What to draw.
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// How colour and depth are interpolated
+    #[arg(long, value_enum, default_value_t = InterpArg::Plane)]
+    pub interp: InterpArg,
+    /// Also write figures of the frame, as JSON
+    #[arg(long, value_name = "OUT.json")]
+    pub stats: Option<PathBuf>,
+}
+
+impl RenderArgs {
+    /// The view that the flags describe; already checked when it comes from [`parse`].
+    #[must_use]
+    pub fn view(&self) -> View {
+        self.picture.view()
+    }
 
     fn check(&self) -> Result<(), String> {
         self.view().check().map_err(|error| error.to_string())?;
@@ -145,6 +175,36 @@ impl RenderArgs {
             .is_some_and(|stats| *stats == self.output || *stats == self.model)
         {
             return Err("--stats must be a file of its own".into());
+        }
+        Ok(())
+    }
+}
+
+/// Flags of `trace`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct TraceArgs {
+    /// Model to draw
+    #[arg(value_name = "MODEL.obj")]
+    pub model: PathBuf,
+    /// Line of the picture, 0 at the top
+    #[arg(long, value_name = "N", allow_hyphen_values = true)]
+    pub line: u16,
+    /// What to draw.
+    #[command(flatten)]
+    pub picture: PictureArgs,
+}
+
+impl TraceArgs {
+    fn check(&self) -> Result<(), String> {
+        self.picture
+            .view()
+            .check()
+            .map_err(|error| error.to_string())?;
+        let height = self.picture.size.height;
+        if u32::from(self.line) >= height {
+            return Err(format!(
+                "--line must be below the height, which is {height}"
+            ));
         }
         Ok(())
     }
@@ -207,11 +267,12 @@ where
         _ => Stop::Refused(one_line(&error.to_string())),
     })?;
     let command = cli.command.unwrap_or(Command::Demo(DemoArgs::default()));
-    if let Command::Render(render) = &command {
-        render
-            .check()
-            .map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
-    }
+    let checked = match &command {
+        Command::Render(render) => render.check(),
+        Command::Trace(trace) => trace.check(),
+        Command::Demo(_) | Command::Firmware(_) => Ok(()),
+    };
+    checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
     Ok(command)
 }
 
@@ -294,7 +355,8 @@ mod tests {
     fn defaults_are_those_of_the_design() {
         let args = render("");
         assert_eq!(args.view(), View::default());
-        assert_eq!(args.format, PixelFormatArg::Rgb888);
+        assert_eq!(args.picture.format, PixelFormatArg::Rgb888);
+        assert_eq!(args.interp, InterpArg::Plane);
         assert_eq!(args.stats, None);
         assert_eq!(words(""), Ok(Command::Demo(DemoArgs::default())));
         assert_eq!(words("demo"), words(""));
@@ -312,10 +374,11 @@ mod tests {
     fn every_flag_arrives() {
         let view = render(
             "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
-             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --stats s.json",
+             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp model --stats s.json",
         );
         assert_eq!(view.stats, Some(PathBuf::from("s.json")));
-        assert_eq!(view.format, PixelFormatArg::Rgb565);
+        assert_eq!(view.picture.format, PixelFormatArg::Rgb565);
+        assert_eq!(view.interp, InterpArg::Model);
         let expected = View {
             width: 17,
             height: 8192,
@@ -332,6 +395,13 @@ mod tests {
             background: [255, 0, 7],
         };
         assert_eq!(view.view(), expected);
+        match words("trace m.obj --line 8191 --size 17x8192 --shade flat") {
+            Ok(Command::Trace(trace)) => {
+                assert_eq!((trace.line, trace.model), (8191, PathBuf::from("m.obj")));
+                assert_eq!(trace.picture.shade, Shade::Flat);
+            }
+            other => panic!("{other:?}"),
+        }
         let demo = DemoArgs {
             output: "d".into(),
             frames: 3,
@@ -383,6 +453,7 @@ mod tests {
             "--shade",
             "--cull front",
             "--format rgb666",
+            "--interp fast",
             "--background 256,0,0",
             "--background -1,0,0",
             "--background 1,2",
@@ -418,6 +489,14 @@ mod tests {
             "demo --frames 1001",
             "demo --frames -1",
             "demo x",
+            "trace m.obj",
+            "trace --line 3",
+            "trace m.obj --line 240",
+            "trace m.obj --line -1",
+            "trace m.obj --line 65536",
+            "trace m.obj --line 3 --size 4x3",
+            "trace m.obj --line 3 --fov 0",
+            "trace m.obj --line 3 -o x.png",
             "firmware --jsn",
             "firmware x",
             "--frames 3",

@@ -5,6 +5,9 @@ use crate::image_out::Frame;
 use crate::mock::{HostLine, MockError, MockFrameBuffer};
 use crate::model::Model;
 use crate::reference::{Cull, Shade, View};
+use scanbeam::model::{
+    CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,
+};
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     Affine, CacheCounts, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError,
@@ -13,6 +16,7 @@ use scanbeam::{
     SpanRecord, VertexOf, WordOf,
 };
 use serde_json::json;
+use std::ops::Range;
 
 /// Slots of the object cache when nothing else is asked.
 pub const SLOTS: usize = 64;
@@ -40,6 +44,9 @@ pub enum DrawFailure {
     /// The mocked display refused something.
     #[error("display: {0}")]
     Display(FrameError<MockError>),
+    /// The mocked display refused what the hardware model drew.
+    #[error("display: {0:?}")]
+    Model(ModelFrameError<MockError>),
     /// The frame did not arrive whole.
     #[error("display: {0:?}")]
     Incomplete(MockError),
@@ -239,137 +246,277 @@ pub fn draw(model: &Model, view: &View, format: PixelFormatArg) -> Result<Drawn,
     }
 }
 
+/// Draws a model as [`draw`] does, through the hardware model.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub fn draw_model(
+    model: &Model,
+    view: &View,
+    format: PixelFormatArg,
+) -> Result<Drawn, DrawFailure> {
+    let prepared = Prepared::new(model);
+    match (view.shade, format) {
+        (Shade::Flat, PixelFormatArg::Rgb888) => {
+            draw_model_as::<FlatDepth<Rgb888>>(&prepared, view)
+        }
+        (Shade::Flat, PixelFormatArg::Rgb565) => {
+            draw_model_as::<FlatDepth<Rgb565Be>>(&prepared, view)
+        }
+        (_, PixelFormatArg::Rgb888) => draw_model_as::<GouraudDepth<Rgb888>>(&prepared, view),
+        (_, PixelFormatArg::Rgb565) => draw_model_as::<GouraudDepth<Rgb565Be>>(&prepared, view),
+    }
+}
+
 /// Draws a prepared model with the pipeline `P`.
 ///
 /// # Errors
 /// See [`DrawFailure`].
 pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure> {
-    let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
+    let setting = Setting::new(prepared, view)?;
     let (width, height) = (view.width as u16, view.height as u16);
-    let screen = Screen::new(width, height).map_err(|e| bad(&e))?;
-    let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
-    // The model's middle is the origin, so that floats are spent on distances that matter.
-    let from_centre = |p: [f64; 3]| [0, 1, 2].map(|i| (p[i] - prepared.centre[i]) as f32);
-    let unit = |v: [f64; 3]| {
-        let largest = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        v.map(|c| (c / largest) as f32)
-    };
-    let camera = Camera::look_at(
-        from_centre(view.eye),
-        from_centre(view.at),
-        unit(view.up),
-        focal as f32,
-        view.near as f32,
-        view.far as f32,
-    )
-    .map_err(|e| bad(&e))?;
-    let light = Light::new(unit(view.light), view.ambient as f32);
-    let instance = Instance {
-        model: prepared
-            .model_matrix()
-            .ok_or_else(|| bad(&"the model is too large"))?,
-        cull: match view.cull {
-            Cull::Back => scanbeam::Cull::Back,
-            Cull::None => scanbeam::Cull::None,
-        },
-        light: light.filter(|_| view.shade != Shade::None),
-        colour: [255; 3],
-    };
     let mut memory = Memory::<P>::new(prepared, width, height);
-    let rooms = &mut memory.scene;
-    let mut scene = Scene::new(
-        screen,
-        SceneMemory {
-            vertices: &mut rooms.vertices,
-            objects: &mut rooms.objects,
-            buckets: &mut rooms.buckets,
-        },
-    );
     let mut renderer = LineRenderer::<P>::new(LineMemory {
         slots: &mut memory.slots,
         links: &mut memory.links,
         depth: &mut memory.depth,
         spans: &mut memory.spans,
     });
-    let lines = LINES_PER_TRANSFER.min(height);
-    let words = usize::from(width) * usize::from(lines);
-    let sink = MockFrameBuffer::new(width, height).late_by(LATE);
-    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = P::Pixel::from_rgb8(view.background);
-
+    let (mut pump, lines) = display::<P>(width, height);
     let mut total = FrameStats::default();
-    let mut bands = 0;
     let mut slow_bytes = 0;
-    let mut start = 0;
-    let mut count = height;
-    // Chunks whose triangles bring their own vertices.
-    let mut alone = vec![false; prepared.chunks.len()];
-    while start < height {
-        count = count.min(height - start);
-        scene
-            .begin_band(&camera, start..start + count)
-            .map_err(|e| bad(&e))?;
-        let mut full = None;
-        let mut changed = false;
-        for (chunk, alone) in prepared.chunks.iter().zip(&mut alone) {
-            let before = scene.pass_one();
-            if let Err(error) = chunk.draw(&mut scene, &instance, *alone) {
-                full = Some(error);
-                break;
-            }
-            let after = scene.pass_one();
-            // A chunk most of which lies outside the band takes less room without sharing.
-            if !*alone && after.vertices - before.vertices > 3 * (after.objects - before.objects) {
-                *alone = true;
-                changed = true;
-            }
-        }
-        if let Some(error) = full {
-            if changed {
-                continue;
-            }
-            if count == 1 {
-                return Err(DrawFailure::Full { line: start, error });
-            }
-            // Fewer lines have fewer triangles.
-            count = count.div_ceil(2);
-            continue;
-        }
-        let stats = scanbeam::draw_frame(&scene, &mut renderer, &mut pump, background, lines)
+    let bands = setting.bands(prepared, &mut memory.scene, 0..height, |scene| {
+        let stats = scanbeam::draw_frame(scene, &mut renderer, &mut pump, background, lines)
             .map_err(DrawFailure::Display)?;
         add(&mut total, &stats);
-        bands += 1;
         slow_bytes =
             slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * size_of::<Link>());
-        start += count;
-    }
-    let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
-    let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
-    let frame = Frame::new(view.width, view.height, rgb)
-        .ok_or_else(|| bad(&"the picture has another size"))?;
-    let fast_bytes = SLOTS * size_of::<SlotOf<P>>()
-        + SPANS * size_of::<SpanRecord>()
-        + usize::from(width) * size_of::<CellOf<P>>();
+        Ok(())
+    })?;
     Ok(Drawn {
-        frame,
+        frame: shown::<P>(&pump, view)?,
         stats: total,
         bands,
         slow_bytes,
-        fast_bytes,
-        line_bytes: 2 * words * size_of::<WordOf<P>>(),
+        fast_bytes: SLOTS * size_of::<SlotOf<P>>()
+            + SPANS * size_of::<SpanRecord>()
+            + usize::from(width) * size_of::<CellOf<P>>(),
+        line_bytes: line_bytes::<P>(width, lines),
     })
 }
 
+/// Draws a prepared model with the pipeline `P` through the hardware model.
+fn draw_model_as<P>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure>
+where
+    P: Pipeline<Shading: CornerColours>,
+{
+    let setting = Setting::new(prepared, view)?;
+    let (width, height) = (view.width as u16, view.height as u16);
+    let mut memory = Memory::<P>::new(prepared, width, height);
+    let mut lines_of_model = ModelLines::new(width);
+    let mut renderer = lines_of_model.renderer();
+    let background = P::Pixel::from_rgb8(view.background);
+    let (mut pump, lines) = display::<P>(width, height);
+    let mut total = FrameStats::default();
+    let mut slow_bytes = 0;
+    let bands = setting.bands(prepared, &mut memory.scene, 0..height, |scene| {
+        draw_model_frame(scene, &mut renderer, &mut pump, background, lines)
+            .map_err(DrawFailure::Model)?;
+        let band = FrameStats {
+            pass_one: scene.pass_one(),
+            scan_out: pump.stats(),
+            ..FrameStats::default()
+        };
+        add(&mut total, &band);
+        slow_bytes = slow_bytes.max(scene.bytes());
+        Ok(())
+    })?;
+    let counts = renderer.counts();
+    total.spans.pixels_shaded = (counts.pixels - counts.hidden) as u32;
+    total.spans.pixels_hidden = counts.hidden as u32;
+    total.spans.depth_tests = counts.pixels as u32;
+    Ok(Drawn {
+        frame: shown::<P>(&pump, view)?,
+        stats: total,
+        bands,
+        slow_bytes,
+        fast_bytes: lines_of_model.bytes(),
+        line_bytes: line_bytes::<P>(width, lines),
+    })
+}
+
+/// The scanlines that the hardware model works in.
+pub(crate) struct ModelLines([Vec<u64>; 4]);
+
+impl ModelLines {
+    /// As wide as a picture, or as the widest segment.
+    pub(crate) fn new(width: u16) -> Self {
+        let line = vec![0; usize::from(width).min(SEGMENT)];
+        Self([line.clone(), line.clone(), line.clone(), line])
+    }
+
+    /// A renderer over them.
+    pub(crate) fn renderer(&mut self) -> ModelRenderer<'_> {
+        let [z0, z1, c0, c1] = &mut self.0;
+        ModelRenderer::new(PipeMemory {
+            z: [z0, z1],
+            rgb: [c0, c1],
+        })
+    }
+
+    fn bytes(&self) -> usize {
+        self.0.iter().map(|line| size_of_val(line.as_slice())).sum()
+    }
+}
+
+/// A mocked display and its pump, and the lines of a transfer.
+fn display<P: Pipeline>(width: u16, height: u16) -> (Pump<MockFrameBuffer<WordOf<P>>>, u16) {
+    let lines = LINES_PER_TRANSFER.min(height);
+    let words = usize::from(width) * usize::from(lines);
+    let sink = MockFrameBuffer::new(width, height).late_by(LATE);
+    let pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    (pump, lines)
+}
+
+/// Bytes of the two line buffers.
+fn line_bytes<P: Pipeline>(width: u16, lines: u16) -> usize {
+    2 * usize::from(width) * usize::from(lines) * size_of::<WordOf<P>>()
+}
+
+/// The picture that has arrived.
+fn shown<P: Pipeline>(
+    pump: &Pump<MockFrameBuffer<WordOf<P>>>,
+    view: &View,
+) -> Result<Frame, DrawFailure> {
+    let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
+    let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
+    Frame::new(view.width, view.height, rgb)
+        .ok_or_else(|| DrawFailure::View("the picture has another size".into()))
+}
+
+/// What stays the same for all bands of a picture.
+pub(crate) struct Setting {
+    screen: Screen,
+    camera: Camera,
+    instance: Instance,
+}
+
+impl Setting {
+    /// In the crate's number formats.
+    pub(crate) fn new(prepared: &Prepared, view: &View) -> Result<Self, DrawFailure> {
+        let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
+        let screen = Screen::new(view.width as u16, view.height as u16).map_err(|e| bad(&e))?;
+        let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
+        // The model's middle is the origin, so that floats are spent on distances that matter.
+        let from_centre = |p: [f64; 3]| [0, 1, 2].map(|i| (p[i] - prepared.centre[i]) as f32);
+        let unit = |v: [f64; 3]| {
+            let largest = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
+            v.map(|c| (c / largest) as f32)
+        };
+        let camera = Camera::look_at(
+            from_centre(view.eye),
+            from_centre(view.at),
+            unit(view.up),
+            focal as f32,
+            view.near as f32,
+            view.far as f32,
+        )
+        .map_err(|e| bad(&e))?;
+        let light = Light::new(unit(view.light), view.ambient as f32);
+        let instance = Instance {
+            model: prepared
+                .model_matrix()
+                .ok_or_else(|| bad(&"the model is too large"))?,
+            cull: match view.cull {
+                Cull::Back => scanbeam::Cull::Back,
+                Cull::None => scanbeam::Cull::None,
+            },
+            light: light.filter(|_| view.shade != Shade::None),
+            colour: [255; 3],
+        };
+        Ok(Self {
+            screen,
+            camera,
+            instance,
+        })
+    }
+
+    /// Builds the scene of `lines` and hands it to `draw`; in several bands from top to bottom
+    /// where it does not fit the arenas as a whole. How many bands it took.
+    pub(crate) fn bands<P: Pipeline>(
+        &self,
+        prepared: &Prepared,
+        rooms: &mut SceneRooms<P>,
+        lines: Range<u16>,
+        mut draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
+    ) -> Result<u32, DrawFailure> {
+        let mut scene = Scene::new(
+            self.screen,
+            SceneMemory {
+                vertices: &mut rooms.vertices,
+                objects: &mut rooms.objects,
+                buckets: &mut rooms.buckets,
+            },
+        );
+        let mut bands = 0;
+        let mut start = lines.start;
+        let mut count = lines.len() as u16;
+        // Chunks whose triangles bring their own vertices.
+        let mut alone = vec![false; prepared.chunks.len()];
+        while start < lines.end {
+            count = count.min(lines.end - start);
+            scene
+                .begin_band(&self.camera, start..start + count)
+                .map_err(|error| DrawFailure::View(error.to_string()))?;
+            let mut full = None;
+            let mut changed = false;
+            for (chunk, alone) in prepared.chunks.iter().zip(&mut alone) {
+                let before = scene.pass_one();
+                if let Err(error) = chunk.draw(&mut scene, &self.instance, *alone) {
+                    full = Some(error);
+                    break;
+                }
+                let after = scene.pass_one();
+                let (vertices, objects) = (
+                    after.vertices - before.vertices,
+                    after.objects - before.objects,
+                );
+                // A chunk most of which lies outside the band takes less room without sharing.
+                if !*alone && vertices > 3 * objects {
+                    *alone = true;
+                    changed = true;
+                }
+            }
+            if let Some(error) = full {
+                if changed {
+                    continue;
+                }
+                if count == 1 {
+                    return Err(DrawFailure::Full { line: start, error });
+                }
+                // Fewer lines have fewer triangles.
+                count = count.div_ceil(2);
+                continue;
+            }
+            draw(&scene)?;
+            bands += 1;
+            start += count;
+        }
+        Ok(bands)
+    }
+}
+
 /// What the host lends to a scene.
-struct SceneRooms<P: Pipeline> {
+pub(crate) struct SceneRooms<P: Pipeline> {
     vertices: Vec<VertexOf<P>>,
     objects: Vec<ObjectOf<P>>,
     buckets: Vec<Link>,
 }
 
 /// All that the host lends.
-struct Memory<P: Pipeline> {
-    scene: SceneRooms<P>,
+pub(crate) struct Memory<P: Pipeline> {
+    pub(crate) scene: SceneRooms<P>,
     slots: Vec<SlotOf<P>>,
     links: Vec<Link>,
     depth: Vec<CellOf<P>>,
@@ -377,7 +524,7 @@ struct Memory<P: Pipeline> {
 }
 
 impl<P: Pipeline> Memory<P> {
-    fn new(prepared: &Prepared, width: u16, height: u16) -> Self {
+    pub(crate) fn new(prepared: &Prepared, width: u16, height: u16) -> Self {
         let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
         let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
         // Clipping can make several triangles of one; a scene that needs more is drawn in bands.

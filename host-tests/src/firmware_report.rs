@@ -1,8 +1,10 @@
 //! `firmware`: every frame of the firmware against the same frame drawn here, bit for bit (X1).
 
 use crate::args::FirmwareArgs;
+use crate::draw::ModelLines;
 use crate::firmware::{self, BOARDS, Measured, Profile, Toolchain};
 use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
@@ -56,14 +58,52 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     }
     let flat = draw::<FlatDepth<Rgb565Be>>(Shot::Teapot)?;
     frames.insert("teapot_flat", crc32fast::hash(&flat));
+    let model = draw_by_model(Shot::Teapot)?;
+    frames.insert("teapot_model", crc32fast::hash(&model));
     Ok(frames)
 }
+
+/// Lines that one transfer takes.
+const LINES: u16 = 3;
 
 /// The bytes of a shot in scan-out order.
 fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
     use scanbeam::LineDepth;
     const SLOTS: usize = 64;
-    const LINES: u16 = 3;
+    let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
+    let mut links = vec![Link::NONE; OBJECTS];
+    let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
+    let mut spans = vec![SpanRecord::default(); SLOTS];
+    let mut renderer = LineRenderer::new(LineMemory {
+        slots: &mut slots,
+        links: &mut links,
+        depth: &mut depth,
+        spans: &mut spans,
+    });
+    shown::<P>(shot, |scene, pump, background| {
+        draw_frame(scene, &mut renderer, pump, background, LINES)?;
+        Ok(())
+    })
+}
+
+/// The bytes of a shot as the hardware model draws it.
+fn draw_by_model(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut lines = ModelLines::new(WIDTH);
+    let mut renderer = lines.renderer();
+    shown::<GouraudDepth<Rgb565Be>>(shot, |scene, pump, background| {
+        draw_model_frame(scene, &mut renderer, pump, background, LINES)
+            .map_err(|error| format!("{error:?}"))?;
+        Ok(())
+    })
+}
+
+type Display = Pump<MockFrameBuffer<u16>>;
+
+/// What arrives at the display when `draw` draws a shot.
+fn shown<P: Pipeline<Pixel = Rgb565Be>>(
+    shot: Shot,
+    draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<(), Box<dyn Error>>,
+) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
     let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
     let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
@@ -77,21 +117,11 @@ fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Er
     );
     shot.build(&mut scene)
         .map_err(|error| format!("{}: {error:?}", shot.name()))?;
-    let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
-    let mut links = vec![Link::NONE; OBJECTS];
-    let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
-    let mut spans = vec![SpanRecord::default(); SLOTS];
-    let mut renderer = LineRenderer::new(LineMemory {
-        slots: &mut slots,
-        links: &mut links,
-        depth: &mut depth,
-        spans: &mut spans,
-    });
     let words = usize::from(WIDTH) * usize::from(LINES);
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb565Be::from_rgb8(shot.background());
-    draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
+    draw(&scene, &mut pump, background)?;
     let words = pump.sink().frame()?;
     Ok(words.into_iter().flat_map(u16::to_ne_bytes).collect())
 }

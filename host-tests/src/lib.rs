@@ -9,3 +9,4 @@ pub mod image_out;
 pub mod mock;
 pub mod model;
 pub mod reference;
+pub mod trace;

@@ -1,9 +1,9 @@
 //! The command line tool: see `scanbeam --help`.
 
-use host_tests::args::{self, Command, EXIT_BAD_INPUT, RenderArgs, Stop};
+use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, RenderArgs, Stop};
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::model::Model;
-use host_tests::{demo, draw, firmware_report};
+use host_tests::{demo, draw, firmware_report, trace};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -21,6 +21,7 @@ fn main() -> ExitCode {
     };
     let done = match command {
         Command::Render(args) => render(&args),
+        Command::Trace(args) => trace::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
@@ -41,7 +42,11 @@ fn main() -> ExitCode {
 /// Draws a model to a picture.
 fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let model = Model::load(&args.model)?;
-    let drawn = draw::draw(&model, &args.view(), args.format)?;
+    let (view, format) = (args.view(), args.picture.format);
+    let drawn = match args.interp {
+        InterpArg::Plane => draw::draw(&model, &view, format)?,
+        InterpArg::Model => draw::draw_model(&model, &view, format)?,
+    };
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
         let mut text = serde_json::to_string_pretty(&drawn.to_json())?;

@@ -19,6 +19,8 @@ pub struct Scale {
     factor: [u32; 3],
     /// Fraction bits of each field.
     fraction: [u32; 3],
+    /// The field of level 255, without the half.
+    full: [u32; 3],
 }
 
 impl Scale {
@@ -28,12 +30,14 @@ impl Scale {
         let mut scale = Self {
             factor: [0; 3],
             fraction: [0; 3],
+            full: [0; 3],
         };
         let mut i = 0;
         while i < 3 {
             let steps = steps[i] as u32;
             let fraction = FIELD_BITS[i] - 1 - steps.ilog2();
             scale.fraction[i] = fraction;
+            scale.full[i] = steps << fraction;
             scale.factor[i] = (((steps << fraction) << 8) + 127) / 255;
             i += 1;
         }
@@ -95,6 +99,16 @@ impl Colour {
         ]
     }
 
+    /// 8-bit levels, rounded to nearest.
+    #[must_use]
+    pub fn to_rgb8(self, scale: &Scale) -> [u8; 3] {
+        let fields = self.fields();
+        [0, 1, 2].map(|i| {
+            let field = fields[i].saturating_sub((1 << scale.fraction[i]) >> 1);
+            ((field * 510 + scale.full[i]) / (2 * scale.full[i])).min(255) as u8
+        })
+    }
+
     /// The colour at `t` (0 to 2^30 for 0 to 1) on the way to `other`.
     #[must_use]
     pub fn lerp(self, other: Self, t: i64) -> Self {
@@ -124,6 +138,19 @@ mod tests {
                         "{level}: {got:?}"
                     );
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn levels_come_back() {
+        for steps in [[255, 255, 255], [31, 63, 31]] {
+            let scale = Scale::new(steps);
+            for level in 0..=255u8 {
+                assert_eq!(
+                    Colour::from_rgb8([level; 3], &scale).to_rgb8(&scale),
+                    [level; 3]
+                );
             }
         }
     }

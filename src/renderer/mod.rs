@@ -8,3 +8,4 @@ mod spans;
 pub use frame::{FrameError, FrameStats, draw_frame};
 pub use lines::{LineMemory, LineRenderer, RendererError, SpanRecord};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};
+pub(crate) use spans::scale;

@@ -10,7 +10,7 @@ use crate::stats::SpanCounter;
 use crate::visible::{Everywhere, LineDepth, Tested};
 
 /// How levels become steps of the output.
-pub(super) const fn scale<P: Pipeline>() -> &'static Scale {
+pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
     const { &Scale::new(<P::Pixel as PixelFormat>::STEPS) }
 }
 

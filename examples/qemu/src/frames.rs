@@ -3,6 +3,7 @@
 use crate::rooms::{Rooms, RoomsOf};
 use core::convert::Infallible;
 use core::task::Poll;
+use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Pipeline, PixelFormat, Rgb565Be, Scene,
@@ -18,26 +19,37 @@ pub(crate) type Faceted = FlatDepth<Rgb565Be>;
 /// Lines that one transfer takes.
 pub(crate) const LINES_PER_TRANSFER: u16 = 4;
 
-/// One frame: a shot, and whether its faces are flat.
+/// What a frame is drawn with.
+#[derive(Clone, Copy)]
+enum Way {
+    Smooth,
+    Faceted,
+    /// The hardware model, from a smooth scene.
+    Model,
+}
+
+/// One frame: a shot, and how it is drawn.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame {
     pub(crate) name: &'static str,
     shot: Shot,
-    flat: bool,
+    way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: all shots, then one of flat faces.
+/// Every frame, in the order in which they are drawn: all shots, then one of flat faces and one
+/// by the hardware model.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let smooth = SHOTS.into_iter().map(|shot| Frame {
         name: shot.name(),
         shot,
-        flat: false,
+        way: Way::Smooth,
     });
-    smooth.chain([Frame {
-        name: "teapot_flat",
+    let others = [("teapot_flat", Way::Faceted), ("teapot_model", Way::Model)];
+    smooth.chain(others.map(|(name, way)| Frame {
+        name,
         shot: Shot::Teapot,
-        flat: true,
-    }])
+        way,
+    }))
 }
 
 impl Frame {
@@ -46,10 +58,10 @@ impl Frame {
     pub(crate) fn draw(&self, rooms: &mut Rooms, emit: &mut dyn FnMut(&[u8])) {
         let buffers = rooms.lines.take().expect("the last frame gave them back");
         let mut pump = Pump::new(Emit { emit, sent: None }, buffers);
-        if self.flat {
-            draw_as::<Faceted>(self.shot, &mut rooms.faceted, &mut pump);
-        } else {
-            draw_as::<Smooth>(self.shot, &mut rooms.smooth, &mut pump);
+        match self.way {
+            Way::Smooth => draw_as::<Smooth>(self.shot, &mut rooms.smooth, &mut pump),
+            Way::Faceted => draw_as::<Faceted>(self.shot, &mut rooms.faceted, &mut pump),
+            Way::Model => draw_by_model(self.shot, rooms, &mut pump),
         }
         if let (_, [Some(a), Some(b)]) = pump.release() {
             rooms.lines = Some([a, b]);
@@ -79,6 +91,26 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
     });
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
+}
+
+fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
+    let mut scene = Scene::<Smooth>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: rooms.smooth.vertices,
+            objects: rooms.smooth.objects,
+            buckets: rooms.smooth.buckets,
+        },
+    );
+    shot.build(&mut scene).expect("the rooms are large enough");
+    let [z0, z1, c0, c1] = &mut rooms.model;
+    let mut renderer = ModelRenderer::new(PipeMemory {
+        z: [z0, z1],
+        rgb: [c0, c1],
+    });
+    let background = Rgb565Be::from_rgb8(shot.background());
+    draw_model_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

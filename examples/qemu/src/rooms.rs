@@ -60,6 +60,8 @@ pub(crate) struct RoomsOf<P: Pipeline> {
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
     pub(crate) faceted: RoomsOf<Faceted>,
+    /// Depth and colour of two lines each, for the hardware model: external RAM.
+    pub(crate) model: [&'static mut [u64]; 4],
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
     pub(crate) lines: Option<[&'static mut [u16]; 2]>,
 }
@@ -90,6 +92,12 @@ impl Rooms {
         Self {
             smooth: rooms_of!(Smooth),
             faceted: rooms_of!(Faceted),
+            model: [
+                lend!(".slow", u64, WIDTH as usize, 0),
+                lend!(".slow", u64, WIDTH as usize, 0),
+                lend!(".slow", u64, WIDTH as usize, 0),
+                lend!(".slow", u64, WIDTH as usize, 0),
+            ],
             lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
     }
