@@ -7,10 +7,10 @@ use crate::model::Model;
 use crate::reference::{Cull, Shade, View};
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Affine, CacheCounts, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError,
-    FrameStats, GouraudDepth, Instance, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh,
-    ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene, SceneMemory, Screen, SlotOf,
-    VertexOf, WordOf,
+    Affine, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats,
+    GouraudDepth, Instance, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf,
+    PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene, SceneMemory, Screen, SlotOf, VertexOf,
+    WordOf,
 };
 use serde_json::json;
 
@@ -363,14 +363,8 @@ fn add(total: &mut FrameStats, band: &FrameStats) {
     a.vertices += b.vertices;
     a.dropped += b.dropped;
     total.spans += band.spans;
-    let (a, b): (&mut CacheCounts, &CacheCounts) = (&mut total.cache, &band.cache);
-    a.hits += b.hits;
-    a.misses += b.misses;
-    a.spills += b.spills;
-    a.set_ups += b.set_ups;
-    a.link_reads += b.link_reads;
-    a.link_writes += b.link_writes;
-    a.peak_slots = a.peak_slots.max(b.peak_slots);
+    total.cache += band.cache;
+    total.prefetch_bytes += band.prefetch_bytes;
     total.slow_read_bytes += band.slow_read_bytes;
     total.slow_write_bytes += band.slow_write_bytes;
     total.scanlines_skipped += band.scanlines_skipped;

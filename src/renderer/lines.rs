@@ -1,16 +1,28 @@
 //! Pass two: the objects of a line into its pixels (K1, K5, K8).
 
+use super::place::Place;
 use super::scene::Scene;
 use super::spans::draw_span;
-use crate::active::{ActiveList, CacheCounts, Member};
-use crate::geometry::Drawable;
+use crate::active::{ActiveList, CacheCounts, Interleave, Member};
+use crate::geometry::{Drawable, Parameters};
 use crate::link::Link;
-use crate::pipeline::{CellOf, DrawableOf, Pipeline, SlotOf, WordOf};
+use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::span::Span;
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::LineDepth;
 
 /// The memory of one line renderer, lent by the application.
+///
+/// All of it belongs to this renderer alone; a second one over the same link column is refused:
+/// ```compile_fail,E0499
+/// # use scanbeam::{GouraudDepth, LineMemory, LineRenderer, Link, Rgb888};
+/// let (mut links, mut depth, mut other) = ([Link::NONE; 9], [0; 9], [0; 9]);
+/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth };
+/// let one = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
+/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut other };
+/// let two = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
+/// drop((one, two));
+/// ```
 pub struct LineMemory<'m, P: Pipeline> {
     /// The object cache, best in the fastest RAM there is. Any length: what finds no slot is
     /// served from slow memory, and the picture is the same.
@@ -53,6 +65,16 @@ pub enum RendererError {
         /// The line.
         line: u16,
     },
+    /// The line belongs to none of the renderers, or came out of turn from the one it belongs to.
+    Unowned {
+        /// The line.
+        line: u16,
+    },
+    /// The frame was given up while another renderer still owed the line.
+    Stopped {
+        /// The line.
+        line: u16,
+    },
 }
 
 impl core::fmt::Display for RendererError {
@@ -74,6 +96,8 @@ impl core::fmt::Display for RendererError {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+            Self::Unowned { line } => write!(f, "renderer: nobody draws line {line} in its turn"),
+            Self::Stopped { line } => write!(f, "renderer: given up while line {line} was awaited"),
         }
     }
 }
@@ -81,14 +105,22 @@ impl core::fmt::Display for RendererError {
 impl core::error::Error for RendererError {}
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the
-/// scene with any number of others.
+/// scene with any number of others (K16, X6).
+///
+/// What it owns it has as `&mut`, and what it shares as `&Scene`, so renderers on several cores
+/// or threads cannot race: there is nothing that two of them write. `LineRenderer` is [`Send`]
+/// and [`Scene`] is [`Sync`] for every pipeline of this crate.
+///
+/// A renderer that turns to another `Scene` value has to be told by
+/// [`restart`](LineRenderer::restart); a scene that is begun anew it notices by itself.
 pub struct LineRenderer<'m, P: Pipeline> {
-    list: ActiveList<'m, DrawableOf<P>>,
+    pub(super) list: ActiveList<'m, DrawableOf<P>>,
     depth: &'m mut [CellOf<P>],
-    /// The line of guard space drawn last, and the scene it was of.
-    last: Option<(i32, u32)>,
-    /// Lines from one drawn line to the next.
-    step: u16,
+    /// How far which scene has been drawn; `None` before its first line.
+    pub(super) place: Option<Place>,
+    pub(super) interleave: Interleave,
+    /// Bytes a line that are fetched ahead where the renderer has the time.
+    pub(super) prefetch: u32,
     counter: P::Counter,
 }
 
@@ -111,8 +143,9 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         Self {
             list: ActiveList::new(memory.slots, memory.links),
             depth: memory.depth,
-            last: None,
-            step: 1,
+            place: None,
+            interleave: Interleave::ALL,
+            prefetch: 0,
             counter: P::Counter::default(),
         }
     }
@@ -123,10 +156,17 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         SlotOf::<P>::new(Drawable::EMPTY)
     }
 
-    /// How many lines apart those are that this renderer draws, at least 1: objects that end
-    /// before its next line leave the cache at once. Any value gives the same picture.
-    pub fn set_step(&mut self, step: u16) {
-        self.step = step.max(1);
+    /// Which lines this renderer draws: objects that end before its next line leave the cache at
+    /// once. Any other line can be drawn too, with the same bits, but then it starts anew from
+    /// the top.
+    pub fn set_interleave(&mut self, interleave: Interleave) {
+        self.interleave = interleave;
+    }
+
+    /// Which lines this renderer draws.
+    #[must_use]
+    pub fn interleave(&self) -> Interleave {
+        self.interleave
     }
 
     /// Whether the memory suffices for `scene`.
@@ -149,7 +189,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
 
     /// Forgets the lines drawn so far and starts counting anew.
     pub fn restart(&mut self) {
-        self.last = None;
+        self.place = None;
         self.counter = P::Counter::default();
     }
 
@@ -181,17 +221,29 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         let (left, top) = (screen.left(), screen.top());
         let now = top + i32::from(line);
-        let last = match self.last {
-            Some((last, generation)) if last < now && generation == scene.generation() => last,
+        // No picture has lines that far down.
+        let next = top
+            + self
+                .interleave
+                .at_or_after(u32::from(line) + 1)
+                .min(1 << 14) as i32;
+        let mut place = match self.place {
+            Some(place) if place.serves(scene.generation(), now) => place,
             _ => {
                 self.list.clear();
-                top + i32::from(scene.lines().start) - 1
+                Place::above(scene)
             }
         };
-        for bucket in last + 1..=now {
-            self.list.admit(scene.bucket(bucket));
+        for bucket in place.admitted + 1..=now {
+            let rest = place.rest.take().unwrap_or_else(|| {
+                self.list.counts.buckets += 1;
+                scene.bucket(bucket)
+            });
+            self.list.admit(scene.chain(rest));
         }
-        self.last = Some((now, scene.generation()));
+        let last = place.last;
+        (place.last, place.next, place.admitted) = (now, next, now);
+        self.place = Some(place);
         if self.list.is_empty() {
             return Ok(false);
         }
@@ -200,8 +252,9 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             depth[..width].fill(P::Depth::FARTHEST);
         }
         let counter = &mut self.counter;
+        let mut thin = 0;
         self.list.walk(
-            (last, now, now + i32::from(self.step)),
+            (last, now, next),
             |object| scene.set_up(object, now),
             |object, drawable| {
                 let Some(span) = Span::clipped(now, drawable.columns(now), left, width) else {
@@ -209,11 +262,18 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
                 };
                 let pixels = &mut pixels[span.start..span.end];
                 let depth = &mut depth[span.start..span.end];
+                if matches!(drawable.parameters, Parameters::Corners) {
+                    thin += 1;
+                }
                 draw_span::<P>(scene, object, drawable, span, (pixels, depth), counter);
             },
         );
+        self.list.counts.set_ups += thin;
         Ok(true)
     }
+
+    /// Bytes of an object and its corners in slow memory.
+    pub const RECORD_BYTES: usize = size_of::<ObjectOf<P>>() + 3 * size_of::<VertexOf<P>>();
 
     /// How the cache has done in the current frame (C8).
     #[must_use]

@@ -1,0 +1,1 @@
+//! The list beside a model of plain vectors, compared whole after every step.
