@@ -14,7 +14,7 @@ type Plain = GouraudDepth<Rgb888>;
 
 fn rooms() -> (Screen, SceneRooms<Plain>) {
     let screen = Screen::new(64, 48).unwrap();
-    (screen, SceneRooms::new(9_000, 9_000, 48))
+    (screen, SceneRooms::new(30_000, 30_000, 48))
 }
 
 fn begin(scene: &mut Scene<'_, Plain>) {
