@@ -14,6 +14,12 @@ use std::path::PathBuf;
 pub const MAX_SIDE: u32 = 8192;
 /// Most frames of a demo, inclusive.
 pub const MAX_DEMO_FRAMES: u32 = 1000;
+/// Slots of the object cache when nothing else is asked.
+pub const DEFAULT_SLOTS: u16 = 64;
+/// Most slots of an object cache, inclusive.
+pub const MAX_SLOTS: u16 = 4095;
+/// Most line renderers, inclusive.
+pub const MAX_RENDERERS: u16 = 16;
 /// Frames of a demo when nothing else is asked.
 pub const DEFAULT_DEMO_FRAMES: u32 = 24;
 /// Exit code for bad input of any kind.
@@ -37,6 +43,8 @@ pub enum Command {
     Render(RenderArgs),
     /// Draw the Utah teapot: frames, a strip, an animated picture (the default)
     Demo(DemoArgs),
+    /// Model what the object cache saves: slow bytes and frame time against slots
+    Cache(CacheArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
 }
@@ -107,6 +115,17 @@ pub struct RenderArgs {
     /// Colour where nothing is drawn, each 0 to 255
     #[arg(long, value_name = "r,g,b", default_value = "0,0,0", value_parser = parse_colour, allow_hyphen_values = true)]
     pub background: [u8; 3],
+    /// Slots of each renderer's object cache, 0 to 4095
+    #[arg(long, value_name = "SLOTS", default_value_t = DEFAULT_SLOTS,
+        value_parser = clap::value_parser!(u16).range(0..=i64::from(MAX_SLOTS)))]
+    pub cache: u16,
+    /// Line renderers, each on a thread of its own when there are several, 1 to 16
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_RENDERERS)))]
+    pub renderers: u16,
+    /// Bytes a line that each renderer fetches ahead into its cache
+    #[arg(long, value_name = "BYTES", default_value_t = 0)]
+    pub prefetch: u32,
     /// Also write figures of the frame, as JSON
     #[arg(long, value_name = "OUT.json")]
     pub stats: Option<PathBuf>,
@@ -174,6 +193,17 @@ impl Default for DemoArgs {
             frames: DEFAULT_DEMO_FRAMES,
         }
     }
+}
+
+/// Flags of `cache`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct CacheArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the plots, made when it is not there; none: no plots
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
+    pub output: Option<PathBuf>,
 }
 
 /// Flags of `firmware`.
@@ -298,6 +328,12 @@ mod tests {
         assert_eq!(args.stats, None);
         assert_eq!(words(""), Ok(Command::Demo(DemoArgs::default())));
         assert_eq!(words("demo"), words(""));
+        assert_eq!((args.cache, args.renderers, args.prefetch), (64, 1, 0));
+        let plain = CacheArgs {
+            json: false,
+            output: None,
+        };
+        assert_eq!(words("cache"), Ok(Command::Cache(plain)));
         assert_eq!(
             words("firmware"),
             Ok(Command::Firmware(FirmwareArgs { json: false }))
@@ -312,8 +348,10 @@ mod tests {
     fn every_flag_arrives() {
         let view = render(
             "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
-             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --stats s.json",
+             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --stats s.json \
+             --cache 0 --renderers 16 --prefetch 99",
         );
+        assert_eq!((view.cache, view.renderers, view.prefetch), (0, 16, 99));
         assert_eq!(view.stats, Some(PathBuf::from("s.json")));
         assert_eq!(view.format, PixelFormatArg::Rgb565);
         let expected = View {
@@ -387,6 +425,11 @@ mod tests {
             "--background -1,0,0",
             "--background 1,2",
             "--background 1.5,0,0",
+            "--cache -1",
+            "--cache 4096",
+            "--renderers 0",
+            "--renderers 17",
+            "--prefetch -1",
             "--unknown",
             "--unknown 3",
             "--texture a.png",

@@ -1,6 +1,8 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
-use crate::args::PixelFormatArg;
+use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
+use crate::crew;
+use crate::crew::LineRooms;
 use crate::image_out::Frame;
 use crate::mock::{HostLine, MockError, MockFrameBuffer};
 use crate::model::Model;
@@ -8,14 +10,32 @@ use crate::reference::{Cull, Shade, View};
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     Affine, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats,
-    GouraudDepth, Instance, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf,
-    PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene, SceneMemory, Screen, SlotOf, VertexOf,
-    WordOf,
+    GouraudDepth, Instance, Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be,
+    Rgb888, Scene, SceneMemory, Screen, SlotOf, VertexOf, WordOf,
 };
 use serde_json::json;
 
-/// Slots of the object cache when nothing else is asked.
-pub const SLOTS: usize = 64;
+/// Who draws a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CrewSettings {
+    /// Line renderers: one on this thread, or several on a thread each, at least 1.
+    pub renderers: u16,
+    /// Slots of each one's object cache.
+    pub slots: usize,
+    /// Bytes a line that each fetches ahead.
+    pub prefetch: u32,
+}
+
+impl Default for CrewSettings {
+    fn default() -> Self {
+        Self {
+            renderers: 1,
+            slots: usize::from(DEFAULT_SLOTS),
+            prefetch: 0,
+        }
+    }
+}
+
 /// Lines that one transfer takes.
 pub const LINES_PER_TRANSFER: u16 = 8;
 /// Polls that the mocked display is late by, so that buffers are really swapped.
@@ -85,7 +105,12 @@ impl Drawn {
                 "hits": s.cache.hits,
                 "misses": s.cache.misses,
                 "spills": s.cache.spills,
-                "set_ups": s.cache.set_ups,
+                "hits_per_mille": s.cache.hits_per_mille(),
+                "set_ups": s.cache.records_read(),
+                "prefetched": s.cache.fetched,
+                "prefetch_hits": s.cache.fetched_hits,
+                "prefetch_in_vain": s.cache.fetched_in_vain,
+                "prefetch_bytes": s.prefetch_bytes,
                 "slow_read_bytes": s.slow_read_bytes,
                 "slow_write_bytes": s.slow_write_bytes,
                 "peak_slots": s.cache.peak_slots,
@@ -199,17 +224,26 @@ impl Chunk {
 ///
 /// # Errors
 /// See [`DrawFailure`].
-pub fn draw(model: &Model, view: &View, format: PixelFormatArg) -> Result<Drawn, DrawFailure> {
+pub fn draw(
+    model: &Model,
+    view: &View,
+    format: PixelFormatArg,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
     let prepared = Prepared::new(model);
     match (view.shade, format) {
         (Shade::Flat, PixelFormatArg::Rgb888) => {
-            draw_as::<Counted<FlatDepth<Rgb888>>>(&prepared, view)
+            draw_as::<Counted<FlatDepth<Rgb888>>>(&prepared, view, crew)
         }
         (Shade::Flat, PixelFormatArg::Rgb565) => {
-            draw_as::<Counted<FlatDepth<Rgb565Be>>>(&prepared, view)
+            draw_as::<Counted<FlatDepth<Rgb565Be>>>(&prepared, view, crew)
         }
-        (_, PixelFormatArg::Rgb888) => draw_as::<Counted<GouraudDepth<Rgb888>>>(&prepared, view),
-        (_, PixelFormatArg::Rgb565) => draw_as::<Counted<GouraudDepth<Rgb565Be>>>(&prepared, view),
+        (_, PixelFormatArg::Rgb888) => {
+            draw_as::<Counted<GouraudDepth<Rgb888>>>(&prepared, view, crew)
+        }
+        (_, PixelFormatArg::Rgb565) => {
+            draw_as::<Counted<GouraudDepth<Rgb565Be>>>(&prepared, view, crew)
+        }
     }
 }
 
@@ -217,7 +251,11 @@ pub fn draw(model: &Model, view: &View, format: PixelFormatArg) -> Result<Drawn,
 ///
 /// # Errors
 /// See [`DrawFailure`].
-pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure> {
+pub fn draw_as<P: Pipeline>(
+    prepared: &Prepared,
+    view: &View,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
     let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
     let (width, height) = (view.width as u16, view.height as u16);
     let screen = Screen::new(width, height).map_err(|e| bad(&e))?;
@@ -249,8 +287,8 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
         light: light.filter(|_| view.shade != Shade::None),
         colour: [255; 3],
     };
-    let mut memory = Memory::<P>::new(prepared, width, height);
-    let rooms = &mut memory.scene;
+    let mut rooms = SceneRooms::<P>::new(prepared, height);
+    let links = rooms.objects.len();
     let mut scene = Scene::new(
         screen,
         SceneMemory {
@@ -259,11 +297,10 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
             buckets: &mut rooms.buckets,
         },
     );
-    let mut renderer = LineRenderer::<P>::new(LineMemory {
-        slots: &mut memory.slots,
-        links: &mut memory.links,
-        depth: &mut memory.depth,
-    });
+    let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
+        .map(|_| LineRooms::new(crew.slots, links, width))
+        .collect();
+    let mut renderers = crew::renderers(&mut line_rooms, crew);
     let lines = LINES_PER_TRANSFER.min(height);
     let words = usize::from(width) * usize::from(lines);
     let sink = MockFrameBuffer::new(width, height).late_by(LATE);
@@ -273,6 +310,8 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
     let mut total = FrameStats::default();
     let mut bands = 0;
     let mut slow_bytes = 0;
+    // A link column for each renderer.
+    let columns_bytes = renderers.len() * size_of::<Link>();
     let mut start = 0;
     let mut count = height;
     while start < height {
@@ -295,19 +334,20 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
             count = count.div_ceil(2);
             continue;
         }
-        let stats = scanbeam::draw_frame(&scene, &mut renderer, &mut pump, background, lines)
+        let stats = crew::draw_frame(&scene, &mut renderers, &mut pump, background, lines)
             .map_err(DrawFailure::Display)?;
         add(&mut total, &stats);
         bands += 1;
         slow_bytes =
-            slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * size_of::<Link>());
+            slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * columns_bytes);
         start += count;
     }
     let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
     let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
     let frame = Frame::new(view.width, view.height, rgb)
         .ok_or_else(|| bad(&"the picture has another size"))?;
-    let fast_bytes = SLOTS * size_of::<SlotOf<P>>() + usize::from(width) * size_of::<CellOf<P>>();
+    let fast_bytes = renderers.len()
+        * (crew.slots * size_of::<SlotOf<P>>() + usize::from(width) * size_of::<CellOf<P>>());
     Ok(Drawn {
         frame,
         stats: total,
@@ -325,30 +365,17 @@ struct SceneRooms<P: Pipeline> {
     buckets: Vec<Link>,
 }
 
-/// All that the host lends.
-struct Memory<P: Pipeline> {
-    scene: SceneRooms<P>,
-    slots: Vec<SlotOf<P>>,
-    links: Vec<Link>,
-    depth: Vec<CellOf<P>>,
-}
-
-impl<P: Pipeline> Memory<P> {
-    fn new(prepared: &Prepared, width: u16, height: u16) -> Self {
+impl<P: Pipeline> SceneRooms<P> {
+    fn new(prepared: &Prepared, height: u16) -> Self {
         let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
         let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
         // Clipping can make several triangles of one; a scene that needs more is drawn in bands.
         let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
         let vertices = (vertices + 8 * faces + 64).min(1 << 16);
         Self {
-            scene: SceneRooms {
-                vertices: vec![VertexOf::<P>::empty(); vertices],
-                objects: vec![ObjectOf::<P>::default(); objects],
-                buckets: vec![Link::NONE; usize::from(height)],
-            },
-            slots: vec![LineRenderer::<P>::empty_slot(); SLOTS],
-            links: vec![Link::NONE; objects],
-            depth: vec![P::Depth::FARTHEST; usize::from(width)],
+            vertices: vec![VertexOf::<P>::empty(); vertices],
+            objects: vec![ObjectOf::<P>::default(); objects],
+            buckets: vec![Link::NONE; usize::from(height)],
         }
     }
 }

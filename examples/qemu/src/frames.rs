@@ -1,14 +1,14 @@
 //! The frames that this firmware draws, by name.
 
-use crate::rooms::{Rooms, RoomsOf};
+use crate::rooms::{Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
-    FlatDepth, GouraudDepth, LineMemory, LineRenderer, Pipeline, PixelFormat, Rgb565Be, Scene,
-    SceneMemory, draw_frame,
+    Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
+    Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
 };
-use scenes::{SHOTS, Shot};
+use scenes::{SHOTS, Shot, VARIANTS, Variant};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -18,26 +18,38 @@ pub(crate) type Faceted = FlatDepth<Rgb565Be>;
 /// Lines that one transfer takes.
 pub(crate) const LINES_PER_TRANSFER: u16 = 4;
 
-/// One frame: a shot, and whether its faces are flat.
+/// One frame: how a shot is drawn, and whether its faces are flat.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame {
     pub(crate) name: &'static str,
-    shot: Shot,
+    how: Variant,
     flat: bool,
 }
 
-/// Every frame, in the order in which they are drawn: all shots, then one of flat faces.
+/// Every frame, in the order in which they are drawn: all shots, then one of flat faces, then
+/// what the cache and its renderers must not change.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
-    let smooth = SHOTS.into_iter().map(|shot| Frame {
-        name: shot.name(),
-        shot,
+    let plain = |name, shot, flat| Frame {
+        name,
+        how: Variant {
+            name,
+            shot,
+            slots: SLOTS,
+            renderers: 1,
+            prefetch: 0,
+        },
+        flat,
+    };
+    let shots = SHOTS.into_iter();
+    let variants = VARIANTS.into_iter().map(|how| Frame {
+        name: how.name,
+        how,
         flat: false,
     });
-    smooth.chain([Frame {
-        name: "teapot_flat",
-        shot: Shot::Teapot,
-        flat: true,
-    }])
+    shots
+        .map(move |shot| plain(shot.name(), shot, false))
+        .chain([plain("teapot_flat", Shot::Teapot, true)])
+        .chain(variants)
 }
 
 impl Frame {
@@ -47,9 +59,19 @@ impl Frame {
         let buffers = rooms.lines.take().expect("the last frame gave them back");
         let mut pump = Pump::new(Emit { emit, sent: None }, buffers);
         if self.flat {
-            draw_as::<Faceted>(self.shot, &mut rooms.faceted, &mut pump);
+            draw_as::<Faceted>(&self.how, &mut rooms.faceted, &mut pump);
+        } else if self.how.renderers == 1 && self.how.slots <= SLOTS {
+            draw_as::<Smooth>(&self.how, &mut rooms.smooth, &mut pump);
         } else {
-            draw_as::<Smooth>(self.shot, &mut rooms.smooth, &mut pump);
+            // The larger cache, and the second link column and line of depth.
+            let [small, large] = [&mut rooms.smooth, &mut rooms.second];
+            core::mem::swap(&mut small.slots, &mut large.slots);
+            if self.how.renderers == 1 {
+                draw_as::<Smooth>(&self.how, small, &mut pump);
+            } else {
+                draw_by_two(&self.how, small, large, &mut pump);
+            }
+            core::mem::swap(&mut small.slots, &mut large.slots);
         }
         if let (_, [Some(a), Some(b)]) = pump.release() {
             rooms.lines = Some([a, b]);
@@ -58,7 +80,7 @@ impl Frame {
 }
 
 fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
-    shot: Shot,
+    how: &Variant,
     rooms: &mut RoomsOf<P>,
     pump: &mut Pump<Emit<'_>>,
 ) {
@@ -70,14 +92,65 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
             buckets: rooms.buckets,
         },
     );
-    shot.build(&mut scene).expect("the rooms are large enough");
+    how.shot
+        .build(&mut scene)
+        .expect("the rooms are large enough");
     let mut renderer = LineRenderer::new(LineMemory {
-        slots: rooms.slots,
+        slots: &mut rooms.slots[..how.slots],
         links: rooms.links,
         depth: rooms.depth,
     });
-    let background = Rgb565Be::from_rgb8(shot.background());
+    renderer.set_prefetch(how.prefetch);
+    let background = Rgb565Be::from_rgb8(how.shot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// Two renderers of one scene take turns, as they would on two cores.
+#[inline(never)]
+fn draw_by_two(
+    how: &Variant,
+    rooms: &mut RoomsOf<Smooth>,
+    other: &mut RoomsOf<Smooth>,
+    pump: &mut Pump<Emit<'_>>,
+) {
+    let mut scene = Scene::<Smooth>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: rooms.vertices,
+            objects: rooms.objects,
+            buckets: rooms.buckets,
+        },
+    );
+    how.shot
+        .build(&mut scene)
+        .expect("the rooms are large enough");
+    let memory = [
+        (&mut *rooms.slots, &mut *rooms.links, &mut *rooms.depth),
+        (&mut *other.slots, &mut *other.links, &mut *other.depth),
+    ];
+    let mut offset = 0;
+    let mut renderers = memory.map(|(slots, links, depth)| {
+        let slots = &mut slots[..how.slots];
+        let mut renderer = LineRenderer::new(LineMemory {
+            slots,
+            links,
+            depth,
+        });
+        renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
+        renderer.set_prefetch(how.prefetch);
+        offset += 1;
+        renderer
+    });
+    let mut crew = Crew::<_, &'static mut [[u8; 2]], _> {
+        scene: &scene,
+        here: &mut renderers,
+        desks: &mut [],
+        background: Rgb565Be::from_rgb8(how.shot.background()),
+        wait: || false,
+        skipped: 0,
+    };
+    send_frame(&scene, &mut crew, pump, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

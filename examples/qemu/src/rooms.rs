@@ -5,7 +5,7 @@ use core::ptr;
 use scanbeam::{
     CellOf, LineRenderer, Link, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, VertexOf,
 };
-use scenes::{HEIGHT, OBJECTS, VERTICES, WIDTH};
+use scenes::{HEIGHT, MOST_SLOTS, OBJECTS, VERTICES, WIDTH};
 
 /// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
 /// `&'static mut` slice. Each place in the source can lend once; a second time panics.
@@ -40,7 +40,7 @@ macro_rules! lend {
 }
 
 /// Slots of the object cache.
-const SLOTS: usize = 43;
+pub(crate) const SLOTS: usize = 43;
 
 /// What one pipeline is lent.
 pub(crate) struct RoomsOf<P: Pipeline> {
@@ -58,6 +58,9 @@ pub(crate) struct RoomsOf<P: Pipeline> {
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
     pub(crate) faceted: RoomsOf<Faceted>,
+    /// What comparisons take beyond what one renderer needs: a cache for everything and a second
+    /// renderer's links and depth. No scene. All in external RAM: here instructions count.
+    pub(crate) second: RoomsOf<Smooth>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
     pub(crate) lines: Option<[&'static mut [[u8; 2]]; 2]>,
 }
@@ -87,6 +90,19 @@ impl Rooms {
         Self {
             smooth: rooms_of!(Smooth),
             faceted: rooms_of!(Faceted),
+            second: RoomsOf {
+                vertices: &mut [],
+                objects: &mut [],
+                buckets: &mut [],
+                links: lend!(".slow", Link, OBJECTS, Link::NONE),
+                slots: lend!(
+                    ".slow",
+                    SlotOf<Smooth>,
+                    MOST_SLOTS,
+                    LineRenderer::<Smooth>::empty_slot()
+                ),
+                depth: lend!(".slow", CellOf<Smooth>, WIDTH as usize, 0),
+            },
             lines: Some([
                 lend!(".dma", [u8; 2], WORDS, [0; 2]),
                 lend!(".dma", [u8; 2], WORDS, [0; 2]),
