@@ -6,7 +6,9 @@
 use crate::args::CacheArgs;
 use crate::crew::LineRooms;
 use crate::image_out::{write_atomically, write_image};
-use crate::memory_model::{Counted as Model, Layout, SYSTEMS};
+use crate::memory_model::{
+    Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
+};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::plot::{Chart, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
@@ -58,9 +60,8 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
     if args.json {
         println!("{}", serde_json::to_string_pretty(&Value::from(reports))?);
     } else {
-        for (slow, fast) in SYSTEMS {
-            println!("{}: {}", slow.name, slow.source);
-            println!("{}: {}", fast.name, fast.source);
+        for memory in [DRAM_80, SRAM_12, QSPI_PSRAM, SDRAM, DTCM] {
+            println!("{}: {}", memory.name, memory.source);
         }
     }
     if let Some(folder) = &args.output {

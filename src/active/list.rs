@@ -62,6 +62,8 @@ pub struct ActiveList<'m, T> {
     /// What has been taken from a bucket that is not at its end, in order of submission.
     pending: Link,
     used: u32,
+    /// The first line that a fetched object, which was not walked yet, was made for.
+    made_for: i32,
     pub(crate) counts: CacheCounts,
 }
 
@@ -79,6 +81,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
             incoming: Link::NONE,
             pending: Link::NONE,
             used: 0,
+            made_for: i32::MAX,
             counts: CacheCounts::default(),
         };
         list.clear();
@@ -107,6 +110,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.pending = Link::NONE;
         self.free = Link::NONE;
         self.used = 0;
+        self.made_for = i32::MAX;
         self.counts = CacheCounts::default();
         for (i, slot) in self.slots.iter_mut().enumerate().rev() {
             slot.next = self.free;
@@ -130,10 +134,12 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.end_bucket();
     }
 
-    /// Takes the next object of a bucket, latest first, into a free slot; `body` is its set-up.
+    /// Takes the next object of a bucket, latest first, into a free slot; `body` is its set-up for
+    /// `line`.
     ///
     /// Without a free slot it is left in slow memory.
-    pub(crate) fn admit_fetched(&mut self, object: u16, body: T) {
+    pub(crate) fn admit_fetched(&mut self, object: u16, line: i32, body: T) {
+        self.made_for = self.made_for.min(line);
         let next = self.pending;
         if let Some(node) = self.take_slot(object, body, next) {
             self.pending = node;
@@ -252,6 +258,8 @@ impl<'m, T: Member> ActiveList<'m, T> {
         let mut current = self.head;
         // The object that heads `incoming`; read once for each that comes in.
         let mut coming = self.coming();
+        // The line before which `current` was good for the last time.
+        let mut since = last;
         loop {
             let is_new = match coming {
                 Some(object) => !current.is_some() || object < self.object(current),
@@ -264,7 +272,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
                 let index = current.slot();
                 let slot = &mut self.slots[index];
                 if slot.body.end() > line {
-                    if slot.body.stale(last, line) {
+                    if slot.body.stale(since, line) {
                         if let Some(body) = make(slot.object) {
                             slot.body = body;
                             self.counts.set_ups += 1;
@@ -273,6 +281,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
                     visit(slot.object, &slot.body);
                     self.counts.hits += 1;
                 }
+                since = last;
                 let after = slot.next;
                 if slot.body.end() > next {
                     before = current;
@@ -295,6 +304,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
                     self.counts.fetched_hits += 1;
                     self.set_next(before, node);
                     current = node;
+                    since = self.made_for;
                     continue;
                 }
                 self.incoming = self.links[usize::from(node.object())];
@@ -340,6 +350,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
             before = node;
             current = after;
         }
+        self.made_for = i32::MAX;
     }
 
     /// The first object that waits to be merged.

@@ -145,7 +145,7 @@ impl<P: Pipeline> LineRenderer<'_, P> {
                 match scene.set_up(object, line) {
                     // It may end before this renderer's next line, and then is none of its own.
                     Some(body) if Member::end(&body) > line => {
-                        self.list.admit_fetched(object, body);
+                        self.list.admit_fetched(object, line, body);
                     }
                     _ => self.list.counts.fetched_in_vain += 1,
                 }

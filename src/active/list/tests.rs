@@ -191,6 +191,7 @@ fn every_step_is_the_models() {
                     if thing.end > line {
                         list.admit_fetched(
                             *object,
+                            line,
                             Thing {
                                 made: line,
                                 ..thing
