@@ -26,7 +26,7 @@ impl Rng {
 
     /// A number from 0, below `n`.
     pub fn below(&mut self, n: u32) -> u32 {
-        ((self.next() & 0xFFFF_FFFF) * u64::from(n) >> 32) as u32
+        (((self.next() & 0xFFFF_FFFF) * u64::from(n)) >> 32) as u32
     }
 
     /// A number from `low` to `high`, both inclusive.
