@@ -21,7 +21,7 @@ mod span;
 mod stats;
 mod visible;
 
-pub use active::{CacheCounts, Slot};
+pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
@@ -35,8 +35,10 @@ pub use pipeline::{
     Parts, Pipeline, SlotOf, VertexOf, WordOf,
 };
 pub use renderer::{
-    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, PassOne, RendererError,
-    Scene, SceneError, SceneMemory, SpanRecord, draw_frame,
+    Command, Crew, DrawError, FrameError, FrameStats, Input, InputError, InputQueue, Instance,
+    LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched, Relay,
+    RendererError, Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, draw_frame,
+    send_frame,
 };
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

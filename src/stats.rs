@@ -1,7 +1,7 @@
 //! Counters of what was done and of what was skipped (M4).
 
 /// Counts the work along spans; `()` counts nothing and costs nothing.
-pub trait SpanCounter: Copy + Default {
+pub trait SpanCounter: Copy + Default + Send {
     /// One span was drawn: so many of its pixels were seen, so many hidden, tested or not.
     fn span(&mut self, seen: u32, hidden: u32, tested: bool);
 

@@ -14,6 +14,12 @@ use std::path::PathBuf;
 pub const MAX_SIDE: u32 = 8192;
 /// Most frames of a demo, inclusive.
 pub const MAX_DEMO_FRAMES: u32 = 1000;
+/// Slots of the object cache when nothing else is asked.
+pub const DEFAULT_SLOTS: u16 = 64;
+/// Most slots of an object cache, inclusive.
+pub const MAX_SLOTS: u16 = 4095;
+/// Most line renderers, inclusive.
+pub const MAX_RENDERERS: u16 = 16;
 /// Frames of a demo when nothing else is asked.
 pub const DEFAULT_DEMO_FRAMES: u32 = 24;
 /// Exit code for bad input of any kind.
@@ -39,6 +45,8 @@ pub enum Command {
     Demo(DemoArgs),
     /// Print the tokens that the hardware model makes of one line
     Trace(TraceArgs),
+    /// Model what the object cache saves: slow bytes and frame time against slots
+    Cache(CacheArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
 }
@@ -151,6 +159,17 @@ pub struct RenderArgs {
     /// How colour and depth are interpolated
     #[arg(long, value_enum, default_value_t = InterpArg::Plane)]
     pub interp: InterpArg,
+    /// Slots of each renderer's object cache, 0 to 4095
+    #[arg(long, value_name = "SLOTS", default_value_t = DEFAULT_SLOTS,
+        value_parser = clap::value_parser!(u16).range(0..=i64::from(MAX_SLOTS)))]
+    pub cache: u16,
+    /// Line renderers, each on a thread of its own when there are several, 1 to 16
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_RENDERERS)))]
+    pub renderers: u16,
+    /// Bytes a line that each renderer fetches ahead into its cache
+    #[arg(long, value_name = "BYTES", default_value_t = 0)]
+    pub prefetch: u32,
     /// Also write figures of the frame, as JSON
     #[arg(long, value_name = "OUT.json")]
     pub stats: Option<PathBuf>,
@@ -236,6 +255,17 @@ impl Default for DemoArgs {
     }
 }
 
+/// Flags of `cache`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct CacheArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the plots, made when it is not there; none: no plots
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
+    pub output: Option<PathBuf>,
+}
+
 /// Flags of `firmware`.
 #[derive(Debug, Clone, PartialEq, Eq, Args)]
 pub struct FirmwareArgs {
@@ -270,7 +300,7 @@ where
     let checked = match &command {
         Command::Render(render) => render.check(),
         Command::Trace(trace) => trace.check(),
-        Command::Demo(_) | Command::Firmware(_) => Ok(()),
+        Command::Demo(_) | Command::Cache(_) | Command::Firmware(_) => Ok(()),
     };
     checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
     Ok(command)
@@ -360,6 +390,12 @@ mod tests {
         assert_eq!(args.stats, None);
         assert_eq!(words(""), Ok(Command::Demo(DemoArgs::default())));
         assert_eq!(words("demo"), words(""));
+        assert_eq!((args.cache, args.renderers, args.prefetch), (64, 1, 0));
+        let plain = CacheArgs {
+            json: false,
+            output: None,
+        };
+        assert_eq!(words("cache"), Ok(Command::Cache(plain)));
         assert_eq!(
             words("firmware"),
             Ok(Command::Firmware(FirmwareArgs { json: false }))
@@ -374,8 +410,10 @@ mod tests {
     fn every_flag_arrives() {
         let view = render(
             "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
-             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp model --stats s.json",
+             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp model --stats s.json \
+             --cache 0 --renderers 16 --prefetch 99",
         );
+        assert_eq!((view.cache, view.renderers, view.prefetch), (0, 16, 99));
         assert_eq!(view.stats, Some(PathBuf::from("s.json")));
         assert_eq!(view.picture.format, PixelFormatArg::Rgb565);
         assert_eq!(view.interp, InterpArg::Model);
@@ -458,6 +496,11 @@ mod tests {
             "--background -1,0,0",
             "--background 1,2",
             "--background 1.5,0,0",
+            "--cache -1",
+            "--cache 4096",
+            "--renderers 0",
+            "--renderers 17",
+            "--prefetch -1",
             "--unknown",
             "--unknown 3",
             "--texture a.png",

@@ -1,6 +1,7 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
-use crate::args::PixelFormatArg;
+use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
+use crate::crew::{self, LineRooms};
 use crate::image_out::Frame;
 use crate::mock::{HostLine, MockError, MockFrameBuffer};
 use crate::model::Model;
@@ -10,18 +11,34 @@ use scanbeam::model::{
 };
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Affine, CacheCounts, Camera, CellOf, Counted, DrawError, Faces, FlatDepth, FrameError,
-    FrameStats, GouraudDepth, Instance, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh,
-    ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene, SceneMemory, Screen, SlotOf,
-    SpanRecord, VertexOf, WordOf,
+    Affine, Camera, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth,
+    Instance, Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene,
+    SceneMemory, Screen, VertexOf, WordOf,
 };
 use serde_json::json;
 use std::ops::Range;
 
-/// Slots of the object cache when nothing else is asked.
-pub const SLOTS: usize = 64;
-/// Spans that are noted on a line.
-pub const SPANS: usize = 64;
+/// Who draws a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct CrewSettings {
+    /// Line renderers: one on this thread, or several on a thread each, at least 1.
+    pub renderers: u16,
+    /// Slots of each one's object cache.
+    pub slots: usize,
+    /// Bytes a line that each fetches ahead.
+    pub prefetch: u32,
+}
+
+impl Default for CrewSettings {
+    fn default() -> Self {
+        Self {
+            renderers: 1,
+            slots: usize::from(DEFAULT_SLOTS),
+            prefetch: 0,
+        }
+    }
+}
+
 /// Lines that one transfer takes.
 pub const LINES_PER_TRANSFER: u16 = 8;
 /// Polls that the mocked display is late by, so that buffers are really swapped.
@@ -94,7 +111,12 @@ impl Drawn {
                 "hits": s.cache.hits,
                 "misses": s.cache.misses,
                 "spills": s.cache.spills,
-                "set_ups": s.cache.set_ups,
+                "hits_per_mille": s.cache.hits_per_mille(),
+                "set_ups": s.cache.records_read(),
+                "prefetched": s.cache.fetched,
+                "prefetch_hits": s.cache.fetched_hits,
+                "prefetch_in_vain": s.cache.fetched_in_vain,
+                "prefetch_bytes": s.prefetch_bytes,
                 "slow_read_bytes": s.slow_read_bytes,
                 "slow_write_bytes": s.slow_write_bytes,
                 "peak_slots": s.cache.peak_slots,
@@ -232,17 +254,26 @@ impl Chunk {
 ///
 /// # Errors
 /// See [`DrawFailure`].
-pub fn draw(model: &Model, view: &View, format: PixelFormatArg) -> Result<Drawn, DrawFailure> {
+pub fn draw(
+    model: &Model,
+    view: &View,
+    format: PixelFormatArg,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
     let prepared = Prepared::new(model);
     match (view.shade, format) {
         (Shade::Flat, PixelFormatArg::Rgb888) => {
-            draw_as::<Counted<FlatDepth<Rgb888>>>(&prepared, view)
+            draw_as::<Counted<FlatDepth<Rgb888>>>(&prepared, view, crew)
         }
         (Shade::Flat, PixelFormatArg::Rgb565) => {
-            draw_as::<Counted<FlatDepth<Rgb565Be>>>(&prepared, view)
+            draw_as::<Counted<FlatDepth<Rgb565Be>>>(&prepared, view, crew)
         }
-        (_, PixelFormatArg::Rgb888) => draw_as::<Counted<GouraudDepth<Rgb888>>>(&prepared, view),
-        (_, PixelFormatArg::Rgb565) => draw_as::<Counted<GouraudDepth<Rgb565Be>>>(&prepared, view),
+        (_, PixelFormatArg::Rgb888) => {
+            draw_as::<Counted<GouraudDepth<Rgb888>>>(&prepared, view, crew)
+        }
+        (_, PixelFormatArg::Rgb565) => {
+            draw_as::<Counted<GouraudDepth<Rgb565Be>>>(&prepared, view, crew)
+        }
     }
 }
 
@@ -272,26 +303,31 @@ pub fn draw_model(
 ///
 /// # Errors
 /// See [`DrawFailure`].
-pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure> {
+pub fn draw_as<P: Pipeline>(
+    prepared: &Prepared,
+    view: &View,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
     let setting = Setting::new(prepared, view)?;
     let (width, height) = (view.width as u16, view.height as u16);
-    let mut memory = Memory::<P>::new(prepared, width, height);
-    let mut renderer = LineRenderer::<P>::new(LineMemory {
-        slots: &mut memory.slots,
-        links: &mut memory.links,
-        depth: &mut memory.depth,
-        spans: &mut memory.spans,
-    });
+    let mut rooms = SceneRooms::<P>::new(prepared, height);
+    let links = rooms.objects.len();
+    let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
+        .map(|_| LineRooms::new(crew.slots, links, width))
+        .collect();
+    let fast_bytes = line_rooms.iter().map(LineRooms::fast_bytes).sum();
+    let mut renderers = crew::renderers(&mut line_rooms, crew);
+    // A link column for each renderer.
+    let column_bytes = renderers.len() * size_of::<Link>();
     let background = P::Pixel::from_rgb8(view.background);
     let (mut pump, lines) = display::<P>(width, height);
     let mut total = FrameStats::default();
     let mut slow_bytes = 0;
-    let bands = setting.bands(prepared, &mut memory.scene, 0..height, |scene| {
-        let stats = scanbeam::draw_frame(scene, &mut renderer, &mut pump, background, lines)
+    let bands = setting.bands(prepared, &mut rooms, 0..height, |scene| {
+        let stats = crew::draw_frame(scene, &mut renderers, &mut pump, background, lines)
             .map_err(DrawFailure::Display)?;
         add(&mut total, &stats);
-        slow_bytes =
-            slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * size_of::<Link>());
+        slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
     Ok(Drawn {
@@ -299,9 +335,7 @@ pub fn draw_as<P: Pipeline>(prepared: &Prepared, view: &View) -> Result<Drawn, D
         stats: total,
         bands,
         slow_bytes,
-        fast_bytes: SLOTS * size_of::<SlotOf<P>>()
-            + SPANS * size_of::<SpanRecord>()
-            + usize::from(width) * size_of::<CellOf<P>>(),
+        fast_bytes,
         line_bytes: line_bytes::<P>(width, lines),
     })
 }
@@ -313,14 +347,14 @@ where
 {
     let setting = Setting::new(prepared, view)?;
     let (width, height) = (view.width as u16, view.height as u16);
-    let mut memory = Memory::<P>::new(prepared, width, height);
+    let mut rooms = SceneRooms::<P>::new(prepared, height);
     let mut lines_of_model = ModelLines::new(width);
     let mut renderer = lines_of_model.renderer();
     let background = P::Pixel::from_rgb8(view.background);
     let (mut pump, lines) = display::<P>(width, height);
     let mut total = FrameStats::default();
     let mut slow_bytes = 0;
-    let bands = setting.bands(prepared, &mut memory.scene, 0..height, |scene| {
+    let bands = setting.bands(prepared, &mut rooms, 0..height, |scene| {
         draw_model_frame(scene, &mut renderer, &mut pump, background, lines)
             .map_err(DrawFailure::Model)?;
         let band = FrameStats {
@@ -514,32 +548,17 @@ pub(crate) struct SceneRooms<P: Pipeline> {
     buckets: Vec<Link>,
 }
 
-/// All that the host lends.
-pub(crate) struct Memory<P: Pipeline> {
-    pub(crate) scene: SceneRooms<P>,
-    slots: Vec<SlotOf<P>>,
-    links: Vec<Link>,
-    depth: Vec<CellOf<P>>,
-    spans: Vec<SpanRecord>,
-}
-
-impl<P: Pipeline> Memory<P> {
-    pub(crate) fn new(prepared: &Prepared, width: u16, height: u16) -> Self {
+impl<P: Pipeline> SceneRooms<P> {
+    pub(crate) fn new(prepared: &Prepared, height: u16) -> Self {
         let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
         let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
         // Clipping can make several triangles of one; a scene that needs more is drawn in bands.
         let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
         let vertices = (vertices + 8 * faces + 64).min(1 << 16);
         Self {
-            scene: SceneRooms {
-                vertices: vec![VertexOf::<P>::empty(); vertices],
-                objects: vec![ObjectOf::<P>::default(); objects],
-                buckets: vec![Link::NONE; usize::from(height)],
-            },
-            slots: vec![LineRenderer::<P>::empty_slot(); SLOTS],
-            links: vec![Link::NONE; objects],
-            depth: vec![P::Depth::FARTHEST; usize::from(width)],
-            spans: vec![SpanRecord::default(); SPANS],
+            vertices: vec![VertexOf::<P>::empty(); vertices],
+            objects: vec![ObjectOf::<P>::default(); objects],
+            buckets: vec![Link::NONE; usize::from(height)],
         }
     }
 }
@@ -554,14 +573,8 @@ fn add(total: &mut FrameStats, band: &FrameStats) {
     a.vertices += b.vertices;
     a.dropped += b.dropped;
     total.spans += band.spans;
-    let (a, b): (&mut CacheCounts, &CacheCounts) = (&mut total.cache, &band.cache);
-    a.hits += b.hits;
-    a.misses += b.misses;
-    a.spills += b.spills;
-    a.set_ups += b.set_ups;
-    a.link_reads += b.link_reads;
-    a.link_writes += b.link_writes;
-    a.peak_slots = a.peak_slots.max(b.peak_slots);
+    total.cache += band.cache;
+    total.prefetch_bytes += band.prefetch_bytes;
     total.slow_read_bytes += band.slow_read_bytes;
     total.slow_write_bytes += band.slow_write_bytes;
     total.scanlines_skipped += band.scanlines_skipped;

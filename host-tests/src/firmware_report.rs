@@ -10,7 +10,7 @@ use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
 };
-use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VERTICES, WIDTH};
+use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VARIANTS, VERTICES, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -60,6 +60,11 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     frames.insert("teapot_flat", crc32fast::hash(&flat));
     let model = draw_by_model(Shot::Teapot)?;
     frames.insert("teapot_model", crc32fast::hash(&model));
+    for variant in VARIANTS {
+        // However it is drawn there, it is the shot that one renderer draws here.
+        let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
+        frames.insert(variant.name, crc32fast::hash(&plain));
+    }
     Ok(frames)
 }
 
@@ -207,7 +212,7 @@ impl Compared {
                 "DIFFERS"
             };
             println!(
-                "  {scene:12} {host:08x} {target:08x} {verdict}  {instructions:>10} instructions"
+                "  {scene:15} {host:08x} {target:08x} {verdict}  {instructions:>10} instructions"
             );
         }
     }

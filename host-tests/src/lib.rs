@@ -1,12 +1,16 @@
 //! Host side of scanbeam.
 
 pub mod args;
+pub mod cache_report;
+pub mod crew;
 pub mod demo;
 pub mod draw;
 pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;
+pub mod memory_model;
 pub mod mock;
 pub mod model;
+pub mod plot;
 pub mod reference;
 pub mod trace;

@@ -3,7 +3,7 @@
 use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, RenderArgs, Stop};
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::model::Model;
-use host_tests::{demo, draw, firmware_report, trace};
+use host_tests::{cache_report, demo, draw, firmware_report, trace};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -23,6 +23,7 @@ fn main() -> ExitCode {
         Command::Render(args) => render(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Demo(args) => demo::run(&args),
+        Command::Cache(args) => cache_report::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
             Ok(false) => return ExitCode::FAILURE,
@@ -42,9 +43,14 @@ fn main() -> ExitCode {
 /// Draws a model to a picture.
 fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let model = Model::load(&args.model)?;
+    let crew = draw::CrewSettings {
+        renderers: args.renderers,
+        slots: usize::from(args.cache),
+        prefetch: args.prefetch,
+    };
     let (view, format) = (args.view(), args.picture.format);
     let drawn = match args.interp {
-        InterpArg::Plane => draw::draw(&model, &view, format)?,
+        InterpArg::Plane => draw::draw(&model, &view, format, crew)?,
         InterpArg::Model => draw::draw_model(&model, &view, format)?,
     };
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;

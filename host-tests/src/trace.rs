@@ -4,7 +4,7 @@
 //! is on the wires, not what the program meant.
 
 use crate::args::TraceArgs;
-use crate::draw::{Memory, ModelLines, Prepared, Setting};
+use crate::draw::{ModelLines, Prepared, SceneRooms, Setting};
 use crate::model::Model;
 use crate::reference::{Shade, View};
 use scanbeam::model::{Chart, CornerColours, PipeCounts, Token, TokenBits};
@@ -56,14 +56,14 @@ where
 {
     let width = view.width as u16;
     let setting = Setting::new(prepared, view)?;
-    let mut memory = Memory::<P>::new(prepared, width, 1);
+    let mut rooms = SceneRooms::<P>::new(prepared, 1);
     let mut lines = ModelLines::new(width);
     let mut renderer = lines.renderer();
     let background = P::Pixel::from_rgb8(view.background);
     let mut pixels = vec![background; usize::from(width)];
     let mut tokens = Vec::new();
     let mut failure = None;
-    setting.bands(prepared, &mut memory.scene, line..line + 1, |scene| {
+    setting.bands(prepared, &mut rooms, line..line + 1, |scene| {
         let mut keep = |token: &Token| tokens.push(token.encode());
         failure = renderer
             .trace_line(scene, line, background, &mut pixels, &mut keep)

@@ -5,7 +5,7 @@ mod common;
 
 use common::Rng;
 use host_tests::args::PixelFormatArg;
-use host_tests::draw::draw;
+use host_tests::draw::{CrewSettings, draw};
 use host_tests::model::Model;
 use host_tests::reference::{
     Comparison, Cull, Options, Shade, TOLERANCE_LEVELS, View, compare, render_with,
@@ -72,7 +72,7 @@ impl Family {
     /// Draws a picture and holds it against the reference with exact corners or, where
     /// `snapped`, with corners on the 1/8-pixel grid.
     fn picture(&mut self, model: &Model, view: &View, snapped: bool) -> Comparison {
-        let drawn = draw(model, view, PixelFormatArg::Rgb888).unwrap();
+        let drawn = draw(model, view, PixelFormatArg::Rgb888, CrewSettings::default()).unwrap();
         let options = Options {
             steps_per_pixel: snapped.then_some(8.0),
         };
@@ -310,7 +310,13 @@ fn sixteen_bits_are_the_nearest() {
         shade: Shade::Gouraud,
         ..View::default()
     };
-    let drawn = draw(&teapot, &view, PixelFormatArg::Rgb565).unwrap();
+    let drawn = draw(
+        &teapot,
+        &view,
+        PixelFormatArg::Rgb565,
+        CrewSettings::default(),
+    )
+    .unwrap();
     let reference = render_with(&teapot, &view, Options::default()).unwrap();
     let c = compare(&reference, view.background, &drawn.frame).unwrap();
     assert!(c.max_error_levels < 255.0 / 31.0 / 2.0 + 2.0, "{c:?}");

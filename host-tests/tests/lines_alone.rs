@@ -6,8 +6,8 @@ mod common;
 use common::{LineRooms, Rng, SceneRooms, frame, line};
 use scanbeam::{
     Affine, Camera, Counted, Cull, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Instance, Light, LineMemory, LineRenderer, Mesh, Pipeline, Rgb565Be, Rgb888, Scene, Screen,
-    WordOf,
+    Instance, Interleave, Light, LineMemory, LineRenderer, Mesh, Pipeline, Rgb565Be, Rgb888, Scene,
+    Screen, WordOf,
 };
 use scenes::{CUBE, RIBBON, SHOTS, Shot, TEAPOT};
 use std::ops::Range;
@@ -85,8 +85,9 @@ where
         for offset in 0..step {
             let mut rooms = LineRooms::fitting(rng.pick(&SLOTS), scene);
             let mut renderer = rooms.renderer();
-            renderer.set_step(step);
             let mut y = first + offset;
+            let turn = Interleave::lines(step, y % step).unwrap();
+            renderer.set_interleave(turn);
             while scene.lines().contains(&y) {
                 let name = format!("{name}, line {y} of every {step}");
                 same_line::<P>(want_line(y), &line(&mut renderer, scene, y), &name);
@@ -94,10 +95,10 @@ where
             }
         }
     }
-    // A step that is not kept costs time, not pixels: set_step says so.
+    // Lines of others cost time, not pixels: set_interleave says so.
     let mut rooms = LineRooms::fitting(slots, scene);
     let mut renderer = rooms.renderer();
-    renderer.set_step(4);
+    renderer.set_interleave(Interleave::lines(4, 0).unwrap());
     for y in scene.lines() {
         let name = format!("{name}, a step of 4 that is not kept, line {y}");
         same_line::<P>(want_line(y), &line(&mut renderer, scene, y), &name);

@@ -1,7 +1,7 @@
 //! `trace` prints what is on the wires, and `render --interp model` draws it (K13).
 
 use host_tests::args::PixelFormatArg;
-use host_tests::draw::{draw, draw_model};
+use host_tests::draw::{CrewSettings, draw, draw_model};
 use host_tests::model::Model;
 use host_tests::reference::{Shade, View};
 use host_tests::trace::{describe, trace};
@@ -34,7 +34,13 @@ fn what_is_traced_draws_the_line() {
     for shade in [Shade::None, Shade::Flat, Shade::Gouraud] {
         let view = View { shade, ..view() };
         let picture = draw_model(&model, &view, PixelFormatArg::Rgb888).unwrap();
-        let fast = draw(&model, &view, PixelFormatArg::Rgb888).unwrap();
+        let fast = draw(
+            &model,
+            &view,
+            PixelFormatArg::Rgb888,
+            CrewSettings::default(),
+        )
+        .unwrap();
         let mut drawn = 0;
         for line in 0..view.height {
             let traced = trace(&model, &view, line as u16).unwrap();

@@ -1,11 +1,19 @@
-//! The active list: submission order, cached where there is room (C1-C3, C5-C7).
+//! The active list: submission order, cached where there is room (C1-C7).
 //!
 //! A singly linked list of [`Link`]s. A node is either a slot of the cache, which holds the
 //! object set up for drawing and its own `next`, or an object in slow memory, whose `next` is in
 //! this renderer's link column (C6); a slow object is set up anew on each line. Walking a line
 //! merges what becomes active, moves slow objects into slots that have become free (C5), and
 //! takes out what ends (C2). Nothing but the link column is ever written to slow memory.
+//!
+//! What becomes active comes from buckets, object by object, so that it can be taken in ahead of
+//! its line and with any number of pauses (C4): with a body when it was fetched into a slot, with
+//! its link alone when it stays in slow memory. The walk does not care which.
+//!
+//! Each renderer has its own list, slots and column as `&mut`, so nothing here is shared and no
+//! atomics are needed: the compiler refuses two renderers over one column.
 
+use super::counts::CacheCounts;
 use crate::link::Link;
 
 /// What the list has to know of an object that is set up.
@@ -69,27 +77,10 @@ impl<T> Slot<T> {
     }
 }
 
-/// How the cache has done since the list was cleared (C8).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CacheCounts {
-    /// Object-lines served from the cache.
-    pub hits: u32,
-    /// Object-lines served from slow memory after the object's first line.
-    pub misses: u32,
-    /// Objects that found the cache full when they became active.
-    pub spills: u32,
-    /// Times an object was set up from slow memory.
-    pub set_ups: u32,
-    /// Links written to slow memory.
-    pub link_writes: u32,
-    /// Links read from slow memory.
-    pub link_reads: u32,
-    /// Most slots in use at once.
-    pub peak_slots: u32,
-}
-
 /// The objects that are active on a line, for one renderer.
+///
+/// Every slot is in exactly one of four chains: the active list, `incoming`, `pending` or `free`;
+/// `used` is the number of those that are not in `free`.
 #[derive(Debug)]
 pub struct ActiveList<'m, T> {
     slots: &'m mut [Slot<T>],
@@ -97,8 +88,10 @@ pub struct ActiveList<'m, T> {
     links: &'m mut [Link],
     head: Link,
     free: Link,
-    /// What has become active and is not yet merged, in order of submission, linked in `links`.
+    /// What has become active and is not yet merged, in order of submission.
     incoming: Link,
+    /// What has been taken from a bucket that is not at its end, in order of submission.
+    pending: Link,
     used: u32,
     pub(crate) counts: CacheCounts,
 }
@@ -115,6 +108,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
             head: Link::NONE,
             free: Link::NONE,
             incoming: Link::NONE,
+            pending: Link::NONE,
             used: 0,
             counts: CacheCounts::default(),
         };
@@ -133,15 +127,21 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.links.len()
     }
 
-    /// Whether nothing is active.
+    /// Whether nothing is active, as far as whole buckets were taken in.
     pub(crate) fn is_empty(&self) -> bool {
         !self.head.is_some() && !self.incoming.is_some()
+    }
+
+    /// Whether a slot is free.
+    pub(crate) fn has_free(&self) -> bool {
+        self.free.is_some()
     }
 
     /// Empties the list and the cache, and starts counting anew.
     pub(crate) fn clear(&mut self) {
         self.head = Link::NONE;
         self.incoming = Link::NONE;
+        self.pending = Link::NONE;
         self.free = Link::NONE;
         self.used = 0;
         self.counts = CacheCounts::default();
@@ -151,17 +151,51 @@ impl<'m, T: Member> ActiveList<'m, T> {
         }
     }
 
-    /// Takes in the objects of a bucket, given latest first.
+    /// Takes in the objects of a bucket, or of what is left of it, given latest first.
     #[inline]
     pub(crate) fn admit(&mut self, bucket: impl Iterator<Item = u16>) {
-        let mut new = Link::NONE;
+        let mut new = self.pending;
         for object in bucket {
             if let Some(next) = self.links.get_mut(usize::from(object)) {
                 *next = new;
                 new = Link::slow(object);
+                self.counts.admitted += 1;
                 self.counts.link_writes += 1;
             }
         }
+        self.pending = new;
+        self.end_bucket();
+    }
+
+    /// Takes the next object of a bucket, latest first, into a free slot, where `set_up` sets it
+    /// up or says that it ends before this renderer's next line.
+    ///
+    /// `false` when there is no free slot; then nothing was done.
+    pub(crate) fn admit_fetched(
+        &mut self,
+        object: u16,
+        set_up: impl FnOnce(&mut T) -> bool,
+    ) -> bool {
+        let free = self.free;
+        let Some(slot) = self.slots.get_mut(free.slot()) else {
+            return false;
+        };
+        if set_up(&mut slot.body) {
+            self.free = core::mem::replace(&mut slot.next, self.pending);
+            slot.object = object;
+            self.pending = free;
+            self.take_count();
+            self.counts.fetched += 1;
+        } else {
+            self.counts.fetched_in_vain += 1;
+        }
+        true
+    }
+
+    /// All objects of the bucket have been taken.
+    #[inline]
+    pub(crate) fn end_bucket(&mut self) {
+        let new = core::mem::take(&mut self.pending);
         self.incoming = if self.incoming.is_some() {
             self.merge(self.incoming, new)
         } else {
@@ -169,29 +203,43 @@ impl<'m, T: Member> ActiveList<'m, T> {
         };
     }
 
-    /// Merges two lists of slow links.
+    /// Merges two lists by order of submission; most often the second is empty.
     fn merge(&mut self, mut a: Link, mut b: Link) -> Link {
         let mut head = Link::NONE;
         let mut last = Link::NONE;
-        while a.is_some() || b.is_some() {
-            let from = if !b.is_some() || (a.is_some() && a.object() < b.object()) {
+        while a.is_some() && b.is_some() {
+            let from = if self.object(a) < self.object(b) {
                 &mut a
             } else {
                 &mut b
             };
             let node = *from;
-            *from = self.links[usize::from(node.object())];
+            *from = self.next(node);
             if last.is_some() {
-                self.links[usize::from(last.object())] = node;
+                self.set_next(last, node);
             } else {
                 head = node;
             }
             last = node;
         }
+        let rest = if a.is_some() { a } else { b };
         if last.is_some() {
-            self.links[usize::from(last.object())] = Link::NONE;
+            self.set_next(last, rest);
+            head
+        } else {
+            rest
         }
-        head
+    }
+
+    /// The node after `node`, which is not [`Link::NONE`].
+    #[inline]
+    fn next(&mut self, node: Link) -> Link {
+        if node.is_cached() {
+            self.slots[node.slot()].next
+        } else {
+            self.counts.link_reads += 1;
+            self.links[usize::from(node.object())]
+        }
     }
 
     /// Lets the link that leads past `node` lead to `next`.
@@ -205,6 +253,23 @@ impl<'m, T: Member> ActiveList<'m, T> {
             self.links[usize::from(node.object())] = next;
             self.counts.link_writes += 1;
         }
+    }
+
+    /// The object of a node, which is not [`Link::NONE`].
+    #[inline]
+    fn object(&self, node: Link) -> u16 {
+        if node.is_cached() {
+            self.slots[node.slot()].object
+        } else {
+            node.object()
+        }
+    }
+
+    /// One more slot is in use.
+    #[inline(always)]
+    fn take_count(&mut self) {
+        self.used += 1;
+        self.counts.peak_slots = self.counts.peak_slots.max(self.used);
     }
 
     /// Walks the objects of `line` in order of submission.
@@ -230,13 +295,13 @@ impl<'m, T: Member> ActiveList<'m, T> {
             count: 0,
         };
         let mut hits = 0;
+        // The object that heads `incoming`.
+        let mut coming = self.coming();
         loop {
-            // NONE is above every object.
-            let new = self.incoming.object();
             if current.is_cached() {
                 let index = current.slot();
                 match self.slots.get_mut(index) {
-                    Some(slot) if slot.object < new => {
+                    Some(slot) if slot.object < coming => {
                         if slot.body.end() > line {
                             hits += 1;
                             if !visitor.visit(index, slot) {
@@ -255,21 +320,32 @@ impl<'m, T: Member> ActiveList<'m, T> {
                         current = after;
                         continue;
                     }
-                    None if !self.incoming.is_some() => break,
+                    None if coming == NOTHING => break,
                     _ => {}
                 }
             }
-            let is_new = current.is_cached() || new < current.object();
+            let is_new = current.is_cached() || coming < current.object();
             let (object, after) = if is_new {
-                self.incoming = self.links[usize::from(new)];
-                (new, current)
+                let node = self.incoming;
+                if node.is_cached() {
+                    // Fetched ahead: into the list with it, and on as with any other.
+                    let slot = &mut self.slots[node.slot()];
+                    self.incoming = core::mem::replace(&mut slot.next, current);
+                    coming = self.coming();
+                    self.counts.fetched_hits += 1;
+                    self.set_next(before, node);
+                    current = node;
+                    continue;
+                }
+                let object = node.object();
+                self.incoming = self.links[usize::from(object)];
+                coming = self.coming();
+                (object, current)
             } else {
                 let object = current.object();
-                self.counts.misses += 1;
                 (object, self.links[usize::from(object)])
             };
-            self.counts.link_reads += 1;
-            self.counts.set_ups += 1;
+            self.counts.misses += 1;
             // The node that stays in the list, if any.
             let mut node = Link::NONE;
             let free = self.free;
@@ -318,7 +394,20 @@ impl<'m, T: Member> ActiveList<'m, T> {
             self.used -= released.count;
         }
     }
+
+    /// The first object that waits to be merged, [`NOTHING`] if none.
+    #[inline]
+    fn coming(&self) -> u16 {
+        if self.incoming.is_some() {
+            self.object(self.incoming)
+        } else {
+            NOTHING
+        }
+    }
 }
+
+/// Above every object.
+const NOTHING: u16 = u16::MAX;
 
 /// Slots that have become free during a walk, chained.
 struct Released {
@@ -339,3 +428,6 @@ impl Released {
         self.count += 1;
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,10 +1,15 @@
-//! Which objects are on a scanline (K1, C1-C7).
+//! Which objects are on a scanline (K1, C1-C8).
 //!
 //! `bucket` files objects under the first line they are on; `list` keeps those that are active,
-//! in order of submission, in the cache or, where that is full, in slow memory.
+//! in order of submission, in the cache or, where that is full, in slow memory; `counts` says
+//! how the cache has done; `interleave` says which lines are a renderer's own.
 
 mod bucket;
+mod counts;
+mod interleave;
 mod list;
 
 pub use bucket::Buckets;
-pub use list::{ActiveList, CacheCounts, Member, Slot, Visitor};
+pub use counts::CacheCounts;
+pub use interleave::Interleave;
+pub use list::{ActiveList, Member, Slot, Visitor};

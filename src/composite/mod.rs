@@ -8,7 +8,7 @@ pub use ramp::{OneWord, TwoWords};
 /// How a pixel looks in the line buffer.
 pub trait PixelFormat {
     /// One pixel.
-    type Word: Copy + PartialEq + Default + 'static;
+    type Word: Copy + Send + Sync + PartialEq + Default + 'static;
     /// Steps a channel above 0: 255 for 8 bits.
     const STEPS: [u16; 3];
 

@@ -3,7 +3,7 @@
 //! Attributes are separate slices, so that a mesh without normals, say, has no bytes for them.
 
 /// A coordinate of model space: `i16` in Q1.14 or `i32` in Q1.30.
-pub trait Coordinate: Copy {
+pub trait Coordinate: Copy + Send + Sync {
     /// The product with a matrix entry: `entry / 4 x` for the real value x of the coordinate,
     /// rounded down. One multiplication on a Cortex-M4 for either type.
     fn times(self, entry: i32) -> i32;

@@ -8,11 +8,11 @@ use crate::num::{InverseArea, Plane, SmallArea};
 /// Which colours an object carries, from vertex to plane.
 pub trait Shading {
     /// Kept at each vertex of the slow arena.
-    type Vertex: Copy + Default + 'static;
+    type Vertex: Copy + Send + Sync + Default + 'static;
     /// Kept at each object of the slow arena.
-    type Face: Copy + Default + 'static;
+    type Face: Copy + Send + Sync + Default + 'static;
     /// Set up when an object becomes active.
-    type Levels: Copy + 'static;
+    type Levels: Copy + Send + Sync + 'static;
     /// What a slot holds before anything is set up.
     const NO_LEVELS: Self::Levels;
     /// Whether a face is lit as a whole, by its own normal, with its first corner's colour.

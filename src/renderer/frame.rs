@@ -2,9 +2,9 @@
 
 use super::lines::{LineRenderer, RendererError};
 use super::scene::{PassOne, Scene};
-use crate::active::CacheCounts;
+use crate::active::{CacheCounts, Interleave};
 use crate::composite::PixelFormat;
-use crate::pipeline::{ObjectOf, Pipeline, VertexOf, WordOf};
+use crate::pipeline::{Pipeline, WordOf};
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window};
 use crate::stats::SpanCounts;
 
@@ -41,7 +41,7 @@ impl<E: crate::scan_out::Error> core::fmt::Display for FrameError<E> {
 
 impl<E: crate::scan_out::Error> core::error::Error for FrameError<E> {}
 
-/// What a frame took, and what it was spared (M4).
+/// What a frame took, and what it was spared (M4, C8).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FrameStats {
@@ -53,6 +53,8 @@ pub struct FrameStats {
     pub cache: CacheCounts,
     /// Bytes read from records in slow memory: objects, vertices and links.
     pub slow_read_bytes: u64,
+    /// Of these, bytes of records that were read ahead of their line.
+    pub prefetch_bytes: u64,
     /// Bytes written to slow memory while lines were drawn: links alone.
     pub slow_write_bytes: u64,
     /// Lines on which nothing is active: cleared and sent, but not drawn.
@@ -61,8 +63,24 @@ pub struct FrameStats {
     pub scan_out: ScanStats,
 }
 
+impl FrameStats {
+    /// Adds what a line renderer has done since its restart, and starts its span counts anew.
+    pub fn add_renderer<P: Pipeline>(&mut self, renderer: &mut LineRenderer<'_, P>) {
+        let cache = renderer.cache_counts();
+        let record = LineRenderer::<P>::RECORD_BYTES;
+        let ahead = u64::from(cache.fetched + cache.fetched_in_vain);
+        self.slow_read_bytes += cache.slow_read_bytes(record);
+        self.prefetch_bytes += ahead * record as u64;
+        self.slow_write_bytes += cache.slow_write_bytes();
+        self.cache += cache;
+        self.spans += renderer.take_span_counts();
+    }
+}
+
 /// Draws all lines of `scene` over `background` and sends them through `pump`, so many lines a
-/// transfer.
+/// transfer. Between lines, while a transfer runs, the renderer fetches ahead what
+/// [`set_prefetch`](LineRenderer::set_prefetch) allows. Its interleave becomes
+/// [`ALL`](Interleave::ALL).
 ///
 /// # Errors
 /// When the sink fails, naming the line, or the renderer has too little memory.
@@ -77,6 +95,55 @@ where
     P: Pipeline,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
 {
+    renderer.set_interleave(Interleave::ALL);
+    renderer.check(scene)?;
+    renderer.restart();
+    let mut source = Alone {
+        scene,
+        renderer,
+        background,
+        skipped: 0,
+    };
+    let scan_out = send_frame(scene, &mut source, pump, lines_per_transfer)?;
+    let mut stats = FrameStats {
+        pass_one: scene.pass_one(),
+        scanlines_skipped: source.skipped,
+        scan_out,
+        ..FrameStats::default()
+    };
+    stats.add_renderer(renderer);
+    Ok(stats)
+}
+
+/// Where the lines of a frame come from: one renderer here, or several anywhere.
+pub trait LineSource<P: Pipeline> {
+    /// Writes every pixel of `line` of the picture.
+    ///
+    /// # Errors
+    /// When it cannot be drawn; the frame ends there.
+    fn line(&mut self, line: u16, pixels: &mut [WordOf<P>]) -> Result<(), RendererError>;
+
+    /// A line was handed on, and a transfer may be running: a moment to prepare `line`, the next.
+    fn idle(&mut self, line: u16) {
+        let _ = line;
+    }
+}
+
+/// Sends the lines of `scene` through `pump` in order, so many a transfer, as `source` gives
+/// them: the conductor of [`draw_frame`], for those who have the lines drawn in their own way.
+///
+/// # Errors
+/// When the sink fails, naming the line, or the source does.
+pub fn send_frame<P, D>(
+    scene: &Scene<'_, P>,
+    source: &mut impl LineSource<P>,
+    pump: &mut Pump<D>,
+    lines_per_transfer: u16,
+) -> Result<ScanStats, FrameError<<D as ErrorType>::Error>>
+where
+    P: Pipeline,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+{
     let lines = scene.lines();
     let window = Window {
         x: 0,
@@ -84,32 +151,37 @@ where
         width: scene.screen().width(),
         height: lines.len() as u16,
     };
-    renderer.check(scene)?;
-    renderer.restart();
     pump.take_stats();
     pump.begin(window, lines_per_transfer)?;
-    let mut skipped = 0;
     for line in lines {
-        let pixels = pump.line()?;
-        P::Pixel::fill(pixels, background);
-        // The pump lends whole lines and the scene was checked, so this does not fail.
-        if !renderer.draw_line(scene, line, pixels)? {
-            skipped += 1;
-        }
+        source.line(line, pump.line()?)?;
         pump.line_done()?;
+        source.idle(line + 1);
     }
     pump.finish()?;
-    let cache = renderer.cache_counts();
-    let record = size_of::<ObjectOf<P>>() + 3 * size_of::<VertexOf<P>>();
-    let link = size_of::<crate::link::Link>();
-    Ok(FrameStats {
-        pass_one: scene.pass_one(),
-        spans: renderer.take_span_counts(),
-        cache,
-        slow_read_bytes: u64::from(cache.set_ups) * record as u64
-            + u64::from(cache.link_reads) * link as u64,
-        slow_write_bytes: u64::from(cache.link_writes) * link as u64,
-        scanlines_skipped: skipped,
-        scan_out: pump.stats(),
-    })
+    Ok(pump.stats())
+}
+
+/// One renderer that draws every line itself.
+struct Alone<'a, 'm, 'r, P: Pipeline> {
+    scene: &'a Scene<'m, P>,
+    renderer: &'a mut LineRenderer<'r, P>,
+    background: WordOf<P>,
+    skipped: u32,
+}
+
+impl<P: Pipeline> LineSource<P> for Alone<'_, '_, '_, P> {
+    #[inline]
+    fn line(&mut self, line: u16, pixels: &mut [WordOf<P>]) -> Result<(), RendererError> {
+        P::Pixel::fill(pixels, self.background);
+        if !self.renderer.draw_line(self.scene, line, pixels)? {
+            self.skipped += 1;
+        }
+        Ok(())
+    }
+
+    #[inline]
+    fn idle(&mut self, line: u16) {
+        self.renderer.prefetch_for(self.scene, line);
+    }
 }

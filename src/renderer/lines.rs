@@ -1,16 +1,28 @@
 //! Pass two: the objects of a line into its pixels (K1, K5, K8).
 
+use super::place::Place;
 use super::scene::Scene;
 use super::spans::draw_span;
-use crate::active::{ActiveList, CacheCounts, Member, Slot, Visitor};
-use crate::geometry::Drawable;
+use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
+use crate::geometry::{Drawable, Parameters};
 use crate::link::Link;
-use crate::pipeline::{CellOf, DrawableOf, Pipeline, SlotOf, WordOf};
+use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::span::Span;
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::LineDepth;
 
 /// The memory of one line renderer, lent by the application.
+///
+/// All of it belongs to this renderer alone; a second one over the same link column is refused:
+/// ```compile_fail,E0499
+/// # use scanbeam::{GouraudDepth, LineMemory, LineRenderer, Link, Rgb888};
+/// let (mut links, mut depth, mut other) = ([Link::NONE; 9], [0; 9], [0; 9]);
+/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth };
+/// let one = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
+/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut other };
+/// let two = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
+/// drop((one, two));
+/// ```
 pub struct LineMemory<'m, P: Pipeline> {
     /// The object cache, best in the fastest RAM there is. Any length: what finds no slot is
     /// served from slow memory, and the picture is the same.
@@ -67,6 +79,16 @@ pub enum RendererError {
         /// The line.
         line: u16,
     },
+    /// The line belongs to none of the renderers, or came out of turn from the one it belongs to.
+    Unowned {
+        /// The line.
+        line: u16,
+    },
+    /// The frame was given up while another renderer still owed the line.
+    Stopped {
+        /// The line.
+        line: u16,
+    },
 }
 
 impl core::fmt::Display for RendererError {
@@ -88,6 +110,8 @@ impl core::fmt::Display for RendererError {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+            Self::Unowned { line } => write!(f, "renderer: nobody draws line {line} in its turn"),
+            Self::Stopped { line } => write!(f, "renderer: given up while line {line} was awaited"),
         }
     }
 }
@@ -95,31 +119,28 @@ impl core::fmt::Display for RendererError {
 impl core::error::Error for RendererError {}
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the
-/// scene with any number of others.
+/// scene with any number of others (K16, X6).
+///
+/// What it owns it has as `&mut`, and what it shares as `&Scene`, so renderers on several cores
+/// or threads cannot race: there is nothing that two of them write. `LineRenderer` is [`Send`]
+/// and [`Scene`] is [`Sync`] for every pipeline of this crate.
+///
+/// A renderer that turns to another `Scene` value has to be told by
+/// [`restart`](LineRenderer::restart); a scene that is begun anew it notices by itself.
 pub struct LineRenderer<'m, P: Pipeline> {
-    list: ActiveList<'m, DrawableOf<P>>,
+    pub(super) list: ActiveList<'m, DrawableOf<P>>,
     depth: &'m mut [CellOf<P>],
     spans: &'m mut [SpanRecord],
     /// Whether depth cells are not all at their farthest.
     dirty: bool,
     /// Where an object is set up that has no slot.
     spare: DrawableOf<P>,
-    /// What was drawn last.
-    last: Option<Last>,
-    /// Lines from one drawn line to the next.
-    step: u16,
+    /// How far which scene has been drawn; `None` before its first line.
+    pub(super) place: Option<Place>,
+    pub(super) interleave: Interleave,
+    /// Bytes a line that are fetched ahead where the renderer has the time.
+    pub(super) prefetch: u32,
     counter: P::Counter,
-}
-
-/// The line that was drawn last.
-#[derive(Clone, Copy)]
-struct Last {
-    /// The line, in guard space.
-    line: i32,
-    /// The first line for which the list still holds all that is active.
-    next: i32,
-    /// Which content of which scene it was.
-    content: (usize, u32),
 }
 
 impl<L> Member for Drawable<L> {
@@ -139,8 +160,9 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             spans: memory.spans,
             dirty: true,
             spare: Drawable::EMPTY,
-            last: None,
-            step: 1,
+            place: None,
+            interleave: Interleave::ALL,
+            prefetch: 0,
             counter: P::Counter::default(),
         }
     }
@@ -151,10 +173,17 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         SlotOf::<P>::new(Drawable::EMPTY)
     }
 
-    /// How many lines apart those are that this renderer draws, at least 1: objects that end
-    /// before its next line leave the cache at once. Any value gives the same picture.
-    pub fn set_step(&mut self, step: u16) {
-        self.step = step.max(1);
+    /// Which lines this renderer draws: objects that end before its next line leave the cache at
+    /// once. Any other line can be drawn too, with the same bits, but then it starts anew from
+    /// the top.
+    pub fn set_interleave(&mut self, interleave: Interleave) {
+        self.interleave = interleave;
+    }
+
+    /// Which lines this renderer draws.
+    #[must_use]
+    pub fn interleave(&self) -> Interleave {
+        self.interleave
     }
 
     /// Whether the memory suffices for `scene`.
@@ -176,11 +205,8 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     }
 
     /// Forgets the lines drawn so far and starts counting anew.
-    ///
-    /// Needed before the first line of a `Scene` that was made anew in the memory of the last
-    /// one; a change of scene, camera or content is noticed without.
     pub fn restart(&mut self) {
-        self.last = None;
+        self.place = None;
         self.counter = P::Counter::default();
     }
 
@@ -212,23 +238,28 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         let (left, top) = (screen.left(), screen.top());
         let now = top + i32::from(line);
-        let content = scene.content();
-        let next = now + i32::from(self.step);
-        let last = match self.last {
-            Some(last) if last.next <= now && last.content == content => last.line,
+        // No picture has lines that far down.
+        let next = top
+            + self
+                .interleave
+                .at_or_after(u32::from(line) + 1)
+                .min(1 << 14) as i32;
+        let mut place = match self.place {
+            Some(place) if place.serves(scene.content(), now) => place,
             _ => {
                 self.list.clear();
-                top + i32::from(scene.lines().start) - 1
+                Place::above(scene)
             }
         };
-        for bucket in last + 1..=now {
-            self.list.admit(scene.bucket(bucket));
+        for bucket in place.admitted + 1..=now {
+            let rest = place.rest.take().unwrap_or_else(|| {
+                self.list.counts.buckets += 1;
+                scene.bucket(bucket)
+            });
+            self.list.admit(scene.chain(rest));
         }
-        self.last = Some(Last {
-            line: now,
-            next,
-            content,
-        });
+        (place.last, place.next, place.admitted) = (now, next, now);
+        self.place = Some(place);
         if self.list.is_empty() {
             return Ok(false);
         }
@@ -246,15 +277,20 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             line: now,
             left,
             reach: (width, 0),
+            thin: 0,
             counter: &mut self.counter,
         };
         if P::Depth::TESTS {
             pass.clear();
         }
         self.list.walk((now, next), &mut self.spare, &mut pass);
-        pass.finish(self.list.slots());
+        let thin = pass.finish(self.list.slots());
+        self.list.counts.set_ups += thin;
         Ok(true)
     }
+
+    /// Bytes of an object and its corners in slow memory.
+    pub const RECORD_BYTES: usize = size_of::<ObjectOf<P>>() + 3 * size_of::<VertexOf<P>>();
 
     /// How the cache has done in the current frame (C8).
     #[must_use]
@@ -343,6 +379,8 @@ struct LinePass<'a, 's, P: Pipeline> {
     left: i32,
     /// Least first pixel and largest end among the records.
     reach: (usize, usize),
+    /// Triangles drawn from their corners in slow memory.
+    thin: u32,
     counter: &'a mut P::Counter,
 }
 
@@ -373,9 +411,10 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         self.draw_noted(slots, true);
     }
 
-    /// Draws what was noted: without depth if no two spans overlap.
+    /// Draws what was noted: without depth if no two spans overlap; how many triangles were too
+    /// thin for planes.
     #[inline(always)]
-    fn finish(mut self, slots: &[Slot<DrawableOf<P>>]) {
+    fn finish(mut self, slots: &[Slot<DrawableOf<P>>]) -> u32 {
         if self.together {
             if self.disjoint() {
                 self.draw_noted(slots, false);
@@ -383,6 +422,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 self.part(slots);
             }
         }
+        self.thin
     }
 
     /// Whether no two noted spans overlap; then their marks are gone.
@@ -425,6 +465,9 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         } else {
             None
         };
+        if matches!(body.parameters, Parameters::Corners) {
+            self.thin += 1;
+        }
         if let Some(pixels) = self.pixels.get_mut(span.start..span.end) {
             draw_span::<P>(
                 self.scene,

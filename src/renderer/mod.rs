@@ -1,11 +1,20 @@
 //! The conductor: pass one into a [`Scene`], pass two line by line out of it (K1, K12).
+//!
+//! `input` feeds pass one from queues (K17); `lines` draws and `place` fetches ahead (C4); `frame`
+//! sends what one renderer draws, `relay` what several do on their own cores (K16, X6).
 
 mod frame;
+mod input;
 mod lines;
+mod place;
+mod relay;
 mod scene;
 mod spans;
 
-pub use frame::{FrameError, FrameStats, draw_frame};
+pub use frame::{FrameError, FrameStats, LineSource, draw_frame, send_frame};
+pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use lines::{LineMemory, LineRenderer, RendererError, SpanRecord};
+pub use place::Prefetched;
+pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};
 pub(crate) use spans::scale;

@@ -311,13 +311,24 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         (self.objects.as_slice().as_ptr().addr(), self.generation)
     }
 
-    /// The objects first seen on `line` of guard space, latest first.
+    /// The first line that was begun, in guard space.
     #[inline]
-    pub(crate) fn bucket(&self, line: i32) -> impl Iterator<Item = u16> + '_ {
-        let mut link = self.buckets.head(line);
+    pub(crate) fn first_line(&self) -> i32 {
+        self.screen.top() + i32::from(self.lines.start)
+    }
+
+    /// The object first seen on `line` of guard space that was filed last.
+    #[inline]
+    pub(crate) fn bucket(&self, line: i32) -> Link {
+        self.buckets.head(line)
+    }
+
+    /// The objects of a bucket from `link` on, latest first.
+    #[inline]
+    pub(crate) fn chain(&self, mut link: Link) -> impl Iterator<Item = u16> + '_ {
         core::iter::from_fn(move || {
             let index = link.is_some().then(|| link.object())?;
-            link = self.objects.as_slice().get(usize::from(index))?.next();
+            link = self.object(index)?.next();
             Some(index)
         })
     }

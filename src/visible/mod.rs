@@ -5,7 +5,7 @@
 /// A way to find hidden surfaces along one line.
 pub trait LineDepth {
     /// What is kept for each pixel of the line.
-    type Cell: Copy + 'static;
+    type Cell: Copy + Send + Sync + 'static;
     /// The farthest value, to which a line is cleared.
     const FARTHEST: Self::Cell;
     /// Whether pixels are tested at all.

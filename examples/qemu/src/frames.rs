@@ -1,15 +1,15 @@
 //! The frames that this firmware draws, by name.
 
-use crate::rooms::{Rooms, RoomsOf};
+use crate::rooms::{Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
-    FlatDepth, GouraudDepth, LineMemory, LineRenderer, Pipeline, PixelFormat, Rgb565Be, Scene,
-    SceneMemory, draw_frame,
+    Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
+    Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
 };
-use scenes::{SHOTS, Shot};
+use scenes::{SHOTS, Shot, VARIANTS, Variant};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -28,28 +28,41 @@ enum Way {
     Model,
 }
 
-/// One frame: a shot, and how it is drawn.
+/// One frame: how a shot is drawn.
 #[derive(Clone, Copy)]
 pub(crate) struct Frame {
     pub(crate) name: &'static str,
-    shot: Shot,
+    how: Variant,
     way: Way,
 }
 
 /// Every frame, in the order in which they are drawn: all shots, then one of flat faces and one
-/// by the hardware model.
+/// by the hardware model, then what the cache and its renderers must not change.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
-    let smooth = SHOTS.into_iter().map(|shot| Frame {
-        name: shot.name(),
-        shot,
+    let plain = |name, shot, way| Frame {
+        name,
+        how: Variant {
+            name,
+            shot,
+            slots: SLOTS,
+            renderers: 1,
+            prefetch: 0,
+        },
+        way,
+    };
+    let shots = SHOTS.into_iter();
+    let variants = VARIANTS.into_iter().map(|how| Frame {
+        name: how.name,
+        how,
         way: Way::Smooth,
     });
-    let others = [("teapot_flat", Way::Faceted), ("teapot_model", Way::Model)];
-    smooth.chain(others.map(|(name, way)| Frame {
-        name,
-        shot: Shot::Teapot,
-        way,
-    }))
+    shots
+        .map(move |shot| plain(shot.name(), shot, Way::Smooth))
+        .chain([
+            plain("teapot_flat", Shot::Teapot, Way::Faceted),
+            plain("teapot_model", Shot::Teapot, Way::Model),
+        ])
+        .chain(variants)
 }
 
 impl Frame {
@@ -59,9 +72,22 @@ impl Frame {
         let buffers = rooms.lines.take().expect("the last frame gave them back");
         let mut pump = Pump::new(Emit { emit, sent: None }, buffers);
         match self.way {
-            Way::Smooth => draw_as::<Smooth>(self.shot, &mut rooms.smooth, &mut pump),
-            Way::Faceted => draw_as::<Faceted>(self.shot, &mut rooms.faceted, &mut pump),
-            Way::Model => draw_by_model(self.shot, rooms, &mut pump),
+            Way::Faceted => draw_as::<Faceted>(&self.how, &mut rooms.faceted, &mut pump),
+            Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
+            Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
+                draw_as::<Smooth>(&self.how, &mut rooms.smooth, &mut pump);
+            }
+            Way::Smooth => {
+                // The larger cache, and the second link column and line of depth.
+                let [small, large] = [&mut rooms.smooth, &mut rooms.second];
+                core::mem::swap(&mut small.slots, &mut large.slots);
+                if self.how.renderers == 1 {
+                    draw_as::<Smooth>(&self.how, small, &mut pump);
+                } else {
+                    draw_by_two(&self.how, small, large, &mut pump);
+                }
+                core::mem::swap(&mut small.slots, &mut large.slots);
+            }
         }
         if let (_, [Some(a), Some(b)]) = pump.release() {
             rooms.lines = Some([a, b]);
@@ -70,7 +96,7 @@ impl Frame {
 }
 
 fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
-    shot: Shot,
+    how: &Variant,
     rooms: &mut RoomsOf<P>,
     pump: &mut Pump<Emit<'_>>,
 ) {
@@ -82,14 +108,17 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
             buckets: rooms.buckets,
         },
     );
-    shot.build(&mut scene).expect("the rooms are large enough");
+    how.shot
+        .build(&mut scene)
+        .expect("the rooms are large enough");
     let mut renderer = LineRenderer::new(LineMemory {
-        slots: rooms.slots,
+        slots: &mut rooms.slots[..how.slots],
         links: rooms.links,
         depth: rooms.depth,
         spans: rooms.spans,
     });
-    let background = Rgb565Be::from_rgb8(shot.background());
+    renderer.set_prefetch(how.prefetch);
+    let background = Rgb565Be::from_rgb8(how.shot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
@@ -111,6 +140,65 @@ fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     });
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_model_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// Two renderers of one scene take turns, as they would on two cores.
+#[inline(never)]
+fn draw_by_two(
+    how: &Variant,
+    rooms: &mut RoomsOf<Smooth>,
+    other: &mut RoomsOf<Smooth>,
+    pump: &mut Pump<Emit<'_>>,
+) {
+    let mut scene = Scene::<Smooth>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: rooms.vertices,
+            objects: rooms.objects,
+            buckets: rooms.buckets,
+        },
+    );
+    how.shot
+        .build(&mut scene)
+        .expect("the rooms are large enough");
+    let memory = [
+        (
+            &mut *rooms.slots,
+            &mut *rooms.links,
+            &mut *rooms.depth,
+            &mut *rooms.spans,
+        ),
+        (
+            &mut *other.slots,
+            &mut *other.links,
+            &mut *other.depth,
+            &mut *other.spans,
+        ),
+    ];
+    let mut offset = 0;
+    let mut renderers = memory.map(|(slots, links, depth, spans)| {
+        let slots = &mut slots[..how.slots];
+        let mut renderer = LineRenderer::new(LineMemory {
+            slots,
+            links,
+            depth,
+            spans,
+        });
+        renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
+        renderer.set_prefetch(how.prefetch);
+        offset += 1;
+        renderer
+    });
+    let mut crew = Crew::<_, &'static mut [u16], _> {
+        scene: &scene,
+        here: &mut renderers,
+        desks: &mut [],
+        background: Rgb565Be::from_rgb8(how.shot.background()),
+        wait: || false,
+        skipped: 0,
+    };
+    send_frame(&scene, &mut crew, pump, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

@@ -6,7 +6,7 @@ use scanbeam::{
     CellOf, LineRenderer, Link, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, SpanRecord,
     VertexOf,
 };
-use scenes::{HEIGHT, OBJECTS, VERTICES, WIDTH};
+use scenes::{HEIGHT, MOST_SLOTS, OBJECTS, VERTICES, WIDTH};
 
 /// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
 /// `&'static mut` slice. Each place in the source can lend once; a second time panics.
@@ -41,7 +41,7 @@ macro_rules! lend {
 }
 
 /// Slots of the object cache.
-const SLOTS: usize = 43;
+pub(crate) const SLOTS: usize = 43;
 
 /// What one pipeline is lent.
 pub(crate) struct RoomsOf<P: Pipeline> {
@@ -62,6 +62,9 @@ pub(crate) struct Rooms {
     pub(crate) faceted: RoomsOf<Faceted>,
     /// Depth and colour of two lines each, for the hardware model: external RAM.
     pub(crate) model: [&'static mut [u64]; 4],
+    /// What comparisons take beyond what one renderer needs: a cache for everything and a second
+    /// renderer's links and depth. No scene. All in external RAM: here instructions count.
+    pub(crate) second: RoomsOf<Smooth>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
     pub(crate) lines: Option<[&'static mut [u16]; 2]>,
 }
@@ -98,6 +101,20 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
+            second: RoomsOf {
+                vertices: &mut [],
+                objects: &mut [],
+                buckets: &mut [],
+                links: lend!(".slow", Link, OBJECTS, Link::NONE),
+                slots: lend!(
+                    ".slow",
+                    SlotOf<Smooth>,
+                    MOST_SLOTS,
+                    LineRenderer::<Smooth>::empty_slot()
+                ),
+                depth: lend!(".slow", CellOf<Smooth>, WIDTH as usize, 0),
+                spans: lend!(".slow", SpanRecord, SLOTS, SpanRecord::default()),
+            },
             lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
     }

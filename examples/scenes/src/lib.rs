@@ -17,7 +17,9 @@
 
 mod shots;
 
-pub use shots::{HEIGHT, OBJECTS, SHOTS, Shot, ShotError, VERTICES, WIDTH};
+pub use shots::{
+    HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
+};
 
 use scanbeam::{Faces, Mesh, QuadSplit};
 

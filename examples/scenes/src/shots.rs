@@ -11,9 +11,9 @@ pub const WIDTH: u16 = 320;
 /// Lines of every shot.
 pub const HEIGHT: u16 = 240;
 /// Vertices that suffice for every shot.
-pub const VERTICES: usize = 4096;
+pub const VERTICES: usize = 10_240;
 /// Objects that suffice for every shot.
-pub const OBJECTS: usize = 4096;
+pub const OBJECTS: usize = 5_120;
 
 /// A frame by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,6 +28,56 @@ pub enum Shot {
     Quads,
     /// A cube around the eye and the teapot across the near plane.
     Inside,
+    /// 417 small cubes all over the picture, nothing culled: 5,004 objects, and far more on a line
+    /// than a cache has slots. Not among [`SHOTS`].
+    Crowd,
+}
+
+/// A shot that is drawn again in another way, with the same bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// The name that reports use.
+    pub name: &'static str,
+    /// What is drawn.
+    pub shot: Shot,
+    /// Slots of each renderer's cache.
+    pub slots: usize,
+    /// Renderers that draw lines in turn.
+    pub renderers: u16,
+    /// Bytes a line fetched ahead.
+    pub prefetch: u32,
+}
+
+/// Slots that suffice for any variant: more than any line of a shot has objects.
+pub const MOST_SLOTS: usize = 1024;
+
+/// Every variant. Those with [`MOST_SLOTS`] are what a scene costs that is all in fast memory.
+pub const VARIANTS: [Variant; 9] = [
+    variant("teapot_cache0", Shot::Teapot, 0, 1, 0),
+    variant("teapot_cache3", Shot::Teapot, 3, 1, 0),
+    variant("teapot_cache64", Shot::Teapot, 64, 1, 0),
+    variant("teapot_all_fast", Shot::Teapot, MOST_SLOTS, 1, 0),
+    variant("teapot_ahead", Shot::Teapot, 64, 1, 4_000),
+    variant("sphere_two", Shot::Sphere, 43, 2, 500),
+    variant("crowd_cache0", Shot::Crowd, 0, 1, 0),
+    variant("crowd_cache64", Shot::Crowd, 64, 1, 0),
+    variant("crowd_all_fast", Shot::Crowd, MOST_SLOTS, 1, 0),
+];
+
+const fn variant(
+    name: &'static str,
+    shot: Shot,
+    slots: usize,
+    renderers: u16,
+    prefetch: u32,
+) -> Variant {
+    Variant {
+        name,
+        shot,
+        slots,
+        renderers,
+        prefetch,
+    }
 }
 
 /// Every shot, in the order in which they are drawn.
@@ -78,6 +128,7 @@ impl Shot {
             Self::Sphere => "sphere",
             Self::Quads => "quads",
             Self::Inside => "inside",
+            Self::Crowd => "crowd",
         }
     }
 
@@ -153,6 +204,24 @@ impl Shot {
                 let room = Affine::placed(9.0, [0.0, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
                 scene.draw(&CUBE, &open(Affine::rotation_y(0.2).then(&room)))?;
                 scene.draw(&TEAPOT, &open(Affine::rotation_y(2.0)))?;
+            }
+            Self::Crowd => {
+                scene.begin(&looking([0.0, 0.4, 5.0], 300.0, 0.1)?)?;
+                let mut seed = 1u32;
+                let mut next = |reach: f32| {
+                    seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                    ((seed >> 16) as f32 / 32_768.0 - 1.0) * reach
+                };
+                for _ in 0..417 {
+                    let turn = Affine::rotation_y(next(3.0)).then(&Affine::rotation_x(next(3.0)));
+                    let at = [next(2.2), next(1.6), next(1.5)];
+                    let place = Affine::placed(0.07, at).unwrap_or(Affine::IDENTITY);
+                    let instance = Instance {
+                        cull: Cull::None,
+                        ..lit(turn.then(&place))
+                    };
+                    scene.draw(&CUBE, &instance)?;
+                }
             }
         }
         Ok(())

@@ -1,0 +1,306 @@
+//! `cache`: what the object cache saves, for three scenes and any number of slots (C8).
+//!
+//! Each scene is drawn with every size of cache, with all accesses to slow memory counted; the
+//! memory model makes times of the counts. The pictures must be the same, or there is no report.
+
+use crate::args::CacheArgs;
+use crate::crew::LineRooms;
+use crate::image_out::{write_atomically, write_image};
+use crate::memory_model::{
+    Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
+};
+use crate::mock::{HostLine, MockFrameBuffer};
+use crate::plot::{Chart, Series};
+use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
+use scanbeam::scan_out::Pump;
+use scanbeam::{
+    Counted, FrameStats, GouraudDepth, Link, ObjectOf, PixelFormat, Rgb565Be, Scene, SceneMemory,
+    SlotOf, VertexOf, draw_frame,
+};
+use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
+use serde_json::{Value, json};
+use std::error::Error;
+
+type Drawn = Counted<GouraudDepth<Rgb565Be>>;
+
+/// The scenes.
+const SHOTS: [Shot; 3] = [Shot::Teapot, Shot::Sphere, Shot::Crowd];
+/// Sizes of the cache.
+const SLOTS: [usize; 15] = [0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, 256, 512];
+/// The size whose figures are the goal's.
+const GOAL_SLOTS: usize = 64;
+/// Bytes a line that are fetched ahead where anything is.
+const AHEAD: u32 = 4_000;
+/// Lines of a transfer.
+const LINES: u16 = 4;
+
+/// A scene drawn with one size of cache.
+struct Row {
+    slots: usize,
+    prefetch: u32,
+    stats: FrameStats,
+    model: Model,
+}
+
+/// Draws, prints and writes.
+///
+/// # Errors
+/// When a file cannot be written. Drawing fails only when this file lends too little memory.
+pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
+    let mut reports = Vec::new();
+    let mut charts = Vec::new();
+    for shot in SHOTS {
+        let rows = measure(shot)?;
+        if !args.json {
+            print(shot, &rows);
+        }
+        reports.push(to_json(shot, &rows));
+        charts.push((shot.name(), chart(shot, &rows)));
+    }
+    if args.json {
+        println!("{}", serde_json::to_string_pretty(&Value::from(reports))?);
+    } else {
+        for memory in [DRAM_80, SRAM_12, QSPI_PSRAM, SDRAM, DTCM] {
+            println!("{}: {}", memory.name, memory.source);
+        }
+    }
+    if let Some(folder) = &args.output {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+        for (name, chart) in charts {
+            let at = |extension| folder.join(format!("cache_{name}.{extension}"));
+            write_atomically(&at("svg"), chart.to_svg().as_bytes())?;
+            write_image(&at("png"), &chart.to_frame())?;
+        }
+    }
+    Ok(())
+}
+
+/// Draws a scene with every size of cache, and once with fetching ahead.
+fn measure(shot: Shot) -> Result<Vec<Row>, Box<dyn Error>> {
+    let mut vertices = vec![VertexOf::<Drawn>::empty(); VERTICES];
+    let mut objects = vec![ObjectOf::<Drawn>::default(); OBJECTS];
+    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
+    let mut scene = Scene::<Drawn>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: &mut vertices,
+            objects: &mut objects,
+            buckets: &mut buckets,
+        },
+    );
+    shot.build(&mut scene)
+        .map_err(|error| format!("{}: {error:?}", shot.name()))?;
+    let mut rows = Vec::new();
+    let mut first = None;
+    let settings = SLOTS.into_iter().map(|slots| (slots, 0));
+    for (slots, prefetch) in settings.chain([(GOAL_SLOTS, AHEAD)]) {
+        let mut rooms = LineRooms::<Drawn>::new(slots, OBJECTS, WIDTH);
+        let mut renderer = rooms.renderer();
+        renderer.set_prefetch(prefetch);
+        let words = usize::from(WIDTH) * usize::from(LINES);
+        let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
+        let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+        let background = Rgb565Be::from_rgb8(shot.background());
+        let stats = draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
+        let frame = pump.sink().frame()?;
+        if first.get_or_insert_with(|| frame.clone()) != &frame {
+            return Err(format!("{}: {slots} slots change the picture", shot.name()).into());
+        }
+        let model = Model {
+            cache: stats.cache,
+            spans: stats.spans,
+            size: (u64::from(HEIGHT), u64::from(WIDTH)),
+            slot_bytes: size_of::<SlotOf<Drawn>>() as u64,
+        };
+        rows.push(Row {
+            slots,
+            prefetch,
+            stats,
+            model,
+        });
+    }
+    Ok(rows)
+}
+
+/// How many times fewer slow bytes than `without`.
+fn saving(row: &Row, without: &Row) -> f64 {
+    let bytes = |row: &Row| row.model.slow_bytes(Layout::Indexed) as f64;
+    bytes(without) / bytes(row).max(1.0)
+}
+
+fn print(shot: Shot, rows: &[Row]) {
+    let [without, ..] = rows else { return };
+    let pass = without.stats.pass_one;
+    println!(
+        "{}: {} triangles in, {} objects, {} vertices kept; a slot is {} bytes",
+        shot.name(),
+        pass.triangles,
+        pass.objects,
+        pass.vertices,
+        without.model.slot_bytes
+    );
+    let mut table = Table::new();
+    table.load_preset(UTF8_FULL_CONDENSED);
+    let mut header: Vec<String> = ["slots", "hits %", "misses", "slow bytes", "times fewer"]
+        .map(String::from)
+        .into();
+    header.extend(SYSTEMS.map(|(slow, fast)| format!("ms: {} + {}", slow.name, fast.name)));
+    table.set_header(header);
+    for row in rows {
+        let ahead = if row.prefetch > 0 { " ahead" } else { "" };
+        let mut cells = vec![
+            format!("{}{ahead}", row.slots),
+            format!("{:.1}", f64::from(row.stats.cache.hits_per_mille()) / 10.0),
+            row.stats.cache.misses.to_string(),
+            row.model.slow_bytes(Layout::Indexed).to_string(),
+            format!("{:.1}", saving(row, without)),
+        ];
+        for system in SYSTEMS {
+            let time = row.model.time(Layout::Indexed, system);
+            cells.push(format!("{:.2} (slow {:.2})", time.total_ms(), time.slow_ms));
+        }
+        table.add_row(cells);
+    }
+    for column in table.column_iter_mut() {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    println!("{table}");
+    for layout in Layout::ALL {
+        let scene = layout.scene_bytes(pass.objects.into(), pass.vertices.into());
+        print!("  {}: scene {scene} bytes;", layout.name());
+        for row in rows.iter().filter(|r| matches!(r.slots, 0 | GOAL_SLOTS)) {
+            let bytes = row.model.slow_bytes(layout);
+            let ms = SYSTEMS.map(|s| format!("{:.2}", row.model.time(layout, s).slow_ms));
+            let ahead = if row.prefetch > 0 { " ahead" } else { "" };
+            print!(
+                " {} slots{ahead} {bytes} bytes, {} ms;",
+                row.slots,
+                ms.join(" / ")
+            );
+        }
+        println!();
+    }
+}
+
+fn to_json(shot: Shot, rows: &[Row]) -> Value {
+    let without = &rows[0];
+    let pass = without.stats.pass_one;
+    let figures: Vec<Value> = rows
+        .iter()
+        .map(|row| {
+            let layouts: Vec<Value> = Layout::ALL
+                .iter()
+                .map(|layout| {
+                    let systems: Vec<Value> = SYSTEMS
+                        .iter()
+                        .map(|system| {
+                            let time = row.model.time(*layout, *system);
+                            json!({
+                                "slow": system.0.name,
+                                "fast": system.1.name,
+                                "frame_ms": time.total_ms(),
+                                "slow_ms": time.slow_ms,
+                                "fast_ms": time.fast_ms,
+                                "work_ms": time.work_ms,
+                            })
+                        })
+                        .collect();
+                    json!({
+                        "layout": layout.name(),
+                        "record_bytes": layout.record_bytes(),
+                        "scene_bytes": layout.scene_bytes(pass.objects.into(), pass.vertices.into()),
+                        "slow_bytes": row.model.slow_bytes(*layout),
+                        "times": systems,
+                    })
+                })
+                .collect();
+            let cache = &row.stats.cache;
+            json!({
+                "slots": row.slots,
+                "prefetch_budget": row.prefetch,
+                "hits": cache.hits,
+                "misses": cache.misses,
+                "hit_rate": f64::from(cache.hits) / f64::from((cache.hits + cache.misses).max(1)),
+                "spills": cache.spills,
+                "records_read": cache.records_read(),
+                "prefetch_hits": cache.fetched_hits,
+                "prefetch_bytes": row.stats.prefetch_bytes,
+                "peak_slots": cache.peak_slots,
+                "slow_read_bytes": row.stats.slow_read_bytes,
+                "slow_write_bytes": row.stats.slow_write_bytes,
+                "times_fewer_slow_bytes": saving(row, without),
+                "layouts": layouts,
+            })
+        })
+        .collect();
+    json!({
+        "scene": shot.name(),
+        "objects": pass.objects,
+        "vertices": pass.vertices,
+        "slot_bytes": without.model.slot_bytes,
+        "caches": figures,
+    })
+}
+
+fn chart(shot: Shot, rows: &[Row]) -> Chart {
+    let plain = || rows.iter().filter(|row| row.prefetch == 0);
+    let series = SYSTEMS.map(|system| Series {
+        name: format!("{} + {}", system.0.name, system.1.name),
+        values: plain()
+            .map(|row| row.model.time(Layout::Indexed, system).total_ms())
+            .collect(),
+    });
+    Chart {
+        title: format!("{}: frame time against cache slots", shot.name()),
+        x: plain().map(|row| row.slots.to_string()).collect(),
+        x_name: "cache slots".into(),
+        y_name: "ms, second pass, 150 MHz".into(),
+        series: series.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_slots_are_fewer_slow_bytes_and_less_time() {
+        let rows = measure(Shot::Sphere).unwrap();
+        for pair in rows[..SLOTS.len()].windows(2) {
+            let bytes = |row: &Row| row.model.slow_bytes(Layout::Indexed);
+            assert!(
+                bytes(&pair[1]) <= bytes(&pair[0]),
+                "{} slots",
+                pair[1].slots
+            );
+            for system in SYSTEMS {
+                let ms = |row: &Row| row.model.time(Layout::Indexed, system).total_ms();
+                assert!(ms(&pair[1]) <= ms(&pair[0]) * 1.02);
+            }
+        }
+        let goal = rows.iter().find(|row| row.slots == GOAL_SLOTS).unwrap();
+        assert!(saving(goal, &rows[0]) >= 5.0, "{}", saving(goal, &rows[0]));
+        // Fetched ahead it is no more that is read, and hardly anything is missed.
+        let ahead = rows.last().unwrap();
+        assert!(ahead.stats.cache.misses * 5 < goal.stats.cache.misses);
+        assert!(ahead.stats.slow_read_bytes <= goal.stats.slow_read_bytes);
+    }
+
+    #[test]
+    fn plots_are_written_whole() {
+        let folder = tempfile::tempdir().unwrap();
+        let args = CacheArgs {
+            json: false,
+            output: Some(folder.path().join("new")),
+        };
+        run(&args).unwrap();
+        for shot in SHOTS {
+            let svg = folder.path().join(format!("new/cache_{}.svg", shot.name()));
+            let svg = std::fs::read_to_string(svg).unwrap();
+            assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"));
+            let png = folder.path().join(format!("new/cache_{}.png", shot.name()));
+            crate::image_out::read_image(&png).unwrap();
+        }
+    }
+}

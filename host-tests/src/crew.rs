@@ -1,0 +1,137 @@
+//! Several line renderers of one scene, each on a thread of its own (K16, X6).
+//!
+//! Threads share the scene by reference and nothing else; what each draws comes back through a
+//! relay, and this thread sends it in order.
+
+use crate::draw::CrewSettings;
+use crate::mock::HostLine;
+use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
+use scanbeam::{
+    CellOf, Crew, FrameError, FrameStats, Interleave, LineDepth, LineMemory, LineRenderer, Link,
+    Pipeline, Relay, Scene, SlotOf, SpanRecord, WordOf, send_frame,
+};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Line buffers between a thread and the sender, and one more, as the queues keep one free.
+const QUEUE: usize = 5;
+
+/// What one renderer is lent.
+pub struct LineRooms<P: Pipeline> {
+    slots: Vec<SlotOf<P>>,
+    links: Vec<Link>,
+    depth: Vec<CellOf<P>>,
+    spans: Vec<SpanRecord>,
+}
+
+/// Spans that are noted on a line.
+pub const SPANS: usize = 64;
+
+impl<P: Pipeline> LineRooms<P> {
+    /// So many cache slots, links and depth cells.
+    #[must_use]
+    pub fn new(slots: usize, links: usize, width: u16) -> Self {
+        Self {
+            slots: vec![LineRenderer::<P>::empty_slot(); slots],
+            links: vec![Link::NONE; links],
+            depth: vec![P::Depth::FARTHEST; usize::from(width)],
+            spans: vec![SpanRecord::default(); SPANS],
+        }
+    }
+
+    /// Bytes that firmware would put into fast memory.
+    #[must_use]
+    pub fn fast_bytes(&self) -> usize {
+        size_of_val(self.slots.as_slice())
+            + size_of_val(self.depth.as_slice())
+            + size_of_val(self.spans.as_slice())
+    }
+
+    /// A renderer in this memory.
+    pub fn renderer(&mut self) -> LineRenderer<'_, P> {
+        LineRenderer::new(LineMemory {
+            slots: &mut self.slots,
+            links: &mut self.links,
+            depth: &mut self.depth,
+            spans: &mut self.spans,
+        })
+    }
+}
+
+/// A renderer in each of the rooms, which share the lines of the picture.
+pub fn renderers<P: Pipeline>(
+    rooms: &mut [LineRooms<P>],
+    settings: CrewSettings,
+) -> Vec<LineRenderer<'_, P>> {
+    let count = rooms.len() as u16;
+    let mut renderers: Vec<_> = rooms.iter_mut().map(LineRooms::renderer).collect();
+    for (renderer, offset) in renderers.iter_mut().zip(0..) {
+        renderer.set_interleave(Interleave::lines(count, offset).unwrap_or_default());
+        renderer.set_prefetch(settings.prefetch);
+    }
+    renderers
+}
+
+/// Draws a frame: alone by [`scanbeam::draw_frame`], or by a thread for each renderer.
+///
+/// # Errors
+/// When the sink fails, naming the line, or a renderer has too little memory.
+pub fn draw_frame<P, D>(
+    scene: &Scene<'_, P>,
+    renderers: &mut [LineRenderer<'_, P>],
+    pump: &mut Pump<D>,
+    background: WordOf<P>,
+    lines_per_transfer: u16,
+) -> Result<FrameStats, FrameError<<D as ErrorType>::Error>>
+where
+    P: Pipeline,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+{
+    if let [renderer] = renderers {
+        return scanbeam::draw_frame(scene, renderer, pump, background, lines_per_transfer);
+    }
+    let width = usize::from(scene.screen().width());
+    let mut relays: Vec<Relay<HostLine<WordOf<P>>, QUEUE>> = (0..renderers.len())
+        .map(|_| Relay::new((1..QUEUE).map(|_| HostLine::new(width))))
+        .collect();
+    // Whether the workers may go on: not when the sink has failed.
+    let go_on = AtomicBool::new(true);
+    let (go_on, mut skipped) = (&go_on, 0);
+    let sent = std::thread::scope(|threads| {
+        let mut desks = Vec::new();
+        for (renderer, relay) in renderers.iter_mut().zip(&mut relays) {
+            let (mut worker, desk) = relay.split();
+            desks.push((renderer.interleave(), desk));
+            threads.spawn(move || {
+                worker.frame(scene, renderer, background, || {
+                    std::thread::yield_now();
+                    go_on.load(Ordering::Relaxed)
+                })
+            });
+        }
+        let mut crew = Crew {
+            scene,
+            here: &mut [],
+            desks: &mut desks,
+            background,
+            wait: || {
+                std::thread::yield_now();
+                true
+            },
+            skipped: 0,
+        };
+        let sent = send_frame(scene, &mut crew, pump, lines_per_transfer);
+        skipped = crew.skipped;
+        go_on.store(false, Ordering::Relaxed);
+        sent
+    });
+    let mut stats = FrameStats {
+        pass_one: scene.pass_one(),
+        scanlines_skipped: skipped,
+        scan_out: sent?,
+        ..FrameStats::default()
+    };
+    for renderer in renderers {
+        stats.add_renderer(renderer);
+    }
+    Ok(stats)
+}

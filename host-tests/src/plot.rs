@@ -1,0 +1,227 @@
+//! Line charts as SVG and as pixels, the same on every machine: no system fonts.
+//!
+//! Both are drawn by one routine through a canvas of lines and text; text in pixels is an 8 x 8
+//! bitmap font.
+
+use crate::image_out::Frame;
+use font8x8::{BASIC_FONTS, UnicodeFonts};
+use std::fmt::Write;
+
+const WIDTH: i32 = 800;
+const HEIGHT: i32 = 480;
+/// Left, top, right, bottom of the plotted area.
+const AREA: [i32; 4] = [70, 40, 780, 420];
+/// Colours of the series, in order, told apart by people who do not see all colours.
+const COLOURS: [[u8; 3]; 4] = [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167]];
+const INK: [u8; 3] = [40, 40, 40];
+const GRID: [u8; 3] = [224, 224, 224];
+
+/// Values at each of the chart's places.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Series {
+    /// For the legend.
+    pub name: String,
+    /// One for each place; from 0 up.
+    pub values: Vec<f64>,
+}
+
+/// A chart over places that stand at equal distances.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chart {
+    /// Above the chart.
+    pub title: String,
+    /// The names of the places.
+    pub x: Vec<String>,
+    /// Below the places.
+    pub x_name: String,
+    /// Above the scale.
+    pub y_name: String,
+    /// At most four are told apart.
+    pub series: Vec<Series>,
+}
+
+trait Canvas {
+    fn line(&mut self, from: (i32, i32), to: (i32, i32), colour: [u8; 3], width: i32);
+    /// `anchor`: 0 left, 1 middle, 2 right; `at` is on the base line.
+    fn text(&mut self, at: (i32, i32), anchor: i32, text: &str);
+}
+
+impl Chart {
+    /// As a picture of 800 x 480 pixels.
+    #[must_use]
+    pub fn to_frame(&self) -> Frame {
+        let mut pixels = Pixels(vec![[255; 3]; (WIDTH * HEIGHT) as usize]);
+        self.draw(&mut pixels);
+        let rgb = pixels.0.into_flattened();
+        Frame::new(WIDTH as u32, HEIGHT as u32, rgb).expect("the size is right")
+    }
+
+    /// As SVG.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        let mut svg = Svg(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+             font-family=\"sans-serif\" font-size=\"12\">\n\
+             <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n"
+        ));
+        self.draw(&mut svg);
+        svg.0 + "</svg>\n"
+    }
+
+    fn draw(&self, canvas: &mut impl Canvas) {
+        let [left, top, right, bottom] = AREA;
+        let values = self.series.iter().flat_map(|s| &s.values);
+        let largest = values.fold(0.0f64, |m, v| m.max(*v));
+        let step = nice(largest / 8.0);
+        let full = (largest / step).ceil().max(1.0) * step;
+        let y = |v: f64| bottom - (v / full * f64::from(bottom - top)).round() as i32;
+        let count = self.x.len().max(2) as i32;
+        let x = |i: usize| left + 20 + i as i32 * (right - left - 40) / (count - 1);
+        for tick in 0..=(full / step).round() as i32 {
+            let v = f64::from(tick) * step;
+            canvas.line((left, y(v)), (right, y(v)), GRID, 1);
+            let digits = usize::from(step < 1.0) + usize::from(step < 0.1);
+            canvas.text((left - 6, y(v) + 4), 2, &format!("{v:.digits$}"));
+        }
+        for (i, name) in self.x.iter().enumerate() {
+            canvas.line((x(i), bottom), (x(i), bottom + 4), INK, 1);
+            canvas.text((x(i), bottom + 18), 1, name);
+        }
+        canvas.line((left, top), (left, bottom), INK, 1);
+        canvas.line((left, bottom), (right, bottom), INK, 1);
+        canvas.text(((left + right) / 2, bottom + 40), 1, &self.x_name);
+        canvas.text((left, top - 8), 0, &self.y_name);
+        canvas.text(((left + right) / 2, 18), 1, &self.title);
+        for (n, series) in self.series.iter().enumerate() {
+            let colour = COLOURS[n % COLOURS.len()];
+            let values = series.values.iter().enumerate();
+            let points: Vec<_> = values.map(|(i, v)| (x(i), y(*v))).collect();
+            for pair in points.windows(2) {
+                canvas.line(pair[0], pair[1], colour, 2);
+            }
+            for (px, py) in points {
+                canvas.line((px - 3, py), (px + 3, py), colour, 4);
+            }
+            let at = top + 16 + 18 * n as i32;
+            canvas.line((right - 260, at - 4), (right - 235, at - 4), colour, 3);
+            canvas.text((right - 228, at), 0, &series.name);
+        }
+    }
+}
+
+/// The next of 1, 2, 5 times a power of ten, not below `value`.
+fn nice(value: f64) -> f64 {
+    let value = value.max(1e-9);
+    let ten = 10f64.powf(value.log10().floor());
+    let factors = [1.0, 2.0, 5.0, 10.0];
+    let fits = factors.into_iter().find(|f| f * ten >= value * 0.999_999);
+    fits.unwrap_or(10.0) * ten
+}
+
+struct Svg(String);
+
+impl Canvas for Svg {
+    fn line(&mut self, from: (i32, i32), to: (i32, i32), c: [u8; 3], width: i32) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            self.0,
+            "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" stroke=\"#{:02x}{:02x}{:02x}\" \
+             stroke-width=\"{width}\"/>",
+            from.0, from.1, to.0, to.1, c[0], c[1], c[2]
+        );
+    }
+
+    fn text(&mut self, at: (i32, i32), anchor: i32, text: &str) {
+        let anchor = ["start", "middle", "end"][anchor.clamp(0, 2) as usize];
+        let text = text.replace('&', "&amp;").replace('<', "&lt;");
+        let _ = writeln!(
+            self.0,
+            "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\" fill=\"#282828\">{text}</text>",
+            at.0, at.1
+        );
+    }
+}
+
+struct Pixels(Vec<[u8; 3]>);
+
+impl Pixels {
+    fn set(&mut self, x: i32, y: i32, colour: [u8; 3]) {
+        if (0..WIDTH).contains(&x) && (0..HEIGHT).contains(&y) {
+            self.0[(y * WIDTH + x) as usize] = colour;
+        }
+    }
+}
+
+impl Canvas for Pixels {
+    fn line(&mut self, from: (i32, i32), to: (i32, i32), colour: [u8; 3], width: i32) {
+        let (dx, dy) = (to.0 - from.0, to.1 - from.1);
+        let steps = dx.abs().max(dy.abs()).max(1);
+        for i in 0..=steps {
+            let at = |a: i32, d: i32| a + (2 * d * i + d.signum() * steps) / (2 * steps);
+            for w in 0..width {
+                let off = w - width / 2;
+                let (x, y) = (at(from.0, dx), at(from.1, dy));
+                if dx.abs() >= dy.abs() {
+                    self.set(x, y + off, colour);
+                } else {
+                    self.set(x + off, y, colour);
+                }
+            }
+        }
+    }
+
+    fn text(&mut self, at: (i32, i32), anchor: i32, text: &str) {
+        let width = 8 * text.chars().count() as i32;
+        let left = at.0 - width * anchor / 2;
+        for (n, letter) in text.chars().enumerate() {
+            let rows = BASIC_FONTS.get(letter).unwrap_or([0x7E; 8]);
+            for (y, row) in rows.into_iter().enumerate() {
+                for x in 0..8 {
+                    if row >> x & 1 == 1 {
+                        self.set(left + 8 * n as i32 + x, at.1 - 8 + y as i32, INK);
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_nice() {
+        let pairs = [
+            (0.7, 1.0),
+            (1.0, 1.0),
+            (1.1, 2.0),
+            (23.0, 50.0),
+            (0.051, 0.1),
+        ];
+        for (value, expected) in pairs {
+            assert!((nice(value) - expected).abs() < 1e-9, "{value}");
+        }
+    }
+
+    #[test]
+    fn empty_and_extreme_charts_can_be_drawn() {
+        for values in [vec![], vec![0.0], vec![0.0, 1e12], vec![1e-6; 40]] {
+            let chart = Chart {
+                title: "a < b & c".into(),
+                x: values.iter().map(f64::to_string).collect(),
+                x_name: String::new(),
+                y_name: "\u{1F980}".into(),
+                series: vec![
+                    Series {
+                        name: "one".into(),
+                        values,
+                    };
+                    6
+                ],
+            };
+            assert_eq!(chart.to_frame().width(), 800);
+            assert!(chart.to_svg().contains("a &lt; b &amp; c"));
+        }
+    }
+}
