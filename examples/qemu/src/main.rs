@@ -3,10 +3,12 @@
 //! What it prints, a line each, is what the host's firmware runner reads:
 //! ```text
 //! count name=loop expected=2000000 counted=2000000 ok=1
-//! frame scene=memory crc=1234abcd instructions=123456
+//! count name=sheet_1 expected=76800 counted=76800 ok=1
+//! frame scene=teapot crc=1234abcd instructions=123456
 //! figure name=stack_bytes value=1234
 //! done frames=1
 //! ```
+//! A `sheet` is a random mesh over the whole picture whose every pixel has to be hit exactly once.
 //! The checksum is the CRC-32 of PNG and zip over the bytes of a frame in scan-out order. A frame is
 //! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
 //! give the same number of bytes. Exit code 0 only if everything held.
@@ -30,6 +32,7 @@ use console::Console;
 use count::Counter;
 use frames::{Frame, frames};
 use rooms::Rooms;
+use scenes::{SHEETS, Sheet};
 
 static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
@@ -52,6 +55,16 @@ fn main() -> ! {
     }
 
     let mut rooms = Rooms::take();
+    for seed in 1..=SHEETS {
+        let (expected, (hit, missed)) = (Sheet::pixels(), rooms.sheet_hits(seed));
+        let holds = hit == expected && missed == 0;
+        all_hold &= holds;
+        console.line(format_args!(
+            "count name=sheet_{seed} expected={expected} counted={hit} ok={}",
+            u8::from(holds)
+        ));
+    }
+
     let mut count = 0;
     for frame in frames() {
         let name = frame.name;

@@ -3,10 +3,12 @@
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
 use core::ptr;
 use scanbeam::{
-    CellOf, LineRenderer, Link, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, SpanRecord,
-    VertexOf,
+    CellOf, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, Scene, SceneMemory,
+    SceneVertex, SlotOf, SpanRecord, VertexOf,
 };
-use scenes::{HEIGHT, MOST_SLOTS, OBJECTS, VERTICES, WIDTH};
+use scenes::{
+    HEIGHT, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline, Shot, VERTICES, WIDTH,
+};
 
 /// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
 /// `&'static mut` slice. Each place in the source can lend once; a second time panics.
@@ -65,6 +67,8 @@ pub(crate) struct Rooms {
     /// What comparisons take beyond what one renderer needs: a cache for everything and a second
     /// renderer's links and depth. No scene. All in external RAM: here instructions count.
     pub(crate) second: RoomsOf<Smooth>,
+    /// For sheets, which are drawn without depth and counted.
+    pub(crate) sheet: RoomsOf<SheetPipeline>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
     pub(crate) lines: Option<[&'static mut [u16]; 2]>,
 }
@@ -101,6 +105,30 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
+            sheet: RoomsOf {
+                vertices: lend!(
+                    ".slow",
+                    VertexOf<SheetPipeline>,
+                    SHEET_TRIANGLES,
+                    SceneVertex::empty()
+                ),
+                objects: lend!(
+                    ".slow",
+                    ObjectOf<SheetPipeline>,
+                    SHEET_TRIANGLES,
+                    Object::default()
+                ),
+                buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
+                links: lend!(".slow", Link, SHEET_TRIANGLES, Link::NONE),
+                slots: lend!(
+                    ".slow",
+                    SlotOf<SheetPipeline>,
+                    SLOTS,
+                    LineRenderer::<SheetPipeline>::empty_slot()
+                ),
+                depth: lend!(".slow", CellOf<SheetPipeline>, WIDTH as usize, ()),
+                spans: &mut [],
+            },
             second: RoomsOf {
                 vertices: &mut [],
                 objects: &mut [],
@@ -117,6 +145,30 @@ impl Rooms {
             },
             lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
+    }
+}
+
+impl Rooms {
+    /// Draws the sheet of a seed: pixels drawn, hits counted, and pixels left out.
+    pub(crate) fn sheet_hits(&mut self, seed: u32) -> (u32, u32) {
+        let rooms = &mut self.sheet;
+        let mut scene = Scene::new(
+            Shot::screen(),
+            SceneMemory {
+                vertices: rooms.vertices,
+                objects: rooms.objects,
+                buckets: rooms.buckets,
+            },
+        );
+        let mut renderer = LineRenderer::new(LineMemory {
+            slots: rooms.slots,
+            links: rooms.links,
+            depth: rooms.depth,
+            spans: rooms.spans,
+        });
+        Sheet::new(seed)
+            .hits(&mut scene, &mut renderer)
+            .expect("the rooms are large enough")
     }
 }
 

@@ -15,8 +15,10 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod sheet;
 mod shots;
 
+pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
 };
