@@ -302,19 +302,18 @@ impl<'m, T: Member> ActiveList<'m, T> {
                 let index = current.slot();
                 match self.slots.get_mut(index) {
                     Some(slot) if slot.object < coming => {
-                        if slot.body.end() > line {
+                        let (end, after) = (slot.body.end(), slot.next);
+                        if end > line {
                             hits += 1;
                             if !visitor.visit(index, slot) {
                                 visitor.flush(self.slots);
                                 visitor.visit(index, &mut self.slots[index]);
                             }
                         }
-                        let slot = &mut self.slots[index];
-                        let after = slot.next;
-                        if slot.body.end() > next {
+                        if end > next {
                             before = current;
                         } else {
-                            released.add(slot, current, index);
+                            released.add(self.slots, current);
                             self.set_next(before, after);
                         }
                         current = after;
@@ -364,7 +363,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
                         slot.next = after;
                         node = free;
                     } else {
-                        released.add(slot, free, free.slot());
+                        released.add(self.slots, free);
                     }
                 }
             } else if visitor.set_up(object, spare) {
@@ -419,13 +418,15 @@ struct Released {
 
 impl Released {
     #[inline]
-    fn add<T>(&mut self, slot: &mut Slot<T>, link: Link, index: usize) {
-        if self.count == 0 {
-            self.first = index;
+    fn add<T>(&mut self, slots: &mut [Slot<T>], link: Link) {
+        if let Some(slot) = slots.get_mut(link.slot()) {
+            if self.count == 0 {
+                self.first = link.slot();
+            }
+            slot.next = self.head;
+            self.head = link;
+            self.count += 1;
         }
-        slot.next = self.head;
-        self.head = link;
-        self.count += 1;
     }
 }
 

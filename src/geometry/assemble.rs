@@ -3,7 +3,7 @@
 
 use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
-use super::colour::{Colour, Scale};
+use super::colour::{Colour, Scale, Tint};
 use super::light::Light;
 use super::mesh::{Coordinate, Faces, Mesh, QuadSplit};
 use super::object::{OUTSIDE, Object, SceneVertex};
@@ -89,7 +89,7 @@ pub(crate) struct Assembler<'a, 'm, S: Shading> {
     /// The light in model space.
     light: Option<Light>,
     /// Colour of vertices without one.
-    colour: [u8; 3],
+    tint: Tint,
     /// A piece of the current triangle found no room.
     lost: bool,
     /// How levels become steps of the output.
@@ -126,7 +126,7 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
             lines: top + i32::from(lines.start)..top + i32::from(lines.end),
             cull,
             light,
-            colour,
+            tint: Tint::new(colour, scale),
             lost: false,
             scale,
             done: Assembled::default(),
@@ -177,25 +177,33 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
                 let _ = self.vertices.push(vertex);
             }
         }
+        self.done.triangles = triangles(mesh.faces);
         each_triangle(mesh.faces, |face, corners, provoking| {
-            self.done.triangles += 1;
-            let kept = self.done.kept;
-            let before = self.vertices.len();
-            if shared {
-                self.shared(mesh, base, (face, corners, provoking), &mut file);
+            let look = if shared {
+                self.look(base, corners)
             } else {
-                self.alone(mesh, (face, corners, provoking), &mut file);
-            }
-            if self.done.kept == kept {
-                self.vertices.truncate(before);
-            }
-            // A triangle that was cut into pieces counts once.
-            if core::mem::take(&mut self.lost) {
-                if let Some(dropped) = &mut self.done.dropped {
-                    dropped.triangles += 1;
+                Look::Outside
+            };
+            match look {
+                Look::Culled => self.done.culled += 1,
+                Look::Seen(first) => {
+                    let index = corners.map(|c| base as u16 + c);
+                    let face_colour = self.face_colour(mesh, corners, provoking);
+                    self.keep(Object::new(index, face_colour), first, face, &mut file);
+                    self.count_lost();
                 }
-            } else if self.done.kept == kept {
-                self.done.culled += 1;
+                Look::Outside => {
+                    let kept = self.done.kept;
+                    let before = self.vertices.len();
+                    self.alone(mesh, (face, corners, provoking), &mut file);
+                    if self.done.kept == kept {
+                        self.vertices.truncate(before);
+                    }
+                    // A triangle that was cut into pieces counts once.
+                    if !self.count_lost() && self.done.kept == kept {
+                        self.done.culled += 1;
+                    }
+                }
             }
         });
         if self.done.kept == 0 {
@@ -204,39 +212,38 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         Ok(self.done)
     }
 
-    /// A triangle whose vertices lie in the arena from `base` on.
+    /// Counts the current triangle among the dropped, if a piece of it was.
     #[inline]
-    fn shared<C: Coordinate>(
-        &mut self,
-        mesh: &Mesh<'_, C>,
-        base: usize,
-        (face, corners, provoking): (u32, [u16; 3], u16),
-        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
-    ) {
-        let index = corners.map(|c| base + usize::from(c));
-        let v = index.map(|i| self.vertices.as_slice()[i]);
-        let mut outside = 0;
-        let mut all = u16::MAX;
-        for v in &v {
-            if v.depth == OUTSIDE {
-                outside |= v.x;
-                all &= v.x;
-            } else {
-                all = 0;
-            }
+    fn count_lost(&mut self) -> bool {
+        let lost = core::mem::take(&mut self.lost);
+        if let Some(dropped) = self.done.dropped.as_mut().filter(|_| lost) {
+            dropped.triangles += 1;
         }
-        if outside != 0 {
-            if all == 0 {
-                self.alone(mesh, (face, corners, provoking), file);
-            }
-            return;
-        }
-        let Some(first) = self.first_line(v.map(|v| (v.x, v.y))) else {
-            return;
+        lost
+    }
+
+    /// What is known of a triangle whose vertices lie in the arena from `base` on.
+    #[inline]
+    fn look(&self, base: usize, corners: [u16; 3]) -> Look {
+        let vertices = self.vertices.as_slice();
+        let at = |i: usize| vertices.get(base + usize::from(corners[i]));
+        // The indices were checked; said so for the compiler.
+        let (Some(a), Some(b), Some(c)) = (at(0), at(1), at(2)) else {
+            return Look::Culled;
         };
-        let face_colour = self.face_colour(mesh, corners, provoking);
-        let object = Object::new(index.map(|i| i as u16), face_colour);
-        self.keep(object, first, face, file);
+        // Depths on the screen are below 2^31.
+        if (a.depth | b.depth | c.depth) >> 31 != 0 {
+            let all = a.outcode() & b.outcode() & c.outcode();
+            return if all == 0 {
+                Look::Outside
+            } else {
+                Look::Culled
+            };
+        }
+        match self.first_line([(a.x, a.y), (b.x, b.y), (c.x, c.y)]) {
+            Some(first) => Look::Seen(first),
+            None => Look::Culled,
+        }
     }
 
     /// A triangle that brings its own vertices, clipped where needed.
@@ -355,19 +362,16 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         (first < end && left < right).then_some(first)
     }
 
-    /// A colour in the light that falls on a normal.
-    #[inline]
-    fn lit(&self, colour: [u8; 3], light: &Light, normal: [i16; 3]) -> Colour {
-        Colour::lit(colour, u32::from(light.level(normal).to_bits()), self.scale)
-    }
-
     /// The lit colour of a vertex.
     #[inline]
     fn vertex_colour<C>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
-        let colour = mesh.colours.get(i).copied().unwrap_or(self.colour);
+        let tint = match mesh.colours.get(i) {
+            Some(&colour) => Tint::new(colour, self.scale),
+            None => self.tint,
+        };
         match (&self.light, mesh.normals.get(i)) {
-            (Some(light), Some(&normal)) => self.lit(colour, light, normal),
-            _ => Colour::from_rgb8(colour, self.scale),
+            (Some(light), Some(&normal)) => tint.lit(light.level(normal).to_bits()),
+            _ => tint.lit(1 << 15),
         }
     }
 
@@ -382,14 +386,16 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         if !S::PER_FACE {
             return S::Face::default();
         }
-        let colour = mesh.colours.get(usize::from(provoking)).copied();
-        let colour = colour.unwrap_or(self.colour);
+        let tint = match mesh.colours.get(usize::from(provoking)) {
+            Some(&colour) => Tint::new(colour, self.scale),
+            None => self.tint,
+        };
         S::face(match &self.light {
             Some(light) => {
                 let p = corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30));
-                self.lit(colour, light, face_normal(p))
+                tint.lit(light.level(face_normal(p)).to_bits())
             }
-            None => Colour::from_rgb8(colour, self.scale),
+            None => tint.lit(1 << 15),
         })
     }
 }
@@ -410,6 +416,25 @@ fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
     let bits = n.iter().fold(1, |b, c| b | c.unsigned_abs());
     let down = 32u32.saturating_sub(bits.leading_zeros());
     unit(n.map(|c| c >> down)).map(|c| c.to_bits())
+}
+
+/// What a look at a triangle tells.
+enum Look {
+    /// It cannot be seen.
+    Culled,
+    /// It is first seen on this line of guard space.
+    Seen(i32),
+    /// A corner is beyond a plane, or its vertices are not in the arena.
+    Outside,
+}
+
+/// How many triangles there are.
+fn triangles(faces: Faces<'_>) -> u32 {
+    (match faces {
+        Faces::Triangles(faces) => faces.len(),
+        Faces::Quads(faces, _) => 2 * faces.len(),
+        Faces::QuadStrip(strip, _) => strip.len().saturating_sub(2),
+    }) as u32
 }
 
 /// Whether all slices agree and all indices exist.

@@ -15,7 +15,7 @@ const FIELD_BITS: [u32; 3] = [11, 11, 10];
 /// How 8-bit levels become steps of the output.
 #[derive(Clone, Copy, Debug)]
 pub struct Scale {
-    /// A field is `(level 2^7 factor + 2^14) >> 15`.
+    /// A field is `level factor / 2^8`.
     factor: [u32; 3],
     /// Fraction bits of each field.
     fraction: [u32; 3],
@@ -51,28 +51,49 @@ impl Scale {
     }
 }
 
-impl Colour {
-    /// From 8-bit levels times `light`, 1 being 2^15; within 1/64 of a level, and half a field's
-    /// unit.
+/// A colour that waits for its light: one multiply-add a channel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Tint {
+    /// The fields of red, green and blue in full light, times 2^3; at most 14 bits.
+    field: [u32; 3],
+    /// Half a step and the rounding, in 2^-18 of a field's unit.
+    half: [u32; 3],
+}
+
+impl Tint {
+    /// From 8-bit levels.
+    pub(super) const fn new(rgb: [u8; 3], scale: &Scale) -> Self {
+        let mut tint = Self {
+            field: [0; 3],
+            half: [0; 3],
+        };
+        let mut i = 0;
+        while i < 3 {
+            tint.field[i] = (rgb[i] as u32 * scale.factor[i] + (1 << 4)) >> 5;
+            tint.half[i] = (((1 << scale.fraction[i]) >> 1) << 18) + (1 << 17);
+            i += 1;
+        }
+        tint
+    }
+
+    /// In `light`, 1 being 2^15; within 1/8 of a field's unit before rounding.
     #[inline]
-    #[must_use]
-    pub const fn lit(rgb: [u8; 3], light: u32, scale: &Scale) -> Self {
+    pub(super) const fn lit(&self, light: u16) -> Colour {
         let mut field = [0; 3];
         let mut i = 0;
         while i < 3 {
-            // 8 + 15 bits, of which 15 are kept, times at most 12 bits.
-            let level = (rgb[i] as u32 * light + (1 << 7)) >> 8;
-            let half = (1 << scale.fraction[i]) >> 1;
-            field[i] = ((level * scale.factor[i] + (1 << 14)) >> 15) + half;
+            field[i] = (self.field[i] * light as u32 + self.half[i]) >> 18;
             i += 1;
         }
-        Self::from_fields(field)
+        Colour::from_fields(field)
     }
+}
 
+impl Colour {
     /// From 8-bit levels.
     #[must_use]
     pub const fn from_rgb8(rgb: [u8; 3], scale: &Scale) -> Self {
-        Self::lit(rgb, 1 << 15, scale)
+        Tint::new(rgb, scale).lit(1 << 15)
     }
 
     /// From fields of red, green and blue.
@@ -164,7 +185,7 @@ mod tests {
         );
         assert_eq!(a.steps(&scale), [0; 3]);
         assert_eq!(b.steps(&scale), [31, 63, 31]);
-        assert_eq!(Colour::lit([255; 3], 0, &scale), a);
+        assert_eq!(Tint::new([255; 3], &scale).lit(0), a);
         assert_eq!(a.lerp(b, 0), a);
         assert_eq!(a.lerp(b, 1 << 30), b);
         assert_eq!(a.lerp(b, 1 << 29).steps(&scale), [16, 32, 16]);

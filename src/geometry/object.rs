@@ -31,6 +31,13 @@ impl<A: Default> SceneVertex<A> {
     }
 }
 
+impl<A> SceneVertex<A> {
+    /// The planes that a vertex lies beyond which has to be clipped, 0 for one on the screen.
+    pub(super) fn outcode(&self) -> u16 {
+        if self.depth == OUTSIDE { self.x } else { 0 }
+    }
+}
+
 /// The depth that marks a vertex which has to be clipped, never referred to by an object.
 pub(super) const OUTSIDE: u32 = u32::MAX;
 

@@ -276,7 +276,6 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             dirty: &mut self.dirty,
             line: now,
             left,
-            reach: (width, 0),
             thin: 0,
             counter: &mut self.counter,
         };
@@ -328,8 +327,6 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
             end: span.end as u16,
         };
         self.count += 1;
-        self.reach.0 = self.reach.0.min(span.start);
-        self.reach.1 = self.reach.1.max(span.end);
         if let Some(cell) = self.cells.get_mut(span.start) {
             P::Depth::mark(cell, span.end as u16);
         }
@@ -377,8 +374,6 @@ struct LinePass<'a, 's, P: Pipeline> {
     dirty: &'a mut bool,
     line: i32,
     left: i32,
-    /// Least first pixel and largest end among the records.
-    reach: (usize, usize),
     /// Triangles drawn from their corners in slow memory.
     thin: u32,
     counter: &'a mut P::Counter,
@@ -428,7 +423,11 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     /// Whether no two noted spans overlap; then their marks are gone.
     #[inline(always)]
     fn disjoint(&mut self) -> bool {
-        let (mut at, end) = self.reach;
+        let (mut at, mut end) = (self.cells.len(), 0);
+        for record in self.records.iter().take(self.count) {
+            at = at.min(usize::from(record.start));
+            end = end.max(usize::from(record.end));
+        }
         let mut met = 0;
         while at < end {
             match self.cells.get_mut(at).map_or(0, P::Depth::unmark) {
