@@ -39,18 +39,17 @@ pub(crate) fn paint<F: PixelFormat>(
             steps,
             field_step,
         } => {
-            for run in pixels.chunks_mut(RUN) {
-                let mut ramp = F::ramp(red_blue, green, steps, field_step);
-                visible.each(run, |pixel, shown| {
-                    if shown {
-                        *pixel = F::ramp_pixel(&ramp);
-                        seen += 1;
-                    }
-                    F::ramp_step(&mut ramp);
-                });
+            let mut rest = pixels;
+            while rest.len() > RUN {
+                let (run, more) = rest.split_at_mut(RUN);
+                let ramp = F::ramp(red_blue, green, steps, field_step);
+                seen += walk::<F>(run, ramp, &mut visible);
+                rest = more;
                 red_blue = red_blue.wrapping_add(steps.0.wrapping_mul(RUN as i32));
                 green = green.wrapping_add(steps.1.wrapping_mul(RUN as i32));
             }
+            let ramp = F::ramp(red_blue, green, steps, field_step);
+            seen += walk::<F>(rest, ramp, &mut visible);
         }
         Stretch::Channels([mut r, mut g, mut b], step) => {
             visible.each(pixels, |pixel, shown| {
@@ -64,6 +63,20 @@ pub(crate) fn paint<F: PixelFormat>(
             });
         }
     }
+    seen
+}
+
+/// The pixels between two anchors.
+#[inline(always)]
+fn walk<F: PixelFormat>(run: &mut [F::Word], mut ramp: F::Ramp, visible: &mut impl Visible) -> u32 {
+    let mut seen = 0;
+    visible.each(run, |pixel, shown| {
+        if shown {
+            *pixel = F::ramp_pixel(&ramp);
+            seen += 1;
+        }
+        F::ramp_step(&mut ramp);
+    });
     seen
 }
 
