@@ -130,7 +130,7 @@ impl<F: Copy> Object<F> {
 
     /// Sets the object up in `out` for `line` and all below; `false` when the object does not
     /// exist in this arena or ends above.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn set_up<S: Shading<Face = F>>(
         &self,
         vertices: &[SceneVertex<S::Vertex>],
