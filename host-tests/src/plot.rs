@@ -168,7 +168,7 @@ impl Scatter {
             canvas.line((right - 240, at - 4), (right - 232, at - 4), colour, 8);
             canvas.text((right - 224, at), 0, group);
         }
-        let mut taken: Vec<(i32, i32)> = Vec::new();
+        let mut taken: Vec<(i32, i32, i32)> = Vec::new();
         for dot in &self.dots {
             let colour = COLOURS[dot.group % COLOURS.len()];
             let (px, py) = (x(dot.x), y(dot.y));
@@ -194,14 +194,17 @@ impl Scatter {
             } else {
                 (0, px + 13)
             };
-            let mut ty = py + 4;
+            // Above the line that joins those of the frontier.
+            let mut ty = if dot.marked { py - 11 } else { py + 4 };
+            let wide = 8 * dot.name.chars().count() as i32;
+            let from = tx - wide * anchor / 2;
             while taken
                 .iter()
-                .any(|t| (t.0 - tx).abs() < 320 && (t.1 - ty).abs() < 12)
+                .any(|(start, end, y)| *start < from + wide && from < *end && (y - ty).abs() < 12)
             {
                 ty += 12;
             }
-            taken.push((tx, ty));
+            taken.push((from, from + wide, ty));
             canvas.text((tx, ty), anchor, &dot.name);
         }
     }
@@ -378,6 +381,34 @@ mod tests {
         ];
         for (value, expected) in pairs {
             assert!((nice(value) - expected).abs() < 1e-9, "{value}");
+        }
+    }
+
+    #[test]
+    fn scatters_are_drawn_whatever_is_in_them() {
+        let dot = |x, y, marked| Dot {
+            name: "a < b".into(),
+            group: 5,
+            x,
+            y,
+            marked,
+        };
+        let all = [
+            dot(0.0, 0.0, true),
+            dot(1e300, 3.0, true),
+            dot(7.0, 1e-30, false),
+        ];
+        for dots in [&all[..0], &all[..1], &all] {
+            let plot = Scatter {
+                title: "t".into(),
+                x_name: "x".into(),
+                y_name: "y".into(),
+                groups: vec!["g".into(); 6],
+                dots: dots.into(),
+            };
+            assert_eq!(plot.to_frame().width(), 800);
+            let svg = plot.to_svg();
+            assert_eq!(svg.matches("a &lt; b").count(), dots.len());
         }
     }
 

@@ -169,8 +169,15 @@ fn with_scene<P: Pipeline, R>(
         },
     );
     // At distance 1 a focal length of 4096 pixels makes 2^-15 of a coordinate an eighth of a pixel.
-    let camera = Camera::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 4096.0, 0.5, 2.0)
-        .expect("the camera is legal");
+    let camera = Camera::look_at(
+        [0.0; 3],
+        [0.0, 0.0, -1.0],
+        [0.0, 1.0, 0.0],
+        4096.0,
+        0.5,
+        2.0,
+    )
+    .expect("the camera is legal");
     scene.begin(&camera).expect("the buckets suffice");
     let tall = i32::from(tall);
     // An odd side moves the principal point by half a pixel, and the picture with it.

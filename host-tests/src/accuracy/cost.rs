@@ -79,7 +79,7 @@ pub(super) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
     })
 }
 
-/// Pixels that are drawn where the teapot is, hidden ones included.
+/// Pixels that show the teapot: those that are the same over any background.
 fn teapot_pixels() -> Result<u32, Box<dyn Error>> {
     type P = Counted<GouraudDepth<Rgb565Be>>;
     let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];

@@ -57,8 +57,13 @@ pub(super) fn covers(triangle: [Place; 3], column: i32, line: i32) -> bool {
 
 /// The value at a pixel's centre of what is linear between the corners.
 pub(super) fn plane(triangle: [Place; 3], values: [f64; 3], column: i32, line: i32) -> f64 {
+    at_place(triangle, values, (8 * column + 4, 8 * line + 4))
+}
+
+/// The value at a place of what is linear between the corners.
+pub(super) fn at_place(triangle: [Place; 3], values: [f64; 3], at: Place) -> f64 {
     let [(x0, y0), (x1, y1), (x2, y2)] = triangle.map(|p| (f64::from(p.0), f64::from(p.1)));
-    let (x, y) = (f64::from(8 * column + 4), f64::from(8 * line + 4));
+    let (x, y) = (f64::from(at.0), f64::from(at.1));
     let area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0);
     let w1 = ((x - x0) * (y2 - y0) - (x2 - x0) * (y - y0)) / area;
     let w2 = ((x1 - x0) * (y - y0) - (x - x0) * (y1 - y0)) / area;
