@@ -9,6 +9,9 @@ use std::error::Error;
 
 type P = GouraudDepth<Rgb888>;
 
+/// Wrong pixels and all pixels of each batch.
+type Batches = Vec<(u32, u32)>;
+
 /// Pixels of the picture's sides, and of the focal length.
 const SIDE: u16 = 128;
 /// World units of a whole coordinate of a mesh.
@@ -112,7 +115,7 @@ fn behind(
 }
 
 /// Pixels where the farther of two triangles is seen, which is drawn last, and all pixels.
-fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Vec<(u32, u32)>; 2], Box<dyn Error>> {
+fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 2], Box<dyn Error>> {
     const FRONT: [u8; 3] = [255, 0, 0];
     const BEHIND: [u8; 3] = [0, 0, 255];
     let mut counts = [(); 2].map(|()| vec![(0, 0); BATCHES]);

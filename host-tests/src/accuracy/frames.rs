@@ -62,14 +62,15 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             ];
             let steps = [Rgb565::STEPS, Rgb565::STEPS, Rgb888::STEPS, Rgb888::STEPS];
             for ((errors, drawn), steps) in errors.iter_mut().zip(drawn).zip(steps) {
-                let pixels = drawn.frame.rgb().as_chunks::<3>().0;
-                for (i, pixel) in pixels.iter().enumerate() {
+                let pixels = drawn.frame.rgb().chunks_exact(3);
+                for (i, pixel) in pixels.enumerate() {
                     if reference.near_edge[i] || reference.object[i] == crate::reference::NO_OBJECT
                     {
                         continue;
                     }
+                    let shown = [pixel[0], pixel[1], pixel[2]];
                     for channel in 0..3 {
-                        errors.push(beyond(*pixel, channel, steps, reference.colour[i][channel]));
+                        errors.push(beyond(shown, channel, steps, reference.colour[i][channel]));
                     }
                 }
             }
