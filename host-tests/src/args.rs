@@ -47,6 +47,8 @@ pub enum Command {
     Trace(TraceArgs),
     /// Model what the object cache saves: slow bytes and frame time against slots
     Cache(CacheArgs),
+    /// Measure every method's error and cost against the f64 reference
+    Accuracy(AccuracyArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
 }
@@ -266,6 +268,17 @@ pub struct CacheArgs {
     pub output: Option<PathBuf>,
 }
 
+/// Flags of `accuracy`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct AccuracyArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Folder for the plot, made when it is not there; none: no plot
+    #[arg(short = 'o', long = "output", value_name = "DIR")]
+    pub output: Option<PathBuf>,
+}
+
 /// Flags of `firmware`.
 #[derive(Debug, Clone, PartialEq, Eq, Args)]
 pub struct FirmwareArgs {
@@ -300,7 +313,9 @@ where
     let checked = match &command {
         Command::Render(render) => render.check(),
         Command::Trace(trace) => trace.check(),
-        Command::Demo(_) | Command::Cache(_) | Command::Firmware(_) => Ok(()),
+        Command::Demo(_) | Command::Cache(_) | Command::Accuracy(_) | Command::Firmware(_) => {
+            Ok(())
+        }
     };
     checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
     Ok(command)

@@ -362,7 +362,11 @@ pub fn build(
     profile: Profile,
     features: &[&str],
 ) -> Result<PathBuf, FirmwareError> {
-    let directory = target_directory(toolchain);
+    let mut directory = target_directory(toolchain);
+    if !features.is_empty() {
+        // Beside the plain one, which somebody may be running.
+        directory.push(features.join("+"));
+    }
     let mut cargo = toolchain.cargo(board);
     cargo
         .current_dir(workspace().join("examples/qemu"))
@@ -491,6 +495,19 @@ pub struct CountCheck {
     pub ok: bool,
 }
 
+/// A kernel that drew spans of about one length.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KernelRun {
+    /// Which kernel.
+    pub name: String,
+    /// Pixels that it drew.
+    pub pixels: u64,
+    /// Spans that they were in.
+    pub spans: u64,
+    /// Instructions for all of them, exact to 40.
+    pub instructions: u64,
+}
+
 /// Everything that the firmware prints, in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Output {
@@ -498,12 +515,14 @@ pub struct Output {
     pub frames: Vec<FrameResult>,
     /// The checks of the counter.
     pub counts: Vec<CountCheck>,
+    /// The kernels, each once with long and once with short spans; with the feature `bench` only.
+    pub kernels: Vec<KernelRun>,
     /// Other figures by name, such as `stack_bytes`.
     pub figures: BTreeMap<String, u64>,
 }
 
 impl Output {
-    /// Reads the lines that `examples/qemu` documents: `frame`, `count`, `figure`, then one `done`.
+    /// Reads the lines that `examples/qemu` documents: `frame`, `count`, `kernel`, `figure`, then one `done`.
     ///
     /// # Errors
     ///
@@ -551,6 +570,12 @@ impl Output {
                 counted: fields.number("counted", 10)?,
                 ok: fields.number::<u64>("ok", 10)? == 1,
             }),
+            "kernel" => self.kernels.push(KernelRun {
+                name: fields.take("name")?.to_owned(),
+                pixels: fields.number("pixels", 10)?,
+                spans: fields.number("spans", 10)?,
+                instructions: fields.number("instructions", 10)?,
+            }),
             "figure" => {
                 let name = fields.take("name")?.to_owned();
                 let value = fields.number("value", 10)?;
@@ -564,7 +589,7 @@ impl Output {
                     return Err(format!("{} frames came", self.frames.len()));
                 }
             }
-            _ => return Err("expected `frame`, `count`, `figure` or `done`".to_owned()),
+            _ => return Err("expected `frame`, `count`, `kernel`, `figure` or `done`".to_owned()),
         }
         fields.end()?;
         Ok(kind == "done")
@@ -727,6 +752,7 @@ mod tests {
         let output = parse(
             "count name=loop expected=20 counted=21 ok=1\n\
              frame scene=sphere crc=00ab12ff instructions=123456\n\
+             kernel name=packed pixels=2016 spans=63 instructions=20000\n\
              figure name=stack_bytes value=704\n\
              done frames=1",
         )
@@ -740,6 +766,13 @@ mod tests {
         assert_eq!(output.counts[0].counted, 21);
         assert!(output.counts[0].ok);
         assert_eq!(output.figures["stack_bytes"], 704);
+        let kernel = KernelRun {
+            name: "packed".to_owned(),
+            pixels: 2016,
+            spans: 63,
+            instructions: 20_000,
+        };
+        assert_eq!(output.kernels, [kernel]);
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Host side of scanbeam.
 
+pub mod accuracy;
 pub mod args;
 pub mod cache_report;
 pub mod crew;

@@ -1,4 +1,4 @@
-//! Line charts as SVG and as pixels, the same on every machine: no system fonts.
+//! Line charts and scatter plots as SVG and as pixels, the same on every machine: no system fonts.
 //!
 //! Both are drawn by one routine through a canvas of lines and text; text in pixels is an 8 x 8
 //! bitmap font.
@@ -40,6 +40,195 @@ pub struct Chart {
     pub series: Vec<Series>,
 }
 
+/// A point of a scatter plot.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Dot {
+    /// Written beside it.
+    pub name: String,
+    /// Which of [`Scatter::groups`] it is of.
+    pub group: usize,
+    /// From 0 up.
+    pub x: f64,
+    /// From 0 up.
+    pub y: f64,
+    /// Whether it is one of those that are ringed, and joined to the others of its group.
+    pub marked: bool,
+}
+
+/// Points on two scales, both logarithmic.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scatter {
+    /// Above the plot.
+    pub title: String,
+    /// Below the scale of x.
+    pub x_name: String,
+    /// Above the scale of y.
+    pub y_name: String,
+    /// For the legend; at most four are told apart.
+    pub groups: Vec<String>,
+    /// The points.
+    pub dots: Vec<Dot>,
+}
+
+/// A logarithmic scale: powers of two from `low` on, `count` doublings.
+struct Doublings {
+    low: i32,
+    count: i32,
+}
+
+impl Doublings {
+    /// One that holds the values and a margin. Below 2^-10 is all the same, also 0.
+    fn holding(values: impl Iterator<Item = f64>) -> Self {
+        let (mut low, mut high) = (i32::MAX, i32::MIN);
+        for value in values {
+            let at = value.clamp(LEAST, 1e12).log2();
+            low = low.min(at.floor() as i32);
+            high = high.max(at.ceil() as i32);
+        }
+        let (low, high) = if low > high {
+            (0, 1)
+        } else {
+            (low, high.max(low + 1))
+        };
+        Self {
+            low,
+            count: high - low,
+        }
+    }
+
+    /// Where a value is, from 0 to 1.
+    fn part(&self, value: f64) -> f64 {
+        (value.clamp(LEAST, 1e12).log2() - f64::from(self.low)) / f64::from(self.count)
+    }
+
+    /// Values of the grid.
+    fn ticks(&self) -> impl Iterator<Item = f64> + use<> {
+        let low = self.low;
+        (0..=self.count).map(move |i| 2f64.powi(low + i))
+    }
+}
+
+/// Where logarithmic scales end.
+const LEAST: f64 = 1.0 / 1024.0;
+
+impl Scatter {
+    /// As a picture of 800 x 480 pixels.
+    #[must_use]
+    pub fn to_frame(&self) -> Frame {
+        framed(|pixels| self.draw(pixels))
+    }
+
+    /// As SVG.
+    #[must_use]
+    pub fn to_svg(&self) -> String {
+        svg(|svg| self.draw(svg))
+    }
+
+    fn draw(&self, canvas: &mut impl Canvas) {
+        let [left, top, right, bottom] = AREA;
+        let across = Doublings::holding(self.dots.iter().map(|dot| dot.x));
+        let up = Doublings::holding(self.dots.iter().map(|dot| dot.y));
+        let between = |a: i32, b: i32, part: f64| a + (f64::from(b - a) * part).round() as i32;
+        let x = |value: f64| between(left + 10, right - 10, across.part(value));
+        let y = |value: f64| between(bottom - 10, top + 10, up.part(value));
+        let label = |value: f64| match value {
+            v if v <= LEAST => "0".to_owned(),
+            v if v < 0.1 => format!("{v:.3}"),
+            v if v < 1.0 => format!("{v:.2}"),
+            v => format!("{v}"),
+        };
+        for tick in up.ticks() {
+            canvas.line((left, y(tick)), (right, y(tick)), GRID, 1);
+            canvas.text((left - 6, y(tick) + 4), 2, &label(tick));
+        }
+        for tick in across.ticks() {
+            canvas.line((x(tick), top), (x(tick), bottom), GRID, 1);
+            canvas.text((x(tick), bottom + 18), 1, &label(tick));
+        }
+        canvas.line((left, top), (left, bottom), INK, 1);
+        canvas.line((left, bottom), (right, bottom), INK, 1);
+        canvas.text(((left + right) / 2, bottom + 40), 1, &self.x_name);
+        canvas.text((left, top - 8), 0, &self.y_name);
+        canvas.text((WIDTH / 2, 18), 1, &self.title);
+        for (n, group) in self.groups.iter().enumerate() {
+            let colour = COLOURS[n % COLOURS.len()];
+            let mut marked: Vec<&Dot> = self
+                .dots
+                .iter()
+                .filter(|d| d.group == n && d.marked)
+                .collect();
+            marked.sort_by(|a, b| a.x.total_cmp(&b.x));
+            for pair in marked.windows(2) {
+                // A staircase: between two methods there is none.
+                let corner = (x(pair[1].x), y(pair[0].y));
+                canvas.line((x(pair[0].x), y(pair[0].y)), corner, colour, 1);
+                canvas.line(corner, (x(pair[1].x), y(pair[1].y)), colour, 1);
+            }
+            let at = top + 18 + 18 * n as i32;
+            canvas.line((right - 240, at - 4), (right - 232, at - 4), colour, 8);
+            canvas.text((right - 224, at), 0, group);
+        }
+        let mut taken: Vec<(i32, i32, i32)> = Vec::new();
+        for dot in &self.dots {
+            let colour = COLOURS[dot.group % COLOURS.len()];
+            let (px, py) = (x(dot.x), y(dot.y));
+            canvas.line((px - 3, py), (px + 3, py), colour, 6);
+            if dot.marked {
+                for (from, to) in [
+                    ((-8, -8), (8, -8)),
+                    ((8, -8), (8, 8)),
+                    ((8, 8), (-8, 8)),
+                    ((-8, 8), (-8, -8)),
+                ] {
+                    canvas.line(
+                        (px + from.0, py + from.1),
+                        (px + to.0, py + to.1),
+                        colour,
+                        1,
+                    );
+                }
+            }
+            // Names to the side where there is room, below each other where points are close.
+            let (anchor, tx) = if px > (left + right) / 2 {
+                (2, px - 13)
+            } else {
+                (0, px + 13)
+            };
+            // Above the line that joins those of the frontier.
+            let mut ty = if dot.marked { py - 11 } else { py + 4 };
+            let wide = 8 * dot.name.chars().count() as i32;
+            let from = tx - wide * anchor / 2;
+            while taken
+                .iter()
+                .any(|(start, end, y)| *start < from + wide && from < *end && (y - ty).abs() < 12)
+            {
+                ty += 12;
+            }
+            taken.push((from, from + wide, ty));
+            canvas.text((tx, ty), anchor, &dot.name);
+        }
+    }
+}
+
+/// What `draw` draws, as a picture.
+fn framed(draw: impl FnOnce(&mut Pixels)) -> Frame {
+    let mut pixels = Pixels(vec![[255; 3]; (WIDTH * HEIGHT) as usize]);
+    draw(&mut pixels);
+    let rgb = pixels.0.into_flattened();
+    Frame::new(WIDTH as u32, HEIGHT as u32, rgb).expect("the size is right")
+}
+
+/// What `draw` draws, as SVG.
+fn svg(draw: impl FnOnce(&mut Svg)) -> String {
+    let mut svg = Svg(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
+         font-family=\"sans-serif\" font-size=\"12\">\n\
+         <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n"
+    ));
+    draw(&mut svg);
+    svg.0 + "</svg>\n"
+}
+
 trait Canvas {
     fn line(&mut self, from: (i32, i32), to: (i32, i32), colour: [u8; 3], width: i32);
     /// `anchor`: 0 left, 1 middle, 2 right; `at` is on the base line.
@@ -50,22 +239,13 @@ impl Chart {
     /// As a picture of 800 x 480 pixels.
     #[must_use]
     pub fn to_frame(&self) -> Frame {
-        let mut pixels = Pixels(vec![[255; 3]; (WIDTH * HEIGHT) as usize]);
-        self.draw(&mut pixels);
-        let rgb = pixels.0.into_flattened();
-        Frame::new(WIDTH as u32, HEIGHT as u32, rgb).expect("the size is right")
+        framed(|pixels| self.draw(pixels))
     }
 
     /// As SVG.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        let mut svg = Svg(format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {WIDTH} {HEIGHT}\" \
-             font-family=\"sans-serif\" font-size=\"12\">\n\
-             <rect width=\"{WIDTH}\" height=\"{HEIGHT}\" fill=\"#fff\"/>\n"
-        ));
-        self.draw(&mut svg);
-        svg.0 + "</svg>\n"
+        svg(|svg| self.draw(svg))
     }
 
     fn draw(&self, canvas: &mut impl Canvas) {
@@ -201,6 +381,34 @@ mod tests {
         ];
         for (value, expected) in pairs {
             assert!((nice(value) - expected).abs() < 1e-9, "{value}");
+        }
+    }
+
+    #[test]
+    fn scatters_are_drawn_whatever_is_in_them() {
+        let dot = |x, y, marked| Dot {
+            name: "a < b".into(),
+            group: 5,
+            x,
+            y,
+            marked,
+        };
+        let all = [
+            dot(0.0, 0.0, true),
+            dot(1e300, 3.0, true),
+            dot(7.0, 1e-30, false),
+        ];
+        for dots in [&all[..0], &all[..1], &all] {
+            let plot = Scatter {
+                title: "t".into(),
+                x_name: "x".into(),
+                y_name: "y".into(),
+                groups: vec!["g".into(); 6],
+                dots: dots.into(),
+            };
+            assert_eq!(plot.to_frame().width(), 800);
+            let svg = plot.to_svg();
+            assert_eq!(svg.matches("a &lt; b").count(), dots.len());
         }
     }
 

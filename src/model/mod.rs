@@ -57,4 +57,4 @@ pub use vertex::{
     VertexFormat,
 };
 pub use walker::{ActiveEdge, ModelSpan, Segment, ZFlags, draw};
-pub use weight::{SpanWeight, vertical_weight};
+pub use weight::{SpanWeight, divided_weight, vertical_weight};

@@ -25,6 +25,20 @@ pub const fn vertical_weight(down: u16, height: u16) -> u16 {
     quotient as u16
 }
 
+/// `distance / length` to `bits` bits by the processor's own divider, rounded down; all ones at
+/// the far end: what [`vertical_weight`] gives for 12 bits, for any width up to 16.
+///
+/// No circuit of the model has it. It is here to say what a wider W along a span would buy.
+#[inline]
+#[must_use]
+pub const fn divided_weight(distance: u16, length: u16, bits: u32) -> u32 {
+    let ones = (1 << bits) - 1;
+    match ((distance as u32) << bits).checked_div(length as u32) {
+        Some(weight) if weight < ones => weight,
+        _ => ones,
+    }
+}
+
 /// The circuit of K6 for one span: `W(X) = (X - Xleft) / (Xright - Xleft)` to 10 bits.
 ///
 /// The leading zeros that the span's length has, its reciprocal has not: both factors are
@@ -88,14 +102,15 @@ mod tests {
             for i in 0..=64u32 {
                 let down = (u32::from(height) * i / 64) as u16;
                 let exact = (u32::from(down) << 12) / u32::from(height);
-                assert_eq!(
-                    u32::from(vertical_weight(down, height)),
-                    exact.min(4095),
-                    "{down} / {height}"
-                );
+                let circuit = u32::from(vertical_weight(down, height));
+                assert_eq!(circuit, exact.min(4095), "{down} / {height}");
+                assert_eq!(circuit, divided_weight(down, height, 12));
             }
         }
         assert_eq!(vertical_weight(0, 0), 4095);
+        assert_eq!(divided_weight(0, 0, 12), 4095);
+        assert_eq!(divided_weight(u16::MAX, u16::MAX, 16), 0xFFFF);
+        assert_eq!(divided_weight(1, 2, 16), 0x8000);
     }
 
     #[test]

@@ -5,16 +5,20 @@
 //! count name=loop expected=2000000 counted=2000000 ok=1
 //! count name=sheet_1 expected=76800 counted=76800 ok=1
 //! frame scene=teapot crc=1234abcd instructions=123456
+//! frame scene=memory crc=1234abcd instructions=123456
+//! kernel name=packed_565 pixels=2016 spans=63 instructions=12345
 //! figure name=stack_bytes value=1234
 //! done frames=1
 //! ```
 //! A `sheet` is a random mesh over the whole picture whose every pixel has to be hit exactly once.
 //! The checksum is the CRC-32 of PNG and zip over the bytes of a frame in scan-out order. A frame is
 //! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
-//! give the same number of bytes. Exit code 0 only if everything held.
+//! give the same number of bytes. Kernels are there with the feature `bench`. Exit code 0 only if everything held.
 #![no_std]
 #![no_main]
 
+#[cfg(feature = "bench")]
+mod bench;
 mod console;
 mod count;
 mod frames;
@@ -84,6 +88,9 @@ fn main() -> ! {
         ));
         count += 1;
     }
+
+    #[cfg(feature = "bench")]
+    bench::run(&counter, &mut console);
 
     console.line(format_args!(
         "figure name=stack_bytes value={}",

@@ -1,0 +1,111 @@
+//! What a pixel costs: the firmware's kernels, and two of its frames.
+
+use super::Row;
+use crate::crew::LineRooms;
+use crate::firmware::{FirmwareError, KernelRun, M4, Output, Profile, Toolchain, measure};
+use scanbeam::{Counted, GouraudDepth, Link, ObjectOf, Rgb565Be, Scene, SceneMemory, VertexOf};
+use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
+use std::collections::BTreeMap;
+use std::error::Error;
+
+/// Instructions a pixel and a span, by kernel; a frame has no spans of its own.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Costs(BTreeMap<String, (f64, Option<f64>)>);
+
+impl Costs {
+    /// Builds and runs the firmware; if there is nothing to do that with, no costs and why.
+    pub(super) fn measured() -> Result<(Self, Option<String>), Box<dyn Error>> {
+        let measured = Toolchain::find()
+            .and_then(|toolchain| measure(&toolchain, &M4, Profile::Release, &["bench"]));
+        match measured {
+            Ok(measured) => Ok((Self::from_output(&measured.output, teapot_pixels()?)?, None)),
+            Err(error @ (FirmwareError::NoQemu | FirmwareError::NoToolchain { .. })) => {
+                let note = format!("note: no instructions were measured: {error}");
+                Ok((Self::default(), Some(note)))
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// From what the firmware printed, and the pixels that the teapot's frames show.
+    pub(super) fn from_output(output: &Output, teapot: u32) -> Result<Self, String> {
+        let mut costs = BTreeMap::new();
+        for run in &output.kernels {
+            let same: Vec<&KernelRun> = output
+                .kernels
+                .iter()
+                .filter(|k| k.name == run.name)
+                .collect();
+            let [long, short] = same[..] else {
+                return Err(format!("kernel {}: {} runs, not 2", run.name, same.len()));
+            };
+            let (pixel, span) =
+                solve(long, short).ok_or(format!("kernel {}: no two equations", run.name))?;
+            costs.insert(run.name.clone(), (pixel, Some(span)));
+        }
+        for frame in &output.frames {
+            if ["teapot", "teapot_model"].contains(&frame.scene.as_str()) {
+                let each = frame.instructions as f64 / f64::from(teapot.max(1));
+                costs.insert(frame.scene.clone(), (each, None));
+            }
+        }
+        Ok(Self(costs))
+    }
+
+    /// Fills in the costs.
+    pub(super) fn fill(&self, rows: &mut [Row]) -> Result<(), String> {
+        for row in rows {
+            let Some(kernel) = row.kernel else { continue };
+            if let Some((pixel, span)) = self.0.get(kernel) {
+                (row.per_pixel, row.per_span) = (Some(*pixel), *span);
+            } else if !self.0.is_empty() {
+                return Err(format!("the firmware has no kernel `{kernel}`"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// `pixels a + spans b = instructions`, twice.
+pub(super) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
+    let row = |k: &KernelRun| (k.pixels as f64, k.spans as f64, k.instructions as f64);
+    let ((p0, s0, i0), (p1, s1, i1)) = (row(long), row(short));
+    let determinant = p0 * s1 - p1 * s0;
+    (determinant != 0.0).then(|| {
+        (
+            (i0 * s1 - i1 * s0) / determinant,
+            (p0 * i1 - p1 * i0) / determinant,
+        )
+    })
+}
+
+/// Pixels that show the teapot: those that are the same over any background.
+fn teapot_pixels() -> Result<u32, Box<dyn Error>> {
+    type P = Counted<GouraudDepth<Rgb565Be>>;
+    let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
+    let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
+    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
+    let mut scene = Scene::<P>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: &mut vertices,
+            objects: &mut objects,
+            buckets: &mut buckets,
+        },
+    );
+    let built = Shot::Teapot.build(&mut scene);
+    built.map_err(|error| format!("teapot: {error:?}"))?;
+    let mut rooms = LineRooms::<P>::new(64, OBJECTS, WIDTH);
+    let mut renderer = rooms.renderer();
+    let mut shown = 0;
+    let mut pixels = [0; WIDTH as usize];
+    let mut other = [0; WIDTH as usize];
+    for line in 0..HEIGHT {
+        pixels.fill(0);
+        other.fill(0xFFFF);
+        renderer.draw_line(&scene, line, &mut pixels)?;
+        renderer.draw_line(&scene, line, &mut other)?;
+        shown += pixels.iter().zip(&other).filter(|(a, b)| a == b).count() as u32;
+    }
+    Ok(shown)
+}

@@ -1,0 +1,233 @@
+//! `accuracy`: how far every method is off an `f64` reference, and what a pixel of it costs.
+//!
+//! | file | there |
+//! |---|---|
+//! | `stage.rs` | triangles whose corners lie on chosen places of the screen, drawn by any pipeline |
+//! | `spans.rs` | family `interpolation`: colour along spans |
+//! | `coverage.rs` | family `coverage`: which pixels a triangle has |
+//! | `depth.rs` | families `depth order` and `depth planes` |
+//! | `frames.rs` | family `frame`: whole scenes |
+//! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |
+//! | `scatter.rs` | the plot |
+//!
+//! Every random choice comes from a generator with a fixed seed, so the figures are the same in
+//! every run. A row is there only if its figures were measured by code of this crate that runs.
+
+mod cost;
+mod coverage;
+mod depth;
+mod frames;
+mod scatter;
+mod spans;
+mod stage;
+#[cfg(test)]
+mod tests;
+
+use crate::args::AccuracyArgs;
+use crate::image_out::{write_atomically, write_image};
+use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
+use cost::Costs;
+use serde_json::{Value, json};
+use std::error::Error;
+
+/// A method within a family, under one case of it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// What is compared; only rows of one family, case and unit can be.
+    pub family: &'static str,
+    /// Under which conditions; part of the name where the family has several.
+    pub case: &'static str,
+    /// How it is done.
+    pub method: &'static str,
+    /// The unit of all three errors.
+    pub unit: &'static str,
+    /// Largest error.
+    pub max: f64,
+    /// Mean error.
+    pub mean: f64,
+    /// What 99.9 of 100 errors do not exceed; none where errors are rates.
+    pub p999: Option<f64>,
+    /// How many errors were taken.
+    pub samples: u64,
+    /// The firmware's kernel, or frame, that says what a pixel costs.
+    pub kernel: Option<&'static str>,
+    /// Instructions a pixel.
+    pub per_pixel: Option<f64>,
+    /// Instructions a span beside its pixels.
+    pub per_span: Option<f64>,
+    /// Whether nothing in its family, case and unit is better in one and not worse in the other
+    /// of cost and largest error. Only of what has a cost.
+    pub on_frontier: bool,
+}
+
+/// What a row is called: family, case, method, unit, kernel.
+type Name = (
+    &'static str,
+    &'static str,
+    &'static str,
+    &'static str,
+    Option<&'static str>,
+);
+
+/// Errors of a method as they come in.
+#[derive(Debug, Default)]
+struct Errors(Vec<f32>);
+
+impl Errors {
+    fn push(&mut self, error: f64) {
+        self.0.push(error as f32);
+    }
+
+    /// The row of these errors.
+    fn row(mut self, name: Name) -> Row {
+        let count = self.0.len();
+        self.0.sort_unstable_by(f32::total_cmp);
+        let sum: f64 = self.0.iter().map(|e| f64::from(*e)).sum();
+        let at = |index: usize| self.0.get(index).map_or(0.0, |e| f64::from(*e));
+        let mut row = Row::rate(name, at(count.wrapping_sub(1)), sum / count.max(1) as f64);
+        row.p999 = Some(at((count * 999 / 1000).min(count.saturating_sub(1))));
+        row.samples = count as u64;
+        row
+    }
+}
+
+impl Row {
+    /// A row of rates: the highest of a batch, and that of all.
+    fn rate((family, case, method, unit, kernel): Name, max: f64, mean: f64) -> Self {
+        Self {
+            family,
+            case,
+            method,
+            unit,
+            max,
+            mean,
+            p999: None,
+            samples: 0,
+            kernel,
+            per_pixel: None,
+            per_span: None,
+            on_frontier: false,
+        }
+    }
+
+    fn to_json(&self) -> Value {
+        json!({
+            "family": self.family,
+            "case": self.case,
+            "method": self.method,
+            "unit": self.unit,
+            "max_error": self.max,
+            "mean_error": self.mean,
+            "p999_error": self.p999,
+            "samples": self.samples,
+            "instructions_per_pixel": self.per_pixel,
+            "instructions_per_span": self.per_span,
+            "on_frontier": self.on_frontier,
+        })
+    }
+}
+
+/// Measures all families, without costs.
+///
+/// # Errors
+/// When something cannot be drawn, which means that this module lends too little memory.
+pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
+    let mut rows = spans::rows()?;
+    rows.extend(coverage::rows()?);
+    rows.extend(depth::rows()?);
+    rows.extend(frames::rows()?);
+    Ok(rows)
+}
+
+/// Marks the rows that are on the frontier of cost and largest error among their likes.
+pub fn mark_frontier(rows: &mut [Row]) {
+    let alike = |a: &Row, b: &Row| (a.family, a.case, a.unit) == (b.family, b.case, b.unit);
+    let on: Vec<bool> = rows
+        .iter()
+        .map(|row| {
+            row.per_pixel.is_some_and(|cost| {
+                !rows.iter().any(|other| {
+                    alike(row, other)
+                        && other.per_pixel.is_some_and(|c| {
+                            c <= cost && other.max <= row.max && (c < cost || other.max < row.max)
+                        })
+                })
+            })
+        })
+        .collect();
+    for (row, on) in rows.iter_mut().zip(on) {
+        row.on_frontier = on;
+    }
+}
+
+/// Measures, prints and writes.
+///
+/// # Errors
+/// When a file cannot be written or the firmware fails; that there is no QEMU, or no compiler for
+/// it, is only noted.
+pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
+    let mut rows = measure()?;
+    let (costs, note) = Costs::measured()?;
+    costs.fill(&mut rows)?;
+    mark_frontier(&mut rows);
+    if args.json {
+        let list: Vec<Value> = rows.iter().map(Row::to_json).collect();
+        println!("{}", serde_json::to_string_pretty(&Value::from(list))?);
+        // The list is the contract's; what could not be measured is said beside it.
+        if let Some(note) = &note {
+            eprintln!("{note}");
+        }
+    } else {
+        println!("{}", table(&rows));
+        println!(
+            "error: distance from f64, beyond the rounding of the output where it is in levels; \
+             * on the frontier of cost and largest error among its likes"
+        );
+        let cost = "cost: instructions on a Cortex-M4, a pixel and, apart, a span with its line's entry; \
+                    whole frames with everything, a pixel that is seen";
+        println!("{}", note.as_deref().unwrap_or(cost));
+    }
+    if let Some(folder) = &args.output {
+        std::fs::create_dir_all(folder)
+            .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+        let plot = scatter::plot(&rows);
+        write_atomically(&folder.join("accuracy.svg"), plot.to_svg().as_bytes())?;
+        write_image(&folder.join("accuracy.png"), &plot.to_frame())?;
+    }
+    Ok(())
+}
+
+/// The rows for people.
+fn table(rows: &[Row]) -> Table {
+    let mut table = Table::new();
+    table.load_preset(UTF8_FULL_CONDENSED);
+    table.set_header([
+        "family", "case", "method", "unit", "max", "mean", "99.9 %", "instr/px", "a span", "",
+    ]);
+    let number = |value: f64| match value {
+        0.0 => "0".to_owned(),
+        v if v >= 100.0 => format!("{v:.0}"),
+        v if v >= 0.1 => format!("{v:.2}"),
+        v => format!("{v:.5}"),
+    };
+    for row in rows {
+        let some = |value: Option<f64>| value.map_or_else(|| "-".to_owned(), number);
+        let rounded = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.1}"));
+        table.add_row([
+            row.family.to_owned(),
+            row.case.to_owned(),
+            row.method.to_owned(),
+            row.unit.to_owned(),
+            number(row.max),
+            number(row.mean),
+            some(row.p999),
+            rounded(row.per_pixel),
+            rounded(row.per_span),
+            if row.on_frontier { "*" } else { "" }.to_owned(),
+        ]);
+    }
+    for column in table.column_iter_mut().skip(4).take(5) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
