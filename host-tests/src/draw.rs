@@ -74,7 +74,9 @@ pub enum DrawFailure {
 pub struct Drawn {
     /// The picture, converted back to 8-bit levels.
     pub frame: Frame,
-    /// The figures, summed over bands.
+    /// The figures, summed over bands. In `pass_one`, `triangles`, `culled` and `clipped` are of
+    /// the model and the whole picture, each triangle counted once whatever the bands; `objects`
+    /// and `vertices` are records, and count again in each band that they are made for.
     pub stats: FrameStats,
     /// Bands that the picture was put together from; 1 unless an arena was too small.
     pub bands: u32,
@@ -88,6 +90,9 @@ pub struct Drawn {
 
 impl Drawn {
     /// The figures as `render --stats` writes them.
+    ///
+    /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them
+    /// are on no line of the picture or show their back; the others were filed at least once.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let s = &self.stats;
@@ -330,6 +335,9 @@ pub fn draw_as<P: Pipeline>(
         slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
+    if bands > 1 {
+        setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
+    }
     Ok(Drawn {
         frame: shown::<P>(&pump, view)?,
         stats: total,
@@ -366,6 +374,9 @@ where
         slow_bytes = slow_bytes.max(scene.bytes());
         Ok(())
     })?;
+    if bands > 1 {
+        setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
+    }
     let counts = renderer.counts();
     total.spans.pixels_shaded = (counts.pixels - counts.hidden) as u32;
     total.spans.pixels_hidden = counts.hidden as u32;
@@ -485,14 +496,7 @@ impl Setting {
         lines: Range<u16>,
         mut draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
     ) -> Result<u32, DrawFailure> {
-        let mut scene = Scene::new(
-            self.screen,
-            SceneMemory {
-                vertices: &mut rooms.vertices,
-                objects: &mut rooms.objects,
-                buckets: &mut rooms.buckets,
-            },
-        );
+        let mut scene = rooms.scene(self.screen);
         let mut bands = 0;
         let mut start = lines.start;
         let mut count = lines.len() as u16;
@@ -539,6 +543,42 @@ impl Setting {
         }
         Ok(bands)
     }
+
+    /// Replaces the sums over bands by counts of the whole picture, in which a triangle that is
+    /// on several bands is one. Pass one runs again for that, a few thousand triangles at a time,
+    /// so that they fit.
+    fn count_once<P: Pipeline>(
+        &self,
+        prepared: &Prepared,
+        rooms: &mut SceneRooms<P>,
+        counts: &mut PassOne,
+    ) -> Result<(), DrawFailure> {
+        // With the vertices of a chunk and 8 more for each that is clipped: below 65,536.
+        const TRIANGLES: usize = 7000;
+        (counts.triangles, counts.culled, counts.clipped) = (0, 0, 0);
+        let mut scene = rooms.scene(self.screen);
+        for chunk in &prepared.chunks {
+            for faces in chunk.faces.chunks(TRIANGLES) {
+                scene
+                    .begin(&self.camera)
+                    .map_err(|error| DrawFailure::View(error.to_string()))?;
+                let mesh = Mesh {
+                    faces: Faces::Triangles(faces),
+                    ..chunk.mesh()
+                };
+                match scene.draw(&mesh, &self.instance) {
+                    // What found no room was not culled, and only that is asked here.
+                    Ok(_) | Err(DrawError::Full(_)) => {}
+                    Err(error) => return Err(DrawFailure::View(error.to_string())),
+                }
+                let done = scene.pass_one();
+                counts.triangles += done.triangles;
+                counts.culled += done.culled;
+                counts.clipped += done.clipped;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// What the host lends to a scene.
@@ -549,6 +589,18 @@ pub(crate) struct SceneRooms<P: Pipeline> {
 }
 
 impl<P: Pipeline> SceneRooms<P> {
+    /// An empty scene in them.
+    fn scene(&mut self, screen: Screen) -> Scene<'_, P> {
+        Scene::new(
+            screen,
+            SceneMemory {
+                vertices: &mut self.vertices,
+                objects: &mut self.objects,
+                buckets: &mut self.buckets,
+            },
+        )
+    }
+
     pub(crate) fn new(prepared: &Prepared, height: u16) -> Self {
         let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
         let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
