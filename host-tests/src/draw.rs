@@ -1,5 +1,9 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
+mod prepared;
+
+pub use prepared::Prepared;
+
 use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
 use crate::crew::{self, LineRooms};
 use crate::image_out::Frame;
@@ -11,8 +15,8 @@ use scanbeam::model::{
 };
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Affine, Camera, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth,
-    Instance, Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene,
+    Camera, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth, Instance,
+    Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene,
     SceneMemory, Screen, VertexOf, WordOf,
 };
 use serde_json::json;
@@ -74,7 +78,9 @@ pub enum DrawFailure {
 pub struct Drawn {
     /// The picture, converted back to 8-bit levels.
     pub frame: Frame,
-    /// The figures, summed over bands.
+    /// The figures, summed over bands. In `pass_one`, `triangles`, `culled` and `clipped` are of
+    /// the model and the whole picture, each triangle counted once whatever the bands; `objects`
+    /// and `vertices` are records, and count again in each band that they are made for.
     pub stats: FrameStats,
     /// Bands that the picture was put together from; 1 unless an arena was too small.
     pub bands: u32,
@@ -88,6 +94,9 @@ pub struct Drawn {
 
 impl Drawn {
     /// The figures as `render --stats` writes them.
+    ///
+    /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them
+    /// are on no line of the picture or show their back; the others were filed at least once.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let s = &self.stats;
@@ -127,126 +136,6 @@ impl Drawn {
                 "line_bytes": self.line_bytes,
             },
         })
-    }
-}
-
-/// A model in the crate's number formats.
-pub struct Prepared {
-    chunks: Vec<Chunk>,
-    /// Where the middle of the model is, and what one unit of its coordinates means.
-    centre: [f64; 3],
-    scale: f64,
-}
-
-/// At most 65,536 vertices and the triangles among them.
-struct Chunk {
-    positions: Vec<[i32; 3]>,
-    normals: Vec<[i16; 3]>,
-    colours: Vec<[u8; 3]>,
-    faces: Vec<[u16; 3]>,
-}
-
-impl Prepared {
-    /// Rounds a model to Q1.30 coordinates about its middle, Q1.14 normals and 8-bit colours.
-    #[must_use]
-    pub fn new(model: &Model) -> Self {
-        let (low, high) = model.bounds().unwrap_or(([-1.0; 3], [1.0; 3]));
-        let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
-        let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));
-        // A power of two, so that the matrix holds it exactly.
-        let scale = if reach > 0.0 {
-            reach.log2().ceil().exp2()
-        } else {
-            1.0
-        };
-        let mut prepared = Self {
-            chunks: Vec::new(),
-            centre,
-            scale,
-        };
-        // Few enough vertices a mesh that a part outside the picture can be given up as a whole.
-        const CHUNK: usize = 4096;
-        let mut new_index = vec![u16::MAX; model.vertices.len()];
-        let mut used = Vec::new();
-        let mut chunk = Chunk::new();
-        for triangle in &model.triangles {
-            if chunk.positions.len() + 3 > CHUNK {
-                prepared
-                    .chunks
-                    .push(std::mem::replace(&mut chunk, Chunk::new()));
-                for index in used.drain(..) {
-                    new_index[index] = u16::MAX;
-                }
-            }
-            let face = triangle.map(|index| {
-                let index = index as usize;
-                if new_index[index] == u16::MAX {
-                    new_index[index] = chunk.positions.len() as u16;
-                    used.push(index);
-                    let vertex = &model.vertices[index];
-                    let q30 = |v: f64| (v * f64::from(1 << 30)).round() as i32;
-                    let q14 = |v: f64| (v * f64::from(1 << 14)).round() as i16;
-                    let p = [0, 1, 2].map(|i| q30((vertex.position[i] - centre[i]) / scale));
-                    chunk.positions.push(p);
-                    chunk.normals.push(vertex.normal.map(q14));
-                    chunk
-                        .colours
-                        .push(vertex.colour.map(|c| (c * 255.0).round() as u8));
-                }
-                new_index[index]
-            });
-            chunk.faces.push(face);
-        }
-        prepared.chunks.push(chunk);
-        prepared
-    }
-
-    fn model_matrix(&self) -> Option<Affine> {
-        Affine::placed(self.scale as f32, [0.0; 3])
-    }
-}
-
-impl Chunk {
-    fn new() -> Self {
-        Self {
-            positions: Vec::new(),
-            normals: Vec::new(),
-            colours: Vec::new(),
-            faces: Vec::new(),
-        }
-    }
-
-    fn mesh(&self) -> Mesh<'_, i32> {
-        Mesh {
-            positions: &self.positions,
-            normals: &self.normals,
-            colours: &self.colours,
-            faces: Faces::Triangles(&self.faces),
-        }
-    }
-
-    /// Draws the chunk with shared vertices or, `alone`, triangle by triangle: then only the
-    /// vertices of triangles that can be seen take room. The pixels are the same.
-    fn draw<P: Pipeline>(
-        &self,
-        scene: &mut Scene<'_, P>,
-        instance: &Instance,
-        alone: bool,
-    ) -> Result<(), DrawError> {
-        if !alone {
-            return scene.draw(&self.mesh(), instance).map(drop);
-        }
-        for face in &self.faces {
-            let corners = face.map(usize::from);
-            let mesh = Mesh {
-                positions: &corners.map(|i| self.positions[i]),
-                normals: &corners.map(|i| self.normals[i]),
-                colours: &corners.map(|i| self.colours[i]),
-                faces: Faces::Triangles(&[[0, 1, 2]]),
-            };
-            scene.draw(&mesh, instance)?;
-        }
-        Ok(())
     }
 }
 
@@ -330,6 +219,9 @@ pub fn draw_as<P: Pipeline>(
         slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
+    if bands > 1 {
+        setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
+    }
     Ok(Drawn {
         frame: shown::<P>(&pump, view)?,
         stats: total,
@@ -366,6 +258,9 @@ where
         slow_bytes = slow_bytes.max(scene.bytes());
         Ok(())
     })?;
+    if bands > 1 {
+        setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
+    }
     let counts = renderer.counts();
     total.spans.pixels_shaded = (counts.pixels - counts.hidden) as u32;
     total.spans.pixels_hidden = counts.hidden as u32;
@@ -485,14 +380,7 @@ impl Setting {
         lines: Range<u16>,
         mut draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
     ) -> Result<u32, DrawFailure> {
-        let mut scene = Scene::new(
-            self.screen,
-            SceneMemory {
-                vertices: &mut rooms.vertices,
-                objects: &mut rooms.objects,
-                buckets: &mut rooms.buckets,
-            },
-        );
+        let mut scene = rooms.scene(self.screen);
         let mut bands = 0;
         let mut start = lines.start;
         let mut count = lines.len() as u16;
@@ -539,6 +427,42 @@ impl Setting {
         }
         Ok(bands)
     }
+
+    /// Replaces the sums over bands by counts of the whole picture, in which a triangle that is
+    /// on several bands is one. Pass one runs again for that, a few thousand triangles at a time,
+    /// so that they fit.
+    fn count_once<P: Pipeline>(
+        &self,
+        prepared: &Prepared,
+        rooms: &mut SceneRooms<P>,
+        counts: &mut PassOne,
+    ) -> Result<(), DrawFailure> {
+        // With the vertices of a chunk and 8 more for each that is clipped: below 65,536.
+        const TRIANGLES: usize = 7000;
+        (counts.triangles, counts.culled, counts.clipped) = (0, 0, 0);
+        let mut scene = rooms.scene(self.screen);
+        for chunk in &prepared.chunks {
+            for faces in chunk.faces.chunks(TRIANGLES) {
+                scene
+                    .begin(&self.camera)
+                    .map_err(|error| DrawFailure::View(error.to_string()))?;
+                let mesh = Mesh {
+                    faces: Faces::Triangles(faces),
+                    ..chunk.mesh()
+                };
+                match scene.draw(&mesh, &self.instance) {
+                    // What found no room was not culled, and only that is asked here.
+                    Ok(_) | Err(DrawError::Full(_)) => {}
+                    Err(error) => return Err(DrawFailure::View(error.to_string())),
+                }
+                let done = scene.pass_one();
+                counts.triangles += done.triangles;
+                counts.culled += done.culled;
+                counts.clipped += done.clipped;
+            }
+        }
+        Ok(())
+    }
 }
 
 /// What the host lends to a scene.
@@ -549,6 +473,18 @@ pub(crate) struct SceneRooms<P: Pipeline> {
 }
 
 impl<P: Pipeline> SceneRooms<P> {
+    /// An empty scene in them.
+    fn scene(&mut self, screen: Screen) -> Scene<'_, P> {
+        Scene::new(
+            screen,
+            SceneMemory {
+                vertices: &mut self.vertices,
+                objects: &mut self.objects,
+                buckets: &mut self.buckets,
+            },
+        )
+    }
+
     pub(crate) fn new(prepared: &Prepared, height: u16) -> Self {
         let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
         let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();

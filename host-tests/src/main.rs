@@ -62,5 +62,7 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         Staged::new(path, text.as_bytes())?.commit()?;
     }
     picture.commit()?;
+    // Last, so that a refusal is one line alone.
+    model.print_warnings();
     Ok(())
 }

@@ -5,6 +5,10 @@
 //! well-formed files the two agree, and a test holds that. Every file either gives a [`Model`] in which all indices are
 //! in range and all numbers are finite, or one [`ModelError`] that names the file and the line.
 //!
+//! Strict where a wrong picture would come of it: malformed or infinite numbers, indices out of range, words that OBJ
+//! does not have. Tolerant where files of everyday fall short and the shape is still right: a material that cannot
+//! be found is white and gives a line in [`Model::warnings`]; bytes that are not UTF-8 may stand in comments and names.
+//!
 //! | file | there |
 //! |---|---|
 //! | `line.rs` | logical lines, words, numbers |
@@ -65,6 +69,8 @@ pub struct Model {
     pub triangle_materials: Vec<Option<u32>>,
     /// All materials of all MTL files, in the order of the files.
     pub materials: Vec<Material>,
+    /// What the files ask for and is left out, in the order of its discovery; the rest is drawn.
+    pub warnings: Vec<ModelError>,
 }
 
 impl Model {
@@ -85,6 +91,13 @@ impl Model {
         obj::read(text, file)
     }
 
+    /// Prints the warnings on stderr, a line each.
+    pub fn print_warnings(&self) {
+        for warning in &self.warnings {
+            eprintln!("warning: {warning}");
+        }
+    }
+
     /// Smallest and largest coordinate on each axis, both inclusive; `None` for a model without vertices.
     #[must_use]
     pub fn bounds(&self) -> Option<([f64; 3], [f64; 3])> {
@@ -103,7 +116,7 @@ impl Model {
     }
 }
 
-/// Why a model could not be read: one line, `FILE:LINE: reason`.
+/// Why a model could not be read, or what of it is left out: one line, `FILE:LINE: reason`.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ModelError {
     /// The file that is wrong: the OBJ, or an MTL that it names.
@@ -132,7 +145,7 @@ impl fmt::Display for ModelError {
 
 impl std::error::Error for ModelError {}
 
-/// Reads a whole file of at most [`MAX_FILE_BYTES`] as UTF-8; a byte that is not is reported with its line.
+/// Reads a whole file of at most [`MAX_FILE_BYTES`].
 fn read_text(path: &Path) -> Result<String, ModelError> {
     let whole_file = |reason: String| ModelError {
         file: path.to_path_buf(),
@@ -148,19 +161,14 @@ fn read_text(path: &Path) -> Result<String, ModelError> {
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(whole_file(format!("is larger than {MAX_FILE_BYTES} bytes")));
     }
-    text_of(bytes, path)
+    Ok(text_of(bytes))
 }
 
-/// Bytes as UTF-8 text, or an error with the line of the first byte that is not.
-fn text_of(bytes: Vec<u8>, path: &Path) -> Result<String, ModelError> {
-    String::from_utf8(bytes).map_err(|error| {
-        let valid = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        ModelError {
-            file: path.to_path_buf(),
-            line: Some(1 + valid.iter().filter(|&&byte| byte == b'\n').count()),
-            reason: "is not UTF-8 text".into(),
-        }
-    })
+/// Bytes as text. What is not UTF-8 becomes U+FFFD: harmless in comments and names, which older tools write in
+/// Latin-1, and refused with its line in a keyword or a number.
+fn text_of(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes)
+        .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
 }
 
 /// The vector at unit length, or zero where it has none. Scales first, so that neither huge nor tiny ones overflow.

@@ -19,6 +19,7 @@ use std::io::{self, Write};
 pub fn run(args: &TraceArgs) -> Result<(), Box<dyn Error>> {
     let model = Model::load(&args.model)?;
     let traced = trace(&model, &args.picture.view(), args.line)?;
+    model.print_warnings();
     match traced.write(&mut io::stdout().lock()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
         _ => Ok(()),

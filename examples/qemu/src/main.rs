@@ -5,7 +5,6 @@
 //! count name=loop expected=2000000 counted=2000000 ok=1
 //! count name=sheet_1 expected=76800 counted=76800 ok=1
 //! frame scene=teapot crc=1234abcd instructions=123456
-//! frame scene=memory crc=1234abcd instructions=123456
 //! kernel name=packed_565 pixels=2016 spans=63 instructions=12345
 //! figure name=stack_bytes value=1234
 //! done frames=1

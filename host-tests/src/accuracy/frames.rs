@@ -32,6 +32,7 @@ fn model_of(mesh: &Mesh<'_>) -> Model {
         triangles: faces.iter().map(|f| f.map(u32::from)).collect(),
         triangle_materials: vec![None; faces.len()],
         materials: Vec::new(),
+        warnings: Vec::new(),
     }
 }
 

@@ -5,7 +5,11 @@ use super::{Material, ModelError};
 use std::path::Path;
 
 /// Reads MTL text; paths in it are taken from the folder of `file`.
-pub(super) fn read(text: &str, file: &Path) -> Result<Vec<Material>, ModelError> {
+pub(super) fn read(
+    text: &str,
+    file: &Path,
+    warnings: &mut Vec<ModelError>,
+) -> Result<Vec<Material>, ModelError> {
     let mut materials: Vec<Material> = Vec::new();
     for statement in statements(text, file) {
         if statement.keyword() == "newmtl" {
@@ -35,7 +39,10 @@ pub(super) fn read(text: &str, file: &Path) -> Result<Vec<Material>, ModelError>
             _ => {
                 let name = statement.name()?;
                 if name.starts_with('-') {
-                    return Err(statement.error("options of `map_Kd` are not supported".into()));
+                    // Drawn with another scale or offset it would be wrong.
+                    let reason = "options of `map_Kd` are not supported: it is left out";
+                    warnings.push(statement.error(reason.into()));
+                    continue;
                 }
                 let folder = file.parent().unwrap_or(Path::new(""));
                 material.map_kd = Some(folder.join(name));

@@ -1,10 +1,16 @@
 //! OBJ: `v x y z [w | r g b [a]]`, `vt`, `vn`, `f` of 3 or more corners (a fan from the first), `mtllib`, `usemtl`.
 //!
 //! Indices count from 1 or, negative, back from the last element so far; a positive one may point ahead in the file.
-//! Grouping, lines, points, curves and surfaces are passed over; a keyword that OBJ does not have is an error, so that
-//! a file of another kind is refused. Colours are clamped to 0..=1. A corner without `vn` gets the mean of the normals
-//! of all triangles at the same `v` index, weighted by their areas. A name given to `usemtl` must be found when
-//! the file has an `mtllib`, and means nothing when it has none, as in many old files.
+//! Colours are clamped to 0..=1. A fourth number of `v` is the weight of a curve's point and means nothing to a face.
+//! A corner without `vn` gets the mean of the normals of all triangles at the same `v` index, weighted by their areas.
+//!
+//! | in the file | what becomes of it |
+//! |---|---|
+//! | groups, smoothing, lines, points, curves, surfaces | passed over |
+//! | a keyword that OBJ does not have | an error, so that a file of another kind is refused |
+//! | `mtllib` of a file that is not there | a warning; its materials are white |
+//! | `usemtl` of a name in no material file | white, with a warning where the file has an `mtllib` and all are there |
+//! | `usemtl` without a name | back to no material |
 
 use super::line::{Statement, error_at, quoted, statements};
 use super::{Material, Model, ModelError, ModelVertex, mtl, read_text, unit};
@@ -43,8 +49,11 @@ struct Lists {
     /// Names given to `usemtl`, each once, with the line of its first use.
     material_names: Vec<(String, usize)>,
     materials: Vec<Material>,
-    /// MTL files already read: naming one again adds nothing.
+    /// MTL files already read or found missing: naming one again adds nothing.
     libraries: HashSet<PathBuf>,
+    /// A library was missing, so names without a material are no surprise.
+    incomplete: bool,
+    warnings: Vec<ModelError>,
 }
 
 /// Reads OBJ text and the MTL files that it names.
@@ -66,7 +75,10 @@ pub(super) fn read(text: &str, file: &Path) -> Result<Model, ModelError> {
             },
             "f" | "fo" => lists.face(&statement, current_name)?,
             "usemtl" => {
-                let name = statement.name()?;
+                let Ok(name) = statement.name() else {
+                    current_name = None;
+                    continue;
+                };
                 let index = *name_index.entry(name.to_owned()).or_insert_with(|| {
                     lists
                         .material_names
@@ -153,23 +165,43 @@ impl Lists {
         Ok(corner)
     }
 
-    /// The whole rest of the line is one file's name if there is such a file, else its words are.
+    /// The whole rest of the line is one file's name if there is such a file or none of its words is one, else its
+    /// words are. A backslash between folders is read as a slash where the name as written is no file.
     fn library(&mut self, statement: &Statement<'_>, obj_file: &Path) -> Result<(), ModelError> {
         let folder = obj_file.parent().unwrap_or(Path::new(""));
-        let name = statement.name()?;
-        let names: Vec<&str> = if folder.join(name).is_file() {
-            vec![name]
-        } else {
-            name.split_whitespace().collect()
+        let found = |name: &str| {
+            [folder.join(name), folder.join(name.replace('\\', "/"))]
+                .into_iter()
+                .find(|path| path.exists())
         };
-        for name in names {
-            let path = folder.join(name);
-            if !path.exists() {
-                let reason = format!("material file {} is not there", quoted(name));
-                return Err(statement.error(reason));
+        let name = match statement.name() {
+            Ok(name) => name,
+            Err(error) => {
+                self.warnings.push(error);
+                return Ok(());
             }
-            if self.libraries.insert(path.clone()) {
-                self.materials.extend(mtl::read(&read_text(&path)?, &path)?);
+        };
+        let mut names = vec![name];
+        let words = || name.split_whitespace();
+        if found(name).is_none() && words().any(|word| found(word).is_some()) {
+            names = words().collect();
+        }
+        for name in names {
+            let path = found(name);
+            let is_new = self
+                .libraries
+                .insert(path.clone().unwrap_or_else(|| folder.join(name)));
+            match path {
+                _ if !is_new => {}
+                Some(path) => {
+                    let materials = mtl::read(&read_text(&path)?, &path, &mut self.warnings)?;
+                    self.materials.extend(materials);
+                }
+                None => {
+                    self.incomplete = true;
+                    let reason = format!("material file {} is not there", quoted(name));
+                    self.warnings.push(statement.error(reason));
+                }
             }
         }
         Ok(())
@@ -220,27 +252,25 @@ impl Lists {
     }
 
     /// One index per entry of `material_names`; a name that several materials share means the last.
-    fn resolve_materials(&self, file: &Path) -> Result<Vec<Option<u32>>, ModelError> {
+    fn resolve_materials(&mut self, file: &Path) -> Vec<Option<u32>> {
         let by_name: HashMap<&str, u32> = (0..)
             .zip(&self.materials)
             .map(|(index, material)| (material.name.as_str(), index))
             .collect();
-        self.material_names
-            .iter()
-            .map(|(name, line)| match by_name.get(name.as_str()) {
-                Some(&index) => Ok(Some(index)),
-                None if !self.libraries.is_empty() => Err(error_at(
-                    file,
-                    *line,
-                    format!("material {} is in no material file", quoted(name)),
-                )),
-                None => Ok(None),
-            })
-            .collect()
+        let mut indices = Vec::with_capacity(self.material_names.len());
+        for (name, line) in &self.material_names {
+            let index = by_name.get(name.as_str()).copied();
+            if index.is_none() && !self.libraries.is_empty() && !self.incomplete {
+                let reason = format!("material {} is in no material file", quoted(name));
+                self.warnings.push(error_at(file, *line, reason));
+            }
+            indices.push(index);
+        }
+        indices
     }
 
-    fn into_model(self, file: &Path) -> Result<Model, ModelError> {
-        let material_of_name = self.resolve_materials(file)?;
+    fn into_model(mut self, file: &Path) -> Result<Model, ModelError> {
+        let material_of_name = self.resolve_materials(file);
         let lacks_normal =
             |triangle: &Triangle| triangle.corners.iter().any(|c| c.normal == ABSENT);
         let computed = if self.triangles.iter().any(lacks_normal) {
@@ -284,6 +314,7 @@ impl Lists {
             model.triangle_materials.push(material);
         }
         model.materials = self.materials;
+        model.warnings = self.warnings;
         Ok(model)
     }
 }

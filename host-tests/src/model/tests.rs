@@ -177,12 +177,6 @@ fn malformed_lines_are_named() {
             "\0\u{1}\u{7f}",
             "\"\\0\\u{1}\\u{7f}\" is not an OBJ keyword",
         ),
-        ("usemtl", "`usemtl` needs a name"),
-        ("mtllib", "`mtllib` needs a name"),
-        (
-            "mtllib /nowhere/x.mtl",
-            "material file \"/nowhere/x.mtl\" is not there",
-        ),
     ] {
         if line.starts_with("f 1/2/3/4/5") {
             assert!(refusal(&format!("{CORNERS}{line}\n")).contains("too many parts"));
@@ -205,13 +199,6 @@ fn files_that_cannot_be_read() {
     );
     let error = Model::load(folder.path()).unwrap_err();
     assert!(error.to_string().contains("cannot be read"), "{error}");
-    let path = folder.path().join("latin.obj");
-    std::fs::write(&path, b"v 0 0 0\n# caf\xe9\n").unwrap();
-    let error = Model::load(&path).unwrap_err();
-    assert_eq!(
-        (error.line, error.reason.as_str()),
-        (Some(2), "is not UTF-8 text")
-    );
     let error = ModelError {
         file: "a\nb".into(),
         line: None,
@@ -242,17 +229,7 @@ fn materials_multiply_colours() {
     let red = &model.materials[0];
     assert_eq!((red.ks, red.ns, red.d), ([0.1, 0.2, 0.3], 8.0, 0.5));
     assert_eq!(red.map_kd, Some(folder.path().join("a b.png")));
-    let unknown = Model::from_obj_text(&format!("{text}usemtl blue\nf 1 2 3"), &obj).unwrap_err();
-    assert_eq!(
-        (unknown.line, unknown.reason.as_str()),
-        (Some(10), "material \"blue\" is in no material file")
-    );
-    assert_eq!(
-        read(&format!("{CORNERS}usemtl blue\nf 1 2 3"))
-            .unwrap()
-            .triangle_materials,
-        [None]
-    );
+    assert!(model.warnings.is_empty());
     for (mtl, line, reason) in [
         ("Kd 1 1 1", 1, "`Kd` before `newmtl`"),
         ("newmtl a\nKd 1 2", 2, "`Kd` needs 3 numbers, found 2"),
@@ -262,17 +239,121 @@ fn materials_multiply_colours() {
             "\"nan\" is not a finite number",
         ),
         ("newmtl a\nNs", 2, "`Ns` needs 1 number, found 0"),
-        (
-            "newmtl a\nmap_Kd -s 2 2 a.png",
-            2,
-            "options of `map_Kd` are not supported",
-        ),
         ("newmtl", 1, "`newmtl` needs a name"),
     ] {
         std::fs::write(folder.path().join("the lib.mtl"), mtl).unwrap();
         let error = Model::load(&obj).unwrap_err();
         assert_eq!(error.file, folder.path().join("the lib.mtl"));
         assert_eq!((error.line, error.reason.as_str()), (Some(line), reason));
+    }
+}
+
+/// The warnings as the user sees them.
+fn warnings(model: &Model) -> Vec<String> {
+    model.warnings.iter().map(ModelError::to_string).collect()
+}
+
+#[test]
+fn materials_that_cannot_be_found_are_white_with_a_warning() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = folder.path().join("m.obj");
+    let load = |text: &str| {
+        std::fs::write(&obj, text).unwrap();
+        let model = Model::load(&obj).unwrap();
+        assert_eq!(model.triangle_materials, [None]);
+        assert_eq!(model.vertices[0].colour, [1.0; 3]);
+        warnings(&model)
+    };
+    let at = |line: usize, reason: &str| format!("{}:{line}: {reason}", obj.display());
+
+    let text = format!("mtllib a b.mtl\nmtllib a b.mtl\n{CORNERS}usemtl blue\nf 1 2 3\n");
+    assert_eq!(
+        load(&text),
+        [at(1, "material file \"a b.mtl\" is not there")],
+        "named once, and the names in it not at all"
+    );
+    std::fs::write(folder.path().join("b.mtl"), "newmtl red\nKd 1 0 0\n").unwrap();
+    assert_eq!(load(&text), [at(1, "material file \"a\" is not there")]);
+    let text = format!("mtllib b.mtl\n{CORNERS}usemtl blue\nf 1 2 3\n");
+    let missing = at(5, "material \"blue\" is in no material file");
+    assert_eq!(load(&text), [missing]);
+    let text = format!("mtllib b.mtl\n{CORNERS}usemtl red\nusemtl\nf 1 2 3\n");
+    assert!(load(&text).is_empty(), "no name: no material");
+    assert_eq!(
+        load(&format!("mtllib\n{CORNERS}f 1 2 3\n")),
+        [at(1, "`mtllib` needs a name")]
+    );
+    // Files without any library often name materials all the same.
+    assert!(load(&format!("{CORNERS}usemtl blue\nf 1 2 3\n")).is_empty());
+}
+
+#[test]
+fn a_library_in_a_folder_is_found_with_either_slash() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    let mtl = "newmtl red\nKd 1 0 0\nmap_Kd -s 2 2 1 a.png\n";
+    std::fs::write(folder.path().join("sub/x.mtl"), mtl).unwrap();
+    for name in ["sub/x.mtl", "sub\\x.mtl", ".\\sub\\x.mtl"] {
+        let text = format!("mtllib {name}\n{CORNERS}usemtl red\nf 1 2 3\n");
+        let model = Model::from_obj_text(&text, &folder.path().join("m.obj")).unwrap();
+        assert_eq!(model.vertices[0].colour, [1.0, 0.0, 0.0]);
+        assert_eq!(model.materials[0].map_kd, None);
+        let warnings = warnings(&model);
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(
+            warnings[0].ends_with(":3: options of `map_Kd` are not supported: it is left out"),
+            "{warnings:?}"
+        );
+    }
+}
+
+#[test]
+fn what_draws_nothing_is_passed_over() {
+    let text = format!(
+        "\u{feff}# made by hand\r\nmg 1 0.5\r\no thing\r\ng\r\ng a b\r\ns 1\r\ns off\r\n{CORNERS}vp 0.5\nvp 0.1 0.2 0.3\n\
+         l 1 2\nl 1/1 2/1\np 1 2 3\nlod 3\nbevel on\ncstype rat bspline\ndeg 2\n\
+         curv 0 1 1 2 3\nparm u 0 1\nend\n\tf\t1  2\t3 \t # the only face\r\n"
+    );
+    let model = read(&text).unwrap();
+    assert_eq!(model.triangles, [[0, 1, 2]]);
+    assert_eq!(model.warnings, []);
+}
+
+#[test]
+fn positions_with_weight_and_colour() {
+    // x y z; x y z w; x y z r g b; x y z r g b a: the weight and the alpha mean nothing here.
+    let text = "v 1 2 3\nv 1 2 3 0.5\nv 1 2 3 .25 .5 .75\nv 1 2 3 .25 .5 .75 0\nf 1 2 3 4";
+    let model = read(text).unwrap();
+    assert!(model.vertices.iter().all(|v| v.position == [1.0, 2.0, 3.0]));
+    let colours: Vec<_> = model.vertices.iter().map(|v| v.colour).collect();
+    assert_eq!(colours[..2], [[1.0; 3]; 2]);
+    assert_eq!(colours[2..], [[0.25, 0.5, 0.75]; 2]);
+}
+
+#[test]
+fn texture_places_of_one_two_and_three_numbers() {
+    let model = read(&format!(
+        "{CORNERS}vt .5\nvt .5 .25\nvt .5 .25 9\nf 1/1 2/2 3/3"
+    ));
+    let uvs: Vec<_> = model.unwrap().vertices.iter().map(|v| v.uv).collect();
+    assert_eq!(uvs, [[0.5, 0.0], [0.5, 0.25], [0.5, 0.25]]);
+}
+
+#[test]
+fn bytes_that_are_not_utf8_may_stand_in_comments_and_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("latin.obj");
+    let load = |text: &[u8]| {
+        std::fs::write(&path, text).unwrap();
+        Model::load(&path)
+    };
+    std::fs::write(folder.path().join("x.mtl"), b"newmtl caf\xe9\nKd 0 0 1\n").unwrap();
+    let text = b"# caf\xe9\nmtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl caf\xe9\nf 1 2 3\n";
+    let model = load(text).unwrap();
+    assert_eq!(model.vertices[0].colour, [0.0, 0.0, 1.0]);
+    assert!(model.warnings.is_empty());
+    for text in [&b"v 0 0 0\nv 0 0 \xe9\n"[..], b"\nf\xff 1 2 3\n"] {
+        assert_eq!(load(text).unwrap_err().line, Some(2));
     }
 }
 
@@ -314,10 +395,9 @@ fn random_damage_never_panics_and_never_lets_a_bad_value_in() {
             bytes.splice(from..to, piece.bytes());
         }
         bytes.truncate(bytes.len() - next(&mut state) % 6);
-        let Ok(text) = text_of(bytes, Path::new("m.obj")) else {
+        let Ok(model) = read(&text_of(bytes)) else {
             continue;
         };
-        let Ok(model) = read(&text) else { continue };
         accepted += 1;
         let count = model.vertices.len() as u32;
         assert!(model.triangles.iter().flatten().all(|&index| index < count));

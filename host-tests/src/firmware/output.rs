@@ -1,0 +1,238 @@
+//! What the firmware prints, read totally: a line that it does not document is an error that names it.
+
+use super::FirmwareError;
+use std::collections::BTreeMap;
+
+/// One frame that the firmware drew.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FrameResult {
+    /// The scene's name.
+    pub scene: String,
+    /// CRC-32 (PNG's) of the frame's bytes in scan-out order.
+    pub crc: u32,
+    /// Instructions to draw it, exact to 40; hashing is not in them.
+    pub instructions: u64,
+}
+
+/// The firmware's instruction counter, held against a loop of known length.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CountCheck {
+    /// Which loop.
+    pub name: String,
+    /// Instructions that it has.
+    pub expected: u64,
+    /// Instructions that were counted.
+    pub counted: u64,
+    /// Whether the firmware finds the difference small enough; if not it also exits with 1.
+    pub ok: bool,
+}
+
+/// A kernel that drew spans of about one length.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KernelRun {
+    /// Which kernel.
+    pub name: String,
+    /// Pixels that it drew.
+    pub pixels: u64,
+    /// Spans that they were in.
+    pub spans: u64,
+    /// Instructions for all of them, exact to 40.
+    pub instructions: u64,
+}
+
+/// Everything that the firmware prints, in order.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Output {
+    /// The frames.
+    pub frames: Vec<FrameResult>,
+    /// The checks of the counter.
+    pub counts: Vec<CountCheck>,
+    /// The kernels, each once with long and once with short spans; with the feature `bench` only.
+    pub kernels: Vec<KernelRun>,
+    /// Other figures by name, such as `stack_bytes`.
+    pub figures: BTreeMap<String, u64>,
+}
+
+impl Output {
+    /// Reads the lines that `examples/qemu` documents: `frame`, `count`, `kernel`, `figure`, then one `done`.
+    ///
+    /// # Errors
+    ///
+    /// [`FirmwareError::Output`] at the first line that is not one of them, or where frames are
+    /// missing at the end.
+    pub fn parse(lines: &[String]) -> Result<Self, FirmwareError> {
+        let mut output = Self::default();
+        let mut done = false;
+        for (index, line) in lines.iter().enumerate() {
+            let result = if done {
+                Err("comes after `done`".to_owned())
+            } else {
+                output.line(line)
+            };
+            done = result.map_err(|reason| FirmwareError::Output {
+                number: index + 1,
+                line: line.clone(),
+                reason,
+            })?;
+        }
+        if done {
+            return Ok(output);
+        }
+        Err(FirmwareError::Output {
+            number: lines.len() + 1,
+            line: String::new(),
+            reason: "ends without `done`".to_owned(),
+        })
+    }
+
+    /// Takes one line in; true if it was the last.
+    fn line(&mut self, line: &str) -> Result<bool, String> {
+        let mut words = line.split_whitespace();
+        let kind = words.next().unwrap_or_default();
+        let mut fields = Fields::parse(words)?;
+        match kind {
+            "frame" => self.frames.push(FrameResult {
+                scene: fields.take("scene")?.to_owned(),
+                crc: fields.number("crc", 16)?,
+                instructions: fields.number("instructions", 10)?,
+            }),
+            "count" => self.counts.push(CountCheck {
+                name: fields.take("name")?.to_owned(),
+                expected: fields.number("expected", 10)?,
+                counted: fields.number("counted", 10)?,
+                ok: fields.number::<u64>("ok", 10)? == 1,
+            }),
+            "kernel" => self.kernels.push(KernelRun {
+                name: fields.take("name")?.to_owned(),
+                pixels: fields.number("pixels", 10)?,
+                spans: fields.number("spans", 10)?,
+                instructions: fields.number("instructions", 10)?,
+            }),
+            "figure" => {
+                let name = fields.take("name")?.to_owned();
+                let value = fields.number("value", 10)?;
+                if self.figures.insert(name, value).is_some() {
+                    return Err("this figure came before".to_owned());
+                }
+            }
+            "done" => {
+                let frames: usize = fields.number("frames", 10)?;
+                if frames != self.frames.len() {
+                    return Err(format!("{} frames came", self.frames.len()));
+                }
+            }
+            _ => return Err("expected `frame`, `count`, `kernel`, `figure` or `done`".to_owned()),
+        }
+        fields.end()?;
+        Ok(kind == "done")
+    }
+}
+
+/// The `key=value` words of a line, each to be taken once.
+struct Fields<'a>(BTreeMap<&'a str, &'a str>);
+
+impl<'a> Fields<'a> {
+    fn parse(words: impl Iterator<Item = &'a str>) -> Result<Self, String> {
+        let mut fields = BTreeMap::new();
+        for word in words {
+            let (key, value) = word
+                .split_once('=')
+                .ok_or_else(|| format!("`{word}` is not key=value"))?;
+            if fields.insert(key, value).is_some() {
+                return Err(format!("`{key}` is there twice"));
+            }
+        }
+        Ok(Self(fields))
+    }
+
+    fn take(&mut self, key: &str) -> Result<&'a str, String> {
+        self.0.remove(key).ok_or_else(|| format!("no `{key}`"))
+    }
+
+    fn number<N: TryFrom<u64>>(&mut self, key: &str, radix: u32) -> Result<N, String> {
+        let text = self.take(key)?;
+        u64::from_str_radix(text, radix)
+            .ok()
+            .and_then(|number| N::try_from(number).ok())
+            .ok_or_else(|| format!("`{key}` is not a number in base {radix} that fits"))
+    }
+
+    fn end(self) -> Result<(), String> {
+        match self.0.keys().next() {
+            Some(key) => Err(format!("`{key}` is not expected")),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Output, String> {
+        let lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        Output::parse(&lines).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn output_is_read_whole() {
+        let output = parse(
+            "count name=loop expected=20 counted=21 ok=1\n\
+             frame scene=sphere crc=00ab12ff instructions=123456\n\
+             figure name=stack_bytes value=704\n\
+             done frames=1",
+        )
+        .expect("as the firmware documents it");
+        let frame = FrameResult {
+            scene: "sphere".to_owned(),
+            crc: 0x00ab_12ff,
+            instructions: 123_456,
+        };
+        assert_eq!(output.frames, [frame]);
+        assert_eq!(output.counts[0].counted, 21);
+        assert!(output.counts[0].ok);
+        assert_eq!(output.figures["stack_bytes"], 704);
+    }
+
+    #[test]
+    fn damaged_output_is_refused_with_its_line() {
+        for (text, number, reason) in [
+            ("", 1, "ends without `done`"),
+            (
+                "frame scene=a crc=1 instructions=2",
+                2,
+                "ends without `done`",
+            ),
+            ("done frames=1", 1, "0 frames came"),
+            ("done frames=0\ndone frames=0", 2, "comes after `done`"),
+            ("frame scene=a crc=1", 1, "no `instructions`"),
+            ("frame scene=a crc=1 crc=1", 1, "`crc` is there twice"),
+            (
+                "frame scene=a crc=x instructions=2",
+                1,
+                "not a number in base 16",
+            ),
+            ("frame scene=a crc=123456789 instructions=2", 1, "that fits"),
+            (
+                "frame scene=a crc=1 instructions=2 b=3",
+                1,
+                "`b` is not expected",
+            ),
+            ("frame scene", 1, "`scene` is not key=value"),
+            (
+                "figure name=a value=1\nfigure name=a value=1",
+                2,
+                "came before",
+            ),
+            ("panic at", 1, "`at` is not key=value"),
+            ("", 1, "ends"),
+        ] {
+            let error = parse(text).expect_err(text);
+            assert!(
+                error.starts_with(&format!("line {number} ")),
+                "{text}: {error}"
+            );
+            assert!(error.contains(reason), "{text}: {error}");
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! What cargo, QEMU and the firmware do when all is well, and when not.
+
+use super::*;
+
+#[test]
+fn outer_build_does_not_leak_into_the_inner_one() {
+    for name in [
+        "CARGO",
+        "CARGO_MANIFEST_DIR",
+        "CARGO_TARGET_DIR",
+        "CARGO_ENCODED_RUSTFLAGS",
+        "RUSTC",
+        "RUSTC_BOOTSTRAP",
+        "RUSTC_WORKSPACE_WRAPPER",
+        "RUSTFLAGS",
+        "RUSTDOCFLAGS",
+        "LD_LIBRARY_PATH",
+    ] {
+        assert!(is_of_outer_build(name), "{name}");
+    }
+    for name in [
+        "PATH",
+        "HOME",
+        "CARGO_HOME",
+        "RUSTUP_TOOLCHAIN",
+        "CARGO_HTTP_PROXY",
+        "CARGO_REGISTRIES_CRATES_IO_PROTOCOL",
+        "https_proxy",
+    ] {
+        assert!(!is_of_outer_build(name), "{name}");
+    }
+}
+
+#[test]
+fn missing_qemu_is_named() {
+    let error = run_in("no-such-qemu", &M4, Path::new("none"), Duration::ZERO)
+        .expect_err("there is no such program");
+    assert!(matches!(error, FirmwareError::NoQemu));
+    assert!(
+        error
+            .to_string()
+            .contains("apt-get install qemu-system-arm")
+    );
+}
+
+#[test]
+fn failure_of_qemu_is_passed_on() {
+    let error = run(&M4, Path::new("no-such-elf"), DEFAULT_TIMEOUT).expect_err("no such ELF");
+    assert!(matches!(&error, FirmwareError::Failed { status, .. } if status.code() == Some(1)));
+    assert!(error.to_string().contains("no-such-elf"), "{error}");
+}
+
+/// On both boards, and with overflow checks on one (each profile costs Debian's compiler a
+/// build of `core`): the counter counts right, every section is where `memory.x` wants it, and
+/// what is printed is complete; a second run prints the same. One build and one run of each
+/// variant, but for one board, which runs twice.
+#[test]
+fn firmware_runs_the_same_everywhere() -> Result<(), FirmwareError> {
+    let toolchain = Toolchain::find()?;
+    let mut frames = Vec::new();
+    let mut released = None;
+    for (board, profile) in [
+        (M4, Profile::Release),
+        (M3, Profile::Release),
+        (M4, Profile::Checked),
+    ] {
+        let measured = measure(&toolchain, &board, profile, &[])?;
+        assert!(measured.output.counts.len() >= 2);
+        assert!(measured.output.counts.iter().all(|count| count.ok));
+        assert!(measured.output.figures["stack_bytes"] > 0);
+        let sections = measured.sections;
+        for (section, origin, length) in [
+            (sections.text, 0, 4 << 20),
+            (sections.bss, 0x2000_0000, 256 << 10),
+            (sections.fast, 0x2004_0000, 64 << 10),
+            (sections.dma, 0x2005_0000, 64 << 10),
+            (sections.slow, 0x2100_0000, 16 << 20),
+        ] {
+            assert!(section.bytes > 0, "{sections:?}");
+            assert!(section.address >= origin, "{sections:?}");
+            assert!(
+                section.address + section.bytes <= origin + length,
+                "{sections:?}"
+            );
+        }
+        if (board, profile) == (M3, Profile::Release) {
+            released = Some(measured.clone());
+        }
+        let output = measured.output.frames.into_iter();
+        frames.push(
+            output
+                .map(|frame| (frame.scene, frame.crc))
+                .collect::<Vec<_>>(),
+        );
+    }
+    assert_eq!(
+        measure(&toolchain, &M3, Profile::Release, &[])?,
+        released.expect("it was among them")
+    );
+    assert!(!frames[0].is_empty());
+    assert!(frames.iter().all(|other| *other == frames[0]), "{frames:?}");
+    Ok(())
+}
+
+#[test]
+fn firmware_that_does_not_end_is_stopped() -> Result<(), FirmwareError> {
+    let elf = build(&Toolchain::find()?, &M4, Profile::Release, &[])?;
+    let error = run(&M4, &elf, Duration::ZERO).expect_err("no time was given");
+    assert!(matches!(error, FirmwareError::Timeout { .. }), "{error}");
+    Ok(())
+}
