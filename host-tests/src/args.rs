@@ -268,16 +268,8 @@ pub struct CacheArgs {
     pub output: Option<PathBuf>,
 }
 
-/// Flags of `accuracy`.
-#[derive(Debug, Clone, PartialEq, Eq, Args)]
-pub struct AccuracyArgs {
-    /// Print the figures as JSON
-    #[arg(long)]
-    pub json: bool,
-    /// Folder for the plot, made when it is not there; none: no plot
-    #[arg(short = 'o', long = "output", value_name = "DIR")]
-    pub output: Option<PathBuf>,
-}
+/// Flags of `accuracy`: those of `cache`.
+pub type AccuracyArgs = CacheArgs;
 
 /// Flags of `firmware`.
 #[derive(Debug, Clone, PartialEq, Eq, Args)]
