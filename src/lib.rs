@@ -122,8 +122,8 @@
 //! |---|---|---|---|
 //! | S1 | `no_std`, no heap, no `unsafe` | `lib.rs` | the firmware of `examples` builds and runs |
 //! | S2 | top level | `lib.rs`, `memory.x` | |
-//! | S3 | arenas in slow and fast memory | `arena.rs`, `link.rs`, `renderer/scene.rs`, `memory.x` | `arenas.rs`, sections in `firmware.rs` |
-//! | S4 | fixed point, the same bits everywhere | `num/`, `geometry/` | `against_reference.rs`, `firmware.rs` |
+//! | S3 | arenas in slow and fast memory | `arena.rs`, `link.rs`, `renderer/scene.rs`, `memory.x` | `arenas.rs`, sections in `host-tests/src/firmware/tests.rs` |
+//! | S4 | fixed point, the same bits everywhere | `num/`, `geometry/` | `against_reference.rs`, `host-tests/src/firmware/tests.rs` |
 //! | S5 | lines to a DMA | `scan_out/` | `scan_out.rs`, `scan_out_spi.rs` |
 //! | S6 | the same code on the host | | all, with `host-tests/src/mock.rs` |
 //! | K1 | two passes, activation buckets | `renderer/scene.rs`, `renderer/lines.rs`, `active/bucket.rs` | `lines_alone.rs` |
