@@ -185,6 +185,10 @@ impl RenderArgs {
     }
 
     fn check(&self) -> Result<(), String> {
+        let crew = (self.cache, self.renderers, self.prefetch);
+        if self.interp == InterpArg::Model && crew != (DEFAULT_SLOTS, 1, 0) {
+            return Err("--interp model has no --cache, --renderers or --prefetch".into());
+        }
         self.view().check().map_err(|error| error.to_string())?;
         ImageFormat::from_path(&self.output).map_err(|error| error.to_string())?;
         if self.output == self.model {
@@ -417,13 +421,13 @@ mod tests {
     fn every_flag_arrives() {
         let view = render(
             "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
-             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp model --stats s.json \
+             --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp plane --stats s.json \
              --cache 0 --renderers 16 --prefetch 99",
         );
         assert_eq!((view.cache, view.renderers, view.prefetch), (0, 16, 99));
         assert_eq!(view.stats, Some(PathBuf::from("s.json")));
         assert_eq!(view.picture.format, PixelFormatArg::Rgb565);
-        assert_eq!(view.interp, InterpArg::Model);
+        assert_eq!(view.interp, InterpArg::Plane);
         let expected = View {
             width: 17,
             height: 8192,
@@ -452,6 +456,8 @@ mod tests {
             frames: 3,
         };
         assert_eq!(words("demo -o d --frames 3"), Ok(Command::Demo(demo)));
+        assert_eq!(render("--interp model").interp, InterpArg::Model);
+        assert!(words("render m.obj -o o.png --interp model --cache 3").is_err());
     }
 
     #[test]

@@ -26,6 +26,10 @@ pub(crate) fn paint<F: PixelFormat>(
     match stretch {
         Stretch::Constant(steps) => {
             let word = F::pack(steps);
+            if all_seen(&visible) {
+                F::fill(pixels, word);
+                return pixels.len() as u32;
+            }
             visible.each(pixels, |pixel, shown| {
                 if shown {
                     *pixel = word;
@@ -64,6 +68,12 @@ pub(crate) fn paint<F: PixelFormat>(
         }
     }
     seen
+}
+
+/// Whether nobody has to be asked.
+#[inline(always)]
+const fn all_seen<V: Visible>(_: &V) -> bool {
+    V::ALL
 }
 
 /// The pixels between two anchors.

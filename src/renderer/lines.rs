@@ -17,9 +17,9 @@ use crate::visible::LineDepth;
 /// ```compile_fail,E0499
 /// # use scanbeam::{GouraudDepth, LineMemory, LineRenderer, Link, Rgb888};
 /// let (mut links, mut depth, mut other) = ([Link::NONE; 9], [0; 9], [0; 9]);
-/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth };
+/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth, spans: &mut [] };
 /// let one = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
-/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut other };
+/// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut other, spans: &mut [] };
 /// let two = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
 /// drop((one, two));
 /// ```

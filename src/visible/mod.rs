@@ -69,6 +69,9 @@ impl LineDepth for () {
 
 /// Tells of each pixel of a span in turn whether it is seen.
 pub trait Visible {
+    /// Whether all pixels are seen, so that nobody has to ask.
+    const ALL: bool = false;
+
     /// Gives `each` the next pixels in turn, and whether each is seen.
     fn each<W>(&mut self, pixels: &mut [W], each: impl FnMut(&mut W, bool));
 }
@@ -78,6 +81,8 @@ pub trait Visible {
 pub struct Everywhere;
 
 impl Visible for Everywhere {
+    const ALL: bool = true;
+
     #[inline(always)]
     fn each<W>(&mut self, pixels: &mut [W], mut each: impl FnMut(&mut W, bool)) {
         for pixel in pixels {
