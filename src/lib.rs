@@ -171,7 +171,7 @@ mod stats;
 mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
-pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888};
+pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
     Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,

@@ -55,13 +55,23 @@ pub struct Rgb888;
 #[derive(Clone, Copy, Debug)]
 pub struct Rgb565;
 
-/// Five, six and five bits with the high byte first in memory, for SPI panels.
+/// Five, six and five bits in a stated order of bytes in memory: the high one first if `BIG`.
 #[derive(Clone, Copy, Debug)]
-pub struct Rgb565Be;
+pub struct Rgb565Bytes<const BIG: bool>;
+
+/// Five, six and five bits with the high byte first in memory, for SPI panels.
+pub type Rgb565Be = Rgb565Bytes<true>;
 
 /// Five, six and five bits with the low byte first in memory.
-#[derive(Clone, Copy, Debug)]
-pub struct Rgb565Le;
+pub type Rgb565Le = Rgb565Bytes<false>;
+
+impl<const BIG: bool> Rgb565Bytes<BIG> {
+    /// A native word with its bytes in the stated order.
+    #[inline(always)]
+    const fn in_memory(word: u16) -> u16 {
+        if BIG { word.to_be() } else { word.to_le() }
+    }
+}
 
 impl PixelFormat for Rgb888 {
     type Word = [u8; 3];
@@ -141,30 +151,30 @@ impl PixelFormat for Rgb565 {
     }
 }
 
-impl PixelFormat for Rgb565Be {
+impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     type Word = u16;
     const STEPS: [u16; 3] = Rgb565::STEPS;
 
     #[inline(always)]
     fn pack(s: [u8; 3]) -> u16 {
-        Rgb565::pack(s).to_be()
+        Self::in_memory(Rgb565::pack(s))
     }
 
     type Ramp = OneWord;
 
     #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, _: (i32, i32), field_step: i32) -> OneWord {
-        OneWord::new(red_blue, green, field_step)
+    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), field_step: i32) -> OneWord {
+        Rgb565::ramp(red_blue, green, steps, field_step)
     }
 
     #[inline(always)]
     fn ramp_pixel(ramp: &OneWord) -> u16 {
-        ramp.rgb565().to_be()
+        Self::in_memory(Rgb565::ramp_pixel(ramp))
     }
 
     #[inline(always)]
     fn ramp_step(ramp: &mut OneWord) {
-        ramp.step();
+        Rgb565::ramp_step(ramp);
     }
 
     #[inline(always)]
@@ -173,43 +183,8 @@ impl PixelFormat for Rgb565Be {
     }
 
     fn to_rgb8(word: u16) -> [u8; 3] {
-        Rgb565::to_rgb8(u16::from_be(word))
-    }
-}
-
-impl PixelFormat for Rgb565Le {
-    type Word = u16;
-    const STEPS: [u16; 3] = Rgb565::STEPS;
-
-    #[inline(always)]
-    fn pack(s: [u8; 3]) -> u16 {
-        Rgb565::pack(s).to_le()
-    }
-
-    type Ramp = OneWord;
-
-    #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, _: (i32, i32), field_step: i32) -> OneWord {
-        OneWord::new(red_blue, green, field_step)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &OneWord) -> u16 {
-        ramp.rgb565().to_le()
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut OneWord) {
-        ramp.step();
-    }
-
-    #[inline(always)]
-    fn fill(pixels: &mut [u16], word: u16) {
-        Rgb565::fill(pixels, word);
-    }
-
-    fn to_rgb8(word: u16) -> [u8; 3] {
-        Rgb565::to_rgb8(u16::from_le(word))
+        // To swap the bytes, or not to, is its own inverse.
+        Rgb565::to_rgb8(Self::in_memory(word))
     }
 }
 
