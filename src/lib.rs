@@ -35,7 +35,7 @@
 //! ```
 //! use scanbeam::{
 //!     Camera, Faces, GouraudDepth, Instance, LineMemory, LineRenderer, Link, Mesh, ObjectOf,
-//!     PixelFormat, Rgb565, Scene, SceneMemory, Screen, SpanRecord, VertexOf,
+//!     PixelFormat, Rgb565, Scene, SceneMemory, Screen, VertexOf,
 //! };
 //!
 //! // Colours linear between corners, 32-bit depth, 16-bit pixels.
@@ -51,7 +51,6 @@
 //! // Fast memory.
 //! let mut slots = [LineRenderer::<Look>::empty_slot(); 4];
 //! let mut depth = [0; WIDTH];
-//! let mut spans = [SpanRecord::default(); 4];
 //!
 //! // Pass one. Coordinates are Q1.14: `ONE` is 1.0. Corners go counter-clockwise.
 //! const ONE: i16 = 1 << 14;
@@ -74,7 +73,6 @@
 //!     slots: &mut slots,
 //!     links: &mut links,
 //!     depth: &mut depth,
-//!     spans: &mut spans,
 //! });
 //! let black = Rgb565::from_rgb8([0, 0, 0]);
 //! let mut picture = [[black; WIDTH]; HEIGHT];
@@ -184,9 +182,9 @@ pub use pipeline::{
     Parts, Pipeline, SlotOf, VertexOf, WordOf,
 };
 pub use renderer::{
-    Command, Crew, DrawError, FrameError, FrameStats, Input, InputError, InputQueue, Instance,
-    LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched, Relay,
-    RendererError, Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, draw_frame,
+    Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
+    Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched,
+    Relay, RendererError, Scene, SceneError, SceneMemory, Source, Stalled, Stream, draw_frame,
     send_frame,
 };
 pub use stats::{SpanCounter, SpanCounts};

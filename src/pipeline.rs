@@ -65,6 +65,8 @@ pub type ObjectOf<P> = crate::geometry::Object<<<P as Pipeline>::Shading as Shad
 /// The cache slot of a pipeline.
 pub type SlotOf<P> = crate::active::Slot<DrawableOf<P>>;
 /// An object of a pipeline, set up for drawing.
-pub type DrawableOf<P> = crate::geometry::Drawable<<<P as Pipeline>::Shading as Shading>::Levels>;
+pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>>;
+/// What an object of a pipeline is coloured by.
+pub type LevelsOf<P> = <<P as Pipeline>::Shading as Shading>::Levels;
 /// The depth cell of a pipeline.
 pub type CellOf<P> = <<P as Pipeline>::Depth as LineDepth>::Cell;

@@ -8,7 +8,7 @@ use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
-    Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
+    Rgb565Be, Scene, SceneMemory, VertexOf, draw_frame,
 };
 use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VARIANTS, VERTICES, WIDTH};
 use serde_json::{Value, json};
@@ -78,12 +78,10 @@ fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Er
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
     let mut links = vec![Link::NONE; OBJECTS];
     let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
-    let mut spans = vec![SpanRecord::default(); SLOTS];
     let mut renderer = LineRenderer::new(LineMemory {
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut spans,
     });
     shown::<P>(shot, |scene, pump, background| {
         draw_frame(scene, &mut renderer, pump, background, LINES)?;

@@ -344,7 +344,6 @@ fn more_memory_than_needed_is_not_used() {
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut [],
     });
     for y in scene.lines() {
         let got = line(&mut renderer, &scene, y);

@@ -44,6 +44,15 @@ pub(crate) fn paint<F: PixelFormat>(
             field_step,
         } => {
             let mut rest = pixels;
+            if all_seen(&visible) {
+                let count = rest.len() as u32;
+                if rest.len() > RUN {
+                    long::<F>(rest, (red_blue, green), steps, field_step);
+                } else {
+                    short::<F>(rest, F::ramp(red_blue, green, steps, field_step));
+                }
+                return count;
+            }
             while rest.len() > RUN {
                 let (run, more) = rest.split_at_mut(RUN);
                 let ramp = F::ramp(red_blue, green, steps, field_step);
@@ -74,6 +83,62 @@ pub(crate) fn paint<F: PixelFormat>(
 #[inline(always)]
 const fn all_seen<V: Visible>(_: &V) -> bool {
     V::ALL
+}
+
+/// More than [`RUN`] pixels. Apart, so that short spans find their registers free.
+#[inline(never)]
+fn long<F: PixelFormat>(
+    mut rest: &mut [F::Word],
+    (mut red_blue, mut green): (i32, i32),
+    steps: (i32, i32),
+    field_step: i32,
+) {
+    while rest.len() > RUN {
+        let (run, more) = rest.split_at_mut(RUN);
+        short::<F>(run, F::ramp(red_blue, green, steps, field_step));
+        rest = more;
+        red_blue = red_blue.wrapping_add(steps.0.wrapping_mul(RUN as i32));
+        green = green.wrapping_add(steps.1.wrapping_mul(RUN as i32));
+    }
+    short::<F>(rest, F::ramp(red_blue, green, steps, field_step));
+}
+
+/// All of at most [`RUN`] pixels, in straight code without a loop: most spans are short.
+#[inline(always)]
+fn short<F: PixelFormat>(run: &mut [F::Word], mut ramp: F::Ramp) {
+    let mut next = || {
+        let word = F::ramp_pixel(&ramp);
+        F::ramp_step(&mut ramp);
+        word
+    };
+    match run {
+        [a] => *a = next(),
+        [a, b] => (*a, *b) = (next(), next()),
+        [a, b, c] => (*a, *b, *c) = (next(), next(), next()),
+        [a, b, c, d] => (*a, *b, *c, *d) = (next(), next(), next(), next()),
+        [a, b, c, d, e] => {
+            (*a, *b, *c, *d, *e) = (next(), next(), next(), next(), next());
+        }
+        [a, b, c, d, e, f] => {
+            (*a, *b, *c, *d, *e, *f) = (next(), next(), next(), next(), next(), next());
+        }
+        [a, b, c, d, e, f, g] => {
+            (*a, *b, *c, *d, *e, *f, *g) = (next(), next(), next(), next(), next(), next(), next());
+        }
+        [a, b, c, d, e, f, g, h] => {
+            (*a, *b, *c, *d, *e, *f, *g, *h) = (
+                next(),
+                next(),
+                next(),
+                next(),
+                next(),
+                next(),
+                next(),
+                next(),
+            );
+        }
+        _ => {}
+    }
 }
 
 /// The pixels between two anchors.
@@ -147,6 +212,13 @@ impl OneWord {
     #[inline(always)]
     pub(super) fn rgb565(&self) -> u16 {
         let whole = self.word & 0xF81F_07E0;
+        (whole | whole >> 16) as u16
+    }
+
+    /// The same with its bytes swapped, at the cost of one instruction.
+    #[inline(always)]
+    pub(super) fn rgb565_swapped(&self) -> u16 {
+        let whole = (self.word & 0xF81F_07E0).swap_bytes();
         (whole | whole >> 16) as u16
     }
 

@@ -13,7 +13,7 @@ mod spans;
 
 pub use frame::{FrameError, FrameStats, LineSource, draw_frame, send_frame};
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
-pub use lines::{LineMemory, LineRenderer, RendererError, SpanRecord};
+pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
 pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};

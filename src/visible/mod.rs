@@ -14,11 +14,12 @@ pub trait LineDepth {
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32) -> bool;
 
-    /// Keeps a number above 0 in a cell that is at its farthest.
-    fn mark(cell: &mut Self::Cell, mark: u16);
+    /// Keeps a number above 0 in a cell that is at its farthest; `false` when one is there
+    /// already, or cells hold no numbers.
+    fn mark(cell: &mut Self::Cell, mark: u32) -> bool;
 
     /// Takes the number out again, 0 for none; the cell is at its farthest then.
-    fn unmark(cell: &mut Self::Cell) -> u16;
+    fn unmark(cell: &mut Self::Cell) -> u32;
 }
 
 /// 32 bits of 1/w: nearer or equal wins.
@@ -40,13 +41,15 @@ impl LineDepth for Depth32 {
     }
 
     #[inline(always)]
-    fn mark(cell: &mut u32, mark: u16) {
-        *cell = u32::from(mark);
+    fn mark(cell: &mut u32, mark: u32) -> bool {
+        let free = *cell == 0;
+        *cell = mark;
+        free
     }
 
     #[inline(always)]
-    fn unmark(cell: &mut u32) -> u16 {
-        core::mem::take(cell) as u16
+    fn unmark(cell: &mut u32) -> u32 {
+        core::mem::take(cell)
     }
 }
 
@@ -60,9 +63,11 @@ impl LineDepth for () {
         true
     }
 
-    fn mark((): &mut (), _: u16) {}
+    fn mark((): &mut (), _: u32) -> bool {
+        false
+    }
 
-    fn unmark((): &mut ()) -> u16 {
+    fn unmark((): &mut ()) -> u32 {
         0
     }
 }

@@ -12,9 +12,9 @@ use scanbeam::model::{
     ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };
 use scanbeam::{
-    Camera, Counted, Cull, Faces, FlatPainter, GouraudDepth, GouraudPainter, Instance, LineDepth,
-    LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888, Scene, SceneMemory,
-    SceneVertex, Screen, SpanCounts, WordOf,
+    Camera, Counted, Cull, DepthUse, Faces, FlatPainter, GouraudDepth, GouraudPainter, Instance,
+    LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888, Scene,
+    SceneMemory, SceneVertex, Screen, SpanCounts, WordOf,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.
@@ -84,9 +84,8 @@ fn drawn<P: Pipeline>(at: (i32, u16), counter: &Counter) -> (u64, SpanCounts) {
             slots: &mut slots,
             links: &mut links,
             depth: &mut depth,
-            // None are noted, so what has depth is tested.
-            spans: &mut [],
         });
+        renderer.set_depth_use(DepthUse::Always);
         let mut draw = |line| {
             renderer
                 .draw_line(scene, line, black_box(&mut pixels))
@@ -116,7 +115,6 @@ fn with_first<P: Pipeline>(scene: &Scene<'_, P>, pixels: &mut [WordOf<P>]) -> Sp
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut [],
     });
     renderer
         .draw_line(scene, 0, pixels)

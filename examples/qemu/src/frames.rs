@@ -115,7 +115,6 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
         slots: &mut rooms.slots[..how.slots],
         links: rooms.links,
         depth: rooms.depth,
-        spans: rooms.spans,
     });
     renderer.set_prefetch(how.prefetch);
     let background = Rgb565Be::from_rgb8(how.shot.background());
@@ -163,27 +162,16 @@ fn draw_by_two(
         .build(&mut scene)
         .expect("the rooms are large enough");
     let memory = [
-        (
-            &mut *rooms.slots,
-            &mut *rooms.links,
-            &mut *rooms.depth,
-            &mut *rooms.spans,
-        ),
-        (
-            &mut *other.slots,
-            &mut *other.links,
-            &mut *other.depth,
-            &mut *other.spans,
-        ),
+        (&mut *rooms.slots, &mut *rooms.links, &mut *rooms.depth),
+        (&mut *other.slots, &mut *other.links, &mut *other.depth),
     ];
     let mut offset = 0;
-    let mut renderers = memory.map(|(slots, links, depth, spans)| {
+    let mut renderers = memory.map(|(slots, links, depth)| {
         let slots = &mut slots[..how.slots];
         let mut renderer = LineRenderer::new(LineMemory {
             slots,
             links,
             depth,
-            spans,
         });
         renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
         renderer.set_prefetch(how.prefetch);

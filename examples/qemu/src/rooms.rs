@@ -4,7 +4,7 @@ use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
 use core::ptr;
 use scanbeam::{
     CellOf, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, Scene, SceneMemory,
-    SceneVertex, SlotOf, SpanRecord, VertexOf,
+    SceneVertex, SlotOf, VertexOf,
 };
 use scenes::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline, Shot, VERTICES, WIDTH,
@@ -55,7 +55,6 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     /// Tightly coupled RAM, `.fast`.
     pub(crate) slots: &'static mut [SlotOf<P>],
     pub(crate) depth: &'static mut [CellOf<P>],
-    pub(crate) spans: &'static mut [SpanRecord],
 }
 
 /// What frames are drawn with.
@@ -87,7 +86,6 @@ macro_rules! rooms_of {
                 LineRenderer::<$pipeline>::empty_slot()
             ),
             depth: lend!(".fast", CellOf<$pipeline>, WIDTH as usize, 0),
-            spans: lend!(".fast", SpanRecord, SLOTS, SpanRecord::default()),
         }
     };
 }
@@ -127,7 +125,6 @@ impl Rooms {
                     LineRenderer::<SheetPipeline>::empty_slot()
                 ),
                 depth: lend!(".slow", CellOf<SheetPipeline>, WIDTH as usize, ()),
-                spans: &mut [],
             },
             second: RoomsOf {
                 vertices: &mut [],
@@ -141,7 +138,6 @@ impl Rooms {
                     LineRenderer::<Smooth>::empty_slot()
                 ),
                 depth: lend!(".slow", CellOf<Smooth>, WIDTH as usize, 0),
-                spans: lend!(".slow", SpanRecord, SLOTS, SpanRecord::default()),
             },
             lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
@@ -164,7 +160,6 @@ impl Rooms {
             slots: rooms.slots,
             links: rooms.links,
             depth: rooms.depth,
-            spans: rooms.spans,
         });
         Sheet::new(seed)
             .hits(&mut scene, &mut renderer)
