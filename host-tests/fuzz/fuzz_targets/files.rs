@@ -8,4 +8,6 @@ use tempfile::TempDir;
 static FOLDER: LazyLock<TempDir> =
     LazyLock::new(|| tempfile::tempdir().expect("a folder for material files"));
 
-fuzz_target!(|data: &[u8]| scanbeam_fuzz::files::run(data, FOLDER.path()));
+fuzz_target!(|data: &[u8]| {
+    scanbeam_fuzz::files::run(data, FOLDER.path());
+});

@@ -6,15 +6,15 @@ use std::path::Path;
 /// What parts the OBJ file from its material file; everything after it is the latter.
 const CUT: u8 = 0xFF;
 
-/// Reads what the bytes say; panics when something does not hold.
+/// Reads what the bytes say; panics when something does not hold. How many triangles there are.
 ///
 /// `folder` is where the material file is put. Text that names other files is not read: it
 /// could name a device.
-pub fn run(data: &[u8], folder: &Path) {
+pub fn run(data: &[u8], folder: &Path) -> usize {
     let mut parts = data.splitn(2, |byte| *byte == CUT);
     let text = String::from_utf8_lossy(parts.next().unwrap_or_default());
     if text.contains("mtllib") {
-        return;
+        return 0;
     }
     let file = folder.join("m.obj");
     let read = match parts.next() {
@@ -25,11 +25,15 @@ pub fn run(data: &[u8], folder: &Path) {
         }
     };
     match read {
-        Ok(model) => check(&model),
+        Ok(model) => {
+            check(&model);
+            model.triangles.len()
+        }
         Err(error) => {
             let said = error.to_string();
             assert_eq!(said.lines().count(), 1, "{said}");
             assert!(error.line.is_some_and(|line| line > 0), "{said}");
+            0
         }
     }
 }

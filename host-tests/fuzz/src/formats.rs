@@ -2,14 +2,16 @@
 
 use arbitrary::{Result, Unstructured};
 use scanbeam::model::{
-    FormatWord, InputFormat, ParameterRam, Segment, Token, TokenBits, VertexFormat, WORD_BITS,
-    ZFlags, draw,
+    FormatWord, InputFormat, PLACE, ParameterRam, Segment, Token, TokenBits, VertexFormat,
+    WORD_BITS, ZFlags, draw,
 };
 
-/// Tokens and vertices of the bytes; panics when something does not hold.
-pub fn run(data: &[u8]) {
+/// Tokens and vertices of the bytes; panics when something does not hold. How many pixel tokens
+/// came of them.
+pub fn run(data: &[u8]) -> usize {
     let mut u = Unstructured::new(data);
-    let _ = tokens(&mut u).and_then(|()| vertices(&mut u));
+    // Bytes that end too soon are a case that ends too soon.
+    tokens(&mut u).and_then(|()| vertices(&mut u)).unwrap_or(0)
 }
 
 fn tokens(u: &mut Unstructured<'_>) -> Result<()> {
@@ -27,20 +29,30 @@ fn tokens(u: &mut Unstructured<'_>) -> Result<()> {
     Ok(())
 }
 
-fn vertices(u: &mut Unstructured<'_>) -> Result<()> {
-    let length = u.int_in_range(0..=34usize)?;
-    let mut table = Vec::new();
-    for _ in 0..length {
-        // Mostly entries, else hardly any table would be one.
-        table.push(FormatWord(match u.int_in_range(0..=7u8)? {
-            0 => u.arbitrary()?,
-            1 => u16::from(u.int_in_range(0..=32u8)?),
-            _ => FormatWord::parameter(u.arbitrary()?, *u.choose(&InputFormat::ALL)?).0,
-        }));
+fn vertices(u: &mut Unstructured<'_>) -> Result<usize> {
+    // Mostly a description that adds up, with a place, else hardly any would be one.
+    let mut table = vec![
+        FormatWord(0),
+        FormatWord::parameter(PLACE, InputFormat::U16x2),
+    ];
+    let mut count = 1;
+    for _ in 0..u.int_in_range(0..=34u8)? {
+        let format = *u.choose(&InputFormat::ALL)?;
+        count += format.words() as u16;
+        table.push(FormatWord::parameter(u.arbitrary()?, format));
     }
-    let address = u.int_in_range(0..=length)?;
+    table[0] = FormatWord(count);
+    if u.ratio(1, 4)? {
+        let at = u.choose_index(table.len())?;
+        table[at] = FormatWord(u.arbitrary()?);
+    }
+    let address = if u.ratio(1, 8)? {
+        u.choose_index(table.len() + 1)?
+    } else {
+        0
+    };
     let Ok(format) = VertexFormat::read(&table, address) else {
-        return Ok(());
+        return Ok(0);
     };
     let words = format.words();
     assert!((1..=31).contains(&words));
@@ -50,9 +62,12 @@ fn vertices(u: &mut Unstructured<'_>) -> Result<()> {
     let mut ram = ParameterRam::new();
     let stream = u.arbitrary()?;
     for vertex in 0..3 {
-        let given: Vec<u32> = (0..u.int_in_range(0..=words)?)
-            .map(|_| u.arbitrary())
-            .collect::<Result<_>>()?;
+        let given = if u.ratio(1, 8)? {
+            u.int_in_range(0..=words)?
+        } else {
+            words
+        };
+        let given: Vec<u32> = (0..given).map(|_| u.arbitrary()).collect::<Result<_>>()?;
         let loaded = ram.load(stream, vertex, &format, &given);
         assert_eq!(loaded.is_ok(), given.len() == words);
         if loaded.is_err() {
@@ -93,5 +108,5 @@ fn vertices(u: &mut Unstructured<'_>) -> Result<()> {
         },
     );
     assert!(pixels <= segment.width);
-    Ok(())
+    Ok(usize::from(pixels))
 }

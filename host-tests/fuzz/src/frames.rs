@@ -2,10 +2,10 @@
 
 use arbitrary::{Result, Unstructured};
 use scanbeam::{
-    Affine, Camera, Cull, DrawError, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Instance, Interleave, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf,
-    Pipeline, PixelFormat, QuadSplit, Rgb565, Rgb565Be, Rgb888, Scene, SceneMemory, Screen,
-    SpanRecord, VertexOf, WordOf,
+    Affine, Camera, CameraError, Cull, DrawError, Faces, FlatDepth, FlatPainter, GouraudDepth,
+    GouraudPainter, Instance, Interleave, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh,
+    ObjectOf, Pipeline, PixelFormat, QuadSplit, Rgb565, Rgb565Be, Rgb888, Scene, SceneMemory,
+    Screen, SpanRecord, VertexOf, WordOf,
 };
 
 /// Longest side of a picture.
@@ -50,9 +50,9 @@ struct Case {
 
 /// Any float: plain ones most of the time, any bits now and then.
 fn float(u: &mut Unstructured<'_>) -> Result<f32> {
-    Ok(match u.int_in_range(0..=7u8)? {
-        0 => f32::from_bits(u.arbitrary()?),
-        1 => {
+    Ok(match u.int_in_range(0..=15u8)? {
+        15 => f32::from_bits(u.arbitrary()?),
+        14 => {
             let power = f32::from(u.arbitrary::<i8>()?);
             if u.arbitrary()? {
                 power.exp2()
@@ -60,8 +60,8 @@ fn float(u: &mut Unstructured<'_>) -> Result<f32> {
                 -power.exp2()
             }
         }
-        2 | 3 => f32::from(u.arbitrary::<i16>()?) / 256.0,
-        _ => f32::from(u.arbitrary::<i8>()?) / 16.0,
+        12 | 13 => f32::from(u.arbitrary::<i16>()?) / 256.0,
+        _ => f32::from(u.arbitrary::<i8>()?) / 64.0,
     })
 }
 
@@ -84,6 +84,25 @@ fn affine(u: &mut Unstructured<'_>) -> Result<Affine> {
         map = map.then(&next.unwrap_or(Affine::IDENTITY));
     }
     Ok(map)
+}
+
+/// Mostly one that sees the origin.
+fn camera(u: &mut Unstructured<'_>) -> Result<std::result::Result<Camera, CameraError>> {
+    if u.ratio(1, 4)? {
+        let (eye, at, up) = (vector(u)?, vector(u)?, vector(u)?);
+        let (focal, near, range) = (float(u)?.abs(), float(u)?.abs(), float(u)?.abs());
+        return Ok(Camera::look_at(eye, at, up, focal, near, near + range));
+    }
+    let [x, y, z] = vector(u)?;
+    let near = f32::from(u.int_in_range(0..=20i8)? - 10).exp2();
+    Ok(Camera::look_at(
+        [x, y, z + 2.0],
+        [x / 4.0, y / 4.0, 0.0],
+        [0.0, 1.0, 0.0],
+        f32::from(u.arbitrary::<u8>()?) + 20.0,
+        near,
+        near * (1.0 + f32::from(u.arbitrary::<u16>()?)) + 4.0,
+    ))
 }
 
 impl Model {
@@ -184,15 +203,7 @@ impl Case {
     /// `None` when a camera cannot be made of the bytes.
     fn new(u: &mut Unstructured<'_>) -> Result<Option<Self>> {
         let screen = Screen::new(u.int_in_range(1..=MOST)?, u.int_in_range(1..=MOST)?);
-        let (near, range) = (float(u)?, float(u)?);
-        let camera = Camera::look_at(
-            vector(u)?,
-            vector(u)?,
-            vector(u)?,
-            float(u)?.abs(),
-            near.abs(),
-            near.abs() + range.abs(),
-        );
+        let camera = camera(u)?;
         let (Ok(screen), Ok(camera)) = (screen, camera) else {
             return Ok(None);
         };
@@ -363,10 +374,10 @@ fn coprime(mut a: u16, mut b: u16) -> bool {
     a == 1
 }
 
-/// Draws what the bytes say; panics when something does not hold.
-pub fn run(data: &[u8]) {
+/// Draws what the bytes say; panics when something does not hold. How many pixels were covered.
+pub fn run(data: &[u8]) -> usize {
     let Ok(Some(case)) = Case::new(&mut Unstructured::new(data)) else {
-        return;
+        return 0;
     };
     let covered = case.draw::<GouraudDepth<Rgb888>>();
     // Which pixels are covered depends on places alone.
@@ -378,4 +389,5 @@ pub fn run(data: &[u8]) {
     for other in others {
         assert_eq!(covered, other, "another pipeline");
     }
+    covered.map_or(0, |pixels| pixels.iter().filter(|p| **p).count())
 }
