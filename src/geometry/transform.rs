@@ -161,7 +161,8 @@ impl Affine {
     }
 }
 
-/// The unit vector along `v` (each below 2^32 in magnitude) in Q1.14; zero stays zero.
+/// The unit vector along `v` (each below 2^32 in magnitude) in Q1.14, each within 2^-15, negative
+/// ones within 2^-14; zero stays zero.
 pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
     let (v, length) = with_length(v);
     if length == 0 {
@@ -184,7 +185,7 @@ fn with_length(v: [i64; 3]) -> ([i64; 3], i64) {
 /// The unit vector along `v` in Q1.30, 2^-28 off at most; `None` for zero.
 fn unit_q30(v: [i64; 3]) -> Option<[i64; 3]> {
     let (v, length) = with_length(v);
-    (length != 0).then(|| v.map(|c| ((c << 31) / length + 1) >> 1))
+    (length != 0).then(|| v.map(|c| ((c << 31).div_euclid(length) + 1) >> 1))
 }
 
 /// The scalar product of two vectors in Q1.30 of length up to 1.
