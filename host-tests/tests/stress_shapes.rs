@@ -17,7 +17,9 @@
 //! | camera, model and planes scaled by 2^k, -50 to 80 | the same bits | exponents apart from mantissas | `stress_input.rs` |
 //! | floats, files and flags of any bits | refused in one line, or drawn without a panic | `Option` and `Result` at every door | `stress_input.rs`, `fuzz.rs` |
 //!
-//! `scenes::STRESS` has the same kinds of triangles in frames that QEMU draws with the same bits.
+//! Overflow checks and debug assertions are on in every test and in the fuzz targets
+//! (`host-tests/fuzz`). `scenes::STRESS` has the same kinds of triangles in frames that QEMU draws
+//! with the same bits.
 
 mod common;
 #[path = "watertight/count.rs"]

@@ -66,13 +66,17 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
         }
         // Up to 8192 pixels wide and high; most of each is beside the picture.
         Shot::Giants => {
-            for _ in 0..14 {
+            for i in 0..20 {
                 let mut corner = || {
                     let [x, y, _] = random.place([ONE, ONE, 1]);
-                    [x, y, -ONE / 24 - random.within(ONE / 48)]
+                    [x, y, -ONE / 48 - random.within(ONE / 3).abs()]
                 };
-                let places = [corner(), corner(), corner()];
-                triangle(scene, &mut random, places, 32.0)?;
+                let (a, b, mut c) = (corner(), corner(), corner());
+                if i % 2 == 1 {
+                    // As long, and a few pixels wide.
+                    c = b.map(|v| v - random.within(ONE / 64).abs());
+                }
+                triangle(scene, &mut random, [a, b, c], 32.0)?;
             }
         }
         // Through the near plane at any angle, some of them beyond the sides too.
