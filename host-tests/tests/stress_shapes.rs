@@ -14,6 +14,7 @@
 //! | near plane: colour, 1/w | 1 level, `2^-18 + 2^-24 scale / near`, and what that way of an edge makes of their slopes | as above | `stress_near.rs` |
 //! | chains of n maps of any magnitude | `3 n 2^-30` of the product of their norms | mantissas of 30 bits | `geometry/transform.rs` |
 //! | a million turns: skew of the rows | `n 2^-20` left alone, 2^-26 with `Affine::orthonormalised` | 24-bit rows of a turn | `geometry/transform.rs` |
+//! | a camera set anew a million times: skew of its view | `2^-20 + 2^-21 / s`, s the sine between up and view | 24-bit floats, their cross product divided by s | `geometry/camera.rs` |
 //! | camera, model and planes scaled by 2^k, -50 to 80 | the same bits | exponents apart from mantissas | `stress_input.rs` |
 //! | floats, files and flags of any bits | refused in one line, or drawn without a panic | `Option` and `Result` at every door | `stress_input.rs`, `fuzz.rs` |
 //!
