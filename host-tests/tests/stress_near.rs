@@ -5,7 +5,7 @@
 //!   coordinates are multiples of 2^-26 of the model's scale s and err by 4 of these (three
 //!   products, the offset or the cut), which the near plane at n magnifies: together
 //!   `0.0884 + 2^-24 s / n (f + 4096)` pixels, f the focal length. That is 1/8 for s / n of 128 at
-//!   f = 300, and 0.4 pixels for 1000.
+//!   f = 300; models of 65,536 and a near plane at 1/32 are tried too.
 //! - Colour is linear on the screen over each piece of the clipped polygon's fan. The corners'
 //!   way may move it by that much of its steepest slope; then half a level of rounding and half
 //!   for fields and planes.
@@ -130,11 +130,11 @@ impl Stage {
     fn new(rng: &mut Rng) -> Self {
         let near = rng.pick(&[0.03125f32, 0.1, 0.25, 0.7]);
         let focal = rng.pick(&[20.0f32, 60.0, 300.0]);
-        let scale = rng.pick(&[1.0, 1.0, 8.0, 32.0]);
+        let scale = rng.pick(&[1.0, 1.0, 8.0, 32.0, 4_096.0, 65_536.0]);
         let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
         Self {
             rooms: SceneRooms::new(96, 96, usize::from(HEIGHT)),
-            camera: Camera::look_at([0.0; 3], ahead, up, focal, near, 1000.0).unwrap(),
+            camera: Camera::look_at([0.0; 3], ahead, up, focal, near, 1e6).unwrap(),
             near: f64::from(near),
             focal: f64::from(focal),
             scale,
