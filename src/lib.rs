@@ -137,6 +137,9 @@
 //! | C5 | a full cache spills, the picture stays | `active/list.rs` | `cache.rs`, `arenas.rs`, `lines_alone.rs` |
 //! | C6, C7 | a link column for each renderer, changes in the cache | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
 //! | C8 | counters, memory model | `active/counts.rs`, `renderer/frame.rs` | `cache.rs`, `host-tests/src/memory_model.rs` |
+//! | P4 | no colour wraps | `geometry/colour.rs`, `num/small.rs`, `composite/ramp.rs` | `stress_shapes.rs`, `stress_near.rs`, `fuzz.rs` |
+//! | M3 | bounds that hold under stress | | `stress_shapes.rs` has the table of bounds; `stress_near.rs`, `stress_input.rs`, `geometry/transform.rs`, `fuzz.rs` |
+//! | X1 | the same bits on every target | all | `host-tests/src/firmware/tests.rs`, `scanbeam firmware` |
 //! | K16, B3 | renderers by lines or bands | `active/interleave.rs`, `renderer/relay.rs` | `cache.rs` |
 //! | K17 | input queues: stall, empty, sources | `renderer/input.rs` | `input.rs` |
 //! | X6 | two cores, one scene | `renderer/relay.rs` | `cache.rs`, `examples/rp2040-two-cores` builds |

@@ -10,7 +10,7 @@ use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, VertexOf, draw_frame,
 };
-use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VARIANTS, VERTICES, WIDTH};
+use scenes::{HEIGHT, OBJECTS, SHOTS, STRESS, Shot, VARIANTS, VERTICES, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -50,7 +50,7 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
 /// When a shot does not fit the arenas that it asks for.
 pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     let mut frames = BTreeMap::new();
-    for shot in SHOTS {
+    for shot in SHOTS.into_iter().chain(STRESS) {
         frames.insert(
             shot.name(),
             crc32fast::hash(&draw::<GouraudDepth<Rgb565Be>>(shot)?),
@@ -58,6 +58,8 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     }
     let flat = draw::<FlatDepth<Rgb565Be>>(Shot::Teapot)?;
     frames.insert("teapot_flat", crc32fast::hash(&flat));
+    let flat = draw::<FlatDepth<Rgb565Be>>(Shot::Crossings)?;
+    frames.insert("crossings_flat", crc32fast::hash(&flat));
     let model = draw_by_model(Shot::Teapot)?;
     frames.insert("teapot_model", crc32fast::hash(&model));
     for variant in VARIANTS {

@@ -9,7 +9,7 @@ use scanbeam::{
     Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
 };
-use scenes::{SHOTS, Shot, VARIANTS, Variant};
+use scenes::{SHOTS, STRESS, Shot, VARIANTS, Variant};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -36,8 +36,8 @@ pub(crate) struct Frame {
     way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: all shots, then one of flat faces and one
-/// by the hardware model, then what the cache and its renderers must not change.
+/// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
+/// faces and one by the hardware model, then what the cache and its renderers must not change.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
         name,
@@ -50,7 +50,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         },
         way,
     };
-    let shots = SHOTS.into_iter();
+    let shots = SHOTS.into_iter().chain(STRESS);
     let variants = VARIANTS.into_iter().map(|how| Frame {
         name: how.name,
         how,
@@ -61,6 +61,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         .chain([
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
             plain("teapot_model", Shot::Teapot, Way::Model),
+            plain("crossings_flat", Shot::Crossings, Way::Faceted),
         ])
         .chain(variants)
 }

@@ -17,11 +17,13 @@
 
 mod sheet;
 mod shots;
+mod stress;
 
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
 };
+pub use stress::STRESS;
 
 use scanbeam::{Faces, Mesh, QuadSplit};
 

@@ -1,5 +1,6 @@
 //! The frames that are drawn on the host and on every target, and compared bit for bit.
 
+use crate::stress;
 use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, TEAPOT};
 use scanbeam::{
     Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Pipeline, Scene, SceneError,
@@ -31,6 +32,12 @@ pub enum Shot {
     /// 417 small cubes all over the picture, nothing culled: 5,004 objects, and far more on a line
     /// than a cache has slots. Not among [`SHOTS`].
     Crowd,
+    /// Random triangles up to half a pixel wide. Among [`STRESS`](crate::STRESS).
+    Slivers,
+    /// Random triangles of up to 8192 pixels. Among [`STRESS`](crate::STRESS).
+    Giants,
+    /// Random triangles through the near plane. Among [`STRESS`](crate::STRESS).
+    Crossings,
 }
 
 /// A shot that is drawn again in another way, with the same bits.
@@ -129,6 +136,9 @@ impl Shot {
             Self::Quads => "quads",
             Self::Inside => "inside",
             Self::Crowd => "crowd",
+            Self::Slivers => "slivers",
+            Self::Giants => "giants",
+            Self::Crossings => "crossings",
         }
     }
 
@@ -223,6 +233,7 @@ impl Shot {
                     scene.draw(&CUBE, &instance)?;
                 }
             }
+            Self::Slivers | Self::Giants | Self::Crossings => stress::build(self, scene)?,
         }
         Ok(())
     }

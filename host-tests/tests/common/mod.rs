@@ -109,6 +109,11 @@ impl<P: Pipeline> LineRooms<P> {
         )
     }
 
+    /// The depth of the line that was drawn last.
+    pub fn depth(&self) -> &[CellOf<P>] {
+        &self.depth
+    }
+
     /// A renderer in this memory.
     pub fn renderer(&mut self) -> LineRenderer<'_, P> {
         LineRenderer::new(LineMemory {
