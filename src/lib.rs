@@ -178,7 +178,7 @@ pub use geometry::{
     ScreenError, Shading,
 };
 pub use link::Link;
-pub use num::{I2F14, I2F30, U1F15, U13F3};
+pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
     CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, ObjectOf,
     Parts, Pipeline, SlotOf, VertexOf, WordOf,
@@ -189,5 +189,6 @@ pub use renderer::{
     RendererError, Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, draw_frame,
     send_frame,
 };
+pub use shade::texture;
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};
