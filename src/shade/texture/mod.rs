@@ -40,7 +40,7 @@ pub use cache::{BlockCache, CacheError, CacheReads};
 pub use corners::{Corner, Corners};
 pub use format::{Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Texel, TexelFormat};
 pub use lod::{LEVELS, Level, LevelEnds, Levels, build_level, level_words};
-pub use perspective::{Homogeneous, PerspectiveSpan, Stride};
+pub use perspective::{AllSeen, Homogeneous, PaintRun, PerspectiveSpan, Stride};
 pub use procedural::{Checker, Gradient};
 pub use sample::{
     Address, Bilinear, Clamp, MAX_SIDE, Mirror, Size, Square, Texture, TextureError, Wrap,
@@ -104,8 +104,8 @@ pub trait Texels {
     /// Gives `each` the pixels in turn, each with the colour at its place: the first at `from`,
     /// the next a `step` further on.
     ///
-    /// A texture may take the steps in coarser units, as long as it is not off by more than 1/16
-    /// texel after 16 pixels.
+    /// A texture may take the steps in coarser units, as long as it is nowhere off by more than 1/16
+    /// texel.
     #[inline(always)]
     fn run<W>(
         &self,

@@ -126,6 +126,7 @@ pub struct PerspectiveSpan {
 /// `2^31 / n`, rounded down, for runs that end early.
 static PARTS: [i32; 17] = {
     let mut parts = [i32::MAX; 17];
+    parts[0] = 0;
     let mut n = 2;
     while n < 17 {
         parts[n] = ((1u32 << 31) / n as u32) as i32;
@@ -153,10 +154,9 @@ impl PerspectiveSpan {
         self.at.plus(self.step.times(pixel)).place()
     }
 
-    /// Gives `paint` the span's pixels in runs of at most `stride` pixels, each with its first
-    /// pixel's place and the step to the next. A run of `Two` or less may be of one pixel.
+    /// Gives `paint` the span's pixels in runs of at most `stride` pixels.
     #[inline(always)]
-    pub fn walk<W>(self, stride: Stride, pixels: &mut [W], paint: impl FnMut(&mut [W], Uv, Uv)) {
+    pub fn walk<W>(self, stride: Stride, pixels: &mut [W], paint: &mut impl PaintRun<W>) {
         match stride {
             Stride::One => self.exact(pixels, paint),
             Stride::Two => self.runs::<2, W>(pixels, paint),
@@ -174,19 +174,17 @@ impl PerspectiveSpan {
         stride: Stride,
         texels: &T,
         pixels: &mut [W],
-        mut each: impl FnMut(&mut W, T::Texel),
+        each: impl FnMut(&mut W, T::Texel),
     ) {
-        self.walk(stride, pixels, |run, from, step| {
-            texels.run(run, from, step, &mut each);
-        });
+        self.walk(stride, pixels, &mut AllSeen { texels, each });
     }
 
     /// [`walk`](Self::walk) with a division at each pixel.
     #[inline(always)]
-    pub fn exact<W>(self, pixels: &mut [W], mut paint: impl FnMut(&mut [W], Uv, Uv)) {
+    pub fn exact<W>(self, pixels: &mut [W], paint: &mut impl PaintRun<W>) {
         let mut at = self.at;
         for pixel in pixels {
-            paint(core::slice::from_mut(pixel), at.place(), Uv::default());
+            paint.run(core::slice::from_mut(pixel), at.place(), Uv::default());
             at = at.plus(self.step);
         }
     }
@@ -194,11 +192,7 @@ impl PerspectiveSpan {
     /// [`walk`](Self::walk) with a division every `N` pixels, a power of two up to 16, and one at
     /// the last pixel.
     #[inline(always)]
-    pub fn runs<const N: usize, W>(
-        self,
-        pixels: &mut [W],
-        mut paint: impl FnMut(&mut [W], Uv, Uv),
-    ) {
+    pub fn runs<const N: usize, W>(self, pixels: &mut [W], paint: &mut impl PaintRun<W>) {
         let mut rest = pixels;
         let mut at = self.at;
         let ahead = self.step.times(N as i32);
@@ -212,63 +206,56 @@ impl PerspectiveSpan {
                 u: way.u >> N.trailing_zeros(),
                 v: way.v >> N.trailing_zeros(),
             };
-            paint(run, from, step);
+            paint.run(run, from, step);
             (rest, from) = (more, to);
         }
         let last = rest.len().wrapping_sub(1);
-        if last == 0 {
-            paint(rest, from, Uv::default());
-        } else if last <= N {
+        if last <= N {
             let to = at.plus(self.step.times(last as i32)).place();
-            paint(rest, from, part(to.minus(from), last));
+            paint.run(rest, from, part(to.minus(from), last));
         }
     }
 
-    /// [`walk`](Self::walk) with divisions at the first and last pixel alone, in runs of 16
-    /// pixels, each begun anew from the whole span's step.
+    /// [`walk`](Self::walk) with divisions at the first and last pixel alone, in one run.
     #[inline(always)]
-    pub fn affine<W>(self, pixels: &mut [W], mut paint: impl FnMut(&mut [W], Uv, Uv)) {
+    pub fn affine<W>(self, pixels: &mut [W], paint: &mut impl PaintRun<W>) {
         let Some(last) = pixels.len().checked_sub(1) else {
             return;
         };
         let from = self.at.place();
-        if last == 0 {
-            paint(pixels, from, Uv::default());
-            return;
-        }
         let way = self.place(last as i32).minus(from);
-        if last <= 16 {
-            paint(pixels, from, part(way, last));
-            return;
-        }
-        // One true division a span, which is long.
-        let n = last as i32;
-        let step = Uv {
-            u: way.u / n,
-            v: way.v / n,
+        let step = if last <= 16 {
+            part(way, last)
+        } else {
+            // True divisions, two a span, which is long.
+            let n = last as i32;
+            Uv {
+                u: way.u / n,
+                v: way.v / n,
+            }
         };
-        linear(pixels, from, step, paint);
+        paint.run(pixels, from, step);
     }
 }
 
-/// Runs of 16 pixels at most along a straight way.
-#[inline(always)]
-pub(super) fn linear<W>(
-    pixels: &mut [W],
-    mut from: Uv,
-    step: Uv,
-    mut paint: impl FnMut(&mut [W], Uv, Uv),
-) {
-    let mut rest = pixels;
-    let ahead = Uv {
-        u: step.u.wrapping_mul(16),
-        v: step.v.wrapping_mul(16),
-    };
-    while rest.len() > 16 {
-        let (run, more) = rest.split_at_mut(16);
-        paint(run, from, step);
-        from = from.plus(ahead);
-        rest = more;
+/// Takes a span's pixels in runs along which texture places are linear.
+pub trait PaintRun<W> {
+    /// The next pixels of the span: the first at `from` on the texture, the next a `step` further.
+    fn run(&mut self, pixels: &mut [W], from: Uv, step: Uv);
+}
+
+/// Every pixel gets its texel.
+#[derive(Debug)]
+pub struct AllSeen<'t, T, F> {
+    /// What is drawn.
+    pub texels: &'t T,
+    /// What is done with a pixel and its texel.
+    pub each: F,
+}
+
+impl<T: Texels, W, F: FnMut(&mut W, T::Texel)> PaintRun<W> for AllSeen<'_, T, F> {
+    #[inline(always)]
+    fn run(&mut self, pixels: &mut [W], from: Uv, step: Uv) {
+        self.texels.run(pixels, from, step, &mut self.each);
     }
-    paint(rest, from, step);
 }

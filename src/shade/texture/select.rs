@@ -21,7 +21,7 @@ use super::{FRACTION, Uv};
 
 /// How much a texture place may be off, in texels with [`FRACTION`] fraction bits.
 ///
-/// What the fixed point itself adds, 1/16 texel at most over 16 pixels, is part of it.
+/// What the fixed point itself adds, 1/16 texel at most, is part of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Budget(u32);
 

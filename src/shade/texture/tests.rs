@@ -238,7 +238,7 @@ fn budgets_are_kept() {
     assert_eq!(Quality::Fast.budget().stride(&ends.span(), 1), Stride::One);
 }
 
-/// 16 bits of a place lose less than a 16th of a texel in a run of 16 pixels.
+/// 16 bits of a place lose less than a 16th of a texel, however long the run is.
 #[test]
 fn packed_runs_stay_within_a_sixteenth() {
     fn check<const LOG: u32, const N: usize>() {
@@ -254,7 +254,7 @@ fn packed_runs_stay_within_a_sixteenth() {
                 v: rng.below(1 << bits) as i32 - (1 << (bits - 1)),
             };
             let (from, step) = (place(30), place(18 + i % 6));
-            let pixels = 1 + rng.below(16) as usize;
+            let pixels = 1 + rng.below(330) as usize;
             let mut drawn = vec![0; pixels];
             square.run(&mut drawn, from, step, |pixel, texel| *pixel = texel);
             for (i, index) in drawn.iter().enumerate() {
@@ -269,7 +269,6 @@ fn packed_runs_stay_within_a_sixteenth() {
                     }
                 };
                 let off = off(from.u, step.u, index % side).max(off(from.v, step.v, index / side));
-                assert!(off <= 9.0 / f64::from(1u32 << (16 - LOG)), "{LOG}: {off}");
                 assert!(off < 1.0 / 16.0, "{LOG}: {off}");
             }
         }
