@@ -15,13 +15,10 @@ pub struct Reciprocal {
     pub shift: u32,
 }
 
-/// `2 r - r²` in 2.30: see [`Reciprocal::of`]. Two tables, because one of pairs takes an
-/// instruction more to index.
-static STARTS: [i32; 256] = steps().0;
-/// `r²` in 1.31.
-static SQUARES: [i32; 256] = steps().1;
+/// `2 r - r²` in 2.30, then `r²` in 1.31: see [`Reciprocal::of`].
+static STEPS: [[i32; 256]; 2] = steps();
 
-const fn steps() -> ([i32; 256], [i32; 256]) {
+const fn steps() -> [[i32; 256]; 2] {
     let (mut starts, mut squares) = ([0; 256], [0; 256]);
     let mut i = 0;
     while i < 256 {
@@ -35,7 +32,7 @@ const fn steps() -> ([i32; 256], [i32; 256]) {
         squares[i] = square as i32;
         i += 1;
     }
-    (starts, squares)
+    [starts, squares]
 }
 
 impl Reciprocal {
@@ -49,8 +46,8 @@ impl Reciprocal {
         let part = (top >> 23 & 0xFF) as usize;
         // As a signed number the normalised one is 2^32 less: `square` less in the product's
         // upper word, which the table has taken off already.
-        let whole = i64::from(STARTS[part]) << 32;
-        let product = i64::from(SQUARES[part]) * i64::from(top as i32);
+        let whole = i64::from(STEPS[0][part]) << 32;
+        let product = i64::from(STEPS[1][part]) * i64::from(top as i32);
         let mantissa = (whole.wrapping_sub(product) >> 32) as i32;
         Self { mantissa, shift }
     }

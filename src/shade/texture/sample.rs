@@ -257,8 +257,9 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
 ///
 /// A run is read two pixels at a time: u of both in one word, v of both in another, 16 bits each,
 /// so that two indices cost three logical instructions. In 16 pixels a place gets at most
-/// 6/256 texel off at 256 texels a side, and 1/256 more each time it goes beyond a side, so it is
-/// taken anew every 16 pixels, every 32 with 128 texels a side, and so on: less than 1/16 texel.
+/// 10/256 texel off at 256 texels a side, and 1/256 more each time it goes beyond a side, so it is
+/// taken anew every 16 pixels, every 32 with 128 texels a side, and so on: less than 1/16 texel,
+/// where a pixel's step is less than a quarter of the side.
 #[derive(Clone, Copy, Debug)]
 pub struct Square<F, const LOG: u32>(F);
 
@@ -299,17 +300,23 @@ impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Square<F, LOG> {
     /// [`run`](Texels::run), from one pair of words on.
     #[inline(always)]
     fn pairs<W>(&self, pixels: &mut [W], from: Uv, step: Uv, mut each: impl FnMut(&mut W, T)) {
-        if let [one] = pixels {
-            return each(one, self.at(from));
+        // Packing pays from the third pair on.
+        if pixels.len() <= 4 {
+            let mut place = from;
+            for pixel in pixels {
+                each(pixel, self.at(place));
+                place = place.plus(step);
+            }
+            return;
         }
         // 16 bits hold a whole side, 16 - LOG of them fractions.
         let half = |x: i32| x >> (FRACTION - 16 + LOG);
         let both =
             |x: i32, dx: i32| half(x) as u32 & 0xFFFF | (half(x.wrapping_add(dx)) as u32) << 16;
-        // The step of two pixels, to nearest. Added as a number with its sign, so that the lower
+        // The step of two pixels, rounded down. Added as a number with its sign, so that the lower
         // half's carry is made up for.
         let two = |dx: i32| {
-            let d = half(dx.wrapping_mul(2).wrapping_add(1 << (FRACTION - 17 + LOG)));
+            let d = dx >> (FRACTION - 17 + LOG);
             d.wrapping_add(d << 16) as u32
         };
         let (mut u, mut v) = (both(from.u, step.u), both(from.v, step.v));
