@@ -9,6 +9,7 @@
 //! Access is modelled, not timed: a page (1 KB, as of a DRAM) changes when an access is to another
 //! one than the access before; a small cache holds lines of 32 bytes.
 
+use crate::image_out::{ImageError, write_atomically, write_image};
 use crate::plot::{Chart, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::BlockFix16;
@@ -18,6 +19,7 @@ use scanbeam::texture::{
     Texels, Texture, Uv, Words, Wrap,
 };
 use std::collections::BTreeSet;
+use std::path::Path;
 
 /// Bytes of a page.
 pub const PAGE: usize = 1024;
@@ -318,6 +320,16 @@ pub fn triangle_pages(corners: [(u16, u16); 3], size: (u32, u32), block: (i32, i
     [by_strips, by_lines, in_rows].map(|frame| frame.page_changes)
 }
 
+/// Writes the plot of [`depth_resolution`] into a folder, as SVG and PNG.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_plots(folder: &Path) -> Result<(), ImageError> {
+    let plot = depth_resolution();
+    write_atomically(&folder.join("depth.svg"), plot.to_svg().as_bytes())?;
+    write_image(&folder.join("depth.png"), &plot.to_frame())
+}
+
 /// Bits of distance that depth formats tell apart: `-log2` of the smallest relative difference,
 /// at distances from 1 (the near plane) to 2^12.
 #[must_use]
@@ -386,7 +398,7 @@ mod tests {
             state = state
                 .wrapping_mul(6_364_136_223_846_793_005)
                 .wrapping_add(1_442_695_040_888_963_407);
-            ((state >> 33) * n >> 31) as u16
+            (((state >> 33) * n) >> 31) as u16
         };
         for (size, block) in [
             (16, (32, 16)),
@@ -446,6 +458,11 @@ mod tests {
                 assert!(fix.values[i] > fixed.values[i]);
             }
         }
-        assert!(chart.to_svg().contains("block-fix 16"));
+        let folder = tempfile::tempdir().expect("there is room");
+        write_plots(folder.path()).expect("there is room");
+        let svg = std::fs::read_to_string(folder.path().join("depth.svg")).expect("it is there");
+        assert!(svg.contains("block-fix 16"));
+        let plot = crate::image_out::read_image(&folder.path().join("depth.png"));
+        assert_eq!(plot.expect("it is there"), chart.to_frame());
     }
 }

@@ -41,7 +41,7 @@ impl Corners {
     /// [`WIDEST`](Self::WIDEST) texels.
     #[must_use]
     pub fn new(corners: [Corner; 3], period: u32) -> Option<Self> {
-        let period = i64::from(period.next_power_of_two().min(1024)) << 8;
+        let period = i64::from(period.clamp(1, 1024).next_power_of_two()) << 8;
         let base = |get: fn(&Corner) -> i32| {
             let least = corners.iter().map(get).min().unwrap_or(0);
             i64::from(least) & -period

@@ -87,7 +87,8 @@ impl Budget {
             && self.for_curves() > 0
     }
 
-    /// How a span of `pixels` pixels is drawn: the fewest divisions that keep the budget.
+    /// How a span of `pixels` pixels (at most 8193) is drawn: the fewest divisions that keep the
+    /// budget.
     ///
     /// Two divisions and some products; a triangle that may be drawn [affine as a
     /// whole](super::Corners::straight) need not ask.
@@ -118,7 +119,8 @@ impl Budget {
         let ratio = (u64::from(high) << 8) / u64::from(low) + 1;
         // What saturates is beyond any budget, which is below 2^56 with 8 more fraction bits.
         let worst = whole.saturating_mul(ratio);
-        let may = self.for_curves() * u64::from(steps) * u64::from(steps);
+        let steps = u64::from(steps.min(1 << 13));
+        let may = self.for_curves() * steps * steps;
         for stride in [Stride::Sixteen, Stride::Eight, Stride::Four, Stride::Two] {
             let n = u64::from(stride.pixels());
             if worst.saturating_mul(n * n) >> 8 < may {

@@ -581,3 +581,66 @@ fn a_level_has_the_places_of_the_texture() {
         );
     }
 }
+
+/// No number, however wrong, panics or reads beyond a texture.
+#[test]
+fn any_numbers_do_no_harm() {
+    let words: Vec<u16> = (0..1 << 14).collect();
+    let size = Size::new(128, 128).unwrap();
+    let texture = Texture::<_, Mirror>::new(Words(&words), size).unwrap();
+    let wrapped = Texture::<_, Wrap>::new(Words(&words), size).unwrap();
+    let square = wrapped.square::<7, 16_384>().unwrap();
+    let filtered = Bilinear::<_, Rgb565Texel>::new(texture);
+    let mut rng = Rng(21);
+    let mut sum = 0u32;
+    for i in 0..20_000u32 {
+        let mut any = || {
+            let bits = rng.below(33);
+            let x = (u64::from(rng.below(u32::MAX)) >> (32 - bits)) as i32;
+            [x, x.wrapping_neg(), i32::MAX, i32::MIN, 0][if rng.below(8) == 0 {
+                rng.below(5) as usize
+            } else {
+                0
+            }]
+        };
+        let mut three = || Homogeneous {
+            q: any(),
+            s: any(),
+            t: any(),
+        };
+        let span = PerspectiveSpan {
+            at: three(),
+            step: three(),
+        };
+        let corner = |h: Homogeneous| Corner {
+            depth: h.q as u32,
+            u: h.s,
+            v: h.t,
+        };
+        let corners = [
+            corner(span.at),
+            corner(span.step),
+            corner(span.at.plus(span.step)),
+        ];
+        if let Some(made) = Corners::new(corners, span.at.q as u32) {
+            sum += u32::from(made.straight(Budget::texels(span.at.s as u32, 1 << FRACTION)));
+            sum += made
+                .levels(u64::from(span.at.t as u32))
+                .level(span.step.q as u32);
+        }
+        let pixels = (i % 70) as usize;
+        let stride = Budget::texels(span.step.t as u32, 1 << FRACTION).stride(&span, pixels);
+        let mut line = vec![0u16; pixels];
+        for stride in [stride, Stride::ALL[(i % 6) as usize]] {
+            span.draw(stride, &texture, &mut line, |pixel, texel| *pixel = texel);
+            span.draw(stride, &square, &mut line, |pixel, texel| *pixel ^= texel);
+            span.draw(stride, &filtered, &mut line, |pixel, texel| {
+                *pixel ^= u16::from(texel.rgb[0]);
+            });
+            sum = line
+                .iter()
+                .fold(sum, |sum, word| sum.wrapping_add(u32::from(*word)));
+        }
+    }
+    assert_ne!(sum, 0);
+}
