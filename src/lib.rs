@@ -142,6 +142,12 @@
 //! | X1 | the same bits on every target | all | `host-tests/src/firmware/tests.rs`, `scanbeam firmware` |
 //! | K16, B3 | renderers by lines or bands | `active/interleave.rs`, `renderer/relay.rs` | `cache.rs` |
 //! | K17 | input queues: stall, empty, sources | `renderer/input.rs` | `input.rs` |
+//! | H2 | block-fix depth | `num/block_fix.rs` | the same file, `host-tests/src/texture_report.rs` |
+//! | H3-H5, K18 | perspective places along a span | `shade/texture/perspective.rs`, `corners.rs`, `num/recip_table.rs` | `shade/texture/tests.rs` |
+//! | H6, H7, H17 | levels of detail, filters, formats, tables, computed textures | `shade/texture/` | `shade/texture/tests.rs`, `texels` frames of the firmware |
+//! | B1, B5 | texture memory in blocks | `shade/texture/block.rs`, `cache.rs` | `host-tests/src/texture_report.rs` |
+//! | B2-B4, B6 | clusters, interleave, edge functions, traversal | `model/traverse.rs`, `model/edge_function.rs` | the same files, `host-tests/src/texture_report.rs` |
+//! | X2 | an error budget picks the cheapest way | `shade/texture/select.rs` | `shade/texture/tests.rs` |
 //! | X6 | two cores, one scene | `renderer/relay.rs` | `cache.rs`, `examples/rp2040-two-cores` builds |
 //!
 //! [`model`] is the hardware that the ideas come from, told bit for bit, to measure against.
@@ -179,7 +185,7 @@ pub use geometry::{
     ScreenError, Shading,
 };
 pub use link::Link;
-pub use num::{I2F14, I2F30, U1F15, U13F3};
+pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
     CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, ObjectOf,
     Parts, Pipeline, SlotOf, VertexOf, WordOf,
@@ -190,5 +196,6 @@ pub use renderer::{
     Relay, RendererError, Scene, SceneError, SceneMemory, Source, Stalled, Stream, draw_frame,
     send_frame,
 };
+pub use shade::texture;
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

@@ -10,7 +10,7 @@ use scanbeam::{
     FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, VertexOf, draw_frame,
 };
-use scenes::{HEIGHT, OBJECTS, SHOTS, STRESS, Shot, VARIANTS, VERTICES, WIDTH};
+use scenes::{HEIGHT, OBJECTS, SHOTS, STRESS, SWATCHES, Shot, VARIANTS, VERTICES, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -66,6 +66,11 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
         frames.insert(variant.name, crc32fast::hash(&plain));
+    }
+    for (name, swatch) in SWATCHES {
+        let mut bytes = Vec::new();
+        swatch.draw(|line| bytes.extend(line.iter().flat_map(|word| word.to_ne_bytes())));
+        frames.insert(name, crc32fast::hash(&bytes));
     }
     Ok(frames)
 }

@@ -14,4 +14,6 @@ pub mod mock;
 pub mod model;
 pub mod plot;
 pub mod reference;
+pub mod texture_file;
+pub mod texture_report;
 pub mod trace;

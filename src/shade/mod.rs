@@ -1,5 +1,7 @@
 //! Colour along a stretch of a line.
 
+pub mod texture;
+
 use crate::geometry::{FlatLevels, GouraudLevels};
 
 /// The colours of a span from its first pixel on, steps of the output.

@@ -18,6 +18,8 @@
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "bench")]
+mod bench_texture;
 mod console;
 mod count;
 mod frames;
@@ -35,7 +37,7 @@ use console::Console;
 use count::Counter;
 use frames::{Frame, frames};
 use rooms::Rooms;
-use scenes::{SHEETS, Sheet};
+use scenes::{SHEETS, SWATCHES, Sheet};
 
 static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
@@ -87,9 +89,26 @@ fn main() -> ! {
         ));
         count += 1;
     }
+    for (name, swatch) in SWATCHES {
+        let mut digest = CRC.digest();
+        swatch.draw(|line| digest.update(bytemuck::cast_slice(line)));
+        let crc = digest.finalize();
+        let instructions = counter.instructions(|| {
+            swatch.draw(|line| {
+                black_box(line);
+            });
+        });
+        console.line(format_args!(
+            "frame scene={name} crc={crc:08x} instructions={instructions}"
+        ));
+        count += 1;
+    }
 
     #[cfg(feature = "bench")]
-    bench::run(&counter, &mut console);
+    {
+        bench::run(&counter, &mut console);
+        bench_texture::run(&counter, &mut console);
+    }
 
     console.line(format_args!(
         "figure name=stack_bytes value={}",

@@ -18,12 +18,14 @@
 mod sheet;
 mod shots;
 mod stress;
+mod texels;
 
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
 };
 pub use stress::STRESS;
+pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
 
 use scanbeam::{Faces, Mesh, QuadSplit};
 
