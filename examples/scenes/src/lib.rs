@@ -15,12 +15,15 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod octasphere;
 mod sheet;
 mod shots;
 
+pub use octasphere::{OCTASPHERES, Octasphere};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
-    HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
+    HEIGHT, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS, Shot, ShotError,
+    VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
 };
 
 use scanbeam::{Faces, Mesh, QuadSplit};
