@@ -98,13 +98,14 @@ fn compared(
     bench: bool,
 ) -> Result<Vec<Compared>, Box<dyn Error>> {
     let mut boards = Vec::new();
+    let spans = growth::spans()?;
     for board in &BOARDS {
         let measured = firmware::measure(toolchain, board, Profile::Release, &[])?;
         let mut compared = Compared::new(measured, host)?;
         if bench {
             let measured = firmware::measure(toolchain, board, Profile::Release, &["bench"])?;
             let sizes = sizes(toolchain, board, host)?;
-            compared.bench = Some(Bench::new(&measured.output, sizes)?);
+            compared.bench = Some(Bench::new(&measured.output, &spans, sizes)?);
         }
         boards.push(compared);
     }

@@ -11,6 +11,7 @@ pub mod growth;
 use crate::accuracy::solve;
 use crate::firmware::{KernelRun, LinesRun, Output, Sections};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 
 /// A cost: less is better.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,11 +106,15 @@ pub struct Bench {
 }
 
 impl Bench {
-    /// From what the firmware printed.
+    /// From what the firmware printed; `spans` are those of [`growth::spans`].
     ///
     /// # Errors
     /// When a kernel did not run twice, or a scene has no lines.
-    pub fn new(output: &Output, sizes: Vec<Size>) -> Result<Self, String> {
+    pub fn new(
+        output: &Output,
+        spans: &BTreeMap<u64, u64>,
+        sizes: Vec<Size>,
+    ) -> Result<Self, String> {
         let mut kernels: Vec<Kernel> = Vec::new();
         for run in &output.kernels {
             if kernels.iter().any(|kernel| kernel.name == run.name) {
@@ -140,7 +145,7 @@ impl Bench {
                 })
                 .collect(),
             lines: lines.ok_or("a scene has no lines")?,
-            growth: growth::curves(&output.growth),
+            growth: growth::curves(&output.growth, spans)?,
             sizes,
         })
     }
@@ -250,15 +255,16 @@ impl Bench {
                 l.scene, l.pass_one, l.median, l.p99, l.worst, l.worst_line
             );
         }
-        println!("  sphere     triangles     instr   a triangle");
+        println!("  sphere     triangles     instr   a triangle  a span");
         for curve in &self.growth {
             for point in &curve.points {
                 println!(
-                    "    {:4} slots {:>7} {:>9} {:>10.1}",
+                    "    {:4} slots {:>7} {:>9} {:>10.1} {:>10.1}",
                     curve.slots,
-                    point.triangles,
+                    point.run.triangles,
                     point.instructions(),
-                    point.per_triangle()
+                    point.per_triangle(),
+                    point.per_span()
                 );
             }
         }
