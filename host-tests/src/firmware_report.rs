@@ -12,8 +12,9 @@ use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineMemory, LineRenderer, Link, ObjectOf,
-    Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
+    Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, LineMemory,
+    LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory, SpanRecord,
+    VertexOf, draw_frame,
 };
 use scenes::{HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VARIANTS, VERTICES, WIDTH};
 use serde_json::{Value, json};
@@ -201,8 +202,28 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
 /// Lines that one transfer takes.
 const LINES: u16 = 3;
 
+/// What the frames of the shots have: pixels, spans and triangles, by name.
+///
+/// # Errors
+/// When a shot does not fit the arenas that it asks for.
+pub fn host_counts() -> Result<BTreeMap<&'static str, FrameStats>, Box<dyn Error>> {
+    let mut counts = BTreeMap::new();
+    for shot in SHOTS.into_iter().chain(STACKS) {
+        let drawn = drawn::<Counted<GouraudDepth<Rgb565Be>>>(shot)?;
+        counts.insert(shot.name(), drawn.1);
+    }
+    Ok(counts)
+}
+
 /// The bytes of a shot in scan-out order.
 fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    drawn::<P>(shot).map(|(bytes, _)| bytes)
+}
+
+/// The bytes of a shot in scan-out order, and what the frame had.
+fn drawn<P: Pipeline<Pixel = Rgb565Be>>(
+    shot: Shot,
+) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>> {
     use scanbeam::LineDepth;
     const SLOTS: usize = 64;
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
@@ -215,10 +236,12 @@ fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Er
         depth: &mut depth,
         spans: &mut spans,
     });
-    shown::<P>(shot, |scene, pump, background| {
-        draw_frame(scene, &mut renderer, pump, background, LINES)?;
+    let mut stats = FrameStats::default();
+    let bytes = shown::<P>(shot, |scene, pump, background| {
+        stats = draw_frame(scene, &mut renderer, pump, background, LINES)?;
         Ok(())
-    })
+    })?;
+    Ok((bytes, stats))
 }
 
 /// The bytes of a shot as the hardware model draws it.
@@ -266,12 +289,14 @@ struct Compared {
     measured: Measured,
     /// Name, host's checksum, target's checksum, instructions.
     frames: Vec<(String, u32, u32, u64)>,
+    /// What the frames of the shots have.
+    counts: BTreeMap<&'static str, FrameStats>,
     /// What `--bench` measures.
     bench: Option<Bench>,
 }
 
 impl Compared {
-    fn new(measured: Measured, host: &BTreeMap<&str, u32>) -> Result<Self, String> {
+    fn new(measured: Measured, host: &BTreeMap<&str, u32>) -> Result<Self, Box<dyn Error>> {
         let name = measured.board.name;
         let mut frames = Vec::new();
         for frame in &measured.output.frames {
@@ -281,15 +306,12 @@ impl Compared {
             frames.push((frame.scene.clone(), *host, frame.crc, frame.instructions));
         }
         if frames.len() != host.len() {
-            return Err(format!(
-                "{name}: drew {} frames of {}",
-                frames.len(),
-                host.len()
-            ));
+            return Err(format!("{name}: drew {} frames of {}", frames.len(), host.len()).into());
         }
         Ok(Self {
             measured,
             frames,
+            counts: host_counts()?,
             bench: None,
         })
     }
@@ -306,7 +328,14 @@ impl Compared {
             .frames
             .iter()
             .map(|(scene, host, target, instructions)| {
+                let stats = self.counts.get(scene.as_str());
+                let each = |of: fn(&FrameStats) -> u32| {
+                    stats.map(|stats| *instructions as f64 / f64::from(of(stats).max(1)))
+                };
                 json!({
+                    "per_pixel": each(|stats| stats.spans.pixels_shaded),
+                    "per_span": each(|stats| stats.spans.spans),
+                    "per_triangle": each(|stats| stats.pass_one.triangles),
                     "scene": scene,
                     "crc_host": format!("{host:08x}"),
                     "crc_target": format!("{target:08x}"),
