@@ -3,6 +3,10 @@
 //! [`parse`] gives a [`Command`] whose values hold together (the view has been through [`View::check`]), or a
 //! [`Stop`]: text to print and the exit code. Refusals are one line.
 
+mod bench;
+
+pub use bench::{BenchArgs, FirmwareArgs};
+
 use crate::image_out::ImageFormat;
 use crate::reference::{Cull, Shade, View};
 use clap::error::ErrorKind;
@@ -51,6 +55,8 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
+    /// Count and time frames on this machine, beside other renderers
+    Bench(BenchArgs),
 }
 
 /// How a pixel is sent to the display.
@@ -275,14 +281,6 @@ pub struct CacheArgs {
 /// Flags of `accuracy`: those of `cache`.
 pub type AccuracyArgs = CacheArgs;
 
-/// Flags of `firmware`.
-#[derive(Debug, Clone, PartialEq, Eq, Args)]
-pub struct FirmwareArgs {
-    /// Print the figures as JSON
-    #[arg(long)]
-    pub json: bool,
-}
-
 /// Why no command is to be run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stop {
@@ -309,9 +307,11 @@ where
     let checked = match &command {
         Command::Render(render) => render.check(),
         Command::Trace(trace) => trace.check(),
-        Command::Demo(_) | Command::Cache(_) | Command::Accuracy(_) | Command::Firmware(_) => {
-            Ok(())
-        }
+        Command::Demo(_)
+        | Command::Cache(_)
+        | Command::Accuracy(_)
+        | Command::Firmware(_)
+        | Command::Bench(_) => Ok(()),
     };
     checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
     Ok(command)
@@ -407,14 +407,26 @@ mod tests {
             output: None,
         };
         assert_eq!(words("cache"), Ok(Command::Cache(plain)));
-        assert_eq!(
-            words("firmware"),
-            Ok(Command::Firmware(FirmwareArgs { json: false }))
-        );
-        assert_eq!(
-            words("firmware --json"),
-            Ok(Command::Firmware(FirmwareArgs { json: true }))
-        );
+        let firmware = |json, bench, bless| FirmwareArgs {
+            json,
+            bench,
+            bless,
+            output: None,
+        };
+        for (line, args) in [
+            ("firmware", firmware(false, false, false)),
+            ("firmware --json", firmware(true, false, false)),
+            ("firmware --bench", firmware(false, true, false)),
+            ("firmware --bench --bless", firmware(false, true, true)),
+        ] {
+            assert_eq!(words(line), Ok(Command::Firmware(args)));
+        }
+        assert!(matches!(words("firmware --bless"), Err(Stop::Refused(_))));
+        let peers = BenchArgs {
+            peers: true,
+            ..BenchArgs::default()
+        };
+        assert_eq!(words("bench --peers"), Ok(Command::Bench(peers)));
     }
 
     #[test]

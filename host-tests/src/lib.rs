@@ -2,10 +2,12 @@
 
 pub mod accuracy;
 pub mod args;
+pub mod bench;
 pub mod cache_report;
 pub mod crew;
 pub mod demo;
 pub mod draw;
+pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;

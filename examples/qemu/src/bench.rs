@@ -1,20 +1,33 @@
-//! The kernels of the accuracy report, each alone, over long and over short spans: two equations
+//! What things cost, by instructions.
+//!
+//! | file | there |
+//! |---|---|
+//! | `lines.rs` | each line of a scene (X8), and pass one |
+//! | `units.rs` | an active line, a span's entry, a triangle's set-up, a vertex |
+//! | `growth.rs` | spheres of 72 to 20,000 triangles |
+//!
+//! Here are the kernels of the accuracy report, each alone, over long and over short spans: two equations
 //! for what a pixel and what a span costs.
 //!
 //! All but LIRP are what the line renderer runs: a right triangle of [`LINES`] lines that is alone
 //! on the picture, drawn once it is set up. What a span costs is then all that is not the pixels:
 //! the line's entry, the active list, the edges, the planes' values.
 
+mod growth;
+mod lines;
+mod units;
+
 use crate::console::Console;
 use crate::count::Counter;
+use crate::rooms::Rooms;
 use core::hint::black_box;
 use scanbeam::model::{
     ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };
 use scanbeam::{
-    Camera, Counted, Cull, DepthUse, Faces, FlatPainter, GouraudDepth, GouraudPainter, Instance,
-    LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888, Scene,
-    SceneMemory, SceneVertex, Screen, SpanCounts, WordOf,
+    Camera, Counted, Cull, DepthUse, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
+    Instance, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888,
+    Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.
@@ -26,8 +39,16 @@ const WIDEST: [i32; 2] = [63, 320];
 /// Widest spans where they are to be short.
 const SHORT: i32 = 8;
 
+/// Measures everything and prints it.
+pub(crate) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    kernels(counter, console);
+    units::run(counter, console);
+    lines::run(counter, console, rooms);
+    growth::run(counter, console, rooms);
+}
+
 /// Times all kernels and prints them.
-pub(crate) fn run(counter: &Counter, console: &mut Console) {
+fn kernels(counter: &Counter, console: &mut Console) {
     let mut print = |name: &str, (instructions, counts): (u64, SpanCounts)| {
         console.line(format_args!(
             "kernel name={name} pixels={} spans={} instructions={instructions}",
@@ -56,6 +77,7 @@ pub(crate) fn run(counter: &Counter, console: &mut Console) {
                 planes::<FlatPainter<Rgb565>>(at, counter),
             );
             if !small {
+                print("flat_565_depth", planes::<FlatDepth<Rgb565>>(at, counter));
                 print("model_565", model(at, counter));
             }
         }

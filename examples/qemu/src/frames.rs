@@ -9,7 +9,7 @@ use scanbeam::{
     Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
 };
-use scenes::{SHOTS, STRESS, Shot, VARIANTS, Variant};
+use scenes::{SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -50,7 +50,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         },
         way,
     };
-    let shots = SHOTS.into_iter().chain(STRESS);
+    let shots = SHOTS.into_iter().chain(STACKS).chain(STRESS);
     let variants = VARIANTS.into_iter().map(|how| Frame {
         name: how.name,
         how,
@@ -73,17 +73,21 @@ impl Frame {
         let buffers = rooms.lines.take().expect("the last frame gave them back");
         let mut pump = Pump::new(Emit { emit, sent: None }, buffers);
         match self.way {
-            Way::Faceted => draw_as::<Faceted>(&self.how, &mut rooms.faceted, &mut pump),
+            Way::Faceted => {
+                let rooms = &mut rooms.faceted;
+                draw_as::<Faceted, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
+            }
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
-                draw_as::<Smooth>(&self.how, &mut rooms.smooth, &mut pump);
+                let rooms = &mut rooms.smooth;
+                draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
             }
             Way::Smooth => {
                 // The larger cache, and the second link column and line of depth.
                 let [small, large] = [&mut rooms.smooth, &mut rooms.second];
                 core::mem::swap(&mut small.slots, &mut large.slots);
                 if self.how.renderers == 1 {
-                    draw_as::<Smooth>(&self.how, small, &mut pump);
+                    draw_as::<Smooth, _>(&self.how, small, &mut pump, LINES_PER_TRANSFER);
                 } else {
                     draw_by_two(&self.how, small, large, &mut pump);
                 }
@@ -96,11 +100,16 @@ impl Frame {
     }
 }
 
-fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
+/// Draws a shot alone, as `how` says, so many lines a transfer.
+pub(crate) fn draw_as<P, D>(
     how: &Variant,
     rooms: &mut RoomsOf<P>,
-    pump: &mut Pump<Emit<'_>>,
-) {
+    pump: &mut Pump<D>,
+    lines_per_transfer: u16,
+) where
+    P: Pipeline<Pixel = Rgb565Be>,
+    D: ScanoutDma<Buf = &'static mut [u16]>,
+{
     let mut scene = Scene::<P>::new(
         Shot::screen(),
         SceneMemory {
@@ -119,7 +128,7 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
     });
     renderer.set_prefetch(how.prefetch);
     let background = Rgb565Be::from_rgb8(how.shot.background());
-    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+    draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

@@ -1,7 +1,7 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
-use core::ptr;
+use crate::lend::lend;
 use scanbeam::{
     CellOf, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, Scene, SceneMemory,
     SceneVertex, SlotOf, VertexOf,
@@ -9,38 +9,6 @@ use scanbeam::{
 use scenes::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline, Shot, VERTICES, WIDTH,
 };
-
-/// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
-/// `&'static mut` slice. Each place in the source can lend once; a second time panics.
-macro_rules! lend {
-    ($section:literal, $element:ty, $len:expr, $value:expr) => {{
-        use core::{
-            mem::MaybeUninit,
-            sync::atomic::{AtomicBool, Ordering},
-        };
-        type Room = [MaybeUninit<$element>; $len];
-        // Beside the room, not in it: the sections are not cleared at start-up.
-        static TAKEN: AtomicBool = AtomicBool::new(false);
-        #[unsafe(link_section = $section)]
-        static mut ROOM: Room = [const { MaybeUninit::uninit() }; $len];
-        // Not swap: ARMv6-M has none.
-        let taken = cortex_m::interrupt::free(|_| {
-            let taken = TAKEN.load(Ordering::Relaxed);
-            TAKEN.store(true, Ordering::Relaxed);
-            taken
-        });
-        assert!(!taken, "lent twice");
-        // SAFETY: `TAKEN` lets one caller ever come here, so this is the only reference.
-        let room: &'static mut Room = unsafe { &mut *(&raw mut ROOM) };
-        for element in room.iter_mut() {
-            element.write($value);
-        }
-        // SAFETY: every element was written just above.
-        let lent: &'static mut [$element] =
-            unsafe { &mut *(ptr::from_mut::<[MaybeUninit<$element>]>(room) as *mut [$element]) };
-        lent
-    }};
-}
 
 /// Slots of the object cache.
 pub(crate) const SLOTS: usize = 43;

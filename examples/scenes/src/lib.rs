@@ -15,14 +15,17 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod octasphere;
 mod sheet;
 mod shots;
 mod stress;
 mod texels;
 
+pub use octasphere::{OCTASPHERES, Octasphere};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
-    HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
+    HEIGHT, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS, Shot, ShotError,
+    VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
 };
 pub use stress::STRESS;
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};

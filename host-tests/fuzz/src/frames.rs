@@ -2,10 +2,10 @@
 
 use arbitrary::{Result, Unstructured};
 use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Faces, FlatDepth, FlatPainter, GouraudDepth,
-    GouraudPainter, Instance, Interleave, Light, LineDepth, LineMemory, LineRenderer, Link, Mesh,
-    ObjectOf, Pipeline, PixelFormat, QuadSplit, Rgb565, Rgb565Be, Rgb888, Scene, SceneMemory,
-    Screen, SpanRecord, VertexOf, WordOf,
+    Affine, Camera, CameraError, Cull, DepthUse, DrawError, Faces, FlatDepth, FlatPainter,
+    GouraudDepth, GouraudPainter, Instance, Interleave, Light, LineDepth, LineMemory, LineRenderer,
+    Link, Mesh, ObjectOf, Pipeline, PixelFormat, QuadSplit, Rgb565, Rgb565Be, Rgb888, Scene,
+    SceneMemory, Screen, VertexOf, WordOf,
 };
 
 /// Longest side of a picture.
@@ -30,7 +30,7 @@ struct Model {
 #[derive(Debug)]
 struct Way {
     slots: usize,
-    spans: usize,
+    depth_use: DepthUse,
     renderers: u16,
     prefetch: u32,
     /// Where lines begin, and the step to the next, modulo the height.
@@ -217,7 +217,7 @@ impl Case {
             camera,
             way: Way {
                 slots: u.int_in_range(0..=12)?,
-                spans: u.int_in_range(0..=12)?,
+                depth_use: *u.choose(&[DepthUse::WhereNeeded, DepthUse::Always])?,
                 renderers: u.int_in_range(1..=3)?,
                 prefetch: u.int_in_range(0..=300)?,
                 order,
@@ -258,7 +258,7 @@ impl Case {
 
         let plenty = Way {
             slots: 128,
-            spans: 128,
+            depth_use: DepthUse::Always,
             renderers: 1,
             prefetch: 0,
             order: None,
@@ -328,16 +328,15 @@ impl Way {
             let mut slots = vec![LineRenderer::<P>::empty_slot(); self.slots];
             let mut links = vec![Link::NONE; links];
             let mut depth = vec![P::Depth::FARTHEST; usize::from(width)];
-            let mut spans = vec![SpanRecord::default(); self.spans];
             let mut renderer = LineRenderer::new(LineMemory {
                 slots: &mut slots,
                 links: &mut links,
                 depth: &mut depth,
-                spans: &mut spans,
             });
             let turn = Interleave::lines(self.renderers, offset).expect("below the step");
             renderer.set_interleave(turn);
             renderer.set_prefetch(self.prefetch);
+            renderer.set_depth_use(self.depth_use);
             for i in 0..height {
                 let line = match self.order {
                     // A step without a common factor with the height meets every line once.

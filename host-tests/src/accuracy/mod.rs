@@ -27,6 +27,7 @@ use crate::args::AccuracyArgs;
 use crate::image_out::{write_atomically, write_image};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use cost::Costs;
+pub(crate) use cost::solve;
 use serde_json::{Value, json};
 use std::error::Error;
 
