@@ -180,14 +180,18 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, ObjectOf,
-    Parts, Pipeline, SlotOf, VertexOf, WordOf,
+    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
+    Interpolated, ObjectOf, Parts, Pipeline, SlotOf, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DrawError, FrameError, FrameStats, Input, InputError, InputQueue, Instance,
     LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched, Relay,
     RendererError, Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, draw_frame,
     send_frame,
+};
+pub use shade::{
+    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
+    Packed16, Precision, Quality, QuarterRate,
 };
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

@@ -7,6 +7,7 @@ use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
 use crate::geometry::{Drawable, Parameters};
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
+use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::LineDepth;
@@ -141,6 +142,7 @@ pub struct LineRenderer<'m, P: Pipeline> {
     /// Bytes a line that are fetched ahead where the renderer has the time.
     pub(super) prefetch: u32,
     counter: P::Counter,
+    interpolation: P::Interpolation,
 }
 
 impl<L> Member for Drawable<L> {
@@ -164,7 +166,14 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             interleave: Interleave::ALL,
             prefetch: 0,
             counter: P::Counter::default(),
+            interpolation: P::Interpolation::default(),
         }
+    }
+
+    /// States how far the picture may be off; only pipelines that choose listen, such as those
+    /// with [`Auto`](crate::Auto).
+    pub fn set_quality(&mut self, quality: Quality) {
+        self.interpolation.set_quality(quality);
     }
 
     /// An empty slot, to fill a cache with.
@@ -278,6 +287,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             left,
             thin: 0,
             counter: &mut self.counter,
+            interpolation: self.interpolation,
         };
         if P::Depth::TESTS {
             pass.clear();
@@ -377,6 +387,7 @@ struct LinePass<'a, 's, P: Pipeline> {
     /// Triangles drawn from their corners in slow memory.
     thin: u32,
     counter: &'a mut P::Counter,
+    interpolation: P::Interpolation,
 }
 
 impl<P: Pipeline> LinePass<'_, '_, P> {
@@ -474,7 +485,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 body,
                 span,
                 (pixels, cells),
-                self.counter,
+                (self.interpolation, self.counter),
             );
         }
     }

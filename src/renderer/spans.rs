@@ -4,7 +4,7 @@ use super::scene::Scene;
 use crate::composite::{PixelFormat, paint};
 use crate::geometry::{Parameters, Scale, at_pixel};
 use crate::pipeline::{CellOf, DrawableOf, Pipeline, WordOf};
-use crate::shade::Levels;
+use crate::shade::{Forward, Levels};
 use crate::span::Span;
 use crate::stats::SpanCounter;
 use crate::visible::{Everywhere, LineDepth, Tested};
@@ -23,7 +23,7 @@ pub(super) fn draw_span<P: Pipeline>(
     drawable: &DrawableOf<P>,
     span: Span,
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
-    counter: &mut P::Counter,
+    (interpolation, counter): (P::Interpolation, &mut P::Counter),
 ) {
     let Parameters::Planes(plane, levels) = &drawable.parameters else {
         draw_thin(scene, object, span, (pixels, cells), counter);
@@ -34,14 +34,15 @@ pub(super) fn draw_span<P: Pipeline>(
     let tested = cells.is_some();
     let seen = match cells {
         Some(cells) => {
-            let tests = Tested::<P::Depth> {
-                cells,
-                depth: plane.at(span.column, span.line) as u32,
-                step: plane.dx as u32,
-            };
-            paint::<P::Pixel>(pixels, stretch, tests)
+            let depth = plane.at(span.column, span.line) as u32;
+            let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
+            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut tests);
+            tests.seen()
         }
-        None => paint::<P::Pixel>(pixels, stretch, Everywhere),
+        None => {
+            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut Everywhere);
+            count
+        }
     };
     counter.span(seen, count - seen, tested);
 }
@@ -69,11 +70,13 @@ fn draw_thin<P: Pipeline>(
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
         let cell = cells.as_mut().and_then(|cells| cells.get_mut(i));
         if cell.is_none_or(|cell| P::Depth::test(cell, depth)) {
-            seen += paint::<P::Pixel>(
+            paint::<P::Pixel, _>(
                 &mut pixels[i..=i],
                 levels.stretch(column, span.line),
-                Everywhere,
+                Forward,
+                &mut Everywhere,
             );
+            seen += 1;
         }
     }
     counter.span(seen, count - seen, cells.is_some());
