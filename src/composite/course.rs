@@ -9,6 +9,9 @@ const BELOW_FIELD: [u32; 3] = [5, 5, 6];
 /// Colours of a span at the present place, and the way on. All sums wrap; the colours at covered
 /// pixels and between them are right.
 pub(super) trait Course: Copy {
+    /// Whether two words are all that there is.
+    const WORDS: bool;
+
     /// Red and blue, and green in the upper half, 16 bits a channel; what is below is cut off.
     fn words(&self) -> (u32, u32);
 
@@ -78,6 +81,8 @@ fn fields(step: [i32; 3], more: [u32; 3]) -> i32 {
 }
 
 impl Course for Words {
+    const WORDS: bool = true;
+
     #[inline(always)]
     fn words(&self) -> (u32, u32) {
         (self.red_blue as u32, self.green as u32)
@@ -151,6 +156,8 @@ impl Wide {
 }
 
 impl Course for Wide {
+    const WORDS: bool = false;
+
     #[inline(always)]
     fn words(&self) -> (u32, u32) {
         let [r, g, b] = [0, 1, 2].map(|i| (self.at[i] as u32) >> self.bits[i]);

@@ -28,6 +28,8 @@ pub trait PixelFormat {
 
     /// What a [`Ramp`](PixelFormat::Ramp) errs.
     const PRECISION: Precision;
+    /// Whether a ramp has fewer bits than the two words that it starts from.
+    const CUTS: bool;
 
     /// A pixel from whole steps, each at most [`STEPS`](PixelFormat::STEPS).
     fn pack(steps: [u8; 3]) -> Self::Word;
@@ -98,6 +100,7 @@ impl PixelFormat for Rgb888 {
     const STEPS: [u16; 3] = [255; 3];
     /// All that there is for a small triangle; of a large one, what its 16.16 has beyond 8.8.
     const PRECISION: Precision = Precision { unit: 1, drift: 1 };
+    const CUTS: bool = false;
 
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> [u8; 3] {
@@ -144,6 +147,7 @@ impl PixelFormat for Rgb565 {
         unit: 64,
         drift: 32,
     };
+    const CUTS: bool = true;
 
     #[inline(always)]
     fn pack(s: [u8; 3]) -> u16 {
@@ -197,6 +201,7 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     type Word = u16;
     const STEPS: [u16; 3] = Rgb565::STEPS;
     const PRECISION: Precision = Rgb565::PRECISION;
+    const CUTS: bool = Rgb565::CUTS;
 
     #[inline(always)]
     fn pack(s: [u8; 3]) -> u16 {

@@ -47,7 +47,10 @@ fn by_choice<F: PixelFormat, I: Interpolation, C: Course>(
     // One or two pixels need no method, and steps of two fields cannot be told apart there.
     let short = pixels.len() < 3;
     let slope = || course.slope();
+    // A ramp that has all bits of its two words is these words.
+    let same = C::WORDS && !F::CUTS;
     match interpolation.method(pixels.len() as u32, slope, F::PRECISION) {
+        Method::Packed8 | Method::Packed16 if same => course.forward::<F>(pixels, visible),
         Method::Forward => course.forward::<F>(pixels, visible),
         Method::Half if !short => rate::<F, C, 2, 8>(pixels, course, visible),
         Method::Quarter if !short => rate::<F, C, 4, 16>(pixels, course, visible),

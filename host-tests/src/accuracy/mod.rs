@@ -3,20 +3,22 @@
 //! | file | there |
 //! |---|---|
 //! | `stage.rs` | triangles whose corners lie on chosen places of the screen, drawn by any pipeline |
-//! | `spans.rs` | family `interpolation`: colour along spans |
+//! | `methods.rs` | the interpolation methods by name |
+//! | `spans.rs` | family `interpolation`: colour along spans, by every method |
 //! | `coverage.rs` | family `coverage`: which pixels a triangle has |
-//! | `depth.rs` | families `depth order` and `depth planes` |
-//! | `frames.rs` | family `frame`: whole scenes |
+//! | `depth.rs` | family `depth`: which surface is in front, and how exact planes of depth are |
+//! | `frames.rs` | whole scenes: family `interpolation` by every method, family `frame` beside the model |
 //! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |
-//! | `scatter.rs` | the plot |
+//! | `scatter.rs` | the plots, one for each family, or for each case of a large one |
 //!
 //! Every random choice comes from a generator with a fixed seed, so the figures are the same in
-//! every run. A row is there only if its figures were measured by code of this crate that runs.
+//! every run. Family `texture` comes with texturing. A row is there only if its figures were measured by code of this crate that runs.
 
 mod cost;
 mod coverage;
 mod depth;
 mod frames;
+mod methods;
 mod scatter;
 mod spans;
 mod stage;
@@ -70,7 +72,7 @@ type Name = (
 );
 
 /// Errors of a method as they come in.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 struct Errors(Vec<f32>);
 
 impl Errors {
@@ -190,9 +192,11 @@ pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder)
             .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
-        let plot = scatter::plot(&rows);
-        write_atomically(&folder.join("accuracy.svg"), plot.to_svg().as_bytes())?;
-        write_image(&folder.join("accuracy.png"), &plot.to_frame())?;
+        for (name, plot) in scatter::plots(&rows) {
+            let file = |extension: &str| folder.join(format!("{name}.{extension}"));
+            write_atomically(&file("svg"), plot.to_svg().as_bytes())?;
+            write_image(&file("png"), &plot.to_frame())?;
+        }
     }
     Ok(())
 }
