@@ -3,6 +3,7 @@
 use crate::args::FirmwareArgs;
 use crate::draw::ModelLines;
 use crate::firmware::{self, BOARDS, Measured, Profile, Toolchain};
+use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
@@ -64,6 +65,10 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
         frames.insert(variant.name, crc32fast::hash(&plain));
+    }
+    for (name, words) in method_frames()? {
+        let bytes: Vec<u8> = words.into_iter().flat_map(u16::to_ne_bytes).collect();
+        frames.insert(name, crc32fast::hash(&bytes));
     }
     Ok(frames)
 }

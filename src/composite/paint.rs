@@ -111,9 +111,35 @@ fn array<W, const N: usize>(chunk: &mut [W]) -> Option<&mut [W; N]> {
     chunk.try_into().ok()
 }
 
-/// A packed ramp, anchored anew every `RUN` pixels.
-#[inline(never)]
+/// A packed ramp, anchored anew every `RUN` pixels. Most spans of a mesh are shorter than that,
+/// and are drawn in place.
+#[inline(always)]
 fn packed<F: PixelFormat, C: Course, const RUN: usize>(
+    pixels: &mut [F::Word],
+    course: &C,
+    visible: &mut impl Visible,
+) {
+    if C::WORDS && pixels.len() < 8 {
+        part::<F>(pixels, course.ramp::<F>(), visible);
+    } else {
+        runs::<F, C, RUN>(pixels, course, visible);
+    }
+}
+
+/// The pixels from an anchor on.
+#[inline(always)]
+fn part<F: PixelFormat>(pixels: &mut [F::Word], mut ramp: F::Ramp, visible: &mut impl Visible) {
+    visible.each(pixels, |pixel, shown| {
+        if shown {
+            *pixel = F::ramp_pixel(&ramp);
+        }
+        F::ramp_step(&mut ramp);
+    });
+}
+
+/// Out of line: what is around a span would take its registers.
+#[inline(never)]
+fn runs<F: PixelFormat, C: Course, const RUN: usize>(
     pixels: &mut [F::Word],
     course: &C,
     visible: &mut impl Visible,
@@ -130,13 +156,7 @@ fn packed<F: PixelFormat, C: Course, const RUN: usize>(
         });
         course.advance(RUN as u32);
     }
-    let mut ramp = course.ramp::<F>();
-    visible.each(runs.into_remainder(), |pixel, shown| {
-        if shown {
-            *pixel = F::ramp_pixel(&ramp);
-        }
-        F::ramp_step(&mut ramp);
-    });
+    part::<F>(runs.into_remainder(), course.ramp::<F>(), visible);
 }
 
 /// One colour for `N` pixels, that of their middle, by a ramp that steps from group to group and

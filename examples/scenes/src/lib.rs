@@ -15,9 +15,13 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod methods;
 mod sheet;
 mod shots;
 
+pub use methods::{
+    DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
+};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,

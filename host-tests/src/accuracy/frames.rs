@@ -48,15 +48,13 @@ fn model_of(mesh: &Mesh<'_>) -> Model {
 
 /// A method's pictures in both formats, or the model's.
 struct Drawer {
-    name: &'static str,
     interp: InterpArg,
     crew: CrewSettings,
     errors: [Errors; 2],
 }
 
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
-    let drawer = |name, interp, quality| Drawer {
-        name,
+    let drawer = |interp, quality| Drawer {
         interp,
         crew: CrewSettings {
             quality,
@@ -66,9 +64,9 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     };
     let mut drawers: Vec<Drawer> = METHODS
         .iter()
-        .map(|m| drawer(m.name, m.interp, m.quality))
+        .map(|m| drawer(m.interp, m.quality))
         .collect();
-    drawers.push(drawer("model", InterpArg::Model, Quality::exact()));
+    drawers.push(drawer(InterpArg::Model, Quality::exact()));
     for (mesh, shade) in [
         (&TEAPOT, Shade::Gouraud),
         (&SPHERE, Shade::Gouraud),

@@ -141,6 +141,9 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
     Ok(rows)
 }
 
+/// Instructions a pixel that are not told apart: ticks of the counter, and where code lies.
+const EQUAL_COST: f64 = 0.1;
+
 /// Marks the rows that are on the frontier of cost and largest error among their likes.
 pub fn mark_frontier(rows: &mut [Row]) {
     let alike = |a: &Row, b: &Row| (a.family, a.case, a.unit) == (b.family, b.case, b.unit);
@@ -151,7 +154,9 @@ pub fn mark_frontier(rows: &mut [Row]) {
                 !rows.iter().any(|other| {
                     alike(row, other)
                         && other.per_pixel.is_some_and(|c| {
-                            c <= cost && other.max <= row.max && (c < cost || other.max < row.max)
+                            c <= cost + EQUAL_COST
+                                && other.max <= row.max
+                                && (c < cost - EQUAL_COST || other.max < row.max)
                         })
                 })
             })
