@@ -47,8 +47,13 @@ fn by_choice<F: PixelFormat, I: Interpolation, C: Course>(
     // One or two pixels need no method, and steps of two fields cannot be told apart there.
     let short = pixels.len() < 3;
     let slope = || course.slope();
-    // A ramp that has all bits of its two words is these words.
-    let same = C::WORDS && !F::CUTS;
+    // A ramp that has all bits of its two words is these words; and to pack three channels pays
+    // from 14 pixels on, seen or not: what is tested must have the same bits.
+    let same = if C::WORDS {
+        !F::CUTS
+    } else {
+        pixels.len() < 16
+    };
     match interpolation.method(pixels.len() as u32, slope, F::PRECISION) {
         Method::Packed8 | Method::Packed16 if same => course.forward::<F>(pixels, visible),
         Method::Forward => course.forward::<F>(pixels, visible),
@@ -111,19 +116,30 @@ fn array<W, const N: usize>(chunk: &mut [W]) -> Option<&mut [W; N]> {
     chunk.try_into().ok()
 }
 
-/// A packed ramp, anchored anew every `RUN` pixels. Most spans of a mesh are shorter than that,
-/// and are drawn in place.
+/// A packed ramp, anchored anew every `RUN` pixels.
+///
+/// In place for small triangles that are seen, whose spans are so short that a call would show
+/// (20 instructions); else out of line, as what is around a span would take its registers.
 #[inline(always)]
 fn packed<F: PixelFormat, C: Course, const RUN: usize>(
     pixels: &mut [F::Word],
     course: &C,
     visible: &mut impl Visible,
 ) {
-    if C::WORDS && pixels.len() < 8 {
-        part::<F>(pixels, course.ramp::<F>(), visible);
-    } else {
+    if C::WORDS && all_seen(visible) {
         runs::<F, C, RUN>(pixels, course, visible);
+    } else {
+        runs_apart::<F, C, RUN>(pixels, course, visible);
     }
+}
+
+#[inline(never)]
+fn runs_apart<F: PixelFormat, C: Course, const RUN: usize>(
+    pixels: &mut [F::Word],
+    course: &C,
+    visible: &mut impl Visible,
+) {
+    runs::<F, C, RUN>(pixels, course, visible);
 }
 
 /// The pixels from an anchor on.
@@ -137,8 +153,8 @@ fn part<F: PixelFormat>(pixels: &mut [F::Word], mut ramp: F::Ramp, visible: &mut
     });
 }
 
-/// Out of line: what is around a span would take its registers.
-#[inline(never)]
+/// Whole runs, and what is left.
+#[inline(always)]
 fn runs<F: PixelFormat, C: Course, const RUN: usize>(
     pixels: &mut [F::Word],
     course: &C,
