@@ -129,6 +129,8 @@
 //! | K3 | screen in 13.3 | `num/mod.rs`, `geometry/camera.rs`, `geometry/project.rs` | `watertight.rs` |
 //! | K4 | edges exact, no gap, no pixel twice | `num/edge.rs`, `geometry/setup.rs`, `span/` | `watertight.rs`, `model_scenes.rs` |
 //! | K5 | any line alone | `renderer/lines.rs`, `num/plane.rs` | `lines_alone.rs`, `model_scenes.rs` |
+//! | K6, K7, P3 | colour along a span: LIRP, packed, forward, half and quarter rate | `shade/interpolation.rs`, `composite/` | `composite/tests.rs`, `host-tests/src/accuracy/` |
+//! | X2 | an error budget | `shade/quality.rs`, `shade/interpolation.rs` | `shade/interpolation.rs`, `composite/tests.rs`, `host-tests/src/accuracy/` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
 //! | C1, C2 | active objects are copied to the cache, and leave at once | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
@@ -187,8 +189,8 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, ObjectOf,
-    Parts, Pipeline, SlotOf, VertexOf, WordOf,
+    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
+    Interpolated, ObjectOf, Parts, Pipeline, SlotOf, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
@@ -197,5 +199,9 @@ pub use renderer::{
     send_frame,
 };
 pub use shade::texture;
+pub use shade::{
+    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
+    Packed16, Precision, Quality, QuarterRate,
+};
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

@@ -59,6 +59,7 @@ pub fn renderers<P: Pipeline>(
     for (renderer, offset) in renderers.iter_mut().zip(0..) {
         renderer.set_interleave(Interleave::lines(count, offset).unwrap_or_default());
         renderer.set_prefetch(settings.prefetch);
+        renderer.set_quality(settings.quality);
     }
     renderers
 }

@@ -8,6 +8,7 @@ use crate::firmware::{
     self, BOARDS, Board, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
 use crate::image_out::{write_atomically, write_image};
+use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
@@ -201,6 +202,10 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     for (name, swatch) in SWATCHES {
         let mut bytes = Vec::new();
         swatch.draw(|line| bytes.extend(line.iter().flat_map(|word| word.to_ne_bytes())));
+        frames.insert(name, crc32fast::hash(&bytes));
+    }
+    for (name, words) in method_frames()? {
+        let bytes: Vec<u8> = words.into_iter().flat_map(u16::to_ne_bytes).collect();
         frames.insert(name, crc32fast::hash(&bytes));
     }
     Ok(frames)

@@ -12,6 +12,7 @@ pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;
 pub mod memory_model;
+pub mod method_frames;
 pub mod mock;
 pub mod model;
 pub mod plot;

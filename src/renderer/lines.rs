@@ -7,6 +7,7 @@ use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
 use crate::geometry::{Drawable, Parameters};
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
+use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::LineDepth;
@@ -168,6 +169,7 @@ pub struct LineRenderer<'m, P: Pipeline> {
     /// Bytes a line that are fetched ahead where the renderer has the time.
     pub(super) prefetch: u32,
     counter: P::Counter,
+    interpolation: P::Interpolation,
 }
 
 impl<L> Member for Drawable<L> {
@@ -192,7 +194,14 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             interleave: Interleave::ALL,
             prefetch: 0,
             counter: P::Counter::default(),
+            interpolation: P::Interpolation::default(),
         }
+    }
+
+    /// States how far the picture may be off; only pipelines that choose listen, such as those
+    /// with [`Auto`](crate::Auto).
+    pub fn set_quality(&mut self, quality: Quality) {
+        self.interpolation.set_quality(quality);
     }
 
     /// An empty slot, to fill a cache with.
@@ -305,6 +314,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             left,
             thin: 0,
             counter: &mut self.counter,
+            interpolation: self.interpolation,
         };
         self.list.update(now, &mut pass);
         if self.list.is_empty() {
@@ -358,6 +368,7 @@ struct LinePass<'a, 's, P: Pipeline> {
     /// Triangles drawn from their corners in slow memory.
     thin: u32,
     counter: &'a mut P::Counter,
+    interpolation: P::Interpolation,
 }
 
 impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
@@ -382,7 +393,8 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
         };
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
-                draw_span::<P>((plane, levels), at, (pixels, cells), self.counter);
+                let how = (self.interpolation, &mut *self.counter);
+                draw_span::<P>((plane, levels), at, (pixels, cells), how);
             }
             Parameters::Corners => {
                 self.thin += 1;
@@ -491,7 +503,8 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             let at = (left + start as i32, line);
             match &slot.body().parameters {
                 Parameters::Planes(plane, levels) => {
-                    draw_span::<P>((plane, levels), at, (pixels, None), self.counter);
+                    let how = (self.interpolation, &mut *self.counter);
+                    draw_span::<P>((plane, levels), at, (pixels, None), how);
                 }
                 Parameters::Corners => {
                     self.thin += 1;

@@ -5,7 +5,7 @@ use crate::composite::{PixelFormat, paint};
 use crate::geometry::{Scale, at_pixel};
 use crate::num::Plane;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::Levels;
+use crate::shade::{Forward, Levels};
 use crate::stats::SpanCounter;
 use crate::visible::{Everywhere, LineDepth, Tested};
 
@@ -21,21 +21,22 @@ pub(super) fn draw_span<P: Pipeline>(
     (plane, levels): (&Plane, &LevelsOf<P>),
     (column, line): (i32, i32),
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
-    counter: &mut P::Counter,
+    (interpolation, counter): (P::Interpolation, &mut P::Counter),
 ) {
     let stretch = levels.stretch(column, line);
     let count = pixels.len() as u32;
     let tested = cells.is_some();
     let seen = match cells {
         Some(cells) => {
-            let tests = Tested::<P::Depth> {
-                cells,
-                depth: plane.at(column, line) as u32,
-                step: plane.dx as u32,
-            };
-            paint::<P::Pixel>(pixels, stretch, tests)
+            let depth = plane.at(column, line) as u32;
+            let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
+            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut tests);
+            tests.seen()
         }
-        None => paint::<P::Pixel>(pixels, stretch, Everywhere),
+        None => {
+            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut Everywhere);
+            count
+        }
     };
     counter.span(seen, count - seen, tested);
 }
@@ -63,7 +64,13 @@ pub(super) fn draw_thin<P: Pipeline>(
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
         let cell = cells.as_mut().and_then(|cells| cells.get_mut(i));
         if cell.is_none_or(|cell| P::Depth::test(cell, depth)) {
-            seen += paint::<P::Pixel>(&mut pixels[i..=i], levels.stretch(column, line), Everywhere);
+            paint::<P::Pixel, _>(
+                &mut pixels[i..=i],
+                levels.stretch(column, line),
+                Forward,
+                &mut Everywhere,
+            );
+            seen += 1;
         }
     }
     counter.span(seen, count - seen, cells.is_some());

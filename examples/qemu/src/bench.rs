@@ -15,6 +15,7 @@
 
 mod growth;
 mod lines;
+mod methods;
 mod units;
 
 use crate::console::Console;
@@ -61,15 +62,15 @@ fn kernels(counter: &Counter, console: &mut Console) {
             let at = (width, tall);
             let name = |a, b| if small { a } else { b };
             print(
-                name("packed_565", "channels_565"),
+                name("packed_565", "packed_565_large"),
                 planes::<GouraudPainter<Rgb565>>(at, counter),
             );
             print(
-                name("packed_888", "channels_888"),
+                name("packed_888", "packed_888_large"),
                 planes::<GouraudPainter<Rgb888>>(at, counter),
             );
             print(
-                name("packed_565_depth", "channels_565_depth"),
+                name("packed_565_depth", "packed_565_large_depth"),
                 planes::<GouraudDepth<Rgb565>>(at, counter),
             );
             print(
@@ -83,10 +84,11 @@ fn kernels(counter: &Counter, console: &mut Console) {
         }
     }
     for width in [WIDEST[1], SHORT] {
-        print("lirp_10", blend::<10>(width as u16, counter));
-        print("lirp_12", blend::<12>(width as u16, counter));
-        print("lirp_16", blend::<16>(width as u16, counter));
+        print("model_lirp_10", blend::<10>(width as u16, counter));
+        print("model_lirp_12", blend::<12>(width as u16, counter));
+        print("model_lirp_16", blend::<16>(width as u16, counter));
     }
+    methods::run(counter, console);
 }
 
 /// A right triangle as wide and as tall as said, in pixels, and what is counted on it.
@@ -207,10 +209,15 @@ fn with_scene<P: Pipeline, R>(
         [x << 15, -(y << 15), -1 << 30]
     };
     let positions = [vertex(0, 0), vertex(width, 0), vertex(0, tall)];
+    // The slope of colours is that of the widest triangle, or narrow ones would be too steep to be
+    // set up as small.
+    let widest = WIDEST[usize::from(tall > i32::from(LINES))];
+    let [left, right]: [[i32; 3]; 2] = [[255, 0, 30], [0, 200, 60]];
+    let right = [0, 1, 2].map(|i| left[i] + (right[i] - left[i]) * width / widest);
     let mesh = Mesh {
         positions: &positions,
         normals: &[],
-        colours: &[[255, 0, 30], [0, 200, 60], [90, 255, 255]],
+        colours: &[left, right, [90, 255, 255]].map(|c| c.map(|level| level as u8)),
         faces: Faces::Triangles(&[[0, 1, 2]]),
     };
     let instance = Instance {

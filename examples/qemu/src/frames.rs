@@ -6,10 +6,14 @@ use core::task::Poll;
 use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
-    Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
-    Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
+    Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, LineMemory,
+    LineRenderer, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory, draw_frame,
+    send_frame,
 };
-use scenes::{SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant};
+use scenes::{
+    DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant, build_method, by_method,
+    method_screen,
+};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -26,6 +30,8 @@ enum Way {
     Faceted,
     /// The hardware model, from a smooth scene.
     Model,
+    /// A small frame by this interpolation method of the scenes' table.
+    Method(usize),
 }
 
 /// One frame: how a shot is drawn.
@@ -64,6 +70,11 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
             plain("crossings_flat", Shot::Crossings, Way::Faceted),
         ])
         .chain(variants)
+        .chain(
+            (0..)
+                .zip(METHODS)
+                .map(move |(index, name)| plain(name, Shot::Quads, Way::Method(index))),
+        )
 }
 
 impl Frame {
@@ -78,6 +89,13 @@ impl Frame {
                 draw_as::<Faceted, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
             }
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
+            Way::Method(index) => by_method(
+                index,
+                &mut SmallFrame {
+                    rooms: &mut rooms.smooth,
+                    pump: &mut pump,
+                },
+            ),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 let rooms = &mut rooms.smooth;
                 draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
@@ -130,6 +148,37 @@ pub(crate) fn draw_as<P, D>(
     let background = Rgb565Be::from_rgb8(how.shot.background());
     draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
         .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// A small frame in the rooms of large ones.
+struct SmallFrame<'a, 'e> {
+    rooms: &'a mut RoomsOf<Smooth>,
+    pump: &'a mut Pump<Emit<'e>>,
+}
+
+impl DrawsMethod for SmallFrame<'_, '_> {
+    fn draw<I: Interpolation>(&mut self, quality: Quality) {
+        // Records are those of any method.
+        type By<I> = Interpolated<Smooth, I>;
+        let rooms = &mut *self.rooms;
+        let mut scene = Scene::<By<I>>::new(
+            method_screen(),
+            SceneMemory {
+                vertices: rooms.vertices,
+                objects: rooms.objects,
+                buckets: rooms.buckets,
+            },
+        );
+        build_method(&mut scene).expect("the rooms are large enough");
+        let mut renderer = LineRenderer::<By<I>>::new(LineMemory {
+            slots: rooms.slots,
+            links: rooms.links,
+            depth: rooms.depth,
+        });
+        renderer.set_quality(quality);
+        draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
+            .expect("the sink cannot fail and the rooms are large enough");
+    }
 }
 
 fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {

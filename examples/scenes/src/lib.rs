@@ -15,12 +15,16 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod methods;
 mod octasphere;
 mod sheet;
 mod shots;
 mod stress;
 mod texels;
 
+pub use methods::{
+    DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
+};
 pub use octasphere::{OCTASPHERES, Octasphere};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
