@@ -79,8 +79,8 @@ fn markdown(rows: &[Row], record: &Record) -> String {
         let cells: Vec<String> = BOARDS.iter().map(|board| of(board.name)).collect();
         let _ = writeln!(out, "| {title} | {} |", cells.join(" | "));
     }
-    out += "\nBeside other renderers in Rust, million instructions a frame on x86-64, and how many times as long as ours they take:\n\n";
-    out += "| scene | renderer | instructions | time |\n| --- | --- | ---: | ---: |\n";
+    out += "\nBeside other renderers in Rust, million instructions a frame on x86-64, and how many times as many instructions and as long as ours they take:\n\n";
+    out += "| scene | renderer | instructions | times ours | time, times ours |\n| --- | --- | ---: | ---: | ---: |\n";
     for row in rows {
         let Some((_, title)) = FRAMES.iter().find(|(frame, _)| *frame == row.scene) else {
             continue;
@@ -90,9 +90,11 @@ fn markdown(rows: &[Row], record: &Record) -> String {
         }
         let _ = writeln!(
             out,
-            "| {title} | {} | {} | {:.1} |",
+            "| {title} | {} | {} | {} | {:.1} |",
             row.renderer,
             millions(row.instructions),
+            row.instructions_ratio
+                .map_or("-".to_owned(), |ratio| format!("{ratio:.1}")),
             row.ratio
         );
     }
@@ -111,7 +113,7 @@ mod tests {
             pixels: 100,
             wall_ms: 1.0,
             ratio: 2.5,
-            instructions_ratio: None,
+            instructions_ratio: Some(2.0),
         }
     }
 
@@ -123,7 +125,7 @@ mod tests {
         let text = format!("a\n{open}\nold\n{close}\nb\n");
         let new = between(&text, &inner).unwrap();
         assert!(new.starts_with("a\n") && new.ends_with("\nb\n") && !new.contains("old"));
-        assert!(new.contains("| other | 3.00 | 2.5 |"), "{new}");
+        assert!(new.contains("| other | 3.00 | 2.0 | 2.5 |"), "{new}");
         assert_eq!(between(&new, &inner).unwrap(), new);
         assert!(between("nothing", &inner).is_err());
         let readme = include_str!("../../../README.md");
