@@ -291,9 +291,10 @@ impl<'m, T: Member> ActiveList<'m, T> {
     }
 
     /// Makes the list that of `line`, to be called once for each line that is drawn: takes out
-    /// what has ended, merges what has become active, and fills free slots.
+    /// what has ended, merges what has become active, and fills free slots. Whether it may have
+    /// changed.
     #[inline]
-    pub(crate) fn update(&mut self, line: i32, visitor: &mut impl Visitor<T>) {
+    pub(crate) fn update(&mut self, line: i32, visitor: &mut impl Visitor<T>) -> bool {
         // What stays is a hit, and what comes in its slot is one too.
         if self.incoming.is_some() || self.spilled > 0 || line >= self.first_end {
             // Where slots are scarce, those of what has ended have to be free first.
@@ -301,8 +302,10 @@ impl<'m, T: Member> ActiveList<'m, T> {
                 self.release(line);
             }
             self.merge_incoming(line, visitor);
+            true
         } else {
             self.counts.hits += self.cached;
+            false
         }
     }
 

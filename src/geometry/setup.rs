@@ -30,6 +30,8 @@ pub struct Drawable<L> {
     /// First line below the triangle.
     end: u16,
     sides: Sides,
+    /// See [`Drawable::range`].
+    range: (u16, u16),
     /// Depth and colour.
     pub parameters: Parameters<L>,
 }
@@ -54,6 +56,7 @@ impl<L> Drawable<L> {
         turn: 0,
         end: 0,
         sides: Sides::Inside,
+        range: (0, 0),
         parameters: Parameters::Corners,
     };
 
@@ -62,6 +65,17 @@ impl<L> Drawable<L> {
     #[must_use]
     pub const fn end(&self) -> u16 {
         self.end
+    }
+
+    /// The nearest and farthest depth of the corners in units of 2^15, the first rounded up, the
+    /// other down.
+    ///
+    /// Planes err by 16,386 at most (see `num`), so of two triangles the first is nearer at every
+    /// pixel if its farthest is at least 2 above the nearest of the other.
+    #[inline(always)]
+    #[must_use]
+    pub const fn range(&self) -> (u16, u16) {
+        self.range
     }
 
     /// Whether all of it is on the picture, so that [`inside`](Drawable::inside) has its columns.
@@ -147,6 +161,12 @@ impl<F: Copy> Object<F> {
         if !edges(place, area.is_some(), line, picture, out) {
             return false;
         }
+        let [a, b, c] = corners.map(|c| c.depth);
+        // Depths are below 2^31 - 2^15 and a half.
+        out.range = (
+            (a.max(b).max(c) >> 15) as u16 + 1,
+            (a.min(b).min(c) >> 15) as u16,
+        );
         if let Some(area) = area {
             let depth = area.wide_plane(corners.map(|c| c.depth as i32));
             let levels = S::set_up_small(&area, corners.map(|c| c.attribute), self.face, scale);

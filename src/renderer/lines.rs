@@ -1,5 +1,6 @@
 //! Pass two: the objects of a line into its pixels (K1, K5, K8).
 
+use super::order::{Doubt, Order};
 use super::place::Place;
 use super::scene::Scene;
 use super::spans::{draw_span, draw_thin};
@@ -43,36 +44,6 @@ pub enum DepthUse {
     WhereNeeded,
     /// On every line.
     Always,
-}
-
-/// How many lines to wait before it is tried again to do without depth: lines on which spans
-/// overlap come in rows, and a try costs.
-#[derive(Clone, Copy, Debug, Default)]
-struct Doubt {
-    wait: u8,
-    /// What was waited for last.
-    last: u8,
-}
-
-impl Doubt {
-    /// Whether to try on the next line.
-    #[inline]
-    fn tries(&mut self) -> bool {
-        let tries = self.wait == 0;
-        self.wait -= u8::from(!tries);
-        tries
-    }
-
-    /// Learns how it went: after each failure twice as many lines are waited for, up to 15.
-    #[inline]
-    fn learn(&mut self, apart: bool) {
-        self.last = if apart {
-            0
-        } else {
-            (2 * self.last + 1).min(15)
-        };
-        self.wait = self.last;
-    }
 }
 
 /// A line renderer has less memory than the scene needs. Nothing was drawn.
@@ -160,7 +131,9 @@ pub struct LineRenderer<'m, P: Pipeline> {
     /// Whether depth cells are not all at their farthest.
     dirty: bool,
     depth_use: DepthUse,
-    doubt: Doubt,
+    /// Of lines on which no spans overlap.
+    apart: Doubt,
+    order: Order,
     /// Where an object is set up that has no slot.
     spare: DrawableOf<P>,
     /// How far which scene has been drawn; `None` before its first line.
@@ -188,7 +161,8 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             depth: memory.depth,
             dirty: true,
             depth_use: DepthUse::WhereNeeded,
-            doubt: Doubt::default(),
+            apart: Doubt::default(),
+            order: Order::default(),
             spare: Drawable::EMPTY,
             place: None,
             interleave: Interleave::ALL,
@@ -310,25 +284,34 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             pixels,
             cells,
             dirty: &mut self.dirty,
+            order: &mut self.order,
             line: now,
             left,
             thin: 0,
             counter: &mut self.counter,
             interpolation: self.interpolation,
         };
-        self.list.update(now, &mut pass);
+        if self.list.update(now, &mut pass) {
+            pass.order.forget();
+        }
         if self.list.is_empty() {
             return Ok(false);
         }
-        let tries = P::Depth::TESTS
-            && self.depth_use == DepthUse::WhereNeeded
-            && !self.list.has_spilled()
-            && self.doubt.tries();
-        let apart = tries && pass.draw_apart(&self.list);
-        if tries {
-            self.doubt.learn(apart);
+        let whole =
+            P::Depth::TESTS && self.depth_use == DepthUse::WhereNeeded && !self.list.has_spilled();
+        let mut drawn = whole && pass.order.is_known();
+        if drawn {
+            pass.draw_ordered(self.list.slots());
         }
-        if !apart {
+        if whole && !drawn && self.apart.tries() {
+            drawn = pass.draw_apart(&self.list);
+            self.apart.learn(drawn);
+        }
+        if whole && !drawn && pass.find_order(&self.list) {
+            pass.draw_ordered(self.list.slots());
+            drawn = true;
+        }
+        if !drawn {
             pass.begin_together();
             self.list.visit_all(next, &mut self.spare, &mut pass);
         }
@@ -357,18 +340,19 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
 /// span first leaves a mark, its slot and its end, in the depth cell of its first pixel. Walking
 /// from mark to mark, drawing, then meets all of them exactly if none overlap; if not, or if an
 /// object has no slot, all are drawn anew with depth.
-struct LinePass<'a, 's, P: Pipeline> {
-    scene: &'a Scene<'s, P>,
-    pixels: &'a mut [WordOf<P>],
-    cells: &'a mut [CellOf<P>],
+pub(super) struct LinePass<'a, 's, P: Pipeline> {
+    pub(super) scene: &'a Scene<'s, P>,
+    pub(super) pixels: &'a mut [WordOf<P>],
+    pub(super) cells: &'a mut [CellOf<P>],
     /// Whether depth cells are not all at their farthest.
-    dirty: &'a mut bool,
-    line: i32,
-    left: i32,
+    pub(super) dirty: &'a mut bool,
+    pub(super) order: &'a mut Order,
+    pub(super) line: i32,
+    pub(super) left: i32,
     /// Triangles drawn from their corners in slow memory.
-    thin: u32,
-    counter: &'a mut P::Counter,
-    interpolation: P::Interpolation,
+    pub(super) thin: u32,
+    pub(super) counter: &'a mut P::Counter,
+    pub(super) interpolation: P::Interpolation,
 }
 
 impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
@@ -407,10 +391,11 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
 impl<P: Pipeline> LinePass<'_, '_, P> {
     /// Sets all depth cells to their farthest, if they are not.
     #[inline]
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         if *self.dirty {
             self.cells.fill(P::Depth::FARTHEST);
             *self.dirty = false;
+            self.order.forget();
         }
     }
 
@@ -424,7 +409,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
 
     /// The pixels of an object on this line, if there are any.
     #[inline(always)]
-    fn span(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
+    pub(super) fn span(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
         if body.is_inside() {
             let (start, end) = body.inside(self.line);
             return (start < end).then_some((start as usize, end as usize));
@@ -468,9 +453,10 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 continue;
             };
             let cell = self.cells.get_mut(start)?;
-            if !P::Depth::mark(cell, (index as u32) << 16 | end as u32) {
+            if P::Depth::number(cell) != 0 {
                 return None;
             }
+            P::Depth::set_number(cell, (index as u32) << 16 | end as u32);
             first = first.min(start);
             count += 1;
         }
@@ -488,7 +474,8 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             let Some(cell) = cells.get_mut(start) else {
                 return false;
             };
-            let mark = P::Depth::unmark(cell);
+            let mark = P::Depth::number(cell);
+            P::Depth::set_number(cell, 0);
             if mark == 0 {
                 start += 1;
                 continue;

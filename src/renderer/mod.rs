@@ -1,11 +1,13 @@
 //! The conductor: pass one into a [`Scene`], pass two line by line out of it (K1, K12).
 //!
-//! `input` feeds pass one from queues (K17); `lines` draws and `place` fetches ahead (C4); `frame`
+//! `input` feeds pass one from queues (K17); `lines` draws, `order` from front to back where it can (X3),
+//! and `place` fetches ahead (C4); `frame`
 //! sends what one renderer draws, `relay` what several do on their own cores (K16, X6).
 
 mod frame;
 mod input;
 mod lines;
+mod order;
 mod place;
 mod relay;
 mod scene;

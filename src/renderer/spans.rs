@@ -7,7 +7,7 @@ use crate::num::Plane;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Levels};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Tested};
+use crate::visible::{Everywhere, LineDepth, Masked, Tested};
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -39,6 +39,24 @@ pub(super) fn draw_span<P: Pipeline>(
         }
     };
     counter.span(seen, count - seen, tested);
+}
+
+/// Draws those pixels of a span that are not covered, and covers them.
+#[inline(never)]
+pub(super) fn draw_masked<P: Pipeline>(
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    (pixels, mut masked): (&mut [WordOf<P>], Masked<'_, '_, P::Depth>),
+    (interpolation, counter): (P::Interpolation, &mut P::Counter),
+) {
+    let count = pixels.len() as u32;
+    paint::<P::Pixel, _>(
+        pixels,
+        levels.stretch(column, line),
+        interpolation,
+        &mut masked,
+    );
+    counter.span(masked.seen(), count - masked.seen(), false);
 }
 
 /// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners.

@@ -1,6 +1,11 @@
-//! Which pixels of a span are seen: the depth of one line (K8).
+//! Which pixels of a span are seen: the depth of one line, or what is covered of it (K8, X3).
 //!
 //! A method is a type; the one without depth is `()`, and then the object submitted last wins.
+//! Where objects can be ordered from front to back, `cover` does without depth.
+
+mod cover;
+
+pub use cover::{Cover, Covered, Masked};
 
 use crate::stats::SpanCounter;
 use core::marker::PhantomData;
@@ -17,12 +22,12 @@ pub trait LineDepth {
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32) -> bool;
 
-    /// Keeps a number above 0 in a cell that is at its farthest; `false` when one is there
-    /// already, or cells hold no numbers.
-    fn mark(cell: &mut Self::Cell, mark: u32) -> bool;
+    /// The number that is kept in a cell, 0 where that is at its farthest.
+    fn number(cell: &Self::Cell) -> u32;
 
-    /// Takes the number out again, 0 for none; the cell is at its farthest then.
-    fn unmark(cell: &mut Self::Cell) -> u32;
+    /// Keeps a number in a cell instead of a depth, where pixels are tested at all; 0 makes it
+    /// farthest.
+    fn set_number(cell: &mut Self::Cell, number: u32);
 }
 
 /// 32 bits of 1/w: nearer or equal wins.
@@ -44,15 +49,13 @@ impl LineDepth for Depth32 {
     }
 
     #[inline(always)]
-    fn mark(cell: &mut u32, mark: u32) -> bool {
-        let free = *cell == 0;
-        *cell = mark;
-        free
+    fn number(cell: &u32) -> u32 {
+        *cell
     }
 
     #[inline(always)]
-    fn unmark(cell: &mut u32) -> u32 {
-        core::mem::take(cell)
+    fn set_number(cell: &mut u32, number: u32) {
+        *cell = number;
     }
 }
 
@@ -66,13 +69,11 @@ impl LineDepth for () {
         true
     }
 
-    fn mark((): &mut (), _: u32) -> bool {
-        false
-    }
-
-    fn unmark((): &mut ()) -> u32 {
+    fn number((): &()) -> u32 {
         0
     }
+
+    fn set_number((): &mut (), _: u32) {}
 }
 
 /// Tells of each pixel of a span in turn whether it is seen.

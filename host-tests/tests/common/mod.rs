@@ -96,7 +96,6 @@ impl<P: Pipeline> LineRooms<P> {
             slots: vec![LineRenderer::<P>::empty_slot(); slots],
             links: vec![Link::NONE; links],
             depth: vec![P::Depth::FARTHEST; depth],
-            // As many as slots: small caches also try lines with more spans than records.
         }
     }
 
