@@ -162,9 +162,8 @@ impl<F: Copy> Object<F> {
             return false;
         }
         let [a, b, c] = corners.map(|c| c.depth);
-        // Depths are below 2^31 - 2^15 and a half.
         out.range = (
-            (a.max(b).max(c) >> 15) as u16 + 1,
+            ((a.max(b).max(c) >> 15) as u16).saturating_add(1),
             (a.min(b).min(c) >> 15) as u16,
         );
         if let Some(area) = area {

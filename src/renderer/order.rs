@@ -83,7 +83,8 @@ fn constant<L>(body: &Drawable<L>) -> Option<i32> {
 /// Whether the first is in front of the second wherever both are, or they are the same.
 fn is_before<L>(front: &Slot<Drawable<L>>, back: &Slot<Drawable<L>>) -> bool {
     let (front_range, back_range) = (front.body().range(), back.body().range());
-    if front_range.1 >= back_range.0.saturating_add(2) {
+    // What saturates is in front of nothing, and behind nothing.
+    if u32::from(front_range.1) >= u32::from(back_range.0) + 2 {
         return true;
     }
     let same = constant(front.body()).is_some_and(|d| constant(back.body()) == Some(d));
