@@ -131,6 +131,7 @@
 //! | K5 | any line alone | `renderer/lines.rs`, `num/plane.rs` | `lines_alone.rs`, `model_scenes.rs` |
 //! | K6, K7, P3 | colour along a span: LIRP, packed, forward, half and quarter rate | `shade/interpolation.rs`, `composite/` | `composite/tests.rs`, `host-tests/src/accuracy/` |
 //! | X2 | an error budget | `shade/quality.rs`, `shade/interpolation.rs` | `shade/interpolation.rs`, `composite/tests.rs`, `host-tests/src/accuracy/` |
+//! | X3, X4, M4 | skipping, counted | `geometry/bounds.rs`, `scan_out/changed.rs`, `renderer/frame.rs`, `stats.rs` | `skipped.rs`, `changed.rs` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
 //! | C1, C2 | active objects are copied to the cache, and leave at once | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
@@ -184,7 +185,7 @@ pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
     Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,
-    ScreenError, Shading,
+    ScreenError, Shading, Sphere,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
@@ -196,7 +197,7 @@ pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
     Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched,
     Relay, RendererError, Scene, SceneError, SceneMemory, Source, Stalled, Stream, draw_frame,
-    send_frame,
+    draw_frame_changed, send_changed, send_frame,
 };
 pub use shade::texture;
 pub use shade::{

@@ -5,6 +5,9 @@ pub trait SpanCounter: Copy + Default + Send {
     /// One span was drawn: so many of its pixels were seen, so many hidden, tested or not.
     fn span(&mut self, seen: u32, hidden: u32, tested: bool);
 
+    /// The next span has one colour, and is filled with it.
+    fn flat(&mut self);
+
     /// What has been counted.
     fn counts(&self) -> SpanCounts;
 
@@ -20,6 +23,10 @@ pub struct SpanCounts {
     pub spans: u32,
     /// Spans of which no pixel was seen.
     pub spans_hidden: u32,
+    /// Spans that shared no pixel with another, as far as was asked: drawn without depth.
+    pub spans_untested: u32,
+    /// Spans of one colour: no colour was taken from pixel to pixel.
+    pub spans_flat: u32,
     /// Pixels that were given a colour.
     pub pixels_shaded: u32,
     /// Pixels that were covered and lost against what was there.
@@ -39,7 +46,14 @@ impl SpanCounter for SpanCounts {
         self.pixels_hidden += hidden;
         if tested {
             self.depth_tests += seen + hidden;
+        } else {
+            self.spans_untested += 1;
         }
+    }
+
+    #[inline]
+    fn flat(&mut self) {
+        self.spans_flat += 1;
     }
 
     fn counts(&self) -> SpanCounts {
@@ -53,6 +67,9 @@ impl SpanCounter for () {
     #[inline(always)]
     fn span(&mut self, _: u32, _: u32, _: bool) {}
 
+    #[inline(always)]
+    fn flat(&mut self) {}
+
     fn counts(&self) -> SpanCounts {
         SpanCounts::default()
     }
@@ -62,6 +79,8 @@ impl core::ops::AddAssign for SpanCounts {
     fn add_assign(&mut self, other: Self) {
         self.spans += other.spans;
         self.spans_hidden += other.spans_hidden;
+        self.spans_untested += other.spans_untested;
+        self.spans_flat += other.spans_flat;
         self.pixels_shaded += other.pixels_shaded;
         self.pixels_hidden += other.pixels_hidden;
         self.depth_tests += other.depth_tests;

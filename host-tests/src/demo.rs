@@ -9,11 +9,11 @@ use crate::image_out::{Frame, ImageError, write_animation, write_image, write_st
 use crate::mock::{HostLine, MockFrameBuffer};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
-use scanbeam::scan_out::Pump;
+use scanbeam::scan_out::{Pump, ShownLines};
 use scanbeam::{
     Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, LineDepth,
     LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
-    Screen, SlotOf, VertexOf, WordOf, draw_frame,
+    Screen, SlotOf, VertexOf, WordOf, draw_frame_changed,
 };
 use scenes::TEAPOT;
 use std::error::Error;
@@ -123,6 +123,8 @@ impl Turn {
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
         let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
 
+        let mut hashes = [0; HEIGHT as usize];
+        let mut shown = ShownLines::new(&mut hashes);
         let camera = Camera::look_at(EYE, AT, [0.0, 1.0, 0.0], FOCAL, 0.1, 100.0)?;
         let light = Light::new(LIGHT, AMBIENT);
         let background = Rgb565Be::from_rgb8(BACKGROUND);
@@ -140,8 +142,18 @@ impl Turn {
                 ..Instance::default()
             };
             scene.draw(&TEAPOT, &instance)?;
-            let stats = draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
-            let pixels = pump.sink().frame()?;
+            pump.sink_mut().next_frame();
+            let stats = draw_frame_changed(
+                &scene,
+                &mut renderer,
+                &mut pump,
+                background,
+                LINES,
+                &mut shown,
+            )?;
+            // What the display shows, lines of earlier frames among it.
+            let pixels: Option<Vec<u16>> = pump.sink().shown().iter().copied().collect();
+            let pixels = pixels.ok_or("a line never arrived")?;
             let rgb = pixels.into_iter().flat_map(Rgb565Be::to_rgb8).collect();
             let frame = Frame::new(u32::from(WIDTH), u32::from(HEIGHT), rgb);
             turn.frames
@@ -175,12 +187,13 @@ impl Turn {
     /// What each frame took.
     fn figures(&self) -> Table {
         type Figure = (&'static str, fn(&FrameStats) -> u64);
-        const FIGURES: [Figure; 15] = [
+        const FIGURES: [Figure; 18] = [
             ("triangles in", |s| s.pass_one.triangles.into()),
             ("triangles culled", |s| s.pass_one.culled.into()),
             ("objects kept", |s| s.pass_one.objects.into()),
             ("lines with nothing on", |s| s.scanlines_skipped.into()),
             ("spans", |s| s.spans.spans.into()),
+            ("spans without depth", |s| s.spans.spans_untested.into()),
             ("spans hidden", |s| s.spans.spans_hidden.into()),
             ("pixels shaded", |s| s.spans.pixels_shaded.into()),
             ("pixels hidden", |s| s.spans.pixels_hidden.into()),
@@ -191,6 +204,8 @@ impl Turn {
             ("slow bytes read", |s| s.slow_read_bytes),
             ("slow bytes written", |s| s.slow_write_bytes),
             ("bytes sent", |s| s.scan_out.bytes_sent),
+            ("lines not sent", |s| s.scan_out.lines_unsent.into()),
+            ("bytes not sent", |s| s.scan_out.bytes_unsent),
         ];
         let mut table = table(["per frame", "min", "median", "max"]);
         for (name, figure) in FIGURES {
@@ -224,6 +239,7 @@ impl Turn {
             Lent::new::<ObjectOf<Drawn>>("objects", OBJECTS, objects),
             Lent::new::<Link>("links", OBJECTS, objects),
             Lent::new::<Link>("line buckets", height, height),
+            Lent::new::<u32>("hashes of lines", height, height),
         ];
         let mut table = table(["RAM", "what", "count", "bytes each", "bytes", "bytes used"]);
         for (region, rooms) in [("fast", &fast[..]), ("slow", &slow[..])] {

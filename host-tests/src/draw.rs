@@ -83,9 +83,8 @@ pub enum DrawFailure {
 pub struct Drawn {
     /// The picture, converted back to 8-bit levels.
     pub frame: Frame,
-    /// The figures, summed over bands. In `pass_one`, `triangles`, `culled` and `clipped` are of
-    /// the model and the whole picture, each triangle counted once whatever the bands; `objects`
-    /// and `vertices` are records, and count again in each band that they are made for.
+    /// The figures, summed over bands. Those of `pass_one` are of the model and the whole picture:
+    /// each triangle, object and vertex counts once whatever the bands.
     pub stats: FrameStats,
     /// Bands that the picture was put together from; 1 unless an arena was too small.
     pub bands: u32,
@@ -101,7 +100,9 @@ impl Drawn {
     /// The figures as `render --stats` writes them.
     ///
     /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them
-    /// are on no line of the picture or show their back; the others were filed at least once.
+    /// are on no line of the picture or show their back; `objects_skipped` are those of the culled
+    /// that were not looked at, because their mesh is outside the view. `objects_kept` are the
+    /// records made of the others, more where clipping cuts; `vertices_kept` are theirs.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let s = &self.stats;
@@ -110,15 +111,22 @@ impl Drawn {
             "objects_culled": s.pass_one.culled,
             "objects_clipped": s.pass_one.clipped,
             "objects_kept": s.pass_one.objects,
+            "objects_skipped": s.pass_one.triangles_skipped,
+            "meshes_skipped": s.pass_one.meshes_skipped,
             "vertices_kept": s.pass_one.vertices,
+            "vertices_skipped": s.pass_one.vertices_skipped,
             "spans": s.spans.spans,
             "spans_hidden": s.spans.spans_hidden,
+            "spans_untested": s.spans.spans_untested,
+            "spans_flat": s.spans.spans_flat,
             "pixels_shaded": s.spans.pixels_shaded,
             "pixels_hidden": s.spans.pixels_hidden,
             "depth_tests": s.spans.depth_tests,
             "texture_fetches": 0,
             "scanlines_skipped": s.scanlines_skipped,
             "bytes_sent": s.scan_out.bytes_sent,
+            "lines_unsent": s.scan_out.lines_unsent,
+            "bytes_unsent": s.scan_out.bytes_unsent,
             "transfers": s.scan_out.transfers,
             "bands": self.bands,
             "cache": {
@@ -444,9 +452,15 @@ impl Setting {
     ) -> Result<(), DrawFailure> {
         // With the vertices of a chunk and 8 more for each that is clipped: below 65,536.
         const TRIANGLES: usize = 7000;
-        (counts.triangles, counts.culled, counts.clipped) = (0, 0, 0);
+        *counts = PassOne {
+            dropped: counts.dropped,
+            ..PassOne::default()
+        };
         let mut scene = rooms.scene(self.screen);
         for chunk in &prepared.chunks {
+            // Parts of a chunk share its vertices, and are skipped together.
+            let shared = chunk.positions.len() as u32;
+            let (mut is_kept, mut is_skipped) = (false, false);
             for faces in chunk.faces.chunks(TRIANGLES) {
                 scene
                     .begin(&self.camera)
@@ -455,7 +469,7 @@ impl Setting {
                     faces: Faces::Triangles(faces),
                     ..chunk.mesh()
                 };
-                match scene.draw(&mesh, &self.instance) {
+                match scene.draw_within(&mesh, &self.instance, &chunk.sphere) {
                     // What found no room was not culled, and only that is asked here.
                     Ok(_) | Err(DrawError::Full(_)) => {}
                     Err(error) => return Err(DrawFailure::View(error.to_string())),
@@ -464,6 +478,18 @@ impl Setting {
                 counts.triangles += done.triangles;
                 counts.culled += done.culled;
                 counts.clipped += done.clipped;
+                counts.objects += done.objects;
+                counts.vertices += done.vertices.saturating_sub(shared);
+                counts.triangles_skipped += done.triangles_skipped;
+                is_kept |= done.vertices > 0;
+                is_skipped |= done.meshes_skipped > 0;
+            }
+            if is_kept {
+                counts.vertices += shared;
+            }
+            if is_skipped {
+                counts.meshes_skipped += 1;
+                counts.vertices_skipped += shared;
             }
         }
         Ok(())
@@ -513,6 +539,9 @@ fn add(total: &mut FrameStats, band: &FrameStats) {
     a.objects += b.objects;
     a.vertices += b.vertices;
     a.dropped += b.dropped;
+    a.meshes_skipped += b.meshes_skipped;
+    a.triangles_skipped += b.triangles_skipped;
+    a.vertices_skipped += b.vertices_skipped;
     total.spans += band.spans;
     total.cache += band.cache;
     total.prefetch_bytes += band.prefetch_bytes;
@@ -522,4 +551,6 @@ fn add(total: &mut FrameStats, band: &FrameStats) {
     total.scan_out.bytes_sent += band.scan_out.bytes_sent;
     total.scan_out.transfers += band.scan_out.transfers;
     total.scan_out.stall_polls += band.scan_out.stall_polls;
+    total.scan_out.lines_unsent += band.scan_out.lines_unsent;
+    total.scan_out.bytes_unsent += band.scan_out.bytes_unsent;
 }

@@ -81,6 +81,7 @@ fn the_same_frame_arrives_for_any_band_lateness_and_sort_of_sink() {
                     transfers: transfers.into(),
                     // Nothing polls but the pump, so each poll of each transfer is a stall.
                     stall_polls: late * u32::from(transfers),
+                    ..ScanStats::default()
                 };
                 assert_eq!(stats, expected);
                 assert_eq!(pump.stats(), ScanStats::default());
@@ -108,7 +109,8 @@ fn two_buffers_are_filled_before_anything_waits() {
         ScanStats {
             bytes_sent: 12,
             transfers: 1,
-            stall_polls: 0
+            stall_polls: 0,
+            ..ScanStats::default()
         }
     );
     pump.line_done().unwrap();
@@ -117,7 +119,8 @@ fn two_buffers_are_filled_before_anything_waits() {
         ScanStats {
             bytes_sent: 24,
             transfers: 2,
-            stall_polls: 50
+            stall_polls: 50,
+            ..ScanStats::default()
         }
     );
 
@@ -133,7 +136,8 @@ fn two_buffers_are_filled_before_anything_waits() {
         ScanStats {
             bytes_sent: 24,
             transfers: 2,
-            stall_polls: 0
+            stall_polls: 0,
+            ..ScanStats::default()
         }
     );
     pump.line().unwrap();

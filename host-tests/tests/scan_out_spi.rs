@@ -73,6 +73,7 @@ fn the_spi_sink_sends_exactly_these_bytes() {
         bytes_sent: 12,
         transfers: 2,
         stall_polls: 0,
+        ..ScanStats::default()
     };
     assert_eq!(pump.stats(), expected);
     let (sink, buffers) = pump.release();

@@ -519,7 +519,7 @@ enum Look {
 }
 
 /// How many triangles there are.
-fn triangles(faces: Faces<'_>) -> u32 {
+pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
     (match faces {
         Faces::Triangles(faces) => faces.len(),
         Faces::Quads(faces, _) => 2 * faces.len(),

@@ -2,10 +2,11 @@
 //!
 //! `mesh` is what the application hands in; `transform`, `camera` and `light` are where it
 //! stands and how it is lit; `project` takes one vertex to the screen; `clip` mends triangles
-//! that cross the near, far or guard planes; `assemble` runs them and culls; `setup` makes of an
+//! that cross the near, far or guard planes; `bounds` asks whether a mesh is outside; `assemble` runs them and culls; `setup` makes of an
 //! object's corners what drawing needs, once it is reached.
 
 mod assemble;
+mod bounds;
 mod camera;
 mod clip;
 mod colour;
@@ -18,7 +19,8 @@ mod shading;
 mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room};
-pub(crate) use assemble::{Assembler, Store};
+pub(crate) use assemble::{Assembler, Store, triangles};
+pub use bounds::Sphere;
 pub use camera::{Camera, CameraError, Screen, ScreenError};
 pub use colour::{Colour, Scale};
 pub use light::Light;

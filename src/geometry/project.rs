@@ -216,6 +216,16 @@ impl Projection {
         self.power
     }
 
+    /// The rows that coordinates are multiplied by.
+    pub(super) fn rows(&self) -> &[[i32; 3]; 3] {
+        &self.rows
+    }
+
+    /// The principal point in units of 1/8 pixel of guard space.
+    pub(super) fn centre(&self, axis: usize) -> i64 {
+        i64::from(self.centre[axis])
+    }
+
     /// How far a coordinate may lie from the principal point, in units of 1/8 pixel.
     pub(super) fn guard(&self, axis: usize) -> i64 {
         i64::from(0xFFFF - self.centre[axis])

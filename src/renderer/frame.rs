@@ -5,7 +5,9 @@ use super::scene::{PassOne, Scene};
 use crate::active::{CacheCounts, Interleave};
 use crate::composite::PixelFormat;
 use crate::pipeline::{Pipeline, WordOf};
-use crate::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window};
+use crate::scan_out::{
+    ErrorType, LineBuf, LineWord, Pump, ScanError, ScanStats, ScanoutDma, ShownLines, Window,
+};
 use crate::stats::SpanCounts;
 
 /// Why a frame was not finished. The pump has its buffers back, and the next frame is whole.
@@ -95,24 +97,32 @@ where
     P: Pipeline,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
 {
-    renderer.set_interleave(Interleave::ALL);
-    renderer.check(scene)?;
-    renderer.restart();
-    let mut source = Alone {
-        scene,
-        renderer,
-        background,
-        skipped: 0,
-    };
+    let mut source = Alone::new(scene, renderer, background)?;
     let scan_out = send_frame(scene, &mut source, pump, lines_per_transfer)?;
-    let mut stats = FrameStats {
-        pass_one: scene.pass_one(),
-        scanlines_skipped: source.skipped,
-        scan_out,
-        ..FrameStats::default()
-    };
-    stats.add_renderer(renderer);
-    Ok(stats)
+    Ok(source.stats(scan_out))
+}
+
+/// Draws all lines of `scene` as [`draw_frame`] does, but sends only those that differ from what
+/// `shown` knows the display to show: see [`send_changed`].
+///
+/// # Errors
+/// Those of [`draw_frame`]; the lines that were reached count as not shown then.
+pub fn draw_frame_changed<P, D>(
+    scene: &Scene<'_, P>,
+    renderer: &mut LineRenderer<'_, P>,
+    pump: &mut Pump<D>,
+    background: WordOf<P>,
+    lines_per_transfer: u16,
+    shown: &mut ShownLines<'_>,
+) -> Result<FrameStats, FrameError<<D as ErrorType>::Error>>
+where
+    P: Pipeline,
+    WordOf<P>: LineWord,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+{
+    let mut source = Alone::new(scene, renderer, background)?;
+    let scan_out = send_changed(scene, &mut source, pump, lines_per_transfer, shown)?;
+    Ok(source.stats(scan_out))
 }
 
 /// Where the lines of a frame come from: one renderer here, or several anywhere.
@@ -144,16 +154,9 @@ where
     P: Pipeline,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
 {
-    let lines = scene.lines();
-    let window = Window {
-        x: 0,
-        y: lines.start,
-        width: scene.screen().width(),
-        height: lines.len() as u16,
-    };
     pump.take_stats();
-    pump.begin(window, lines_per_transfer)?;
-    for line in lines {
+    pump.begin(window(scene), lines_per_transfer)?;
+    for line in scene.lines() {
         source.line(line, pump.line()?)?;
         pump.line_done()?;
         source.idle(line + 1);
@@ -162,12 +165,102 @@ where
     Ok(pump.stats())
 }
 
+/// Sends the lines of `scene` as [`send_frame`] does, but leaves those out that the display shows
+/// already, in runs or one by one (X4). [`ScanStats`] counts the lines and bytes not sent.
+///
+/// All lines are drawn: only then is it known what they show. The first frame sends all of them,
+/// and so does one of another background but for lines on which there is none. With a
+/// probability of about 2^-32 a line that has changed is not sent: see [`ShownLines`].
+///
+/// # Errors
+/// Those of [`send_frame`]. Whatever was sent or under way in this frame counts as not shown then,
+/// so the next frame sends it; lines further down are still known.
+pub fn send_changed<P, D>(
+    scene: &Scene<'_, P>,
+    source: &mut impl LineSource<P>,
+    pump: &mut Pump<D>,
+    lines_per_transfer: u16,
+    shown: &mut ShownLines<'_>,
+) -> Result<ScanStats, FrameError<<D as ErrorType>::Error>>
+where
+    P: Pipeline,
+    WordOf<P>: LineWord,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+{
+    let mut end = scene.lines().start;
+    let mut send = || {
+        pump.take_stats();
+        pump.begin_in_parts(window(scene), lines_per_transfer)?;
+        for line in scene.lines() {
+            let pixels = pump.line()?;
+            source.line(line, pixels)?;
+            end = line + 1;
+            if shown.replace(line, pixels) {
+                pump.line_done()?;
+            } else {
+                pump.line_left_out()?;
+            }
+            source.idle(line + 1);
+        }
+        pump.finish()?;
+        Ok(pump.stats())
+    };
+    let sent = send();
+    if sent.is_err() {
+        for line in scene.lines().start..end {
+            shown.forget_line(line);
+        }
+    }
+    sent
+}
+
+/// The part of the display that a scene fills.
+fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
+    let lines = scene.lines();
+    Window {
+        x: 0,
+        y: lines.start,
+        width: scene.screen().width(),
+        height: lines.len() as u16,
+    }
+}
+
 /// One renderer that draws every line itself.
 struct Alone<'a, 'm, 'r, P: Pipeline> {
     scene: &'a Scene<'m, P>,
     renderer: &'a mut LineRenderer<'r, P>,
     background: WordOf<P>,
     skipped: u32,
+}
+
+impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
+    fn new(
+        scene: &'a Scene<'m, P>,
+        renderer: &'a mut LineRenderer<'r, P>,
+        background: WordOf<P>,
+    ) -> Result<Self, RendererError> {
+        renderer.set_interleave(Interleave::ALL);
+        renderer.check(scene)?;
+        renderer.restart();
+        Ok(Self {
+            scene,
+            renderer,
+            background,
+            skipped: 0,
+        })
+    }
+
+    /// What the frame took.
+    fn stats(self, scan_out: ScanStats) -> FrameStats {
+        let mut stats = FrameStats {
+            pass_one: self.scene.pass_one(),
+            scanlines_skipped: self.skipped,
+            scan_out,
+            ..FrameStats::default()
+        };
+        stats.add_renderer(self.renderer);
+        stats
+    }
 }
 
 impl<P: Pipeline> LineSource<P> for Alone<'_, '_, '_, P> {

@@ -13,7 +13,9 @@ mod relay;
 mod scene;
 mod spans;
 
-pub use frame::{FrameError, FrameStats, LineSource, draw_frame, send_frame};
+pub use frame::{
+    FrameError, FrameStats, LineSource, draw_frame, draw_frame_changed, send_changed, send_frame,
+};
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
 pub use place::Prefetched;

@@ -5,7 +5,7 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::geometry::{
     Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, Mesh, MeshError, Room,
-    Screen, Store,
+    Screen, Sphere, Store, triangles,
 };
 use crate::link::Link;
 use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, VertexOf};
@@ -151,6 +151,13 @@ pub struct PassOne {
     pub vertices: u32,
     /// Triangles that found no room.
     pub dropped: u32,
+    /// Meshes wholly outside the view, which were not looked at (M4). Their triangles are among
+    /// the culled.
+    pub meshes_skipped: u32,
+    /// Triangles of these meshes.
+    pub triangles_skipped: u32,
+    /// Vertices of these meshes: neither transformed nor lit.
+    pub vertices_skipped: u32,
 }
 
 /// A scene in memory: shared by any number of line renderers, read-only while they draw.
@@ -277,6 +284,36 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             }
             None => Ok(done),
         }
+    }
+
+    /// Draws a mesh all of whose vertices lie in `sphere`, as [`draw`](Scene::draw) does, but does
+    /// not look at it when the sphere is wholly outside the picture or the band, or nearer or
+    /// farther than what is seen (M4). The picture is the same; [`PassOne`] counts what is skipped.
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw); a mesh that is skipped is not checked for contradictions.
+    pub fn draw_within<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        instance: &Instance,
+        sphere: &Sphere,
+    ) -> Result<Assembled, DrawError> {
+        let is_outside =
+            |camera: &Camera| sphere.is_outside(camera, self.screen, &self.lines, &instance.model);
+        if !self.camera.as_ref().is_some_and(is_outside) {
+            return self.draw(mesh, instance);
+        }
+        let done = Assembled {
+            triangles: triangles(mesh.faces),
+            culled: triangles(mesh.faces),
+            ..Assembled::default()
+        };
+        self.pass_one.triangles += done.triangles;
+        self.pass_one.culled += done.culled;
+        self.pass_one.meshes_skipped += 1;
+        self.pass_one.triangles_skipped += done.triangles;
+        self.pass_one.vertices_skipped += mesh.positions.len() as u32;
+        Ok(done)
     }
 
     /// What pass one has done since the scene was begun.

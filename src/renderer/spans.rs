@@ -5,7 +5,7 @@ use crate::composite::{PixelFormat, paint};
 use crate::geometry::{Scale, at_pixel};
 use crate::num::Plane;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::{Forward, Levels};
+use crate::shade::{Forward, Levels, Stretch};
 use crate::stats::SpanCounter;
 use crate::visible::{Everywhere, LineDepth, Masked, Tested};
 
@@ -24,6 +24,9 @@ pub(super) fn draw_span<P: Pipeline>(
     (interpolation, counter): (P::Interpolation, &mut P::Counter),
 ) {
     let stretch = levels.stretch(column, line);
+    if matches!(stretch, Stretch::Constant(_)) {
+        counter.flat();
+    }
     let count = pixels.len() as u32;
     let tested = cells.is_some();
     let seen = match cells {

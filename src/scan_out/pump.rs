@@ -116,6 +116,10 @@ pub struct ScanStats {
     pub transfers: u32,
     /// Polls that found the sink busy while the pump had to wait. Stays at its maximum when it gets there.
     pub stall_polls: u32,
+    /// Lines that were left out, because the display shows them already (X4).
+    pub lines_unsent: u32,
+    /// Bytes of pixels in these lines.
+    pub bytes_unsent: u64,
 }
 
 /// Owns a sink and its two line buffers, and swaps them.
@@ -162,6 +166,10 @@ pub struct Pump<D: ScanoutDma> {
     window: Option<Window>,
     /// Whether the sink has an open rectangle. Outlives `window` when a transfer hangs.
     open: bool,
+    /// Whether lines may be left out: then each band has a rectangle of its own.
+    in_parts: bool,
+    /// First line of the rectangle that is open, in such a frame.
+    part_first: u16,
     /// Lines of a full band, 1..=`window.height`.
     band_lines: u16,
     /// First line of the band that is being filled.
@@ -185,6 +193,8 @@ impl<D: ScanoutDma> Pump<D> {
             in_flight: 0,
             window: None,
             open: false,
+            in_parts: false,
+            part_first: 0,
             band_lines: 1,
             band_first: 0,
             band_filled: 0,
@@ -215,6 +225,42 @@ impl<D: ScanoutDma> Pump<D> {
         window: Window,
         lines_per_transfer: u16,
     ) -> Result<(), ScanError<D::Error>> {
+        let band_lines = self.prepare(window, lines_per_transfer)?;
+        self.dma
+            .begin(window)
+            .map_err(|error| ScanError::Sink { line: 0, error })?;
+        self.open = true;
+        self.window = Some(window);
+        self.band_lines = band_lines;
+        Ok(())
+    }
+
+    /// Starts a frame of which lines may be [left out](Self::line_left_out), because the display shows
+    /// them already (X4).
+    ///
+    /// Nobody knows yet which, so each transfer opens a rectangle for its own lines and no more. Before that the
+    /// last transfer must be home, chained or not; the next band is drawn meanwhile all the same. On an SPI
+    /// panel a rectangle is 11 bytes of commands, beside 5,120 of 8 lines of 320 pixels.
+    ///
+    /// # Errors
+    /// Those of [`begin`](Self::begin). What the sink says to a rectangle comes from `line_done` and `finish`.
+    pub fn begin_in_parts(
+        &mut self,
+        window: Window,
+        lines_per_transfer: u16,
+    ) -> Result<(), ScanError<D::Error>> {
+        self.band_lines = self.prepare(window, lines_per_transfer)?;
+        self.in_parts = true;
+        self.window = Some(window);
+        Ok(())
+    }
+
+    /// Ends what was before a frame; the lines of a full band.
+    fn prepare(
+        &mut self,
+        window: Window,
+        lines_per_transfer: u16,
+    ) -> Result<u16, ScanError<D::Error>> {
         self.recover()?;
         let band_lines = lines_per_transfer.min(window.height);
         if window.width == 0 || band_lines == 0 {
@@ -230,16 +276,11 @@ impl<D: ScanoutDma> Pump<D> {
                 return Err(ScanError::BufferTooShort { needed, have });
             }
         }
-        self.dma
-            .begin(window)
-            .map_err(|error| ScanError::Sink { line: 0, error })?;
-        self.open = true;
-        self.window = Some(window);
-        self.band_lines = band_lines;
+        self.in_parts = false;
         self.band_first = 0;
         self.band_filled = 0;
         self.handed = false;
-        Ok(())
+        Ok(band_lines)
     }
 
     /// The words of the next line, `window.width` of them, with any old content.
@@ -298,6 +339,26 @@ impl<D: ScanoutDma> Pump<D> {
         if self.band_filled == self.band_lines || self.next_line() == window.height {
             self.start_band(window).map_err(|error| self.fail(error))?;
         }
+        Ok(())
+    }
+
+    /// The line that [`line`](Self::line) gave is not to be sent: the display shows it already. Starts the transfer
+    /// of the lines before it; the next line is the first of another.
+    ///
+    /// # Errors
+    /// `OutOfTurn` when `line` was not called for this line, or the frame was not
+    /// [begun in parts](Self::begin_in_parts); `Sink`, `Timeout` or `BufferLost` when sending failed.
+    pub fn line_left_out(&mut self) -> Result<(), ScanError<D::Error>> {
+        let line = self.next_line();
+        let Some(window) = self.window.filter(|_| self.handed && self.in_parts) else {
+            return Err(ScanError::OutOfTurn { line });
+        };
+        self.handed = false;
+        self.start_band(window).map_err(|error| self.fail(error))?;
+        self.band_first = line + 1;
+        let bytes = u64::from(window.width) * size_of::<WordOf<D>>() as u64;
+        self.stats.bytes_unsent = self.stats.bytes_unsent.wrapping_add(bytes);
+        self.stats.lines_unsent = self.stats.lines_unsent.saturating_add(1);
         Ok(())
     }
 
@@ -364,6 +425,9 @@ impl<D: ScanoutDma> Pump<D> {
         while self.in_flight > 0 && !self.dma.chains() {
             self.wait_home()?;
         }
+        if self.in_parts {
+            self.open_part(window)?;
+        }
         let line = self.band_first;
         let Some(buf) = self.filling.take() else {
             return Err(ScanError::BufferLost { line });
@@ -383,6 +447,32 @@ impl<D: ScanoutDma> Pump<D> {
         self.stats.transfers = self.stats.transfers.saturating_add(1);
         self.band_first = self.next_line();
         self.band_filled = 0;
+        Ok(())
+    }
+
+    /// Closes the rectangle of the last band and opens that of the next.
+    #[inline(never)]
+    fn open_part(&mut self, window: Window) -> Result<(), ScanError<D::Error>> {
+        while self.in_flight > 0 {
+            self.wait_home()?;
+        }
+        if core::mem::take(&mut self.open) {
+            let line = self.part_first;
+            self.dma
+                .end()
+                .map_err(|error| ScanError::Sink { line, error })?;
+        }
+        let line = self.band_first;
+        let part = Window {
+            y: window.y.saturating_add(line),
+            height: self.band_filled,
+            ..window
+        };
+        self.dma
+            .begin(part)
+            .map_err(|error| ScanError::Sink { line, error })?;
+        self.open = true;
+        self.part_first = line;
         Ok(())
     }
 

@@ -1,7 +1,7 @@
 //! A model rounded to the crate's number formats, in parts that fit a mesh.
 
 use crate::model::Model;
-use scanbeam::{Affine, DrawError, Faces, Instance, Mesh, Pipeline, Scene};
+use scanbeam::{Affine, DrawError, Faces, Instance, Mesh, Pipeline, Scene, Sphere};
 
 /// A model in the crate's number formats.
 pub struct Prepared {
@@ -17,6 +17,8 @@ pub(super) struct Chunk {
     normals: Vec<[i16; 3]>,
     colours: Vec<[u8; 3]>,
     pub(super) faces: Vec<[u16; 3]>,
+    /// Around all positions.
+    pub(super) sphere: Sphere,
 }
 
 impl Prepared {
@@ -71,6 +73,9 @@ impl Prepared {
             chunk.faces.push(face);
         }
         prepared.chunks.push(chunk);
+        for chunk in &mut prepared.chunks {
+            chunk.sphere = Sphere::around(&chunk.positions);
+        }
         prepared
     }
 
@@ -86,6 +91,7 @@ impl Chunk {
             normals: Vec::new(),
             colours: Vec::new(),
             faces: Vec::new(),
+            sphere: Sphere::around::<i32>(&[]),
         }
     }
 
@@ -107,7 +113,9 @@ impl Chunk {
         alone: bool,
     ) -> Result<(), DrawError> {
         if !alone {
-            return scene.draw(&self.mesh(), instance).map(drop);
+            return scene
+                .draw_within(&self.mesh(), instance, &self.sphere)
+                .map(drop);
         }
         for face in &self.faces {
             let corners = face.map(usize::from);

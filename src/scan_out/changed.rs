@@ -1,0 +1,187 @@
+//! Which lines the display shows already, by a hash of 32 bits a line (SPEC X4, M4).
+//!
+//! The hash goes over a line two 16-bit pixels at a time: exclusive or, fold, multiply, fold. Each step is one to one,
+//! so lines that differ in one pair of pixels alone never have the same hash. Both folds are needed: with a rotation
+//! in their place, one changed bit of a pair is undone by one or two of the next, and the tests found such lines.
+//!
+//! **A line that has changed in more places is taken for unchanged with a probability of about 2^-32**, as for any hash of
+//! 32 bits; not so for pictures that are made to collide. At 240 lines and 60 frames a second, all of them changing,
+//! that is one wrong line in 3 days. It stays until it changes again or is [forgotten](ShownLines::forget_line): who
+//! forgets one line a frame, in turn, has it mended within as many frames as there are lines.
+
+/// A word of a line buffer that can be hashed.
+pub trait LineWord: Copy {
+    /// A hash of a line, never 0; the same on every target.
+    fn hash(line: &[Self]) -> u32;
+}
+
+/// Takes in a number: one to one for each of `hash` and `value`.
+#[inline(always)]
+fn step(hash: u32, value: u32) -> u32 {
+    // Upper bits have to reach lower ones before they are multiplied, and again after.
+    let mixed = hash ^ value;
+    let mixed = (mixed ^ mixed >> 15).wrapping_mul(0x2C1B_3C6D);
+    mixed ^ mixed >> 12
+}
+
+/// A hash that is no number for "not shown".
+#[inline(always)]
+fn some(hash: u32) -> u32 {
+    hash.max(1)
+}
+
+impl LineWord for u16 {
+    fn hash(line: &[u16]) -> u32 {
+        let pair = |pair: &[u16]| match *pair {
+            [a, b] => u32::from(a) | u32::from(b) << 16,
+            [a] => u32::from(a),
+            _ => 0,
+        };
+        some(line.chunks(2).map(pair).fold(1, step))
+    }
+}
+
+impl LineWord for [u8; 2] {
+    fn hash(line: &[[u8; 2]]) -> u32 {
+        let pair = |pair: &[[u8; 2]]| match *pair {
+            [[a, b], [c, d]] => u32::from_le_bytes([a, b, c, d]),
+            [[a, b]] => u32::from_le_bytes([a, b, 0, 0]),
+            _ => 0,
+        };
+        some(line.chunks(2).map(pair).fold(1, step))
+    }
+}
+
+impl LineWord for [u8; 3] {
+    fn hash(line: &[[u8; 3]]) -> u32 {
+        let word = |&[a, b, c]: &[u8; 3]| u32::from_le_bytes([a, b, c, 0]);
+        some(line.iter().map(word).fold(1, step))
+    }
+}
+
+impl LineWord for u32 {
+    fn hash(line: &[u32]) -> u32 {
+        some(line.iter().copied().fold(1, step))
+    }
+}
+
+/// What each line of the display shows, as far as it is known: 4 bytes a line, lent.
+///
+/// It is right as long as everything that reaches the display goes through it. After anything else, a reset of the
+/// panel or a frame of [`draw_frame`](crate::draw_frame) say, call [`forget`](Self::forget).
+#[derive(Debug)]
+pub struct ShownLines<'m> {
+    /// Of each line from the top, 0 where nobody knows what is shown.
+    hashes: &'m mut [u32],
+}
+
+impl<'m> ShownLines<'m> {
+    /// Nothing is shown yet. Lines for which there is no number are always sent.
+    #[must_use]
+    pub fn new(hashes: &'m mut [u32]) -> Self {
+        hashes.fill(0);
+        Self { hashes }
+    }
+
+    /// All lines are sent with the next frame.
+    pub fn forget(&mut self) {
+        self.hashes.fill(0);
+    }
+
+    /// The line is sent with the next frame.
+    pub fn forget_line(&mut self, line: u16) {
+        if let Some(hash) = self.hashes.get_mut(usize::from(line)) {
+            *hash = 0;
+        }
+    }
+
+    /// Whether `pixels` are other than what `line` shows, or may be; they are about to be shown then.
+    #[inline]
+    pub fn replace<W: LineWord>(&mut self, line: u16, pixels: &[W]) -> bool {
+        let Some(shown) = self.hashes.get_mut(usize::from(line)) else {
+            return true;
+        };
+        let hash = W::hash(pixels);
+        core::mem::replace(shown, hash) != hash
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    #[test]
+    fn hashes_of_like_lines_collide_as_random_numbers_would() {
+        // Lines as pictures have them: one background, a span of few colours somewhere.
+        let mut hashes = Vec::new();
+        for start in (0..320).step_by(5) {
+            for end in (start + 1..=320).step_by(3) {
+                for colour in [0x8000u16, 0x0001, 0x8001, 0xF800, 0x07E0, 0xFFFF] {
+                    for base in [0u16, 0x8000, 0x1234] {
+                        let mut line = [base; 320];
+                        line[start..end].fill(colour ^ 0x0100);
+                        hashes.push(u16::hash(&line));
+                    }
+                }
+            }
+        }
+        let count = hashes.len();
+        hashes.sort_unstable();
+        hashes.dedup();
+        // About 62,000 lines: n^2 / 2^33 pairs are expected to collide, that is, 0.4.
+        assert!(count > 50_000);
+        assert!(count - hashes.len() <= 4, "{}", count - hashes.len());
+    }
+
+    #[test]
+    fn lines_that_differ_in_up_to_three_bits_of_four_pixels_differ() {
+        let mut seed = 3u32;
+        for _ in 0..20 {
+            let line: [u16; 4] = core::array::from_fn(|_| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                (seed >> 16) as u16
+            });
+            let hash = u16::hash(&line);
+            // Bit 64 is no bit.
+            for a in 0..64 {
+                for b in a + 1..=64 {
+                    for c in b..=64 {
+                        let mut other = line;
+                        for bit in [a, b, c] {
+                            if let Some(pixel) = other.get_mut(bit / 16) {
+                                *pixel ^= 1 << (bit % 16);
+                            }
+                        }
+                        assert!(other != line && u16::hash(&other) != hash, "{a} {b} {c}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_line_is_shown_once_it_was_replaced_and_until_it_is_forgotten() {
+        let mut hashes = [9; 2];
+        let mut shown = ShownLines::new(&mut hashes);
+        // All zero is a picture too.
+        let black = [0u16; 4];
+        assert!(shown.replace(0, &black));
+        assert!(!shown.replace(0, &black));
+        assert!(shown.replace(1, &black));
+        shown.forget_line(0);
+        assert!(shown.replace(0, &black));
+        assert!(!shown.replace(1, &black));
+        shown.forget();
+        assert!(shown.replace(1, &black));
+        // There is no number for this line.
+        assert!(shown.replace(2, &black));
+        assert!(shown.replace(2, &black));
+        assert_ne!(u32::hash(&[1, 2]), u32::hash(&[2, 1]));
+        assert_ne!(<[u8; 3]>::hash(&[[1, 2, 3]]), <[u8; 3]>::hash(&[[1, 2, 4]]));
+        assert_eq!(
+            <[u8; 2]>::hash(&[[1, 2], [3, 4]]),
+            u16::hash(&[0x0201, 0x0403])
+        );
+    }
+}
