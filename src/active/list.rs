@@ -154,6 +154,8 @@ impl<'m, T: Member> ActiveList<'m, T> {
     }
 
     /// Empties the list and the cache, and starts counting anew.
+    #[cold]
+    #[inline(never)]
     pub(crate) fn clear(&mut self) {
         self.head = Link::NONE;
         self.incoming = Link::NONE;

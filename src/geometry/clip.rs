@@ -29,8 +29,8 @@ pub(super) fn near_far<S: Shading>(
     // Three of nine places: cannot be full.
     let _ = polygon.extend_from_slice(&triangle);
     let (near, far) = (i64::from(projection.near), i64::from(projection.far));
-    polygon = cut::<S>(&polygon, |p| i64::from(p.z) - near, false);
-    cut::<S>(&polygon, |p| far - i64::from(p.z), false)
+    polygon = cut::<S>(&polygon, &|p| i64::from(p.z) - near, false);
+    cut::<S>(&polygon, &|p| far - i64::from(p.z), false)
 }
 
 /// Clips a triangle, already within near and far, at the four sides of the guard band.
@@ -54,7 +54,7 @@ pub(super) fn guard<S: Shading>(
                     (z << (-power).min(16)) - v
                 }
             };
-            polygon = cut::<S>(&polygon, inside, true);
+            polygon = cut::<S>(&polygon, &inside, true);
         }
     }
     polygon
@@ -64,9 +64,10 @@ pub(super) fn guard<S: Shading>(
 ///
 /// The result begins with the first corner inside, or with the new one just before it: of a
 /// polygon drawn as a fan, the first corner decides how colours run.
+#[inline(never)]
 fn cut<S: Shading>(
     polygon: &[Corner<S::Vertex>],
-    inside: impl Fn(ClipPoint) -> i64,
+    inside: &dyn Fn(ClipPoint) -> i64,
     on_screen: bool,
 ) -> Polygon<S::Vertex> {
     let mut kept = Polygon::new();
@@ -84,11 +85,11 @@ fn cut<S: Shading>(
             let _ = kept.push(*this);
         }
         if (this_in < 0) != (next_in < 0) {
-            let new = if this_in < 0 {
-                between::<S>((next, next_in), (this, this_in), on_screen)
-            } else {
-                between::<S>((this, this_in), (next, next_in), on_screen)
-            };
+            let (mut inner, mut outer) = ((this, this_in), (next, next_in));
+            if this_in < 0 {
+                (inner, outer) = (outer, inner);
+            }
+            let new = between::<S>(inner, outer, on_screen);
             // A convex polygon crosses a plane twice and loses a corner for the two it gains.
             let _ = kept.push(new);
         }

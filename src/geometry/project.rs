@@ -61,6 +61,7 @@ pub(super) struct Projection {
 }
 
 impl Projection {
+    #[inline(never)]
     pub(super) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
         let map = model.then(&camera.view);
         // A vertex is within 2 each way, so a row reaches at most twice the sum of its entries.

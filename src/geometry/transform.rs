@@ -4,7 +4,7 @@
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
 //! and no float is touched after set-up.
 
-use crate::num::{Block, I2F14, shift_round};
+use crate::num::{Block, I2F14, shift_round, shift_round_inline};
 use micromath::F32Ext;
 
 /// An affine map `p -> linear p + offset`.
@@ -73,12 +73,15 @@ impl Affine {
     /// The map that does `self` first and then `next`.
     #[must_use]
     pub fn then(&self, next: &Self) -> Self {
-        let (a, b) = (&next.linear.mantissa, &self.linear.mantissa);
+        let b = &self.linear.mantissa;
         let mut linear = [0i64; 9];
-        for (i, value) in linear.iter_mut().enumerate() {
-            let (row, column) = (i / 3 * 3, i % 3);
-            for k in 0..3 {
-                *value += i64::from(a[row + k]) * i64::from(b[k * 3 + column]);
+        for column in 0..3 {
+            let times = times(
+                &next.linear.mantissa,
+                [b[column], b[3 + column], b[6 + column]],
+            );
+            for (row, value) in times.into_iter().enumerate() {
+                linear[3 * row + column] = value;
             }
         }
         let moved = next.linear_times(self.offset);
@@ -135,13 +138,7 @@ impl Affine {
 
     /// The linear part times a vector.
     pub(super) fn linear_times(&self, v: Block<3>) -> Block<3> {
-        let m = &self.linear.mantissa;
-        let mut sum = [0i64; 3];
-        for (i, value) in sum.iter_mut().enumerate() {
-            for k in 0..3 {
-                *value += i64::from(m[i * 3 + k]) * i64::from(v.mantissa[k]);
-            }
-        }
+        let sum = times(&self.linear.mantissa, v.mantissa);
         Block::new(sum, self.linear.exponent + v.exponent - 30)
     }
 
@@ -177,7 +174,7 @@ fn with_length(v: [i64; 3]) -> ([i64; 3], i64) {
     let bits = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();
     // 30 bits each: the sum of squares fits 62 bits, and the root has 30 of its own.
     let shift = bits.leading_zeros() as i32 - 34;
-    let v = v.map(|c| shift_round(c, shift));
+    let v = v.map(|c| shift_round_inline(c, shift));
     let square: i64 = v.iter().map(|c| c * c).sum();
     (v, square.unsigned_abs().isqrt() as i64)
 }
@@ -191,6 +188,13 @@ fn unit_q30(v: [i64; 3]) -> Option<[i64; 3]> {
 /// The scalar product of two vectors in Q1.30 of length up to 1.
 fn dot_q30(a: [i64; 3], b: [i64; 3]) -> i64 {
     shift_round(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -30)
+}
+
+/// A matrix, row by row, times a vector.
+#[inline(never)]
+fn times(m: &[i32; 9], v: [i32; 3]) -> [i64; 3] {
+    let wide = |i: usize, k: usize| i64::from(m[3 * i + k]) * i64::from(v[k]);
+    [0, 1, 2].map(|i| wide(i, 0) + wide(i, 1) + wide(i, 2))
 }
 
 fn add(a: Block<3>, b: Block<3>) -> Block<3> {

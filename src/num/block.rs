@@ -28,51 +28,21 @@ impl<const N: usize> Block<N> {
     /// Normalises `value[i] 2^(exponent - 30)`, rounding to nearest.
     #[must_use]
     pub fn new(value: [i64; N], exponent: i32) -> Self {
-        let mut bits = 0u64;
-        for v in value {
-            bits |= v.unsigned_abs();
-        }
-        if bits == 0 {
-            return Self::ZERO;
-        }
-        let mut shift = 30 - (64 - bits.leading_zeros() as i32);
-        // Rounding may carry into one bit more.
-        if value
-            .iter()
-            .any(|&v| shift_round(v, shift).unsigned_abs() >> 30 != 0)
-        {
-            shift -= 1;
-        }
         let mut mantissa = [0; N];
-        for (m, v) in mantissa.iter_mut().zip(value) {
-            *m = shift_round(v, shift) as i32;
-        }
-        Self {
-            mantissa,
-            exponent: (exponent - shift).clamp(-MOST, MOST),
+        match normalise(&value, &mut mantissa) {
+            Some(shift) => Self {
+                mantissa,
+                exponent: (exponent - shift).clamp(-MOST, MOST),
+            },
+            None => Self::ZERO,
         }
     }
 
     /// Converts floats; `None` when one is not finite or beyond 2^96 in magnitude.
     #[must_use]
     pub fn from_f32(value: [f32; N]) -> Option<Self> {
-        let mut largest = 0;
-        for v in value {
-            largest = largest.max(v.to_bits() & 0x7FFF_FFFF);
-        }
-        let exponent = (largest >> 23) as i32 - 126;
-        if exponent > 96 {
-            return None;
-        }
-        if exponent < -90 {
-            return Some(Self::ZERO);
-        }
-        // A power of two, so each product is exact.
-        let scale = f32::from_bits(((127 + 30 - exponent) as u32) << 23);
         let mut wide = [0i64; N];
-        for (w, v) in wide.iter_mut().zip(value) {
-            *w = (v * scale) as i64;
-        }
+        let exponent = widen(&value, &mut wide)?;
         Some(Self::new(wide, exponent))
     }
 
@@ -93,12 +63,78 @@ impl<const N: usize> Block<N> {
     }
 }
 
+/// Shifts all values so that they are normalised, and says by how much; `None` when all are 0.
+///
+/// One piece of code for blocks of all lengths: it is set-up, so its size counts.
+#[inline(never)]
+fn normalise(value: &[i64], mantissa: &mut [i32]) -> Option<i32> {
+    let mut bits = 0u64;
+    for v in value {
+        bits |= v.unsigned_abs();
+    }
+    if bits == 0 {
+        return None;
+    }
+    let mut shift = 30 - (64 - bits.leading_zeros() as i32);
+    // Rounding may carry into one bit more.
+    if shift_all(value, shift, mantissa) >> 30 != 0 {
+        shift -= 1;
+        shift_all(value, shift, mantissa);
+    }
+    Some(shift)
+}
+
+/// [`shift_round`] of all values, which fit then; says which bits their magnitudes have.
+#[inline(never)]
+fn shift_all(value: &[i64], shift: i32, mantissa: &mut [i32]) -> u32 {
+    let mut bits = 0;
+    for (m, &v) in mantissa.iter_mut().zip(value) {
+        *m = if shift >= 0 {
+            (v as i32) << shift
+        } else {
+            // Any shift is by 34 at most.
+            (((v >> (-shift - 1)) + 1) >> 1) as i32
+        };
+        bits |= m.unsigned_abs();
+    }
+    bits
+}
+
+/// Floats as integers below 2^30 in magnitude with a common exponent; all 0 when they are tiny.
+#[inline(never)]
+fn widen(value: &[f32], wide: &mut [i64]) -> Option<i32> {
+    let mut largest = 0;
+    for v in value {
+        largest = largest.max(v.to_bits() & 0x7FFF_FFFF);
+    }
+    let exponent = (largest >> 23) as i32 - 126;
+    if exponent > 96 {
+        return None;
+    }
+    if exponent >= -90 {
+        // A power of two, so each product is exact.
+        let scale = f32::from_bits(((127 + 30 - exponent) as u32) << 23);
+        for (w, v) in wide.iter_mut().zip(value) {
+            *w = i64::from((v * scale) as i32);
+        }
+    }
+    Some(exponent)
+}
+
 /// `value 2^shift`, rounded to nearest (half up) where it shifts right.
 ///
-/// Shifts left saturate, so a number that does not fit keeps its sign.
-#[inline]
+/// Shifts left saturate, so a number that does not fit keeps its sign. Out of line, for set-up:
+/// shifts of 64 bits by a variable take a dozen instructions each.
+#[inline(never)]
 #[must_use]
 pub const fn shift_round(value: i64, shift: i32) -> i64 {
+    shift_round_inline(value, shift)
+}
+
+/// [`shift_round`] in place, for what is done for each triangle.
+#[inline(always)]
+#[must_use]
+pub(crate) const fn shift_round_inline(value: i64, shift: i32) -> i64 {
     if shift >= 0 {
         if value == 0 {
             0
@@ -110,9 +146,8 @@ pub const fn shift_round(value: i64, shift: i32) -> i64 {
     } else if shift <= -63 {
         0
     } else {
-        let half = 1i64 << (-shift - 1);
         // The half is added after the first part of the shift, so that it cannot overflow.
-        ((value >> (-shift - 1)) + (half >> (-shift - 1))) >> 1
+        ((value >> (-shift - 1)) + 1) >> 1
     }
 }
 

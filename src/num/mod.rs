@@ -23,6 +23,7 @@ mod recip;
 mod recip_table;
 mod small;
 
+pub(crate) use block::shift_round_inline;
 pub use block::{Block, shift_round};
 pub use block_fix::BlockFix16;
 pub use edge::{Edge, column_exact, first_at};

@@ -4,7 +4,7 @@
 //! on the way; the value at a covered pixel is right because the true value fits. Nothing is
 //! accumulated down the object, so any line can be evaluated alone (K5).
 
-use super::{recip, shift_round};
+use super::{recip, shift_round_inline};
 
 /// A plane: value at column 0 and line 0, and the steps to the next column and line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -132,12 +132,12 @@ impl InverseArea {
         let product = if self.negative { -product } else { product };
         // numerator / area = product 2^(down - 62 - exponent) per unit, 8 units a pixel.
         let shift = 62 + self.exponent - down as i32 - 3;
-        let step = shift_round(product, -shift);
+        let step = shift_round_inline(product, -shift);
         let bits = 64 - step.unsigned_abs().leading_zeros();
         if bits + self.extent_bits > 41 || bits > 30 {
             return None;
         }
-        let off = shift_round((product >> 3) * i64::from(sub), -shift);
+        let off = shift_round_inline((product >> 3) * i64::from(sub), -shift);
         Some((step as i32, off as i32))
     }
 }
