@@ -180,7 +180,9 @@ mod stats;
 mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
-pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
+pub use composite::{
+    PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf, TextureSource, Textures,
+};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
     Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,
@@ -190,7 +192,7 @@ pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
     CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Interpolated, ObjectOf, Parts, Pipeline, SlotOf, VertexOf, WordOf,
+    Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,

@@ -5,6 +5,9 @@ pub trait SpanCounter: Copy + Default + Send {
     /// One span was drawn: so many of its pixels were seen, so many hidden, tested or not.
     fn span(&mut self, seen: u32, hidden: u32, tested: bool);
 
+    /// So many texels were fetched.
+    fn fetched(&mut self, texels: u32);
+
     /// What has been counted.
     fn counts(&self) -> SpanCounts;
 
@@ -26,6 +29,8 @@ pub struct SpanCounts {
     pub pixels_hidden: u32,
     /// Depth comparisons.
     pub depth_tests: u32,
+    /// Texels that were read for pixels that were seen.
+    pub texture_fetches: u32,
 }
 
 impl SpanCounter for SpanCounts {
@@ -42,6 +47,11 @@ impl SpanCounter for SpanCounts {
         }
     }
 
+    #[inline]
+    fn fetched(&mut self, texels: u32) {
+        self.texture_fetches += texels;
+    }
+
     fn counts(&self) -> SpanCounts {
         *self
     }
@@ -52,6 +62,9 @@ impl SpanCounter for () {
 
     #[inline(always)]
     fn span(&mut self, _: u32, _: u32, _: bool) {}
+
+    #[inline(always)]
+    fn fetched(&mut self, _: u32) {}
 
     fn counts(&self) -> SpanCounts {
         SpanCounts::default()
@@ -65,5 +78,6 @@ impl core::ops::AddAssign for SpanCounts {
         self.pixels_shaded += other.pixels_shaded;
         self.pixels_hidden += other.pixels_hidden;
         self.depth_tests += other.depth_tests;
+        self.texture_fetches += other.texture_fetches;
     }
 }

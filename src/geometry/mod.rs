@@ -15,6 +15,7 @@ mod object;
 mod project;
 mod setup;
 mod shading;
+pub mod texturing;
 mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room};

@@ -8,7 +8,7 @@ use crate::geometry::{
     Screen, Store,
 };
 use crate::link::Link;
-use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, VertexOf};
+use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, SkinOf, VertexOf};
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
@@ -163,6 +163,7 @@ pub struct Scene<'m, P: Pipeline> {
     /// Lines of the picture that are drawn.
     lines: Range<u16>,
     pass_one: PassOne,
+    textures: P::Textures,
     /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
 }
@@ -182,6 +183,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             buckets: Buckets::new(memory.buckets),
             lines: 0..0,
             pass_one: PassOne::default(),
+            textures: P::Textures::default(),
             generation: 0,
         }
     }
@@ -229,6 +231,18 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         Ok(())
     }
 
+    /// Lends the textures that [`draw_skinned`](Scene::draw_skinned) names by number; at first
+    /// there are none. They stay until others are lent.
+    pub fn set_textures(&mut self, textures: P::Textures) {
+        self.textures = textures;
+    }
+
+    /// The textures lent.
+    #[inline(always)]
+    pub(crate) fn textures(&self) -> P::Textures {
+        self.textures
+    }
+
     /// Draws a mesh into the scene. Before [`begin`](Scene::begin) it does nothing.
     ///
     /// # Errors
@@ -237,6 +251,21 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     pub fn draw<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
+        instance: &Instance,
+    ) -> Result<Assembled, DrawError> {
+        self.draw_skinned(mesh, SkinOf::<P>::default(), instance)
+    }
+
+    /// [`draw`](Scene::draw) with what the mesh brings beside its colours: in pipelines such as
+    /// [`TexturedDepth`](crate::TexturedDepth) a [`Skin`](crate::texture::Skin).
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw); a skin that is neither empty nor as long as the mesh's positions
+    /// is a [`MeshError::AttributeLength`].
+    pub fn draw_skinned<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        skin: SkinOf<'_, P>,
         instance: &Instance,
     ) -> Result<Assembled, DrawError> {
         let Some(camera) = &self.camera else {
@@ -250,7 +279,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             self.lines.clone(),
             &instance.model,
             (instance.cull, instance.light, instance.colour),
-            scale::<P>(),
+            (scale::<P>(), skin),
         );
         let (objects, buckets) = (&mut self.objects, &mut self.buckets);
         let done = assembler
