@@ -200,10 +200,10 @@ pub use renderer::{
     Relay, RendererError, Scene, SceneError, SceneMemory, Source, Stalled, Stream, draw_frame,
     send_frame,
 };
-pub use shade::texture;
 pub use shade::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
     Packed16, Precision, Quality, QuarterRate,
 };
+pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

@@ -29,7 +29,7 @@ pub trait Shading {
     fn lerp(a: Self::Vertex, b: Self::Vertex, t: i64, space: i64) -> Self::Vertex;
 
     /// What a mesh brings beside its colours: `()`, or a [`Skin`](super::texturing::Skin).
-    type Skin<'a>: Copy + Default;
+    type Skin<'a>: Copy + Default + From<super::texturing::Skin<'a>>;
     /// Whether it brings anything.
     const SKINNED: bool = false;
 

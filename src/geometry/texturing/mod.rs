@@ -42,6 +42,11 @@ impl Skin<'_> {
     pub const TEXTURES: u16 = 0x3FFF;
 }
 
+/// Shadings without textures ignore it.
+impl From<Skin<'_>> for () {
+    fn from(_: Skin<'_>) {}
+}
+
 /// The texture of a face: its number in the lower 14 bits, and the quality above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FaceTexture(u16);
