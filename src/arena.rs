@@ -60,6 +60,12 @@ impl<'m, T> Arena<'m, T> {
     pub(crate) fn as_slice(&self) -> &[T] {
         self.items.get(..self.len).unwrap_or(&[])
     }
+
+    /// The values so far, to be changed.
+    #[inline]
+    pub(crate) fn as_mut_slice(&mut self) -> &mut [T] {
+        self.items.get_mut(..self.len).unwrap_or(&mut [])
+    }
 }
 
 #[cfg(test)]

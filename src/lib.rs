@@ -181,7 +181,9 @@ mod stats;
 mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
-pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
+pub use composite::{
+    PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf, TextureSource, Textures,
+};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
     Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,
@@ -191,7 +193,7 @@ pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
     CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Interpolated, ObjectOf, Parts, Pipeline, SlotOf, VertexOf, WordOf,
+    Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
@@ -199,10 +201,10 @@ pub use renderer::{
     Relay, RendererError, Scene, SceneError, SceneMemory, Source, Stalled, Stream, draw_frame,
     draw_frame_changed, send_changed, send_frame,
 };
-pub use shade::texture;
 pub use shade::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
     Packed16, Precision, Quality, QuarterRate,
 };
+pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

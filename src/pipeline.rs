@@ -6,10 +6,12 @@
 //! | [`FlatDepth`] | [`Flat`] | [`Depth32`] | any | none is needed |
 //! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any | [`Packed8`] |
 //! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
+//! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
-use crate::composite::PixelFormat;
+use crate::composite::{PixelFormat, TextureSource, Textures};
+use crate::geometry::texturing::Textured;
 use crate::geometry::{Flat, Gouraud, Shading};
 use crate::shade::{Interpolation, Levels, Packed8};
 use crate::stats::{SpanCounter, SpanCounts};
@@ -28,25 +30,29 @@ pub trait Pipeline {
     type Counter: SpanCounter;
     /// How colours are taken from pixel to pixel.
     type Interpolation: Interpolation;
+    /// Textures lent to a scene: [`Textures`], or `()` for none.
+    type Textures: TextureSource<Self::Pixel>;
 }
 
 /// A pipeline by its parts.
 #[derive(Clone, Copy, Debug)]
-pub struct Parts<S, D, F, C = (), I = Packed8>(PhantomData<(S, D, F, C, I)>);
+pub struct Parts<S, D, F, C = (), I = Packed8, X = ()>(PhantomData<(S, D, F, C, I, X)>);
 
-impl<S, D, F, C, I> Pipeline for Parts<S, D, F, C, I>
+impl<S, D, F, C, I, X> Pipeline for Parts<S, D, F, C, I, X>
 where
     S: Shading<Levels: Levels>,
     D: LineDepth,
     F: PixelFormat,
     C: SpanCounter,
     I: Interpolation,
+    X: TextureSource<F>,
 {
     type Shading = S;
     type Depth = D;
     type Pixel = F;
     type Counter = C;
     type Interpolation = I;
+    type Textures = X;
 }
 
 /// Colours linear between vertices, 32-bit depth.
@@ -57,6 +63,11 @@ pub type FlatDepth<F> = Parts<Flat, Depth32, F>;
 pub type GouraudPainter<F> = Parts<Gouraud, (), F>;
 /// One colour a face, later objects over earlier ones.
 pub type FlatPainter<F> = Parts<Flat, (), F>;
+/// Colours linear between vertices times textures `T`, 32-bit depth; see [`Scene::set_textures`].
+///
+/// [`Scene::set_textures`]: crate::Scene::set_textures
+pub type TexturedDepth<'t, F, T> =
+    Parts<Textured<Gouraud>, Depth32, F, (), Packed8, Textures<'t, T>>;
 /// The pipeline `P`, and its spans and pixels are counted.
 pub type Counted<P> = Parts<
     <P as Pipeline>::Shading,
@@ -64,6 +75,7 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Pixel,
     SpanCounts,
     <P as Pipeline>::Interpolation,
+    <P as Pipeline>::Textures,
 >;
 /// The pipeline `P`, with colours by the method `I`.
 pub type Interpolated<P, I> = Parts<
@@ -72,6 +84,7 @@ pub type Interpolated<P, I> = Parts<
     <P as Pipeline>::Pixel,
     <P as Pipeline>::Counter,
     I,
+    <P as Pipeline>::Textures,
 >;
 
 /// The word of a pipeline's pixels.
@@ -84,6 +97,8 @@ pub type ObjectOf<P> = crate::geometry::Object<<<P as Pipeline>::Shading as Shad
 pub type SlotOf<P> = crate::active::Slot<DrawableOf<P>>;
 /// An object of a pipeline, set up for drawing.
 pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>>;
+/// What a mesh of a pipeline brings beside its colours.
+pub type SkinOf<'a, P> = <<P as Pipeline>::Shading as Shading>::Skin<'a>;
 /// What an object of a pipeline is coloured by.
 pub type LevelsOf<P> = <<P as Pipeline>::Shading as Shading>::Levels;
 /// The depth cell of a pipeline.

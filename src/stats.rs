@@ -7,6 +7,8 @@ pub trait SpanCounter: Copy + Default + Send {
 
     /// The next span has one colour, and is filled with it.
     fn flat(&mut self);
+    /// So many texels were fetched.
+    fn fetched(&mut self, texels: u32);
 
     /// What has been counted.
     fn counts(&self) -> SpanCounts;
@@ -33,6 +35,8 @@ pub struct SpanCounts {
     pub pixels_hidden: u32,
     /// Depth comparisons.
     pub depth_tests: u32,
+    /// Texels that were read for pixels that were seen.
+    pub texture_fetches: u32,
 }
 
 impl SpanCounter for SpanCounts {
@@ -56,6 +60,11 @@ impl SpanCounter for SpanCounts {
         self.spans_flat += 1;
     }
 
+    #[inline]
+    fn fetched(&mut self, texels: u32) {
+        self.texture_fetches += texels;
+    }
+
     fn counts(&self) -> SpanCounts {
         *self
     }
@@ -69,6 +78,9 @@ impl SpanCounter for () {
 
     #[inline(always)]
     fn flat(&mut self) {}
+
+    #[inline(always)]
+    fn fetched(&mut self, _: u32) {}
 
     fn counts(&self) -> SpanCounts {
         SpanCounts::default()
@@ -84,5 +96,6 @@ impl core::ops::AddAssign for SpanCounts {
         self.pixels_shaded += other.pixels_shaded;
         self.pixels_hidden += other.pixels_hidden;
         self.depth_tests += other.depth_tests;
+        self.texture_fetches += other.texture_fetches;
     }
 }

@@ -2,9 +2,11 @@
 
 mod interp;
 mod prepared;
+mod textured;
 
 pub use interp::draw_by;
 pub use prepared::Prepared;
+pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
 
 use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
 use crate::crew::{self, LineRooms};
@@ -122,7 +124,7 @@ impl Drawn {
             "pixels_shaded": s.spans.pixels_shaded,
             "pixels_hidden": s.spans.pixels_hidden,
             "depth_tests": s.spans.depth_tests,
-            "texture_fetches": 0,
+            "texture_fetches": s.spans.texture_fetches,
             "scanlines_skipped": s.scanlines_skipped,
             "bytes_sent": s.scan_out.bytes_sent,
             "lines_unsent": s.scan_out.lines_unsent,
@@ -210,9 +212,20 @@ pub fn draw_as<P: Pipeline>(
     view: &View,
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure> {
+    draw_with::<P>(prepared, view, crew, P::Textures::default())
+}
+
+/// Draws a prepared model with the pipeline `P` and its textures.
+fn draw_with<P: Pipeline>(
+    prepared: &Prepared,
+    view: &View,
+    crew: CrewSettings,
+    textures: P::Textures,
+) -> Result<Drawn, DrawFailure> {
     let setting = Setting::new(prepared, view)?;
     let (width, height) = (view.width as u16, view.height as u16);
     let mut rooms = SceneRooms::<P>::new(prepared, height);
+    rooms.textures = textures;
     let links = rooms.objects.len();
     let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
         .map(|_| LineRooms::new(crew.slots, links, width))
@@ -501,19 +514,22 @@ pub(crate) struct SceneRooms<P: Pipeline> {
     vertices: Vec<VertexOf<P>>,
     objects: Vec<ObjectOf<P>>,
     buckets: Vec<Link>,
+    textures: P::Textures,
 }
 
 impl<P: Pipeline> SceneRooms<P> {
     /// An empty scene in them.
     fn scene(&mut self, screen: Screen) -> Scene<'_, P> {
-        Scene::new(
+        let mut scene = Scene::new(
             screen,
             SceneMemory {
                 vertices: &mut self.vertices,
                 objects: &mut self.objects,
                 buckets: &mut self.buckets,
             },
-        )
+        );
+        scene.set_textures(self.textures);
+        scene
     }
 
     pub(crate) fn new(prepared: &Prepared, height: u16) -> Self {
@@ -526,6 +542,7 @@ impl<P: Pipeline> SceneRooms<P> {
             vertices: vec![VertexOf::<P>::empty(); vertices],
             objects: vec![ObjectOf::<P>::default(); objects],
             buckets: vec![Link::NONE; usize::from(height)],
+            textures: P::Textures::default(),
         }
     }
 }

@@ -1,6 +1,7 @@
 //! The command line tool: see `scanbeam --help`.
 
-use host_tests::args::{self, Command, EXIT_BAD_INPUT, QualityArg, RenderArgs, Stop};
+use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, QualityArg, RenderArgs, Stop};
+use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::model::Model;
 use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, trace};
@@ -52,7 +53,17 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         quality: args.quality.map(QualityArg::quality).unwrap_or_default(),
     };
     let (view, format) = (args.view(), args.picture.format);
-    let drawn = draw::draw_by(&model, &view, format, crew, args.method())?;
+    let textures = match args.method() {
+        // The hardware model has none.
+        InterpArg::Model => TextureSet::default(),
+        _ => TextureSet::load(&model, args.texture.as_deref())?,
+    };
+    let drawn = if textures.is_empty() {
+        draw::draw_by(&model, &view, format, crew, args.method())?
+    } else {
+        let how = (args.filter, args.texture_quality());
+        draw::draw_textured(&model, &textures, how, &view, format, crew)?
+    };
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
         let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
@@ -63,5 +74,8 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     picture.commit()?;
     // Last, so that a refusal is one line alone.
     model.print_warnings();
+    for note in textures.notes() {
+        eprintln!("note: {note}");
+    }
     Ok(())
 }

@@ -6,6 +6,7 @@
 //! | `course.rs` | where a span's colours come from: two words, or three channels |
 //! | `ramp.rs` | packed channels in one or two registers |
 //! | `lirp.rs` | LIRP between a span's ends |
+//! | `texels.rs` | texels times the shaded colour |
 
 mod course;
 mod lirp;
@@ -13,9 +14,11 @@ mod paint;
 mod ramp;
 #[cfg(test)]
 mod tests;
+mod texels;
 
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};
+pub use texels::{TexelOf, TextureSource, Textures};
 
 use crate::shade::Precision;
 

@@ -78,7 +78,7 @@ pub struct Assembled {
 }
 
 /// One mesh on its way to the screen.
-pub(crate) struct Assembler<'a, 'm, S: Shading> {
+pub(crate) struct Assembler<'a, 'm, 'k, S: Shading> {
     /// Where vertices go.
     vertices: &'a mut Arena<'m, SceneVertex<S::Vertex>>,
     projection: Projection,
@@ -94,6 +94,8 @@ pub(crate) struct Assembler<'a, 'm, S: Shading> {
     lost: bool,
     /// How levels become steps of the output.
     scale: &'a Scale,
+    /// What the mesh brings beside its colours.
+    skin: S::Skin<'k>,
     done: Assembled,
 }
 
@@ -102,7 +104,7 @@ pub(crate) struct Store<'m, S: Shading> {
     pub(crate) vertices: Arena<'m, SceneVertex<S::Vertex>>,
 }
 
-impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
+impl<'a, 'm, 'k, S: Shading> Assembler<'a, 'm, 'k, S> {
     /// Prepares for meshes at `model` seen by `camera`; only objects on `lines` of the picture
     /// are kept.
     pub(crate) fn new(
@@ -112,7 +114,7 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         lines: Range<u16>,
         model: &Affine,
         (cull, light, colour): (Cull, Option<Light>, [u8; 3]),
-        scale: &'a Scale,
+        (scale, skin): (&'a Scale, S::Skin<'k>),
     ) -> Self {
         let light = light.map(|l| Light {
             direction: model.direction_to_model(l.direction),
@@ -129,6 +131,7 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
             tint: Tint::new(colour, scale),
             lost: false,
             scale,
+            skin,
             done: Assembled::default(),
         }
     }
@@ -144,10 +147,19 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
         mut file: impl FnMut(Object<S::Face>, i32) -> bool,
     ) -> Result<Assembled, MeshError> {
         check(mesh)?;
+        if !S::fits(&self.skin, mesh.positions.len()) {
+            return Err(MeshError::AttributeLength);
+        }
         let base = self.vertices.len();
         // Where all vertices fit they are transformed and lit once and shared; where they do
         // not, each face brings its own, and only those of kept faces take room.
         let shared = self.shared_vertices(mesh);
+        if S::SKINNED && shared {
+            let vertices = self.vertices.as_mut_slice().get_mut(base..);
+            for (i, vertex) in vertices.unwrap_or_default().iter_mut().enumerate() {
+                S::dress(&mut vertex.attribute, &self.skin, i);
+            }
+        }
         self.done.triangles = triangles(mesh.faces);
         match mesh.faces {
             Faces::Triangles(faces) if shared => {
@@ -303,13 +315,15 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
     ) {
         let corner = corners.map(|i| {
             let i = usize::from(i);
+            let mut attribute = if S::PER_FACE {
+                S::Vertex::default()
+            } else {
+                S::vertex(self.vertex_colour(mesh, i))
+            };
+            S::dress(&mut attribute, &self.skin, i);
             Corner {
                 point: self.projection.transform(mesh.positions[i]),
-                attribute: if S::PER_FACE {
-                    S::Vertex::default()
-                } else {
-                    S::vertex(self.vertex_colour(mesh, i))
-                },
+                attribute,
             }
         });
         let codes = corner.map(|c| self.projection.outcode(c.point));
@@ -421,6 +435,18 @@ impl<'a, 'm, S: Shading> Assembler<'a, 'm, S> {
     /// The lit colour of a face, by its own normal.
     #[inline]
     fn face_colour<C: Coordinate>(
+        &self,
+        mesh: &Mesh<'_, C>,
+        corners: [u16; 3],
+        provoking: u16,
+    ) -> S::Face {
+        let mut face = self.face_lit(mesh, corners, provoking);
+        S::dress_face(&mut face, &self.skin);
+        face
+    }
+
+    #[inline]
+    fn face_lit<C: Coordinate>(
         &self,
         mesh: &Mesh<'_, C>,
         corners: [u16; 3],

@@ -119,6 +119,7 @@ fn between<S: Shading>(
         z: mix(a.z, b.z),
     };
     // On the screen the same point is at t zb / z of the projected edge.
+    let space = t;
     let t = if on_screen && point.z > 0 {
         ((((t >> 1) * i64::from(b.z)) / i64::from(point.z)) << 1).clamp(0, 1 << 30)
     } else {
@@ -126,6 +127,6 @@ fn between<S: Shading>(
     };
     Corner {
         point,
-        attribute: S::lerp(inner.attribute, outer.attribute, t),
+        attribute: S::lerp(inner.attribute, outer.attribute, t, space),
     }
 }

@@ -16,6 +16,7 @@ mod object;
 mod project;
 mod setup;
 mod shading;
+pub mod texturing;
 mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room};

@@ -168,7 +168,13 @@ impl<F: Copy> Object<F> {
         );
         if let Some(area) = area {
             let depth = area.wide_plane(corners.map(|c| c.depth as i32));
-            let levels = S::set_up_small(&area, corners.map(|c| c.attribute), self.face, scale);
+            let levels = S::set_up_small(
+                &area,
+                corners.map(|c| c.attribute),
+                corners.map(|c| c.depth),
+                self.face,
+                scale,
+            );
             if let (Some(depth), Some(levels)) = (depth, levels) {
                 out.parameters = Parameters::Planes(depth, levels);
                 return true;
@@ -191,7 +197,13 @@ fn large<S: Shading>(
     let planes = || {
         let area = InverseArea::new(corners.map(|c| (c.x, c.y)))?;
         let depth = area.plane(corners.map(|c| c.depth as i32))?;
-        let levels = S::set_up(&area, corners.map(|c| c.attribute), face, scale)?;
+        let levels = S::set_up(
+            &area,
+            corners.map(|c| c.attribute),
+            corners.map(|c| c.depth),
+            face,
+            scale,
+        )?;
         Some(Parameters::Planes(depth, levels))
     };
     out.parameters = planes().unwrap_or(Parameters::Corners);
@@ -327,6 +339,12 @@ pub(crate) fn at_pixel<S: Shading>(
     let w2 = weight(cross(p[0], p[1])).min((1 << 30) - w1);
     let d = corners.map(|c| i64::from(c.depth));
     let depth = d[0] + (((d[1] - d[0]) * w1 + (d[2] - d[0]) * w2) >> 30);
-    let levels = S::weighted([w1, w2], corners.map(|c| c.attribute), face, scale);
+    let levels = S::weighted(
+        [w1, w2],
+        corners.map(|c| c.attribute),
+        corners.map(|c| c.depth),
+        face,
+        scale,
+    );
     (depth as u32, levels)
 }

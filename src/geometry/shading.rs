@@ -24,13 +24,31 @@ pub trait Shading {
     /// What to keep of a face's lit colour.
     fn face(colour: Colour) -> Self::Face;
 
-    /// The vertex's value at `t` (0 to 2^30) on the way from `a` to `b`.
-    fn lerp(a: Self::Vertex, b: Self::Vertex, t: i64) -> Self::Vertex;
+    /// The vertex's value on the way from `a` to `b`, at `t` (0 to 2^30) for what is linear on the
+    /// screen, and at `space` for what is linear on the surface.
+    fn lerp(a: Self::Vertex, b: Self::Vertex, t: i64, space: i64) -> Self::Vertex;
+
+    /// What a mesh brings beside its colours: `()`, or a [`Skin`](super::texturing::Skin).
+    type Skin<'a>: Copy + Default + From<super::texturing::Skin<'a>>;
+    /// Whether it brings anything.
+    const SKINNED: bool = false;
+
+    /// Whether the skin fits a mesh of so many vertices.
+    fn fits(_: &Self::Skin<'_>, _vertices: usize) -> bool {
+        true
+    }
+
+    /// Gives vertex `index` of a mesh its part of the skin.
+    fn dress(_: &mut Self::Vertex, _: &Self::Skin<'_>, _index: usize) {}
+
+    /// Gives a face of a mesh its part of the skin.
+    fn dress_face(_: &mut Self::Face, _: &Self::Skin<'_>) {}
 
     /// Sets up an object of at most 64 x 64 pixels; `None` when it is too thin.
     fn set_up_small(
         area: &SmallArea,
         corners: [Self::Vertex; 3],
+        depths: [u32; 3],
         face: Self::Face,
         scale: &Scale,
     ) -> Option<Self::Levels>;
@@ -39,6 +57,7 @@ pub trait Shading {
     fn set_up(
         area: &InverseArea,
         corners: [Self::Vertex; 3],
+        depths: [u32; 3],
         face: Self::Face,
         scale: &Scale,
     ) -> Option<Self::Levels>;
@@ -48,6 +67,7 @@ pub trait Shading {
     fn weighted(
         weights: [i64; 2],
         corners: [Self::Vertex; 3],
+        depths: [u32; 3],
         face: Self::Face,
         scale: &Scale,
     ) -> Self::Levels;
@@ -96,18 +116,32 @@ impl Shading for Flat {
         colour
     }
 
-    fn lerp((): (), (): (), _: i64) {}
+    fn lerp((): (), (): (), _: i64, _: i64) {}
+
+    type Skin<'a> = ();
 
     #[inline]
-    fn set_up_small(_: &SmallArea, _: [(); 3], face: Colour, scale: &Scale) -> Option<FlatLevels> {
+    fn set_up_small(
+        _: &SmallArea,
+        _: [(); 3],
+        _: [u32; 3],
+        face: Colour,
+        scale: &Scale,
+    ) -> Option<FlatLevels> {
         Some(FlatLevels(face.steps(scale)))
     }
 
-    fn set_up(_: &InverseArea, _: [(); 3], face: Colour, scale: &Scale) -> Option<FlatLevels> {
+    fn set_up(
+        _: &InverseArea,
+        _: [(); 3],
+        _: [u32; 3],
+        face: Colour,
+        scale: &Scale,
+    ) -> Option<FlatLevels> {
         Some(FlatLevels(face.steps(scale)))
     }
 
-    fn weighted(_: [i64; 2], _: [(); 3], face: Colour, scale: &Scale) -> FlatLevels {
+    fn weighted(_: [i64; 2], _: [(); 3], _: [u32; 3], face: Colour, scale: &Scale) -> FlatLevels {
         FlatLevels(face.steps(scale))
     }
 }
@@ -132,14 +166,17 @@ impl Shading for Gouraud {
 
     fn face(_: Colour) {}
 
-    fn lerp(a: Colour, b: Colour, t: i64) -> Colour {
+    fn lerp(a: Colour, b: Colour, t: i64, _: i64) -> Colour {
         a.lerp(b, t)
     }
+
+    type Skin<'a> = ();
 
     #[inline]
     fn set_up_small(
         area: &SmallArea,
         corners: [Colour; 3],
+        _: [u32; 3],
         (): (),
         _: &Scale,
     ) -> Option<GouraudLevels> {
@@ -175,6 +212,7 @@ impl Shading for Gouraud {
     fn set_up(
         area: &InverseArea,
         corners: [Colour; 3],
+        _: [u32; 3],
         (): (),
         scale: &Scale,
     ) -> Option<GouraudLevels> {
@@ -183,7 +221,13 @@ impl Shading for Gouraud {
         Some(GouraudLevels::Large([plane(0)?, plane(1)?, plane(2)?]))
     }
 
-    fn weighted(w: [i64; 2], corners: [Colour; 3], (): (), scale: &Scale) -> GouraudLevels {
+    fn weighted(
+        w: [i64; 2],
+        corners: [Colour; 3],
+        _: [u32; 3],
+        (): (),
+        scale: &Scale,
+    ) -> GouraudLevels {
         let c = corners.map(|c| wide_steps(c, scale));
         GouraudLevels::Large([0, 1, 2].map(|i| {
             let to = |k: usize| i64::from(c[k][i] - c[0][i]) * w[k - 1];

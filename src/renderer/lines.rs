@@ -377,7 +377,11 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
         };
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
-                let how = (self.interpolation, &mut *self.counter);
+                let how = (
+                    self.interpolation,
+                    self.scene.textures(),
+                    &mut *self.counter,
+                );
                 draw_span::<P>((plane, levels), at, (pixels, cells), how);
             }
             Parameters::Corners => {
@@ -490,7 +494,11 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             let at = (left + start as i32, line);
             match &slot.body().parameters {
                 Parameters::Planes(plane, levels) => {
-                    let how = (self.interpolation, &mut *self.counter);
+                    let how = (
+                        self.interpolation,
+                        self.scene.textures(),
+                        &mut *self.counter,
+                    );
                     draw_span::<P>((plane, levels), at, (pixels, None), how);
                 }
                 Parameters::Corners => {

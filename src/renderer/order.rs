@@ -187,11 +187,13 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         match (cover.look(start, end), &slot.body().parameters) {
             (Covered::All, _) => self.counter.span(0, pixels.len() as u32, false),
             (Covered::Nothing, Parameters::Planes(plane, levels)) => {
-                let how = (self.interpolation, &mut *self.counter);
+                let textures = self.scene.textures();
+                let how = (self.interpolation, textures, &mut *self.counter);
                 draw_span::<P>((plane, levels), at, (pixels, None), how);
             }
             (Covered::Some, Parameters::Planes(_, levels)) => {
-                let how = (self.interpolation, &mut *self.counter);
+                let textures = self.scene.textures();
+                let how = (self.interpolation, textures, &mut *self.counter);
                 draw_masked::<P>(levels, at, (pixels, cover.masked(start)), how);
             }
             (Covered::Nothing, Parameters::Corners) => {

@@ -8,7 +8,7 @@ use crate::geometry::{
     Screen, Sphere, Store, triangles,
 };
 use crate::link::Link;
-use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, VertexOf};
+use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, SkinOf, VertexOf};
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
@@ -170,6 +170,7 @@ pub struct Scene<'m, P: Pipeline> {
     /// Lines of the picture that are drawn.
     lines: Range<u16>,
     pass_one: PassOne,
+    textures: P::Textures,
     /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
 }
@@ -189,6 +190,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             buckets: Buckets::new(memory.buckets),
             lines: 0..0,
             pass_one: PassOne::default(),
+            textures: P::Textures::default(),
             generation: 0,
         }
     }
@@ -236,6 +238,18 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         Ok(())
     }
 
+    /// Lends the textures that [`draw_skinned`](Scene::draw_skinned) names by number; at first
+    /// there are none. They stay until others are lent.
+    pub fn set_textures(&mut self, textures: P::Textures) {
+        self.textures = textures;
+    }
+
+    /// The textures lent.
+    #[inline(always)]
+    pub(crate) fn textures(&self) -> P::Textures {
+        self.textures
+    }
+
     /// Draws a mesh into the scene. Before [`begin`](Scene::begin) it does nothing.
     ///
     /// # Errors
@@ -244,6 +258,21 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     pub fn draw<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
+        instance: &Instance,
+    ) -> Result<Assembled, DrawError> {
+        self.draw_skinned(mesh, SkinOf::<P>::default(), instance)
+    }
+
+    /// [`draw`](Scene::draw) with what the mesh brings beside its colours: in pipelines such as
+    /// [`TexturedDepth`](crate::TexturedDepth) a [`Skin`](crate::texture::Skin).
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw); a skin that is neither empty nor as long as the mesh's positions
+    /// is a [`MeshError::AttributeLength`].
+    pub fn draw_skinned<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        skin: SkinOf<'_, P>,
         instance: &Instance,
     ) -> Result<Assembled, DrawError> {
         let Some(camera) = &self.camera else {
@@ -257,7 +286,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             self.lines.clone(),
             &instance.model,
             (instance.cull, instance.light, instance.colour),
-            scale::<P>(),
+            (scale::<P>(), skin),
         );
         let (objects, buckets) = (&mut self.objects, &mut self.buckets);
         let done = assembler
@@ -298,10 +327,24 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         instance: &Instance,
         sphere: &Sphere,
     ) -> Result<Assembled, DrawError> {
+        match self.skip_outside(mesh, instance, sphere) {
+            Some(done) => Ok(done),
+            None => self.draw(mesh, instance),
+        }
+    }
+
+    /// What [`draw_within`](Scene::draw_within) does with a mesh whose sphere is outside of the
+    /// picture: counts it, and nothing else; `None` when it has to be drawn.
+    pub fn skip_outside<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        instance: &Instance,
+        sphere: &Sphere,
+    ) -> Option<Assembled> {
         let is_outside =
             |camera: &Camera| sphere.is_outside(camera, self.screen, &self.lines, &instance.model);
         if !self.camera.as_ref().is_some_and(is_outside) {
-            return self.draw(mesh, instance);
+            return None;
         }
         let done = Assembled {
             triangles: triangles(mesh.faces),
@@ -313,7 +356,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.pass_one.meshes_skipped += 1;
         self.pass_one.triangles_skipped += done.triangles;
         self.pass_one.vertices_skipped += mesh.positions.len() as u32;
-        Ok(done)
+        Some(done)
     }
 
     /// What pass one has done since the scene was begun.

@@ -1,13 +1,13 @@
 //! The pixels of one object on one line: tested, coloured, stored (K8).
 
 use super::scene::Scene;
-use crate::composite::{PixelFormat, paint};
+use crate::composite::{PixelFormat, TextureSource, paint};
 use crate::geometry::{Scale, at_pixel};
 use crate::num::Plane;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Levels, Stretch};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Masked, Tested};
+use crate::visible::{Everywhere, LineDepth, Masked, Tested, Visible};
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -21,10 +21,10 @@ pub(super) fn draw_span<P: Pipeline>(
     (plane, levels): (&Plane, &LevelsOf<P>),
     (column, line): (i32, i32),
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
-    (interpolation, counter): (P::Interpolation, &mut P::Counter),
+    (interpolation, textures, counter): (P::Interpolation, P::Textures, &mut P::Counter),
 ) {
-    let stretch = levels.stretch(column, line);
-    if matches!(stretch, Stretch::Constant(_)) {
+    let at = (column, line);
+    if P::Counter::COUNTS && matches!(levels.stretch(column, line), Stretch::Constant(_)) {
         counter.flat();
     }
     let count = pixels.len() as u32;
@@ -33,33 +33,72 @@ pub(super) fn draw_span<P: Pipeline>(
         Some(cells) => {
             let depth = plane.at(column, line) as u32;
             let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
-            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut tests);
+            colour::<P>(pixels, levels, at, (interpolation, textures), &mut tests);
             tests.seen()
         }
         None => {
-            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut Everywhere);
+            colour::<P>(
+                pixels,
+                levels,
+                at,
+                (interpolation, textures),
+                &mut Everywhere,
+            );
             count
         }
     };
     counter.span(seen, count - seen, tested);
+    count_fetches::<P>(levels, at, textures, seen, counter);
+}
+
+/// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
+#[inline(always)]
+fn colour<P: Pipeline>(
+    pixels: &mut [WordOf<P>],
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    (interpolation, textures): (P::Interpolation, P::Textures),
+    visible: &mut impl Visible,
+) {
+    let stretch = levels.stretch(column, line);
+    if let Some((index, place)) = levels.texture(column, line) {
+        if textures.paint(index, pixels, place, stretch, visible) {
+            return;
+        }
+    }
+    paint::<P::Pixel, _>(pixels, stretch, interpolation, visible);
+}
+
+/// Counts the texels of `seen` pixels, where they are counted.
+#[inline(always)]
+fn count_fetches<P: Pipeline>(
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    textures: P::Textures,
+    seen: u32,
+    counter: &mut P::Counter,
+) {
+    if !P::Counter::COUNTS {
+        return;
+    }
+    if let Some((index, _)) = levels.texture(column, line) {
+        counter.fetched(seen * textures.fetches(index));
+    }
 }
 
 /// Draws those pixels of a span that are not covered, and covers them.
 #[inline(never)]
 pub(super) fn draw_masked<P: Pipeline>(
     levels: &LevelsOf<P>,
-    (column, line): (i32, i32),
+    at: (i32, i32),
     (pixels, mut masked): (&mut [WordOf<P>], Masked<'_, '_, P::Depth>),
-    (interpolation, counter): (P::Interpolation, &mut P::Counter),
+    (interpolation, textures, counter): (P::Interpolation, P::Textures, &mut P::Counter),
 ) {
     let count = pixels.len() as u32;
-    paint::<P::Pixel, _>(
-        pixels,
-        levels.stretch(column, line),
-        interpolation,
-        &mut masked,
-    );
-    counter.span(masked.seen(), count - masked.seen(), false);
+    colour::<P>(pixels, levels, at, (interpolation, textures), &mut masked);
+    let seen = masked.seen();
+    counter.span(seen, count - seen, false);
+    count_fetches::<P>(levels, at, textures, seen, counter);
 }
 
 /// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners.
@@ -85,12 +124,21 @@ pub(super) fn draw_thin<P: Pipeline>(
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
         let cell = cells.as_mut().and_then(|cells| cells.get_mut(i));
         if cell.is_none_or(|cell| P::Depth::test(cell, depth)) {
-            paint::<P::Pixel, _>(
-                &mut pixels[i..=i],
-                levels.stretch(column, line),
-                Forward,
-                &mut Everywhere,
-            );
+            let pixels = &mut pixels[i..=i];
+            let textures = scene.textures();
+            let textured = levels.texture(column, line).is_some_and(|(index, place)| {
+                let stretch = levels.stretch(column, line);
+                textures.paint(index, pixels, place, stretch, &mut Everywhere)
+            });
+            if !textured {
+                paint::<P::Pixel, _>(
+                    pixels,
+                    levels.stretch(column, line),
+                    Forward,
+                    &mut Everywhere,
+                );
+            }
+            count_fetches::<P>(&levels, at, textures, 1, counter);
             seen += 1;
         }
     }

@@ -16,6 +16,7 @@ pub use quality::Quality;
 
 pub mod texture;
 
+use crate::geometry::texturing::{SpanPlace, TexturedLevels};
 use crate::geometry::{FlatLevels, GouraudLevels};
 
 /// The colours of a span from its first pixel on, steps of the output.
@@ -42,6 +43,24 @@ pub enum Stretch {
 pub trait Levels: Copy {
     /// The colours from the centre of pixel (`column`, `line`) of guard space on.
     fn stretch(&self, column: i32, line: i32) -> Stretch;
+
+    /// The texture that multiplies them, and the places on it from there on.
+    #[inline(always)]
+    fn texture(&self, _column: i32, _line: i32) -> Option<(u16, SpanPlace)> {
+        None
+    }
+}
+
+impl<L: Levels> Levels for TexturedLevels<L> {
+    #[inline(always)]
+    fn stretch(&self, column: i32, line: i32) -> Stretch {
+        self.colour.stretch(column, line)
+    }
+
+    #[inline(always)]
+    fn texture(&self, column: i32, line: i32) -> Option<(u16, SpanPlace)> {
+        self.planes.at(column, line)
+    }
 }
 
 impl Levels for FlatLevels {

@@ -2,6 +2,7 @@
 
 use super::picture::PictureArgs;
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS};
+use crate::draw::FilterArg;
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
@@ -73,7 +74,13 @@ pub struct RenderArgs {
     /// How colours are taken from pixel to pixel; packed8 when not said, auto with --quality
     #[arg(long, value_enum, value_name = "METHOD")]
     pub interp: Option<InterpArg>,
-    /// How far colours may be off where the method is auto
+    /// Texture of the whole model, .png or .ppm; without it those of its materials (map_Kd)
+    #[arg(long, value_name = "FILE")]
+    pub texture: Option<PathBuf>,
+    /// How texels are taken from textures
+    #[arg(long, value_enum, value_name = "FILTER", default_value = "nearest")]
+    pub filter: FilterArg,
+    /// How far colours and texture places may be off where the method is auto
     #[arg(long, value_enum, value_name = "BUDGET")]
     pub quality: Option<QualityArg>,
     /// Slots of each renderer's object cache, 0 to 4095
@@ -109,6 +116,17 @@ impl RenderArgs {
         }
     }
 
+    /// How far texture places may be off.
+    #[must_use]
+    pub fn texture_quality(&self) -> scanbeam::texture::Quality {
+        use scanbeam::texture::Quality;
+        match self.quality {
+            Some(QualityArg::Fast) => Quality::Fast,
+            Some(QualityArg::Balanced) | None => Quality::Balanced,
+            Some(QualityArg::Exact) => Quality::Exact,
+        }
+    }
+
     pub(super) fn check(&self) -> Result<(), String> {
         let crew = (self.cache, self.renderers, self.prefetch, self.quality);
         if self.interp == Some(InterpArg::Model) && crew != (DEFAULT_SLOTS, 1, 0, None) {
@@ -118,6 +136,12 @@ impl RenderArgs {
         }
         self.view().check().map_err(|error| error.to_string())?;
         ImageFormat::from_path(&self.output).map_err(|error| error.to_string())?;
+        if self.texture.as_ref() == Some(&self.output) {
+            return Err("-o must not be the texture itself".into());
+        }
+        if self.texture.is_some() && self.interp == Some(InterpArg::Model) {
+            return Err("--interp model has no --texture".into());
+        }
         if self.output == self.model {
             return Err("-o must not be the model itself".into());
         }

@@ -182,7 +182,10 @@ fn bad_lines_are_refused_in_one_line() {
         "--prefetch -1",
         "--unknown",
         "--unknown 3",
-        "--texture a.png",
+        "--texture",
+        "--texture o.png",
+        "--texture a.png --interp model",
+        "--filter best",
         "--size 1x1 --size 2x2",
         "extra",
         "-o p.png",
@@ -252,8 +255,8 @@ fn refusals_say_what_is_wrong() {
     );
     assert_eq!(refusal("--near 5 --far 5"), "error: near must be below far");
     assert_eq!(
-        refusal("--texture x.png"),
-        "error: unexpected argument '--texture' found"
+        refusal("--textures x.png"),
+        "error: unexpected argument '--textures' found"
     );
     assert_eq!(
         words("render"),

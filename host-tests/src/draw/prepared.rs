@@ -1,6 +1,8 @@
 //! A model rounded to the crate's number formats, in parts that fit a mesh.
 
+use super::TextureSet;
 use crate::model::Model;
+use scanbeam::texture::{Quality, Skin};
 use scanbeam::{Affine, DrawError, Faces, Instance, Mesh, Pipeline, Scene, Sphere};
 
 /// A model in the crate's number formats.
@@ -19,12 +21,22 @@ pub(super) struct Chunk {
     pub(super) faces: Vec<[u16; 3]>,
     /// Around all positions.
     pub(super) sphere: Sphere,
+    /// Texture places, where there is a texture.
+    places: Vec<[i32; 2]>,
+    texture: Option<u16>,
+    quality: Quality,
 }
 
 impl Prepared {
     /// Rounds a model to Q1.30 coordinates about its middle, Q1.14 normals and 8-bit colours.
     #[must_use]
     pub fn new(model: &Model) -> Self {
+        Self::textured(model, &TextureSet::default(), Quality::default())
+    }
+
+    /// The same with textures: a part has one, or none.
+    #[must_use]
+    pub fn textured(model: &Model, set: &TextureSet, quality: Quality) -> Self {
         let (low, high) = model.bounds().unwrap_or(([-1.0; 3], [1.0; 3]));
         let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
         let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));
@@ -43,12 +55,13 @@ impl Prepared {
         const CHUNK: usize = 4096;
         let mut new_index = vec![u16::MAX; model.vertices.len()];
         let mut used = Vec::new();
-        let mut chunk = Chunk::new();
-        for triangle in &model.triangles {
-            if chunk.positions.len() + 3 > CHUNK {
+        let mut chunk = Chunk::new(set.of(0).map(|(number, _)| number), quality);
+        for (number, triangle) in model.triangles.iter().enumerate() {
+            let (texture, image) = set.of(number).unzip();
+            if chunk.positions.len() + 3 > CHUNK || chunk.texture != texture {
                 prepared
                     .chunks
-                    .push(std::mem::replace(&mut chunk, Chunk::new()));
+                    .push(std::mem::replace(&mut chunk, Chunk::new(texture, quality)));
                 for index in used.drain(..) {
                     new_index[index] = u16::MAX;
                 }
@@ -63,6 +76,10 @@ impl Prepared {
                     let q14 = |v: f64| (v * f64::from(1 << 14)).round() as i16;
                     let p = [0, 1, 2].map(|i| q30((vertex.position[i] - centre[i]) / scale));
                     chunk.positions.push(p);
+                    if let Some(image) = image {
+                        let (u, v) = image.texels(vertex.uv);
+                        chunk.places.push([u, v]);
+                    }
                     chunk.normals.push(vertex.normal.map(q14));
                     chunk
                         .colours
@@ -85,13 +102,24 @@ impl Prepared {
 }
 
 impl Chunk {
-    fn new() -> Self {
+    fn new(texture: Option<u16>, quality: Quality) -> Self {
         Self {
             positions: Vec::new(),
             normals: Vec::new(),
             colours: Vec::new(),
             faces: Vec::new(),
             sphere: Sphere::around::<i32>(&[]),
+            places: Vec::new(),
+            texture,
+            quality,
+        }
+    }
+
+    fn skin<'a>(&self, places: &'a [[i32; 2]]) -> Skin<'a> {
+        Skin {
+            places,
+            texture: self.texture.unwrap_or(Skin::TEXTURES),
+            quality: self.quality,
         }
     }
 
@@ -113,8 +141,15 @@ impl Chunk {
         alone: bool,
     ) -> Result<(), DrawError> {
         if !alone {
+            if scene
+                .skip_outside(&self.mesh(), instance, &self.sphere)
+                .is_some()
+            {
+                return Ok(());
+            }
+            let skin = self.skin(&self.places);
             return scene
-                .draw_within(&self.mesh(), instance, &self.sphere)
+                .draw_skinned(&self.mesh(), skin.into(), instance)
                 .map(drop);
         }
         for face in &self.faces {
@@ -125,7 +160,12 @@ impl Chunk {
                 colours: &corners.map(|i| self.colours[i]),
                 faces: Faces::Triangles(&[[0, 1, 2]]),
             };
-            scene.draw(&mesh, instance)?;
+            let places = corners.map(|i| self.places.get(i).copied().unwrap_or_default());
+            let skin = match self.texture {
+                Some(_) => self.skin(&places),
+                None => Skin::default(),
+            };
+            scene.draw_skinned(&mesh, skin.into(), instance)?;
         }
         Ok(())
     }

@@ -8,7 +8,7 @@
 
 use super::format::{Texel, TexelFormat};
 use super::sample::{Size, TextureError};
-use super::{Texels, Uv};
+use super::{Corners, Texels, Uv};
 
 /// How many levels there are, the texture itself among them.
 pub const LEVELS: usize = 4;
@@ -94,6 +94,19 @@ impl LevelEnds {
     pub const fn level(&self, q: u32) -> u32 {
         let [a, b, c] = self.0;
         (q < a) as u32 + (q < b) as u32 + (q < c) as u32
+    }
+}
+
+impl Corners {
+    /// From which 1/w on down the coarser levels of detail are right; `area` is the triangle's
+    /// doubled area on the screen, in units of 1/64 pixel.
+    #[must_use]
+    pub fn levels(&self, area: u64) -> LevelEnds {
+        let p = self.places().map(|(u, v)| (i64::from(u), i64::from(v)));
+        let d = |i: usize| (p[i].0 - p[0].0, p[i].1 - p[0].1);
+        let (a, b) = (d(1), d(2));
+        let texels = (a.0 * b.1 - a.1 * b.0).unsigned_abs();
+        LevelEnds::new(texels, area, self.at.map(|at| at.q as u32))
     }
 }
 

@@ -8,8 +8,7 @@
 //!
 //! | file | what | rows |
 //! |---|---|---|
-//! | `corners` | a triangle's 1/w, u/w, v/w with one exponent; affine or not | H1, H3, X2 |
-//! | `perspective` | (u, v) along a span: exact, every 2nd, linear over 4, 8, 16 pixels, affine | H4, H5, K18 |
+//! //! | `perspective` | (u, v) along a span: exact, every 2nd, linear over 4, 8, 16 pixels, affine | H4, H5, K18 |
 //! | `select` | which of these keeps an error budget | X2 |
 //! | `format` | texel formats and their expansion | H7 |
 //! | `tlut` | texels in memory: whole words, and 1 to 8 bits through a lookup table | H7 |
@@ -24,7 +23,6 @@
 
 mod block;
 mod cache;
-mod corners;
 mod format;
 mod lod;
 mod perspective;
@@ -35,60 +33,19 @@ mod select;
 mod tests;
 mod tlut;
 
+pub use crate::geometry::texturing::{
+    Budget, Corner, Corners, FRACTION, Homogeneous, Quality, Skin, TexturePlanes, Textured, Uv,
+};
 pub use block::{BlockRun, BlockRuns, Blocked, Layout, Linear};
 pub use cache::{BlockCache, CacheError, CacheReads};
-pub use corners::{Corner, Corners};
 pub use format::{Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Texel, TexelFormat};
 pub use lod::{LEVELS, Level, LevelEnds, Levels, build_level, level_words};
-pub use perspective::{AllSeen, Homogeneous, PaintRun, PerspectiveSpan, Stride};
+pub use perspective::{AllSeen, PaintRun, PerspectiveSpan, Stride};
 pub use procedural::{Checker, Gradient};
 pub use sample::{
     Address, Bilinear, Clamp, MAX_SIDE, Mirror, Size, Square, Texture, TextureError, Wrap,
 };
-pub use select::{Budget, Quality};
 pub use tlut::{Indexed, Store, Words};
-
-/// Fraction bits of texel coordinates.
-pub const FRACTION: u32 = 19;
-
-/// A place on a texture, in texels with [`FRACTION`] fraction bits; (0, 0) is the upper left
-/// corner of the first texel. Modulo 8192 texels, which every texture's size divides.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Uv {
-    /// To the right.
-    pub u: i32,
-    /// Down.
-    pub v: i32,
-}
-
-impl Uv {
-    /// The place that is `by` further on, modulo 8192 texels.
-    #[inline(always)]
-    #[must_use]
-    pub const fn plus(self, by: Self) -> Self {
-        Self {
-            u: self.u.wrapping_add(by.u),
-            v: self.v.wrapping_add(by.v),
-        }
-    }
-
-    /// The way from `from` to here, modulo 8192 texels.
-    #[inline(always)]
-    #[must_use]
-    pub const fn minus(self, from: Self) -> Self {
-        Self {
-            u: self.u.wrapping_sub(from.u),
-            v: self.v.wrapping_sub(from.v),
-        }
-    }
-
-    /// The texel, rounded down: column and row, -4096 to 4095.
-    #[inline(always)]
-    #[must_use]
-    pub const fn texel(self) -> (i32, i32) {
-        (self.u >> FRACTION, self.v >> FRACTION)
-    }
-}
 
 /// A texture: what colour is where.
 ///
@@ -100,6 +57,12 @@ pub trait Texels {
 
     /// The colour at a place.
     fn at(&self, place: Uv) -> Self::Texel;
+
+    /// Stored texels that [`at`](Texels::at) reads.
+    #[inline(always)]
+    fn fetches(&self) -> u32 {
+        1
+    }
 
     /// Gives `each` the pixels in turn, each with the colour at its place: the first at `from`,
     /// the next a `step` further on.
@@ -128,6 +91,11 @@ impl<T: Texels + ?Sized> Texels for &T {
     #[inline(always)]
     fn at(&self, place: Uv) -> T::Texel {
         (**self).at(place)
+    }
+
+    #[inline(always)]
+    fn fetches(&self) -> u32 {
+        (**self).fetches()
     }
 
     #[inline(always)]

@@ -21,64 +21,8 @@
 //! `Two` is there for H5, and for processors without a product of 64 bits; on a Cortex-M4 the
 //! shorter code of `One` makes up for its second division.
 
-use super::{Texels, Uv};
-use crate::num::{Reciprocal, mul_high};
-
-/// 1/w, u/w and v/w at a place, or their steps, in one triangle's exponent.
-///
-/// | field | format |
-/// |---|---|
-/// | `q` | 1/w in any unit that keeps it below 2^31; best at 2^29 to 2^30 at the nearest corner |
-/// | `s`, `t` | u and v in texels times `q`, times 2^-10 |
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Homogeneous {
-    /// 1/w.
-    pub q: i32,
-    /// u/w.
-    pub s: i32,
-    /// v/w.
-    pub t: i32,
-}
-
-impl Homogeneous {
-    /// The texture place: two products with the reciprocal of 1/w.
-    ///
-    /// Error: below `2^-18.9` of u and v, and what the fields' own rounding makes:
-    /// `2^10 / q` texels for one unit of `s`. Where `q` is not above 0, which is outside of every
-    /// triangle, any place.
-    #[inline(always)]
-    #[must_use]
-    pub fn place(self) -> Uv {
-        let r = Reciprocal::of(self.q as u32);
-        // 2^19 u = s r 2^(shift - 61 + 10 + 19) = (s r / 2^32) 2^shift
-        Uv {
-            u: mul_high(self.s, r.mantissa) << r.shift,
-            v: mul_high(self.t, r.mantissa) << r.shift,
-        }
-    }
-
-    /// The value `pixels` further on; `self` is the step.
-    #[inline(always)]
-    #[must_use]
-    pub const fn times(self, pixels: i32) -> Self {
-        Self {
-            q: self.q.wrapping_mul(pixels),
-            s: self.s.wrapping_mul(pixels),
-            t: self.t.wrapping_mul(pixels),
-        }
-    }
-
-    /// The sum, modulo 2^32.
-    #[inline(always)]
-    #[must_use]
-    pub const fn plus(self, by: Self) -> Self {
-        Self {
-            q: self.q.wrapping_add(by.q),
-            s: self.s.wrapping_add(by.s),
-            t: self.t.wrapping_add(by.t),
-        }
-    }
-}
+use super::{Homogeneous, Texels, Uv};
+use crate::num::mul_high;
 
 /// How many pixels one division serves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]

@@ -382,6 +382,11 @@ where
     type Texel = Texel;
 
     #[inline(always)]
+    fn fetches(&self) -> u32 {
+        4
+    }
+
+    #[inline(always)]
     fn at(&self, place: Uv) -> Texel {
         // Texels lie at the middle of their squares.
         const HALF: i32 = 1 << (FRACTION - 1);

@@ -16,77 +16,10 @@
 //! is `C / q²` with one C for the span, and `du = C length / (q0 q1)`. So its error is at most
 //! `e (n / length)² max q / min q`.
 
-use super::perspective::{Homogeneous, PerspectiveSpan, Stride};
-use super::{FRACTION, Uv};
-
-/// How much a texture place may be off, in texels with [`FRACTION`] fraction bits.
-///
-/// What the fixed point itself adds, 1/16 texel at most, is part of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Budget(u32);
-
-/// What the caller wants, each with the budget that is kept.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Default)]
-pub enum Quality {
-    /// 1/2 texel.
-    Fast,
-    /// 1/4 texel: a texel is wrong only within that distance of its neighbour.
-    #[default]
-    Balanced,
-    /// A division at each pixel.
-    Exact,
-}
-
-impl Quality {
-    /// The budget that is kept.
-    #[must_use]
-    pub const fn budget(self) -> Budget {
-        match self {
-            Self::Fast => Budget::texels(1, 2),
-            Self::Balanced => Budget::texels(1, 4),
-            Self::Exact => Budget::EXACT,
-        }
-    }
-}
-
-/// What fixed point may add to the error of linear runs.
-const RESERVE: u32 = 1 << (FRACTION - 4);
+use super::perspective::{PerspectiveSpan, Stride};
+use super::{Budget, Homogeneous, Uv};
 
 impl Budget {
-    /// A division at each pixel.
-    pub const EXACT: Self = Self(0);
-
-    /// `part / of` texels; of 0 parts, and of all, at most 1024 texels.
-    #[must_use]
-    pub const fn texels(part: u32, of: u32) -> Self {
-        let of = if of == 0 { 1 } else { of };
-        let units = ((part as u64) << FRACTION) / of as u64;
-        Self(if units > 1024 << FRACTION {
-            1024 << FRACTION
-        } else {
-            units as u32
-        })
-    }
-
-    /// The budget, in texels with [`FRACTION`] fraction bits.
-    #[must_use]
-    pub const fn units(self) -> u32 {
-        self.0
-    }
-
-    /// What is left for taking a curve as straight.
-    const fn for_curves(self) -> u64 {
-        self.0.saturating_sub(RESERVE) as u64
-    }
-
-    /// Whether a way of `way` with 1/w from `low` to `high` (above 0) may be taken as straight.
-    #[inline]
-    pub(super) fn allows_straight(self, way: u32, (low, high): (u32, u32)) -> bool {
-        // |du| |dq| <= 4 min q budget; 31 + 31 and 31 + 30 bits
-        u64::from(way) * u64::from(high - low) <= 4 * u64::from(low) * self.for_curves()
-            && self.for_curves() > 0
-    }
-
     /// How a span of `pixels` pixels (at most 8193) is drawn: the fewest divisions that keep the
     /// budget.
     ///

@@ -4,9 +4,7 @@
 //! bits as its largest allows: an exponent for the triangle. Planes are made of the significands
 //! alone; the exponent cancels in the division. Without it one texel in ten was wrong far away.
 
-use super::perspective::Homogeneous;
-use super::select::Budget;
-use super::{FRACTION, LevelEnds};
+use super::place::{Budget, FRACTION, Homogeneous};
 
 /// What a vertex has: its 1/w and its place on the texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -118,16 +116,5 @@ impl Corners {
         let range = self.range();
         // 1/w constant: straight whatever the budget.
         range.0 == range.1 || budget.allows_straight(way << (FRACTION - 8), range)
-    }
-
-    /// From which 1/w on down the coarser levels of detail are right; `area` is the triangle's
-    /// doubled area on the screen, in units of 1/64 pixel.
-    #[must_use]
-    pub fn levels(&self, area: u64) -> LevelEnds {
-        let p = self.places.map(|(u, v)| (i64::from(u), i64::from(v)));
-        let d = |i: usize| (p[i].0 - p[0].0, p[i].1 - p[0].1);
-        let (a, b) = (d(1), d(2));
-        let texels = (a.0 * b.1 - a.1 * b.0).unsigned_abs();
-        LevelEnds::new(texels, area, self.at.map(|at| at.q as u32))
     }
 }

@@ -1,0 +1,177 @@
+//! Models with textures: one file for all of it, or those that its materials name.
+
+use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_with};
+use crate::args::PixelFormatArg;
+use crate::model::Model;
+use crate::reference::{Shade, View};
+use crate::texture_file::{TextureFileError, TextureImage, of_materials};
+use clap::ValueEnum;
+use scanbeam::texture::{
+    Bilinear, Quality, Rgba8871, Texel, TexelFormat, Texels, Texture, Textured, Uv, Words,
+};
+use scanbeam::{
+    Counted, Depth32, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be, Rgb888, Shading,
+    Textures,
+};
+use std::path::Path;
+
+/// How texels are taken from a texture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum FilterArg {
+    /// The nearest texel
+    #[default]
+    Nearest,
+    /// The weighted mean of four
+    Bilinear,
+}
+
+/// Why a model cannot be textured.
+#[derive(Debug, thiserror::Error)]
+pub enum TextureSetError {
+    /// A picture.
+    #[error("{0}")]
+    File(#[from] TextureFileError),
+    /// There is nothing to place a texture by.
+    #[error("the model has no texture places (vt), which a texture needs")]
+    NoPlaces,
+}
+
+/// The textures of a model, and which of them its triangles have.
+#[derive(Debug, Default)]
+pub struct TextureSet {
+    images: Vec<TextureImage>,
+    /// One for each triangle.
+    of_triangle: Vec<Option<u16>>,
+}
+
+impl TextureSet {
+    /// One picture for the whole model, or, without, what its materials name.
+    ///
+    /// # Errors
+    /// A picture that cannot be read; a model without texture places.
+    pub fn load(model: &Model, file: Option<&Path>) -> Result<Self, TextureSetError> {
+        let set = match file {
+            Some(file) => Self::whole(model, TextureImage::load(file)?),
+            None => {
+                let mut set = Self::default();
+                let numbers: Vec<Option<u16>> = of_materials(model)?
+                    .into_iter()
+                    .map(|image| {
+                        set.images.push(image?);
+                        Some(set.images.len() as u16 - 1)
+                    })
+                    .collect();
+                let number = |material: &Option<u32>| numbers[(*material)? as usize];
+                set.of_triangle = model.triangle_materials.iter().map(number).collect();
+                set
+            }
+        };
+        let placeless = model.vertices.iter().all(|v| v.uv == [0.0; 2]);
+        if placeless && !model.vertices.is_empty() && !set.is_empty() {
+            return Err(TextureSetError::NoPlaces);
+        }
+        Ok(set)
+    }
+
+    /// One texture for all triangles.
+    #[must_use]
+    pub fn whole(model: &Model, image: TextureImage) -> Self {
+        Self {
+            images: vec![image],
+            of_triangle: vec![Some(0); model.triangles.len()],
+        }
+    }
+
+    /// Whether nothing is textured.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.images.is_empty()
+    }
+
+    /// What was done to the pictures, a line each.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        self.images.iter().filter_map(|image| image.note.as_deref())
+    }
+
+    /// The texture of a triangle.
+    pub(super) fn of(&self, triangle: usize) -> Option<(u16, &TextureImage)> {
+        let number = self.of_triangle.get(triangle).copied().flatten()?;
+        Some((number, self.images.get(usize::from(number))?))
+    }
+}
+
+/// A texture with its filter.
+#[derive(Debug, Clone, Copy)]
+pub enum HostTexture<'t> {
+    /// The nearest texel.
+    Nearest(Texture<Words<'t, u32>>),
+    /// The weighted mean of four.
+    Bilinear(Bilinear<Texture<Words<'t, u32>>, Rgba8871>),
+}
+
+impl Texels for HostTexture<'_> {
+    type Texel = Texel;
+
+    fn at(&self, place: Uv) -> Texel {
+        match self {
+            Self::Nearest(texture) => Rgba8871::expand(texture.at(place)),
+            Self::Bilinear(texture) => texture.at(place),
+        }
+    }
+
+    fn fetches(&self) -> u32 {
+        match self {
+            Self::Nearest(_) => 1,
+            Self::Bilinear(_) => 4,
+        }
+    }
+}
+
+/// Draws a model with its textures: colours linear on the screen, times texels in perspective.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub fn draw_textured(
+    model: &Model,
+    set: &TextureSet,
+    (filter, quality): (FilterArg, Quality),
+    view: &View,
+    format: PixelFormatArg,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
+    let prepared = Prepared::textured(model, set, quality);
+    let textures: Vec<HostTexture<'_>> = set
+        .images
+        .iter()
+        .map(|image| {
+            let texture = Texture::new(Words(&image.levels[0]), image.size)
+                .map_err(|error| DrawFailure::View(error.to_string()))?;
+            Ok(match filter {
+                FilterArg::Nearest => HostTexture::Nearest(texture),
+                FilterArg::Bilinear => HostTexture::Bilinear(Bilinear::new(texture)),
+            })
+        })
+        .collect::<Result<_, DrawFailure>>()?;
+    let by = match (view.shade, format) {
+        (Shade::Flat, PixelFormatArg::Rgb888) => by::<Flat, Rgb888>,
+        (Shade::Flat, PixelFormatArg::Rgb565) => by::<Flat, Rgb565Be>,
+        (_, PixelFormatArg::Rgb888) => by::<Gouraud, Rgb888>,
+        (_, PixelFormatArg::Rgb565) => by::<Gouraud, Rgb565Be>,
+    };
+    by(&prepared, &textures, view, crew)
+}
+
+fn by<S, F>(
+    prepared: &Prepared,
+    textures: &[HostTexture<'_>],
+    view: &View,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure>
+where
+    S: Shading<Levels: scanbeam::Levels>,
+    F: PixelFormat,
+{
+    type Look<'t, S, F> =
+        Parts<Textured<S>, Depth32, F, (), Packed8, Textures<'t, HostTexture<'t>>>;
+    draw_with::<Counted<Look<'_, S, F>>>(prepared, view, crew, Textures(textures))
+}

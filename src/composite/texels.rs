@@ -1,0 +1,315 @@
+//! Textured spans: a texel times the shaded colour (H3, H17).
+//!
+//! A span that is lit by white alone copies its texels. What is hidden is not fetched. The places
+//! of all pixels follow from the span's first and last pixel, seen or not, so the bits do not
+//! depend on what hides what.
+
+use super::PixelFormat;
+use crate::geometry::texturing::SpanPlace;
+use crate::shade::Stretch;
+use crate::shade::texture::{PaintRun, PerspectiveSpan, Texel, Texels, Uv};
+use crate::visible::Visible;
+use core::marker::PhantomData;
+
+/// A texel that can become pixels of a format: [`Texel`], or a word of the format itself.
+pub trait TexelOf<F: PixelFormat>: Copy {
+    /// The pixel in full light.
+    fn word(self) -> F::Word;
+
+    /// The 8-bit levels.
+    fn levels(self) -> [u8; 3];
+}
+
+impl<F: PixelFormat> TexelOf<F> for Texel {
+    #[inline]
+    fn word(self) -> F::Word {
+        F::from_rgb8(self.rgb)
+    }
+
+    #[inline]
+    fn levels(self) -> [u8; 3] {
+        self.rgb
+    }
+}
+
+impl<F: PixelFormat<Word = u16>> TexelOf<F> for u16 {
+    #[inline(always)]
+    fn word(self) -> u16 {
+        self
+    }
+
+    #[inline]
+    fn levels(self) -> [u8; 3] {
+        F::to_rgb8(self)
+    }
+}
+
+impl<F: PixelFormat<Word = [u8; 3]>> TexelOf<F> for [u8; 3] {
+    #[inline(always)]
+    fn word(self) -> [u8; 3] {
+        self
+    }
+
+    #[inline]
+    fn levels(self) -> [u8; 3] {
+        self
+    }
+}
+
+/// The textures that are lent to a scene: [`Textures`], or `()` for none.
+pub trait TextureSource<F: PixelFormat>: Copy + Default + Send + Sync {
+    /// Texels that one pixel of texture `index` fetches; 0 where there is no such texture.
+    fn fetches(&self, index: u16) -> u32;
+
+    /// Draws a span with texture `index`, if it exists; `false` otherwise.
+    fn paint(
+        &self,
+        index: u16,
+        pixels: &mut [F::Word],
+        place: SpanPlace,
+        stretch: Stretch,
+        visible: &mut impl Visible,
+    ) -> bool;
+}
+
+impl<F: PixelFormat> TextureSource<F> for () {
+    #[inline(always)]
+    fn fetches(&self, _: u16) -> u32 {
+        0
+    }
+
+    #[inline(always)]
+    fn paint(
+        &self,
+        _: u16,
+        _: &mut [F::Word],
+        _: SpanPlace,
+        _: Stretch,
+        _: &mut impl Visible,
+    ) -> bool {
+        false
+    }
+}
+
+/// Textures by number, each with its levels of detail in itself where it has any.
+#[derive(Debug)]
+pub struct Textures<'t, T>(
+    /// The textures; a face without one among them is drawn untextured.
+    pub &'t [T],
+);
+
+impl<T> Clone for Textures<'_, T> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<T> Copy for Textures<'_, T> {}
+
+impl<T> Default for Textures<'_, T> {
+    fn default() -> Self {
+        Self(&[])
+    }
+}
+
+impl<F, T> TextureSource<F> for Textures<'_, T>
+where
+    F: PixelFormat,
+    T: Texels<Texel: TexelOf<F>> + Sync,
+{
+    #[inline]
+    fn fetches(&self, index: u16) -> u32 {
+        self.0.get(usize::from(index)).map_or(0, Texels::fetches)
+    }
+
+    #[inline(never)]
+    fn paint(
+        &self,
+        index: u16,
+        pixels: &mut [F::Word],
+        place: SpanPlace,
+        stretch: Stretch,
+        visible: &mut impl Visible,
+    ) -> bool {
+        let Some(texels) = self.0.get(usize::from(index)) else {
+            return false;
+        };
+        let light = Light::new::<F>(stretch);
+        if light.is_white::<F>() {
+            let paint = Copies::<F, _, _> {
+                texels,
+                visible,
+                format: PhantomData,
+            };
+            walk(place, pixels, paint);
+        } else {
+            let paint = Lit::<F, _, _> {
+                texels,
+                visible,
+                light,
+                format: PhantomData,
+            };
+            walk(place, pixels, paint);
+        }
+        true
+    }
+}
+
+/// Spans up to this long are divided at each pixel: to choose would cost more.
+const SHORT: usize = 8;
+
+#[inline(always)]
+fn walk<W>(place: SpanPlace, pixels: &mut [W], mut paint: impl PaintRun<W>) {
+    match place {
+        SpanPlace::Straight(from, step) => paint.run(pixels, from, step),
+        SpanPlace::Perspective(at, step, budget) => {
+            let span = PerspectiveSpan { at, step };
+            if pixels.len() <= SHORT {
+                span.exact(pixels, &mut paint);
+            } else {
+                let stride = budget.stride(&span, pixels.len());
+                span.walk(stride, pixels, &mut paint);
+            }
+        }
+    }
+}
+
+/// Texels as they are.
+struct Copies<'a, F, T, V> {
+    texels: &'a T,
+    visible: &'a mut V,
+    format: PhantomData<F>,
+}
+
+impl<F, T, V> PaintRun<F::Word> for Copies<'_, F, T, V>
+where
+    F: PixelFormat,
+    T: Texels<Texel: TexelOf<F>>,
+    V: Visible,
+{
+    #[inline(always)]
+    fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
+        self.visible.each(pixels, |pixel, shown| {
+            if shown {
+                *pixel = self.texels.at(from).word();
+            }
+            from = from.plus(step);
+        });
+    }
+}
+
+/// Texels times the shaded colour.
+struct Lit<'a, F, T, V> {
+    texels: &'a T,
+    visible: &'a mut V,
+    light: Light,
+    format: PhantomData<F>,
+}
+
+impl<F, T, V> PaintRun<F::Word> for Lit<'_, F, T, V>
+where
+    F: PixelFormat,
+    T: Texels<Texel: TexelOf<F>>,
+    V: Visible,
+{
+    #[inline(always)]
+    fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
+        let light = &mut self.light;
+        self.visible.each(pixels, |pixel, shown| {
+            if shown {
+                *pixel = F::pack(light.times::<F>(self.texels.at(from).levels()));
+            }
+            from = from.plus(step);
+            light.advance();
+        });
+    }
+}
+
+/// The shaded colour along a span: 16 bits a channel above `down` more, half a step too large.
+#[derive(Clone, Copy)]
+struct Light {
+    at: [i32; 3],
+    step: [i32; 3],
+    down: [u32; 3],
+}
+
+/// Bits of a channel of the output.
+const fn bits<F: PixelFormat>() -> [u32; 3] {
+    let steps = F::STEPS;
+    [
+        16 - steps[0].leading_zeros(),
+        16 - steps[1].leading_zeros(),
+        16 - steps[2].leading_zeros(),
+    ]
+}
+
+impl Light {
+    #[inline(always)]
+    fn new<F: PixelFormat>(stretch: Stretch) -> Self {
+        let bits = bits::<F>();
+        match stretch {
+            Stretch::Constant(steps) => {
+                // Half a step is added, as vertices have it.
+                let at = |i: usize| ((2 * i32::from(steps[i]) + 1) << (16 - bits[i])) >> 1;
+                Self {
+                    at: [at(0), at(1), at(2)],
+                    step: [0; 3],
+                    down: [0; 3],
+                }
+            }
+            Stretch::Packed {
+                red_blue,
+                green,
+                steps,
+                ..
+            } => {
+                let blue = i32::from(steps.0 as i16);
+                Self {
+                    at: [red_blue >> 16, green >> 16, red_blue],
+                    step: [steps.0.wrapping_sub(blue) >> 16, steps.1 >> 16, blue],
+                    down: [0; 3],
+                }
+            }
+            Stretch::Channels(at, step) => Self {
+                at,
+                step,
+                down: bits,
+            },
+        }
+    }
+
+    /// The channel, 16 bits.
+    #[inline(always)]
+    fn channel(&self, i: usize) -> u32 {
+        (self.at[i] as u32) >> self.down[i] & 0xFFFF
+    }
+
+    /// Whether every pixel is in full light.
+    #[inline(always)]
+    fn is_white<F: PixelFormat>(&self) -> bool {
+        let bits = bits::<F>();
+        let full = |i: usize| u32::from(F::STEPS[i]) << (16 - bits[i]);
+        self.step == [0; 3] && (0..3).all(|i| self.channel(i) >= full(i))
+    }
+
+    #[inline(always)]
+    fn advance(&mut self) {
+        for i in 0..3 {
+            self.at[i] = self.at[i].wrapping_add(self.step[i]);
+        }
+    }
+
+    /// Whole steps of a texel of these 8-bit levels, rounded to nearest.
+    #[inline(always)]
+    fn times<F: PixelFormat>(&self, levels: [u8; 3]) -> [u8; 3] {
+        let bits = bits::<F>();
+        let channel = |i: usize| {
+            let half = 1 << (15 - bits[i]);
+            // 8 and 16 bits; divided by 255 within a unit.
+            let product = u32::from(levels[i]) * self.channel(i).saturating_sub(half);
+            let part = (product + (product >> 8) + (product >> 16)) >> 8;
+            ((part + half) >> (16 - bits[i])) as u8
+        };
+        [channel(0), channel(1), channel(2)]
+    }
+}
