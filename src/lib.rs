@@ -158,8 +158,10 @@ struct Readme;
 mod active;
 mod arena;
 mod composite;
+mod event;
 mod geometry;
 mod link;
+pub mod list;
 pub mod model;
 mod num;
 mod pipeline;
@@ -172,10 +174,11 @@ mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
+pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
-    Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,
-    ScreenError, Shading,
+    Gouraud, Light, MatrixRange, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex,
+    Screen, ScreenError, Shading,
 };
 pub use link::Link;
 pub use num::{I2F14, I2F30, U1F15, U13F3};
@@ -185,8 +188,9 @@ pub use pipeline::{
 };
 pub use renderer::{
     Command, Crew, DrawError, FrameError, FrameStats, Input, InputError, InputQueue, Instance,
-    LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched, Relay,
-    RendererError, Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, draw_frame,
+    LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate, ListMemory,
+    ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError, RunCounts,
+    Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, Vertices, draw_frame,
     send_frame,
 };
 pub use stats::{SpanCounter, SpanCounts};

@@ -4,6 +4,7 @@
 //! [`Stop`]: text to print and the exit code. Refusals are one line.
 
 use crate::image_out::ImageFormat;
+use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use crate::reference::{Cull, Shade, View};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -51,6 +52,12 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
+    /// Make a list of a model: strips of quantised vertices for flash
+    Bake(BakeArgs),
+    /// Execute a list and draw it to a picture
+    RunList(RunListArgs),
+    /// Print a list, block by block
+    Disassemble(DisassembleArgs),
 }
 
 /// How a pixel is sent to the display.
@@ -309,6 +316,9 @@ where
     let checked = match &command {
         Command::Render(render) => render.check(),
         Command::Trace(trace) => trace.check(),
+        Command::Bake(bake) => bake.check(),
+        Command::RunList(list) => list.check(),
+        Command::Disassemble(_) => Ok(()),
         Command::Demo(_) | Command::Cache(_) | Command::Accuracy(_) | Command::Firmware(_) => {
             Ok(())
         }

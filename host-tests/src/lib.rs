@@ -9,6 +9,7 @@ pub mod draw;
 pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;
+pub mod lists;
 pub mod memory_model;
 pub mod mock;
 pub mod model;

@@ -2,6 +2,7 @@
 
 use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, RenderArgs, Stop};
 use host_tests::image_out::{Staged, encode_image};
+use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::{accuracy, cache_report, demo, draw, firmware_report, trace};
 use std::error::Error;
@@ -25,6 +26,9 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Cache(args) => cache_report::run(&args),
         Command::Accuracy(args) => accuracy::run(&args),
+        Command::Bake(args) => bake::run(&args),
+        Command::RunList(args) => list_run::run(&args),
+        Command::Disassemble(args) => list_text::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
             Ok(false) => return ExitCode::FAILURE,
