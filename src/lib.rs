@@ -133,6 +133,9 @@
 //! | K5 | any line alone | `renderer/lines.rs`, `num/plane.rs` | `lines_alone.rs`, `model_scenes.rs` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
+//! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/` | `list/tests.rs`, `lists.rs` |
+//! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `lists.rs` |
+//! | H14 | status events | `event.rs`, `renderer/run.rs` | `event.rs`, `lists.rs` |
 //! | C1, C2 | active objects are copied to the cache, and leave at once | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
 //! | C3 | a hit is one comparison of a link | `link.rs` | `active/list/tests.rs` |
 //! | C4 | fetched one line ahead | `active/list.rs`, `renderer/place.rs` | `cache.rs` |
@@ -142,6 +145,9 @@
 //! | K16, B3 | renderers by lines or bands | `active/interleave.rs`, `renderer/relay.rs` | `cache.rs` |
 //! | K17 | input queues: stall, empty, sources | `renderer/input.rs` | `input.rs` |
 //! | X6 | two cores, one scene | `renderer/relay.rs` | `cache.rs`, `examples/rp2040-two-cores` builds |
+//!
+//! [`list`] is a scene as data, for flash or for a ring that grows while it is drawn; a
+//! [`ListRunner`] draws it.
 //!
 //! [`model`] is the hardware that the ideas come from, told bit for bit, to measure against.
 #![no_std]

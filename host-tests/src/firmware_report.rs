@@ -7,10 +7,12 @@ use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat,
-    Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
+    FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ListMemory, ObjectOf, Pipeline,
+    PixelFormat, Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
 };
-use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VARIANTS, VERTICES, WIDTH};
+use scenes::{
+    HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS, Shot, VARIANTS, VERTICES, WIDTH, build_listed,
+};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -60,6 +62,8 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     frames.insert("teapot_flat", crc32fast::hash(&flat));
     let model = draw_by_model(Shot::Teapot)?;
     frames.insert("teapot_model", crc32fast::hash(&model));
+    let listed = shown(Shot::Teapot, build_list, by_lines)?;
+    frames.insert("teapot_list", crc32fast::hash(&listed));
     for variant in VARIANTS {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
@@ -73,6 +77,15 @@ const LINES: u16 = 3;
 
 /// The bytes of a shot in scan-out order.
 fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    shown::<P>(shot, |scene| build(shot, scene), by_lines)
+}
+
+/// Draws all lines with one renderer.
+fn by_lines<P: Pipeline<Pixel = Rgb565Be>>(
+    scene: &Scene<'_, P>,
+    pump: &mut Display,
+    background: u16,
+) -> Result<(), Box<dyn Error>> {
     use scanbeam::LineDepth;
     const SLOTS: usize = 64;
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
@@ -85,28 +98,52 @@ fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Er
         depth: &mut depth,
         spans: &mut spans,
     });
-    shown::<P>(shot, |scene, pump, background| {
-        draw_frame(scene, &mut renderer, pump, background, LINES)?;
-        Ok(())
-    })
+    draw_frame(scene, &mut renderer, pump, background, LINES)?;
+    Ok(())
 }
 
 /// The bytes of a shot as the hardware model draws it.
 fn draw_by_model(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    type Smooth = GouraudDepth<Rgb565Be>;
     let mut lines = ModelLines::new(WIDTH);
     let mut renderer = lines.renderer();
-    shown::<GouraudDepth<Rgb565Be>>(shot, |scene, pump, background| {
-        draw_model_frame(scene, &mut renderer, pump, background, LINES)
-            .map_err(|error| format!("{error:?}"))?;
-        Ok(())
-    })
+    shown::<Smooth>(
+        shot,
+        |scene| build(shot, scene),
+        |scene, pump, background| {
+            draw_model_frame(scene, &mut renderer, pump, background, LINES)
+                .map_err(|error| format!("{error:?}"))?;
+            Ok(())
+        },
+    )
+}
+
+/// Draws a shot into a scene.
+fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), Box<dyn Error>> {
+    shot.build(scene)
+        .map_err(|error| format!("{}: {error:?}", shot.name()))?;
+    Ok(())
+}
+
+/// The baked list, as the firmware runs it from flash.
+fn build_list(scene: &mut Scene<'_, GouraudDepth<Rgb565Be>>) -> Result<(), Box<dyn Error>> {
+    let (mut normals, mut indices) = ([[0; 3]; LIST_TABLE], [0; LIST_INDICES]);
+    let memory = ListMemory {
+        positions: &mut [],
+        normals: &mut normals,
+        colours: &mut [],
+        indices: &mut indices,
+    };
+    build_listed(scene, memory).map_err(|error| format!("teapot.list: {error:?}"))?;
+    Ok(())
 }
 
 type Display = Pump<MockFrameBuffer<u16>>;
 
-/// What arrives at the display when `draw` draws a shot.
+/// What arrives at the display when `draw` draws what `build` has built, over a shot's background.
 fn shown<P: Pipeline<Pixel = Rgb565Be>>(
     shot: Shot,
+    build: impl FnOnce(&mut Scene<'_, P>) -> Result<(), Box<dyn Error>>,
     draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<(), Box<dyn Error>>,
 ) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
@@ -120,8 +157,7 @@ fn shown<P: Pipeline<Pixel = Rgb565Be>>(
             buckets: &mut buckets,
         },
     );
-    shot.build(&mut scene)
-        .map_err(|error| format!("{}: {error:?}", shot.name()))?;
+    build(&mut scene)?;
     let words = usize::from(WIDTH) * usize::from(LINES);
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
@@ -189,7 +225,23 @@ impl Compared {
             "line_bytes": sections.dma.bytes,
             "slow_bytes": sections.slow_bytes(),
             "stack_bytes": self.measured.output.figures.get("stack_bytes"),
+            "list": self.list(),
             "frames": frames,
+        })
+    }
+
+    /// What pass one of the baked teapot costs, beside the same mesh by an immediate call.
+    fn list(&self) -> Value {
+        let figure = |name: &str| self.measured.output.figures.get(name).copied();
+        let listed = figure("pass_one_list").unwrap_or_default();
+        let drawn = figure("pass_one_draw").unwrap_or_default();
+        let vertices = figure("pass_one_draw_vertices").unwrap_or_default().max(1);
+        json!({
+            "pass_one_list": listed,
+            "pass_one_draw": drawn,
+            "vertices": vertices,
+            "vertices_listed": figure("pass_one_list_vertices"),
+            "more_per_vertex": (listed as f64 - drawn as f64) / vertices as f64,
         })
     }
 
@@ -204,6 +256,10 @@ impl Compared {
             sections.fast.bytes,
             sections.dma.bytes,
             sections.slow_bytes()
+        );
+        println!(
+            "  pass one of the teapot, from a list and drawn at once: {}",
+            self.list()
         );
         for (scene, host, target, instructions) in &self.frames {
             let verdict = if host == target {

@@ -67,6 +67,24 @@ pub fn words_of(bytes: &[u8]) -> Result<&[u32], ListError> {
     })
 }
 
+/// The bytes of a file, at a multiple of 4, in flash: for [`words_of`](crate::list::words_of).
+///
+/// ```ignore
+/// let list = words_of(include_list!("teapot.list"))?;
+/// ```
+/// A build script that bakes or copies lists puts them into `OUT_DIR`, and
+/// `concat!(env!("OUT_DIR"), "/teapot.list")` names them; `examples/scenes` shows it.
+#[macro_export]
+macro_rules! include_list {
+    ($file:expr) => {{
+        #[repr(C, align(4))]
+        struct Aligned<B: ?Sized>(B);
+        static LIST: &Aligned<[u8]> = &Aligned(*include_bytes!($file));
+        let bytes: &'static [u8] = &LIST.0;
+        bytes
+    }};
+}
+
 /// A ring of words.
 #[derive(Debug)]
 pub struct ListRing<'m> {

@@ -9,7 +9,7 @@ use scanbeam::{
     Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
 };
-use scenes::{SHOTS, Shot, VARIANTS, Variant};
+use scenes::{SHOTS, Shot, TEAPOT, VARIANTS, Variant, build_listed};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -26,6 +26,8 @@ enum Way {
     Faceted,
     /// The hardware model, from a smooth scene.
     Model,
+    /// A baked list in flash.
+    List,
 }
 
 /// One frame: how a shot is drawn.
@@ -36,8 +38,8 @@ pub(crate) struct Frame {
     way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: all shots, then one of flat faces and one
-/// by the hardware model, then what the cache and its renderers must not change.
+/// Every frame, in the order in which they are drawn: all shots, then one of flat faces, one
+/// by the hardware model and one from a baked list, then what the cache and its renderers must not change.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
         name,
@@ -61,6 +63,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         .chain([
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
             plain("teapot_model", Shot::Teapot, Way::Model),
+            plain("teapot_list", Shot::Teapot, Way::List),
         ])
         .chain(variants)
 }
@@ -74,6 +77,7 @@ impl Frame {
         match self.way {
             Way::Faceted => draw_as::<Faceted>(&self.how, &mut rooms.faceted, &mut pump),
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
+            Way::List => draw_list(rooms, &mut pump),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 draw_as::<Smooth>(&self.how, &mut rooms.smooth, &mut pump);
             }
@@ -141,6 +145,52 @@ fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_model_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// The baked teapot, from flash.
+fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
+    let smooth = &mut rooms.smooth;
+    let mut scene = Scene::<Smooth>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: smooth.vertices,
+            objects: smooth.objects,
+            buckets: smooth.buckets,
+        },
+    );
+    build_listed(&mut scene, rooms.list.memory()).expect("the rooms are large enough");
+    let mut renderer = LineRenderer::new(LineMemory {
+        slots: &mut smooth.slots[..SLOTS],
+        links: smooth.links,
+        depth: smooth.depth,
+        spans: smooth.spans,
+    });
+    let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
+    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// Pass one alone, of the teapot: from the list, or by the immediate call. Vertices that were
+/// transformed.
+pub(crate) fn pass_one(rooms: &mut Rooms, listed: bool) -> u32 {
+    let smooth = &mut rooms.smooth;
+    let mut scene = Scene::<Smooth>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: smooth.vertices,
+            objects: smooth.objects,
+            buckets: smooth.buckets,
+        },
+    );
+    if listed {
+        let counts = build_listed(&mut scene, rooms.list.memory());
+        counts.expect("the rooms are large enough").vertices
+    } else {
+        Shot::Teapot
+            .build(&mut scene)
+            .expect("the rooms are large enough");
+        TEAPOT.positions.len() as u32
+    }
 }
 
 /// Two renderers of one scene take turns, as they would on two cores.

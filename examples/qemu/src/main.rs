@@ -91,6 +91,16 @@ fn main() -> ! {
     #[cfg(feature = "bench")]
     bench::run(&counter, &mut console);
 
+    // What a list costs beyond the same mesh drawn at once.
+    for (name, listed) in [("pass_one_list", true), ("pass_one_draw", false)] {
+        let mut vertices = 0;
+        let instructions = counter.instructions(|| {
+            vertices = black_box(frames::pass_one(&mut rooms, listed));
+        });
+        console.line(format_args!("figure name={name} value={instructions}"));
+        console.line(format_args!("figure name={name}_vertices value={vertices}"));
+    }
+
     console.line(format_args!(
         "figure name=stack_bytes value={}",
         rooms::stack_peak()

@@ -3,11 +3,12 @@
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
 use core::ptr;
 use scanbeam::{
-    CellOf, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, Scene, SceneMemory,
-    SceneVertex, SlotOf, SpanRecord, VertexOf,
+    CellOf, LineMemory, LineRenderer, Link, ListMemory, Object, ObjectOf, Pipeline, Scene,
+    SceneMemory, SceneVertex, SlotOf, SpanRecord, VertexOf,
 };
 use scenes::{
-    HEIGHT, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline, Shot, VERTICES, WIDTH,
+    HEIGHT, LIST_INDICES, LIST_TABLE, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline,
+    Shot, VERTICES, WIDTH,
 };
 
 /// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
@@ -58,6 +59,24 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     pub(crate) spans: &'static mut [SpanRecord],
 }
 
+/// Normals and indices of a list; its places are used where they lie, and it has no colours.
+pub(crate) struct ListRoom {
+    pub(crate) normals: &'static mut [[i16; 3]],
+    pub(crate) indices: &'static mut [u16],
+}
+
+impl ListRoom {
+    /// As a runner wants it.
+    pub(crate) fn memory(&mut self) -> ListMemory<'_> {
+        ListMemory {
+            positions: &mut [],
+            normals: self.normals,
+            colours: &mut [],
+            indices: self.indices,
+        }
+    }
+}
+
 /// What frames are drawn with.
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
@@ -67,6 +86,8 @@ pub(crate) struct Rooms {
     /// What comparisons take beyond what one renderer needs: a cache for everything and a second
     /// renderer's links and depth. No scene. All in external RAM: here instructions count.
     pub(crate) second: RoomsOf<Smooth>,
+    /// What a list's vertices are unpacked into: external RAM.
+    pub(crate) list: ListRoom,
     /// For sheets, which are drawn without depth and counted.
     pub(crate) sheet: RoomsOf<SheetPipeline>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
@@ -105,6 +126,10 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
+            list: ListRoom {
+                normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
+                indices: lend!(".slow", u16, LIST_INDICES, 0),
+            },
             sheet: RoomsOf {
                 vertices: lend!(
                     ".slow",

@@ -12,12 +12,16 @@
 //! | [`RIBBON`] | 66 | strip of 32 quads | 64 | normals, colours | 1,122 |
 //!
 //! The two cubes share their vertices, 360 bytes.
+//!
+//! [`teapot_list`] is the teapot as `scanbeam bake` makes it: 14,380 bytes.
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod listed;
 mod sheet;
 mod shots;
 
+pub use listed::{LIST_INDICES, LIST_TABLE, ListedError, build_listed, teapot_list};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
     HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,

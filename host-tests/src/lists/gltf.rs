@@ -85,7 +85,8 @@ fn level(linear: f32) -> f64 {
     if v <= 0.003_130_8 {
         12.92 * v
     } else {
-        1.055 * v.powf(1.0 / 2.4) - 0.055
+        // Exactly 1 at 1, which the rounded constants miss by one unit in the last place.
+        1.0 - 1.055 * (1.0 - v.powf(1.0 / 2.4))
     }
 }
 
