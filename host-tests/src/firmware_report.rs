@@ -230,18 +230,19 @@ impl Compared {
         })
     }
 
-    /// What pass one of the baked teapot costs, beside the same mesh by an immediate call.
+    /// What pass one of the baked teapot costs, beside the same tables by immediate calls.
     fn list(&self) -> Value {
-        let figure = |name: &str| self.measured.output.figures.get(name).copied();
-        let listed = figure("pass_one_list").unwrap_or_default();
-        let drawn = figure("pass_one_draw").unwrap_or_default();
-        let vertices = figure("pass_one_draw_vertices").unwrap_or_default().max(1);
+        let figure = |name: &str| {
+            let figures = &self.measured.output.figures;
+            figures.get(name).copied().unwrap_or_default()
+        };
+        let (listed, called) = (figure("list_pass_one"), figure("calls_pass_one"));
+        let vertices = figure("list_vertices");
         json!({
-            "pass_one_list": listed,
-            "pass_one_draw": drawn,
+            "pass_one": listed,
+            "pass_one_by_calls": called,
             "vertices": vertices,
-            "vertices_listed": figure("pass_one_list_vertices"),
-            "more_per_vertex": (listed as f64 - drawn as f64) / vertices as f64,
+            "more_per_vertex": (listed as f64 - called as f64) / vertices.max(1) as f64,
         })
     }
 

@@ -60,17 +60,20 @@ fn triangles_of(list: &[u32]) -> Vec<[Corner; 3]> {
                     FieldForm::S16x3 => [16_384.0; 3],
                     _ => [f64::from(1 << 30); 3],
                 };
-                table = vec![Default::default(); usize::from(run.header.count)];
+                let count = usize::from(run.header.count);
                 let place = units(layout.place.form);
-                layout.place.column(list, run.at, run.header.count, |i, f| {
-                    table[i].0 = [0, 1, 2].map(|k| f64::from(f[k]) / place[k] * scale + offset[k]);
+                let mut places = vec![[0.0; 3]; count];
+                layout.place.column(list, run.at, &mut places, |f| {
+                    [0, 1, 2].map(|k| f64::from(f[k]) / place[k] * scale + offset[k])
                 });
+                let mut normals = vec![[0.0; 3]; count];
                 if let Some(slot) = layout.normal {
                     let unit = units(slot.form);
-                    slot.column(list, run.at, run.header.count, |i, f| {
-                        table[i].1 = [0, 1, 2].map(|k| f64::from(f[k]) / unit[k]);
+                    slot.column(list, run.at, &mut normals, |f| {
+                        [0, 1, 2].map(|k| f64::from(f[k]) / unit[k])
                     });
                 }
+                table = places.into_iter().zip(normals).collect();
             }
             Instruction::Indexed(run) => {
                 let wide = run.header.low & WIDE != 0;

@@ -176,25 +176,26 @@ impl Slot {
         fields(self.form, w)
     }
 
-    /// Hands the fields of a column of `count`, of the table that begins at `at`, to `put`.
+    /// Fills `out` with the column of the table that begins at `at`: as many as `out` is long,
+    /// at most 65,535.
     #[inline]
-    pub fn column<'w>(
+    pub fn column<'w, T>(
         self,
         words: impl Words<'w>,
         at: u32,
-        count: u16,
-        put: impl FnMut(usize, [i32; 3]),
+        out: &mut [T],
+        of: impl Fn([i32; 3]) -> T,
     ) {
         let at = at.wrapping_add(self.word);
-        let len = column_words(self.form, count);
+        let len = column_words(self.form, out.len().min(0xFFFF) as u16);
         match words.slice(at, len) {
             Some(slice) => {
                 let words = slice.iter().map(|w| u32::from_le(*w));
-                column(self.form, usize::from(count), words, put);
+                column(self.form, words, out, of);
             }
             None => {
                 let words = (0..len).map(|n| words.word(at.wrapping_add(n)));
-                column(self.form, usize::from(count), words, put);
+                column(self.form, words, out, of);
             }
         }
     }
@@ -224,43 +225,61 @@ impl Slot {
 
 /// Takes a column's words apart.
 #[inline(always)]
-fn column(
+fn column<T>(
     form: FieldForm,
-    count: usize,
     mut words: impl Iterator<Item = u32>,
-    mut put: impl FnMut(usize, [i32; 3]),
+    out: &mut [T],
+    of: impl Fn([i32; 3]) -> T,
 ) {
     // The words are as many as the column has; what the last of them lacks is 0.
     let mut next = move || words.next().unwrap_or(0);
-    match form.column_bytes() {
-        3 => {
-            for i in (0..count).step_by(4) {
-                let (a, b, c) = (next(), next(), next());
-                let four = [a, a >> 24 | b << 8, b >> 16 | c << 16, c >> 8];
-                for (k, w) in four.into_iter().enumerate().take(count - i) {
-                    put(i + k, fields(form, [w, 0, 0]));
-                }
-            }
-        }
-        6 => {
-            for i in (0..count).step_by(2) {
+    match form {
+        FieldForm::U8x3 => bytes(FieldForm::U8x3, next, out, of),
+        FieldForm::S8x3 => bytes(FieldForm::S8x3, next, out, of),
+        FieldForm::S16x3 => {
+            for pair in out.chunks_mut(2) {
                 let (a, b) = (next(), next());
-                put(i, fields(form, [a, b, 0]));
-                if i + 1 < count {
-                    let c = next();
-                    put(i + 1, fields(form, [b >> 16 | c << 16, c >> 16, 0]));
+                if let [first, rest @ ..] = pair {
+                    *first = of(fields(form, [a, b, 0]));
+                    if let [second, ..] = rest {
+                        let c = next();
+                        *second = of(fields(form, [b >> 16 | c << 16, c >> 16, 0]));
+                    }
                 }
             }
         }
-        12 => {
-            for i in 0..count {
-                put(i, fields(form, [next(), next(), next()]));
+        FieldForm::S32x3 => {
+            for slot in out {
+                *slot = of(fields(form, [next(), next(), next()]));
             }
         }
-        _ => {
-            for i in 0..count {
-                put(i, fields(form, [next(), 0, 0]));
+        form => {
+            for slot in out {
+                *slot = of(fields(form, [next(), 0, 0]));
             }
         }
+    }
+}
+
+/// Four fields of three bytes out of three words.
+#[inline(always)]
+fn bytes<T>(
+    form: FieldForm,
+    mut next: impl FnMut() -> u32,
+    out: &mut [T],
+    of: impl Fn([i32; 3]) -> T,
+) {
+    let mut four = || {
+        let (a, b, c) = (next(), next(), next());
+        [a, a >> 24 | b << 8, b >> 16 | c << 16, c >> 8]
+    };
+    let mut whole = out.chunks_exact_mut(4);
+    for part in &mut whole {
+        for (slot, word) in part.iter_mut().zip(four()) {
+            *slot = of(fields(form, [word, 0, 0]));
+        }
+    }
+    for (slot, word) in whole.into_remainder().iter_mut().zip(four()) {
+        *slot = of(fields(form, [word, 0, 0]));
     }
 }

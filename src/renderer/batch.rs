@@ -296,31 +296,27 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
             self.table = Some(table);
             return Err(Event::Full);
         }
-        let mut fine = false;
-        if table.place == Column::Unpacked {
+        let fine = C::of(place.form, [0; 3]).is_none();
+        if let (Column::Unpacked, Some(out)) = (table.place, m.positions.get_mut(..n)) {
             self.base = n;
-            place.column(words, at, count, |i, f| {
-                match (C::of(place.form, f), m.positions.get_mut(i)) {
-                    (Some(value), Some(slot)) => *slot = value,
-                    _ => fine = true,
-                }
-            });
+            // One that is too fine is not used.
+            place.column(words, at, out, |f| C::of(place.form, f).unwrap_or_default());
         }
-        if let (Column::Unpacked, Some(slot)) = (table.normal, layout.normal) {
+        if let (Column::Unpacked, Some(slot), Some(out)) =
+            (table.normal, layout.normal, m.normals.get_mut(..n))
+        {
             self.base = n;
-            slot.column(words, at, count, |i, f| {
-                if let Some(to) = m.normals.get_mut(i) {
-                    *to = normal(slot.form, f);
-                }
-            });
+            match slot.form {
+                FieldForm::S8x3 => slot.column(words, at, out, |f| normal(FieldForm::S8x3, f)),
+                FieldForm::S10x3 => slot.column(words, at, out, |f| normal(FieldForm::S10x3, f)),
+                form => slot.column(words, at, out, |f| normal(form, f)),
+            }
         }
-        if let (Column::Unpacked, Some(slot)) = (table.colour, layout.colour) {
+        if let (Column::Unpacked, Some(slot), Some(out)) =
+            (table.colour, layout.colour, m.colours.get_mut(..n))
+        {
             self.base = n;
-            slot.column(words, at, count, |i, f| {
-                if let Some(to) = m.colours.get_mut(i) {
-                    *to = colour(f);
-                }
-            });
+            slot.column(words, at, out, colour);
         }
         table.usable = !fine;
         self.table = Some(table);
@@ -358,12 +354,13 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         match (in_place, wide) {
             (Some(slice), false) => {
                 let bytes: &[u8] = bytemuck::cast_slice(slice);
-                let indices = bytes.iter().take(count).map(|i| u16::from(*i));
+                let bytes = bytes.get(..count).unwrap_or(&[]);
+                let indices = bytes.iter().map(|i| u16::from(*i));
                 self.faces(words, table.count, run, 0xFF, indices, target)
             }
             (Some(slice), true) => {
                 let halves: &[u16] = bytemuck::cast_slice(slice);
-                let indices = halves.iter().take(count).copied();
+                let indices = halves.get(..count).unwrap_or(&[]).iter().copied();
                 self.faces(words, table.count, run, 0xFFFF, indices, target)
             }
             (None, _) => {
@@ -377,6 +374,8 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         }
     }
 
+    /// Strips and fans each in a loop of their own: what is asked once a block is not asked once
+    /// an index.
     #[inline]
     fn faces<'w, P: Pipeline, E: EventSink>(
         &mut self,
@@ -387,46 +386,93 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         indices: impl Iterator<Item = u16>,
         target: &mut Target<'_, '_, P, E>,
     ) -> Result<(), BadIndex> {
+        if run.header.rm {
+            self.faces_as::<P, E, true>(words, count, run, restart, indices, target)
+        } else {
+            self.faces_as::<P, E, false>(words, count, run, restart, indices, target)
+        }
+    }
+
+    #[inline]
+    fn faces_as<'w, P: Pipeline, E: EventSink, const FAN: bool>(
+        &mut self,
+        words: impl Words<'w>,
+        count: u16,
+        run: Run,
+        restart: u16,
+        indices: impl Iterator<Item = u16>,
+        target: &mut Target<'_, '_, P, E>,
+    ) -> Result<(), BadIndex> {
         let separate = run.header.low & SEPARATE != 0;
-        let fan = run.header.rm;
-        let mut strip = self.strip;
+        let fan = FAN;
+        let mut indices = indices;
         let mut used = self.indices;
         let mut result = Ok(());
-        for index in indices {
+        'all: while let Some(index) = indices.next() {
             if index >= count {
                 if index == restart && !separate {
-                    strip.restart();
+                    self.strip.restart();
                     continue;
                 }
                 result = Err(BadIndex(index, count));
                 break;
             }
-            let Some(face) = strip.push(index, fan) else {
+            let Some(mut face) = self.strip.push(index, fan) else {
                 continue;
             };
             if separate {
-                strip.restart();
+                self.strip.restart();
             }
-            let slot = match self.memory.indices.get_mut(used..used + 3) {
-                Some(slot) => slot,
-                None => {
-                    self.indices = used;
-                    self.flush(words, target);
-                    self.kind = Kind::Table;
-                    used = 0;
-                    match self.memory.indices.get_mut(..3) {
-                        Some(slot) => slot,
-                        None => {
-                            target.notice(Event::Full, 1);
-                            break;
+            let mut odd = self.strip.odd;
+            // Where a strip has begun, all that changes is which corner the newest replaces.
+            loop {
+                match self.memory.indices.get_mut(used..used + 3) {
+                    Some(slot) => slot.copy_from_slice(&face),
+                    None => {
+                        self.indices = used;
+                        self.flush(words, target);
+                        used = 0;
+                        match self.memory.indices.get_mut(..3) {
+                            Some(slot) => slot.copy_from_slice(&face),
+                            None => {
+                                target.notice(Event::Full, 1);
+                                break 'all;
+                            }
                         }
                     }
                 }
-            };
-            slot.copy_from_slice(&face);
-            used += 3;
+                used += 3;
+                if separate {
+                    break;
+                }
+                let [p, q, newest] = face;
+                let next = indices.next();
+                let index = match next {
+                    Some(index) if index < count => index,
+                    other => {
+                        self.strip.corners = if odd { [q, p, newest] } else { face };
+                        self.strip.odd = odd;
+                        match other {
+                            None => break 'all,
+                            Some(index) if index == restart => {
+                                self.strip.restart();
+                                break;
+                            }
+                            Some(index) => {
+                                result = Err(BadIndex(index, count));
+                                break 'all;
+                            }
+                        }
+                    }
+                };
+                face = if odd == fan {
+                    [newest, q, index]
+                } else {
+                    [p, newest, index]
+                };
+                odd ^= !fan;
+            }
         }
-        self.strip = strip;
         self.indices = used;
         result
     }

@@ -9,7 +9,7 @@ use scanbeam::{
     Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
     Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
 };
-use scenes::{SHOTS, Shot, TEAPOT, VARIANTS, Variant, build_listed};
+use scenes::{SHOTS, Shot, VARIANTS, Variant, build_listed};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -168,29 +168,6 @@ fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
-}
-
-/// Pass one alone, of the teapot: from the list, or by the immediate call. Vertices that were
-/// transformed.
-pub(crate) fn pass_one(rooms: &mut Rooms, listed: bool) -> u32 {
-    let smooth = &mut rooms.smooth;
-    let mut scene = Scene::<Smooth>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: smooth.vertices,
-            objects: smooth.objects,
-            buckets: smooth.buckets,
-        },
-    );
-    if listed {
-        let counts = build_listed(&mut scene, rooms.list.memory());
-        counts.expect("the rooms are large enough").vertices
-    } else {
-        Shot::Teapot
-            .build(&mut scene)
-            .expect("the rooms are large enough");
-        TEAPOT.positions.len() as u32
-    }
 }
 
 /// Two renderers of one scene take turns, as they would on two cores.

@@ -21,6 +21,7 @@ mod bench;
 mod console;
 mod count;
 mod frames;
+mod listed;
 mod rooms;
 
 use core::hint::black_box;
@@ -91,14 +92,19 @@ fn main() -> ! {
     #[cfg(feature = "bench")]
     bench::run(&counter, &mut console);
 
-    // What a list costs beyond the same mesh drawn at once.
-    for (name, listed) in [("pass_one_list", true), ("pass_one_draw", false)] {
-        let mut vertices = 0;
-        let instructions = counter.instructions(|| {
-            vertices = black_box(frames::pass_one(&mut rooms, listed));
-        });
-        console.line(format_args!("figure name={name} value={instructions}"));
-        console.line(format_args!("figure name={name}_vertices value={vertices}"));
+    // What reading a list costs beyond the same immediate calls.
+    let unpacked = rooms::unpacked();
+    let (mut listed, mut drawn) = ((0, 0), (0, 0));
+    let by_list = counter.instructions(|| listed = black_box(listed::from_list(&mut rooms)));
+    let by_calls = counter.instructions(|| drawn = black_box(unpacked.draw(&mut rooms)));
+    // The same vertices, and the same objects of them.
+    all_hold &= listed == drawn && listed.1 > 0;
+    for (name, value) in [
+        ("list_pass_one", by_list),
+        ("calls_pass_one", by_calls),
+        ("list_vertices", u64::from(listed.0)),
+    ] {
+        console.line(format_args!("figure name={name} value={value}"));
     }
 
     console.line(format_args!(

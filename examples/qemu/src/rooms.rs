@@ -1,6 +1,7 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
+use crate::listed::Unpacked;
 use core::ptr;
 use scanbeam::{
     CellOf, LineMemory, LineRenderer, Link, ListMemory, Object, ObjectOf, Pipeline, Scene,
@@ -195,6 +196,15 @@ impl Rooms {
             .hits(&mut scene, &mut renderer)
             .expect("the rooms are large enough")
     }
+}
+
+/// The list's tables, unpacked into external RAM.
+pub(crate) fn unpacked() -> Unpacked {
+    const MOST: usize = 2400;
+    Unpacked::new(
+        lend!(".slow", [i16; 3], MOST, [0; 3]),
+        lend!(".slow", [u16; 3], MOST, [0; 3]),
+    )
 }
 
 /// The most bytes of stack that were in use at once since the start.
