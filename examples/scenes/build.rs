@@ -14,7 +14,7 @@ fn main() {
     println!("cargo:rerun-if-changed=teapot.list");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     let list = fs::read("teapot.list").expect("teapot.list is beside build.rs");
-    assert!(list.len() % 4 == 0, "a list is whole words");
+    assert!(list.len().is_multiple_of(4), "a list is whole words");
     fs::write(out.join("teapot.list"), list).expect("OUT_DIR can be written");
     fs::write(out.join("meshes.rs"), generate::source()).expect("OUT_DIR can be written");
 }

@@ -189,6 +189,27 @@ impl Slot {
         let at = at.wrapping_add(self.word);
         let len = column_words(self.form, out.len().min(0xFFFF) as u16);
         match words.slice(at, len) {
+            // Whole threes of words, without a question for each whether it is there.
+            Some(slice) if self.form == FieldForm::S8x3 => {
+                let (threes, whole) = (slice.chunks_exact(3), out.len() / 4 * 4);
+                let rest = threes.remainder();
+                let (fours, end) = out.split_at_mut(whole);
+                for (three, four) in threes.clone().zip(fours.chunks_exact_mut(4)) {
+                    if let ([a, b, c], [p, q, r, s]) = (three, four) {
+                        let w = four_of([a, b, c].map(|w| u32::from_le(*w)));
+                        let value = |w| of(fields(FieldForm::S8x3, [w, 0, 0]));
+                        (*p, *q, *r, *s) = (value(w[0]), value(w[1]), value(w[2]), value(w[3]));
+                    }
+                }
+                // Three left over take three words, which then are no remainder.
+                let rest = if end.len() == 3 {
+                    slice.get(slice.len().saturating_sub(3)..).unwrap_or(rest)
+                } else {
+                    rest
+                };
+                let words = rest.iter().map(|w| u32::from_le(*w));
+                column(self.form, words, end, of);
+            }
             Some(slice) => {
                 let words = slice.iter().map(|w| u32::from_le(*w));
                 column(self.form, words, out, of);
@@ -261,7 +282,13 @@ fn column<T>(
     }
 }
 
-/// Four fields of three bytes out of three words.
+/// Four fields of three bytes each, in three words.
+#[inline(always)]
+const fn four_of([a, b, c]: [u32; 3]) -> [u32; 4] {
+    [a, a >> 24 | b << 8, b >> 16 | c << 16, c >> 8]
+}
+
+/// Fields of three bytes out of words.
 #[inline(always)]
 fn bytes<T>(
     form: FieldForm,
@@ -269,10 +296,7 @@ fn bytes<T>(
     out: &mut [T],
     of: impl Fn([i32; 3]) -> T,
 ) {
-    let mut four = || {
-        let (a, b, c) = (next(), next(), next());
-        [a, a >> 24 | b << 8, b >> 16 | c << 16, c >> 8]
-    };
+    let mut four = || four_of([next(), next(), next()]);
     let mut whole = out.chunks_exact_mut(4);
     for part in &mut whole {
         for (slot, word) in part.iter_mut().zip(four()) {

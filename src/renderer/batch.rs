@@ -404,7 +404,6 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         target: &mut Target<'_, '_, P, E>,
     ) -> Result<(), BadIndex> {
         let separate = run.header.low & SEPARATE != 0;
-        let fan = FAN;
         let mut indices = indices;
         let mut used = self.indices;
         let mut result = Ok(());
@@ -417,39 +416,34 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
                 result = Err(BadIndex(index, count));
                 break;
             }
-            let Some(mut face) = self.strip.push(index, fan) else {
+            let Some(mut face) = self.strip.push(index, FAN) else {
                 continue;
             };
             if separate {
                 self.strip.restart();
             }
             let mut odd = self.strip.odd;
-            // Where a strip has begun, all that changes is which corner the newest replaces.
             loop {
-                match self.memory.indices.get_mut(used..used + 3) {
-                    Some(slot) => slot.copy_from_slice(&face),
-                    None => {
+                let out = self.memory.indices.get_mut(used..).unwrap_or(&mut []);
+                let (faces, end) = if separate {
+                    fill_one(out, face)
+                } else {
+                    fill::<FAN>(&mut indices, out, count, &mut face, &mut odd)
+                };
+                used += 3 * faces;
+                match end {
+                    Filled::Full => {
                         self.indices = used;
                         self.flush(words, target);
                         used = 0;
-                        match self.memory.indices.get_mut(..3) {
-                            Some(slot) => slot.copy_from_slice(&face),
-                            None => {
-                                target.notice(Event::Full, 1);
-                                break 'all;
-                            }
+                        if self.memory.indices.len() < 3 {
+                            target.notice(Event::Full, 1);
+                            break 'all;
                         }
                     }
-                }
-                used += 3;
-                if separate {
-                    break;
-                }
-                let [p, q, newest] = face;
-                let next = indices.next();
-                let index = match next {
-                    Some(index) if index < count => index,
-                    other => {
+                    Filled::One => break,
+                    Filled::Until(other) => {
+                        let [p, q, newest] = face;
                         self.strip.corners = if odd { [q, p, newest] } else { face };
                         self.strip.odd = odd;
                         match other {
@@ -464,13 +458,7 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
                             }
                         }
                     }
-                };
-                face = if odd == fan {
-                    [newest, q, index]
-                } else {
-                    [p, newest, index]
-                };
-                odd ^= !fan;
+                }
             }
         }
         self.indices = used;
@@ -616,6 +604,64 @@ where
         Column::Unpacked => unpacked.unwrap_or(&[]),
         Column::InPlace(slot) => slot.in_place(words, table.at, table.count).unwrap_or(&[]),
     }
+}
+
+/// Why no more faces were filled in.
+enum Filled {
+    /// There is no room; the face that waits is not in yet.
+    Full,
+    /// One face, and no strip to go on with.
+    One,
+    /// The indices ended, or this one names no vertex.
+    Until(Option<u16>),
+}
+
+fn fill_one(out: &mut [u16], face: [u16; 3]) -> (usize, Filled) {
+    match out.get_mut(..3) {
+        Some(slot) => {
+            slot.copy_from_slice(&face);
+            (1, Filled::One)
+        }
+        None => (0, Filled::Full),
+    }
+}
+
+/// Goes on with a strip or fan that has begun with `face`: all that changes is which corner the
+/// newest replaces. How many faces were filled in.
+#[inline]
+fn fill<const FAN: bool>(
+    indices: &mut impl Iterator<Item = u16>,
+    out: &mut [u16],
+    count: u16,
+    face: &mut [u16; 3],
+    odd: &mut bool,
+) -> (usize, Filled) {
+    let [mut p, mut q, mut newest] = *face;
+    let mut is_odd = *odd;
+    let mut faces = 0;
+    let mut end = Filled::Full;
+    for slot in out.chunks_exact_mut(3) {
+        slot.copy_from_slice(&[p, q, newest]);
+        faces += 1;
+        match indices.next() {
+            Some(index) if index < count => {
+                if is_odd == FAN {
+                    p = newest;
+                } else {
+                    q = newest;
+                }
+                newest = index;
+                is_odd ^= !FAN;
+            }
+            other => {
+                end = Filled::Until(other);
+                break;
+            }
+        }
+    }
+    *face = [p, q, newest];
+    *odd = is_odd;
+    (faces, end)
 }
 
 fn triangles(indices: &[u16]) -> Faces<'_> {

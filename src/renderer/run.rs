@@ -76,6 +76,8 @@ pub struct ListRunner<'m, 'c, C = i16> {
     material: Material,
     /// What the three make of the settings' instance.
     instance: Instance,
+    /// The state has changed since: to be made anew before anything is gathered.
+    stale: bool,
     counts: RunCounts,
 }
 
@@ -90,6 +92,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             light: None,
             material: Material::default(),
             instance: settings.instance,
+            stale: true,
             settings,
             counts: RunCounts::default(),
         };
@@ -113,7 +116,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
     /// Other settings, from the next start on; where the list stands in the world at once.
     pub fn set_instance(&mut self, instance: Instance) {
         self.settings.instance = instance;
-        self.renew();
+        self.stale = true;
     }
 
     /// Position of the next block; what lies before it in a ring may be freed.
@@ -147,11 +150,12 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             two_sided: self.settings.instance.cull == Cull::None,
             ..Material::default()
         };
-        self.renew();
+        self.stale = true;
     }
 
     /// The instance that the state makes.
     fn renew(&mut self) {
+        self.stale = false;
         self.instance = Instance {
             model: self.matrix.then(&self.settings.instance.model),
             cull: if self.material.two_sided {
@@ -265,6 +269,10 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         events: &mut impl EventSink,
     ) -> Result<Step, ListError> {
         self.counts.blocks += 1;
+        // State comes in groups and is combined once, before the first block that draws.
+        if self.stale && !matches!(instruction, Instruction::State(_)) {
+            self.renew();
+        }
         let mut target = Target {
             scene,
             instance: &self.instance,
@@ -353,7 +361,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             }
             _ => self.unimplemented(events),
         }
-        self.renew();
+        self.stale = true;
         Ok(Step::Passed)
     }
 }
