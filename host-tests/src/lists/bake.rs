@@ -512,11 +512,7 @@ impl Plan<'_> {
             let mut block: Vec<Option<u16>> = Vec::new();
             for run in runs {
                 if block.len() + run.len() >= 65_535 {
-                    out.indexed(
-                        Some(form),
-                        wide,
-                        block.drain(..).collect::<Vec<_>>().into_iter(),
-                    )?;
+                    out.indexed(Some(form), wide, std::mem::take(&mut block).into_iter())?;
                 }
                 if !block.is_empty() {
                     block.push(None);

@@ -105,8 +105,7 @@ impl Walk<'_> {
         let mut order = vec![t[turn], t[(turn + 1) % 3], t[(turn + 2) % 3]];
         let mut taken = vec![first];
         let mut seen: BTreeSet<u32> = [first].into();
-        loop {
-            let [.., middle, last] = order[..] else { break };
+        while let [.., middle, last] = order[..] {
             // The edge that the next triangle shares, as it walks it.
             let edge = match (fan, order.len() % 2) {
                 (true, _) => (order[0], last),
