@@ -1,10 +1,11 @@
 //! The conductor: pass one into a [`Scene`], pass two line by line out of it (K1, K12).
 //!
-//! `input` feeds pass one from queues (K17), `run` and `batch` from lists (H11-H14), `immediate`
-//! from plain slices; `lines` draws and `place` fetches ahead (C4); `frame`
-//! sends what one renderer draws, `relay` what several do on their own cores (K16, X6).
+//! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
+//! `immediate` from plain slices; `lines` draws and `place` fetches ahead (C4); `frame` sends what
+//! one renderer draws, `relay` what several do on their own cores (K16, X6).
 
 mod batch;
+mod fill;
 mod frame;
 mod immediate;
 mod input;

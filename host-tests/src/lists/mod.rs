@@ -5,6 +5,7 @@
 //! | `args.rs` | the flags of `bake`, `run-list` and `disassemble` |
 //! | `bake.rs` | a model into a list: forms, groups, tables |
 //! | `strips.rs` | triangles into strips and fans |
+//! | `tables.rs` | strips and fans into tables of vertices |
 //! | `gltf.rs` | glTF 2.0 into a model |
 //! | `print.rs` | a list as text |
 //! | `run.rs` | a list into a picture |
@@ -15,6 +16,7 @@ pub mod gltf;
 pub mod print;
 pub mod run;
 pub mod strips;
+mod tables;
 
 use std::error::Error;
 use std::fs::File;
