@@ -86,7 +86,7 @@ pub use block::{
 };
 pub use error::{ListError, Reason};
 pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};
-pub use format::{Field, FieldForm, VertexFormat, parameter};
+pub use format::{Field, FieldForm, PARAMETERS, VertexFormat, parameter};
 pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
 pub use reader::{Parsed, read_block};
 pub use strip::Strip;
