@@ -46,6 +46,15 @@ impl<'m, T> Arena<'m, T> {
         Some(index as u16)
     }
 
+    /// Appends `count` values, whatever they are, to be overwritten; `None` when there is no room
+    /// for all of them.
+    pub(crate) fn append(&mut self, count: usize) -> Option<&mut [T]> {
+        let end = self.len.checked_add(count).filter(|&e| e <= Self::LIMIT)?;
+        let new = self.items.get_mut(self.len..end)?;
+        self.len = end;
+        Some(new)
+    }
+
     /// The values so far.
     #[inline]
     pub(crate) fn as_slice(&self) -> &[T] {
@@ -70,6 +79,9 @@ mod tests {
         arena.truncate(1);
         arena.truncate(2);
         assert_eq!((arena.len(), arena.as_slice()), (1, &[5][..]));
+        assert_eq!(arena.append(2), None);
+        assert_eq!(arena.append(1).map(|new| new.len()), Some(1));
+        assert_eq!(arena.len(), 2);
         arena.clear();
         assert!(arena.as_slice().is_empty());
     }

@@ -35,7 +35,7 @@
 //! ```
 //! use scanbeam::{
 //!     Camera, Faces, GouraudDepth, Instance, LineMemory, LineRenderer, Link, Mesh, ObjectOf,
-//!     PixelFormat, Rgb565, Scene, SceneMemory, Screen, SpanRecord, VertexOf,
+//!     PixelFormat, Rgb565, Scene, SceneMemory, Screen, VertexOf,
 //! };
 //!
 //! // Colours linear between corners, 32-bit depth, 16-bit pixels.
@@ -51,7 +51,6 @@
 //! // Fast memory.
 //! let mut slots = [LineRenderer::<Look>::empty_slot(); 4];
 //! let mut depth = [0; WIDTH];
-//! let mut spans = [SpanRecord::default(); 4];
 //!
 //! // Pass one. Coordinates are Q1.14: `ONE` is 1.0. Corners go counter-clockwise.
 //! const ONE: i16 = 1 << 14;
@@ -74,7 +73,6 @@
 //!     slots: &mut slots,
 //!     links: &mut links,
 //!     depth: &mut depth,
-//!     spans: &mut spans,
 //! });
 //! let black = Rgb565::from_rgb8([0, 0, 0]);
 //! let mut picture = [[black; WIDTH]; HEIGHT];
@@ -131,6 +129,8 @@
 //! | K3 | screen in 13.3 | `num/mod.rs`, `geometry/camera.rs`, `geometry/project.rs` | `watertight.rs` |
 //! | K4 | edges exact, no gap, no pixel twice | `num/edge.rs`, `geometry/setup.rs`, `span/` | `watertight.rs`, `model_scenes.rs` |
 //! | K5 | any line alone | `renderer/lines.rs`, `num/plane.rs` | `lines_alone.rs`, `model_scenes.rs` |
+//! | K6, K7, P3 | colour along a span: LIRP, packed, forward, half and quarter rate | `shade/interpolation.rs`, `composite/` | `composite/tests.rs`, `host-tests/src/accuracy/` |
+//! | X2 | an error budget | `shade/quality.rs`, `shade/interpolation.rs` | `shade/interpolation.rs`, `composite/tests.rs`, `host-tests/src/accuracy/` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
 //! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/` | `list/tests.rs`, `lists.rs` |
@@ -142,8 +142,17 @@
 //! | C5 | a full cache spills, the picture stays | `active/list.rs` | `cache.rs`, `arenas.rs`, `lines_alone.rs` |
 //! | C6, C7 | a link column for each renderer, changes in the cache | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
 //! | C8 | counters, memory model | `active/counts.rs`, `renderer/frame.rs` | `cache.rs`, `host-tests/src/memory_model.rs` |
+//! | P4 | no colour wraps | `geometry/colour.rs`, `num/small.rs`, `composite/ramp.rs` | `stress_shapes.rs`, `stress_near.rs`, `fuzz.rs` |
+//! | M3 | bounds that hold under stress | | `stress_shapes.rs` has the table of bounds; `stress_near.rs`, `stress_input.rs`, `geometry/transform.rs`, `fuzz.rs` |
+//! | X1 | the same bits on every target | all | `host-tests/src/firmware/tests.rs`, `scanbeam firmware` |
 //! | K16, B3 | renderers by lines or bands | `active/interleave.rs`, `renderer/relay.rs` | `cache.rs` |
 //! | K17 | input queues: stall, empty, sources | `renderer/input.rs` | `input.rs` |
+//! | H2 | block-fix depth | `num/block_fix.rs` | the same file, `host-tests/src/texture_report.rs` |
+//! | H3-H5, K18 | perspective places along a span | `shade/texture/perspective.rs`, `corners.rs`, `num/recip_table.rs` | `shade/texture/tests.rs` |
+//! | H6, H7, H17 | levels of detail, filters, formats, tables, computed textures | `shade/texture/` | `shade/texture/tests.rs`, `texels` frames of the firmware |
+//! | B1, B5 | texture memory in blocks | `shade/texture/block.rs`, `cache.rs` | `host-tests/src/texture_report.rs` |
+//! | B2-B4, B6 | clusters, interleave, edge functions, traversal | `model/traverse.rs`, `model/edge_function.rs` | the same files, `host-tests/src/texture_report.rs` |
+//! | X2 | an error budget picks the cheapest way | `shade/texture/select.rs` | `shade/texture/tests.rs` |
 //! | X6 | two cores, one scene | `renderer/relay.rs` | `cache.rs`, `examples/rp2040-two-cores` builds |
 //!
 //! [`list`] is a scene as data, for flash or for a ring that grows while it is drawn; a
@@ -187,17 +196,22 @@ pub use geometry::{
     Screen, ScreenError, Shading,
 };
 pub use link::Link;
-pub use num::{I2F14, I2F30, U1F15, U13F3};
+pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, ObjectOf,
-    Parts, Pipeline, SlotOf, VertexOf, WordOf,
+    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
+    Interpolated, ObjectOf, Parts, Pipeline, SlotOf, VertexOf, WordOf,
 };
 pub use renderer::{
-    Command, Crew, DrawError, FrameError, FrameStats, Input, InputError, InputQueue, Instance,
-    LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate, ListMemory,
-    ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError, RunCounts,
-    Scene, SceneError, SceneMemory, Source, SpanRecord, Stalled, Stream, Vertices, draw_frame,
+    Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
+    Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
+    ListMemory, ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError,
+    RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices, draw_frame,
     send_frame,
+};
+pub use shade::texture;
+pub use shade::{
+    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
+    Packed16, Precision, Quality, QuarterRate,
 };
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{Depth32, LineDepth};

@@ -37,10 +37,10 @@ impl Link {
         self.0 >= Self::CACHED
     }
 
-    /// The slot of a cached link; of [`NONE`](Link::NONE) a slot that no cache has.
+    /// The slot of a cached link; of any other, also [`NONE`](Link::NONE), one that no cache has.
     #[inline(always)]
     pub(crate) const fn slot(self) -> usize {
-        (self.0 - Self::CACHED) as usize
+        (self.0 as usize).wrapping_sub(Self::CACHED as usize)
     }
 
     /// The object of a slow link.

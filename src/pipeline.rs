@@ -1,16 +1,17 @@
 //! The one type parameter of the crate: which method does each step (DESIGN rule 2).
 //!
-//! | preset | shading | depth | pixel |
-//! |---|---|---|---|
-//! | [`GouraudDepth`] | [`Gouraud`] | [`Depth32`] | any |
-//! | [`FlatDepth`] | [`Flat`] | [`Depth32`] | any |
-//! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any |
-//! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any |
-//! | [`Counted`] | as the preset it wraps | | counts spans and pixels |
+//! | preset | shading | depth | pixel | interpolation |
+//! |---|---|---|---|---|
+//! | [`GouraudDepth`] | [`Gouraud`] | [`Depth32`] | any | [`Packed8`] |
+//! | [`FlatDepth`] | [`Flat`] | [`Depth32`] | any | none is needed |
+//! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any | [`Packed8`] |
+//! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
+//! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
+//! | [`Interpolated`] | as the preset it wraps | | | any |
 
 use crate::composite::PixelFormat;
 use crate::geometry::{Flat, Gouraud, Shading};
-use crate::shade::Levels;
+use crate::shade::{Interpolation, Levels, Packed8};
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::{Depth32, LineDepth};
 use core::marker::PhantomData;
@@ -25,23 +26,27 @@ pub trait Pipeline {
     type Pixel: PixelFormat;
     /// Whether spans and pixels are counted: [`SpanCounts`] or `()`.
     type Counter: SpanCounter;
+    /// How colours are taken from pixel to pixel.
+    type Interpolation: Interpolation;
 }
 
 /// A pipeline by its parts.
 #[derive(Clone, Copy, Debug)]
-pub struct Parts<S, D, F, C = ()>(PhantomData<(S, D, F, C)>);
+pub struct Parts<S, D, F, C = (), I = Packed8>(PhantomData<(S, D, F, C, I)>);
 
-impl<S, D, F, C> Pipeline for Parts<S, D, F, C>
+impl<S, D, F, C, I> Pipeline for Parts<S, D, F, C, I>
 where
     S: Shading<Levels: Levels>,
     D: LineDepth,
     F: PixelFormat,
     C: SpanCounter,
+    I: Interpolation,
 {
     type Shading = S;
     type Depth = D;
     type Pixel = F;
     type Counter = C;
+    type Interpolation = I;
 }
 
 /// Colours linear between vertices, 32-bit depth.
@@ -53,8 +58,21 @@ pub type GouraudPainter<F> = Parts<Gouraud, (), F>;
 /// One colour a face, later objects over earlier ones.
 pub type FlatPainter<F> = Parts<Flat, (), F>;
 /// The pipeline `P`, and its spans and pixels are counted.
-pub type Counted<P> =
-    Parts<<P as Pipeline>::Shading, <P as Pipeline>::Depth, <P as Pipeline>::Pixel, SpanCounts>;
+pub type Counted<P> = Parts<
+    <P as Pipeline>::Shading,
+    <P as Pipeline>::Depth,
+    <P as Pipeline>::Pixel,
+    SpanCounts,
+    <P as Pipeline>::Interpolation,
+>;
+/// The pipeline `P`, with colours by the method `I`.
+pub type Interpolated<P, I> = Parts<
+    <P as Pipeline>::Shading,
+    <P as Pipeline>::Depth,
+    <P as Pipeline>::Pixel,
+    <P as Pipeline>::Counter,
+    I,
+>;
 
 /// The word of a pipeline's pixels.
 pub type WordOf<P> = <<P as Pipeline>::Pixel as PixelFormat>::Word;
@@ -65,6 +83,8 @@ pub type ObjectOf<P> = crate::geometry::Object<<<P as Pipeline>::Shading as Shad
 /// The cache slot of a pipeline.
 pub type SlotOf<P> = crate::active::Slot<DrawableOf<P>>;
 /// An object of a pipeline, set up for drawing.
-pub type DrawableOf<P> = crate::geometry::Drawable<<<P as Pipeline>::Shading as Shading>::Levels>;
+pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>>;
+/// What an object of a pipeline is coloured by.
+pub type LevelsOf<P> = <<P as Pipeline>::Shading as Shading>::Levels;
 /// The depth cell of a pipeline.
 pub type CellOf<P> = <<P as Pipeline>::Depth as LineDepth>::Cell;

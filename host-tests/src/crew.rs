@@ -8,7 +8,7 @@ use crate::mock::HostLine;
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::{
     CellOf, Crew, FrameError, FrameStats, Interleave, LineDepth, LineMemory, LineRenderer, Link,
-    Pipeline, Relay, Scene, SlotOf, SpanRecord, WordOf, send_frame,
+    Pipeline, Relay, Scene, SlotOf, WordOf, send_frame,
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -20,11 +20,7 @@ pub struct LineRooms<P: Pipeline> {
     slots: Vec<SlotOf<P>>,
     links: Vec<Link>,
     depth: Vec<CellOf<P>>,
-    spans: Vec<SpanRecord>,
 }
-
-/// Spans that are noted on a line.
-pub const SPANS: usize = 64;
 
 impl<P: Pipeline> LineRooms<P> {
     /// So many cache slots, links and depth cells.
@@ -34,16 +30,13 @@ impl<P: Pipeline> LineRooms<P> {
             slots: vec![LineRenderer::<P>::empty_slot(); slots],
             links: vec![Link::NONE; links],
             depth: vec![P::Depth::FARTHEST; usize::from(width)],
-            spans: vec![SpanRecord::default(); SPANS],
         }
     }
 
     /// Bytes that firmware would put into fast memory.
     #[must_use]
     pub fn fast_bytes(&self) -> usize {
-        size_of_val(self.slots.as_slice())
-            + size_of_val(self.depth.as_slice())
-            + size_of_val(self.spans.as_slice())
+        size_of_val(self.slots.as_slice()) + size_of_val(self.depth.as_slice())
     }
 
     /// A renderer in this memory.
@@ -52,7 +45,6 @@ impl<P: Pipeline> LineRooms<P> {
             slots: &mut self.slots,
             links: &mut self.links,
             depth: &mut self.depth,
-            spans: &mut self.spans,
         })
     }
 }
@@ -67,6 +59,7 @@ pub fn renderers<P: Pipeline>(
     for (renderer, offset) in renderers.iter_mut().zip(0..) {
         renderer.set_interleave(Interleave::lines(count, offset).unwrap_or_default());
         renderer.set_prefetch(settings.prefetch);
+        renderer.set_quality(settings.quality);
     }
     renderers
 }

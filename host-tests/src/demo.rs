@@ -13,7 +13,7 @@ use scanbeam::scan_out::Pump;
 use scanbeam::{
     Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, LineDepth,
     LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
-    Screen, SlotOf, SpanRecord, VertexOf, WordOf, draw_frame,
+    Screen, SlotOf, VertexOf, WordOf, draw_frame,
 };
 use scenes::TEAPOT;
 use std::error::Error;
@@ -33,8 +33,6 @@ type Drawn = Counted<GouraudDepth<Rgb565Be>>;
 
 /// Slots of the object cache.
 const SLOTS: usize = 64;
-/// Spans that are noted on a line.
-const SPANS: usize = 64;
 /// Vertices that the scene has room for: a teapot that is never clipped has 1,178.
 const VERTICES: usize = 1_184;
 /// Objects that the scene has room for: about half of the 2,256 triangles look away.
@@ -107,7 +105,6 @@ impl Turn {
         let mut buckets = [Link::NONE; HEIGHT as usize];
         let mut slots = [LineRenderer::<Drawn>::empty_slot(); SLOTS];
         let mut links = [Link::NONE; OBJECTS];
-        let mut spans = vec![SpanRecord::default(); SPANS];
         let mut depth = [<Drawn as Pipeline>::Depth::FARTHEST; WIDTH as usize];
         let mut scene = Scene::<Drawn>::new(
             Screen::new(WIDTH, HEIGHT)?,
@@ -121,7 +118,6 @@ impl Turn {
             slots: &mut slots,
             links: &mut links,
             depth: &mut depth,
-            spans: &mut spans,
         });
         let words = usize::from(WIDTH * LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
@@ -221,7 +217,6 @@ impl Turn {
         let fast = [
             Lent::new::<SlotOf<Drawn>>("object cache", SLOTS, slots),
             Lent::new::<CellOf<Drawn>>("depth of one line", width, width),
-            Lent::new::<SpanRecord>("spans of one line", SPANS, SPANS),
             Lent::new::<WordOf<Drawn>>("two line buffers", line_words, line_words),
         ];
         let slow = [

@@ -1,7 +1,9 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
+mod interp;
 mod prepared;
 
+pub use interp::draw_by;
 pub use prepared::Prepared;
 
 use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
@@ -16,7 +18,7 @@ use scanbeam::model::{
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     Camera, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth, Instance,
-    Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Rgb565Be, Rgb888, Scene,
+    Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be, Rgb888, Scene,
     SceneMemory, Screen, VertexOf, WordOf,
 };
 use serde_json::json;
@@ -31,6 +33,8 @@ pub struct CrewSettings {
     pub slots: usize,
     /// Bytes a line that each fetches ahead.
     pub prefetch: u32,
+    /// How far the picture may be off where the method chooses.
+    pub quality: Quality,
 }
 
 impl Default for CrewSettings {
@@ -39,6 +43,7 @@ impl Default for CrewSettings {
             renderers: 1,
             slots: usize::from(DEFAULT_SLOTS),
             prefetch: 0,
+            quality: Quality::default(),
         }
     }
 }

@@ -14,17 +14,21 @@
 //! |---|---|
 //! | `output.rs` | what the firmware prints, read line by line |
 //! | `sections.rs` | what memory its ELF takes |
+//! | `toolchain.rs` | which compiler there is |
 
 mod output;
 mod sections;
 #[cfg(test)]
 mod tests;
+mod toolchain;
 
-pub use output::{CountCheck, FrameResult, KernelRun, Output};
+pub use output::{CountCheck, FrameResult, GrowthRun, KernelRun, LinesRun, Output, UnitRun};
 pub use sections::{Section, Sections};
+pub(crate) use toolchain::clean_command;
+pub use toolchain::{Source, Toolchain};
 
 use std::{
-    env, fs,
+    env,
     io::{self, Read},
     path::{Path, PathBuf},
     process::{Command, ExitStatus, Stdio},
@@ -67,8 +71,18 @@ pub const M3: Board = Board {
     cpu: "cortex-m3",
 };
 
+/// Code for a Cortex-M0+, which has no divide, no multiply to 64 bits and no compare and swap. QEMU
+/// has no such machine with that much memory; a Cortex-M3 knows all of its instructions, so the
+/// frames and the count of instructions are those of an M0+.
+pub const M0_PLUS: Board = Board {
+    name: "m0plus",
+    target: "thumbv6m-none-eabi",
+    machine: "mps2-an385",
+    cpu: "cortex-m3",
+};
+
 /// Every board that frames are compared on.
-pub const BOARDS: [Board; 2] = [M4, M3];
+pub const BOARDS: [Board; 3] = [M4, M3, M0_PLUS];
 
 /// How the firmware is compiled. Both are optimised alike and give the same frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,9 +108,9 @@ impl Profile {
 pub enum FirmwareError {
     /// Neither toolchain can build for the boards.
     #[error(
-        "no compiler for {} and {}: run `rustup target add {} {}`, or on Debian 12 \
+        "no compiler for all boards: run `rustup target add {} {} {}`, or on Debian 12 \
          `apt-get install rustc-web cargo-web rust-web-src lld` ({reasons})",
-        M4.target, M3.target, M4.target, M3.target
+        M4.target, M3.target, M0_PLUS.target
     )]
     NoToolchain {
         /// Why each toolchain that was tried will not do.
@@ -176,192 +190,33 @@ fn io_error(what: impl Into<String>) -> impl FnOnce(io::Error) -> FirmwareError 
     move |source| FirmwareError::Io { what, source }
 }
 
-/// Where the compiler for the boards comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// The `rustc` of the path, with `core` installed for both targets.
-    Rustup,
-    /// Debian's, with `core` built from `rust-web-src` and linked by `ld.lld`.
-    Debian,
-}
-
-impl Source {
-    /// The name in [`TOOLCHAIN_VARIABLE`] and of the target directory.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Rustup => "rustup",
-            Self::Debian => "debian",
-        }
-    }
-}
-
-/// A compiler that builds for all [`BOARDS`].
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Toolchain {
-    /// Where it comes from.
-    pub source: Source,
-    /// What `rustc --version` says; instruction counts differ from version to version.
-    pub version: String,
-}
-
-const DEBIAN_RUSTC: &str = "/usr/bin/rustc";
-const DEBIAN_CARGO: &str = "/usr/bin/cargo";
-const DEBIAN_LINKER: &str = "ld.lld";
-/// The oldest compiler that our packages build with; Debian 12's own `rustc` is 1.63.
-const OLDEST_MINOR: u32 = 87;
-
-impl Toolchain {
-    /// The toolchain that [`TOOLCHAIN_VARIABLE`] names, or the first complete one.
-    ///
-    /// # Errors
-    ///
-    /// [`FirmwareError::NoToolchain`] with the commands that install one, or
-    /// [`FirmwareError::UnknownToolchain`].
-    pub fn find() -> Result<Self, FirmwareError> {
-        let value = env::var(TOOLCHAIN_VARIABLE).unwrap_or_default();
-        let sources: &[Source] = match value.as_str() {
-            "" => &[Source::Rustup, Source::Debian],
-            "rustup" => &[Source::Rustup],
-            "debian" => &[Source::Debian],
-            _ => return Err(FirmwareError::UnknownToolchain { value }),
-        };
-        let mut reasons = Vec::new();
-        for &source in sources {
-            let version = match source {
-                Source::Rustup => rustup_version(),
-                Source::Debian => debian_version(),
-            };
-            match version {
-                Ok(version) => return Ok(Self { source, version }),
-                Err(reason) => reasons.push(format!("{}: {reason}", source.name())),
-            }
-        }
-        Err(FirmwareError::NoToolchain {
-            reasons: reasons.join("; "),
-        })
-    }
-
-    /// `cargo`, set up to compile for `board`, without a subcommand yet.
-    fn cargo(&self, board: &Board) -> Command {
-        match self.source {
-            Source::Rustup => clean_command("cargo"),
-            Source::Debian => {
-                let target = board.target.replace('-', "_").to_uppercase();
-                let mut cargo = clean_command(DEBIAN_CARGO);
-                cargo
-                    .env("RUSTC", DEBIAN_RUSTC)
-                    .env("RUSTC_BOOTSTRAP", "1")
-                    .env(format!("CARGO_TARGET_{target}_LINKER"), DEBIAN_LINKER);
-                cargo
-            }
-        }
-    }
-}
-
-/// The version of the path's compiler, or why it cannot build for the boards.
-fn rustup_version() -> Result<String, String> {
-    for board in BOARDS {
-        let args = ["--print", "target-libdir", "--target", board.target];
-        let directory = first_line("rustc", &args)?;
-        let has_core = fs::read_dir(&directory).is_ok_and(|mut entries| {
-            entries.any(|entry| {
-                entry.is_ok_and(|entry| entry.file_name().to_string_lossy().starts_with("libcore-"))
-            })
-        });
-        if !has_core {
-            return Err(format!("no `core` for {}", board.target));
-        }
-    }
-    first_line("rustc", &["--version"])
-}
-
-/// The version of Debian's compiler, or which of its packages is missing.
-fn debian_version() -> Result<String, String> {
-    let version = first_line(DEBIAN_RUSTC, &["--version"])?;
-    let minor = version
-        .strip_prefix("rustc 1.")
-        .and_then(|rest| rest.split('.').next()?.parse::<u32>().ok());
-    if minor.is_none_or(|minor| minor < OLDEST_MINOR) {
-        return Err(format!(
-            "{DEBIAN_RUSTC} is {version}, 1.{OLDEST_MINOR} is the oldest that will do (rustc-web)"
-        ));
-    }
-    first_line(DEBIAN_CARGO, &["--version"])?;
-    first_line(DEBIAN_LINKER, &["--version"])?;
-    let sysroot = first_line(DEBIAN_RUSTC, &["--print", "sysroot"])?;
-    let core = Path::new(&sysroot).join("lib/rustlib/src/rust/library/core/src/lib.rs");
-    if !core.is_file() {
-        return Err(format!("no {} (rust-web-src)", core.display()));
-    }
-    Ok(version)
-}
-
-/// The first line that a program prints, or why there is none.
-fn first_line(program: &str, args: &[&str]) -> Result<String, String> {
-    let output = clean_command(program)
-        .args(args)
-        .output()
-        .map_err(|error| format!("{program}: {error}"))?;
-    if !output.status.success() {
-        return Err(format!("{program} {} failed", args.join(" ")));
-    }
-    let text = String::from_utf8_lossy(&output.stdout);
-    text.lines()
-        .next()
-        .map(str::to_owned)
-        .ok_or_else(|| format!("{program} {} says nothing", args.join(" ")))
-}
-
-/// A command without the variables that would change what the inner cargo builds.
-fn clean_command(program: &str) -> Command {
-    let mut command = Command::new(program);
-    for (name, _) in env::vars_os() {
-        if is_of_outer_build(&name.to_string_lossy()) {
-            command.env_remove(&name);
-        }
-    }
-    command
-}
-
-/// Whether a variable belongs to the build that this process is part of. Where packages come from,
-/// and which toolchain rustup's proxies start, stays.
-fn is_of_outer_build(name: &str) -> bool {
-    const KEPT: [&str; 5] = [
-        "CARGO_HOME",
-        "CARGO_HTTP_",
-        "CARGO_NET_",
-        "CARGO_REGISTRIES_",
-        "CARGO_REGISTRY_",
-    ];
-    const REMOVED: [&str; 6] = [
-        "CARGO",
-        "RUSTC",
-        "RUSTDOC",
-        "RUSTFLAGS",
-        "LD_LIBRARY_PATH",
-        "DYLD_",
-    ];
-    REMOVED.iter().any(|prefix| name.starts_with(prefix))
-        && !KEPT.iter().any(|prefix| name.starts_with(prefix))
-}
-
-fn workspace() -> PathBuf {
+/// The folder of the whole project.
+pub(crate) fn workspace() -> PathBuf {
     let package = Path::new(env!("CARGO_MANIFEST_DIR"));
     package.parent().unwrap_or(package).to_path_buf()
 }
 
-/// Where this toolchain's builds go: `firmware/` in the usual target directory.
-fn target_directory(toolchain: &Toolchain) -> PathBuf {
-    let usual = match env::var_os("CARGO_TARGET_DIR") {
+/// The usual target directory.
+pub(crate) fn usual_target() -> PathBuf {
+    match env::var_os("CARGO_TARGET_DIR") {
         Some(directory) => workspace().join(directory),
         None => workspace().join("target"),
-    };
-    usual.join("firmware").join(toolchain.source.name())
+    }
 }
 
-/// Builds the firmware and gives the path of its ELF.
+/// Where this toolchain's builds go: `firmware/` in the usual target directory.
+fn target_directory(toolchain: &Toolchain) -> PathBuf {
+    usual_target()
+        .join("firmware")
+        .join(toolchain.source.name())
+}
+
+/// The program of `examples/qemu` that draws and compares the test scenes.
+pub const COMPARER: &str = "qemu-firmware";
+
+/// Builds a program of `examples/qemu` and gives the path of its ELF.
 ///
-/// `features` are features of `examples/qemu`. What cargo says is kept for the error; a first build
+/// `program` is [`COMPARER`] or another binary there, `features` are its features. What cargo says is kept for the error; a first build
 /// takes about half a minute, or a whole one with `core`.
 ///
 /// # Errors
@@ -371,6 +226,7 @@ pub fn build(
     toolchain: &Toolchain,
     board: &Board,
     profile: Profile,
+    program: &str,
     features: &[&str],
 ) -> Result<PathBuf, FirmwareError> {
     let mut directory = target_directory(toolchain);
@@ -381,7 +237,7 @@ pub fn build(
     let mut cargo = toolchain.cargo(board);
     cargo
         .current_dir(workspace().join("examples/qemu"))
-        .args(["build", "--profile", profile.name()])
+        .args(["build", "--bin", program, "--profile", profile.name()])
         .args(["--target", board.target, "--target-dir"])
         .arg(&directory);
     if toolchain.source == Source::Debian {
@@ -404,7 +260,7 @@ pub fn build(
     Ok(directory
         .join(board.target)
         .join(profile.name())
-        .join("qemu-firmware"))
+        .join(program))
 }
 
 /// Runs an ELF to its end and gives the lines that it printed.
@@ -493,7 +349,7 @@ pub struct Measured {
     pub output: Output,
 }
 
-/// Builds the firmware for a board, runs it and reads what it printed.
+/// Builds [`COMPARER`] for a board, runs it and reads what it printed.
 ///
 /// # Errors
 ///
@@ -504,7 +360,7 @@ pub fn measure(
     profile: Profile,
     features: &[&str],
 ) -> Result<Measured, FirmwareError> {
-    let elf = build(toolchain, board, profile, features)?;
+    let elf = build(toolchain, board, profile, COMPARER, features)?;
     Ok(Measured {
         board: *board,
         sections: Sections::read(&elf)?,

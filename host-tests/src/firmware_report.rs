@@ -2,34 +2,47 @@
 
 use crate::args::FirmwareArgs;
 use crate::draw::ModelLines;
-use crate::firmware::{self, BOARDS, Measured, Profile, Toolchain};
+use crate::figures::gate::{Record, Verdict};
+use crate::figures::{Bench, Figure, Size, growth};
+use crate::firmware::{
+    self, BOARDS, Board, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
+};
+use crate::image_out::{write_atomically, write_image};
+use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    FlatDepth, GouraudDepth, LineMemory, LineRenderer, Link, ListMemory, ObjectOf, Pipeline,
-    PixelFormat, Rgb565Be, Scene, SceneMemory, SpanRecord, VertexOf, draw_frame,
+    Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, LineMemory,
+    LineRenderer, Link, ListMemory, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
+    VertexOf, draw_frame,
 };
 use scenes::{
-    HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS, Shot, VARIANTS, VERTICES, WIDTH, build_listed,
+    HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS, STACKS, STRESS, SWATCHES, Shot, VARIANTS,
+    VERTICES, WIDTH, build_listed,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
+use std::path::Path;
 
-/// Builds and runs the firmware on every board and compares; `false` when a frame differs.
+/// Builds and runs the firmware on every board and compares; `false` when a frame differs, or when
+/// something costs more than recorded, or has just been recorded.
 ///
 /// # Errors
 /// When the firmware cannot be built or run, or did not say what it should.
 pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
-    let toolchain = Toolchain::find()?;
     let host = host_frames()?;
-    let mut boards = Vec::new();
-    for board in &BOARDS {
-        let measured = firmware::measure(&toolchain, board, Profile::Release, &[])?;
-        boards.push(Compared::new(measured, &host)?);
+    if args.bless {
+        return bless(&host);
     }
-    let all_match = boards.iter().all(Compared::matches);
+    let toolchain = Toolchain::find()?;
+    let boards = compared(&toolchain, &host, args.bench)?;
+    let verdict = if args.bench {
+        Record::read(&Record::path())?.judge(&toolchain.version, &figures(&boards))
+    } else {
+        Verdict::default()
+    };
     if args.json {
         let reports: Vec<Value> = boards.iter().map(Compared::to_json).collect();
         // The first board's figures stand at the top, where the contract has them.
@@ -43,7 +56,127 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
             board.print();
         }
     }
-    Ok(all_match)
+    if let Some(folder) = &args.output {
+        plot(folder, &boards)?;
+    }
+    for refusal in &verdict.refused {
+        eprintln!("slower: {refusal}");
+    }
+    if let Some(other) = &verdict.other {
+        eprintln!("note: no figures of this compiler are recorded; those of {other} were used");
+    }
+    if verdict.better > 0 {
+        let better = verdict.better;
+        eprintln!("note: {better} figures are better than recorded: {BLESS} would keep that");
+    }
+    if !verdict.refused.is_empty() {
+        eprintln!("if it has to be so, {BLESS} records it");
+    }
+    Ok(boards.iter().all(Compared::matches) && verdict.refused.is_empty())
+}
+
+/// The command that records figures.
+const BLESS: &str = "`cargo run --release -p host-tests -- firmware --bench --bless`";
+
+/// Records the figures of every complete compiler; `false`, because nothing was judged.
+fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
+    let path = Record::path();
+    let mut record = Record::read(&path)?;
+    for toolchain in Toolchain::all()? {
+        let boards = compared(&toolchain, host, true)?;
+        if let Some(wrong) = boards.iter().find(|board| !board.matches()) {
+            let name = wrong.measured.board.name;
+            return Err(format!("{name}: a frame differs, so nothing is recorded").into());
+        }
+        record.bless(&toolchain.version, &figures(&boards));
+        record.write(&path)?;
+        eprintln!("recorded: {}", toolchain.version);
+    }
+    eprintln!("{} is new: look at what changed in it", path.display());
+    Ok(false)
+}
+
+/// Runs every board.
+fn compared(
+    toolchain: &Toolchain,
+    host: &BTreeMap<&str, u32>,
+    bench: bool,
+) -> Result<Vec<Compared>, Box<dyn Error>> {
+    let mut boards = Vec::new();
+    let spans = growth::spans()?;
+    for board in &BOARDS {
+        let measured = firmware::measure(toolchain, board, Profile::Release, &[])?;
+        let mut compared = Compared::new(measured, host)?;
+        if bench {
+            let measured = firmware::measure(toolchain, board, Profile::Release, &["bench"])?;
+            let sizes = sizes(toolchain, board, host)?;
+            compared.bench = Some(Bench::new(&measured.output, &spans, sizes)?);
+        }
+        boards.push(compared);
+    }
+    Ok(boards)
+}
+
+/// Builds the small programs, and runs them, so that what is measured also draws.
+fn sizes(
+    toolchain: &Toolchain,
+    board: &Board,
+    host: &BTreeMap<&str, u32>,
+) -> Result<Vec<Size>, Box<dyn Error>> {
+    let mut known = host.clone();
+    let painter = draw::<GouraudPainter<Rgb565Be>>(Shot::Teapot)?;
+    known.insert("teapot_painter", crc32fast::hash(&painter));
+    let painter = draw::<FlatPainter<Rgb565Be>>(Shot::Teapot)?;
+    known.insert("teapot_flat_painter", crc32fast::hash(&painter));
+    let mut sizes = Vec::new();
+    for program in ["preset", "presets"] {
+        let elf = firmware::build(toolchain, board, Profile::Release, program, &[])?;
+        let pictures = firmware::run(board, &elf, DEFAULT_TIMEOUT)?;
+        let drawn = |line: &String| {
+            let mut words = line.split(' ').skip(1);
+            let crc = known.get(words.next()?)?;
+            (words.next()? == format!("{crc:08x}")).then_some(())
+        };
+        if pictures.is_empty() || !pictures.iter().all(|line| drawn(line).is_some()) {
+            let name = board.name;
+            return Err(format!("{name}: {program} draws something else: {pictures:?}").into());
+        }
+        sizes.push(Size {
+            program,
+            sections: Sections::read(&elf)?,
+        });
+    }
+    Ok(sizes)
+}
+
+/// Everything that is recorded, by board.
+fn figures(boards: &[Compared]) -> BTreeMap<String, Vec<Figure>> {
+    let of = |board: &Compared| {
+        let frames = board
+            .frames
+            .iter()
+            .map(|(scene, _, _, instructions)| Figure {
+                name: format!("frame {scene}"),
+                value: *instructions as f64,
+                // Two ticks.
+                grain: 80.0,
+            });
+        let mut figures: Vec<Figure> = frames.collect();
+        figures.extend(board.bench.iter().flat_map(Bench::figures));
+        (board.measured.board.name.to_owned(), figures)
+    };
+    boards.iter().map(of).collect()
+}
+
+/// Writes the growth of the first board.
+fn plot(folder: &Path, boards: &[Compared]) -> Result<(), Box<dyn Error>> {
+    std::fs::create_dir_all(folder)
+        .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+    let curves = boards.first().and_then(|board| board.bench.as_ref());
+    let plot = growth::plot(curves.map_or(&[], |bench| &bench.growth));
+    write_atomically(&folder.join("growth.svg"), plot.to_svg().as_bytes())?;
+    write_image(&folder.join("growth.png"), &plot.to_frame())?;
+    Ok(())
 }
 
 /// The checksums of all frames as this machine draws them, by name.
@@ -52,7 +185,7 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
 /// When a shot does not fit the arenas that it asks for.
 pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     let mut frames = BTreeMap::new();
-    for shot in SHOTS {
+    for shot in SHOTS.into_iter().chain(STACKS).chain(STRESS) {
         frames.insert(
             shot.name(),
             crc32fast::hash(&draw::<GouraudDepth<Rgb565Be>>(shot)?),
@@ -60,14 +193,25 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     }
     let flat = draw::<FlatDepth<Rgb565Be>>(Shot::Teapot)?;
     frames.insert("teapot_flat", crc32fast::hash(&flat));
+    let flat = draw::<FlatDepth<Rgb565Be>>(Shot::Crossings)?;
+    frames.insert("crossings_flat", crc32fast::hash(&flat));
     let model = draw_by_model(Shot::Teapot)?;
     frames.insert("teapot_model", crc32fast::hash(&model));
-    let listed = shown(Shot::Teapot, build_list, by_lines)?;
+    let (listed, _) = shown(Shot::Teapot, build_list, by_lines)?;
     frames.insert("teapot_list", crc32fast::hash(&listed));
     for variant in VARIANTS {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
         frames.insert(variant.name, crc32fast::hash(&plain));
+    }
+    for (name, swatch) in SWATCHES {
+        let mut bytes = Vec::new();
+        swatch.draw(|line| bytes.extend(line.iter().flat_map(|word| word.to_ne_bytes())));
+        frames.insert(name, crc32fast::hash(&bytes));
+    }
+    for (name, words) in method_frames()? {
+        let bytes: Vec<u8> = words.into_iter().flat_map(u16::to_ne_bytes).collect();
+        frames.insert(name, crc32fast::hash(&bytes));
     }
     Ok(frames)
 }
@@ -75,9 +219,29 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
 /// Lines that one transfer takes.
 const LINES: u16 = 3;
 
+/// What the frames of the shots have: pixels, spans and triangles, by name.
+///
+/// # Errors
+/// When a shot does not fit the arenas that it asks for.
+pub fn host_counts() -> Result<BTreeMap<&'static str, FrameStats>, Box<dyn Error>> {
+    let mut counts = BTreeMap::new();
+    for shot in SHOTS.into_iter().chain(STACKS) {
+        let drawn = drawn::<Counted<GouraudDepth<Rgb565Be>>>(shot)?;
+        counts.insert(shot.name(), drawn.1);
+    }
+    Ok(counts)
+}
+
 /// The bytes of a shot in scan-out order.
 fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
-    shown::<P>(shot, |scene| build(shot, scene), by_lines)
+    drawn::<P>(shot).map(|(bytes, _)| bytes)
+}
+
+/// The bytes of a shot in scan-out order, and what the frame had.
+fn drawn<P: Pipeline<Pixel = Rgb565Be>>(
+    shot: Shot,
+) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>> {
+    shown::<P, _>(shot, |scene| build(shot, scene), by_lines)
 }
 
 /// Draws all lines with one renderer.
@@ -85,21 +249,18 @@ fn by_lines<P: Pipeline<Pixel = Rgb565Be>>(
     scene: &Scene<'_, P>,
     pump: &mut Display,
     background: u16,
-) -> Result<(), Box<dyn Error>> {
+) -> Result<FrameStats, Box<dyn Error>> {
     use scanbeam::LineDepth;
     const SLOTS: usize = 64;
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
     let mut links = vec![Link::NONE; OBJECTS];
     let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
-    let mut spans = vec![SpanRecord::default(); SLOTS];
     let mut renderer = LineRenderer::new(LineMemory {
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut spans,
     });
-    draw_frame(scene, &mut renderer, pump, background, LINES)?;
-    Ok(())
+    Ok(draw_frame(scene, &mut renderer, pump, background, LINES)?)
 }
 
 /// The bytes of a shot as the hardware model draws it.
@@ -107,7 +268,7 @@ fn draw_by_model(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
     type Smooth = GouraudDepth<Rgb565Be>;
     let mut lines = ModelLines::new(WIDTH);
     let mut renderer = lines.renderer();
-    shown::<Smooth>(
+    let (bytes, _) = shown::<Smooth, _>(
         shot,
         |scene| build(shot, scene),
         |scene, pump, background| {
@@ -115,7 +276,8 @@ fn draw_by_model(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
                 .map_err(|error| format!("{error:?}"))?;
             Ok(())
         },
-    )
+    )?;
+    Ok(bytes)
 }
 
 /// Draws a shot into a scene.
@@ -140,12 +302,13 @@ fn build_list(scene: &mut Scene<'_, GouraudDepth<Rgb565Be>>) -> Result<(), Box<d
 
 type Display = Pump<MockFrameBuffer<u16>>;
 
-/// What arrives at the display when `draw` draws what `build` has built, over a shot's background.
-fn shown<P: Pipeline<Pixel = Rgb565Be>>(
+/// What arrives at the display when `draw` draws what `build` has built, over a shot's background, and
+/// what `draw` gave.
+fn shown<P: Pipeline<Pixel = Rgb565Be>, T>(
     shot: Shot,
     build: impl FnOnce(&mut Scene<'_, P>) -> Result<(), Box<dyn Error>>,
-    draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<(), Box<dyn Error>>,
-) -> Result<Vec<u8>, Box<dyn Error>> {
+    draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<T, Box<dyn Error>>,
+) -> Result<(Vec<u8>, T), Box<dyn Error>> {
     let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
     let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
     let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
@@ -162,9 +325,10 @@ fn shown<P: Pipeline<Pixel = Rgb565Be>>(
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb565Be::from_rgb8(shot.background());
-    draw(&scene, &mut pump, background)?;
+    let drawn = draw(&scene, &mut pump, background)?;
     let words = pump.sink().frame()?;
-    Ok(words.into_iter().flat_map(u16::to_ne_bytes).collect())
+    let bytes = words.into_iter().flat_map(u16::to_ne_bytes).collect();
+    Ok((bytes, drawn))
 }
 
 /// A board's frames beside the host's.
@@ -172,10 +336,14 @@ struct Compared {
     measured: Measured,
     /// Name, host's checksum, target's checksum, instructions.
     frames: Vec<(String, u32, u32, u64)>,
+    /// What the frames of the shots have.
+    counts: BTreeMap<&'static str, FrameStats>,
+    /// What `--bench` measures.
+    bench: Option<Bench>,
 }
 
 impl Compared {
-    fn new(measured: Measured, host: &BTreeMap<&str, u32>) -> Result<Self, String> {
+    fn new(measured: Measured, host: &BTreeMap<&str, u32>) -> Result<Self, Box<dyn Error>> {
         let name = measured.board.name;
         let mut frames = Vec::new();
         for frame in &measured.output.frames {
@@ -185,13 +353,14 @@ impl Compared {
             frames.push((frame.scene.clone(), *host, frame.crc, frame.instructions));
         }
         if frames.len() != host.len() {
-            return Err(format!(
-                "{name}: drew {} frames of {}",
-                frames.len(),
-                host.len()
-            ));
+            return Err(format!("{name}: drew {} frames of {}", frames.len(), host.len()).into());
         }
-        Ok(Self { measured, frames })
+        Ok(Self {
+            measured,
+            frames,
+            counts: host_counts()?,
+            bench: None,
+        })
     }
 
     fn matches(&self) -> bool {
@@ -206,7 +375,14 @@ impl Compared {
             .frames
             .iter()
             .map(|(scene, host, target, instructions)| {
+                let stats = self.counts.get(scene.as_str());
+                let each = |of: fn(&FrameStats) -> u32| {
+                    stats.map(|stats| *instructions as f64 / f64::from(of(stats).max(1)))
+                };
                 json!({
+                    "per_pixel": each(|stats| stats.spans.pixels_shaded),
+                    "per_span": each(|stats| stats.spans.spans),
+                    "per_triangle": each(|stats| stats.pass_one.triangles),
                     "scene": scene,
                     "crc_host": format!("{host:08x}"),
                     "crc_target": format!("{target:08x}"),
@@ -215,7 +391,7 @@ impl Compared {
                 })
             })
             .collect();
-        json!({
+        let mut report = json!({
             "board": self.measured.board.name,
             "target": self.measured.board.target,
             "machine": self.measured.board.machine,
@@ -227,7 +403,11 @@ impl Compared {
             "stack_bytes": self.measured.output.figures.get("stack_bytes"),
             "list": self.list(),
             "frames": frames,
-        })
+        });
+        if let Some(bench) = &self.bench {
+            bench.add_to(&mut report);
+        }
+        report
     }
 
     /// What pass one of the baked teapot costs, beside the same tables by immediate calls.
@@ -271,6 +451,9 @@ impl Compared {
             println!(
                 "  {scene:15} {host:08x} {target:08x} {verdict}  {instructions:>10} instructions"
             );
+        }
+        if let Some(bench) = &self.bench {
+            bench.print();
         }
     }
 }

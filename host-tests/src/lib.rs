@@ -2,17 +2,22 @@
 
 pub mod accuracy;
 pub mod args;
+pub mod bench;
 pub mod cache_report;
 pub mod crew;
 pub mod demo;
 pub mod draw;
+pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;
 pub mod lists;
 pub mod memory_model;
+pub mod method_frames;
 pub mod mock;
 pub mod model;
 pub mod plot;
 pub mod reference;
+pub mod texture_file;
+pub mod texture_report;
 pub mod trace;

@@ -1,10 +1,10 @@
 //! The command line tool: see `scanbeam --help`.
 
-use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, RenderArgs, Stop};
+use host_tests::args::{self, Command, EXIT_BAD_INPUT, QualityArg, RenderArgs, Stop};
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
-use host_tests::{accuracy, cache_report, demo, draw, firmware_report, trace};
+use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, trace};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -26,6 +26,7 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Cache(args) => cache_report::run(&args),
         Command::Accuracy(args) => accuracy::run(&args),
+        Command::Bench(args) => bench::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::RunList(args) => list_run::run(&args),
         Command::Disassemble(args) => list_text::run(&args),
@@ -52,12 +53,10 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         renderers: args.renderers,
         slots: usize::from(args.cache),
         prefetch: args.prefetch,
+        quality: args.quality.map(QualityArg::quality).unwrap_or_default(),
     };
     let (view, format) = (args.view(), args.picture.format);
-    let drawn = match args.interp {
-        InterpArg::Plane => draw::draw(&model, &view, format, crew)?,
-        InterpArg::Model => draw::draw_model(&model, &view, format)?,
-    };
+    let drawn = draw::draw_by(&model, &view, format, crew, args.method())?;
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
         let mut text = serde_json::to_string_pretty(&drawn.to_json())?;

@@ -164,9 +164,14 @@ impl Scatter {
                 canvas.line((x(pair[0].x), y(pair[0].y)), corner, colour, 1);
                 canvas.line(corner, (x(pair[1].x), y(pair[1].y)), colour, 1);
             }
-            let at = top + 18 + 18 * n as i32;
-            canvas.line((right - 240, at - 4), (right - 232, at - 4), colour, 8);
-            canvas.text((right - 224, at), 0, group);
+            // One alone is named by the title.
+            if self.groups.len() > 1 {
+                let at = top + 18 + 18 * n as i32;
+                let longest = self.groups.iter().map(|g| g.chars().count()).max();
+                let x = right - 8 * longest.unwrap_or(0) as i32;
+                canvas.line((x - 16, at - 4), (x - 8, at - 4), colour, 8);
+                canvas.text((x, at), 0, group);
+            }
         }
         let mut taken: Vec<(i32, i32, i32)> = Vec::new();
         for dot in &self.dots {
@@ -202,7 +207,7 @@ impl Scatter {
                 .iter()
                 .any(|(start, end, y)| *start < from + wide && from < *end && (y - ty).abs() < 12)
             {
-                ty += 12;
+                ty += if py > bottom - 60 { -12 } else { 12 };
             }
             taken.push((from, from + wide, ty));
             canvas.text((tx, ty), anchor, &dot.name);

@@ -9,7 +9,7 @@ use scanbeam::{
     Instance, Interleave, Light, LineMemory, LineRenderer, Mesh, Pipeline, Rgb565Be, Rgb888, Scene,
     Screen, WordOf,
 };
-use scenes::{CUBE, RIBBON, SHOTS, Shot, TEAPOT};
+use scenes::{CUBE, RIBBON, SHOTS, STRESS, Shot, TEAPOT};
 use std::ops::Range;
 
 const SLOTS: [usize; 7] = [0, 1, 2, 3, 7, 16, 64];
@@ -111,7 +111,7 @@ where
 {
     let mut rng = Rng::new(11);
     let mut rooms = SceneRooms::<P>::new(scenes::VERTICES, scenes::OBJECTS, 240);
-    for shot in SHOTS {
+    for shot in SHOTS.into_iter().chain(STRESS) {
         let mut scene = rooms.scene(Shot::screen());
         shot.build(&mut scene).unwrap();
         let want = whole(&scene, shot.name());
@@ -344,7 +344,6 @@ fn more_memory_than_needed_is_not_used() {
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut [],
     });
     for y in scene.lines() {
         let got = line(&mut renderer, &scene, y);

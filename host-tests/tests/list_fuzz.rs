@@ -1,4 +1,4 @@
-//! Any bytes: no panic, no hang, bounded work (X7). What `fuzz/fuzz_targets/list.rs` does for as
+//! Any bytes: no panic, no hang, bounded work (X7). What `fuzz/src/list.rs` does for as
 //! long as it is let, done here for a while, on random words and on damaged lists.
 
 mod common;

@@ -2,9 +2,10 @@
 //!
 //! A singly linked list of [`Link`]s. A node is either a slot of the cache, which holds the
 //! object set up for drawing and its own `next`, or an object in slow memory, whose `next` is in
-//! this renderer's link column (C6); a slow object is set up anew on each line. Walking a line
-//! merges what becomes active, moves slow objects into slots that have become free (C5), and
-//! takes out what ends (C2). Nothing but the link column is ever written to slow memory.
+//! this renderer's link column (C6); a slow object is set up anew on each line. Before a line is
+//! drawn one walk takes out what has ended (C2), merges what becomes active, and moves slow
+//! objects into slots that have become free (C5); where nothing of all that is due there is no
+//! walk. Nothing but the link column is ever written to slow memory.
 //!
 //! What becomes active comes from buckets, object by object, so that it can be taken in ahead of
 //! its line and with any number of pauses (C4): with a body when it was fetched into a slot, with
@@ -22,20 +23,13 @@ pub trait Member {
     fn end(&self) -> i32;
 }
 
-/// Takes the objects of a line, in order of submission.
+/// Sets objects up from slow memory, and takes them one after the other.
 pub trait Visitor<T> {
-    /// Sets an object up from slow memory; `false` when it ends above the line.
+    /// Sets an object up for the line and all below; `false` when it ends above.
     fn set_up(&mut self, object: u16, body: &mut T) -> bool;
 
-    /// An object in slot `index`, which stays as it is until the walk is over; `false` to be asked
-    /// again after [`flush`](Visitor::flush).
-    fn visit(&mut self, index: usize, slot: &mut Slot<T>) -> bool;
-
-    /// Makes room for more visits, with all slots at hand.
-    fn flush(&mut self, slots: &[Slot<T>]);
-
-    /// An object for which there is no slot, set up for this call alone.
-    fn visit_spilled(&mut self, object: u16, body: &mut T, slots: &[Slot<T>]);
+    /// An object of the line.
+    fn visit(&mut self, object: u16, body: &T);
 }
 
 /// A slot of the cache.
@@ -64,12 +58,6 @@ impl<T> Slot<T> {
         &self.body
     }
 
-    /// The object, set up.
-    #[inline(always)]
-    pub(crate) const fn body_mut(&mut self) -> &mut T {
-        &mut self.body
-    }
-
     /// Index of the object in slow memory.
     #[inline(always)]
     pub(crate) const fn object(&self) -> u16 {
@@ -93,6 +81,14 @@ pub struct ActiveList<'m, T> {
     /// What has been taken from a bucket that is not at its end, in order of submission.
     pending: Link,
     used: u32,
+    /// Objects of `incoming` and `pending` that are in slow memory.
+    waiting: u32,
+    /// Objects of the active list that are in slots.
+    cached: u32,
+    /// Objects of the active list that are in slow memory.
+    spilled: u32,
+    /// No object of the active list that is in a slot ends above this line.
+    first_end: i32,
     pub(crate) counts: CacheCounts,
 }
 
@@ -110,6 +106,10 @@ impl<'m, T: Member> ActiveList<'m, T> {
             incoming: Link::NONE,
             pending: Link::NONE,
             used: 0,
+            waiting: 0,
+            cached: 0,
+            spilled: 0,
+            first_end: i32::MAX,
             counts: CacheCounts::default(),
         };
         list.clear();
@@ -127,9 +127,25 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.links.len()
     }
 
-    /// Whether nothing is active, as far as whole buckets were taken in.
+    /// Whether nothing is active on the line of the last [`update`](ActiveList::update).
     pub(crate) fn is_empty(&self) -> bool {
-        !self.head.is_some() && !self.incoming.is_some()
+        !self.head.is_some()
+    }
+
+    /// Whether some of what is active has no slot.
+    #[inline]
+    pub(crate) fn has_spilled(&self) -> bool {
+        self.spilled > 0
+    }
+
+    /// What is active and in slots, as (slot, object) in order of submission; all there is unless
+    /// some [`has_spilled`](ActiveList::has_spilled).
+    #[inline(always)]
+    pub(crate) fn members(&self) -> Members<'_, T> {
+        Members {
+            slots: self.slots,
+            current: self.head,
+        }
     }
 
     /// Whether a slot is free.
@@ -143,7 +159,8 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.incoming = Link::NONE;
         self.pending = Link::NONE;
         self.free = Link::NONE;
-        self.used = 0;
+        (self.used, self.waiting, self.cached, self.spilled) = (0, 0, 0, 0);
+        self.first_end = i32::MAX;
         self.counts = CacheCounts::default();
         for (i, slot) in self.slots.iter_mut().enumerate().rev() {
             slot.next = self.free;
@@ -159,6 +176,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
             if let Some(next) = self.links.get_mut(usize::from(object)) {
                 *next = new;
                 new = Link::slow(object);
+                self.waiting += 1;
                 self.counts.admitted += 1;
                 self.counts.link_writes += 1;
             }
@@ -272,125 +290,212 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.counts.peak_slots = self.counts.peak_slots.max(self.used);
     }
 
-    /// Walks the objects of `line` in order of submission.
-    ///
-    /// `next` is the line that will come after: objects that end before it leave the list, and
-    /// their slots are free when the walk is over. `spare` takes objects for which there is no
-    /// slot.
-    #[inline(always)]
-    pub(crate) fn walk(
-        &mut self,
-        (line, next): (i32, i32),
-        spare: &mut T,
-        visitor: &mut impl Visitor<T>,
-    ) {
-        // The node whose link leads to `current`; NONE stands for the head.
+    /// Makes the list that of `line`, to be called once for each line that is drawn: takes out
+    /// what has ended, merges what has become active, and fills free slots. Whether it may have
+    /// changed.
+    #[inline]
+    pub(crate) fn update(&mut self, line: i32, visitor: &mut impl Visitor<T>) -> bool {
+        // What stays is a hit, and what comes in its slot is one too.
+        if self.incoming.is_some() || self.spilled > 0 || line >= self.first_end {
+            // Where slots are scarce, those of what has ended have to be free first.
+            if self.used + self.waiting + self.spilled > self.slots.len() as u32 {
+                self.release(line);
+            }
+            self.merge_incoming(line, visitor);
+            true
+        } else {
+            self.counts.hits += self.cached;
+            false
+        }
+    }
+
+    /// Takes out what has ended above `line`, so that its slots are free.
+    pub(crate) fn release(&mut self, line: i32) {
+        if line < self.first_end {
+            return;
+        }
+        self.first_end = i32::MAX;
         let mut before = Link::NONE;
         let mut current = self.head;
-        // Slots that become free are joined to the others afterwards, so that what was visited
-        // stays where it is for the whole line.
-        let mut released = Released {
-            head: Link::NONE,
-            first: 0,
-            count: 0,
-        };
-        let mut hits = 0;
-        // The object that heads `incoming`.
-        let mut coming = self.coming();
-        loop {
-            if current.is_cached() {
-                let index = current.slot();
-                match self.slots.get_mut(index) {
-                    Some(slot) if slot.object < coming => {
-                        let (end, after) = (slot.body.end(), slot.next);
-                        if end > line {
-                            hits += 1;
-                            if !visitor.visit(index, slot) {
-                                visitor.flush(self.slots);
-                                visitor.visit(index, &mut self.slots[index]);
-                            }
-                        }
-                        if end > next {
-                            before = current;
-                        } else {
-                            released.add(self.slots, current);
-                            self.set_next(before, after);
-                        }
+        while current.is_some() {
+            let after = match self.slots.get(current.slot()) {
+                Some(slot) => {
+                    let (end, after) = (slot.body.end(), slot.next);
+                    if end <= line {
+                        self.set_next(before, after);
+                        self.put_back(current);
                         current = after;
                         continue;
                     }
-                    None if coming == NOTHING => break,
-                    _ => {}
+                    self.first_end = self.first_end.min(end);
+                    after
                 }
+                None => self.next(current),
+            };
+            before = current;
+            current = after;
+        }
+    }
+
+    /// The walk of [`update`](ActiveList::update).
+    #[inline(never)]
+    fn merge_incoming(&mut self, line: i32, visitor: &mut impl Visitor<T>) {
+        let mut before = Link::NONE;
+        let mut current = self.head;
+        let mut first_end = i32::MAX;
+        // The object that heads `incoming`.
+        let mut coming = self.coming();
+        // What was in its slot before this line.
+        let mut hits = 0;
+        loop {
+            // What stays; all locals, so that they stay in registers.
+            let slots = &*self.slots;
+            let is_new = loop {
+                let Some(slot) = slots.get(current.slot()) else {
+                    break !current.is_some() || current.object() > coming;
+                };
+                if slot.object > coming {
+                    break true;
+                }
+                let end = slot.body.end();
+                if end <= line {
+                    break false;
+                }
+                first_end = first_end.min(end);
+                hits += 1;
+                before = current;
+                current = slot.next;
+            };
+            if let (false, Some(slot)) = (is_new, slots.get(current.slot())) {
+                // What has ended.
+                let after = slot.next;
+                self.set_next(before, after);
+                self.put_back(current);
+                current = after;
+                continue;
             }
-            let is_new = current.is_cached() || coming < current.object();
-            let (object, after) = if is_new {
+            if is_new && coming == NOTHING {
+                break;
+            }
+            if is_new {
                 let node = self.incoming;
                 if node.is_cached() {
                     // Fetched ahead: into the list with it, and on as with any other.
                     let slot = &mut self.slots[node.slot()];
                     self.incoming = core::mem::replace(&mut slot.next, current);
-                    coming = self.coming();
+                    self.cached += 1;
                     self.counts.fetched_hits += 1;
-                    self.set_next(before, node);
-                    current = node;
+                } else {
+                    self.incoming = self.links[usize::from(node.object())];
+                    self.waiting -= 1;
+                    let free = self.free;
+                    if !free.is_some() {
+                        // It will be set up on each line on which it is drawn.
+                        self.set_next(node, current);
+                        self.spilled += 1;
+                        self.counts.spills += 1;
+                        self.set_next(before, node);
+                        before = node;
+                        coming = self.coming();
+                        continue;
+                    }
+                    self.counts.misses += 1;
+                    if !self.take_slot(node.object(), current, visitor) {
+                        coming = self.coming();
+                        continue;
+                    }
+                    // The walk will count it once more.
+                    hits -= 1;
+                    self.set_next(before, free);
+                    current = free;
+                    coming = self.coming();
                     continue;
                 }
-                let object = node.object();
-                self.incoming = self.links[usize::from(object)];
+                self.set_next(before, node);
+                current = node;
                 coming = self.coming();
-                (object, current)
-            } else {
-                let object = current.object();
-                (object, self.links[usize::from(object)])
-            };
-            self.counts.misses += 1;
-            // The node that stays in the list, if any.
-            let mut node = Link::NONE;
-            let free = self.free;
-            if let Some(slot) = self.slots.get_mut(free.slot()) {
-                if visitor.set_up(object, &mut slot.body) {
-                    self.free = slot.next;
-                    slot.object = object;
-                    self.used += 1;
-                    self.counts.peak_slots = self.counts.peak_slots.max(self.used);
-                    if !visitor.visit(free.slot(), slot) {
-                        visitor.flush(self.slots);
-                        visitor.visit(free.slot(), &mut self.slots[free.slot()]);
-                    }
-                    let slot = &mut self.slots[free.slot()];
-                    if slot.body.end() > next {
-                        slot.next = after;
-                        node = free;
-                    } else {
-                        released.add(self.slots, free);
-                    }
-                }
-            } else if visitor.set_up(object, spare) {
-                visitor.visit_spilled(object, spare, self.slots);
-                if spare.end() > next {
-                    node = Link::slow(object);
-                }
+                continue;
             }
-            if node.is_some() {
-                if is_new && !node.is_cached() {
-                    self.counts.spills += 1;
-                    self.set_next(node, after);
+            let free = self.free;
+            let after = self.links[usize::from(current.object())];
+            if free.is_some() {
+                // It moves in.
+                self.counts.misses += 1;
+                self.spilled -= 1;
+                if self.take_slot(current.object(), after, visitor) {
+                    hits -= 1;
+                    self.set_next(before, free);
+                    current = free;
+                } else {
+                    self.set_next(before, after);
+                    current = after;
                 }
-                if is_new || node.is_cached() {
-                    self.set_next(before, node);
-                }
-                before = node;
-            } else if !is_new {
+            } else {
+                before = current;
+                current = after;
+            }
+        }
+        self.first_end = first_end;
+        self.counts.hits = self.counts.hits.wrapping_add_signed(hits);
+    }
+
+    /// Sets `object` up in the first free slot, which is taken then and leads to `next`; `false`
+    /// when the object has ended.
+    #[inline]
+    fn take_slot(&mut self, object: u16, next: Link, visitor: &mut impl Visitor<T>) -> bool {
+        let Some(slot) = self.slots.get_mut(self.free.slot()) else {
+            return false;
+        };
+        let there = visitor.set_up(object, &mut slot.body);
+        if there {
+            self.free = core::mem::replace(&mut slot.next, next);
+            slot.object = object;
+            self.cached += 1;
+            self.take_count();
+        }
+        there
+    }
+
+    /// Frees the slot of a node that has left the list.
+    #[inline]
+    fn put_back(&mut self, node: Link) {
+        if let Some(slot) = self.slots.get_mut(node.slot()) {
+            slot.next = self.free;
+            self.free = node;
+            self.used -= 1;
+            self.cached -= 1;
+        }
+    }
+
+    /// Gives `visitor` all objects of the line of the last [`update`](ActiveList::update) in
+    /// order of submission.
+    ///
+    /// `next` is the line that will come after: slow objects that end before it leave the list.
+    /// `spare` takes objects for which there is no slot.
+    pub(crate) fn visit_all(&mut self, next: i32, spare: &mut T, visitor: &mut impl Visitor<T>) {
+        let mut before = Link::NONE;
+        let mut current = self.head;
+        while current.is_some() {
+            if let Some(slot) = self.slots.get(current.slot()) {
+                visitor.visit(slot.object, &slot.body);
+                before = current;
+                current = slot.next;
+                continue;
+            }
+            let object = current.object();
+            let after = self.links[usize::from(object)];
+            self.counts.misses += 1;
+            let there = visitor.set_up(object, spare);
+            if there {
+                visitor.visit(object, spare);
+            }
+            if there && spare.end() > next {
+                before = current;
+            } else {
+                self.spilled -= 1;
                 self.set_next(before, after);
             }
             current = after;
-        }
-        self.counts.hits += hits;
-        if released.count > 0 {
-            self.slots[released.first].next = self.free;
-            self.free = released.head;
-            self.used -= released.count;
         }
     }
 
@@ -405,30 +510,27 @@ impl<'m, T: Member> ActiveList<'m, T> {
     }
 }
 
-/// Above every object.
-const NOTHING: u16 = u16::MAX;
-
-/// Slots that have become free during a walk, chained.
-struct Released {
-    head: Link,
-    /// The slot at the other end of the chain.
-    first: usize,
-    count: u32,
+/// What is active and in slots: see [`ActiveList::members`].
+#[derive(Clone, Debug)]
+pub(crate) struct Members<'s, T> {
+    slots: &'s [Slot<T>],
+    current: Link,
 }
 
-impl Released {
-    #[inline]
-    fn add<T>(&mut self, slots: &mut [Slot<T>], link: Link) {
-        if let Some(slot) = slots.get_mut(link.slot()) {
-            if self.count == 0 {
-                self.first = link.slot();
-            }
-            slot.next = self.head;
-            self.head = link;
-            self.count += 1;
-        }
+impl<'s, T> Iterator for Members<'s, T> {
+    type Item = (usize, &'s Slot<T>);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        let index = self.current.slot();
+        let slot = self.slots.get(index)?;
+        self.current = slot.next;
+        Some((index, slot))
     }
 }
+
+/// Above every object.
+const NOTHING: u16 = u16::MAX;
 
 #[cfg(test)]
 mod tests;

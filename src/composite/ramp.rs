@@ -1,94 +1,10 @@
-//! Colours into pixels, span by span.
+//! Three channels in one or two registers.
 //!
-//! Three channels run in one or two registers: the sum of packed steps is the packed sum, and a
-//! field is right as long as all fields below it stay in range, which half a step at either end
-//! of each field guarantees (see `Colour`). One register has few fraction bits, so it is
-//! anchored anew every [`RUN`] pixels from the two words with 16 bits a channel.
-
-use super::PixelFormat;
-use crate::shade::Stretch;
-use crate::visible::Visible;
-
-/// Pixels between two anchors of a single word.
-///
-/// A field of 5 + 6 (blue 5 + 5) bits whose step is rounded drifts by 2^-7 (2^-6) steps a
-/// pixel: 1/8 of a step over 8 pixels of blue.
-pub(super) const RUN: usize = 8;
-
-/// Writes the pixels of a span that are seen; returns how many were.
-#[inline(always)]
-pub(crate) fn paint<F: PixelFormat>(
-    pixels: &mut [F::Word],
-    stretch: Stretch,
-    mut visible: impl Visible,
-) -> u32 {
-    let mut seen = 0;
-    match stretch {
-        Stretch::Constant(steps) => {
-            let word = F::pack(steps);
-            if all_seen(&visible) {
-                F::fill(pixels, word);
-                return pixels.len() as u32;
-            }
-            visible.each(pixels, |pixel, shown| {
-                if shown {
-                    *pixel = word;
-                    seen += 1;
-                }
-            });
-        }
-        Stretch::Packed {
-            mut red_blue,
-            mut green,
-            steps,
-            field_step,
-        } => {
-            let mut rest = pixels;
-            while rest.len() > RUN {
-                let (run, more) = rest.split_at_mut(RUN);
-                let ramp = F::ramp(red_blue, green, steps, field_step);
-                seen += walk::<F>(run, ramp, &mut visible);
-                rest = more;
-                red_blue = red_blue.wrapping_add(steps.0.wrapping_mul(RUN as i32));
-                green = green.wrapping_add(steps.1.wrapping_mul(RUN as i32));
-            }
-            let ramp = F::ramp(red_blue, green, steps, field_step);
-            seen += walk::<F>(rest, ramp, &mut visible);
-        }
-        Stretch::Channels([mut r, mut g, mut b], step) => {
-            visible.each(pixels, |pixel, shown| {
-                if shown {
-                    *pixel = F::pack([(r >> 16) as u8, (g >> 16) as u8, (b >> 16) as u8]);
-                    seen += 1;
-                }
-                r = r.wrapping_add(step[0]);
-                g = g.wrapping_add(step[1]);
-                b = b.wrapping_add(step[2]);
-            });
-        }
-    }
-    seen
-}
-
-/// Whether nobody has to be asked.
-#[inline(always)]
-const fn all_seen<V: Visible>(_: &V) -> bool {
-    V::ALL
-}
-
-/// The pixels between two anchors.
-#[inline(always)]
-fn walk<F: PixelFormat>(run: &mut [F::Word], mut ramp: F::Ramp, visible: &mut impl Visible) -> u32 {
-    let mut seen = 0;
-    visible.each(run, |pixel, shown| {
-        if shown {
-            *pixel = F::ramp_pixel(&ramp);
-            seen += 1;
-        }
-        F::ramp_step(&mut ramp);
-    });
-    seen
-}
+//! The sum of packed steps is the packed sum, and a field is right as long as all fields below it
+//! stay in range, which half a step at either end of each field guarantees (see `Colour`). One
+//! register has few fraction bits, so it is anchored anew every 8 or 16 pixels from the two words
+//! with 16 bits a channel: a field of 5 + 6 (blue 5 + 5) bits whose step is rounded drifts by 2^-7
+//! (2^-6) steps a pixel, 1/8 of a step over 8 pixels of blue.
 
 /// Two words and their steps, 16 bits a channel: for formats of 8 bits a channel.
 #[derive(Clone, Copy, Debug)]
@@ -108,14 +24,10 @@ impl TwoWords {
         }
     }
 
-    /// The upper 8 bits of red, green and blue.
+    /// The words.
     #[inline(always)]
-    pub(super) fn top(&self) -> [u8; 3] {
-        [
-            (self.red_blue >> 24) as u8,
-            (self.green >> 24) as u8,
-            (self.red_blue >> 8) as u8,
-        ]
+    pub(super) fn words(&self) -> (u32, u32) {
+        (self.red_blue as u32, self.green as u32)
     }
 
     #[inline(always)]
@@ -147,6 +59,13 @@ impl OneWord {
     #[inline(always)]
     pub(super) fn rgb565(&self) -> u16 {
         let whole = self.word & 0xF81F_07E0;
+        (whole | whole >> 16) as u16
+    }
+
+    /// The same with its bytes swapped, at the cost of one instruction.
+    #[inline(always)]
+    pub(super) fn rgb565_swapped(&self) -> u16 {
+        let whole = (self.word & 0xF81F_07E0).swap_bytes();
         (whole | whole >> 16) as u16
     }
 

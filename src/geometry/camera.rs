@@ -241,4 +241,56 @@ mod tests {
         assert!(Screen::new(0, 1).is_err() && Screen::new(1, 8193).is_err());
         assert_eq!(Screen::new(8192, 1).unwrap().left(), 0);
     }
+
+    /// M3: a camera is made from its places each time, so nothing adds up however long it turns.
+    ///
+    /// Bound on the view's rows times their transpose, away from the identity: 2^-20 for rows of
+    /// 24 bits scaled by a Newton root, and `2^-21 / s` where up and view have the sine s between
+    /// them: each entry of their cross product errs by `3 2^-24`, and is then divided by s.
+    #[test]
+    fn views_keep_right_angles_however_often_they_turn() {
+        let mut worst = [0f64; 2];
+        for i in 0..1_000_000u32 {
+            let angle = f64::from(i) * 0.001;
+            let eye = [
+                7.0 * angle.sin(),
+                3.0 * (0.37 * angle).cos(),
+                7.0 * angle.cos(),
+            ];
+            let eye = eye.map(|c| c as f32);
+            // Every other one looks almost along up.
+            let lean = if i % 2 == 0 { 1.0 } else { 1e-3 };
+            let up = [0, 1, 2].map(|k| eye[k] + lean * [0.3, 5.0, 0.1][k]);
+            let Ok(camera) = Camera::look_at(eye, [0.0; 3], up, 100.0, 0.1, 10.0) else {
+                continue;
+            };
+            let (view, up, ahead) = (
+                camera.view.linear,
+                up.map(f64::from),
+                eye.map(|c| -f64::from(c)),
+            );
+            let scale = f64::from(view.exponent - 30).exp2();
+            let row = |k: usize| [0, 1, 2].map(|j| f64::from(view.mantissa[3 * k + j]) * scale);
+            let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+            let cosine = dot(up, ahead) / (dot(up, up) * dot(ahead, ahead)).sqrt();
+            let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
+            if sine < 1e-4 {
+                continue;
+            }
+            let bound = 2f64.powi(-20) + 2f64.powi(-21) / sine;
+            for (a, b) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
+                let want = f64::from(u8::from(a == b));
+                let off = (dot(row(a), row(b)) - want).abs();
+                assert!(off <= bound, "{a} {b}: {off}, {bound}, sine {sine}");
+                let kind = usize::from(lean < 1.0);
+                worst[kind] = worst[kind].max(off);
+            }
+        }
+        std::println!(
+            "skew {:.2e}, up almost along the view {:.2e}",
+            worst[0],
+            worst[1]
+        );
+        assert!(worst[1] > 0.0);
+    }
 }

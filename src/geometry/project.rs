@@ -157,6 +157,20 @@ impl Projection {
         code
     }
 
+    /// Whether `p` lies beyond no plane, so that its [`outcode`](Projection::outcode) is 0.
+    #[inline(always)]
+    pub(super) fn is_within(&self, p: ClipPoint) -> bool {
+        let limit = p.z - (p.z >> 8);
+        let down = 15 - self.power;
+        if down < 0 {
+            return self.outcode(p) == 0;
+        }
+        let down = down.min(31);
+        // -limit < v < limit; a limit below 1 admits nothing, and is behind the near plane.
+        let between = |v: i32| (((v >> down) + limit - 1) as u32) < (2 * limit - 1) as u32;
+        p.z >= self.near && p.z <= self.far && between(p.x) && between(p.y)
+    }
+
     /// Clip coordinates to the screen; `p` must have outcode 0, or have been clipped.
     ///
     /// Coordinates are rounded to 1/8 pixel and err by 2^-26 of the distance from the middle
@@ -184,7 +198,8 @@ impl Projection {
                 v >> (-shift).min(31)
             }
         };
-        let inverse = inverse as i32 as u32;
+        // 2^31 itself, for a power of two, is a unit less: so a signed product will do.
+        let inverse = inverse.min(i32::MAX as u32) as i32;
         let place = |v: i32, centre: i32| {
             let q = (i64::from(scaled(v)) * i64::from(inverse)) >> 32;
             ((((q as i32) + (1 << 13)) >> 14) + centre).clamp(0, 0xFFFF) as u16

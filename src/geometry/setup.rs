@@ -7,6 +7,7 @@ use super::colour::Scale;
 use super::object::{Object, SceneVertex};
 use super::shading::Shading;
 use crate::num::{Edge, GUARD_CENTRE, InverseArea, Plane, SmallArea, column_exact, first_at};
+use core::ops::Range;
 
 /// How colour and depth are found at a pixel.
 #[derive(Clone, Copy, Debug)]
@@ -20,45 +21,42 @@ pub enum Parameters<L> {
 /// A triangle, ready to be drawn on any of its lines from the one it was set up for on.
 #[derive(Clone, Copy, Debug)]
 pub struct Drawable<L> {
-    /// The edges at the left and at the right of the part that is being drawn, and the one that
-    /// takes over from one of them below the middle corner.
-    left: Edge,
-    right: Edge,
-    third: Edge,
-    /// The first line for which `left` and `right` are not right any more: that below the middle
-    /// corner, 0 for a triangle that no 32-bit edge can hold, the largest when nothing more comes.
+    /// The edge from the top to the bottom corner.
+    long: Edge,
+    /// The edges above and below the middle corner.
+    short: [Edge; 2],
+    /// The first line below the middle corner.
     turn: u16,
     /// First line below the triangle.
     end: u16,
     sides: Sides,
+    /// See [`Drawable::range`].
+    range: (u16, u16),
     /// Depth and colour.
     pub parameters: Parameters<L>,
 }
 
-/// What happens at [`Drawable::turn`].
+/// How the columns of a triangle are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Sides {
-    /// The third edge goes on at the left.
-    ThirdLeft,
-    /// The third edge goes on at the right.
-    ThirdRight,
+    /// All of it is on the picture: edges are counted from the picture's first column.
+    Inside,
+    /// Some of it may be beside the picture: edges are counted from the middle of guard space.
+    Near,
     /// The edges are divided out on each line, from corners sorted from top to bottom, which
     /// are kept in place of the edges.
-    Divided {
-        /// The edge from top to bottom is the left one.
-        long_left: bool,
-    },
+    Divided,
 }
 
 impl<L> Drawable<L> {
     /// What an empty slot holds.
     pub const EMPTY: Self = Self {
-        left: Edge::NONE,
-        right: Edge::NONE,
-        third: Edge::NONE,
-        turn: u16::MAX,
+        long: Edge::NONE,
+        short: [Edge::NONE; 2],
+        turn: 0,
         end: 0,
-        sides: Sides::ThirdLeft,
+        sides: Sides::Inside,
+        range: (0, 0),
         parameters: Parameters::Corners,
     };
 
@@ -69,46 +67,63 @@ impl<L> Drawable<L> {
         self.end
     }
 
-    /// First covered column on `line` and the first after the last, counted from the middle
-    /// column of guard space; the span is empty where the second is not above the first.
+    /// The nearest and farthest depth of the corners in units of 2^15, the first rounded up, the
+    /// other down.
     ///
-    /// Lines must not go up.
+    /// Planes err by 16,386 at most (see `num`), so of two triangles the first is nearer at every
+    /// pixel if its farthest is at least 2 above the nearest of the other.
     #[inline(always)]
     #[must_use]
-    pub fn columns(&mut self, line: i32) -> (i32, i32) {
-        if line >= i32::from(self.turn) {
-            if let Sides::Divided { long_left } = self.sides {
-                return self.divided(line, long_left);
-            }
-            self.take_turn();
-        }
-        (self.left.column(line), self.right.column(line))
+    pub const fn range(&self) -> (u16, u16) {
+        self.range
     }
 
+    /// Whether all of it is on the picture, so that [`inside`](Drawable::inside) has its columns.
     #[inline(always)]
-    fn take_turn(&mut self) {
-        if self.sides == Sides::ThirdLeft {
-            self.left = self.third;
-        } else {
-            self.right = self.third;
-        }
-        self.turn = u16::MAX;
+    #[must_use]
+    pub const fn is_inside(&self) -> bool {
+        matches!(self.sides, Sides::Inside)
     }
 
-    #[cold]
-    #[inline(never)]
-    fn divided(&self, line: i32, long_left: bool) -> (i32, i32) {
-        let [top, middle, bottom] = [self.left, self.right, self.third].map(Edge::as_corner);
-        let long = column_exact(top, bottom, line) - GUARD_CENTRE;
-        let short = if line < first_at(middle.1) {
-            column_exact(top, middle, line)
-        } else {
-            column_exact(middle, bottom, line)
-        } - GUARD_CENTRE;
-        if long_left {
-            (long, short)
-        } else {
-            (short, long)
+    /// Whether a line is above (0) or below (1) the middle corner: the sign of a difference, which
+    /// takes three instructions less than a comparison.
+    #[inline(always)]
+    const fn part(&self, line: i32) -> usize {
+        ((self.turn as i32 - 1 - line) as u32 >> 31) as usize
+    }
+
+    /// First covered pixel of the picture on `line` and the first after the last; none is covered
+    /// where they are the same.
+    #[inline(always)]
+    #[must_use]
+    pub fn inside(&self, line: i32) -> (u32, u32) {
+        let short = self.short[self.part(line)];
+        let (a, b) = (self.long.right_of(line), short.right_of(line));
+        (a.min(b), a.max(b))
+    }
+
+    /// First covered column of guard space on `line` and the first after the last, for a picture
+    /// whose first column is `left`; none is covered where they are the same.
+    #[must_use]
+    pub fn columns(&self, line: i32, left: i32) -> (i32, i32) {
+        let below = self.part(line);
+        match self.sides {
+            Sides::Inside => {
+                let (from, to) = self.inside(line);
+                (left + from as i32, left + to as i32)
+            }
+            Sides::Near => {
+                let [a, b] = [self.long, self.short[below]].map(|e| GUARD_CENTRE + e.column(line));
+                (a.min(b), a.max(b))
+            }
+            Sides::Divided => {
+                let [top, middle, bottom] =
+                    [self.long, self.short[0], self.short[1]].map(Edge::as_corner);
+                let short = [(top, middle), (middle, bottom)][below];
+                let a = column_exact(top, bottom, line);
+                let b = column_exact(short.0, short.1, line);
+                (a.min(b), a.max(b))
+            }
         }
     }
 }
@@ -116,11 +131,11 @@ impl<L> Drawable<L> {
 impl<F: Copy> Object<F> {
     /// The object's corners.
     #[inline]
-    pub(crate) fn corners<A: Copy>(
+    pub(crate) fn corners<'v, A>(
         &self,
-        vertices: &[SceneVertex<A>],
-    ) -> Option<[SceneVertex<A>; 3]> {
-        let at = |i: u16| vertices.get(usize::from(i)).copied();
+        vertices: &'v [SceneVertex<A>],
+    ) -> Option<[&'v SceneVertex<A>; 3]> {
+        let at = |i: u16| vertices.get(usize::from(i));
         Some([
             at(self.corner[0])?,
             at(self.corner[1])?,
@@ -128,34 +143,38 @@ impl<F: Copy> Object<F> {
         ])
     }
 
-    /// Sets the object up in `out` for `line` and all below; `false` when the object does not
-    /// exist in this arena or ends above.
+    /// Sets the object up in `out` for `line` and all below, and for a picture of these columns
+    /// of guard space; `false` when the object does not exist in this arena or ends above.
     #[inline(never)]
     pub(crate) fn set_up<S: Shading<Face = F>>(
         &self,
         vertices: &[SceneVertex<S::Vertex>],
         scale: &Scale,
-        line: i32,
+        (line, picture): (i32, &Range<i32>),
         out: &mut Drawable<S::Levels>,
     ) -> bool {
         let Some(corners) = self.corners(vertices) else {
             return false;
         };
         let place = corners.map(|c| (c.x, c.y));
-        if !edges(place, line, out) {
+        let area = SmallArea::new(place);
+        if !edges(place, area.is_some(), line, picture, out) {
             return false;
         }
-        out.parameters = match SmallArea::new(place) {
-            Some(area) => {
-                let depth = area.wide_plane(corners.map(|c| c.depth as i32));
-                let levels = S::set_up_small(&area, corners.map(|c| c.attribute), self.face, scale);
-                match (depth, levels) {
-                    (Some(depth), Some(levels)) => Parameters::Planes(depth, levels),
-                    _ => large::<S>(corners, self.face, scale),
-                }
+        let [a, b, c] = corners.map(|c| c.depth);
+        out.range = (
+            ((a.max(b).max(c) >> 15) as u16).saturating_add(1),
+            (a.min(b).min(c) >> 15) as u16,
+        );
+        if let Some(area) = area {
+            let depth = area.wide_plane(corners.map(|c| c.depth as i32));
+            let levels = S::set_up_small(&area, corners.map(|c| c.attribute), self.face, scale);
+            if let (Some(depth), Some(levels)) = (depth, levels) {
+                out.parameters = Parameters::Planes(depth, levels);
+                return true;
             }
-            None => large::<S>(corners, self.face, scale),
-        };
+        }
+        large::<S>(corners, self.face, scale, out);
         true
     }
 }
@@ -164,17 +183,18 @@ impl<F: Copy> Object<F> {
 #[cold]
 #[inline(never)]
 fn large<S: Shading>(
-    corners: [SceneVertex<S::Vertex>; 3],
+    corners: [&SceneVertex<S::Vertex>; 3],
     face: S::Face,
     scale: &Scale,
-) -> Parameters<S::Levels> {
+    out: &mut Drawable<S::Levels>,
+) {
     let planes = || {
         let area = InverseArea::new(corners.map(|c| (c.x, c.y)))?;
         let depth = area.plane(corners.map(|c| c.depth as i32))?;
         let levels = S::set_up(&area, corners.map(|c| c.attribute), face, scale)?;
         Some(Parameters::Planes(depth, levels))
     };
-    planes().unwrap_or(Parameters::Corners)
+    out.parameters = planes().unwrap_or(Parameters::Corners);
 }
 
 /// The corners from top to bottom; equal heights keep their order.
@@ -194,58 +214,94 @@ fn sorted(p: [(u16, u16); 3]) -> [(u16, u16); 3] {
 }
 
 /// Sets up the edges of `out` for `line` and all below; `false` when the triangle ends above.
+///
+/// `small` says that no side is longer than 512 units.
 #[inline(always)]
-fn edges<L>(p: [(u16, u16); 3], line: i32, out: &mut Drawable<L>) -> bool {
-    const LOW: u16 = 8 * (GUARD_CENTRE - 511) as u16;
-    const SPAN: u16 = 8 * 1022;
+fn edges<L>(
+    p: [(u16, u16); 3],
+    small: bool,
+    line: i32,
+    picture: &Range<i32>,
+    out: &mut Drawable<L>,
+) -> bool {
     let [top, middle, bottom] = sorted(p);
     let turn = first_at(middle.1);
     let end = first_at(bottom.1);
-    out.end = end as u16;
     if line >= end {
         return false;
     }
-    let d = |a: (u16, u16), b: (u16, u16)| {
-        (
-            i32::from(b.0) - i32::from(a.0),
-            i32::from(b.1) - i32::from(a.1),
-        )
-    };
-    let (long, upper, lower) = (d(top, bottom), d(top, middle), d(middle, bottom));
-    let near = p.iter().all(|p| p.0.wrapping_sub(LOW) < SPAN);
-    let flat_enough = long.1 < 1024
-        || (Edge::holds(long.0, long.1)
-            && Edge::holds(upper.0, upper.1)
-            && Edge::holds(lower.0, lower.1));
-    if !(near && flat_enough) {
-        // The middle corner is right of the long edge, which is the left one then.
-        let long_left =
-            i64::from(upper.0) * i64::from(long.1) > i64::from(long.0) * i64::from(upper.1);
-        out.sides = Sides::Divided { long_left };
-        out.turn = 0;
-        [out.left, out.right, out.third] = [top, middle, bottom].map(Edge::from_corner);
-        return true;
+    let long = difference(top, bottom);
+    let upper = difference(top, middle);
+    let lower = difference(middle, bottom);
+    // The pixels of the picture, not counting its last column, are `8 left - 4 .. 8 right - 4`.
+    let low = 8 * picture.start - 4;
+    let width = picture.end - picture.start;
+    let inside = width <= 1023
+        && p.iter()
+            .all(|p| (i32::from(p.0) - low) as u32 <= 8 * width as u32);
+    out.end = end as u16;
+    out.turn = turn as u16;
+    if !(small && inside) {
+        return wide_edges([top, middle, bottom], inside, picture.start, out);
     }
-    // Products of 14 and 17 bits; a vertical edge may be that tall.
-    let long_left = upper.0 * long.1 > long.0 * upper.1;
-    let edge = Edge::new(top, long);
-    let above = line < turn;
-    let short = if above {
-        Edge::new(top, upper)
-    } else {
-        Edge::new(middle, lower)
-    };
-    out.turn = u16::MAX;
-    if above && turn < end {
-        out.third = Edge::new(middle, lower);
-        out.turn = turn as u16;
+    out.sides = Sides::Inside;
+    out.long = Edge::small(top, long, picture.start);
+    if line < turn {
+        out.short[0] = Edge::small(top, upper, picture.start);
     }
-    if long_left {
-        (out.left, out.right, out.sides) = (edge, short, Sides::ThirdRight);
-    } else {
-        (out.left, out.right, out.sides) = (short, edge, Sides::ThirdLeft);
+    if turn < end {
+        out.short[1] = Edge::small(middle, lower, picture.start);
     }
     true
+}
+
+/// The edges of a triangle that is large or may reach beside the picture.
+#[cold]
+#[inline(never)]
+fn wide_edges<L>(
+    [top, middle, bottom]: [(u16, u16); 3],
+    inside: bool,
+    left: i32,
+    out: &mut Drawable<L>,
+) -> bool {
+    const LOW: u16 = 8 * (GUARD_CENTRE - 511) as u16;
+    const SPAN: u16 = 8 * 1022;
+    let sides =
+        [(top, bottom), (top, middle), (middle, bottom)].map(|(a, b)| (a, difference(a, b)));
+    let near = inside
+        || [top, middle, bottom]
+            .iter()
+            .all(|p| p.0.wrapping_sub(LOW) < SPAN);
+    if !near || sides.iter().any(|(_, (dx, dy))| !Edge::holds(*dx, *dy)) {
+        out.sides = Sides::Divided;
+        [out.long, out.short[0], out.short[1]] = [top, middle, bottom].map(Edge::from_corner);
+        return true;
+    }
+    let origin = if inside {
+        out.sides = Sides::Inside;
+        left
+    } else {
+        out.sides = Sides::Near;
+        GUARD_CENTRE
+    };
+    // A level edge is never asked.
+    [out.long, out.short[0], out.short[1]] = sides.map(|(from, (dx, dy))| {
+        if dy > 0 {
+            Edge::new(from, (dx, dy), origin)
+        } else {
+            Edge::NONE
+        }
+    });
+    true
+}
+
+/// From one point to another.
+#[inline(always)]
+fn difference(a: (u16, u16), b: (u16, u16)) -> (i32, i32) {
+    (
+        i32::from(b.0) - i32::from(a.0),
+        i32::from(b.1) - i32::from(a.1),
+    )
 }
 
 /// Depth and levels of a thin triangle at a pixel of guard space, from exact weights.
@@ -253,7 +309,7 @@ fn edges<L>(p: [(u16, u16); 3], line: i32, out: &mut Drawable<L>) -> bool {
 /// The weights are at least 0 and their sum is at most 1, so the result lies between the
 /// corners' values, always.
 pub(crate) fn at_pixel<S: Shading>(
-    corners: [SceneVertex<S::Vertex>; 3],
+    corners: [&SceneVertex<S::Vertex>; 3],
     face: S::Face,
     scale: &Scale,
     (column, line): (i32, i32),

@@ -151,14 +151,10 @@ impl Shading for Gouraud {
         let value = |k: usize, i: usize| (f[k][i] << UP[i]) as i32;
         let rise = |i: usize| area.gradient(value(1, i) - value(0, i), value(2, i) - value(0, i));
         let (r, g, b) = (rise(0), rise(1), rise(2));
-        let most = area
-            .rise_bits(r, 0)
-            .max(area.rise_bits(g, 0))
-            .max(area.rise_bits(b, 0));
-        if most > RISE {
+        if area.rise_bits([r, g, b], 0) > RISE {
             return None;
         }
-        let (rs, gs, bs) = (area.step(r, 0), area.step(g, 0), area.step(b, 0));
+        let (rs, gs, bs) = (area.step(r), area.step(g), area.step(b));
         let at = |i: usize, g| value(0, i) + area.offset(g);
         let pair = |high: i32, low: i32| (high << 16).wrapping_add(low);
         // Fields of the step, rounded: an error of half a unit of a field a column.

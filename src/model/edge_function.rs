@@ -42,6 +42,22 @@ impl EdgeFunction {
         self.value >= 0
     }
 
+    /// Whether the inner side, the edge itself always among it, reaches the area of `columns` by
+    /// `lines` pixels of which this is the upper left one.
+    #[inline]
+    #[must_use]
+    pub const fn reaches(self, columns: i32, lines: i32) -> bool {
+        // The largest value is at a corner, half a pixel off the outer centres; steps are even.
+        const fn most(step: i64, pixels: i32) -> i64 {
+            if step > 0 {
+                step / 2 * (2 * pixels as i64 - 1)
+            } else {
+                -step / 2
+            }
+        }
+        self.value + most(self.right, columns) + most(self.down, lines) >= -1
+    }
+
     /// The function `columns` to the right and `lines` below.
     #[inline]
     #[must_use]
@@ -70,6 +86,15 @@ impl EdgeFunction {
 pub struct EdgeFunctions([EdgeFunction; 3]);
 
 impl EdgeFunctions {
+    /// Those of a triangle that covers nothing and reaches nowhere.
+    pub(super) const NOTHING: Self = Self(
+        [EdgeFunction {
+            value: -2,
+            right: 0,
+            down: 0,
+        }; 3],
+    );
+
     /// The triangle of three corners, 13.3, in either order; `None` when it has no area.
     #[must_use]
     pub fn new([a, b, c]: [(u16, u16); 3], at: (i32, i32)) -> Option<Self> {
@@ -85,6 +110,13 @@ impl EdgeFunctions {
     #[must_use]
     pub fn covers(&self) -> bool {
         self.0.iter().all(|edge| edge.is_inside())
+    }
+
+    /// Whether each inner side reaches the area of `columns` by `lines` pixels of which this is the
+    /// upper left one.
+    #[must_use]
+    pub fn reach(&self, columns: i32, lines: i32) -> bool {
+        self.0.iter().all(|edge| edge.reaches(columns, lines))
     }
 
     /// The functions `columns` to the right and `lines` below.

@@ -19,6 +19,7 @@
 //! | `interpreter` | the pipeline, a token a clock | K12-K14 |
 //! | `render` | whole scenes through it | S4, M1 |
 //! | `edge_function` | inside or outside by linear functions | B4 |
+//! | `traverse` | a triangle by blocks, clusters and several renderers | B2, B3, B6 |
 //!
 //! Where the charts and the text leave something open, the file says what was chosen. Depth has
 //! 32 bits and less is nearer. Levels have 8 bits outside, 9 in set-up tokens and 10 in pixels;
@@ -35,6 +36,7 @@ mod stage;
 #[cfg(test)]
 mod tests;
 mod token;
+mod traverse;
 mod vertex;
 mod walker;
 mod weight;
@@ -52,6 +54,7 @@ pub use stage::{CompositingUnit, ZUnit};
 pub use token::{
     Argb10, GlobalMode, ParameterSetup, PixelToken, StartDma, Target, Token, TokenError, ZSetup,
 };
+pub use traverse::{Cluster, Grid, Traversal};
 pub use vertex::{
     Entry, FormatError, FormatWord, PARAMETERS, PLACE, ParameterRam, STREAMS, VERTICES,
     VertexFormat,

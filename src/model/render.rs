@@ -224,7 +224,11 @@ fn objects<P>(
         if above || below {
             continue;
         }
-        for (v, words) in (0..).zip(words::<P::Shading>(object, corners, scale::<P>())) {
+        for (v, words) in (0..).zip(words::<P::Shading>(
+            object,
+            corners.map(|c| *c),
+            scale::<P>(),
+        )) {
             // The format has as many words as these arrays, so this does not fail.
             let _ = ram.load(0, v, format, &words);
         }

@@ -2,7 +2,6 @@
 
 use super::{EdgeFunctions, ModelSpan};
 use crate::geometry::{Drawable, Gouraud, Object, Scale, SceneVertex};
-use crate::num::GUARD_CENTRE;
 
 struct Rng(u64);
 
@@ -49,6 +48,9 @@ fn spans_are_those_of_the_fast_path() {
             ..SceneVertex::empty()
         });
         let object = Object::new([0, 1, 2], ());
+        // Pictures that hold the triangle wholly, in part, or not at all.
+        let left = i32::from(p[0].0 >> 3) - rng.below(300) as i32;
+        let picture = left..left + [10, 300, 1023, 8192][i / 8 % 4];
         let (top, bottom) = p.iter().fold((8191, 0), |(top, bottom), p| {
             let line = i32::from(p.1 >> 3);
             (line.min(top), line.max(bottom))
@@ -59,13 +61,14 @@ fn spans_are_those_of_the_fast_path() {
             let below = p.iter().filter(|p| i32::from(p.1) >= y).count();
             let mut drawable = Drawable::EMPTY;
             let here = matches!(below, 1 | 2)
-                && object.set_up::<Gouraud>(&vertices, &Scale::new([255; 3]), line, &mut drawable);
-            let columns = |d: &mut Drawable<_>| {
-                let (from, to) = d.columns(line);
-                (from + GUARD_CENTRE, to + GUARD_CENTRE)
-            };
+                && object.set_up::<Gouraud>(
+                    &vertices,
+                    &Scale::new([255; 3]),
+                    (line, &picture),
+                    &mut drawable,
+                );
             let fast = here
-                .then(|| columns(&mut drawable))
+                .then(|| drawable.columns(line, picture.start))
                 .filter(|(from, to)| from < to);
             assert_eq!(spans(p, line), fast, "{p:?} line {line}");
             lines += 1;

@@ -6,6 +6,7 @@
 /// `N` numbers `mantissa[i] 2^(exponent - 30)`.
 ///
 /// Normalised: the largest magnitude among the mantissas is in `2^29 ..< 2^30`, or all are 0.
+/// Exponents stop at [`MOST`], far beyond what a chain of maps that is of any use can reach.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Block<const N: usize> {
     /// The mantissas, each below 2^30 in magnitude.
@@ -13,6 +14,9 @@ pub struct Block<const N: usize> {
     /// The common exponent.
     pub exponent: i32,
 }
+
+/// The largest exponent in magnitude: sums of a few of them cannot overflow.
+const MOST: i32 = 1 << 24;
 
 impl<const N: usize> Block<N> {
     /// All zero.
@@ -45,7 +49,7 @@ impl<const N: usize> Block<N> {
         }
         Self {
             mantissa,
-            exponent: exponent - shift,
+            exponent: (exponent - shift).clamp(-MOST, MOST),
         }
     }
 

@@ -8,11 +8,9 @@
 //!
 //! The floor is taken by one multiply-add: the true value is a multiple of `1 / (8 dy)`, so a
 //! fixed-point line that starts a bias above it and errs by less than that bias has the same
-//! floor. [`Edge`] does it in 32 bits for columns within 511 of the middle and at most 127 lines,
-//! or a vertical edge of any height; all others are divided out by [`column_exact`]. Both are
-//! evaluated for any line alone, without state.
-
-use super::GUARD_CENTRE;
+//! floor. [`Edge`] does it in 32 bits for 1,023 columns and at most 127 lines, or a vertical edge
+//! of any height; all others are divided out by [`column_exact`]. Both are evaluated for any line
+//! alone, without state.
 
 /// The first line or column whose centre lies beyond the 13.3 coordinate `at`.
 ///
@@ -35,7 +33,7 @@ pub const fn column_exact(a: (u16, u16), b: (u16, u16), line: i32) -> i32 {
     ((a.0 as i64 + 4) * dy + down * dx).div_euclid(8 * dy) as i32
 }
 
-/// An edge as `column = (at + slope line) >> 22`, modulo 2^32, relative to the middle column.
+/// An edge as `column = (at + slope line) >> 22`, modulo 2^32, counted from an origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
     at: i32,
@@ -48,23 +46,26 @@ impl Edge {
 
     /// Whether the 32-bit form is exact for an edge with this difference.
     ///
-    /// The columns themselves must also lie within 511 of the middle of guard space.
+    /// The columns themselves must also lie within what is read from it: 0 to 1,023 columns right
+    /// of the origin for [`right_of`](Edge::right_of), 511 either way for
+    /// [`column`](Edge::column).
     #[inline]
     #[must_use]
     pub const fn holds(dx: i32, dy: i32) -> bool {
         dy < 1024 || dx == 0
     }
 
-    /// Sets up the edge from the 13.3 point `a` down by `(dx, dy)`, `dy` above 0.
+    /// Sets up the edge from the 13.3 point `a` down by `(dx, dy)`, `dy` above 0, to be counted
+    /// from the column `origin`.
     ///
     /// Error: the slope is a floor to 2^-22 column, so after 127 lines the line lies less than
     /// 130 units of 2^-22 below the truth; the bias is 256 and the truth a multiple of at least
     /// 512 of them.
     #[inline(always)]
     #[must_use]
-    pub fn new(a: (u16, u16), (dx, dy): (i32, i32)) -> Self {
+    pub fn new(a: (u16, u16), (dx, dy): (i32, i32), origin: i32) -> Self {
         debug_assert!(dy > 0 && Self::holds(dx, dy));
-        let start = ((i32::from(a.0) + 4 - 8 * GUARD_CENTRE) << 19).wrapping_add(256);
+        let start = ((i32::from(a.0) + 4 - 8 * origin) << 19).wrapping_add(256);
         if dx == 0 {
             return Self {
                 at: start,
@@ -93,6 +94,29 @@ impl Edge {
         }
     }
 
+    /// Sets up an edge of at most 512 units either way, as [`new`](Edge::new) does others, with
+    /// one division.
+    ///
+    /// Error: the reciprocal is up to 1.01 units of 2^-31 below the truth, so the slope is less
+    /// than 2 units of 2^-22 column off, and after 65 lines the line less than 140 units, either
+    /// way; the bias is 256 and the truth a multiple of at least 1024 of them.
+    #[inline(always)]
+    #[must_use]
+    pub fn small(a: (u16, u16), (dx, dy): (i32, i32), origin: i32) -> Self {
+        debug_assert!(dy > 0 && dy <= 512 && dx.abs() <= 512);
+        let start = ((i32::from(a.0) + 4 - 8 * origin) << 19).wrapping_add(256);
+        // dy is above 0; said so that no check for it is compiled in.
+        let recip = (i32::MAX as u32 / (dy as u32).max(1)) as i32;
+        let slope = ((i64::from(dx) * i64::from(recip)) >> 9) as i32;
+        let first = first_at(a.1);
+        let down = 8 * first + 4 - i32::from(a.1);
+        let at = start.wrapping_add(((i64::from(slope) * i64::from(down)) >> 3) as i32);
+        Self {
+            at: at.wrapping_sub(slope.wrapping_mul(first)),
+            slope,
+        }
+    }
+
     /// A corner kept in place of an edge, for triangles that are divided out.
     #[must_use]
     pub fn from_corner((x, y): (u16, u16)) -> Self {
@@ -108,17 +132,25 @@ impl Edge {
         (self.at as u16, self.slope as u16)
     }
 
-    /// The first column right of the edge on scanline `line`, counted from the middle column.
+    /// The first column right of the edge on scanline `line`, within 511 of the origin.
     #[inline(always)]
     #[must_use]
     pub const fn column(self, line: i32) -> i32 {
         self.at.wrapping_add(self.slope.wrapping_mul(line)) >> 22
+    }
+
+    /// The first column right of the edge on scanline `line`, 0 to 1,023 right of the origin.
+    #[inline(always)]
+    #[must_use]
+    pub const fn right_of(self, line: i32) -> u32 {
+        self.at.wrapping_add(self.slope.wrapping_mul(line)) as u32 >> 22
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::GUARD_CENTRE;
 
     /// A small generator with a full period, so that failures can be repeated.
     struct Rng(u64);
@@ -152,6 +184,12 @@ mod tests {
             let edge = Edge::new(
                 (x0, y0),
                 (i32::from(x1) - i32::from(x0), i32::from(y1) - i32::from(y0)),
+                GUARD_CENTRE,
+            );
+            let left = Edge::new(
+                (x0, y0),
+                (i32::from(x1) - i32::from(x0), i32::from(y1) - i32::from(y0)),
+                GUARD_CENTRE - 511,
             );
             for line in first_at(y0)..first_at(y1) {
                 let exact = column_exact((x0, y0), (x1, y1), line);
@@ -160,6 +198,7 @@ mod tests {
                     exact,
                     "{x0},{y0} {x1},{y1} {line}"
                 );
+                assert_eq!(left.right_of(line) as i32 + GUARD_CENTRE - 511, exact);
                 asked += 1;
             }
         }
@@ -167,9 +206,33 @@ mod tests {
     }
 
     #[test]
+    fn small_edges_are_exact() {
+        let mut asked = 0u64;
+        for dy in 1..=512u16 {
+            for dx in -512..=512i32 {
+                // Any place and any start below a pixel's centre gives the same fractions.
+                let x0 = (8 * GUARD_CENTRE + (dx * 7 + i32::from(dy) * 3) % 64) as u16;
+                let y0 = 20_000 + (dx.unsigned_abs() as u16 + dy * 5) % 8;
+                let x1 = (i32::from(x0) + dx) as u16;
+                let edge = Edge::small((x0, y0), (dx, i32::from(dy)), GUARD_CENTRE - 200);
+                for line in first_at(y0)..first_at(y0 + dy) {
+                    let exact = column_exact((x0, y0), (x1, y0 + dy), line);
+                    assert_eq!(
+                        edge.right_of(line) as i32 + GUARD_CENTRE - 200,
+                        exact,
+                        "{x0},{y0} {dx},{dy} {line}"
+                    );
+                    asked += 1;
+                }
+            }
+        }
+        assert!(asked > 15_000_000);
+    }
+
+    #[test]
     fn vertical_edges_of_any_height_are_narrow() {
         let a = (8 * 4200 + 4, 3);
-        let edge = Edge::new(a, (0, 65_000 - 3));
+        let edge = Edge::new(a, (0, 65_000 - 3), GUARD_CENTRE);
         for line in [1, 100, 5000, 8000] {
             assert_eq!(edge.column(line), 4201 - GUARD_CENTRE);
         }

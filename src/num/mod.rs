@@ -12,18 +12,24 @@
 //! | 1.15 unsigned | [`U1F15`] | 0 ..< 2 | light levels |
 //! | 16.16 signed | `i32` | modulo 2^32 | planes of colour |
 //! | 1.31 unsigned | `u32` | 0 ..= 1 | depth, 1/w with the near plane at 1 |
+//! | 2 + 14 | [`BlockFix16`] | 0 ..< 1 | depth in 16 bits |
+//! | 13.19 signed | `i32` | modulo 8192 | texels along a span |
 
 mod block;
+mod block_fix;
 mod edge;
 mod plane;
 mod recip;
+mod recip_table;
 mod small;
 
 pub use block::{Block, shift_round};
+pub use block_fix::BlockFix16;
 pub use edge::{Edge, column_exact, first_at};
 pub use fixed::types::{I2F14, I2F30, U1F15, U13F3};
 pub use plane::{InverseArea, Plane};
 pub use recip::recip;
+pub use recip_table::{Reciprocal, mul_high};
 pub use small::SmallArea;
 
 /// The pixel column and line that lies at the middle of guard space.

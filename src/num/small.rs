@@ -21,6 +21,7 @@ pub struct SmallArea {
     pixel: (i32, i32),
     /// `8 / area = recip 2^-shift`, 14 to 15 bits, with the sign of the area.
     recip: i32,
+    /// 1 to 26.
     shift: i32,
     /// Bits of the larger side, in pixels.
     extent_bits: u32,
@@ -35,7 +36,7 @@ pub struct Gradient {
 
 impl SmallArea {
     /// From the three corners, 13.3; `None` when the triangle is larger than 64 pixels either
-    /// way or has no area.
+    /// way, or smaller than a quarter of a pixel.
     #[inline]
     #[must_use]
     pub fn new(p: [(u16, u16); 3]) -> Option<Self> {
@@ -44,17 +45,18 @@ impl SmallArea {
         let dy1 = i32::from(y1) - i32::from(y0);
         let dx2 = i32::from(x2) - i32::from(x0);
         let dy2 = i32::from(y2) - i32::from(y0);
-        // One test for all sides: a difference within +-511 leaves no bit above.
+        // One test for all sides: a difference in -512 ..= 511 leaves no bit above.
+        let size = |d: i32| d ^ (d >> 31);
         let extent =
-            (dx1 ^ (dx1 >> 31)) | (dx2 ^ (dx2 >> 31)) | (dy1 ^ (dy1 >> 31)) | (dy2 ^ (dy2 >> 31));
+            size(dx1) | size(dx2) | size(dx2 - dx1) | size(dy1) | size(dy2) | size(dy2 - dy1);
         if extent > 511 {
             return None;
         }
         let area = dx1 * dy2 - dx2 * dy1;
-        if area == 0 {
+        let size = area.unsigned_abs();
+        if size < 32 {
             return None;
         }
-        let size = area.unsigned_abs();
         let up = size.leading_zeros();
         // area = a 2^(16 - up), a in 2^15 ..< 2^16, to nearest
         let a = ((size << up) >> 16).max(1 << 15);
@@ -85,31 +87,37 @@ impl SmallArea {
         }
     }
 
-    /// How many bits the rise across the triangle needs at most, in units of 2^-`up`.
+    /// How many bits the rise across the triangle needs at most, of the largest of some
+    /// gradients, in units of 2^-`up`.
     ///
     /// A plane errs by at most 2^-13 of that; long slivers rise far more than their corners.
     #[inline(always)]
     #[must_use]
-    pub fn rise_bits(&self, g: Gradient, up: i32) -> i32 {
-        let g = (g.x ^ (g.x >> 31)) | (g.y ^ (g.y >> 31));
-        32 - g.leading_zeros() as i32 + self.extent_bits as i32 + up - self.shift
+    pub fn rise_bits<const N: usize>(&self, gradients: [Gradient; N], up: i32) -> i32 {
+        let all = gradients
+            .iter()
+            .fold(0, |all, g| all | (g.x ^ (g.x >> 31)) | (g.y ^ (g.y >> 31)));
+        32 - all.leading_zeros() as i32 + self.extent_bits as i32 + up - self.shift
     }
 
-    /// The step of a gradient to the next column and line, times 2^`up`.
+    /// The step of a gradient to the next column and line, rounded to nearest.
     #[inline(always)]
     #[must_use]
-    pub fn step(&self, g: Gradient, up: i32) -> (i32, i32) {
-        let down = self.shift - up;
-        (shift_by(g.x, down), shift_by(g.y, down))
+    pub fn step(&self, g: Gradient) -> (i32, i32) {
+        let half = (1 << self.shift) >> 1;
+        ((g.x + half) >> self.shift, (g.y + half) >> self.shift)
     }
 
     /// The plane of a gradient with this value at the first corner, in units of 2^-`up`.
     #[inline(always)]
     #[must_use]
-    pub fn plane(&self, value: i32, g: Gradient, up: i32) -> Plane {
-        let (dx, dy) = self.step(g, up);
-        let off = shift_by(g.x * self.sub.0 + g.y * self.sub.1, self.shift - up + 3);
-        self.plane_of_steps(value.wrapping_add(off), (dx, dy))
+    fn plane(&self, value: i32, g: Gradient, up: i32) -> Plane {
+        let down = self.shift - up;
+        let off = shift_by(g.x * self.sub.0 + g.y * self.sub.1, down + 3);
+        self.plane_of_steps(
+            value.wrapping_add(off),
+            (shift_by(g.x, down), shift_by(g.y, down)),
+        )
     }
 
     /// The plane with this value at the centre of the first corner's pixel, and these steps.
@@ -122,11 +130,12 @@ impl SmallArea {
         Plane { at, dx, dy }
     }
 
-    /// The rise from the first corner to the centre of its pixel.
+    /// The rise from the first corner to the centre of its pixel, rounded to nearest.
     #[inline(always)]
     #[must_use]
     pub fn offset(&self, g: Gradient) -> i32 {
-        shift_by(g.x * self.sub.0 + g.y * self.sub.1, self.shift + 3)
+        let down = self.shift + 3;
+        (g.x * self.sub.0 + g.y * self.sub.1 + (1 << (down - 1))) >> down
     }
 
     /// The plane of a quantity of up to 31 bits; `None` where it would err by more than 2^13.
@@ -141,7 +150,7 @@ impl SmallArea {
         let down = (bits - 15).max(0);
         let half = (1 << down) >> 1;
         let g = self.gradient((d1 + half) >> down, (d2 + half) >> down);
-        (self.rise_bits(g, down) <= 26).then(|| self.plane(value[0], g, down))
+        (self.rise_bits([g], down) <= 26).then(|| self.plane(value[0], g, down))
     }
 }
 
@@ -176,7 +185,7 @@ mod tests {
     fn planes_of_small_triangles_keep_their_bound() {
         let mut rng = Rng(3);
         let (mut made, mut refused) = (0, 0);
-        for i in 0..400_000 {
+        for i in 0..480_000 {
             let size = [8, 40, 200, 512][i % 4];
             let range = [1 << 12, 1 << 20, 0x7FFF_0000][i / 4 % 3];
             let base = (rng.below(60_000), rng.below(60_000));
@@ -217,6 +226,8 @@ mod tests {
     fn large_and_empty_ones_are_refused() {
         assert!(SmallArea::new([(0, 0), (512, 0), (0, 8)]).is_none());
         assert!(SmallArea::new([(0, 0), (511, 0), (0, 511)]).is_some());
+        assert!(SmallArea::new([(0, 0), (8, 0), (0, 4)]).is_some());
+        assert!(SmallArea::new([(0, 0), (8, 0), (0, 3)]).is_none());
         assert!(SmallArea::new([(9, 9), (10, 10), (11, 11)]).is_none());
     }
 }

@@ -358,7 +358,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// Sets up the object at `index` in `out` for `line` of guard space and all below.
     #[inline(always)]
     pub(crate) fn set_up(&self, index: u16, line: i32, out: &mut DrawableOf<P>) -> bool {
-        self.object(index)
-            .is_some_and(|o| o.set_up::<P::Shading>(self.vertices(), scale::<P>(), line, out))
+        let left = self.screen.left();
+        let picture = left..left + i32::from(self.screen.width());
+        self.object(index).is_some_and(|o| {
+            o.set_up::<P::Shading>(self.vertices(), scale::<P>(), (line, &picture), out)
+        })
     }
 }

@@ -2,57 +2,70 @@
 
 use super::scene::Scene;
 use crate::composite::{PixelFormat, paint};
-use crate::geometry::{Parameters, Scale, at_pixel};
-use crate::pipeline::{CellOf, DrawableOf, Pipeline, WordOf};
-use crate::shade::Levels;
-use crate::span::Span;
+use crate::geometry::{Scale, at_pixel};
+use crate::num::Plane;
+use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
+use crate::shade::{Forward, Levels};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Tested};
+use crate::visible::{Everywhere, LineDepth, Masked, Tested};
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
     const { &Scale::new(<P::Pixel as PixelFormat>::STEPS) }
 }
 
-/// Draws a span of `drawable`, which is `object` of `scene`, into its pixels and, where other
-/// spans may share them, its depth cells.
+/// Draws a span of an object with this depth and these levels, from a column and line of guard
+/// space on, into its pixels and, where other spans may share them, its depth cells.
 #[inline(always)]
 pub(super) fn draw_span<P: Pipeline>(
-    scene: &Scene<'_, P>,
-    object: u16,
-    drawable: &DrawableOf<P>,
-    span: Span,
+    (plane, levels): (&Plane, &LevelsOf<P>),
+    (column, line): (i32, i32),
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
-    counter: &mut P::Counter,
+    (interpolation, counter): (P::Interpolation, &mut P::Counter),
 ) {
-    let Parameters::Planes(plane, levels) = &drawable.parameters else {
-        draw_thin(scene, object, span, (pixels, cells), counter);
-        return;
-    };
-    let stretch = levels.stretch(span.column, span.line);
+    let stretch = levels.stretch(column, line);
     let count = pixels.len() as u32;
     let tested = cells.is_some();
     let seen = match cells {
         Some(cells) => {
-            let tests = Tested::<P::Depth> {
-                cells,
-                depth: plane.at(span.column, span.line) as u32,
-                step: plane.dx as u32,
-            };
-            paint::<P::Pixel>(pixels, stretch, tests)
+            let depth = plane.at(column, line) as u32;
+            let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
+            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut tests);
+            tests.seen()
         }
-        None => paint::<P::Pixel>(pixels, stretch, Everywhere),
+        None => {
+            paint::<P::Pixel, _>(pixels, stretch, interpolation, &mut Everywhere);
+            count
+        }
     };
     counter.span(seen, count - seen, tested);
+}
+
+/// Draws those pixels of a span that are not covered, and covers them.
+#[inline(never)]
+pub(super) fn draw_masked<P: Pipeline>(
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    (pixels, mut masked): (&mut [WordOf<P>], Masked<'_, '_, P::Depth>),
+    (interpolation, counter): (P::Interpolation, &mut P::Counter),
+) {
+    let count = pixels.len() as u32;
+    paint::<P::Pixel, _>(
+        pixels,
+        levels.stretch(column, line),
+        interpolation,
+        &mut masked,
+    );
+    counter.span(masked.seen(), count - masked.seen(), false);
 }
 
 /// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners.
 #[cold]
 #[inline(never)]
-fn draw_thin<P: Pipeline>(
+pub(super) fn draw_thin<P: Pipeline>(
     scene: &Scene<'_, P>,
     object: u16,
-    span: Span,
+    (column, line): (i32, i32),
     (pixels, mut cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
     counter: &mut P::Counter,
 ) {
@@ -64,16 +77,18 @@ fn draw_thin<P: Pipeline>(
     };
     let mut seen = 0;
     let count = pixels.len() as u32;
-    for (i, column) in (0..pixels.len()).zip(span.column..) {
-        let at = (column, span.line);
+    for (i, column) in (0..pixels.len()).zip(column..) {
+        let at = (column, line);
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
         let cell = cells.as_mut().and_then(|cells| cells.get_mut(i));
         if cell.is_none_or(|cell| P::Depth::test(cell, depth)) {
-            seen += paint::<P::Pixel>(
+            paint::<P::Pixel, _>(
                 &mut pixels[i..=i],
-                levels.stretch(column, span.line),
-                Everywhere,
+                levels.stretch(column, line),
+                Forward,
+                &mut Everywhere,
             );
+            seen += 1;
         }
     }
     counter.span(seen, count - seen, cells.is_some());

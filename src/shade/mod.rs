@@ -1,4 +1,20 @@
 //! Colour along a stretch of a line.
+//!
+//! | file | there |
+//! |---|---|
+//! | `interpolation.rs` | which method takes a span's colours from pixel to pixel |
+//! | `quality.rs` | how far a picture may be off, and the method that follows from it |
+
+mod interpolation;
+mod quality;
+
+pub use interpolation::{
+    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
+    Packed16, Precision, QuarterRate,
+};
+pub use quality::Quality;
+
+pub mod texture;
 
 use crate::geometry::{FlatLevels, GouraudLevels};
 

@@ -1,7 +1,5 @@
 //! From columns of guard space to pixels of the line buffer.
 
-use crate::num::GUARD_CENTRE;
-
 /// The pixels of one object on one line, clipped to the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Span {
@@ -16,15 +14,15 @@ pub struct Span {
 }
 
 impl Span {
-    /// Clips the columns `from .. to`, counted from the middle of guard space, exactly to the
-    /// `width` columns that begin at `left` of guard space.
+    /// Clips the columns `from .. to` of guard space exactly to the `width` columns that begin at
+    /// `left`.
     ///
     /// `None` when nothing is left.
     #[inline(always)]
     #[must_use]
     pub fn clipped(line: i32, (from, to): (i32, i32), left: i32, width: usize) -> Option<Self> {
-        let from = (from + GUARD_CENTRE - left).max(0);
-        let to = (to + GUARD_CENTRE - left).min(width as i32);
+        let from = (from - left).max(0);
+        let to = (to - left).min(width as i32);
         (from < to).then(|| Self {
             column: left + from,
             line,
@@ -40,10 +38,8 @@ mod tests {
 
     #[test]
     fn spans_are_cut_at_both_sides() {
-        let span = |from, to| {
-            Span::clipped(7, (from - GUARD_CENTRE, to - GUARD_CENTRE), 100, 10)
-                .map(|s| (s.column, s.start, s.end))
-        };
+        let span =
+            |from, to| Span::clipped(7, (from, to), 100, 10).map(|s| (s.column, s.start, s.end));
         assert_eq!(span(90, 120), Some((100, 0, 10)));
         assert_eq!(span(103, 105), Some((103, 3, 5)));
         assert_eq!(span(103, 103), None);

@@ -1,6 +1,14 @@
-//! Which pixels of a span are seen: the depth of one line (K8).
+//! Which pixels of a span are seen: the depth of one line, or what is covered of it (K8, X3).
 //!
 //! A method is a type; the one without depth is `()`, and then the object submitted last wins.
+//! Where objects can be ordered from front to back, `cover` does without depth.
+
+mod cover;
+
+pub use cover::{Cover, Covered, Masked};
+
+use crate::stats::SpanCounter;
+use core::marker::PhantomData;
 
 /// A way to find hidden surfaces along one line.
 pub trait LineDepth {
@@ -14,11 +22,12 @@ pub trait LineDepth {
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32) -> bool;
 
-    /// Keeps a number above 0 in a cell that is at its farthest.
-    fn mark(cell: &mut Self::Cell, mark: u16);
+    /// The number that is kept in a cell, 0 where that is at its farthest.
+    fn number(cell: &Self::Cell) -> u32;
 
-    /// Takes the number out again, 0 for none; the cell is at its farthest then.
-    fn unmark(cell: &mut Self::Cell) -> u16;
+    /// Keeps a number in a cell instead of a depth, where pixels are tested at all; 0 makes it
+    /// farthest.
+    fn set_number(cell: &mut Self::Cell, number: u32);
 }
 
 /// 32 bits of 1/w: nearer or equal wins.
@@ -40,13 +49,13 @@ impl LineDepth for Depth32 {
     }
 
     #[inline(always)]
-    fn mark(cell: &mut u32, mark: u16) {
-        *cell = u32::from(mark);
+    fn number(cell: &u32) -> u32 {
+        *cell
     }
 
     #[inline(always)]
-    fn unmark(cell: &mut u32) -> u16 {
-        core::mem::take(cell) as u16
+    fn set_number(cell: &mut u32, number: u32) {
+        *cell = number;
     }
 }
 
@@ -60,11 +69,11 @@ impl LineDepth for () {
         true
     }
 
-    fn mark((): &mut (), _: u16) {}
-
-    fn unmark((): &mut ()) -> u16 {
+    fn number((): &()) -> u32 {
         0
     }
+
+    fn set_number((): &mut (), _: u32) {}
 }
 
 /// Tells of each pixel of a span in turn whether it is seen.
@@ -74,6 +83,12 @@ pub trait Visible {
 
     /// Gives `each` the next pixels in turn, and whether each is seen.
     fn each<W>(&mut self, pixels: &mut [W], each: impl FnMut(&mut W, bool));
+
+    /// The same for a number of pixels that is known when it is compiled.
+    #[inline(always)]
+    fn block<W, const N: usize>(&mut self, pixels: &mut [W; N], each: impl FnMut(&mut W, bool)) {
+        self.each(pixels, each);
+    }
 }
 
 /// All pixels are seen: nothing else was or will be drawn there.
@@ -91,28 +106,75 @@ impl Visible for Everywhere {
     }
 }
 
-/// The depth line decides.
+/// The depth line decides; what is seen is counted if `C` counts.
 #[derive(Debug)]
-pub struct Tested<'d, D: LineDepth> {
+pub struct Tested<'d, D: LineDepth, C> {
     /// The cells of the pixels to come.
-    pub cells: &'d mut [D::Cell],
+    cells: &'d mut [D::Cell],
     /// Depth of the next pixel.
-    pub depth: u32,
+    depth: u32,
     /// The step to the pixel after it.
-    pub step: u32,
+    step: u32,
+    seen: u32,
+    counter: PhantomData<C>,
 }
 
-impl<D: LineDepth> Visible for Tested<'_, D> {
+impl<'d, D: LineDepth, C: SpanCounter> Tested<'d, D, C> {
+    /// Over the cells of a span, with the depth of its first pixel and the step to the next.
+    #[inline(always)]
+    pub fn new(cells: &'d mut [D::Cell], depth: u32, step: u32) -> Self {
+        Self {
+            cells,
+            depth,
+            step,
+            seen: 0,
+            counter: PhantomData,
+        }
+    }
+
+    /// Pixels that were seen, where they are counted.
+    #[inline(always)]
+    pub fn seen(&self) -> u32 {
+        self.seen
+    }
+
+    /// Tests the next pixel.
+    #[inline(always)]
+    fn test(&mut self, cell: &mut D::Cell) -> bool {
+        let shown = D::test(cell, self.depth);
+        if C::COUNTS {
+            self.seen += u32::from(shown);
+        }
+        self.depth = self.depth.wrapping_add(self.step);
+        shown
+    }
+}
+
+impl<D: LineDepth, C: SpanCounter> Visible for Tested<'_, D, C> {
     #[inline(always)]
     fn each<W>(&mut self, pixels: &mut [W], mut each: impl FnMut(&mut W, bool)) {
         let cells = core::mem::take(&mut self.cells);
         let (now, later) = cells.split_at_mut(pixels.len().min(cells.len()));
-        let (mut depth, step) = (self.depth, self.step);
         for (pixel, cell) in pixels.iter_mut().zip(now) {
-            each(pixel, D::test(cell, depth));
-            depth = depth.wrapping_add(step);
+            let shown = self.test(cell);
+            each(pixel, shown);
         }
         self.cells = later;
-        self.depth = depth;
+    }
+
+    #[inline(always)]
+    fn block<W, const N: usize>(
+        &mut self,
+        pixels: &mut [W; N],
+        mut each: impl FnMut(&mut W, bool),
+    ) {
+        let cells = core::mem::take(&mut self.cells);
+        if let Some((now, later)) = cells.split_first_chunk_mut::<N>() {
+            for (pixel, cell) in pixels.iter_mut().zip(now) {
+                let shown = self.test(cell);
+                each(pixel, shown);
+            }
+            self.cells = later;
+        }
     }
 }

@@ -1,20 +1,34 @@
-//! The kernels of the accuracy report, each alone, over long and over short spans: two equations
+//! What things cost, by instructions.
+//!
+//! | file | there |
+//! |---|---|
+//! | `lines.rs` | each line of a scene (X8), and pass one |
+//! | `units.rs` | an active line, a span's entry, a triangle's set-up, a vertex |
+//! | `growth.rs` | spheres of 72 to 20,000 triangles |
+//!
+//! Here are the kernels of the accuracy report, each alone, over long and over short spans: two equations
 //! for what a pixel and what a span costs.
 //!
 //! All but LIRP are what the line renderer runs: a right triangle of [`LINES`] lines that is alone
 //! on the picture, drawn once it is set up. What a span costs is then all that is not the pixels:
 //! the line's entry, the active list, the edges, the planes' values.
 
+mod growth;
+mod lines;
+mod methods;
+mod units;
+
 use crate::console::Console;
 use crate::count::Counter;
+use crate::rooms::Rooms;
 use core::hint::black_box;
 use scanbeam::model::{
     ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };
 use scanbeam::{
-    Camera, Counted, Cull, Faces, FlatPainter, GouraudDepth, GouraudPainter, Instance, LineDepth,
-    LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888, Scene, SceneMemory,
-    SceneVertex, Screen, SpanCounts, WordOf,
+    Camera, Counted, Cull, DepthUse, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
+    Instance, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888,
+    Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.
@@ -26,8 +40,16 @@ const WIDEST: [i32; 2] = [63, 320];
 /// Widest spans where they are to be short.
 const SHORT: i32 = 8;
 
+/// Measures everything and prints it.
+pub(crate) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    kernels(counter, console);
+    units::run(counter, console);
+    lines::run(counter, console, rooms);
+    growth::run(counter, console, rooms);
+}
+
 /// Times all kernels and prints them.
-pub(crate) fn run(counter: &Counter, console: &mut Console) {
+fn kernels(counter: &Counter, console: &mut Console) {
     let mut print = |name: &str, (instructions, counts): (u64, SpanCounts)| {
         console.line(format_args!(
             "kernel name={name} pixels={} spans={} instructions={instructions}",
@@ -40,15 +62,15 @@ pub(crate) fn run(counter: &Counter, console: &mut Console) {
             let at = (width, tall);
             let name = |a, b| if small { a } else { b };
             print(
-                name("packed_565", "channels_565"),
+                name("packed_565", "packed_565_large"),
                 planes::<GouraudPainter<Rgb565>>(at, counter),
             );
             print(
-                name("packed_888", "channels_888"),
+                name("packed_888", "packed_888_large"),
                 planes::<GouraudPainter<Rgb888>>(at, counter),
             );
             print(
-                name("packed_565_depth", "channels_565_depth"),
+                name("packed_565_depth", "packed_565_large_depth"),
                 planes::<GouraudDepth<Rgb565>>(at, counter),
             );
             print(
@@ -56,15 +78,17 @@ pub(crate) fn run(counter: &Counter, console: &mut Console) {
                 planes::<FlatPainter<Rgb565>>(at, counter),
             );
             if !small {
+                print("flat_565_depth", planes::<FlatDepth<Rgb565>>(at, counter));
                 print("model_565", model(at, counter));
             }
         }
     }
     for width in [WIDEST[1], SHORT] {
-        print("lirp_10", blend::<10>(width as u16, counter));
-        print("lirp_12", blend::<12>(width as u16, counter));
-        print("lirp_16", blend::<16>(width as u16, counter));
+        print("model_lirp_10", blend::<10>(width as u16, counter));
+        print("model_lirp_12", blend::<12>(width as u16, counter));
+        print("model_lirp_16", blend::<16>(width as u16, counter));
     }
+    methods::run(counter, console);
 }
 
 /// A right triangle as wide and as tall as said, in pixels, and what is counted on it.
@@ -84,9 +108,8 @@ fn drawn<P: Pipeline>(at: (i32, u16), counter: &Counter) -> (u64, SpanCounts) {
             slots: &mut slots,
             links: &mut links,
             depth: &mut depth,
-            // None are noted, so what has depth is tested.
-            spans: &mut [],
         });
+        renderer.set_depth_use(DepthUse::Always);
         let mut draw = |line| {
             renderer
                 .draw_line(scene, line, black_box(&mut pixels))
@@ -116,7 +139,6 @@ fn with_first<P: Pipeline>(scene: &Scene<'_, P>, pixels: &mut [WordOf<P>]) -> Sp
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut [],
     });
     renderer
         .draw_line(scene, 0, pixels)
@@ -187,10 +209,15 @@ fn with_scene<P: Pipeline, R>(
         [x << 15, -(y << 15), -1 << 30]
     };
     let positions = [vertex(0, 0), vertex(width, 0), vertex(0, tall)];
+    // The slope of colours is that of the widest triangle, or narrow ones would be too steep to be
+    // set up as small.
+    let widest = WIDEST[usize::from(tall > i32::from(LINES))];
+    let [left, right]: [[i32; 3]; 2] = [[255, 0, 30], [0, 200, 60]];
+    let right = [0, 1, 2].map(|i| left[i] + (right[i] - left[i]) * width / widest);
     let mesh = Mesh {
         positions: &positions,
         normals: &[],
-        colours: &[[255, 0, 30], [0, 200, 60], [90, 255, 255]],
+        colours: &[left, right, [90, 255, 255]].map(|c| c.map(|level| level as u8)),
         faces: Faces::Triangles(&[[0, 1, 2]]),
     };
     let instance = Instance {

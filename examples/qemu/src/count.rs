@@ -19,6 +19,10 @@ use cortex_m_rt::exception;
 /// Instructions a tick: 25 MHz against 1 ns an instruction.
 pub(crate) const INSTRUCTIONS_PER_TICK: u64 = 40;
 
+/// Places of a tick at which runs start that are counted finely.
+#[cfg(feature = "bench")]
+pub(crate) const PHASES: u32 = 10;
+
 /// Ticks from one wrap to the next at the counter's full width.
 const FULL_PERIOD: u32 = 1 << 24;
 
@@ -59,6 +63,27 @@ impl Counter {
         ticks.saturating_sub(self.overhead) * INSTRUCTIONS_PER_TICK
     }
 
+    /// Counts the instructions of `work`, which does the same each time, to within about 5: the
+    /// mean of runs that start at [`PHASES`] places of a tick.
+    #[cfg(feature = "bench")]
+    pub(crate) fn finely(&self, mut work: impl FnMut()) -> u64 {
+        let mut sum = 0;
+        for phase in 0..PHASES {
+            self.wait(phase);
+            sum += self.instructions(&mut work);
+        }
+        sum / u64::from(PHASES)
+    }
+
+    /// Waits for the start of a tick, and then for `phase` of [`PHASES`] parts of it.
+    #[cfg(feature = "bench")]
+    #[inline(never)]
+    pub(crate) fn wait(&self, phase: u32) {
+        let now = current();
+        while current() == now {}
+        spin(1 + phase * (INSTRUCTIONS_PER_TICK as u32 / 2 / PHASES));
+    }
+
     /// Starts anew, with `period` ticks from one wrap to the next.
     fn restart(&mut self, period: u32) {
         self.systick.disable_counter();
@@ -74,9 +99,15 @@ impl Counter {
         self.overhead = self.instructions(|| ()) / INSTRUCTIONS_PER_TICK;
     }
 
+    /// What measuring nothing costs, in ticks.
+    #[cfg(feature = "bench")]
+    pub(crate) fn overhead(&self) -> u64 {
+        self.overhead
+    }
+
     /// Ticks since the start.
     #[inline(never)]
-    fn ticks(&self) -> u64 {
+    pub(crate) fn ticks(&self) -> u64 {
         interrupt::free(|_| {
             let mut down = current();
             let mut wraps = WRAPS.load(Ordering::Relaxed);

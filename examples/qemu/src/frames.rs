@@ -6,10 +6,14 @@ use core::task::Poll;
 use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
-    Crew, FlatDepth, GouraudDepth, Interleave, LineMemory, LineRenderer, Pipeline, PixelFormat,
-    Rgb565Be, Scene, SceneMemory, draw_frame, send_frame,
+    Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, LineMemory,
+    LineRenderer, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory, draw_frame,
+    send_frame,
 };
-use scenes::{SHOTS, Shot, VARIANTS, Variant, build_listed};
+use scenes::{
+    DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant, build_listed,
+    build_method, by_method, method_screen,
+};
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
@@ -28,6 +32,8 @@ enum Way {
     Model,
     /// A baked list in flash.
     List,
+    /// A small frame by this interpolation method of the scenes' table.
+    Method(usize),
 }
 
 /// One frame: how a shot is drawn.
@@ -38,8 +44,9 @@ pub(crate) struct Frame {
     way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: all shots, then one of flat faces, one
-/// by the hardware model and one from a baked list, then what the cache and its renderers must not change.
+/// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
+/// faces, one by the hardware model and one from a baked list, then what the cache and its
+/// renderers must not change, then the interpolation methods.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
         name,
@@ -52,7 +59,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         },
         way,
     };
-    let shots = SHOTS.into_iter();
+    let shots = SHOTS.into_iter().chain(STACKS).chain(STRESS);
     let variants = VARIANTS.into_iter().map(|how| Frame {
         name: how.name,
         how,
@@ -63,9 +70,15 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         .chain([
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
             plain("teapot_model", Shot::Teapot, Way::Model),
+            plain("crossings_flat", Shot::Crossings, Way::Faceted),
             plain("teapot_list", Shot::Teapot, Way::List),
         ])
         .chain(variants)
+        .chain(
+            (0..)
+                .zip(METHODS)
+                .map(move |(index, name)| plain(name, Shot::Quads, Way::Method(index))),
+        )
 }
 
 impl Frame {
@@ -75,18 +88,29 @@ impl Frame {
         let buffers = rooms.lines.take().expect("the last frame gave them back");
         let mut pump = Pump::new(Emit { emit, sent: None }, buffers);
         match self.way {
-            Way::Faceted => draw_as::<Faceted>(&self.how, &mut rooms.faceted, &mut pump),
+            Way::Faceted => {
+                let rooms = &mut rooms.faceted;
+                draw_as::<Faceted, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
+            }
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
             Way::List => draw_list(rooms, &mut pump),
+            Way::Method(index) => by_method(
+                index,
+                &mut SmallFrame {
+                    rooms: &mut rooms.smooth,
+                    pump: &mut pump,
+                },
+            ),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
-                draw_as::<Smooth>(&self.how, &mut rooms.smooth, &mut pump);
+                let rooms = &mut rooms.smooth;
+                draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
             }
             Way::Smooth => {
                 // The larger cache, and the second link column and line of depth.
                 let [small, large] = [&mut rooms.smooth, &mut rooms.second];
                 core::mem::swap(&mut small.slots, &mut large.slots);
                 if self.how.renderers == 1 {
-                    draw_as::<Smooth>(&self.how, small, &mut pump);
+                    draw_as::<Smooth, _>(&self.how, small, &mut pump, LINES_PER_TRANSFER);
                 } else {
                     draw_by_two(&self.how, small, large, &mut pump);
                 }
@@ -99,11 +123,16 @@ impl Frame {
     }
 }
 
-fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
+/// Draws a shot alone, as `how` says, so many lines a transfer.
+pub(crate) fn draw_as<P, D>(
     how: &Variant,
     rooms: &mut RoomsOf<P>,
-    pump: &mut Pump<Emit<'_>>,
-) {
+    pump: &mut Pump<D>,
+    lines_per_transfer: u16,
+) where
+    P: Pipeline<Pixel = Rgb565Be>,
+    D: ScanoutDma<Buf = &'static mut [u16]>,
+{
     let mut scene = Scene::<P>::new(
         Shot::screen(),
         SceneMemory {
@@ -119,12 +148,42 @@ fn draw_as<P: Pipeline<Pixel = Rgb565Be>>(
         slots: &mut rooms.slots[..how.slots],
         links: rooms.links,
         depth: rooms.depth,
-        spans: rooms.spans,
     });
     renderer.set_prefetch(how.prefetch);
     let background = Rgb565Be::from_rgb8(how.shot.background());
-    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+    draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
         .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// A small frame in the rooms of large ones.
+struct SmallFrame<'a, 'e> {
+    rooms: &'a mut RoomsOf<Smooth>,
+    pump: &'a mut Pump<Emit<'e>>,
+}
+
+impl DrawsMethod for SmallFrame<'_, '_> {
+    fn draw<I: Interpolation>(&mut self, quality: Quality) {
+        // Records are those of any method.
+        type By<I> = Interpolated<Smooth, I>;
+        let rooms = &mut *self.rooms;
+        let mut scene = Scene::<By<I>>::new(
+            method_screen(),
+            SceneMemory {
+                vertices: rooms.vertices,
+                objects: rooms.objects,
+                buckets: rooms.buckets,
+            },
+        );
+        build_method(&mut scene).expect("the rooms are large enough");
+        let mut renderer = LineRenderer::<By<I>>::new(LineMemory {
+            slots: rooms.slots,
+            links: rooms.links,
+            depth: rooms.depth,
+        });
+        renderer.set_quality(quality);
+        draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
+            .expect("the sink cannot fail and the rooms are large enough");
+    }
 }
 
 fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
@@ -163,7 +222,6 @@ fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
         slots: &mut smooth.slots[..SLOTS],
         links: smooth.links,
         depth: smooth.depth,
-        spans: smooth.spans,
     });
     let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
@@ -190,27 +248,16 @@ fn draw_by_two(
         .build(&mut scene)
         .expect("the rooms are large enough");
     let memory = [
-        (
-            &mut *rooms.slots,
-            &mut *rooms.links,
-            &mut *rooms.depth,
-            &mut *rooms.spans,
-        ),
-        (
-            &mut *other.slots,
-            &mut *other.links,
-            &mut *other.depth,
-            &mut *other.spans,
-        ),
+        (&mut *rooms.slots, &mut *rooms.links, &mut *rooms.depth),
+        (&mut *other.slots, &mut *other.links, &mut *other.depth),
     ];
     let mut offset = 0;
-    let mut renderers = memory.map(|(slots, links, depth, spans)| {
+    let mut renderers = memory.map(|(slots, links, depth)| {
         let slots = &mut slots[..how.slots];
         let mut renderer = LineRenderer::new(LineMemory {
             slots,
             links,
             depth,
-            spans,
         });
         renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
         renderer.set_prefetch(how.prefetch);

@@ -6,21 +6,28 @@
 //! count name=sheet_1 expected=76800 counted=76800 ok=1
 //! frame scene=teapot crc=1234abcd instructions=123456
 //! kernel name=packed_565 pixels=2016 spans=63 instructions=12345
+//! unit name=active_line count=480 instructions=17280
+//! lines scene=sphere pass_one=123456 first=0 costs=1200,1205,1300
+//! growth slots=64 triangles=72 objects=31 pass_one=12345 pass_two=123456
 //! figure name=stack_bytes value=1234
 //! done frames=1
 //! ```
 //! A `sheet` is a random mesh over the whole picture whose every pixel has to be hit exactly once.
 //! The checksum is the CRC-32 of PNG and zip over the bytes of a frame in scan-out order. A frame is
 //! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
-//! give the same number of bytes. Kernels are there with the feature `bench`. Exit code 0 only if everything held.
+//! give the same number of bytes. Kernels, units, lines and growth are there with the feature `bench`;
+//! `costs` are those of lines one after the other, from the `first` of this row on. Exit code 0 only if everything held.
 #![no_std]
 #![no_main]
 
 #[cfg(feature = "bench")]
 mod bench;
+#[cfg(feature = "bench")]
+mod bench_texture;
 mod console;
 mod count;
 mod frames;
+mod lend;
 mod listed;
 mod rooms;
 
@@ -36,7 +43,7 @@ use console::Console;
 use count::Counter;
 use frames::{Frame, frames};
 use rooms::Rooms;
-use scenes::{SHEETS, Sheet};
+use scenes::{SHEETS, SWATCHES, Sheet};
 
 static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
@@ -88,9 +95,26 @@ fn main() -> ! {
         ));
         count += 1;
     }
+    for (name, swatch) in SWATCHES {
+        let mut digest = CRC.digest();
+        swatch.draw(|line| digest.update(bytemuck::cast_slice(line)));
+        let crc = digest.finalize();
+        let instructions = counter.instructions(|| {
+            swatch.draw(|line| {
+                black_box(line);
+            });
+        });
+        console.line(format_args!(
+            "frame scene={name} crc={crc:08x} instructions={instructions}"
+        ));
+        count += 1;
+    }
 
     #[cfg(feature = "bench")]
-    bench::run(&counter, &mut console);
+    {
+        bench::run(&counter, &mut console, &mut rooms);
+        bench_texture::run(&counter, &mut console);
+    }
 
     // What reading a list costs beyond the same immediate calls.
     let unpacked = rooms::unpacked();

@@ -1,48 +1,16 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
+use crate::lend::lend;
 use crate::listed::Unpacked;
-use core::ptr;
 use scanbeam::{
     CellOf, LineMemory, LineRenderer, Link, ListMemory, Object, ObjectOf, Pipeline, Scene,
-    SceneMemory, SceneVertex, SlotOf, SpanRecord, VertexOf,
+    SceneMemory, SceneVertex, SlotOf, VertexOf,
 };
 use scenes::{
     HEIGHT, LIST_INDICES, LIST_TABLE, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline,
     Shot, VERTICES, WIDTH,
 };
-
-/// Lends `[$element; $len]` from the section `$section`, every element set to `$value`, as a
-/// `&'static mut` slice. Each place in the source can lend once; a second time panics.
-macro_rules! lend {
-    ($section:literal, $element:ty, $len:expr, $value:expr) => {{
-        use core::{
-            mem::MaybeUninit,
-            sync::atomic::{AtomicBool, Ordering},
-        };
-        type Room = [MaybeUninit<$element>; $len];
-        // Beside the room, not in it: the sections are not cleared at start-up.
-        static TAKEN: AtomicBool = AtomicBool::new(false);
-        #[unsafe(link_section = $section)]
-        static mut ROOM: Room = [const { MaybeUninit::uninit() }; $len];
-        // Not swap: ARMv6-M has none.
-        let taken = cortex_m::interrupt::free(|_| {
-            let taken = TAKEN.load(Ordering::Relaxed);
-            TAKEN.store(true, Ordering::Relaxed);
-            taken
-        });
-        assert!(!taken, "lent twice");
-        // SAFETY: `TAKEN` lets one caller ever come here, so this is the only reference.
-        let room: &'static mut Room = unsafe { &mut *(&raw mut ROOM) };
-        for element in room.iter_mut() {
-            element.write($value);
-        }
-        // SAFETY: every element was written just above.
-        let lent: &'static mut [$element] =
-            unsafe { &mut *(ptr::from_mut::<[MaybeUninit<$element>]>(room) as *mut [$element]) };
-        lent
-    }};
-}
 
 /// Slots of the object cache.
 pub(crate) const SLOTS: usize = 43;
@@ -57,7 +25,6 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     /// Tightly coupled RAM, `.fast`.
     pub(crate) slots: &'static mut [SlotOf<P>],
     pub(crate) depth: &'static mut [CellOf<P>],
-    pub(crate) spans: &'static mut [SpanRecord],
 }
 
 /// Normals and indices of a list; its places are used where they lie, and it has no colours.
@@ -109,7 +76,6 @@ macro_rules! rooms_of {
                 LineRenderer::<$pipeline>::empty_slot()
             ),
             depth: lend!(".fast", CellOf<$pipeline>, WIDTH as usize, 0),
-            spans: lend!(".fast", SpanRecord, SLOTS, SpanRecord::default()),
         }
     };
 }
@@ -153,7 +119,6 @@ impl Rooms {
                     LineRenderer::<SheetPipeline>::empty_slot()
                 ),
                 depth: lend!(".slow", CellOf<SheetPipeline>, WIDTH as usize, ()),
-                spans: &mut [],
             },
             second: RoomsOf {
                 vertices: &mut [],
@@ -167,7 +132,6 @@ impl Rooms {
                     LineRenderer::<Smooth>::empty_slot()
                 ),
                 depth: lend!(".slow", CellOf<Smooth>, WIDTH as usize, 0),
-                spans: lend!(".slow", SpanRecord, SLOTS, SpanRecord::default()),
             },
             lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
@@ -190,7 +154,6 @@ impl Rooms {
             slots: rooms.slots,
             links: rooms.links,
             depth: rooms.depth,
-            spans: rooms.spans,
         });
         Sheet::new(seed)
             .hits(&mut scene, &mut renderer)

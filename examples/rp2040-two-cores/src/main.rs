@@ -19,7 +19,7 @@ use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
     Affine, Camera, CellOf, Crew, GouraudDepth, Instance, Interleave, Light, LineMemory,
     LineRenderer, LineWorker, Link, Object, ObjectOf, PixelFormat, Relay, Rgb565Be, Scene,
-    SceneMemory, SceneVertex, Screen, SlotOf, SpanRecord, VertexOf, send_frame,
+    SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, send_frame,
 };
 use scenes::TEAPOT;
 use spin::RwLock;
@@ -60,7 +60,6 @@ macro_rules! renderer {
             slots: lend!(SlotOf<P>, SLOTS, LineRenderer::<P>::empty_slot()),
             links: lend!(Link, OBJECTS, Link::NONE),
             depth: lend!(CellOf<P>, WIDTH, 0),
-            spans: lend!(SpanRecord, SLOTS, SpanRecord::default()),
         });
         renderer.set_interleave(Interleave::lines(2, $offset).unwrap_or_default());
         renderer.set_prefetch(AHEAD);

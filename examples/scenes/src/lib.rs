@@ -18,14 +18,25 @@
 #![forbid(unsafe_code)]
 
 mod listed;
+mod methods;
+mod octasphere;
 mod sheet;
 mod shots;
+mod stress;
+mod texels;
 
 pub use listed::{LIST_INDICES, LIST_TABLE, ListedError, build_listed, teapot_list};
+pub use methods::{
+    DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
+};
+pub use octasphere::{OCTASPHERES, Octasphere};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
-    HEIGHT, MOST_SLOTS, OBJECTS, SHOTS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH,
+    HEIGHT, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS, Shot, ShotError,
+    VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
 };
+pub use stress::STRESS;
+pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
 
 use scanbeam::{Faces, Mesh, QuadSplit};
 

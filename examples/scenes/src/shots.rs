@@ -1,9 +1,10 @@
 //! The frames that are drawn on the host and on every target, and compared bit for bit.
 
+use crate::stress;
 use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, TEAPOT};
 use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Pipeline, Scene, SceneError,
-    Screen,
+    Affine, Camera, CameraError, Cull, DrawError, Faces, Instance, Light, Mesh, Pipeline,
+    QuadSplit, Scene, SceneError, Screen,
 };
 
 /// Pixels a line of every shot.
@@ -31,6 +32,44 @@ pub enum Shot {
     /// 417 small cubes all over the picture, nothing culled: 5,004 objects, and far more on a line
     /// than a cache has slots. Not among [`SHOTS`].
     Crowd,
+    /// Random triangles up to half a pixel wide. Among [`STRESS`](crate::STRESS).
+    Slivers,
+    /// Random triangles of up to 8192 pixels. Among [`STRESS`](crate::STRESS).
+    Giants,
+    /// Random triangles through the near plane. Among [`STRESS`](crate::STRESS).
+    Crossings,
+    /// Scene C: [`LAYERS`] smooth quads over the whole picture, the farthest submitted first, so
+    /// that every pixel is drawn as often as there are quads. One of [`STACKS`].
+    FarToNear,
+    /// Scene C with the nearest submitted first, so that all others are hidden.
+    NearToFar,
+}
+
+/// Quads of scene C.
+pub const LAYERS: u8 = 16;
+/// Depth of the nearest quad of scene C; each other is 1 farther than the one before it.
+pub const NEAREST_LAYER: u8 = 2;
+
+/// The two orders of scene C.
+pub const STACKS: [Shot; 2] = [Shot::FarToNear, Shot::NearToFar];
+
+/// The quad of scene C at a depth of 1.0, in Q1.14 and seen from the eye along -z, counter-clockwise:
+/// at a focal length of 320 pixels a 64th wider and taller than the picture. All others are it,
+/// scaled by their depth.
+pub const LAYER: [[i16; 3]; 4] = {
+    const X: i16 = 8192 + 128;
+    const Y: i16 = 6144 + 96;
+    const Z: i16 = -16_384;
+    [[-X, -Y, Z], [X, -Y, Z], [X, Y, Z], [-X, Y, Z]]
+};
+
+/// The colours of a quad of scene C, corner by corner; `order` counts from the nearest, below
+/// [`LAYERS`].
+#[must_use]
+pub fn layer_colours(order: u8) -> [[u8; 3]; 4] {
+    let mut colours = [[230, 40, 60], [40, 220, 80], [50, 70, 240], [240, 230, 200]];
+    colours.rotate_left(usize::from(order % 4));
+    colours.map(|colour: [u8; 3]| colour.map(|level| level.saturating_sub(2 * order)))
 }
 
 /// A shot that is drawn again in another way, with the same bits.
@@ -129,6 +168,11 @@ impl Shot {
             Self::Quads => "quads",
             Self::Inside => "inside",
             Self::Crowd => "crowd",
+            Self::Slivers => "slivers",
+            Self::Giants => "giants",
+            Self::Crossings => "crossings",
+            Self::FarToNear => "c_f2n",
+            Self::NearToFar => "c_n2f",
         }
     }
 
@@ -165,14 +209,7 @@ impl Shot {
             ..Instance::default()
         };
         match self {
-            Self::Teapot => {
-                scene.begin(&looking([0.0, 1.2, 2.6], 300.0, 0.1)?)?;
-                let instance = Instance {
-                    colour: [236, 196, 112],
-                    ..lit(Affine::rotation_y(0.6))
-                };
-                scene.draw(&TEAPOT, &instance)?;
-            }
+            Self::Teapot => teapot(scene)?,
             Self::Cube => {
                 scene.begin(&looking([1.5, 2.0, 4.0], 260.0, 0.1)?)?;
                 scene.draw(&CUBE, &lit(Affine::rotation_y(0.3)))?;
@@ -205,6 +242,28 @@ impl Shot {
                 scene.draw(&CUBE, &open(Affine::rotation_y(0.2).then(&room)))?;
                 scene.draw(&TEAPOT, &open(Affine::rotation_y(2.0)))?;
             }
+            Self::FarToNear | Self::NearToFar => {
+                let (eye, at, up) = ([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+                scene.begin(&Camera::look_at(eye, at, up, 320.0, 0.1, 100.0)?)?;
+                for i in 0..LAYERS {
+                    let order = match self {
+                        Self::FarToNear => LAYERS - 1 - i,
+                        _ => i,
+                    };
+                    let mesh = Mesh {
+                        positions: &LAYER,
+                        normals: &[],
+                        colours: &layer_colours(order),
+                        faces: Faces::Quads(&[[0, 1, 2, 3]], QuadSplit::Corner0To2),
+                    };
+                    let depth = f32::from(NEAREST_LAYER + order);
+                    let instance = Instance {
+                        model: Affine::placed(depth, [0.0; 3]).unwrap_or(Affine::IDENTITY),
+                        ..Instance::default()
+                    };
+                    scene.draw(&mesh, &instance)?;
+                }
+            }
             Self::Crowd => {
                 scene.begin(&looking([0.0, 0.4, 5.0], 300.0, 0.1)?)?;
                 let mut seed = 1u32;
@@ -223,7 +282,26 @@ impl Shot {
                     scene.draw(&CUBE, &instance)?;
                 }
             }
+            Self::Slivers | Self::Giants | Self::Crossings => stress::build(self, scene)?,
         }
         Ok(())
     }
+}
+
+/// Draws the shot of the teapot into `scene`: for a firmware that has no other, since the code of
+/// [`Shot::build`] is that of all shots.
+///
+/// # Errors
+/// As [`Shot::build`].
+pub fn teapot<P: Pipeline>(scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
+    let (eye, up) = ([0.0, 1.2, 2.6], [0.0, 1.0, 0.0]);
+    scene.begin(&Camera::look_at(eye, [0.0; 3], up, 300.0, 0.1, 100.0)?)?;
+    let instance = Instance {
+        model: Affine::rotation_y(0.6),
+        light: Light::new([0.3, 0.8, 0.6], 0.2),
+        colour: [236, 196, 112],
+        ..Instance::default()
+    };
+    scene.draw(&TEAPOT, &instance)?;
+    Ok(())
 }

@@ -24,7 +24,6 @@ fn every_pixel_of_a_sheet_is_hit_once() {
             slots: &mut slots,
             links: &mut links,
             depth: &mut depth,
-            spans: &mut [],
         });
         let hits = Sheet::new(seed).hits(&mut scene, &mut renderer);
         assert_eq!(hits, Some((Sheet::pixels(), 0)), "seed {seed}");

@@ -67,7 +67,7 @@ impl Costs {
 }
 
 /// `pixels a + spans b = instructions`, twice.
-pub(super) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
+pub(crate) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
     let row = |k: &KernelRun| (k.pixels as f64, k.spans as f64, k.instructions as f64);
     let ((p0, s0, i0), (p1, s1, i1)) = (row(long), row(short));
     let determinant = p0 * s1 - p1 * s0;

@@ -23,9 +23,9 @@ const TRIANGLES: usize = 60;
 const SMALL: (i32, i32) = (8, 62);
 const LARGE: (i32, i32) = (66, 120);
 const APART: [(&str, f64); 3] = [
-    ("1 % apart, range 1:100", 0.01),
-    ("0.1 % apart, range 1:100", 0.001),
-    ("0.01 % apart, range 1:100", 0.0001),
+    ("order, 1 % apart, range 1:100", 0.01),
+    ("order, 0.1 % apart, range 1:100", 0.001),
+    ("order, 0.01 % apart, range 1:100", 0.0001),
 ];
 
 fn setting() -> Result<Setting, Box<dyn Error>> {
@@ -62,34 +62,28 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
         model.extend(model_large);
         for (method, kernel, batches) in [
             ("32-bit 1/w, small planes", "packed_565_depth", small),
-            ("32-bit 1/w, large planes", "channels_565_depth", large),
+            ("32-bit 1/w, large planes", "packed_565_large_depth", large),
             ("hardware model, 32-bit z, 10-bit W", "model_565", model),
         ] {
-            let name = ("depth order", case, method, "% wrong order", Some(kernel));
+            let name = ("depth", case, method, "% wrong order", Some(kernel));
             rows.push(rates(name, 100.0, &batches));
         }
     }
     for (case, method, kernel, sizes) in [
         (
-            "triangles of 8 to 62 pixels",
+            "planes, triangles of 8 to 62 pixels",
             "planes, small, 15-bit reciprocal",
             "packed_565_depth",
             SMALL,
         ),
         (
-            "triangles of 66 to 120 pixels",
+            "planes, triangles of 66 to 120 pixels",
             "planes, large, 32-bit reciprocal",
-            "channels_565_depth",
+            "packed_565_large_depth",
             LARGE,
         ),
     ] {
-        let name = (
-            "depth planes",
-            case,
-            method,
-            "2^-15 of full depth",
-            Some(kernel),
-        );
+        let name = ("depth", case, method, "2^-15 of full depth", Some(kernel));
         rows.push(planes(sizes)?.row(name));
     }
     Ok(rows)

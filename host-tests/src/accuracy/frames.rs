@@ -1,16 +1,26 @@
 //! Whole scenes, away from edges, against the `f64` renderer.
 
+use super::methods::{DEFAULT, METHODS};
 use super::spans::beyond;
 use super::{Errors, Row};
-use crate::args::PixelFormatArg;
-use crate::draw::{CrewSettings, draw, draw_model};
+use crate::args::{InterpArg, PixelFormatArg};
+use crate::draw::{CrewSettings, draw_by};
+use crate::image_out::Frame;
 use crate::model::{Model, ModelVertex};
-use crate::reference::{Cull, Shade, View, render};
-use scanbeam::{Faces, Mesh, PixelFormat, Rgb565, Rgb888};
+use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
+use scanbeam::{Faces, Mesh, PixelFormat, Quality, Rgb565, Rgb888};
 use scenes::{CUBE, SPHERE, TEAPOT};
 use std::error::Error;
 
 const CASE: &str = "teapot, sphere, cube";
+/// By format.
+const SCENES: [&str; 2] = ["RGB565, scenes with depth", "RGB888, scenes with depth"];
+const PLANES: [&str; 2] = ["planes, RGB565", "planes, RGB888"];
+const MODEL: [&str; 2] = ["hardware model, RGB565", "hardware model, RGB888"];
+const FORMATS: [(PixelFormatArg, [u16; 3]); 2] = [
+    (PixelFormatArg::Rgb565, Rgb565::STEPS),
+    (PixelFormatArg::Rgb888, Rgb888::STEPS),
+];
 
 /// A mesh of the test scenes as the host tool has models.
 fn model_of(mesh: &Mesh<'_>) -> Model {
@@ -36,8 +46,27 @@ fn model_of(mesh: &Mesh<'_>) -> Model {
     }
 }
 
+/// A method's pictures in both formats, or the model's.
+struct Drawer {
+    interp: InterpArg,
+    crew: CrewSettings,
+    errors: [Errors; 2],
+}
+
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
-    let mut errors = [(); 4].map(|()| Errors::default());
+    let drawer = |interp, quality| Drawer {
+        interp,
+        crew: CrewSettings {
+            quality,
+            ..CrewSettings::default()
+        },
+        errors: Default::default(),
+    };
+    let mut drawers: Vec<Drawer> = METHODS
+        .iter()
+        .map(|m| drawer(m.interp, m.quality))
+        .collect();
+    drawers.push(drawer(InterpArg::Model, Quality::exact()));
     for (mesh, shade) in [
         (&TEAPOT, Shade::Gouraud),
         (&SPHERE, Shade::Gouraud),
@@ -54,37 +83,60 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
                 ..View::default()
             };
             let reference = render(&model, &view)?;
-            let crew = CrewSettings::default();
-            let drawn = [
-                draw(&model, &view, PixelFormatArg::Rgb565, crew)?,
-                draw_model(&model, &view, PixelFormatArg::Rgb565)?,
-                draw(&model, &view, PixelFormatArg::Rgb888, crew)?,
-                draw_model(&model, &view, PixelFormatArg::Rgb888)?,
-            ];
-            let steps = [Rgb565::STEPS, Rgb565::STEPS, Rgb888::STEPS, Rgb888::STEPS];
-            for ((errors, drawn), steps) in errors.iter_mut().zip(drawn).zip(steps) {
-                let pixels = drawn.frame.rgb().chunks_exact(3);
-                for (i, pixel) in pixels.enumerate() {
-                    if reference.near_edge[i] || reference.object[i] == crate::reference::NO_OBJECT
-                    {
-                        continue;
-                    }
-                    let shown = [pixel[0], pixel[1], pixel[2]];
-                    for channel in 0..3 {
-                        errors.push(beyond(shown, channel, steps, reference.colour[i][channel]));
-                    }
+            for drawer in &mut drawers {
+                for (errors, (format, steps)) in drawer.errors.iter_mut().zip(FORMATS) {
+                    let drawn = draw_by(&model, &view, format, drawer.crew, drawer.interp)?;
+                    compare(&drawn.frame, &reference, steps, errors);
                 }
             }
         }
     }
-    let names = [
-        ("planes, RGB565", Some("teapot")),
-        ("hardware model, RGB565", Some("teapot_model")),
-        ("planes, RGB888", None),
-        ("hardware model, RGB888", None),
-    ];
-    let rows = names.into_iter().zip(errors);
-    Ok(rows
-        .map(|((method, kernel), errors)| errors.row(("frame", CASE, method, "levels", kernel)))
-        .collect())
+    let mut rows = Vec::new();
+    for (drawer, method) in drawers
+        .into_iter()
+        .zip(METHODS.iter().map(Some).chain([None]))
+    {
+        for (i, errors) in drawer.errors.into_iter().enumerate() {
+            let name = match method {
+                // What a pixel costs with depth, measured on a kernel.
+                Some(m) => (
+                    "interpolation",
+                    SCENES[i],
+                    m.name,
+                    "levels",
+                    (i == 0).then(|| m.with_depth()),
+                ),
+                None => (
+                    "frame",
+                    CASE,
+                    MODEL[i],
+                    "levels",
+                    (i == 0).then_some("teapot_model"),
+                ),
+            };
+            if method.is_some_and(|m| m.name == DEFAULT) {
+                let kernel = (i == 0).then_some("teapot");
+                rows.push(
+                    errors
+                        .clone()
+                        .row(("frame", CASE, PLANES[i], "levels", kernel)),
+                );
+            }
+            rows.push(errors.row(name));
+        }
+    }
+    Ok(rows)
+}
+
+/// The errors of a picture, away from edges.
+fn compare(frame: &Frame, reference: &Reference, steps: [u16; 3], errors: &mut Errors) {
+    for (i, pixel) in frame.rgb().chunks_exact(3).enumerate() {
+        if reference.near_edge[i] || reference.object[i] == NO_OBJECT {
+            continue;
+        }
+        let shown = [pixel[0], pixel[1], pixel[2]];
+        for channel in 0..3 {
+            errors.push(beyond(shown, channel, steps, reference.colour[i][channel]));
+        }
+    }
 }

@@ -3,20 +3,22 @@
 //! | file | there |
 //! |---|---|
 //! | `stage.rs` | triangles whose corners lie on chosen places of the screen, drawn by any pipeline |
-//! | `spans.rs` | family `interpolation`: colour along spans |
+//! | `methods.rs` | the interpolation methods by name |
+//! | `spans.rs` | family `interpolation`: colour along spans, by every method |
 //! | `coverage.rs` | family `coverage`: which pixels a triangle has |
-//! | `depth.rs` | families `depth order` and `depth planes` |
-//! | `frames.rs` | family `frame`: whole scenes |
+//! | `depth.rs` | family `depth`: which surface is in front, and how exact planes of depth are |
+//! | `frames.rs` | whole scenes: family `interpolation` by every method, family `frame` beside the model |
 //! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |
-//! | `scatter.rs` | the plot |
+//! | `scatter.rs` | the plots, one for each family, or for each case of a large one |
 //!
 //! Every random choice comes from a generator with a fixed seed, so the figures are the same in
-//! every run. A row is there only if its figures were measured by code of this crate that runs.
+//! every run. Family `texture` comes with texturing. A row is there only if its figures were measured by code of this crate that runs.
 
 mod cost;
 mod coverage;
 mod depth;
 mod frames;
+mod methods;
 mod scatter;
 mod spans;
 mod stage;
@@ -27,6 +29,7 @@ use crate::args::AccuracyArgs;
 use crate::image_out::{write_atomically, write_image};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use cost::Costs;
+pub(crate) use cost::solve;
 use serde_json::{Value, json};
 use std::error::Error;
 
@@ -70,7 +73,7 @@ type Name = (
 );
 
 /// Errors of a method as they come in.
-#[derive(Debug, Default)]
+#[derive(Debug, Default, Clone)]
 struct Errors(Vec<f32>);
 
 impl Errors {
@@ -139,6 +142,9 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
     Ok(rows)
 }
 
+/// Instructions a pixel that are not told apart: ticks of the counter, and where code lies.
+const EQUAL_COST: f64 = 0.1;
+
 /// Marks the rows that are on the frontier of cost and largest error among their likes.
 pub fn mark_frontier(rows: &mut [Row]) {
     let alike = |a: &Row, b: &Row| (a.family, a.case, a.unit) == (b.family, b.case, b.unit);
@@ -149,7 +155,9 @@ pub fn mark_frontier(rows: &mut [Row]) {
                 !rows.iter().any(|other| {
                     alike(row, other)
                         && other.per_pixel.is_some_and(|c| {
-                            c <= cost && other.max <= row.max && (c < cost || other.max < row.max)
+                            c <= cost + EQUAL_COST
+                                && other.max <= row.max
+                                && (c < cost - EQUAL_COST || other.max < row.max)
                         })
                 })
             })
@@ -190,9 +198,11 @@ pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder)
             .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
-        let plot = scatter::plot(&rows);
-        write_atomically(&folder.join("accuracy.svg"), plot.to_svg().as_bytes())?;
-        write_image(&folder.join("accuracy.png"), &plot.to_frame())?;
+        for (name, plot) in scatter::plots(&rows) {
+            let file = |extension: &str| folder.join(format!("{name}.{extension}"));
+            write_atomically(&file("svg"), plot.to_svg().as_bytes())?;
+            write_image(&file("png"), &plot.to_frame())?;
+        }
     }
     Ok(())
 }

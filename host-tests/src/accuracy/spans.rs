@@ -1,15 +1,29 @@
 //! Colour along spans, between corners of full 8-bit colours, against the line between them.
 
+use super::methods::{METHODS, Method, Painter};
 use super::stage::{Place, Rng, Setting, Stage, covers, doubled_area, plane};
 use super::{Errors, Row};
+use crate::args::InterpArg;
 use scanbeam::model::{SpanWeight, divided_weight, lirp, round_to_8, widen};
-use scanbeam::{GouraudPainter, PixelFormat, Rgb565, Rgb888};
+use scanbeam::{
+    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Packed8, Packed16,
+    PixelFormat, Quality, QuarterRate, Rgb565, Rgb888,
+};
 use std::error::Error;
 
 const FAMILY: &str = "interpolation";
 const UNIT: &str = "levels";
-const SHORT: &str = "spans of 1 to 63 pixels";
-const LONG: &str = "spans of 1 to 8192 pixels";
+/// Cases by format, spans of small triangles first.
+const CASES: [[&str; 2]; 2] = [
+    [
+        "RGB565, spans of 1 to 63 pixels",
+        "RGB565, spans of 1 to 8192 pixels",
+    ],
+    [
+        "RGB888, spans of 1 to 63 pixels",
+        "RGB888, spans of 1 to 8192 pixels",
+    ],
+];
 
 /// How far a pixel is off, beyond the half step that rounding to the format's steps costs.
 pub(super) fn beyond(word: [u8; 3], channel: usize, steps: [u16; 3], exact: f64) -> f64 {
@@ -21,33 +35,49 @@ pub(super) fn beyond(word: [u8; 3], channel: usize, steps: [u16; 3], exact: f64)
 
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
-    for (case, long) in [(SHORT, false), (LONG, true)] {
-        for (bits, method, kernel) in [
-            (10, "LIRP, 10-bit W(X)", "lirp_10"),
-            (12, "LIRP, 12-bit W, divided", "lirp_12"),
-            (16, "LIRP, 16-bit W, divided", "lirp_16"),
-        ] {
-            let name = (FAMILY, case, method, UNIT, Some(kernel));
-            rows.push(blends(bits, long).row(name));
+    for long in [false, true] {
+        for method in &METHODS {
+            let [five, eight] = CASES.map(|cases| cases[usize::from(long)]);
+            let name = |case, kernel| (FAMILY, case, method.name, UNIT, Some(kernel));
+            let errors = by::<Rgb565>(method, long)?;
+            rows.push(errors.row(name(five, method.kernel(true, long))));
+            let errors = by::<Rgb888>(method, long)?;
+            rows.push(errors.row(name(eight, method.kernel(false, long))));
         }
-        let five = planes::<Rgb565>(long)?;
-        let eight = planes::<Rgb888>(long)?;
-        let names = if long {
-            [
-                ("planes, 16.16 channels, RGB565", "channels_565"),
-                ("planes, 16.16 channels, RGB888", "channels_888"),
-            ]
-        } else {
-            [
-                ("packed, one word anew every 8, RGB565", "packed_565"),
-                ("packed, two words, RGB888", "packed_888"),
-            ]
-        };
-        for (errors, (method, kernel)) in [five, eight].into_iter().zip(names) {
-            rows.push(errors.row((FAMILY, case, method, UNIT, Some(kernel))));
+        for (bits, method, kernel) in [
+            (10, "circuit: LIRP, 10-bit W(X)", "model_lirp_10"),
+            (12, "circuit: LIRP, 12-bit W", "model_lirp_12"),
+            (16, "circuit: LIRP, 16-bit W", "model_lirp_16"),
+        ] {
+            let name = (
+                FAMILY,
+                CASES[1][usize::from(long)],
+                method,
+                UNIT,
+                Some(kernel),
+            );
+            rows.push(blends(bits, long).row(name));
         }
     }
     Ok(rows)
+}
+
+/// Spans by a method.
+fn by<F: PixelFormat>(method: &Method, long: bool) -> Result<Errors, Box<dyn Error>> {
+    let spans = match method.interp {
+        InterpArg::Plane => spans::<F, Forward>,
+        InterpArg::Packed8 => spans::<F, Packed8>,
+        InterpArg::Packed16 => spans::<F, Packed16>,
+        InterpArg::Half => spans::<F, HalfRate>,
+        InterpArg::Quarter => spans::<F, QuarterRate>,
+        InterpArg::Lirp10 => spans::<F, Lirp10>,
+        InterpArg::Lirp12 => spans::<F, Lirp12>,
+        InterpArg::Lirp16 => spans::<F, Lirp16>,
+        InterpArg::LirpPacked => spans::<F, LirpPacked>,
+        InterpArg::Auto => spans::<F, Auto>,
+        InterpArg::Model => return Err("the model draws no spans of its own".into()),
+    };
+    spans(method.quality, long)
 }
 
 /// LIRP from end to end of random spans, as the RGB unit has it: 10 bits a channel, 8 shown.
@@ -78,16 +108,19 @@ fn blends(bits: u32, long: bool) -> Errors {
     errors
 }
 
-/// Spans of random triangles through the line renderer. Those of at most 63 x 63 pixels go by
-/// packed words if they are not thin; those that are taller than 64 by channels.
-fn planes<F: PixelFormat>(long: bool) -> Result<Errors, Box<dyn Error>> {
+/// Spans of random triangles through the line renderer. Those of at most 63 x 63 pixels are set up
+/// as small if they are not thin; those that are taller than 64 as large.
+fn spans<F: PixelFormat, I: Interpolation>(
+    quality: Quality,
+    long: bool,
+) -> Result<Errors, Box<dyn Error>> {
     let mut rng = Rng::new(2);
     let mut errors = Errors::default();
     let (width, height) = if long { (8192, 256) } else { (64, 64) };
     let setting = Setting::flat(width, height)?;
-    let mut stage = Stage::<GouraudPainter<F>>::new(setting.screen);
+    let mut stage = Stage::<Painter<F, I>>::new(setting.screen);
     let mut pixels = vec![F::Word::default(); usize::from(width)];
-    for _ in 0..if long { 1_000 } else { 3_000 } {
+    for _ in 0..if long { 500 } else { 2_000 } {
         let Some(triangle) = triangle(&mut rng, long) else {
             continue;
         };
@@ -111,6 +144,7 @@ fn planes<F: PixelFormat>(long: bool) -> Result<Errors, Box<dyn Error>> {
         };
         drawn.sort_unstable();
         let mut renderer = lines.renderer();
+        renderer.set_quality(quality);
         for line in drawn {
             renderer.draw_line(&scene, line as u16, &mut pixels)?;
             for column in (left..=right).filter(|c| covers(triangle, *c, line)) {

@@ -1,8 +1,9 @@
 //! Triangles on chosen places of the screen, and any pipeline to draw them.
 
 use scanbeam::{
-    Camera, CellOf, Cull, DrawError, Faces, Instance, LineDepth, LineMemory, LineRenderer, Link,
-    Mesh, ObjectOf, Pipeline, Scene, SceneMemory, Screen, SlotOf, VertexOf, WordOf,
+    Camera, CellOf, Cull, DepthUse, DrawError, Faces, Instance, LineDepth, LineMemory,
+    LineRenderer, Link, Mesh, ObjectOf, Pipeline, Scene, SceneMemory, Screen, SlotOf, VertexOf,
+    WordOf,
 };
 use std::error::Error;
 
@@ -185,14 +186,15 @@ pub(super) struct Lines<'s, P: Pipeline> {
 }
 
 impl<P: Pipeline> Lines<'_, P> {
-    /// A renderer. It notes no spans, so what has depth is tested and kept, always.
+    /// A renderer which tests and keeps all depth.
     pub(super) fn renderer(&mut self) -> LineRenderer<'_, P> {
-        LineRenderer::new(LineMemory {
+        let mut renderer = LineRenderer::new(LineMemory {
             slots: self.slots,
             links: self.links,
             depth: self.depth,
-            spans: &mut [],
-        })
+        });
+        renderer.set_depth_use(DepthUse::Always);
+        renderer
     }
 
     /// Draws a line alone.

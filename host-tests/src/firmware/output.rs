@@ -40,6 +40,43 @@ pub struct KernelRun {
     pub instructions: u64,
 }
 
+/// How much one more of something costs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnitRun {
+    /// Of what.
+    pub name: String,
+    /// How many there were more.
+    pub count: u64,
+    /// Instructions that they took.
+    pub instructions: u64,
+}
+
+/// What each line of a scene costs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LinesRun {
+    /// The scene's name.
+    pub scene: String,
+    /// Instructions before the first line.
+    pub pass_one: u64,
+    /// Instructions of each line.
+    pub costs: Vec<u64>,
+}
+
+/// A sphere of so many triangles.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct GrowthRun {
+    /// Slots of the cache.
+    pub slots: u64,
+    /// Triangles submitted.
+    pub triangles: u64,
+    /// Objects that were filed.
+    pub objects: u64,
+    /// Instructions of pass one.
+    pub pass_one: u64,
+    /// Instructions of all lines.
+    pub pass_two: u64,
+}
+
 /// Everything that the firmware prints, in order.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Output {
@@ -49,12 +86,18 @@ pub struct Output {
     pub counts: Vec<CountCheck>,
     /// The kernels, each once with long and once with short spans; with the feature `bench` only.
     pub kernels: Vec<KernelRun>,
+    /// Single things; with the feature `bench` only, as all that follow but `figures`.
+    pub units: Vec<UnitRun>,
+    /// Scenes line by line.
+    pub lines: Vec<LinesRun>,
+    /// Spheres.
+    pub growth: Vec<GrowthRun>,
     /// Other figures by name, such as `stack_bytes`.
     pub figures: BTreeMap<String, u64>,
 }
 
 impl Output {
-    /// Reads the lines that `examples/qemu` documents: `frame`, `count`, `kernel`, `figure`, then one `done`.
+    /// Reads the lines that `examples/qemu` documents, of which the last is `done`.
     ///
     /// # Errors
     ///
@@ -108,6 +151,19 @@ impl Output {
                 spans: fields.number("spans", 10)?,
                 instructions: fields.number("instructions", 10)?,
             }),
+            "unit" => self.units.push(UnitRun {
+                name: fields.take("name")?.to_owned(),
+                count: fields.number("count", 10)?,
+                instructions: fields.number("instructions", 10)?,
+            }),
+            "lines" => self.row_of_lines(&mut fields)?,
+            "growth" => self.growth.push(GrowthRun {
+                slots: fields.number("slots", 10)?,
+                triangles: fields.number("triangles", 10)?,
+                objects: fields.number("objects", 10)?,
+                pass_one: fields.number("pass_one", 10)?,
+                pass_two: fields.number("pass_two", 10)?,
+            }),
             "figure" => {
                 let name = fields.take("name")?.to_owned();
                 let value = fields.number("value", 10)?;
@@ -121,10 +177,36 @@ impl Output {
                     return Err(format!("{} frames came", self.frames.len()));
                 }
             }
-            _ => return Err("expected `frame`, `count`, `kernel`, `figure` or `done`".to_owned()),
+            _ => return Err("no line begins with this word".to_owned()),
         }
         fields.end()?;
         Ok(kind == "done")
+    }
+
+    /// Takes in a row of a scene's lines, the first of a scene or the one after the last.
+    fn row_of_lines(&mut self, fields: &mut Fields<'_>) -> Result<(), String> {
+        let (scene, pass_one) = (fields.take("scene")?, fields.number("pass_one", 10)?);
+        let first: usize = fields.number("first", 10)?;
+        let costs = fields.take("costs")?.split(',');
+        let costs = costs
+            .map(|cost| cost.parse::<u64>())
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|error| format!("`costs`: {error}"))?;
+        if first == 0 {
+            self.lines.push(LinesRun {
+                scene: scene.to_owned(),
+                pass_one,
+                costs,
+            });
+            return Ok(());
+        }
+        match self.lines.last_mut() {
+            Some(run) if run.scene == scene && run.costs.len() == first => {
+                run.costs.extend(costs);
+                Ok(())
+            }
+            _ => Err("the lines before these did not come".to_owned()),
+        }
     }
 }
 
@@ -179,6 +261,10 @@ mod tests {
         let output = parse(
             "count name=loop expected=20 counted=21 ok=1\n\
              frame scene=sphere crc=00ab12ff instructions=123456\n\
+             unit name=span count=200 instructions=3200\n\
+             lines scene=sphere pass_one=9 first=0 costs=1,2\n\
+             lines scene=sphere pass_one=9 first=2 costs=3\n\
+             growth slots=64 triangles=72 objects=31 pass_one=5 pass_two=6\n\
              figure name=stack_bytes value=704\n\
              done frames=1",
         )
@@ -191,6 +277,10 @@ mod tests {
         assert_eq!(output.frames, [frame]);
         assert_eq!(output.counts[0].counted, 21);
         assert!(output.counts[0].ok);
+        assert_eq!(output.units[0].count, 200);
+        assert_eq!(output.lines.len(), 1);
+        assert_eq!(output.lines[0].costs, [1, 2, 3]);
+        assert_eq!(output.growth[0].pass_two, 6);
         assert_eq!(output.figures["stack_bytes"], 704);
     }
 
@@ -225,6 +315,17 @@ mod tests {
                 "came before",
             ),
             ("panic at", 1, "`at` is not key=value"),
+            ("panics a=1", 1, "no line begins"),
+            (
+                "lines scene=a pass_one=1 first=16 costs=1",
+                1,
+                "did not come",
+            ),
+            (
+                "lines scene=a pass_one=1 first=0 costs=1,x",
+                1,
+                "`costs`: invalid digit",
+            ),
             ("", 1, "ends"),
         ] {
             let error = parse(text).expect_err(text);

@@ -1,5 +1,6 @@
 //! What cargo, QEMU and the firmware do when all is well, and when not.
 
+use super::toolchain::is_of_outer_build;
 use super::*;
 
 #[test]
@@ -50,7 +51,7 @@ fn failure_of_qemu_is_passed_on() {
     assert!(error.to_string().contains("no-such-elf"), "{error}");
 }
 
-/// On both boards, and with overflow checks on one (each profile costs Debian's compiler a
+/// On every board, and with overflow checks on one (each profile costs Debian's compiler a
 /// build of `core`): the counter counts right, every section is where `memory.x` wants it, and
 /// what is printed is complete; a second run prints the same. One build and one run of each
 /// variant, but for one board, which runs twice.
@@ -62,6 +63,7 @@ fn firmware_runs_the_same_everywhere() -> Result<(), FirmwareError> {
     for (board, profile) in [
         (M4, Profile::Release),
         (M3, Profile::Release),
+        (M0_PLUS, Profile::Release),
         (M4, Profile::Checked),
     ] {
         let measured = measure(&toolchain, &board, profile, &[])?;
@@ -104,7 +106,7 @@ fn firmware_runs_the_same_everywhere() -> Result<(), FirmwareError> {
 
 #[test]
 fn firmware_that_does_not_end_is_stopped() -> Result<(), FirmwareError> {
-    let elf = build(&Toolchain::find()?, &M4, Profile::Release, &[])?;
+    let elf = build(&Toolchain::find()?, &M4, Profile::Release, COMPARER, &[])?;
     let error = run(&M4, &elf, Duration::ZERO).expect_err("no time was given");
     assert!(matches!(error, FirmwareError::Timeout { .. }), "{error}");
     Ok(())

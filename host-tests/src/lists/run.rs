@@ -10,8 +10,7 @@ use scanbeam::scan_out::Pump;
 use scanbeam::{
     Affine, Camera, Counted, Event, FlatDepth, GouraudDepth, Instance, Light, LineDepth,
     LineMemory, LineRenderer, Link, ListMemory, ListRunner, ListSettings, Notice, ObjectOf,
-    Pipeline, PixelFormat, Rgb888, RunCounts, Scene, SceneMemory, Screen, SpanRecord, VertexOf,
-    draw_frame,
+    Pipeline, PixelFormat, Rgb888, RunCounts, Scene, SceneMemory, Screen, VertexOf, draw_frame,
 };
 use std::error::Error;
 
@@ -154,12 +153,10 @@ where
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
     let mut links = vec![Link::NONE; usize::from(Link::CACHED)];
     let mut depth = vec![P::Depth::FARTHEST; usize::from(width)];
-    let mut spans = vec![SpanRecord::default(); SLOTS];
     let mut renderer = LineRenderer::<P>::new(LineMemory {
         slots: &mut slots,
         links: &mut links,
         depth: &mut depth,
-        spans: &mut spans,
     });
     let words = usize::from(width);
     let sink = MockFrameBuffer::new(width, height);

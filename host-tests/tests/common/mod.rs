@@ -4,7 +4,7 @@
 
 use scanbeam::{
     CellOf, LineDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, Scene, SceneMemory,
-    Screen, SlotOf, SpanRecord, VertexOf, WordOf,
+    Screen, SlotOf, VertexOf, WordOf,
 };
 
 /// xorshift64*: small, and the same everywhere.
@@ -87,7 +87,6 @@ pub struct LineRooms<P: Pipeline> {
     slots: Vec<SlotOf<P>>,
     links: Vec<Link>,
     depth: Vec<CellOf<P>>,
-    spans: Vec<SpanRecord>,
 }
 
 impl<P: Pipeline> LineRooms<P> {
@@ -97,8 +96,6 @@ impl<P: Pipeline> LineRooms<P> {
             slots: vec![LineRenderer::<P>::empty_slot(); slots],
             links: vec![Link::NONE; links],
             depth: vec![P::Depth::FARTHEST; depth],
-            // As many as slots: small caches also try lines with more spans than records.
-            spans: vec![SpanRecord::default(); slots],
         }
     }
 
@@ -111,13 +108,17 @@ impl<P: Pipeline> LineRooms<P> {
         )
     }
 
+    /// The depth of the line that was drawn last.
+    pub fn depth(&self) -> &[CellOf<P>] {
+        &self.depth
+    }
+
     /// A renderer in this memory.
     pub fn renderer(&mut self) -> LineRenderer<'_, P> {
         LineRenderer::new(LineMemory {
             slots: &mut self.slots,
             links: &mut self.links,
             depth: &mut self.depth,
-            spans: &mut self.spans,
         })
     }
 }

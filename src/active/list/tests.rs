@@ -48,30 +48,28 @@ impl<M: FnMut(u16) -> Option<Thing>, V: FnMut(u16, &Thing)> Visitor<Thing> for T
         }
     }
 
-    fn visit(&mut self, _: usize, slot: &mut Slot<Thing>) -> bool {
-        (self.visit)(slot.object(), slot.body());
-        true
-    }
-
-    fn flush(&mut self, _: &[Slot<Thing>]) {}
-
-    fn visit_spilled(&mut self, object: u16, body: &mut Thing, _: &[Slot<Thing>]) {
+    fn visit(&mut self, object: u16, body: &Thing) {
         (self.visit)(object, body);
     }
 }
 
-/// Walks a line of the real list.
+/// Draws a line of the real list, the short way where nothing has spilled.
 fn walk(
     list: &mut ActiveList<'_, Thing>,
     (line, next): (i32, i32),
     make: impl FnMut(u16) -> Option<Thing>,
     visit: impl FnMut(u16, &Thing),
 ) {
-    list.walk(
-        (line, next),
-        &mut EMPTY.clone(),
-        &mut Tell { line, make, visit },
-    );
+    let mut tell = Tell { line, make, visit };
+    list.update(line, &mut tell);
+    if list.has_spilled() || line % 3 == 0 {
+        list.visit_all(next, &mut EMPTY.clone(), &mut tell);
+    } else {
+        for (index, slot) in list.members() {
+            assert_eq!(slot.object(), list.slots()[index].object());
+            tell.visit(slot.object(), slot.body());
+        }
+    }
 }
 
 struct Rng(u64);
@@ -100,31 +98,35 @@ impl Model {
         self.incoming.sort_unstable();
     }
 
-    /// Walks a line: what is drawn, in order.
+    /// Draws a line: what is drawn, in order.
     fn walk(&mut self, things: &[Thing], slots: u32, (line, next): (i32, i32)) -> Vec<u16> {
+        let slow = |nodes: &[(u16, bool)]| nodes.iter().filter(|n| !n.1).count() as u32;
+        if self.used + slow(&self.active) + slow(&self.incoming) > slots {
+            // Where slots are scarce, those of what has ended are free first.
+            let before = self.active.len();
+            self.active
+                .retain(|(o, cached)| !cached || things[usize::from(*o)].end > line);
+            self.used -= (before - self.active.len()) as u32;
+        }
         let mut waiting: Vec<(u16, bool, bool)> = Vec::new();
         waiting.extend(self.active.drain(..).map(|(o, cached)| (o, cached, false)));
         waiting.extend(self.incoming.drain(..).map(|(o, cached)| (o, cached, true)));
         waiting.sort_unstable();
-        let mut drawn = Vec::new();
-        let mut freed = 0;
         for (object, cached, _) in waiting {
-            let thing = &things[usize::from(object)];
-            let here = thing.end > line;
-            if here {
-                drawn.push(object);
-            }
-            let moves_in = !cached && here && self.used < slots;
-            self.used += u32::from(moves_in);
-            let cached = cached || moves_in;
-            if thing.end > next {
+            let here = things[usize::from(object)].end > line;
+            if cached && !here {
+                self.used -= 1;
+            } else if cached || self.used == slots {
                 self.active.push((object, cached));
-            } else {
-                // Free when the walk is over, so that what was visited stays where it is.
-                freed += u32::from(cached);
+            } else if here {
+                self.used += 1;
+                self.active.push((object, true));
             }
         }
-        self.used -= freed;
+        let end = |object: u16| things[usize::from(object)].end;
+        let drawn = self.active.iter().map(|n| n.0).filter(|o| end(*o) > line);
+        let drawn = drawn.collect();
+        self.active.retain(|(o, cached)| *cached || end(*o) > next);
         drawn
     }
 }
@@ -302,6 +304,7 @@ fn objects_that_cannot_be_made_leave() {
         list.admit([900].into_iter());
         walk(&mut list, (2, 9), make, |object, _| drawn.push(object));
         assert_eq!(drawn, [0, 2, 0, 2, 0, 2]);
+        list.release(9);
         assert!(list.is_empty());
         assert_eq!(list.used, 0);
     }
@@ -327,6 +330,7 @@ fn everything_ends_at_once_and_the_slots_are_free_at_once() {
     drawn.clear();
     walk(&mut list, (1, 2), make, |object, _| drawn.push(object));
     assert!(drawn.iter().copied().eq(0..10_000));
+    list.release(2);
     assert!(list.is_empty() && list.has_free() && list.used == 0);
     assert_eq!((list.counts.hits, list.counts.misses), (4, 19_996));
 }

@@ -1,0 +1,137 @@
+//! Draws a shot of the test scenes by scanbeam: `ours SCENE FRAMES [PICTURE]`.
+//!
+//! Lines go to a display, not into a picture; only [`Renderer::picture`] keeps them.
+
+#[path = "../../measured.rs"]
+mod measured;
+
+use measured::Renderer;
+
+use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
+use scanbeam::{
+    GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, PixelFormat, Rgb565, Scene,
+    SceneMemory, SlotOf, VertexOf, draw_frame,
+};
+use scenes::{HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VERTICES, WIDTH};
+use std::convert::Infallible;
+use std::hint::black_box;
+use std::task::Poll;
+
+type Look = GouraudDepth<Rgb565>;
+
+/// Slots of the cache, as the firmware has.
+const SLOTS: usize = 43;
+
+struct Ours {
+    shot: Shot,
+    vertices: Vec<VertexOf<Look>>,
+    objects: Vec<ObjectOf<Look>>,
+    buckets: Vec<Link>,
+    links: Vec<Link>,
+    slots: Vec<SlotOf<Look>>,
+    depth: Vec<u32>,
+    pump: Pump<Display>,
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [scene, frames, file @ ..] = words.as_slice() else {
+        return Err("ours SCENE FRAMES [PICTURE]".into());
+    };
+    let mut shots = SHOTS.into_iter().chain(STACKS);
+    let shot = shots.find(|shot| shot.name() == scene);
+    let shot = shot.ok_or(format!("there is no scene {scene}"))?;
+    measured::run(
+        Box::new(Ours::new(shot)),
+        frames,
+        file.first().map(String::as_str),
+    )
+}
+
+impl Ours {
+    fn new(shot: Shot) -> Self {
+        let line = || Line(vec![0; usize::from(WIDTH)]);
+        Self {
+            shot,
+            vertices: vec![VertexOf::<Look>::empty(); VERTICES],
+            objects: vec![ObjectOf::<Look>::default(); OBJECTS],
+            buckets: vec![Link::NONE; usize::from(HEIGHT)],
+            links: vec![Link::NONE; OBJECTS],
+            slots: vec![LineRenderer::<Look>::empty_slot(); SLOTS],
+            depth: vec![0; usize::from(WIDTH)],
+            pump: Pump::new(Display::default(), [line(), line()]),
+        }
+    }
+}
+
+impl Renderer for Ours {
+    fn frame(&mut self) {
+        let memory = SceneMemory {
+            vertices: &mut self.vertices,
+            objects: &mut self.objects,
+            buckets: &mut self.buckets,
+        };
+        let mut scene = Scene::<Look>::new(Shot::screen(), memory);
+        let shot = self.shot;
+        shot.build(&mut scene).expect("the arenas suffice");
+        let mut renderer = LineRenderer::new(LineMemory {
+            slots: &mut self.slots,
+            links: &mut self.links,
+            depth: &mut self.depth,
+        });
+        let background = Rgb565::from_rgb8(shot.background());
+        draw_frame(&scene, &mut renderer, &mut self.pump, background, 1)
+            .expect("the memory suffices");
+    }
+
+    fn picture(&mut self) -> Vec<u16> {
+        self.pump.sink_mut().kept = Some(Vec::new());
+        self.frame();
+        self.pump.sink_mut().kept.take().unwrap_or_default()
+    }
+}
+
+struct Line(Vec<u16>);
+
+impl LineBuf for Line {
+    type Word = u16;
+
+    fn pixels(&mut self) -> &mut [u16] {
+        &mut self.0
+    }
+}
+
+#[derive(Default)]
+struct Display {
+    kept: Option<Vec<u16>>,
+    sent: Option<Line>,
+}
+
+impl ErrorType for Display {
+    type Error = Infallible;
+}
+
+impl ScanoutDma for Display {
+    type Buf = Line;
+
+    fn begin(&mut self, _: Window) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    fn start(&mut self, line: Line, len: usize) -> Result<(), (Infallible, Line)> {
+        if let Some(kept) = &mut self.kept {
+            kept.extend_from_slice(&line.0[..len]);
+        }
+        black_box(&line.0[..len]);
+        self.sent = Some(line);
+        Ok(())
+    }
+
+    fn poll(&mut self) -> Poll<Result<Option<Line>, Infallible>> {
+        Poll::Ready(Ok(self.sent.take()))
+    }
+
+    fn end(&mut self) -> Result<(), Infallible> {
+        Ok(())
+    }
+}

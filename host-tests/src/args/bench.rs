@@ -1,0 +1,35 @@
+//! Flags of what measures speed.
+
+use clap::Args;
+use std::path::PathBuf;
+
+/// Flags of `firmware`.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct FirmwareArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Also measure kernels, lines, single things and growth, and fail where one costs more than recorded
+    #[arg(long)]
+    pub bench: bool,
+    /// Record what is measured, for every compiler that is complete here, and fail this once
+    #[arg(long, requires = "bench")]
+    pub bless: bool,
+    /// Folder for the plot of growth, made when it is not there
+    #[arg(short = 'o', long = "output", value_name = "DIR", requires = "bench")]
+    pub output: Option<PathBuf>,
+}
+
+/// Flags of `bench`.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct BenchArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Also build and measure other renderers of the registry
+    #[arg(long)]
+    pub peers: bool,
+    /// Write the tables into README.md, between their markers
+    #[arg(long)]
+    pub markdown: bool,
+}

@@ -1,0 +1,133 @@
+//! Flags of `render`.
+
+use super::picture::PictureArgs;
+use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS};
+use crate::image_out::ImageFormat;
+use crate::reference::View;
+use clap::{Args, ValueEnum};
+use scanbeam::Quality;
+use std::path::PathBuf;
+
+/// How colours are taken from pixel to pixel of a line, and with the model also depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum InterpArg {
+    /// Planes stepped forward as they are
+    Plane,
+    /// Packed channels, anchored anew every 8 pixels
+    Packed8,
+    /// Packed channels, anchored anew every 16 pixels
+    Packed16,
+    /// One colour for 2 pixels
+    Half,
+    /// One colour for 4 pixels
+    Quarter,
+    /// LIRP from end to end, 10 bits of W
+    Lirp10,
+    /// LIRP from end to end, 12 bits of W
+    Lirp12,
+    /// LIRP from end to end, 16 bits of W
+    Lirp16,
+    /// LIRP from end to end, two channels a multiplication
+    LirpPacked,
+    /// For each span the cheapest that keeps the budget of --quality
+    Auto,
+    /// The hardware model: 12-bit weights down edges, 10-bit weights along spans
+    Model,
+}
+
+/// How far a picture may be off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum QualityArg {
+    /// 4 levels of 255
+    Fast,
+    /// 1.5 levels (when nothing is said)
+    Balanced,
+    /// Nothing beyond planes and rounding
+    Exact,
+}
+
+impl QualityArg {
+    /// What a renderer is told.
+    #[must_use]
+    pub fn quality(self) -> Quality {
+        match self {
+            Self::Fast => Quality::fast(),
+            Self::Balanced => Quality::balanced(),
+            Self::Exact => Quality::exact(),
+        }
+    }
+}
+
+/// Flags of `render`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct RenderArgs {
+    /// Model to draw
+    #[arg(value_name = "MODEL.obj")]
+    pub model: PathBuf,
+    /// Picture to write, .png or .ppm
+    #[arg(short = 'o', long = "output", value_name = "OUT")]
+    pub output: PathBuf,
+    /// What to draw.
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// How colours are taken from pixel to pixel; packed8 when not said, auto with --quality
+    #[arg(long, value_enum, value_name = "METHOD")]
+    pub interp: Option<InterpArg>,
+    /// How far colours may be off where the method is auto
+    #[arg(long, value_enum, value_name = "BUDGET")]
+    pub quality: Option<QualityArg>,
+    /// Slots of each renderer's object cache, 0 to 4095
+    #[arg(long, value_name = "SLOTS", default_value_t = DEFAULT_SLOTS,
+        value_parser = clap::value_parser!(u16).range(0..=i64::from(MAX_SLOTS)))]
+    pub cache: u16,
+    /// Line renderers, each on a thread of its own when there are several, 1 to 16
+    #[arg(long, value_name = "N", default_value_t = 1,
+        value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_RENDERERS)))]
+    pub renderers: u16,
+    /// Bytes a line that each renderer fetches ahead into its cache
+    #[arg(long, value_name = "BYTES", default_value_t = 0)]
+    pub prefetch: u32,
+    /// Also write figures of the frame, as JSON
+    #[arg(long, value_name = "OUT.json")]
+    pub stats: Option<PathBuf>,
+}
+
+impl RenderArgs {
+    /// The view that the flags describe; already checked when it comes from [`parse`].
+    #[must_use]
+    pub fn view(&self) -> View {
+        self.picture.view()
+    }
+
+    /// The method that the flags ask for.
+    #[must_use]
+    pub fn method(&self) -> InterpArg {
+        match (self.interp, self.quality) {
+            (Some(interp), _) => interp,
+            (None, Some(_)) => InterpArg::Auto,
+            (None, None) => InterpArg::Packed8,
+        }
+    }
+
+    pub(super) fn check(&self) -> Result<(), String> {
+        let crew = (self.cache, self.renderers, self.prefetch, self.quality);
+        if self.interp == Some(InterpArg::Model) && crew != (DEFAULT_SLOTS, 1, 0, None) {
+            return Err(
+                "--interp model has no --cache, --renderers, --prefetch or --quality".into(),
+            );
+        }
+        self.view().check().map_err(|error| error.to_string())?;
+        ImageFormat::from_path(&self.output).map_err(|error| error.to_string())?;
+        if self.output == self.model {
+            return Err("-o must not be the model itself".into());
+        }
+        if self
+            .stats
+            .as_ref()
+            .is_some_and(|stats| *stats == self.output || *stats == self.model)
+        {
+            return Err("--stats must be a file of its own".into());
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,285 @@
+//! What is read, and what is refused.
+
+use super::*;
+use crate::reference::{Cull, Shade, View};
+
+fn words(line: &str) -> Result<Command, Stop> {
+    parse(std::iter::once("scanbeam").chain(line.split_whitespace()))
+}
+
+fn render(flags: &str) -> RenderArgs {
+    match words(&format!("render m.obj -o o.png {flags}")) {
+        Ok(Command::Render(render)) => render,
+        other => panic!("{flags}: {other:?}"),
+    }
+}
+
+#[test]
+fn the_definitions_hold_together() {
+    use clap::CommandFactory;
+    Cli::command().debug_assert();
+}
+
+#[test]
+fn defaults_are_those_of_the_design() {
+    let args = render("");
+    assert_eq!(args.view(), View::default());
+    assert_eq!(args.picture.format, PixelFormatArg::Rgb888);
+    assert_eq!((args.interp, args.quality), (None, None));
+    assert_eq!(args.method(), InterpArg::Packed8);
+    assert_eq!(args.stats, None);
+    assert_eq!(words(""), Ok(Command::Demo(DemoArgs::default())));
+    assert_eq!(words("demo"), words(""));
+    assert_eq!((args.cache, args.renderers, args.prefetch), (64, 1, 0));
+    let plain = CacheArgs {
+        json: false,
+        output: None,
+    };
+    assert_eq!(words("cache"), Ok(Command::Cache(plain)));
+    assert_eq!(
+        words("firmware"),
+        Ok(Command::Firmware(FirmwareArgs {
+            json: false,
+            ..FirmwareArgs::default()
+        }))
+    );
+    assert_eq!(
+        words("firmware --json"),
+        Ok(Command::Firmware(FirmwareArgs {
+            json: true,
+            ..FirmwareArgs::default()
+        }))
+    );
+}
+
+#[test]
+fn every_flag_arrives() {
+    let view = render(
+        "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
+         --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp half --quality fast --stats s.json \
+         --cache 0 --renderers 16 --prefetch 99",
+    );
+    assert_eq!((view.cache, view.renderers, view.prefetch), (0, 16, 99));
+    assert_eq!(view.stats, Some(PathBuf::from("s.json")));
+    assert_eq!(view.picture.format, PixelFormatArg::Rgb565);
+    assert_eq!(view.method(), InterpArg::Half);
+    assert_eq!(view.quality, Some(QualityArg::Fast));
+    let expected = View {
+        width: 17,
+        height: 8192,
+        eye: [-1.0, 0.0, 3.0],
+        at: [-2.0, -3.5, 0.01],
+        up: [0.0, 0.0, -1.0],
+        fov: 179.9,
+        near: 1.0,
+        far: 2.5,
+        light: [-1.0; 3],
+        ambient: 1.0,
+        shade: Shade::Gouraud,
+        cull: Cull::Back,
+        background: [255, 0, 7],
+    };
+    assert_eq!(view.view(), expected);
+    match words("trace m.obj --line 8191 --size 17x8192 --shade flat") {
+        Ok(Command::Trace(trace)) => {
+            assert_eq!((trace.line, trace.model), (8191, PathBuf::from("m.obj")));
+            assert_eq!(trace.picture.shade, Shade::Flat);
+        }
+        other => panic!("{other:?}"),
+    }
+    let demo = DemoArgs {
+        output: "d".into(),
+        frames: 3,
+    };
+    assert_eq!(words("demo -o d --frames 3"), Ok(Command::Demo(demo)));
+    for (name, method) in [
+        ("plane", InterpArg::Plane),
+        ("packed8", InterpArg::Packed8),
+        ("packed16", InterpArg::Packed16),
+        ("half", InterpArg::Half),
+        ("quarter", InterpArg::Quarter),
+        ("lirp10", InterpArg::Lirp10),
+        ("lirp12", InterpArg::Lirp12),
+        ("lirp16", InterpArg::Lirp16),
+        ("lirp-packed", InterpArg::LirpPacked),
+        ("auto", InterpArg::Auto),
+        ("model", InterpArg::Model),
+    ] {
+        assert_eq!(render(&format!("--interp {name}")).method(), method);
+    }
+    for (name, quality) in [
+        ("fast", QualityArg::Fast),
+        ("balanced", QualityArg::Balanced),
+        ("exact", QualityArg::Exact),
+    ] {
+        let args = render(&format!("--quality {name}"));
+        assert_eq!(
+            (args.method(), args.quality),
+            (InterpArg::Auto, Some(quality))
+        );
+    }
+    assert!(words("render m.obj -o o.png --interp model --quality fast").is_err());
+    assert!(words("render m.obj -o o.png --interp model --cache 3").is_err());
+}
+
+#[test]
+fn bad_lines_are_refused_in_one_line() {
+    for flags in [
+        "--size 0x10",
+        "--size 10x0",
+        "--size 8193x1",
+        "--size 1x8193",
+        "--size 10",
+        "--size -1x5",
+        "--size ax5",
+        "--size 99999999999x1",
+        "--size 1x2x3",
+        "--eye 1,2",
+        "--eye 1,2,3,4",
+        "--eye nan,0,0",
+        "--eye inf,0,0",
+        "--eye 1e999,0,0",
+        "--eye 1e300,0,0",
+        "--eye",
+        "--eye --at 0,0,0",
+        "--eye 0,0,0",
+        "--at 0,0,3",
+        "--up 0,0,0",
+        "--up 0,0,-2",
+        "--up nan,0,0",
+        "--fov 0",
+        "--fov 180",
+        "--fov -10",
+        "--fov nan",
+        "--near 0",
+        "--near -1",
+        "--near 100",
+        "--far 0.1",
+        "--far inf",
+        "--far 0.05",
+        "--light 0,0,0",
+        "--light 1,1",
+        "--ambient -0.1",
+        "--ambient 1.1",
+        "--ambient x",
+        "--shade phong",
+        "--shade",
+        "--cull front",
+        "--format rgb666",
+        "--interp fast",
+        "--interp lirp",
+        "--interp",
+        "--quality best",
+        "--quality 1",
+        "--background 256,0,0",
+        "--background -1,0,0",
+        "--background 1,2",
+        "--background 1.5,0,0",
+        "--cache -1",
+        "--cache 4096",
+        "--renderers 0",
+        "--renderers 17",
+        "--prefetch -1",
+        "--unknown",
+        "--unknown 3",
+        "--texture a.png",
+        "--size 1x1 --size 2x2",
+        "extra",
+        "-o p.png",
+        "--stats o.png",
+        "--stats m.obj",
+    ] {
+        match words(&format!("render m.obj -o o.png {flags}")) {
+            Err(Stop::Refused(line)) => {
+                assert!(line.starts_with("error: "), "{flags}: {line}");
+                assert!(!line.contains('\n') && line.len() > 15, "{flags}: {line}");
+            }
+            other => panic!("{flags}: {other:?}"),
+        }
+    }
+    for line in [
+        "render",
+        "render m.obj",
+        "render -o o.png",
+        "render m.obj -o",
+        "render m.obj -o o.bmp",
+        "render m.obj -o o",
+        "render m.png -o m.png",
+        "paint",
+        "--unknown",
+        "demo --frames 0",
+        "demo --frames 1001",
+        "demo --frames -1",
+        "demo x",
+        "trace m.obj",
+        "trace --line 3",
+        "trace m.obj --line 240",
+        "trace m.obj --line -1",
+        "trace m.obj --line 65536",
+        "trace m.obj --line 3 --size 4x3",
+        "trace m.obj --line 3 --fov 0",
+        "trace m.obj --line 3 -o x.png",
+        "firmware --jsn",
+        "bake m.obj",
+        "bake m.stl -o m.list",
+        "bake m.obj -o m.obj",
+        "bake m.obj -o m.list --error 0",
+        "bake m.obj -o m.list --error nan",
+        "bake m.obj -o m.list --normals maybe",
+        "run-list m.list",
+        "run-list m.list -o m.list",
+        "run-list m.list -o m.png --print",
+        "run-list m.list -o m.png --budget -1",
+        "run-list m.list -o m.png --size 0x1",
+        "disassemble",
+        "disassemble m.list x",
+        "firmware x",
+        "--frames 3",
+    ] {
+        match words(line) {
+            Err(Stop::Refused(text)) => assert!(!text.contains('\n'), "{line}: {text}"),
+            other => panic!("{line}: {other:?}"),
+        }
+    }
+    let broken = parse(["scanbeam", "render", "a\nb.obj", "-o", "c\n\nd.bmp"]);
+    assert!(matches!(broken, Err(Stop::Refused(text)) if !text.contains('\n')));
+}
+
+#[test]
+fn refusals_say_what_is_wrong() {
+    let refusal = |flags: &str| match words(&format!("render m.obj -o o.png {flags}")) {
+        Err(Stop::Refused(line)) => line,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(
+        refusal("--size 0x4"),
+        "error: invalid value '0x4' for '--size <WxH>': WIDTHxHEIGHT is needed, each 1 to 8192"
+    );
+    assert_eq!(
+        refusal("--eye 0,0,0"),
+        "error: eye and at are the same place"
+    );
+    assert_eq!(
+        refusal("--up 0,0,5"),
+        "error: up is parallel to the view direction"
+    );
+    assert_eq!(refusal("--near 5 --far 5"), "error: near must be below far");
+    assert_eq!(
+        refusal("--texture x.png"),
+        "error: unexpected argument '--texture' found"
+    );
+    assert_eq!(
+        words("render"),
+        Err(Stop::Refused(
+            "error: the following required arguments were not provided: --output <OUT> <MODEL.obj>"
+                .into()
+        ))
+    );
+}
+
+#[test]
+fn help_is_text_not_a_refusal() {
+    for line in ["--help", "render --help", "--version", "help"] {
+        assert!(matches!(words(line), Err(Stop::Text(_))), "{line}");
+    }
+}

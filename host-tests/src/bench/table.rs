@@ -1,0 +1,143 @@
+//! The figures as a table for people, and as tables of the README between two markers.
+
+use super::Row;
+use crate::figures::gate::Record;
+use crate::firmware::BOARDS;
+use crate::image_out::write_atomically;
+use std::error::Error;
+use std::fmt::Write;
+use std::path::Path;
+
+/// What stands before and after the tables in the README.
+const MARKERS: [&str; 2] = [
+    "<!-- bench: written by `bench --markdown` -->",
+    "<!-- /bench -->",
+];
+
+/// Frames of the README, as the record and as people call them.
+const FRAMES: [(&str, &str); 5] = [
+    ("sphere", "A: sphere of 2,048 triangles"),
+    ("c_f2n", "C: 16 quads over the picture, far to near"),
+    ("c_n2f", "C: the same, near to far"),
+    ("teapot", "teapot, 2,256 triangles"),
+    ("cube", "cube, 12 triangles"),
+];
+
+/// For the terminal.
+pub(super) fn text(rows: &[Row]) -> String {
+    let mut out = format!(
+        "{:8} {:20} {:>14} {:>9} {:>10} {:>9} {:>9}\n",
+        "scene", "renderer", "instr/frame", "a pixel", "ms", "by clock", "by instr"
+    );
+    let some = |value: Option<f64>, digits: usize| {
+        value.map_or("-".to_owned(), |value| format!("{value:.digits$}"))
+    };
+    for row in rows {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            out,
+            "{:8} {:20} {:>14} {:>9} {:>10.3} {:>8.2}x {:>8}x",
+            row.scene,
+            row.renderer,
+            some(row.instructions, 0),
+            some(row.per_pixel(), 1),
+            row.wall_ms,
+            row.ratio,
+            some(row.instructions_ratio, 2)
+        );
+    }
+    out
+}
+
+/// Rewrites what stands between the markers of a file.
+pub(super) fn write(path: &Path, rows: &[Row]) -> Result<(), Box<dyn Error>> {
+    let text = std::fs::read_to_string(path)?;
+    let record = Record::read(&Record::path())?;
+    let new = between(&text, &markdown(rows, &record))?;
+    write_atomically(path, new.as_bytes())?;
+    Ok(())
+}
+
+/// The text with something else between its markers.
+fn between(text: &str, inner: &str) -> Result<String, String> {
+    let [open, close] = MARKERS;
+    let missing = || format!("there is no `{open}` followed by `{close}`");
+    let (before, rest) = text.split_once(open).ok_or_else(missing)?;
+    let (_, after) = rest.split_once(close).ok_or_else(missing)?;
+    Ok(format!("{before}{open}\n\n{inner}\n{close}{after}"))
+}
+
+fn markdown(rows: &[Row], record: &Record) -> String {
+    let millions =
+        |value: Option<f64>| value.map_or("-".to_owned(), |value| format!("{:.2}", value / 1e6));
+    let mut out = String::from(
+        "Million instructions a frame on a microcontroller, in QEMU, everything included:\n\n",
+    );
+    out += "| scene | Cortex-M4 | Cortex-M3 | M0+ code |\n| --- | ---: | ---: | ---: |\n";
+    for (frame, title) in FRAMES {
+        let of = |board: &str| millions(record.latest(board, &format!("frame {frame}")));
+        let cells: Vec<String> = BOARDS.iter().map(|board| of(board.name)).collect();
+        let _ = writeln!(out, "| {title} | {} |", cells.join(" | "));
+    }
+    out += "\nBeside other renderers in Rust, million instructions a frame on x86-64, and how many times as many instructions and as long as ours they take:\n\n";
+    out += "| scene | renderer | instructions | times ours | time, times ours |\n| --- | --- | ---: | ---: | ---: |\n";
+    for row in rows {
+        let Some((_, title)) = FRAMES.iter().find(|(frame, _)| *frame == row.scene) else {
+            continue;
+        };
+        if rows.iter().filter(|other| other.scene == row.scene).count() < 2 {
+            continue;
+        }
+        let _ = writeln!(
+            out,
+            "| {title} | {} | {} | {} | {:.1} |",
+            row.renderer,
+            millions(row.instructions),
+            row.instructions_ratio
+                .map_or("-".to_owned(), |ratio| format!("{ratio:.1}")),
+            row.ratio
+        );
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(renderer: &'static str, instructions: f64) -> Row {
+        Row {
+            scene: "sphere",
+            renderer,
+            instructions: Some(instructions),
+            pixels: 100,
+            wall_ms: 1.0,
+            ratio: 2.5,
+            instructions_ratio: Some(2.0),
+        }
+    }
+
+    #[test]
+    fn tables_replace_what_is_between_the_markers() {
+        let [open, close] = MARKERS;
+        let rows = [row("scanbeam", 1.5e6), row("other", 3e6)];
+        let inner = markdown(&rows, &Record::default());
+        let text = format!("a\n{open}\nold\n{close}\nb\n");
+        let new = between(&text, &inner).unwrap();
+        assert!(new.starts_with("a\n") && new.ends_with("\nb\n") && !new.contains("old"));
+        assert!(new.contains("| other | 3.00 | 2.0 | 2.5 |"), "{new}");
+        assert_eq!(between(&new, &inner).unwrap(), new);
+        assert!(between("nothing", &inner).is_err());
+        let readme = include_str!("../../../README.md");
+        assert!(between(readme, &inner).is_ok());
+    }
+
+    #[test]
+    fn figures_stand_in_the_table() {
+        let text = text(&[row("scanbeam", 1.5e6)]);
+        assert!(
+            text.contains("1500000") && text.contains("15000.0"),
+            "{text}"
+        );
+    }
+}

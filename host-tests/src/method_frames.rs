@@ -1,0 +1,86 @@
+//! The small frame of each interpolation method, as this machine draws it.
+
+use crate::crew::LineRooms;
+use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::scan_out::Pump;
+use scanbeam::{
+    GouraudDepth, Interpolated, Interpolation, Link, ObjectOf, Quality, Rgb565Be, Scene,
+    SceneMemory, VertexOf, draw_frame,
+};
+use scenes::{
+    DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
+};
+use std::error::Error;
+
+/// Vertices and objects that suffice.
+const ROOM: usize = 256;
+
+/// A frame's words, once it is drawn.
+#[derive(Default)]
+struct Words(Option<Result<Vec<u16>, Box<dyn Error>>>);
+
+impl DrawsMethod for Words {
+    fn draw<I: Interpolation>(&mut self, quality: Quality) {
+        self.0 = Some(words::<I>(quality));
+    }
+}
+
+fn words<I: Interpolation>(quality: Quality) -> Result<Vec<u16>, Box<dyn Error>> {
+    type By<I> = Interpolated<GouraudDepth<Rgb565Be>, I>;
+    let mut vertices = vec![VertexOf::<By<I>>::empty(); ROOM];
+    let mut objects = vec![ObjectOf::<By<I>>::default(); ROOM];
+    let mut buckets = vec![Link::NONE; usize::from(METHOD_HEIGHT)];
+    let mut scene = Scene::<By<I>>::new(
+        method_screen(),
+        SceneMemory {
+            vertices: &mut vertices,
+            objects: &mut objects,
+            buckets: &mut buckets,
+        },
+    );
+    build_method(&mut scene).map_err(|error| format!("{error:?}"))?;
+    let mut rooms = LineRooms::<By<I>>::new(64, ROOM, METHOD_WIDTH);
+    let mut renderer = rooms.renderer();
+    renderer.set_quality(quality);
+    let words = usize::from(METHOD_WIDTH);
+    let sink = MockFrameBuffer::new(METHOD_WIDTH, METHOD_HEIGHT);
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    draw_frame(&scene, &mut renderer, &mut pump, 0, 1)?;
+    Ok(pump.sink().frame()?)
+}
+
+/// The name of a frame and its words.
+pub type MethodFrame = (&'static str, Vec<u16>);
+
+/// The words of all frames, by name.
+///
+/// # Errors
+/// When a frame does not fit the memory that it is lent.
+pub fn method_frames() -> Result<Vec<MethodFrame>, Box<dyn Error>> {
+    let drawn = METHODS.into_iter().enumerate().map(|(index, name)| {
+        let mut words = Words::default();
+        by_method(index, &mut words);
+        let words = words.0.ok_or("nothing was drawn")?;
+        Ok((name, words?))
+    });
+    drawn.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    /// A frame that does not tell methods apart compares nothing.
+    #[test]
+    fn the_frame_tells_methods_apart() {
+        let frames = method_frames().unwrap();
+        for (name, words) in &frames {
+            let colours: BTreeSet<u16> = words.iter().copied().collect();
+            assert!(colours.len() > 200, "{name}: {}", colours.len());
+        }
+        let different: BTreeSet<&Vec<u16>> = frames.iter().map(|(_, words)| words).collect();
+        // Wide LIRP, and exact planes however they are chosen, may agree.
+        assert!(different.len() >= 8, "{}", different.len());
+    }
+}

@@ -1,0 +1,270 @@
+//! Pictures as textures: PNG and PPM of any size, and those that a model's materials name.
+//!
+//! Sides must be powers of two up to 1024 (H4), so another picture is resized to the next power
+//! of two, and a note says so. Growing is linear between pixels, shrinking averages what falls on
+//! a pixel; both in `f64`, once, on the host. Rows are those of the picture, from its top: the
+//! place (0, 0) of OBJ, the lower left corner, is the last row.
+
+use crate::image_out::{Frame, ImageError, read_image};
+use crate::model::Model;
+use scanbeam::texture::{
+    LEVELS, MAX_SIDE, Rgba8871, Size, Texel, TexelFormat, TextureError, build_level,
+};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+/// Why a picture cannot be a texture.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum TextureFileError {
+    /// The file cannot be read, or is no picture.
+    #[error("texture {0}")]
+    Image(#[from] ImageError),
+    /// The core refuses it.
+    #[error("{}: {error}", file.display())]
+    Texture {
+        /// The picture.
+        file: PathBuf,
+        /// What the core said.
+        error: TextureError,
+    },
+}
+
+/// A texture in host memory, with its levels of detail.
+#[derive(Debug, Clone, PartialEq)]
+pub struct TextureImage {
+    /// The sides, powers of two.
+    pub size: Size,
+    /// Texels of each level, rows from the top: the picture, then three averages.
+    pub levels: [Vec<u32>; LEVELS],
+    /// What was done to the picture, for the user.
+    pub note: Option<String>,
+}
+
+impl TextureImage {
+    /// Reads a picture and makes a texture of it.
+    ///
+    /// # Errors
+    /// When the file cannot be read or is no PNG or PPM.
+    pub fn load(path: &Path) -> Result<Self, TextureFileError> {
+        let frame = read_image(path)?;
+        let mut made = Self::new(&frame).map_err(|error| TextureFileError::Texture {
+            file: path.to_path_buf(),
+            error,
+        })?;
+        if let Some(note) = &mut made.note {
+            *note = format!("{}: {note}", path.display());
+        }
+        Ok(made)
+    }
+
+    /// Makes a texture of a picture of any size.
+    ///
+    /// # Errors
+    /// None for a legal picture.
+    pub fn new(frame: &Frame) -> Result<Self, TextureError> {
+        let side = |n: u32| n.next_power_of_two().min(MAX_SIDE);
+        let (width, height) = (side(frame.width()), side(frame.height()));
+        let size = Size::new(width, height)?;
+        let note = ((width, height) != (frame.width(), frame.height())).then(|| {
+            format!(
+                "resized from {}x{} to {width}x{height}: sides of textures are powers of two up to {MAX_SIDE}",
+                frame.width(),
+                frame.height()
+            )
+        });
+        let across = resampling(frame.width(), width);
+        let down = resampling(frame.height(), height);
+        let pixel = |x: usize, y: usize| {
+            frame
+                .pixel(x as u32, y as u32)
+                .unwrap_or_default()
+                .map(f64::from)
+        };
+        let mut full = Vec::with_capacity(size.texels());
+        for rows in &down {
+            for columns in &across {
+                let mut sum = [0.0; 3];
+                for (y, dy) in rows {
+                    for (x, dx) in columns {
+                        for (sum, level) in sum.iter_mut().zip(pixel(*x, *y)) {
+                            *sum += level * dx * dy;
+                        }
+                    }
+                }
+                full.push(Rgba8871::pack(Texel {
+                    rgb: sum.map(|level| (level + 0.5) as u8),
+                    alpha: 127,
+                    undithered: false,
+                }));
+            }
+        }
+        let mut levels = [full, Vec::new(), Vec::new(), Vec::new()];
+        for level in 1..LEVELS {
+            let from = size.level(level as u32 - 1);
+            let mut words = vec![0; size.level(level as u32).texels()];
+            let above = &levels[level - 1];
+            build_level::<Rgba8871>(from, |i| Rgba8871::expand(above[i]), &mut words)?;
+            levels[level] = words;
+        }
+        Ok(Self { size, levels, note })
+    }
+
+    /// Texels with 8 fraction bits from a place of OBJ: (0, 0) at the lower left, 1 a side.
+    #[must_use]
+    pub fn texels(&self, [u, v]: [f64; 2]) -> (i32, i32) {
+        let fix = |part: f64, side: u32| (part * f64::from(side) * 256.0).round() as i32;
+        (fix(u, self.size.width()), fix(1.0 - v, self.size.height()))
+    }
+}
+
+/// For each of `to` places, which of `from` places count, and by how much; the parts add up to 1.
+fn resampling(from: u32, to: u32) -> Vec<Vec<(usize, f64)>> {
+    let scale = f64::from(from) / f64::from(to);
+    let last = from as usize - 1;
+    (0..to)
+        .map(|place| {
+            let place = f64::from(place);
+            if scale > 1.0 {
+                // What falls on the place.
+                let (low, high) = (place * scale, (place + 1.0) * scale);
+                (low as usize..=(high.ceil() as usize - 1).min(last))
+                    .map(|i| {
+                        let part = (high.min(i as f64 + 1.0) - low.max(i as f64)) / scale;
+                        (i, part)
+                    })
+                    .collect()
+            } else {
+                let at = ((place + 0.5) * scale - 0.5).max(0.0);
+                let low = (at as usize).min(last);
+                let part = at - low as f64;
+                vec![(low, 1.0 - part), ((low + 1).min(last), part)]
+            }
+        })
+        .collect()
+}
+
+/// The textures that a model's materials name: one for each material, each file read once.
+///
+/// # Errors
+/// The first picture that cannot be read.
+pub fn of_materials(model: &Model) -> Result<Vec<Option<TextureImage>>, TextureFileError> {
+    let mut read: BTreeMap<&Path, TextureImage> = BTreeMap::new();
+    let mut textures = Vec::new();
+    for material in &model.materials {
+        let Some(path) = &material.map_kd else {
+            textures.push(None);
+            continue;
+        };
+        if !read.contains_key(path.as_path()) {
+            read.insert(path, TextureImage::load(path)?);
+        }
+        textures.push(read.get(path.as_path()).cloned());
+    }
+    Ok(textures)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image_out::write_image;
+
+    fn frame(width: u32, height: u32) -> Frame {
+        let rgb = (0..height)
+            .flat_map(|y| (0..width).flat_map(move |x| [x as u8, y as u8, (x * y) as u8]))
+            .collect();
+        Frame::new(width, height, rgb).expect("the size is legal")
+    }
+
+    fn rgb(word: u32) -> [u8; 3] {
+        Rgba8871::expand(word).rgb
+    }
+
+    #[test]
+    fn powers_of_two_are_taken_as_they_are() {
+        let frame = frame(64, 16);
+        let made = TextureImage::new(&frame).expect("it is a picture");
+        assert_eq!(made.note, None);
+        for y in 0..16 {
+            for x in 0..64 {
+                let texel = rgb(made.levels[0][(y * 64 + x) as usize]);
+                assert_eq!(Some(texel), frame.pixel(x, y));
+            }
+        }
+        assert_eq!(made.levels.each_ref().map(Vec::len), [1024, 256, 64, 16]);
+        assert_eq!(made.texels([0.0, 1.0]), (0, 0));
+        assert_eq!(made.texels([0.5, 0.25]), (32 << 8, 12 << 8));
+    }
+
+    #[test]
+    fn other_sizes_grow_to_the_next_and_say_so() {
+        let made = TextureImage::new(&frame(100, 33)).expect("it is a picture");
+        assert_eq!((made.size.width(), made.size.height()), (128, 64));
+        let note = made.note.expect("it was resized");
+        assert!(note.contains("100x33") && note.contains("128x64"), "{note}");
+        // A ramp stays a ramp, within the rounding.
+        for x in 2..126u32 {
+            let want = ((f64::from(x) + 0.5) * 100.0 / 128.0 - 0.5).clamp(0.0, 99.0);
+            let got = rgb(made.levels[0][(20 * 128 + x) as usize])[0];
+            assert!((f64::from(got) - want).abs() <= 0.51, "{x}: {got}, {want}");
+        }
+    }
+
+    #[test]
+    fn too_large_ones_are_averaged() {
+        let wide = Frame::new(
+            4096,
+            1,
+            (0..4096 * 3).map(|i| (i / 3 % 4 * 80) as u8).collect(),
+        );
+        let made = TextureImage::new(&wide.expect("it is legal")).expect("it is a picture");
+        assert_eq!((made.size.width(), made.size.height()), (1024, 1));
+        assert!(made.levels[0].iter().all(|w| rgb(*w) == [120; 3]));
+        let sum = |from, to| {
+            resampling(from, to)
+                .iter()
+                .map(|parts| parts.iter().map(|part| part.1).sum::<f64>())
+                .all(|sum| (sum - 1.0).abs() < 1e-9)
+        };
+        assert!(sum(1500, 1024) && sum(7, 8) && sum(1, 1) && sum(8191, 1024));
+    }
+
+    #[test]
+    fn missing_and_broken_files_are_named_in_one_line() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let missing = folder.path().join("no.png");
+        let broken = folder.path().join("broken.png");
+        std::fs::write(&broken, b"not a picture").expect("there is room");
+        let strange = folder.path().join("picture.gif");
+        for path in [&missing, &broken, &strange] {
+            let error = TextureImage::load(path)
+                .expect_err("no picture")
+                .to_string();
+            assert!(
+                error.contains(path.to_str().expect("it is UTF-8")),
+                "{error}"
+            );
+            assert_eq!(error.lines().count(), 1, "{error}");
+        }
+    }
+
+    #[test]
+    fn materials_bring_their_pictures() {
+        let folder = tempfile::tempdir().expect("there is room");
+        let at = |name: &str| folder.path().join(name);
+        write_image(&at("a b.png"), &frame(20, 8)).expect("there is room");
+        let mtl = "newmtl one\nmap_Kd a b.png\nnewmtl plain\nnewmtl two\nmap_Kd a b.png\n";
+        std::fs::write(at("m.mtl"), mtl).expect("there is room");
+        let obj = "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl one\nf 1 2 3\n";
+        std::fs::write(at("m.obj"), obj).expect("there is room");
+        let model = Model::load(&at("m.obj")).expect("it is a model");
+        let textures = of_materials(&model).expect("the picture is there");
+        assert_eq!(textures.len(), 3);
+        assert_eq!(textures[1], None);
+        let size = textures[0].as_ref().expect("it has one").size;
+        assert_eq!((size.width(), size.height()), (32, 8));
+        assert_eq!(textures[0], textures[2]);
+        std::fs::remove_file(at("a b.png")).expect("it is there");
+        let error = of_materials(&model).expect_err("it is gone").to_string();
+        assert!(error.contains("a b.png"), "{error}");
+    }
+}

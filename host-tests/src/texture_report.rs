@@ -1,0 +1,468 @@
+//! Texture memory and depth formats, counted: blocks against rows, and how far depth tells apart.
+//!
+//! | figure | rows |
+//! |---|---|
+//! | page changes and texel re-reads of a texture in blocks and in rows | B1, B5 |
+//! | page changes of triangles in a frame buffer of blocks, by strips and by lines | B1, B6 |
+//! | the bits of distance that a depth format tells apart | H2 |
+//!
+//! Access is modelled, not timed: a page (1 KB, as of a DRAM) changes when an access is to another
+//! one than the access before; a small cache holds lines of 32 bytes.
+
+use crate::image_out::{ImageError, write_atomically, write_image};
+use crate::plot::{Chart, Series};
+use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
+use scanbeam::BlockFix16;
+use scanbeam::model::{Cluster, Grid, Traversal};
+use scanbeam::texture::{
+    BlockCache, Blocked, CacheReads, Homogeneous, Layout, Linear, PerspectiveSpan, Size, Stride,
+    Texels, Texture, Uv, Words, Wrap,
+};
+use std::collections::BTreeSet;
+use std::path::Path;
+
+/// Bytes of a page.
+pub const PAGE: usize = 1024;
+/// Bytes of a line of the cache.
+pub const LINE: usize = 32;
+/// Lines of the cache: 1 KB.
+const LINES: usize = 32;
+/// Texels a side, 16 bits each.
+const SIDE: u32 = 256;
+const TEXEL: usize = 2;
+const WIDTH: usize = 320;
+const HEIGHT: usize = 240;
+
+/// What is looked at: the texel at each pixel that shows the texture, in the order of scanning.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum View {
+    /// A sphere that fills the picture's height, by latitude and longitude.
+    Sphere,
+    /// A plane that goes to the horizon, seen at a grazing angle.
+    Ground,
+    /// A square of one texel a pixel, turned by 90 degrees.
+    Quarter,
+    /// The same, turned by 30 degrees.
+    Turned,
+    /// The same, upright: what rows are best at.
+    Upright,
+}
+
+/// All of them, with names.
+pub const VIEWS: [(&str, View); 5] = [
+    ("sphere", View::Sphere),
+    ("ground plane", View::Ground),
+    ("quad, 90 degrees", View::Quarter),
+    ("quad, 30 degrees", View::Turned),
+    ("quad, upright", View::Upright),
+];
+
+impl View {
+    /// The texel places of all pixels in order, each line from the left.
+    fn places(self) -> Vec<Uv> {
+        match self {
+            Self::Sphere => sphere(),
+            Self::Ground => (0..HEIGHT / 2).flat_map(ground).collect(),
+            Self::Quarter => quad(90.0),
+            Self::Turned => quad(30.0),
+            Self::Upright => quad(0.0),
+        }
+    }
+}
+
+/// A texture whose texel is its place.
+struct Places;
+
+impl Texels for Places {
+    type Texel = Uv;
+
+    fn at(&self, place: Uv) -> Uv {
+        place
+    }
+}
+
+/// A place from texels.
+fn uv(u: f64, v: f64) -> Uv {
+    let fix = |x: f64| ((x * f64::from(1 << scanbeam::texture::FRACTION)) as i64) as i32;
+    Uv {
+        u: fix(u),
+        v: fix(v),
+    }
+}
+
+fn sphere() -> Vec<Uv> {
+    let mut places = Vec::new();
+    let radius = HEIGHT as f64 / 2.0;
+    for line in 0..HEIGHT {
+        for column in 0..WIDTH {
+            let x = (column as f64 + 0.5 - WIDTH as f64 / 2.0) / radius;
+            let y = (line as f64 + 0.5 - radius) / radius;
+            let z2 = 1.0 - x * x - y * y;
+            if z2 > 0.0 {
+                let turn = std::f64::consts::PI;
+                let longitude = x.atan2(z2.sqrt()) / turn;
+                let latitude = y.asin() / turn;
+                // Tilted, so that neither runs along the lines.
+                let (u, v) = (longitude + 0.4 * latitude, latitude - 0.4 * longitude);
+                places.push(uv(u * f64::from(SIDE), v * f64::from(SIDE)));
+            }
+        }
+    }
+    places
+}
+
+/// A line of a plane, from the horizon down, turned by some 30 degrees against the picture.
+fn ground(line: usize) -> Vec<Uv> {
+    let q = (line as f64 + 1.0) / (HEIGHT as f64 / 2.0);
+    let over = |texel: f64| (texel * q * 2f64.powi(30) / 1024.0) as i32;
+    // Far away a line shows 1024 texels at most.
+    let wide = (150.0 / q).min(1000.0);
+    let (u, v) = (wide * 0.87, wide * 0.5);
+    let (depth_u, depth_v) = (0.5 * 300.0 / (q + 0.3), 0.87 * 300.0 / (q + 0.3));
+    let span = PerspectiveSpan {
+        at: Homogeneous {
+            q: (q * 2f64.powi(30)) as i32,
+            s: over(depth_u),
+            t: over(depth_v),
+        },
+        step: Homogeneous {
+            q: 0,
+            s: over(u / WIDTH as f64),
+            t: over(v / WIDTH as f64),
+        },
+    };
+    let mut places = vec![Uv::default(); WIDTH];
+    span.draw(Stride::One, &Places, &mut places, |pixel, place| {
+        *pixel = place;
+    });
+    places
+}
+
+/// A square of the texture's size about the middle of the picture, turned by so many degrees.
+fn quad(degrees: f64) -> Vec<Uv> {
+    let (sin, cos) = degrees.to_radians().sin_cos();
+    let mut places = Vec::new();
+    for line in 0..HEIGHT {
+        for column in 0..WIDTH {
+            let x = column as f64 + 0.5 - WIDTH as f64 / 2.0;
+            let y = line as f64 + 0.5 - HEIGHT as f64 / 2.0;
+            let half = f64::from(SIDE) / 2.0;
+            let (u, v) = (x * cos - y * sin + half, x * sin + y * cos + half);
+            if (0.0..2.0 * half).contains(&u) && (0.0..2.0 * half).contains(&v) {
+                places.push(uv(u, v));
+            }
+        }
+    }
+    places
+}
+
+/// What a layout costs in a view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Access {
+    /// Texels that were asked for.
+    pub fetches: usize,
+    /// Accesses to another page than the one before, without a cache.
+    pub page_changes: usize,
+    /// Lines of the cache that were filled from slow memory.
+    pub fills: usize,
+    /// Texels read from slow memory that had been read before.
+    pub re_reads: usize,
+}
+
+/// Counts a view's accesses in a layout: pages and lines of the cache lie as the layout says.
+fn count<L: Layout>(view: View, pages: L, lines: L) -> Access {
+    let size = Size::new(SIDE, SIDE).expect("the side is legal");
+    let words: Vec<u16> = vec![0; size.texels()];
+    let texture = Texture::<_, Wrap, L>::arranged(Words(&words), size, pages);
+    let texture = texture.expect("it has its texels");
+    let mut access = Access {
+        fetches: 0,
+        page_changes: 0,
+        fills: 0,
+        re_reads: 0,
+    };
+    let mut page = usize::MAX;
+    let per_line = LINE / TEXEL;
+    let (mut tags, mut texels) = (vec![0; LINES], vec![0; LINES * per_line]);
+    let mut reads = CacheReads::default();
+    let cache = BlockCache::new(Words(&words), per_line, &mut tags, &mut texels, &mut reads)
+        .expect("it is as large as it says");
+    let cached = Texture::<_, Wrap, L>::arranged(cache, size, lines).expect("it has its texels");
+    let mut touched = BTreeSet::new();
+    for place in view.places() {
+        let index = texture.index(place.texel());
+        let now = index * TEXEL / PAGE;
+        access.page_changes += usize::from(now != page);
+        page = now;
+        access.fetches += 1;
+        touched.insert(cached.index(place.texel()) / per_line);
+        let _: u16 = cached.at(place);
+    }
+    access.fills = cache.reads().misses as usize;
+    access.re_reads = (access.fills - touched.len()) * per_line;
+    access
+}
+
+/// A view in rows and in blocks.
+#[must_use]
+pub fn compare(view: View) -> [Access; 2] {
+    [
+        count(view, Linear, Linear),
+        count(
+            view,
+            Blocked::of_page(PAGE, 8 * TEXEL),
+            Blocked::of_page(LINE, 8 * TEXEL),
+        ),
+    ]
+}
+
+/// All views as a table.
+#[must_use]
+pub fn texture_table() -> Table {
+    let mut table = Table::new();
+    table.load_preset(UTF8_FULL_CONDENSED);
+    table.set_header([
+        "view",
+        "layout",
+        "texels",
+        "page changes",
+        "cache fills",
+        "texels re-read",
+    ]);
+    for (name, view) in VIEWS {
+        for (layout, access) in ["rows", "blocks"].into_iter().zip(compare(view)) {
+            table.add_row([
+                name.to_owned(),
+                layout.to_owned(),
+                access.fetches.to_string(),
+                access.page_changes.to_string(),
+                access.fills.to_string(),
+                access.re_reads.to_string(),
+            ]);
+        }
+    }
+    for column in table.column_iter_mut().skip(2) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table
+}
+
+/// A frame buffer in blocks, each a page; it refuses a pixel that is written twice.
+#[derive(Debug)]
+pub struct BlockFrame {
+    /// Pixels of a block, to the right and down.
+    block: (i32, i32),
+    width: i32,
+    written: Vec<bool>,
+    page: Option<(i32, i32)>,
+    /// How often the page changed.
+    pub page_changes: u32,
+}
+
+impl BlockFrame {
+    /// An empty one of so many pixels, in blocks.
+    #[must_use]
+    pub fn new((width, height): (u32, u32), block: (i32, i32)) -> Self {
+        Self {
+            block,
+            width: width as i32,
+            written: vec![false; (width * height) as usize],
+            page: None,
+            page_changes: 0,
+        }
+    }
+
+    /// Writes a pixel.
+    ///
+    /// # Panics
+    /// When it was written before, or lies outside.
+    pub fn write(&mut self, (column, line): (i32, i32)) {
+        let at = (line * self.width + column) as usize;
+        assert!(
+            !std::mem::replace(&mut self.written[at], true),
+            "({column}, {line}) is written twice"
+        );
+        let page = (
+            column.div_euclid(self.block.0),
+            line.div_euclid(self.block.1),
+        );
+        self.page_changes += u32::from(self.page != Some(page));
+        self.page = Some(page);
+    }
+
+    /// Which pixels have been written, row by row.
+    #[must_use]
+    pub fn written(&self) -> &[bool] {
+        &self.written
+    }
+}
+
+/// Page changes of one triangle: in strips into blocks, line by line into blocks, line by line
+/// into rows. A page has as many pixels in all three.
+#[must_use]
+pub fn triangle_pages(corners: [(u16, u16); 3], size: (u32, u32), block: (i32, i32)) -> [u32; 3] {
+    let grid = Grid::new((4, 2), block.0 as u16).expect("blocks have whole clusters");
+    let mut by_strips = BlockFrame::new(size, block);
+    for pixel in Traversal::new(corners, grid).flat_map(Cluster::pixels) {
+        by_strips.write(pixel);
+    }
+    // The same pixels in the order of lines.
+    let mut by_lines = BlockFrame::new(size, block);
+    let mut in_rows = BlockFrame::new(size, (block.0 * block.1, 1));
+    let width = size.0 as usize;
+    for (at, written) in by_strips.written().iter().enumerate() {
+        if *written {
+            let pixel = ((at % width) as i32, (at / width) as i32);
+            by_lines.write(pixel);
+            in_rows.write(pixel);
+        }
+    }
+    [by_strips, by_lines, in_rows].map(|frame| frame.page_changes)
+}
+
+/// Writes the plot of [`depth_resolution`] into a folder, as SVG and PNG.
+///
+/// # Errors
+/// When a file cannot be written.
+pub fn write_plots(folder: &Path) -> Result<(), ImageError> {
+    let plot = depth_resolution();
+    write_atomically(&folder.join("depth.svg"), plot.to_svg().as_bytes())?;
+    write_image(&folder.join("depth.png"), &plot.to_frame())
+}
+
+/// Bits of distance that depth formats tell apart: `-log2` of the smallest relative difference,
+/// at distances from 1 (the near plane) to 2^12.
+#[must_use]
+pub fn depth_resolution() -> Chart {
+    const STEPS: u32 = 4;
+    let distances: Vec<f64> = (0..=12 * STEPS)
+        .map(|i| 2f64.powf(f64::from(i) / f64::from(STEPS)) * 1.01)
+        .collect();
+    let depth = |w: f64| (2f64.powi(31) / w) as u32;
+    // A step of 1/w by `step` is one of w by `step w²`.
+    let bits = |w: f64, step: f64| (-(step * w).log2()).max(0.0);
+    let series = |name: &str, step: &dyn Fn(f64) -> f64| Series {
+        name: name.to_owned(),
+        values: distances.iter().map(|w| bits(*w, step(*w))).collect(),
+    };
+    Chart {
+        title: "Distance told apart by depth formats, near plane at 1".into(),
+        x: (0..=12 * STEPS)
+            .map(|i| match i % STEPS {
+                0 => format!("{}", 1u32 << (i / STEPS)),
+                _ => String::new(),
+            })
+            .collect(),
+        x_name: "distance w".into(),
+        y_name: "bits".into(),
+        series: vec![
+            series("block-fix 16", &|w| {
+                // To the next code of the same range.
+                let range = BlockFix16::range_of(depth(w));
+                let code = BlockFix16::new(depth(w), range);
+                let next = BlockFix16::from_bits(code.to_bits() ^ 1);
+                f64::from(code.to_depth().abs_diff(next.to_depth())) / 2f64.powi(31)
+            }),
+            series("16-bit fixed 1/w", &|_| 2f64.powi(-16)),
+            series("32-bit 1/w", &|_| 2f64.powi(-31)),
+        ],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn blocks_change_pages_less() {
+        println!("{}", texture_table());
+        for (name, view) in VIEWS {
+            let [rows, blocks] = compare(view);
+            assert_eq!(rows.fetches, blocks.fetches);
+            assert!(rows.fetches > 20_000, "{name}: {rows:?}");
+            if view == View::Quarter || view == View::Turned {
+                assert!(rows.page_changes >= 3 * blocks.page_changes, "{name}");
+                assert!(rows.re_reads > blocks.re_reads, "{name}");
+            }
+            if view == View::Sphere || view == View::Ground {
+                assert!(rows.page_changes > blocks.page_changes, "{name}");
+                assert!(rows.re_reads > blocks.re_reads, "{name}");
+            }
+        }
+    }
+
+    #[test]
+    fn strips_change_pages_less_than_lines() {
+        let mut state = 1u64;
+        let mut below = |n: u64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (((state >> 33) * n) >> 31) as u16
+        };
+        for (size, block) in [
+            (16, (32, 16)),
+            (64, (32, 16)),
+            (200, (32, 16)),
+            (200, (8, 8)),
+        ] {
+            let mut sums = [0u64; 3];
+            let count = 300;
+            for _ in 0..count {
+                let base = (below(8 * (320 - size)), below(8 * (240 - size.min(239))));
+                let corners =
+                    [(); 3].map(|()| (base.0 + below(8 * size), base.1 + below(8 * size)));
+                let pages = triangle_pages(corners, (320, 240), block);
+                for (sum, pages) in sums.iter_mut().zip(pages) {
+                    *sum += u64::from(pages);
+                }
+            }
+            let mean = sums.map(|sum| sum as f64 / f64::from(count));
+            println!(
+                "triangles in boxes of {size} pixels, pages of {}x{}: {:.2} page changes by strips, \
+                 {:.2} by lines, {:.2} by lines into rows",
+                block.0, block.1, mean[0], mean[1], mean[2]
+            );
+            assert!(sums[0] < sums[1] && sums[0] < sums[2], "{mean:?}");
+        }
+    }
+
+    #[test]
+    #[should_panic(expected = "written twice")]
+    fn a_pixel_is_written_once() {
+        let mut frame = BlockFrame::new((4, 4), (2, 2));
+        frame.write((1, 1));
+        frame.write((1, 1));
+    }
+
+    /// Block-fix falls and rises again at each range, and is above 16 bits of 1/w from the second
+    /// range on, where it has one bit more, then four, then seven.
+    #[test]
+    fn depth_resolution_is_that_of_the_ranges() {
+        let chart = depth_resolution();
+        let [fix, fixed, wide] = &chart.series[..] else {
+            panic!("three formats");
+        };
+        for (i, w) in (0..=12 * 4).map(|i| (i as usize, 2f64.powf(f64::from(i) / 4.0) * 1.01)) {
+            let range = ((w.log2() / 3.0) as u32).min(3);
+            // From the definition: 14 bits of significand at a scale of 2^(-3 e).
+            let want = (14.0 + 3.0 * f64::from(range) - w.log2()).max(0.0);
+            assert!(
+                (fix.values[i] - want).abs() < 1e-9,
+                "{w}: {}",
+                fix.values[i]
+            );
+            assert!((fixed.values[i] - (16.0 - w.log2()).max(0.0)).abs() < 1e-9);
+            assert!(wide.values[i] > fix.values[i]);
+            if range > 0 {
+                assert!(fix.values[i] > fixed.values[i]);
+            }
+        }
+        let folder = tempfile::tempdir().expect("there is room");
+        write_plots(folder.path()).expect("there is room");
+        let svg = std::fs::read_to_string(folder.path().join("depth.svg")).expect("it is there");
+        assert!(svg.contains("block-fix 16"));
+        let plot = crate::image_out::read_image(&folder.path().join("depth.png"));
+        assert_eq!(plot.expect("it is there"), chart.to_frame());
+    }
+}

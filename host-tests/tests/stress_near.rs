@@ -1,0 +1,353 @@
+//! M3, K1: triangles through the near plane at any angle, against a clip in f64 that shares no
+//! arithmetic with the crate. The bounds are in the table of `stress_shapes.rs`; derived:
+//!
+//! - A corner on the screen is rounded to 1/16 pixel each way, 0.0884 pixels across. Clip
+//!   coordinates are multiples of 2^-26 of the model's scale s and err by 4 of these (three
+//!   products, the offset or the cut), which the near plane at n magnifies: together
+//!   `0.0884 + 2^-24 s / n (f + 4096)` pixels, f the focal length. That is 1/8 for s / n of 128 at
+//!   f = 300; models of 65,536 and a near plane at 1/32 are tried too.
+//! - Colour is linear on the screen over each piece of the clipped polygon's fan. The corners'
+//!   way may move it by that much of its steepest slope; then half a level of rounding and half
+//!   for fields and planes.
+//! - 1/w likewise, with 2^-18 for its plane and `2^-24 s / n` for its corners.
+//! - That an edge stays closed has no tolerance.
+
+mod common;
+
+use common::{LineRooms, Rng, SceneRooms, line};
+use scanbeam::{Affine, Camera, Cull, Faces, GouraudDepth, Instance, Mesh, Rgb888, Scene, Screen};
+
+type P = GouraudDepth<Rgb888>;
+
+const WIDTH: u16 = 48;
+const HEIGHT: u16 = 36;
+
+/// A corner in the camera's space: x right, y down, z ahead; and its colour.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    place: [f64; 3],
+    colour: [f64; 3],
+}
+
+/// The part of a convex polygon that is at least `near` ahead, cut corner by corner in order.
+fn clip(polygon: &[Corner], near: f64) -> Vec<Corner> {
+    let mut kept = Vec::new();
+    for (i, a) in polygon.iter().enumerate() {
+        let b = &polygon[(i + 1) % polygon.len()];
+        let (da, db) = (a.place[2] - near, b.place[2] - near);
+        if da >= 0.0 {
+            kept.push(*a);
+        }
+        if (da < 0.0) != (db < 0.0) {
+            let t = da / (da - db);
+            let mix = |a: [f64; 3], b: [f64; 3]| [0, 1, 2].map(|i| a[i] + (b[i] - a[i]) * t);
+            kept.push(Corner {
+                place: mix(a.place, b.place),
+                colour: mix(a.colour, b.colour),
+            });
+        }
+    }
+    kept
+}
+
+/// A corner on the screen: pixels, 1/w, colour.
+#[derive(Clone, Copy, Debug)]
+struct Seen {
+    x: f64,
+    y: f64,
+    /// `near / z`, then red, green and blue.
+    value: [f64; 4],
+}
+
+fn project(corner: &Corner, focal: f64, near: f64) -> Seen {
+    let [x, y, z] = corner.place;
+    let [r, g, b] = corner.colour;
+    Seen {
+        x: f64::from(WIDTH) / 2.0 + focal * x / z,
+        y: f64::from(HEIGHT) / 2.0 + focal * y / z,
+        value: [near / z, r, g, b],
+    }
+}
+
+fn cross(a: &Seen, b: &Seen, x: f64, y: f64) -> f64 {
+    (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x)
+}
+
+/// How far a point lies inside a convex polygon (negative: outside), in pixels.
+fn inside(polygon: &[Seen], x: f64, y: f64) -> f64 {
+    if polygon.len() < 3 {
+        return f64::NEG_INFINITY;
+    }
+    let area: f64 = (1..polygon.len() - 1)
+        .map(|i| cross(&polygon[0], &polygon[i], polygon[i + 1].x, polygon[i + 1].y))
+        .sum();
+    let (mut within, mut nearest) = (true, f64::INFINITY);
+    for (i, a) in polygon.iter().enumerate() {
+        let b = &polygon[(i + 1) % polygon.len()];
+        within &= cross(a, b, x, y) * area > 0.0;
+        let (dx, dy) = (b.x - a.x, b.y - a.y);
+        let along = ((x - a.x) * dx + (y - a.y) * dy) / (dx * dx + dy * dy).max(1e-300);
+        let t = along.clamp(0.0, 1.0);
+        nearest = nearest.min((x - a.x - t * dx).hypot(y - a.y - t * dy));
+    }
+    if within { nearest } else { -nearest }
+}
+
+/// Value and slope of each quantity at a point of a triangle, and how far inside it lies.
+fn plane(t: [&Seen; 3], x: f64, y: f64) -> ([f64; 4], [f64; 4], f64) {
+    let [a, b, c] = t;
+    let area = cross(a, b, c.x, c.y);
+    let (wb, wc) = (cross(c, a, x, y) / area, cross(a, b, x, y) / area);
+    let rise = |i: usize| (b.value[i] - a.value[i], c.value[i] - a.value[i]);
+    let value = [0, 1, 2, 3].map(|i| {
+        let (u, v) = rise(i);
+        a.value[i] + u * wb + v * wc
+    });
+    let slope = [0, 1, 2, 3].map(|i| {
+        let (u, v) = rise(i);
+        let gx = (u * (c.y - a.y) - v * (b.y - a.y)) / area;
+        let gy = (v * (b.x - a.x) - u * (c.x - a.x)) / area;
+        gx.hypot(gy)
+    });
+    (value, slope, (1.0 - wb - wc).min(wb).min(wc))
+}
+
+/// A frame: the drawn words, and which pixels were drawn.
+struct Frame {
+    words: Vec<[u8; 3]>,
+    depth: Vec<u32>,
+}
+
+struct Stage {
+    rooms: SceneRooms<P>,
+    camera: Camera,
+    near: f64,
+    focal: f64,
+    scale: f64,
+}
+
+impl Stage {
+    fn new(rng: &mut Rng) -> Self {
+        let near = rng.pick(&[0.03125f32, 0.1, 0.25, 0.7]);
+        let focal = rng.pick(&[20.0f32, 60.0, 300.0]);
+        let scale = rng.pick(&[1.0, 1.0, 8.0, 32.0, 4_096.0, 65_536.0]);
+        let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+        Self {
+            rooms: SceneRooms::new(96, 96, usize::from(HEIGHT)),
+            camera: Camera::look_at([0.0; 3], ahead, up, focal, near, 1e6).unwrap(),
+            near: f64::from(near),
+            focal: f64::from(focal),
+            scale,
+        }
+    }
+
+    /// How far a corner may be from where it should be, in pixels.
+    fn slack(&self) -> f64 {
+        0.0884 + 2f64.powi(-24) * self.scale / self.near * (self.focal + 4096.0)
+    }
+
+    /// A place within reach, so that it goes into the mesh exactly.
+    fn place(&self, rng: &mut Rng, reach: f64) -> [f64; 3] {
+        [(); 3].map(|()| (rng.signed() * reach * 16_384.0).round() / 16_384.0 * self.scale)
+    }
+
+    fn draw(&mut self, triangles: &[[Corner; 3]]) -> Frame {
+        let mut scene: Scene<'_, P> = self.rooms.scene(Screen::new(WIDTH, HEIGHT).unwrap());
+        scene.begin(&self.camera).unwrap();
+        let instance = Instance {
+            cull: Cull::None,
+            model: Affine::placed(self.scale as f32, [0.0; 3]).unwrap(),
+            ..Instance::default()
+        };
+        for t in triangles {
+            let positions = t.map(|c| {
+                let [x, y, z] = c
+                    .place
+                    .map(|v| (v / self.scale * f64::from(1 << 30)) as i32);
+                [x, -y, -z]
+            });
+            let mesh = Mesh {
+                positions: &positions,
+                normals: &[],
+                colours: &t.map(|c| c.colour.map(|v| v as u8)),
+                faces: Faces::Triangles(&[[0, 1, 2]]),
+            };
+            scene.draw(&mesh, &instance).unwrap();
+        }
+        let mut frame = Frame {
+            words: Vec::new(),
+            depth: Vec::new(),
+        };
+        for y in 0..HEIGHT {
+            let mut rooms = LineRooms::<P>::fitting(0, &scene);
+            let words = line(&mut rooms.renderer(), &scene, y);
+            let empty = scene.pass_one().objects == 0;
+            frame.words.extend(words);
+            let drawn = rooms.depth().iter().map(|d| if empty { 0 } else { *d });
+            frame.depth.extend(drawn);
+        }
+        frame
+    }
+
+    fn polygon(&self, corners: &[Corner]) -> Vec<Seen> {
+        let cut = clip(corners, self.near);
+        let seen = cut.iter().map(|c| project(c, self.focal, self.near));
+        seen.collect()
+    }
+}
+
+fn corner(rng: &mut Rng, place: [f64; 3]) -> Corner {
+    let colour = [(); 3].map(|()| f64::from(rng.pick(&[0, 255, 40, 128, rng.clone().below(256)])));
+    Corner { place, colour }
+}
+
+fn pixels() -> impl Iterator<Item = (usize, f64, f64)> {
+    let width = usize::from(WIDTH);
+    (0..width * usize::from(HEIGHT))
+        .map(move |i| (i, (i % width) as f64 + 0.5, (i / width) as f64 + 0.5))
+}
+
+#[test]
+fn triangles_through_the_near_plane_are_cut_where_they_should() {
+    let mut rng = Rng::new(61);
+    let (mut cut, mut compared) = (0u32, 0u64);
+    let (mut worst_edge, mut worst_colour) = (0f64, 0f64);
+    while cut < 12_000 {
+        let mut stage = Stage::new(&mut rng);
+        let reach = rng.pick(&[0.3, 1.0, 1.99]);
+        let corners = [(); 3].map(|()| {
+            let place = stage.place(&mut rng, reach);
+            corner(&mut rng, place)
+        });
+        let ahead = corners.map(|c| c.place[2] - stage.near);
+        // On the plane itself either is right.
+        if ahead.iter().any(|d| d.abs() < 1e-4 * stage.scale)
+            || ahead.iter().all(|d| (*d < 0.0) == (ahead[0] < 0.0))
+        {
+            continue;
+        }
+        cut += 1;
+        let slack = stage.slack();
+        let frame = stage.draw(&[corners]);
+        let polygon = stage.polygon(&corners);
+        for (i, x, y) in pixels() {
+            let deep = inside(&polygon, x, y);
+            let drawn = frame.depth[i] != 0;
+            if drawn != (deep > 0.0) {
+                worst_edge = worst_edge.max(deep.abs() / slack);
+            }
+            let context = || format!("{x}, {y}: {deep} in {polygon:?} of {corners:?}");
+            assert!(drawn || deep <= slack, "a hole, {}", context());
+            assert!(!drawn || deep >= -slack, "too much, {}", context());
+            if !drawn {
+                continue;
+            }
+            // P4, also where the edge's own rounding decides.
+            for k in 0..3 {
+                let own = corners.map(|c| c.colour[k]);
+                let low = own.into_iter().fold(f64::MAX, f64::min) - 1.0;
+                let high = own.into_iter().fold(0.0, f64::max) + 1.0;
+                let got = f64::from(frame.words[i][k]);
+                assert!((low..=high).contains(&got), "{got}, {}", context());
+            }
+            if deep < slack {
+                continue;
+            }
+            compared += 1;
+            let fan: Vec<_> = (2..polygon.len())
+                .map(|k| plane([&polygon[0], &polygon[k - 1], &polygon[k]], x, y))
+                .collect();
+            let at = fan.iter().max_by(|a, b| a.2.total_cmp(&b.2)).unwrap();
+            let slope = |k: usize| fan.iter().fold(0.0, |m: f64, f| m.max(f.1[k]));
+            let near_enough = |k: usize, got: f64, own: f64| {
+                let off = (got - at.0[k]).abs();
+                let bound = own + slack * slope(k);
+                assert!(
+                    off <= bound,
+                    "{k}: {got}, {} {bound}, {}",
+                    at.0[k],
+                    context()
+                );
+                off / bound
+            };
+            let depth = f64::from(frame.depth[i]) / 2f64.powi(31);
+            let cut = 2f64.powi(-24) * stage.scale / stage.near;
+            near_enough(0, depth, 2f64.powi(-18) + cut);
+            for k in 0..3 {
+                let off = near_enough(k + 1, f64::from(frame.words[i][k]), 1.0);
+                worst_colour = worst_colour.max(off);
+            }
+        }
+    }
+    println!(
+        "{cut} cut, {compared} pixels compared, edges within {worst_edge:.3}, colours \
+         within {worst_colour:.3} of their bounds"
+    );
+    assert!(compared > 1_000_000, "{compared}");
+}
+
+/// Two triangles on either side of an edge that the near plane cuts, at any angle: no pixel
+/// between them is left out, and none is drawn by both.
+#[test]
+fn an_edge_that_is_cut_stays_closed() {
+    let mut rng = Rng::new(62);
+    let (mut pairs, mut closed) = (0u32, 0u64);
+    while pairs < 12_000 {
+        let mut stage = Stage::new(&mut rng);
+        let (p, q, r) = (
+            stage.place(&mut rng, 1.0),
+            stage.place(&mut rng, 1.0),
+            stage.place(&mut rng, 1.0),
+        );
+        // The fourth corner beyond the edge p q, in the same plane.
+        let (back, along) = (0.2 + 0.6 * rng.signed().abs(), 0.3 * rng.signed());
+        let s = [0, 1, 2].map(|i| {
+            let middle = (p[i] + q[i]) / 2.0;
+            middle - back * (r[i] - middle) + along * (q[i] - p[i])
+        });
+        if s.iter().any(|v| v.abs() > 1.99 * stage.scale) {
+            continue;
+        }
+        let [p, q, r, s] = [p, q, r, s].map(|place| corner(&mut rng, place));
+        let near = stage.near;
+        let ahead = |c: &Corner| c.place[2] - near;
+        // The shared edge is cut; on the plane itself either is right.
+        if [p, q, r, s]
+            .iter()
+            .any(|c| ahead(c).abs() < 1e-4 * stage.scale)
+            || ahead(&p) * ahead(&q) > 0.0
+        {
+            continue;
+        }
+        let whole = stage.polygon(&[p, s, q, r]);
+        // So that the four are one polygon, in this order.
+        let convex = (0..whole.len()).all(|i| {
+            let at = |k: usize| &whole[(i + k) % whole.len()];
+            let turn = |i: usize| {
+                let at = |k: usize| &whole[(i + k) % whole.len()];
+                cross(at(0), at(1), at(2).x, at(2).y)
+            };
+            turn(i) * turn(0) > 0.0 && (at(0).x - at(1).x).hypot(at(0).y - at(1).y) > 0.5
+        });
+        if whole.len() < 3 || !convex {
+            continue;
+        }
+        pairs += 1;
+        let slack = stage.slack();
+        // The edge runs one way in one triangle and the other way in the other.
+        let [first, second] = [[p, q, r], [q, p, s]];
+        let masks = [vec![first], vec![second], vec![first, second]].map(|t| stage.draw(&t).depth);
+        for (i, x, y) in pixels() {
+            let [a, b, both] = [0, 1, 2].map(|k| masks[k][i] != 0);
+            let context = || format!("{x}, {y} of {p:?} {q:?} {r:?} {s:?} near {near}");
+            assert!(!(a && b), "drawn twice, {}", context());
+            assert_eq!(a || b, both, "{}", context());
+            if inside(&whole, x, y) > slack {
+                closed += 1;
+                assert!(both, "a gap, {}", context());
+            }
+        }
+    }
+    println!("{pairs} pairs, {closed} pixels inside");
+    assert!(closed > 500_000, "{closed}");
+}

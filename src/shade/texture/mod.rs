@@ -1,0 +1,158 @@
+//! Texture: texels along a span, in perspective and by blocks (H1-H7, H17, B1, B5, K18, X2).
+//!
+//! ```text
+//!  Corners ──► planes of 1/w, u/w, v/w ──► PerspectiveSpan ──► runs of (u, v) ──► Texels ──► words
+//!  exponent,   set-up                      select: how many    affine within      memory,
+//!  bound                                   pixels a division   a run              palette, filter
+//! ```
+//!
+//! | file | what | rows |
+//! |---|---|---|
+//! | `corners` | a triangle's 1/w, u/w, v/w with one exponent; affine or not | H1, H3, X2 |
+//! | `perspective` | (u, v) along a span: exact, every 2nd, linear over 4, 8, 16 pixels, affine | H4, H5, K18 |
+//! | `select` | which of these keeps an error budget | X2 |
+//! | `format` | texel formats and their expansion | H7 |
+//! | `tlut` | texels in memory: whole words, and 1 to 8 bits through a lookup table | H7 |
+//! | `sample` | textures: size, wrap, mirror, clamp, nearest, bilinear | H6 |
+//! | `lod` | four levels of detail, built and chosen | H6 |
+//! | `block` | layouts of texture memory, runs inside a block | B1, B5 |
+//! | `cache` | a small cache of blocks, with counters | B5 |
+//! | `procedural` | textures that are computed | H17 |
+//!
+//! Everything that can vary is a type, so what a pipeline does not name has no code: a texture is
+//! anything that is [`Texels`].
+
+mod block;
+mod cache;
+mod corners;
+mod format;
+mod lod;
+mod perspective;
+mod procedural;
+mod sample;
+mod select;
+#[cfg(test)]
+mod tests;
+mod tlut;
+
+pub use block::{BlockRun, BlockRuns, Blocked, Layout, Linear};
+pub use cache::{BlockCache, CacheError, CacheReads};
+pub use corners::{Corner, Corners};
+pub use format::{Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Texel, TexelFormat};
+pub use lod::{LEVELS, Level, LevelEnds, Levels, build_level, level_words};
+pub use perspective::{AllSeen, Homogeneous, PaintRun, PerspectiveSpan, Stride};
+pub use procedural::{Checker, Gradient};
+pub use sample::{
+    Address, Bilinear, Clamp, MAX_SIDE, Mirror, Size, Square, Texture, TextureError, Wrap,
+};
+pub use select::{Budget, Quality};
+pub use tlut::{Indexed, Store, Words};
+
+/// Fraction bits of texel coordinates.
+pub const FRACTION: u32 = 19;
+
+/// A place on a texture, in texels with [`FRACTION`] fraction bits; (0, 0) is the upper left
+/// corner of the first texel. Modulo 8192 texels, which every texture's size divides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Uv {
+    /// To the right.
+    pub u: i32,
+    /// Down.
+    pub v: i32,
+}
+
+impl Uv {
+    /// The place that is `by` further on, modulo 8192 texels.
+    #[inline(always)]
+    #[must_use]
+    pub const fn plus(self, by: Self) -> Self {
+        Self {
+            u: self.u.wrapping_add(by.u),
+            v: self.v.wrapping_add(by.v),
+        }
+    }
+
+    /// The way from `from` to here, modulo 8192 texels.
+    #[inline(always)]
+    #[must_use]
+    pub const fn minus(self, from: Self) -> Self {
+        Self {
+            u: self.u.wrapping_sub(from.u),
+            v: self.v.wrapping_sub(from.v),
+        }
+    }
+
+    /// The texel, rounded down: column and row, -4096 to 4095.
+    #[inline(always)]
+    #[must_use]
+    pub const fn texel(self) -> (i32, i32) {
+        (self.u >> FRACTION, self.v >> FRACTION)
+    }
+}
+
+/// A texture: what colour is where.
+///
+/// Only [`at`](Texels::at) has to be there, as for a texture that is computed (H17). One that lies
+/// in memory says with [`run`](Texels::run) how it is best read along a straight way.
+pub trait Texels {
+    /// What is found at a place: a word of the display, an expanded [`Texel`], a level.
+    type Texel: Copy;
+
+    /// The colour at a place.
+    fn at(&self, place: Uv) -> Self::Texel;
+
+    /// Gives `each` the pixels in turn, each with the colour at its place: the first at `from`,
+    /// the next a `step` further on.
+    ///
+    /// A texture may take the steps in coarser units, as long as it is nowhere off by more than 1/16
+    /// texel.
+    #[inline(always)]
+    fn run<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        mut each: impl FnMut(&mut W, Self::Texel),
+    ) {
+        let mut place = from;
+        for pixel in pixels {
+            each(pixel, self.at(place));
+            place = place.plus(step);
+        }
+    }
+}
+
+impl<T: Texels + ?Sized> Texels for &T {
+    type Texel = T::Texel;
+
+    #[inline(always)]
+    fn at(&self, place: Uv) -> T::Texel {
+        (**self).at(place)
+    }
+
+    #[inline(always)]
+    fn run<W>(&self, pixels: &mut [W], from: Uv, step: Uv, each: impl FnMut(&mut W, T::Texel)) {
+        (**self).run(pixels, from, step, each);
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod rng {
+    /// A small generator with a full period, so that failures can be repeated.
+    pub(crate) struct Rng(pub(crate) u64);
+
+    impl Rng {
+        pub(crate) fn below(&mut self, n: u32) -> u32 {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
+        }
+
+        /// 0 to 1.
+        pub(crate) fn unit(&mut self) -> f64 {
+            f64::from(self.below(1 << 30)) / f64::from(1 << 30)
+        }
+    }
+}

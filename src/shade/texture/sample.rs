@@ -1,0 +1,429 @@
+//! Textures in memory: sides, what lies beyond them, and filters (H6, H7).
+//!
+//! Sides are powers of two from 1 to 1024, so an index is made of masks. [`Texture`] serves every
+//! size, layout and way beyond the sides; [`Square`] has its size in its type and reads two
+//! places at once from two words, which is what the fastest loops need.
+
+use super::block::{Layout, Linear};
+use super::format::{Texel, TexelFormat};
+use super::tlut::Store;
+use super::{FRACTION, Texels, Uv};
+use core::marker::PhantomData;
+
+/// Longest side of a texture, in texels.
+pub const MAX_SIDE: u32 = 1024;
+
+/// A texture cannot be made of what was lent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum TextureError {
+    /// A side is not a power of two from 1 to [`MAX_SIDE`].
+    Side {
+        /// Width asked for.
+        width: u32,
+        /// Height asked for.
+        height: u32,
+    },
+    /// Fewer texels than the size has.
+    Texels {
+        /// Texels of the size.
+        needed: usize,
+        /// Texels lent.
+        have: usize,
+    },
+    /// Fewer bytes than the texels take.
+    Bytes {
+        /// Bytes of the texels.
+        needed: usize,
+        /// Bytes lent.
+        have: usize,
+    },
+}
+
+impl core::fmt::Display for TextureError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Side { width, height } => write!(
+                f,
+                "texture: {width}x{height}, where sides are powers of two from 1 to {MAX_SIDE}"
+            ),
+            Self::Texels { needed, have } => {
+                write!(f, "texture: {needed} texels are needed, there are {have}")
+            }
+            Self::Bytes { needed, have } => {
+                write!(f, "texture: {needed} bytes are needed, there are {have}")
+            }
+        }
+    }
+}
+
+impl core::error::Error for TextureError {}
+
+/// The sides of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Size {
+    log_width: u8,
+    log_height: u8,
+}
+
+impl Size {
+    /// Both sides powers of two from 1 to [`MAX_SIDE`].
+    ///
+    /// # Errors
+    /// When one is not.
+    pub const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
+        if width.is_power_of_two()
+            && height.is_power_of_two()
+            && width <= MAX_SIDE
+            && height <= MAX_SIDE
+        {
+            Ok(Self {
+                log_width: width.trailing_zeros() as u8,
+                log_height: height.trailing_zeros() as u8,
+            })
+        } else {
+            Err(TextureError::Side { width, height })
+        }
+    }
+
+    /// Texels a row.
+    #[must_use]
+    pub const fn width(self) -> u32 {
+        1 << self.log_width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub const fn height(self) -> u32 {
+        1 << self.log_height
+    }
+
+    /// The power of two that the width is.
+    #[inline(always)]
+    #[must_use]
+    pub const fn log_width(self) -> u32 {
+        self.log_width as u32
+    }
+
+    /// The power of two that the height is.
+    #[inline(always)]
+    #[must_use]
+    pub const fn log_height(self) -> u32 {
+        self.log_height as u32
+    }
+
+    /// All texels.
+    #[must_use]
+    pub const fn texels(self) -> usize {
+        1 << (self.log_width + self.log_height)
+    }
+
+    /// The size of a level of detail: half of it at each level, at least 1.
+    #[must_use]
+    pub const fn level(self, level: u32) -> Self {
+        Self {
+            log_width: (self.log_width as u32).saturating_sub(level) as u8,
+            log_height: (self.log_height as u32).saturating_sub(level) as u8,
+        }
+    }
+}
+
+/// What lies beyond the sides of a texture.
+pub trait Address: Copy {
+    /// The column or row that stands for `texel` on a side of `2^log` texels: below `2^log`.
+    fn side(texel: i32, log: u32) -> u32;
+}
+
+/// The texture again.
+#[derive(Clone, Copy, Debug)]
+pub struct Wrap;
+
+/// Its mirror image, and then the texture again.
+#[derive(Clone, Copy, Debug)]
+pub struct Mirror;
+
+/// The texels at its rim.
+#[derive(Clone, Copy, Debug)]
+pub struct Clamp;
+
+impl Address for Wrap {
+    #[inline(always)]
+    fn side(texel: i32, log: u32) -> u32 {
+        texel as u32 & ((1 << log) - 1)
+    }
+}
+
+impl Address for Mirror {
+    #[inline(always)]
+    fn side(texel: i32, log: u32) -> u32 {
+        // All ones in every second repeat, which runs backwards.
+        let back = -(texel >> log & 1);
+        (texel ^ back) as u32 & ((1 << log) - 1)
+    }
+}
+
+impl Address for Clamp {
+    #[inline(always)]
+    fn side(texel: i32, log: u32) -> u32 {
+        texel.clamp(0, (1 << log) - 1) as u32
+    }
+}
+
+/// A texture of any size, the nearest texel.
+#[derive(Clone, Copy, Debug)]
+pub struct Texture<S, A = Wrap, L = Linear> {
+    store: S,
+    size: Size,
+    layout: L,
+    address: PhantomData<A>,
+}
+
+impl<S: Store, A: Address> Texture<S, A> {
+    /// Rows of texels from the top.
+    ///
+    /// # Errors
+    /// When the store has fewer texels than the size.
+    pub fn new(store: S, size: Size) -> Result<Self, TextureError> {
+        Self::arranged(store, size, Linear)
+    }
+}
+
+impl<S: Store, A: Address, L: Layout> Texture<S, A, L> {
+    /// Texels in another layout.
+    ///
+    /// # Errors
+    /// When the store has fewer texels than the size.
+    pub fn arranged(store: S, size: Size, layout: L) -> Result<Self, TextureError> {
+        let (needed, have) = (size.texels(), store.count());
+        if have < needed {
+            return Err(TextureError::Texels { needed, have });
+        }
+        Ok(Self {
+            store,
+            size,
+            layout,
+            address: PhantomData,
+        })
+    }
+
+    /// The sides.
+    #[must_use]
+    pub fn size(&self) -> Size {
+        self.size
+    }
+
+    /// The index in the store of the texel that stands at a column and row.
+    #[inline(always)]
+    pub fn index(&self, (column, row): (i32, i32)) -> usize {
+        let x = A::side(column, self.size.log_width());
+        let y = A::side(row, self.size.log_height());
+        self.layout.index((x, y), self.size)
+    }
+
+    /// The texel that stands at a column and row.
+    #[inline(always)]
+    pub fn texel(&self, at: (i32, i32)) -> S::Texel {
+        self.store.fetch(self.index(at))
+    }
+}
+
+impl<S: Store> Texture<S> {
+    /// The texture as one of `2^LOG` texels each side, `N` in all, which has the fastest loops;
+    /// `None` when it has another size, or its store no such way.
+    #[inline(always)]
+    #[must_use]
+    pub fn square<const LOG: u32, const N: usize>(
+        &self,
+    ) -> Option<Square<impl Fn(usize) -> S::Texel + Copy, LOG>> {
+        const {
+            assert!(LOG <= 8 && N == 1 << (2 * LOG));
+        }
+        let fits = self.size.log_width() == LOG && self.size.log_height() == LOG;
+        self.store.fetch_in::<N>().filter(|_| fits).map(Square)
+    }
+}
+
+impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
+    type Texel = S::Texel;
+
+    #[inline(always)]
+    fn at(&self, place: Uv) -> S::Texel {
+        self.texel(place.texel())
+    }
+}
+
+/// A texture of `2^LOG` texels each side, at most 256, repeating, in rows.
+///
+/// A run is read two pixels at a time: u of both in one word, v of both in another, 16 bits each,
+/// so that two indices cost three logical instructions. In 16 pixels a place gets at most
+/// 10/256 texel off at 256 texels a side, and 1/256 more each time it goes beyond a side, so it is
+/// taken anew every 16 pixels, every 32 with 128 texels a side, and so on: less than 1/16 texel,
+/// where a pixel's step is less than a quarter of the side.
+#[derive(Clone, Copy, Debug)]
+pub struct Square<F, const LOG: u32>(F);
+
+/// A value in both halves of a word.
+const fn twice(half: u32) -> u32 {
+    half & 0xFFFF | half << 16
+}
+
+impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Texels for Square<F, LOG> {
+    type Texel = T;
+
+    #[inline(always)]
+    fn at(&self, place: Uv) -> T {
+        let mask = (1 << LOG) - 1;
+        let row = (place.v >> (FRACTION - LOG)) as u32 & mask << LOG;
+        (self.0)((row | (place.u >> FRACTION) as u32 & mask) as usize)
+    }
+
+    #[inline(always)]
+    fn run<W>(&self, pixels: &mut [W], mut from: Uv, step: Uv, mut each: impl FnMut(&mut W, T)) {
+        let anchor = const { 16 << (8 - LOG) };
+        let ahead = Uv {
+            u: step.u.wrapping_mul(anchor as i32),
+            v: step.v.wrapping_mul(anchor as i32),
+        };
+        let mut rest = pixels;
+        while rest.len() > anchor {
+            let (run, more) = rest.split_at_mut(anchor);
+            self.pairs(run, from, step, &mut each);
+            from = from.plus(ahead);
+            rest = more;
+        }
+        self.pairs(rest, from, step, &mut each);
+    }
+}
+
+impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Square<F, LOG> {
+    /// [`run`](Texels::run), from one pair of words on.
+    #[inline(always)]
+    fn pairs<W>(&self, pixels: &mut [W], from: Uv, step: Uv, mut each: impl FnMut(&mut W, T)) {
+        // Packing pays from the third pair on.
+        if pixels.len() <= 4 {
+            let mut place = from;
+            for pixel in pixels {
+                each(pixel, self.at(place));
+                place = place.plus(step);
+            }
+            return;
+        }
+        // 16 bits hold a whole side, 16 - LOG of them fractions.
+        let half = |x: i32| x >> (FRACTION - 16 + LOG);
+        let both =
+            |x: i32, dx: i32| half(x) as u32 & 0xFFFF | (half(x.wrapping_add(dx)) as u32) << 16;
+        // The step of two pixels, rounded down. Added as a number with its sign, so that the lower
+        // half's carry is made up for.
+        let two = |dx: i32| {
+            let d = dx >> (FRACTION - 17 + LOG);
+            d.wrapping_add(d << 16) as u32
+        };
+        let (mut u, mut v) = (both(from.u, step.u), both(from.v, step.v));
+        let (du, dv) = (two(step.u), two(step.v));
+        let columns = twice((1 << LOG) - 1);
+        let rows = twice(((1 << LOG) - 1) << LOG);
+        let mut index = || {
+            let both = u >> (16 - LOG) & columns | v >> (16 - 2 * LOG) & rows;
+            u = u.wrapping_add(du);
+            v = v.wrapping_add(dv);
+            ((both & 0xFFFF) as usize, (both >> 16) as usize)
+        };
+        let (blocks, rest) = pixels.split_at_mut(pixels.len() & !7);
+        for block in blocks.chunks_exact_mut(8) {
+            if let [a, b, c, d, e, f, g, h] = block {
+                for [first, second] in [[a, b], [c, d], [e, f], [g, h]] {
+                    let (i, j) = index();
+                    each(first, (self.0)(i));
+                    each(second, (self.0)(j));
+                }
+            }
+        }
+        let (pairs, last) = rest.split_at_mut(rest.len() & !1);
+        for pair in pairs.chunks_exact_mut(2) {
+            if let [first, second] = pair {
+                let (i, j) = index();
+                each(first, (self.0)(i));
+                each(second, (self.0)(j));
+            }
+        }
+        if let [one] = last {
+            each(one, (self.0)(index().0));
+        }
+    }
+}
+
+/// The weighted mean of the four nearest texels, 4 bits of weight each way, rounded once.
+///
+/// The D bit is that of the nearest of the four.
+#[derive(Clone, Copy, Debug)]
+pub struct Bilinear<T, F> {
+    texture: T,
+    format: PhantomData<F>,
+}
+
+impl<T, F> Bilinear<T, F> {
+    /// The texture, filtered; its texels are in the format `F`.
+    pub const fn new(texture: T) -> Self {
+        Self {
+            texture,
+            format: PhantomData,
+        }
+    }
+}
+
+impl<S, A, L, F> Texels for Bilinear<Texture<S, A, L>, F>
+where
+    F: TexelFormat,
+    S: Store<Texel = F::Word>,
+    A: Address,
+    L: Layout,
+{
+    type Texel = Texel;
+
+    #[inline(always)]
+    fn at(&self, place: Uv) -> Texel {
+        // Texels lie at the middle of their squares.
+        const HALF: i32 = 1 << (FRACTION - 1);
+        let low = Uv {
+            u: place.u.wrapping_sub(HALF),
+            v: place.v.wrapping_sub(HALF),
+        };
+        let (x, y) = low.texel();
+        let part = |a: i32| (a >> (FRACTION - 4)) as u32 & 15;
+        let (right, down) = (part(low.u), part(low.v));
+        let fetch = |dx: i32, dy: i32| F::expand(self.texture.texel((x + dx, y + dy)));
+        let four = [fetch(0, 0), fetch(1, 0), fetch(0, 1), fetch(1, 1)];
+        let weights = [
+            (16 - right) * (16 - down),
+            right * (16 - down),
+            (16 - right) * down,
+            right * down,
+        ];
+        mix(
+            four,
+            weights,
+            usize::from(right >= 8) + 2 * usize::from(down >= 8),
+        )
+    }
+}
+
+/// Four texels with weights whose sum is 256.
+#[inline(always)]
+fn mix(four: [Texel; 4], weights: [u32; 4], nearest: usize) -> Texel {
+    // Two channels in a word: 255 times 256 fits 16 bits.
+    let pair = |get: fn(&Texel) -> u32| {
+        let mut sum = 0x0080_0080u32;
+        for (texel, weight) in four.iter().zip(weights) {
+            sum += get(texel) * weight;
+        }
+        sum >> 8
+    };
+    let rb = pair(|t| u32::from(t.rgb[0]) << 16 | u32::from(t.rgb[2]));
+    let ga = pair(|t| u32::from(t.rgb[1]) << 16 | u32::from(t.alpha));
+    Texel {
+        rgb: [(rb >> 16) as u8, (ga >> 16) as u8, rb as u8],
+        alpha: ga as u8,
+        undithered: four[nearest & 3].undithered,
+    }
+}
