@@ -134,6 +134,9 @@
 //! | X3, X4, M4 | skipping, counted | `geometry/bounds.rs`, `scan_out/changed.rs`, `renderer/frame.rs`, `stats.rs` | `skipped.rs`, `changed.rs` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
+//! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/` | `list/tests.rs`, `lists.rs` |
+//! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `lists.rs` |
+//! | H14 | status events | `event.rs`, `renderer/run.rs` | `event.rs`, `lists.rs` |
 //! | C1, C2 | active objects are copied to the cache, and leave at once | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
 //! | C3 | a hit is one comparison of a link | `link.rs` | `active/list/tests.rs` |
 //! | C4 | fetched one line ahead | `active/list.rs`, `renderer/place.rs` | `cache.rs` |
@@ -153,6 +156,9 @@
 //! | X2 | an error budget picks the cheapest way | `shade/texture/select.rs` | `shade/texture/tests.rs` |
 //! | X6 | two cores, one scene | `renderer/relay.rs` | `cache.rs`, `examples/rp2040-two-cores` builds |
 //!
+//! [`list`] is a scene as data, for flash or for a ring that grows while it is drawn; a
+//! [`ListRunner`] draws it.
+//!
 //! [`model`] is the hardware that the ideas come from, told bit for bit, to measure against.
 #![no_std]
 #![forbid(unsafe_code)]
@@ -168,8 +174,10 @@ struct Readme;
 mod active;
 mod arena;
 mod composite;
+mod event;
 mod geometry;
 mod link;
+pub mod list;
 pub mod model;
 mod num;
 mod pipeline;
@@ -184,10 +192,11 @@ pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{
     PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf, TextureSource, Textures,
 };
+pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
     Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
-    Gouraud, Light, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex, Screen,
-    ScreenError, Shading, Sphere,
+    Gouraud, Light, MatrixRange, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex,
+    Screen, ScreenError, Shading, Sphere,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
@@ -197,8 +206,9 @@ pub use pipeline::{
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
-    Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, PassOne, Prefetched,
-    Relay, RendererError, Scene, SceneError, SceneMemory, Source, Stalled, Stream, draw_frame,
+    Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
+    ListMemory, ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError,
+    RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices, draw_frame,
     draw_frame_changed, send_changed, send_frame,
 };
 pub use shade::{

@@ -14,6 +14,7 @@ pub use bench::{BenchArgs, FirmwareArgs};
 pub use picture::{PictureArgs, PixelFormatArg, Size};
 pub use render::{InterpArg, QualityArg, RenderArgs};
 
+use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
 use std::ffi::OsString;
@@ -62,6 +63,12 @@ pub enum Command {
     Firmware(FirmwareArgs),
     /// Count and time frames on this machine, beside other renderers
     Bench(BenchArgs),
+    /// Make a list of a model: strips of quantised vertices for flash
+    Bake(BakeArgs),
+    /// Execute a list and draw it to a picture
+    RunList(RunListArgs),
+    /// Print a list, block by block
+    Disassemble(DisassembleArgs),
 }
 
 /// Flags of `trace`.
@@ -160,11 +167,14 @@ where
     let checked = match &command {
         Command::Render(render) => render.check(),
         Command::Trace(trace) => trace.check(),
+        Command::Bake(bake) => bake.check(),
+        Command::RunList(list) => list.check(),
         Command::Demo(_)
         | Command::Cache(_)
         | Command::Accuracy(_)
         | Command::Firmware(_)
-        | Command::Bench(_) => Ok(()),
+        | Command::Bench(_)
+        | Command::Disassemble(_) => Ok(()),
     };
     checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
     Ok(command)

@@ -14,10 +14,13 @@ use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, LineMemory,
-    LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory, VertexOf,
-    draw_frame,
+    LineRenderer, Link, ListMemory, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
+    VertexOf, draw_frame,
 };
-use scenes::{HEIGHT, OBJECTS, SHOTS, STACKS, STRESS, SWATCHES, Shot, VARIANTS, VERTICES, WIDTH};
+use scenes::{
+    HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS, STACKS, STRESS, SWATCHES, Shot, VARIANTS,
+    VERTICES, WIDTH, build_listed,
+};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -194,6 +197,8 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     frames.insert("crossings_flat", crc32fast::hash(&flat));
     let model = draw_by_model(Shot::Teapot)?;
     frames.insert("teapot_model", crc32fast::hash(&model));
+    let (listed, _) = shown(Shot::Teapot, build_list, by_lines)?;
+    frames.insert("teapot_list", crc32fast::hash(&listed));
     for variant in VARIANTS {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
@@ -236,6 +241,15 @@ fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Er
 fn drawn<P: Pipeline<Pixel = Rgb565Be>>(
     shot: Shot,
 ) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>> {
+    shown::<P, _>(shot, |scene| build(shot, scene), by_lines)
+}
+
+/// Draws all lines with one renderer.
+fn by_lines<P: Pipeline<Pixel = Rgb565Be>>(
+    scene: &Scene<'_, P>,
+    pump: &mut Display,
+    background: u16,
+) -> Result<FrameStats, Box<dyn Error>> {
     use scanbeam::LineDepth;
     const SLOTS: usize = 64;
     let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
@@ -246,32 +260,55 @@ fn drawn<P: Pipeline<Pixel = Rgb565Be>>(
         links: &mut links,
         depth: &mut depth,
     });
-    let mut stats = FrameStats::default();
-    let bytes = shown::<P>(shot, |scene, pump, background| {
-        stats = draw_frame(scene, &mut renderer, pump, background, LINES)?;
-        Ok(())
-    })?;
-    Ok((bytes, stats))
+    Ok(draw_frame(scene, &mut renderer, pump, background, LINES)?)
 }
 
 /// The bytes of a shot as the hardware model draws it.
 fn draw_by_model(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    type Smooth = GouraudDepth<Rgb565Be>;
     let mut lines = ModelLines::new(WIDTH);
     let mut renderer = lines.renderer();
-    shown::<GouraudDepth<Rgb565Be>>(shot, |scene, pump, background| {
-        draw_model_frame(scene, &mut renderer, pump, background, LINES)
-            .map_err(|error| format!("{error:?}"))?;
-        Ok(())
-    })
+    let (bytes, _) = shown::<Smooth, _>(
+        shot,
+        |scene| build(shot, scene),
+        |scene, pump, background| {
+            draw_model_frame(scene, &mut renderer, pump, background, LINES)
+                .map_err(|error| format!("{error:?}"))?;
+            Ok(())
+        },
+    )?;
+    Ok(bytes)
+}
+
+/// Draws a shot into a scene.
+fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), Box<dyn Error>> {
+    shot.build(scene)
+        .map_err(|error| format!("{}: {error:?}", shot.name()))?;
+    Ok(())
+}
+
+/// The baked list, as the firmware runs it from flash.
+fn build_list(scene: &mut Scene<'_, GouraudDepth<Rgb565Be>>) -> Result<(), Box<dyn Error>> {
+    let (mut normals, mut indices) = ([[0; 3]; LIST_TABLE], [0; LIST_INDICES]);
+    let memory = ListMemory {
+        positions: &mut [],
+        normals: &mut normals,
+        colours: &mut [],
+        indices: &mut indices,
+    };
+    build_listed(scene, memory).map_err(|error| format!("teapot.list: {error:?}"))?;
+    Ok(())
 }
 
 type Display = Pump<MockFrameBuffer<u16>>;
 
-/// What arrives at the display when `draw` draws a shot.
-fn shown<P: Pipeline<Pixel = Rgb565Be>>(
+/// What arrives at the display when `draw` draws what `build` has built, over a shot's background, and
+/// what `draw` gave.
+fn shown<P: Pipeline<Pixel = Rgb565Be>, T>(
     shot: Shot,
-    draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<(), Box<dyn Error>>,
-) -> Result<Vec<u8>, Box<dyn Error>> {
+    build: impl FnOnce(&mut Scene<'_, P>) -> Result<(), Box<dyn Error>>,
+    draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<T, Box<dyn Error>>,
+) -> Result<(Vec<u8>, T), Box<dyn Error>> {
     let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
     let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
     let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
@@ -283,15 +320,15 @@ fn shown<P: Pipeline<Pixel = Rgb565Be>>(
             buckets: &mut buckets,
         },
     );
-    shot.build(&mut scene)
-        .map_err(|error| format!("{}: {error:?}", shot.name()))?;
+    build(&mut scene)?;
     let words = usize::from(WIDTH) * usize::from(LINES);
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb565Be::from_rgb8(shot.background());
-    draw(&scene, &mut pump, background)?;
+    let drawn = draw(&scene, &mut pump, background)?;
     let words = pump.sink().frame()?;
-    Ok(words.into_iter().flat_map(u16::to_ne_bytes).collect())
+    let bytes = words.into_iter().flat_map(u16::to_ne_bytes).collect();
+    Ok((bytes, drawn))
 }
 
 /// A board's frames beside the host's.
@@ -364,12 +401,29 @@ impl Compared {
             "line_bytes": sections.dma.bytes,
             "slow_bytes": sections.slow_bytes(),
             "stack_bytes": self.measured.output.figures.get("stack_bytes"),
+            "list": self.list(),
             "frames": frames,
         });
         if let Some(bench) = &self.bench {
             bench.add_to(&mut report);
         }
         report
+    }
+
+    /// What pass one of the baked teapot costs, beside the same tables by immediate calls.
+    fn list(&self) -> Value {
+        let figure = |name: &str| {
+            let figures = &self.measured.output.figures;
+            figures.get(name).copied().unwrap_or_default()
+        };
+        let (listed, called) = (figure("list_pass_one"), figure("calls_pass_one"));
+        let vertices = figure("list_vertices");
+        json!({
+            "pass_one": listed,
+            "pass_one_by_calls": called,
+            "vertices": vertices,
+            "more_per_vertex": (listed as f64 - called as f64) / vertices.max(1) as f64,
+        })
     }
 
     fn print(&self) {
@@ -383,6 +437,10 @@ impl Compared {
             sections.fast.bytes,
             sections.dma.bytes,
             sections.slow_bytes()
+        );
+        println!(
+            "  pass one of the teapot, from a list and drawn at once: {}",
+            self.list()
         );
         for (scene, host, target, instructions) in &self.frames {
             let verdict = if host == target {

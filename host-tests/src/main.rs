@@ -3,6 +3,7 @@
 use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, QualityArg, RenderArgs, Stop};
 use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
+use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, trace};
 use std::error::Error;
@@ -27,6 +28,9 @@ fn main() -> ExitCode {
         Command::Cache(args) => cache_report::run(&args),
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Bake(args) => bake::run(&args),
+        Command::RunList(args) => list_run::run(&args),
+        Command::Disassemble(args) => list_text::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
             Ok(false) => return ExitCode::FAILURE,

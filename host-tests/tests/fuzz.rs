@@ -8,6 +8,8 @@ mod files;
 mod formats;
 #[path = "../fuzz/src/frames.rs"]
 mod frames;
+#[path = "../fuzz/src/list.rs"]
+mod list;
 
 use common::Rng;
 // `files` finds it here, and in the fuzz package where that has it.
@@ -43,6 +45,13 @@ fn random_bytes_are_tokens_and_vertices() {
         .map(|_| formats::run(&bytes(&mut rng, 400)))
         .sum();
     assert!(pixels > 1_000, "{pixels}");
+}
+
+#[test]
+fn random_bytes_are_lists() {
+    let mut rng = Rng::new(74);
+    let blocks: usize = (0..20_000).map(|_| list::run(&bytes(&mut rng, 240))).sum();
+    assert!(blocks > 1_000, "{blocks}");
 }
 
 #[test]

@@ -1,24 +1,32 @@
 //! The conductor: pass one into a [`Scene`], pass two line by line out of it (K1, K12).
 //!
-//! `input` feeds pass one from queues (K17); `lines` draws, `order` from front to back where it can (X3),
-//! and `place` fetches ahead (C4); `frame`
-//! sends what one renderer draws, `relay` what several do on their own cores (K16, X6).
+//! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
+//! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
+//! `place` fetches ahead (C4); `frame` sends what one renderer draws, `relay` what several do on
+//! their own cores (K16, X6).
 
+mod batch;
+mod fill;
 mod frame;
+mod immediate;
 mod input;
 mod lines;
 mod order;
 mod place;
 mod relay;
+mod run;
 mod scene;
 mod spans;
 
+pub use batch::{ListCoordinate, ListMemory};
 pub use frame::{
     FrameError, FrameStats, LineSource, draw_frame, draw_frame_changed, send_changed, send_frame,
 };
+pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
 pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
+pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};
 pub(crate) use spans::scale;

@@ -250,6 +250,17 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.textures
     }
 
+    /// Sees what is drawn from now on through another camera; what is there stays. Before
+    /// [`begin`](Scene::begin) it does nothing.
+    ///
+    /// Depths compare as the near planes have them: two cameras that share a picture should have
+    /// the same near plane.
+    pub fn set_camera(&mut self, camera: &Camera) {
+        if let Some(seen) = &mut self.camera {
+            *seen = *camera;
+        }
+    }
+
     /// Draws a mesh into the scene. Before [`begin`](Scene::begin) it does nothing.
     ///
     /// # Errors

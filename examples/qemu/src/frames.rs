@@ -11,8 +11,8 @@ use scanbeam::{
     send_frame,
 };
 use scenes::{
-    DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant, build_method, by_method,
-    method_screen,
+    DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant, build_listed,
+    build_method, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -30,6 +30,8 @@ enum Way {
     Faceted,
     /// The hardware model, from a smooth scene.
     Model,
+    /// A baked list in flash.
+    List,
     /// A small frame by this interpolation method of the scenes' table.
     Method(usize),
 }
@@ -43,7 +45,8 @@ pub(crate) struct Frame {
 }
 
 /// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
-/// faces and one by the hardware model, then what the cache and its renderers must not change.
+/// faces, one by the hardware model and one from a baked list, then what the cache and its
+/// renderers must not change, then the interpolation methods.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
         name,
@@ -68,6 +71,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
             plain("teapot_model", Shot::Teapot, Way::Model),
             plain("crossings_flat", Shot::Crossings, Way::Faceted),
+            plain("teapot_list", Shot::Teapot, Way::List),
         ])
         .chain(variants)
         .chain(
@@ -89,6 +93,7 @@ impl Frame {
                 draw_as::<Faceted, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
             }
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
+            Way::List => draw_list(rooms, &mut pump),
             Way::Method(index) => by_method(
                 index,
                 &mut SmallFrame {
@@ -198,6 +203,28 @@ fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     });
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_model_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// The baked teapot, from flash.
+fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
+    let smooth = &mut rooms.smooth;
+    let mut scene = Scene::<Smooth>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: smooth.vertices,
+            objects: smooth.objects,
+            buckets: smooth.buckets,
+        },
+    );
+    build_listed(&mut scene, rooms.list.memory()).expect("the rooms are large enough");
+    let mut renderer = LineRenderer::new(LineMemory {
+        slots: &mut smooth.slots[..SLOTS],
+        links: smooth.links,
+        depth: smooth.depth,
+    });
+    let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
+    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

@@ -28,6 +28,7 @@ mod console;
 mod count;
 mod frames;
 mod lend;
+mod listed;
 mod rooms;
 
 use core::hint::black_box;
@@ -113,6 +114,21 @@ fn main() -> ! {
     {
         bench::run(&counter, &mut console, &mut rooms);
         bench_texture::run(&counter, &mut console);
+    }
+
+    // What reading a list costs beyond the same immediate calls.
+    let unpacked = rooms::unpacked();
+    let (mut listed, mut drawn) = ((0, 0), (0, 0));
+    let by_list = counter.instructions(|| listed = black_box(listed::from_list(&mut rooms)));
+    let by_calls = counter.instructions(|| drawn = black_box(unpacked.draw(&mut rooms)));
+    // The same vertices, and the same objects of them.
+    all_hold &= listed == drawn && listed.1 > 0;
+    for (name, value) in [
+        ("list_pass_one", by_list),
+        ("calls_pass_one", by_calls),
+        ("list_vertices", u64::from(listed.0)),
+    ] {
+        console.line(format_args!("figure name={name} value={value}"));
     }
 
     console.line(format_args!(

@@ -2,12 +2,14 @@
 
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
 use crate::lend::lend;
+use crate::listed::Unpacked;
 use scanbeam::{
-    CellOf, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, Scene, SceneMemory,
-    SceneVertex, SlotOf, VertexOf,
+    CellOf, LineMemory, LineRenderer, Link, ListMemory, Object, ObjectOf, Pipeline, Scene,
+    SceneMemory, SceneVertex, SlotOf, VertexOf,
 };
 use scenes::{
-    HEIGHT, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline, Shot, VERTICES, WIDTH,
+    HEIGHT, LIST_INDICES, LIST_TABLE, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline,
+    Shot, VERTICES, WIDTH,
 };
 
 /// Slots of the object cache.
@@ -25,6 +27,24 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     pub(crate) depth: &'static mut [CellOf<P>],
 }
 
+/// Normals and indices of a list; its places are used where they lie, and it has no colours.
+pub(crate) struct ListRoom {
+    pub(crate) normals: &'static mut [[i16; 3]],
+    pub(crate) indices: &'static mut [u16],
+}
+
+impl ListRoom {
+    /// As a runner wants it.
+    pub(crate) fn memory(&mut self) -> ListMemory<'_> {
+        ListMemory {
+            positions: &mut [],
+            normals: self.normals,
+            colours: &mut [],
+            indices: self.indices,
+        }
+    }
+}
+
 /// What frames are drawn with.
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
@@ -34,6 +54,8 @@ pub(crate) struct Rooms {
     /// What comparisons take beyond what one renderer needs: a cache for everything and a second
     /// renderer's links and depth. No scene. All in external RAM: here instructions count.
     pub(crate) second: RoomsOf<Smooth>,
+    /// What a list's vertices are unpacked into: external RAM.
+    pub(crate) list: ListRoom,
     /// For sheets, which are drawn without depth and counted.
     pub(crate) sheet: RoomsOf<SheetPipeline>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
@@ -71,6 +93,10 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
+            list: ListRoom {
+                normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
+                indices: lend!(".slow", u16, LIST_INDICES, 0),
+            },
             sheet: RoomsOf {
                 vertices: lend!(
                     ".slow",
@@ -133,6 +159,15 @@ impl Rooms {
             .hits(&mut scene, &mut renderer)
             .expect("the rooms are large enough")
     }
+}
+
+/// The list's tables, unpacked into external RAM.
+pub(crate) fn unpacked() -> Unpacked {
+    const MOST: usize = 2400;
+    Unpacked::new(
+        lend!(".slow", [i16; 3], MOST, [0; 3]),
+        lend!(".slow", [u16; 3], MOST, [0; 3]),
+    )
 }
 
 /// The most bytes of stack that were in use at once since the start.

@@ -12,9 +12,12 @@
 //! | [`RIBBON`] | 66 | strip of 32 quads | 64 | normals, colours | 1,122 |
 //!
 //! The two cubes share their vertices, 360 bytes.
+//!
+//! [`teapot_list`] is the teapot as `scanbeam bake` makes it: 14,380 bytes.
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod listed;
 mod methods;
 mod octasphere;
 mod sheet;
@@ -22,6 +25,7 @@ mod shots;
 mod stress;
 mod texels;
 
+pub use listed::{LIST_INDICES, LIST_TABLE, ListedError, build_listed, teapot_list};
 pub use methods::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };

@@ -1,0 +1,63 @@
+//! Any bytes as a list: no panic, no hang, work within the budget (X7).
+
+use scanbeam::list::{Budget, Halt, ListCommand};
+use scanbeam::{
+    Camera, GouraudDepth, Link, ListMemory, ListRunner, ListSettings, Notice, ObjectOf, Rgb888,
+    Scene, SceneMemory, Screen, VertexOf,
+};
+
+type Look = GouraudDepth<Rgb888>;
+
+/// What a list may cause, each resumption included.
+const BUDGET: Budget = Budget {
+    instructions: 64,
+    vertices: 4096,
+    jumps: 8,
+};
+
+/// Executes the bytes; panics when something does not hold. How many blocks were executed.
+pub fn run(data: &[u8]) -> usize {
+    let list: Vec<u32> = data
+        .chunks_exact(4)
+        .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
+        .collect();
+    let mut vertices = [VertexOf::<Look>::empty(); 512];
+    let mut objects = [ObjectOf::<Look>::default(); 512];
+    let mut buckets = [Link::NONE; 24];
+    let mut scene = Scene::<Look>::new(
+        Screen::new(32, 24).expect("within the limits"),
+        SceneMemory {
+            vertices: &mut vertices,
+            objects: &mut objects,
+            buckets: &mut buckets,
+        },
+    );
+    let camera = Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 30.0, 0.1, 99.0);
+    scene
+        .begin(&camera.expect("it sees"))
+        .expect("a bucket a line");
+    let (mut positions, mut normals) = ([[0i16; 3]; 32], [[0; 3]; 32]);
+    let (mut colours, mut indices) = ([[0; 3]; 32], [0; 48]);
+    let mut runner = ListRunner::new(
+        ListMemory {
+            positions: &mut positions,
+            normals: &mut normals,
+            colours: &mut colours,
+            indices: &mut indices,
+        },
+        ListSettings {
+            camera: true,
+            ..ListSettings::default()
+        },
+    );
+    runner.start(0);
+    let mut left = BUDGET;
+    for _ in 0..4 {
+        match runner.run(&list[..], &mut scene, &mut left, &mut |_: Notice| {}) {
+            Ok(Halt::Paused | Halt::Sync) => runner.command(ListCommand::Resume),
+            _ => break,
+        }
+    }
+    assert!(runner.counts().blocks <= BUDGET.instructions - left.instructions);
+    (BUDGET.instructions - left.instructions) as usize
+}

@@ -1,0 +1,109 @@
+//! Flags of `bake`, `run-list` and `disassemble`.
+
+use crate::args::PictureArgs;
+use crate::image_out::ImageFormat;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// Flags of `bake`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct BakeArgs {
+    /// Model to bake: .obj, .gltf or .glb
+    #[arg(value_name = "MODEL")]
+    pub model: PathBuf,
+    /// List to write
+    #[arg(short = 'o', long = "output", value_name = "OUT.list")]
+    pub output: PathBuf,
+    /// How far a vertex may be moved, in units of the model; none: a thousandth of half its longest side
+    #[arg(long, value_name = "E", value_parser = parse_positive, allow_hyphen_values = true)]
+    pub error: Option<f64>,
+    /// How far a normal may be turned, in degrees
+    #[arg(long, value_name = "DEG", default_value = "1", value_parser = parse_positive, allow_hyphen_values = true)]
+    pub normal_error: f64,
+    /// Whether normals are kept
+    #[arg(long, value_enum, default_value_t = Normals::Keep)]
+    pub normals: Normals,
+    /// Print the sizes as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Whether normals are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Normals {
+    /// For lit surfaces
+    Keep,
+    /// For surfaces that show their colours alone
+    Drop,
+}
+
+/// Flags of `run-list`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct RunListArgs {
+    /// List to execute
+    #[arg(value_name = "FILE")]
+    pub list: PathBuf,
+    /// Picture to write, .png or .ppm
+    #[arg(
+        short = 'o',
+        long = "output",
+        value_name = "OUT",
+        required_unless_present = "print"
+    )]
+    pub output: Option<PathBuf>,
+    /// Print the list, block by block, instead
+    #[arg(long, conflicts_with = "output")]
+    pub print: bool,
+    /// Most blocks, most vertices and indices, and most jumps
+    #[arg(long, value_name = "N", default_value_t = 1 << 24)]
+    pub budget: u32,
+    /// What to draw.
+    #[command(flatten)]
+    pub picture: PictureArgs,
+}
+
+/// Flags of `disassemble`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct DisassembleArgs {
+    /// List to print
+    #[arg(value_name = "FILE")]
+    pub list: PathBuf,
+}
+
+impl BakeArgs {
+    /// What flags alone cannot say.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let known = ["obj", "gltf", "glb"];
+        let extension = self.model.extension().map(|e| e.to_ascii_lowercase());
+        if !extension.is_some_and(|e| known.iter().any(|k| e == *k)) {
+            return Err("the model must be .obj, .gltf or .glb".into());
+        }
+        if self.output == self.model {
+            return Err("-o must not be the model itself".into());
+        }
+        Ok(())
+    }
+}
+
+impl RunListArgs {
+    /// What flags alone cannot say.
+    pub(crate) fn check(&self) -> Result<(), String> {
+        let view = self.picture.view();
+        view.check().map_err(|error| error.to_string())?;
+        let Some(output) = &self.output else {
+            return Ok(());
+        };
+        ImageFormat::from_path(output).map_err(|error| error.to_string())?;
+        if *output == self.list {
+            return Err("-o must not be the list itself".into());
+        }
+        Ok(())
+    }
+}
+
+fn parse_positive(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if value.is_finite() && value > 0.0 => Ok(value),
+        _ => Err("a number above 0 is needed".into()),
+    }
+}

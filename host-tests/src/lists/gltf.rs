@@ -1,0 +1,340 @@
+//! glTF 2.0, text and binary, into a model: triangles of all scenes' nodes in place, with their
+//! normals, vertex colours and base colours.
+//!
+//! Textures are left out with a warning, because no pipeline draws them yet. Buffers are read from
+//! the file itself, from `data:` URIs, and from files beside it.
+
+use crate::model::{Material, Model, ModelError, ModelVertex};
+use base64::Engine as _;
+use gltf::buffer::Source;
+use gltf::mesh::Mode;
+use std::collections::HashSet;
+use std::path::Path;
+
+/// Largest buffer that is read, in bytes.
+const MAX_BUFFER: u64 = 1 << 30;
+/// Most nodes that are placed, each as often as it stands in the tree.
+const MAX_NODES: usize = 1 << 16;
+
+/// Reads a model.
+///
+/// # Errors
+/// When a file cannot be read or contradicts itself, or a number is not finite.
+pub fn load(path: &Path) -> Result<Model, ModelError> {
+    let wrong = |reason: String| ModelError {
+        file: path.to_path_buf(),
+        line: None,
+        reason,
+    };
+    let bytes = std::fs::read(path).map_err(|e| wrong(format!("cannot be read: {e}")))?;
+    let gltf = gltf::Gltf::from_slice(&bytes).map_err(|e| wrong(e.to_string()))?;
+    let mut buffers = Vec::new();
+    for buffer in gltf.buffers() {
+        let data = match buffer.source() {
+            Source::Bin => gltf.blob.clone().ok_or("the binary part is missing".into()),
+            Source::Uri(uri) => buffer_of(uri, path),
+        }
+        .map_err(|e: String| wrong(format!("buffer {}: {e}", buffer.index())))?;
+        if data.len() < buffer.length() {
+            return Err(wrong(format!("buffer {} is too short", buffer.index())));
+        }
+        buffers.push(data);
+    }
+    let mut reader = Reader {
+        buffers: &buffers,
+        model: Model::default(),
+        nodes: 0,
+        above: HashSet::new(),
+        textures: false,
+    };
+    for material in gltf.materials() {
+        let [r, g, b, a] = material.pbr_metallic_roughness().base_color_factor();
+        reader.textures |= material
+            .pbr_metallic_roughness()
+            .base_color_texture()
+            .is_some();
+        reader.model.materials.push(Material {
+            name: material.name().unwrap_or("").to_owned(),
+            kd: [r, g, b].map(level),
+            ks: [0.0; 3],
+            ns: 0.0,
+            d: match material.alpha_mode() {
+                gltf::material::AlphaMode::Blend => f64::from(a),
+                _ => 1.0,
+            },
+            map_kd: None,
+        });
+    }
+    let scenes: Vec<_> = match gltf.default_scene() {
+        Some(scene) => vec![scene],
+        None => gltf.scenes().take(1).collect(),
+    };
+    for node in scenes.iter().flat_map(|scene| scene.nodes()) {
+        reader.node(&node, IDENTITY).map_err(wrong)?;
+    }
+    if reader.textures {
+        let warning = wrong("textures are left out".into());
+        reader.model.warnings.push(warning);
+    }
+    Ok(reader.model)
+}
+
+/// Linear light as a level of the display.
+fn level(linear: f32) -> f64 {
+    let v = f64::from(linear).clamp(0.0, 1.0);
+    if v <= 0.003_130_8 {
+        12.92 * v
+    } else {
+        // Exactly 1 at 1, which the rounded constants miss by one unit in the last place.
+        1.0 - 1.055 * (1.0 - v.powf(1.0 / 2.4))
+    }
+}
+
+fn buffer_of(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        let (_, text) = data.split_once("base64,").ok_or("data is not in base64")?;
+        return base64::engine::general_purpose::STANDARD
+            .decode(text)
+            .map_err(|e| e.to_string());
+    }
+    // A name in the folder of the file: nothing above it, and nothing elsewhere.
+    let name = Path::new(uri);
+    let plain = name
+        .components()
+        .all(|c| matches!(c, std::path::Component::Normal(_)));
+    if !plain || uri.contains(':') {
+        return Err(format!("{uri:?} is not a file in the same folder"));
+    }
+    let file = path.parent().unwrap_or(Path::new("")).join(name);
+    let size = std::fs::metadata(&file)
+        .map_err(|e| format!("{uri:?}: {e}"))?
+        .len();
+    if size > MAX_BUFFER {
+        return Err(format!("{uri:?} is too large"));
+    }
+    std::fs::read(&file).map_err(|e| format!("{uri:?}: {e}"))
+}
+
+/// Columns of a 4 x 4 matrix, as glTF has them.
+type Matrix = [[f64; 4]; 4];
+
+const IDENTITY: Matrix = [
+    [1.0, 0.0, 0.0, 0.0],
+    [0.0, 1.0, 0.0, 0.0],
+    [0.0, 0.0, 1.0, 0.0],
+    [0.0, 0.0, 0.0, 1.0],
+];
+
+fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    std::array::from_fn(|c| std::array::from_fn(|r| (0..4).map(|k| a[k][r] * b[c][k]).sum()))
+}
+
+fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = dot(v, v).sqrt();
+    if length > 0.0 {
+        v.map(|c| c / length)
+    } else {
+        [0.0; 3]
+    }
+}
+
+struct Reader<'b> {
+    buffers: &'b [Vec<u8>],
+    model: Model,
+    nodes: usize,
+    /// The nodes above the one at work, so that a circle is noticed.
+    above: HashSet<usize>,
+    textures: bool,
+}
+
+impl Reader<'_> {
+    fn node(&mut self, node: &gltf::Node<'_>, parent: Matrix) -> Result<(), String> {
+        self.nodes += 1;
+        if self.nodes > MAX_NODES || self.above.len() > 256 || !self.above.insert(node.index()) {
+            return Err("its nodes are too many, or stand in a circle".into());
+        }
+        let own = node.transform().matrix().map(|c| c.map(f64::from));
+        let matrix = product(&parent, &own);
+        if let Some(mesh) = node.mesh() {
+            for primitive in mesh.primitives() {
+                self.primitive(&primitive, &matrix)?;
+            }
+        }
+        for child in node.children() {
+            self.node(&child, matrix)?;
+        }
+        self.above.remove(&node.index());
+        Ok(())
+    }
+
+    fn primitive(
+        &mut self,
+        primitive: &gltf::Primitive<'_>,
+        matrix: &Matrix,
+    ) -> Result<(), String> {
+        // The parser checks where accessors lie, but not that a view is within its buffer.
+        let buffers = self.buffers;
+        for (_, accessor) in primitive.attributes() {
+            check(&accessor, buffers)?;
+        }
+        if let Some(accessor) = primitive.indices() {
+            check(&accessor, buffers)?;
+        }
+        let reader = primitive.reader(|b| buffers.get(b.index()).map(Vec::as_slice));
+        let Some(positions) = reader.read_positions() else {
+            return Err("a primitive has no positions".into());
+        };
+        let positions: Vec<[f64; 3]> = positions.map(|p| placed(matrix, p)).collect();
+        if positions
+            .iter()
+            .flatten()
+            .any(|c| !c.is_finite() || c.abs() > f64::from(f32::MAX))
+        {
+            return Err("a position is not finite, or too large".into());
+        }
+        let indices: Vec<u32> = match reader.read_indices() {
+            Some(indices) => indices.into_u32().collect(),
+            None => (0..positions.len() as u32).collect(),
+        };
+        if indices.iter().any(|i| *i as usize >= positions.len()) {
+            return Err("an index names a vertex that does not exist".into());
+        }
+        let columns = [0, 1, 2].map(|c: usize| [matrix[c][0], matrix[c][1], matrix[c][2]]);
+        let mirrored = dot(columns[0], cross(columns[1], columns[2])) < 0.0;
+        let mut triangles = triangles_of(primitive.mode(), &indices)?;
+        if mirrored {
+            for t in &mut triangles {
+                t.swap(1, 2);
+            }
+        }
+        let normals: Vec<[f64; 3]> = match reader.read_normals() {
+            Some(normals) => {
+                // By the inverse's transpose, but for its length: the cofactors.
+                let [x, y, z] = columns;
+                let rows = [cross(y, z), cross(z, x), cross(x, y)];
+                let side = if mirrored { -1.0 } else { 1.0 };
+                normals
+                    .map(|n| {
+                        let n = n.map(f64::from);
+                        unit(
+                            [0, 1, 2]
+                                .map(|i| side * (0..3).map(|k| rows[k][i] * n[k]).sum::<f64>()),
+                        )
+                    })
+                    .collect()
+            }
+            None => area_normals(&positions, &triangles),
+        };
+        let material = primitive.material();
+        let kd = material.pbr_metallic_roughness().base_color_factor();
+        let colours: Option<Vec<[f32; 3]>> =
+            reader.read_colors(0).map(|c| c.into_rgb_f32().collect());
+        let base = self.model.vertices.len() as u32;
+        for (i, position) in positions.into_iter().enumerate() {
+            let own = colours.as_ref().and_then(|c| c.get(i)).copied();
+            let own = own.unwrap_or([1.0; 3]);
+            let normal = normals.get(i).copied().unwrap_or([0.0; 3]);
+            if normal.iter().any(|c| !c.is_finite()) {
+                return Err("a normal is not finite".into());
+            }
+            self.model.vertices.push(ModelVertex {
+                position,
+                normal,
+                colour: [0, 1, 2].map(|k| level(own[k] * kd[k])),
+                uv: [0.0; 2],
+            });
+        }
+        for t in triangles {
+            self.model.triangles.push(t.map(|i| base + i));
+            let index = material.index().map(|i| i as u32);
+            self.model.triangle_materials.push(index);
+        }
+        Ok(())
+    }
+}
+
+/// Whether an accessor's bytes are there.
+fn check(accessor: &gltf::Accessor<'_>, buffers: &[Vec<u8>]) -> Result<(), String> {
+    let bad = || {
+        Err(format!(
+            "accessor {} is not within its buffer",
+            accessor.index()
+        ))
+    };
+    if accessor.sparse().is_some() {
+        return Err(format!(
+            "accessor {} is sparse, which is not read",
+            accessor.index()
+        ));
+    }
+    let Some(view) = accessor.view() else {
+        return bad();
+    };
+    let have = buffers.get(view.buffer().index()).map_or(0, Vec::len);
+    let end = view.offset().checked_add(view.length());
+    if end.is_none_or(|end| end > have) {
+        return bad();
+    }
+    let stride = view.stride().unwrap_or(accessor.size());
+    let last = accessor.count().saturating_sub(1).checked_mul(stride);
+    let need = last
+        .and_then(|n| n.checked_add(accessor.size()))
+        .and_then(|n| n.checked_add(accessor.offset()));
+    if need.is_none_or(|need| need > view.length()) {
+        return bad();
+    }
+    Ok(())
+}
+
+fn placed(m: &Matrix, p: [f32; 3]) -> [f64; 3] {
+    let p = p.map(f64::from);
+    [0, 1, 2].map(|r| m[0][r] * p[0] + m[1][r] * p[1] + m[2][r] * p[2] + m[3][r])
+}
+
+fn triangles_of(mode: Mode, i: &[u32]) -> Result<Vec<[u32; 3]>, String> {
+    let three = |w: &[u32]| [w[0], w[1], w[2]];
+    Ok(match mode {
+        Mode::Triangles => i.chunks_exact(3).map(three).collect(),
+        Mode::TriangleStrip => i
+            .windows(3)
+            .enumerate()
+            .map(|(n, w)| {
+                if n % 2 == 0 {
+                    three(w)
+                } else {
+                    [w[1], w[0], w[2]]
+                }
+            })
+            .collect(),
+        Mode::TriangleFan => i.windows(2).skip(1).map(|w| [i[0], w[0], w[1]]).collect(),
+        // Points and lines have no area.
+        _ => Vec::new(),
+    })
+}
+
+/// Area-weighted normals.
+fn area_normals(positions: &[[f64; 3]], triangles: &[[u32; 3]]) -> Vec<[f64; 3]> {
+    let mut sums = vec![[0.0; 3]; positions.len()];
+    for t in triangles {
+        let [a, b, c] = t.map(|i| positions[i as usize]);
+        let side = |p: [f64; 3]| [0, 1, 2].map(|i| p[i] - a[i]);
+        let n = cross(side(b), side(c));
+        for i in t {
+            let sum = &mut sums[*i as usize];
+            *sum = [0, 1, 2].map(|k| sum[k] + n[k]);
+        }
+    }
+    sums.into_iter().map(unit).collect()
+}

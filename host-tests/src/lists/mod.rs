@@ -1,0 +1,47 @@
+//! Lists on the host: made from models, drawn, and printed (H11, X7).
+//!
+//! | file | there |
+//! |---|---|
+//! | `args.rs` | the flags of `bake`, `run-list` and `disassemble` |
+//! | `bake.rs` | a model into a list: forms, groups, tables |
+//! | `strips.rs` | triangles into strips and fans |
+//! | `tables.rs` | strips and fans into tables of vertices |
+//! | `gltf.rs` | glTF 2.0 into a model |
+//! | `print.rs` | a list as text |
+//! | `run.rs` | a list into a picture |
+
+pub mod args;
+pub mod bake;
+pub mod gltf;
+pub mod print;
+pub mod run;
+pub mod strips;
+mod tables;
+
+use std::error::Error;
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+/// Lists above this many bytes are refused.
+pub const MAX_LIST_BYTES: u64 = 1 << 28;
+
+/// The words of a list file, as they lie in memory.
+///
+/// # Errors
+/// When it cannot be read, is too large, or is not whole words.
+pub fn read_list(path: &Path) -> Result<Vec<u32>, Box<dyn Error>> {
+    let wrong = |reason: String| format!("{}: {reason}", path.display());
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|f| f.take(MAX_LIST_BYTES + 1).read_to_end(&mut bytes))
+        .map_err(|e| wrong(format!("cannot be read: {e}")))?;
+    if bytes.len() as u64 > MAX_LIST_BYTES {
+        return Err(wrong(format!("is larger than {MAX_LIST_BYTES} bytes")).into());
+    }
+    if bytes.len() % 4 != 0 {
+        return Err(wrong(format!("has {} bytes, not whole words", bytes.len())).into());
+    }
+    let word = |b: &[u8]| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]);
+    Ok(bytes.chunks_exact(4).map(word).collect())
+}

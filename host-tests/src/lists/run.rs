@@ -1,0 +1,176 @@
+//! `run-list`: a list into a picture, as firmware would execute it.
+
+use super::args::RunListArgs;
+use super::{print, read_list};
+use crate::image_out::{Frame, write_image};
+use crate::mock::{HostLine, MockFrameBuffer};
+use crate::reference::{Cull, Shade, View};
+use scanbeam::list::{Budget, Halt, Head, Instruction, State, VertexFormat, read_block};
+use scanbeam::scan_out::Pump;
+use scanbeam::{
+    Affine, Camera, Counted, Event, FlatDepth, GouraudDepth, Instance, Light, LineDepth,
+    LineMemory, LineRenderer, Link, ListMemory, ListRunner, ListSettings, Notice, ObjectOf,
+    Pipeline, PixelFormat, Rgb888, RunCounts, Scene, SceneMemory, Screen, VertexOf, draw_frame,
+};
+use std::error::Error;
+
+/// Vertices that a table can have.
+const TABLE: usize = 65_535;
+/// Indices that are drawn together: a whole table's at twice as many triangles.
+const INDICES: usize = 6 * TABLE;
+/// Slots of the object cache.
+const SLOTS: usize = 64;
+
+/// Executes or prints a list.
+///
+/// # Errors
+/// When the list cannot be read or is malformed, or the picture cannot be written.
+pub fn run(args: &RunListArgs) -> Result<(), Box<dyn Error>> {
+    let list = read_list(&args.list)?;
+    let Some(output) = &args.output else {
+        return print::print(&list);
+    };
+    let ran = execute(&list, &args.picture.view(), Budget::of(args.budget))
+        .map_err(|error| format!("{}: {error}", args.list.display()))?;
+    write_image(output, &ran.frame)?;
+    let file = args.list.display();
+    if ran.halt != Halt::End {
+        let (halt, at) = (ran.halt, 4 * ran.position);
+        eprintln!("warning: {file}: halted at offset {at:#x}: {halt:?}");
+    }
+    for (event, offset, times) in &ran.events {
+        eprintln!("warning: {file}: {event:?}, first at offset {offset:#x}, {times} times");
+    }
+    Ok(())
+}
+
+/// A picture of a list, and what it took.
+#[derive(Debug, Clone)]
+pub struct Ran {
+    /// The picture.
+    pub frame: Frame,
+    /// Why it ended.
+    pub halt: Halt,
+    /// Word of the block that would come next.
+    pub position: u32,
+    /// Kinds of events but for the list's end, offset of the first, how many.
+    pub events: Vec<(Event, u32, u32)>,
+    /// What the list did.
+    pub counts: RunCounts,
+}
+
+/// What HEAD says, where a list begins with one.
+#[must_use]
+pub fn head(list: &[u32]) -> Option<Head> {
+    match read_block(list, 0, &VertexFormat::default()).map(|p| p.instruction) {
+        Ok(Instruction::State(State::Head(head))) => Some(head),
+        _ => None,
+    }
+}
+
+/// Draws a list.
+///
+/// # Errors
+/// When the view cannot be had, or the list is malformed.
+pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn Error>> {
+    match view.shade {
+        Shade::Flat => execute_as::<Counted<FlatDepth<Rgb888>>>(list, view, budget),
+        _ => execute_as::<Counted<GouraudDepth<Rgb888>>>(list, view, budget),
+    }
+}
+
+fn execute_as<P>(list: &[u32], view: &View, mut budget: Budget) -> Result<Ran, Box<dyn Error>>
+where
+    P: Pipeline<Pixel = Rgb888>,
+{
+    let (width, height) = (view.width as u16, view.height as u16);
+    let single = |v: [f64; 3]| v.map(|c| c as f32);
+    let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
+    let camera = Camera::look_at(
+        single(view.eye),
+        single(view.at),
+        single(view.up),
+        focal as f32,
+        view.near as f32,
+        view.far as f32,
+    )?;
+    let mut vertices = vec![VertexOf::<P>::empty(); 1 << 16];
+    let mut objects = vec![ObjectOf::<P>::default(); usize::from(Link::CACHED)];
+    let mut buckets = vec![Link::NONE; usize::from(height)];
+    let mut scene = Scene::<P>::new(
+        Screen::new(width, height)?,
+        SceneMemory {
+            vertices: &mut vertices,
+            objects: &mut objects,
+            buckets: &mut buckets,
+        },
+    );
+    scene.begin(&camera)?;
+
+    let mut positions = vec![[0i32; 3]; TABLE];
+    let mut normals = vec![[0; 3]; TABLE];
+    let mut colours = vec![[0; 3]; TABLE];
+    let mut indices = vec![0; INDICES];
+    let light = Light::new(single(view.light), view.ambient as f32);
+    let mut runner = ListRunner::new(
+        ListMemory {
+            positions: &mut positions,
+            normals: &mut normals,
+            colours: &mut colours,
+            indices: &mut indices,
+        },
+        ListSettings {
+            instance: Instance {
+                model: Affine::IDENTITY,
+                cull: match view.cull {
+                    Cull::Back => scanbeam::Cull::Back,
+                    Cull::None => scanbeam::Cull::None,
+                },
+                light: light.filter(|_| view.shade != Shade::None),
+                colour: [255; 3],
+            },
+            camera: true,
+            ..ListSettings::default()
+        },
+    );
+    runner.start(0);
+    let mut events: Vec<(Event, u32, u32)> = Vec::new();
+    let mut note = |n: Notice| match events.iter_mut().find(|e| e.0 == n.event) {
+        Some(known) => known.2 += 1,
+        None => events.push((n.event, n.offset, 1)),
+    };
+    // A picture has no later frame to wait for: pauses and syncs are passed over.
+    let halt = loop {
+        let halt = runner.run(list, &mut scene, &mut budget, &mut note)?;
+        match halt {
+            Halt::Sync => {}
+            Halt::Paused => runner.command(scanbeam::list::ListCommand::Resume),
+            halt => break halt,
+        }
+    };
+    events.retain(|e| !matches!(e.0, Event::ListEnd | Event::Clipped));
+
+    let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
+    let mut links = vec![Link::NONE; usize::from(Link::CACHED)];
+    let mut depth = vec![P::Depth::FARTHEST; usize::from(width)];
+    let mut renderer = LineRenderer::<P>::new(LineMemory {
+        slots: &mut slots,
+        links: &mut links,
+        depth: &mut depth,
+    });
+    let words = usize::from(width);
+    let sink = MockFrameBuffer::new(width, height);
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    let background = Rgb888::from_rgb8(view.background);
+    draw_frame(&scene, &mut renderer, &mut pump, background, 1)
+        .map_err(|error| format!("display: {error}"))?;
+    let pixels = pump.sink().frame().map_err(|e| format!("display: {e:?}"))?;
+    let rgb = pixels.into_iter().flat_map(Rgb888::to_rgb8).collect();
+    Ok(Ran {
+        frame: Frame::new(view.width, view.height, rgb).ok_or("the picture has another size")?,
+        halt,
+        position: runner.position(),
+        events,
+        counts: runner.counts(),
+    })
+}

@@ -1,0 +1,102 @@
+//! What a list says, in the types of this room (H11).
+
+use super::camera::{Camera, CameraError};
+use super::light::Light;
+use super::transform::Affine;
+use crate::list::{CameraWords, LightWords, Matrix};
+use crate::num::{Block, I2F14, U1F15};
+
+impl From<&Matrix> for Affine {
+    fn from(m: &Matrix) -> Self {
+        // Normalised again, whatever the list has: mantissas and exponents are within limits.
+        let linear = m.linear.map(i64::from);
+        let offset = m.offset.map(i64::from);
+        Self {
+            linear: Block::new(linear, i32::from(m.linear_exponent)),
+            offset: Block::new(offset, i32::from(m.offset_exponent)),
+        }
+    }
+}
+
+/// The map's numbers are beyond what a list can say: 2^96.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MatrixRange;
+
+impl TryFrom<&Affine> for Matrix {
+    type Error = MatrixRange;
+
+    /// Exact, but for parts below 2^-128, which become 0.
+    fn try_from(a: &Affine) -> Result<Self, MatrixRange> {
+        let exponent = |e: i32| match e {
+            97.. => Err(MatrixRange),
+            e => Ok(e.max(-128) as i16),
+        };
+        let small = |e: i32| e < -128;
+        Ok(Self {
+            linear: if small(a.linear.exponent) {
+                [0; 9]
+            } else {
+                a.linear.mantissa
+            },
+            linear_exponent: exponent(a.linear.exponent)?,
+            offset: if small(a.offset.exponent) {
+                [0; 3]
+            } else {
+                a.offset.mantissa
+            },
+            offset_exponent: exponent(a.offset.exponent)?,
+        })
+    }
+}
+
+impl From<LightWords> for Light {
+    fn from(l: LightWords) -> Self {
+        Self {
+            direction: l.direction.map(I2F14::from_bits),
+            ambient: U1F15::from_bits(l.ambient),
+        }
+    }
+}
+
+impl From<Light> for LightWords {
+    fn from(l: Light) -> Self {
+        Self {
+            direction: l.direction.map(I2F14::to_bits),
+            ambient: l.ambient.to_bits(),
+        }
+    }
+}
+
+impl Camera {
+    /// The camera of a list, for a picture of so many lines.
+    ///
+    /// # Errors
+    /// As [`look_at`](Camera::look_at).
+    pub fn listed(c: &CameraWords, lines: u16) -> Result<Self, CameraError> {
+        let focal = c.focal * (f32::from(lines) / 240.0);
+        Self::look_at(c.eye, c.at, c.up, focal, c.near, c.far)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn maps_and_lights_come_back() {
+        for k in 0..40 {
+            let turn = Affine::rotation_y(0.3 * k as f32).then(&Affine::rotation_x(k as f32));
+            let place = Affine::placed(1e-9 * 7f32.powi(k), [1e3, -2.5, 0.0]).unwrap();
+            let map = turn.then(&place);
+            let matrix = Matrix::try_from(&map).unwrap();
+            assert_eq!(Affine::from(&matrix), map);
+        }
+        let identity = Matrix::try_from(&Affine::IDENTITY);
+        assert_eq!(identity, Ok(Matrix::IDENTITY));
+        let huge = Affine::placed(1e28, [0.0; 3]).unwrap();
+        let huge = huge.then(&huge);
+        assert_eq!(Matrix::try_from(&huge), Err(MatrixRange));
+        let light = Light::new([0.3, -0.4, 2.0], 0.25).unwrap();
+        assert_eq!(Light::from(LightWords::from(light)), light);
+    }
+}

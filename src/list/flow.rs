@@ -1,0 +1,489 @@
+//! Which block comes next: flow control, immediate commands and the work budget (H12, X7).
+//!
+//! The walker knows no scene. It reads a block, spends the budget for it, follows jumps, and
+//! hands over what is to be done; so a renderer, a disassembler and a check all walk alike.
+
+use super::block::{Flow, Instruction, Run, State};
+use super::error::{ListError, Reason};
+use super::format::VertexFormat;
+use super::header::{Header, Id};
+use super::reader::{Parsed, read_block};
+use super::words::Words;
+use core::sync::atomic::{AtomicU32, Ordering};
+
+/// How much work a list may still cause. Each number goes down to 0, and there the list halts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Budget {
+    /// Blocks.
+    pub instructions: u32,
+    /// Vertices and indices. A block that has more than are left is not begun: below 65,535 some
+    /// lists can never go on.
+    pub vertices: u32,
+    /// Jumps that are taken.
+    pub jumps: u32,
+}
+
+impl Budget {
+    /// So many of each.
+    #[must_use]
+    pub const fn of(work: u32) -> Self {
+        Self {
+            instructions: work,
+            vertices: work,
+            jumps: work,
+        }
+    }
+}
+
+/// Immediate commands (H12).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ListCommand {
+    /// Begin at this word.
+    Start(u32),
+    /// Begin again where it began last.
+    Restart,
+    /// Go on where it halted.
+    Resume,
+    /// Stop before the next block.
+    StopNow,
+    /// Stop at the end of the list, where a ring would wait for more.
+    StopAtEnd,
+    /// Do one block, and stop.
+    Step,
+}
+
+/// A letter box for commands from an interrupt or another core: one at a time, the last counts.
+#[derive(Debug, Default)]
+pub struct ListControl {
+    /// 0: none; else the command's number, from 1.
+    command: AtomicU32,
+    start: AtomicU32,
+}
+
+impl ListControl {
+    /// Empty.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            command: AtomicU32::new(0),
+            start: AtomicU32::new(0),
+        }
+    }
+
+    /// Leaves a command; it is obeyed before the next block.
+    pub fn send(&self, command: ListCommand) {
+        let code = match command {
+            ListCommand::Start(at) => {
+                self.start.store(at, Ordering::Relaxed);
+                1
+            }
+            ListCommand::Restart => 2,
+            ListCommand::Resume => 3,
+            ListCommand::StopNow => 4,
+            ListCommand::StopAtEnd => 5,
+            ListCommand::Step => 6,
+        };
+        self.command.store(code, Ordering::Release);
+    }
+
+    /// Takes the command.
+    #[inline]
+    pub fn take(&self) -> Option<ListCommand> {
+        let code = self.command.load(Ordering::Acquire);
+        if code == 0 {
+            return None;
+        }
+        self.command.store(0, Ordering::Release);
+        Some(match code {
+            1 => ListCommand::Start(self.start.load(Ordering::Relaxed)),
+            2 => ListCommand::Restart,
+            3 => ListCommand::Resume,
+            4 => ListCommand::StopNow,
+            5 => ListCommand::StopAtEnd,
+            _ => ListCommand::Step,
+        })
+    }
+}
+
+/// Why a list does not go on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Halt {
+    /// It has ended; a [`ListCommand`] begins it again.
+    End,
+    /// PAUSE: [`ListCommand::Resume`] goes on.
+    Paused,
+    /// SYNC: draw what there is, begin the next scene, and call again.
+    Sync,
+    /// The reader has met the writer of a ring: call again.
+    Waiting,
+    /// It was stopped, or never started.
+    Stopped,
+    /// One block was done.
+    Stepped,
+    /// The budget is spent; the next call goes on.
+    Budget,
+    /// It reached for what is not its own, and the settings say to stop then.
+    Violation,
+}
+
+/// What comes next.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// Do this.
+    Do(Instruction),
+    /// An interrupt with this vector.
+    Interrupt(u8),
+    /// Nothing to do: a jump was taken, or a block passed over.
+    Passed,
+    /// A block of a later version was passed over.
+    Later,
+    /// The list reached for what is not its own; it was passed over.
+    Violation,
+    /// No block was read, or none comes.
+    Halt(Halt),
+}
+
+/// What vertices that a strip goes on with must have been like.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Kept {
+    id: Id,
+    shade: bool,
+    prsp: bool,
+    text: bool,
+}
+
+impl Kept {
+    const fn of(h: Header) -> Self {
+        Self {
+            id: h.id,
+            shade: h.shade,
+            prsp: h.prsp,
+            text: h.text,
+        }
+    }
+}
+
+/// Where a list is being read.
+#[derive(Clone, Debug)]
+pub struct Walker {
+    at: u32,
+    start: u32,
+    running: bool,
+    stop_at_end: bool,
+    /// Blocks until it stops: 1, or 2 when that is done, 0 for no end.
+    single: u8,
+    /// Position of the block that was read last.
+    block: u32,
+    /// The end at which a ring's reader met the writer last.
+    met: Option<u32>,
+    format: VertexFormat,
+    kept: Option<Kept>,
+    table: Option<u16>,
+}
+
+impl Default for Walker {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Walker {
+    /// At word 0, stopped.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            at: 0,
+            start: 0,
+            running: false,
+            stop_at_end: false,
+            single: 0,
+            block: 0,
+            met: None,
+            format: VertexFormat::default(),
+            kept: None,
+            table: None,
+        }
+    }
+
+    /// Obeys a command.
+    pub fn command(&mut self, command: ListCommand) {
+        match command {
+            ListCommand::Start(at) => self.start_at(at),
+            ListCommand::Restart => self.start_at(self.start),
+            ListCommand::Resume => self.running = true,
+            ListCommand::StopNow => self.running = false,
+            ListCommand::StopAtEnd => self.stop_at_end = true,
+            ListCommand::Step => {
+                self.running = true;
+                self.single = 1;
+            }
+        }
+    }
+
+    fn start_at(&mut self, at: u32) {
+        *self = Self {
+            at,
+            start: at,
+            running: true,
+            ..Self::new()
+        };
+    }
+
+    /// Position of the next block: what a ring's producer may overwrite ends here.
+    #[must_use]
+    pub fn position(&self) -> u32 {
+        self.at
+    }
+
+    /// Byte offset of the block that was read last.
+    #[must_use]
+    pub fn offset(&self) -> u32 {
+        self.block.wrapping_mul(4)
+    }
+
+    /// Whether it goes on when it is called.
+    #[must_use]
+    pub fn is_running(&self) -> bool {
+        self.running
+    }
+
+    /// The vertex format in force.
+    #[must_use]
+    pub fn format(&self) -> &VertexFormat {
+        &self.format
+    }
+
+    /// Vertices of the table in force.
+    #[must_use]
+    pub fn table(&self) -> Option<u16> {
+        self.table
+    }
+
+    /// Stops, for a reason of the caller's.
+    pub fn stop(&mut self) {
+        self.running = false;
+    }
+
+    /// An error of the block that was read last, at which the list stops.
+    pub fn fail(&mut self, block: Id, reason: Reason) -> ListError {
+        self.running = false;
+        ListError {
+            offset: self.offset(),
+            block: Some(block),
+            reason,
+        }
+    }
+
+    /// Whether `to` is within the list, its end included.
+    fn within<'w>(words: impl Words<'w>, to: u32) -> bool {
+        let first = words.first();
+        to.wrapping_sub(first) <= words.end().wrapping_sub(first)
+    }
+
+    /// Goes on at `to`; `false` where that is not within the list.
+    pub fn jump<'w>(&mut self, words: impl Words<'w>, to: u32) -> bool {
+        let good = Self::within(words, to);
+        if good {
+            self.at = to;
+        }
+        good
+    }
+
+    /// Reads the next block.
+    ///
+    /// # Errors
+    /// When it is malformed; the walker stops there, and its position stays.
+    #[inline]
+    pub fn step<'w>(
+        &mut self,
+        words: impl Words<'w>,
+        budget: &mut Budget,
+    ) -> Result<Step, ListError> {
+        if self.single == 2 {
+            self.single = 0;
+            self.running = false;
+            return Ok(Step::Halt(Halt::Stepped));
+        }
+        if !self.running {
+            return Ok(Step::Halt(Halt::Stopped));
+        }
+        if !Self::within(words, self.at) {
+            // Started outside the list.
+            self.running = false;
+            return Ok(Step::Violation);
+        }
+        if self.at == words.end() {
+            return Ok(Step::Halt(self.meet(words)));
+        }
+        if budget.instructions == 0 {
+            return Ok(Step::Halt(Halt::Budget));
+        }
+        let parsed = match read_block(words, self.at, &self.format) {
+            Ok(parsed) => parsed,
+            // The producer is at it.
+            Err(ListError {
+                reason: Reason::Truncated { .. },
+                ..
+            }) if words.room().is_some() && !self.stop_at_end => {
+                return Ok(Step::Halt(self.meet(words)));
+            }
+            Err(error) => {
+                self.running = false;
+                return Err(error);
+            }
+        };
+        let cost = match parsed.instruction {
+            Instruction::Short(r)
+            | Instruction::Long(r)
+            | Instruction::Points(r)
+            | Instruction::Quads(r)
+            | Instruction::Table(r)
+            | Instruction::Indexed(r) => u32::from(r.header.count),
+            _ => 0,
+        };
+        if cost > budget.vertices {
+            return Ok(Step::Halt(Halt::Budget));
+        }
+        let jumps = matches!(
+            parsed.instruction,
+            Instruction::Flow(Flow::Jump(_) | Flow::JumpRelative(_))
+        );
+        if jumps {
+            if budget.jumps == 0 {
+                return Ok(Step::Halt(Halt::Budget));
+            }
+            budget.jumps -= 1;
+        }
+        budget.instructions -= 1;
+        budget.vertices -= cost;
+        self.block = self.at;
+        self.met = None;
+        let step = self.take(words, parsed);
+        if self.single == 1 {
+            self.single = 2;
+        }
+        step
+    }
+
+    /// The reader has met the writer, or the end.
+    #[cold]
+    fn meet<'w>(&mut self, words: impl Words<'w>) -> Halt {
+        if words.room().is_some() && !self.stop_at_end {
+            return Halt::Waiting;
+        }
+        self.running = false;
+        Halt::End
+    }
+
+    /// Whether the wait at this end of a ring is new, so that it is an event once.
+    pub fn meets_anew<'w>(&mut self, words: impl Words<'w>) -> bool {
+        let end = Some(words.end());
+        core::mem::replace(&mut self.met, end) != end
+    }
+
+    /// A block that was read: checks it against what came before, and walks on.
+    #[inline]
+    fn take<'w>(&mut self, words: impl Words<'w>, parsed: Parsed) -> Result<Step, ListError> {
+        let next = self.at.wrapping_add(parsed.words);
+        let step = match parsed.instruction {
+            Instruction::Flow(flow) => return Ok(self.flow(words, flow, next)),
+            Instruction::Later => Step::Later,
+            Instruction::Master(_) => Step::Violation,
+            instruction => {
+                self.check(words, instruction, next)?;
+                Step::Do(instruction)
+            }
+        };
+        self.at = next;
+        Ok(step)
+    }
+
+    #[inline]
+    fn check<'w>(
+        &mut self,
+        words: impl Words<'w>,
+        instruction: Instruction,
+        next: u32,
+    ) -> Result<(), ListError> {
+        match instruction {
+            Instruction::Short(Run { header, .. })
+            | Instruction::Long(Run { header, .. })
+            | Instruction::Quads(Run { header, .. }) => {
+                let goes_on = !header.new && (header.id != Id::Quads || header.rm);
+                let kept = Kept::of(header);
+                if goes_on && self.kept != Some(kept) {
+                    return Err(self.fail(header.id, Reason::Continue));
+                }
+                self.kept = (header.id != Id::Quads || header.rm).then_some(kept);
+            }
+            Instruction::Table(Run { header, .. }) => {
+                self.table = Some(header.count);
+                self.kept = None;
+            }
+            Instruction::Indexed(Run { header, .. }) => {
+                if self.table.is_none() {
+                    return Err(self.fail(header.id, Reason::NoTable));
+                }
+                let kept = Kept::of(header);
+                if !header.new && self.kept != Some(kept) {
+                    return Err(self.fail(header.id, Reason::Continue));
+                }
+                self.kept = Some(kept);
+            }
+            Instruction::State(State::Format(format)) => {
+                self.format = format;
+                self.kept = None;
+            }
+            Instruction::State(State::Bounds(bounds)) => {
+                let left = words.end().wrapping_sub(next);
+                if words.room().is_none() && bounds.words > left {
+                    let value = bounds.words;
+                    return Err(self.fail(Id::State, Reason::Value { word: 6, value }));
+                }
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn flow<'w>(&mut self, words: impl Words<'w>, flow: Flow, next: u32) -> Step {
+        self.at = next;
+        let to = match flow {
+            Flow::End => {
+                self.running = false;
+                return Step::Halt(Halt::End);
+            }
+            Flow::Pause => {
+                self.running = false;
+                return Step::Halt(Halt::Paused);
+            }
+            Flow::Sync => return Step::Halt(Halt::Sync),
+            Flow::Interrupt(vector) => return Step::Interrupt(vector),
+            Flow::LoadTexture { at, .. } => {
+                let texture = read_block(words, at, &self.format).map(|p| p.instruction);
+                return match texture {
+                    Ok(Instruction::State(State::Texture(_))) if Self::within(words, at) => {
+                        Step::Do(Instruction::Flow(flow))
+                    }
+                    _ => Step::Violation,
+                };
+            }
+            Flow::Jump(to) => to,
+            // Of a list without a ring, positions do not wrap: nor may a jump.
+            Flow::JumpRelative(by) => match next.checked_add_signed(by) {
+                Some(to) => to,
+                None if words.room().is_some() => next.wrapping_add_signed(by),
+                None => return Step::Violation,
+            },
+        };
+        if self.jump(words, to) {
+            Step::Passed
+        } else {
+            Step::Violation
+        }
+    }
+}

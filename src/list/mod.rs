@@ -1,0 +1,95 @@
+//! Deferred instruction lists: a binary form of scenes that lies in flash, comes through a ring,
+//! or is appended to while it is drawn (H11-H14, K15, X7).
+//!
+//! A list is a run of blocks in 32-bit words, little-endian, read where it lies. A block is a
+//! header and the words that it asks for. Nothing is trusted: a block is checked whole before any
+//! of it is done, a jump leads within the list, and a [`Budget`] bounds the work, so that a
+//! hostile list can waste what it was given and draw rubbish, and nothing else.
+//!
+//! # The header
+//!
+//! | bits | field | |
+//! |---|---|---|
+//! | 31..28 | ID | the kind of block, below |
+//! | 27..24 | VER | 1 |
+//! | 23..8 | CNT | elements that follow; of FLOW and STATE bits 23..16 the kind, 15..8 an argument |
+//! | 7 | SHADE | vertices carry colours and normal |
+//! | 6 | PRSP | vertices carry depth; textures are perspective-correct |
+//! | 5 | TEXT | vertices carry a texture place |
+//! | 4 | NEW | a strip or fan begins; 0: the one of the block before goes on |
+//! | 3 | RM | each vertex replaces the middle of the last three (fan); 0: the oldest (strip) |
+//! | 2..0 | | 0, but for the flags of QUADS and INDEXED |
+//!
+//! A bit that a kind of block does not have must be 0.
+//!
+//! # The blocks
+//!
+//! | ID | block | bits | what follows |
+//! |---|---|---|---|
+//! | 0 | FLOW | | [`Flow`] |
+//! | 1 | SHORT | SHADE PRSP TEXT NEW RM | CNT vertices: a strip or fan |
+//! | 2 | LONG | SHADE PRSP TEXT NEW RM | CNT vertices set up beforehand: a strip or fan on the screen |
+//! | 3 | POINTS | SHADE PRSP TEXT | CNT vertices, each a point |
+//! | 4 | QUADS | SHADE PRSP TEXT NEW RM | CNT vertices: with RM a quad strip, two for each quad and two to begin with; else four a quad. Bit 0: split from the second corner to the fourth (K2) |
+//! | 5 | TABLE | SHADE PRSP TEXT | CNT vertices in columns, for INDEXED |
+//! | 6 | INDEXED | NEW RM | CNT indices into the last TABLE. Bit 0: of 16 bits, else 8; bit 1: three a triangle, else strips or fans as RM says |
+//! | 7 | STATE | | [`State`] |
+//! | 8..14 | | | CNT words of a later version, passed over with an event |
+//! | 15 | MASTER | | CNT words: a try to reach the master state, passed over with an event |
+//!
+//! **Vertices** are as the vertex format in force describes them ([`VertexFormat`]): each field a
+//! whole number of words, only those that the header's bits bring in, in the order of the format.
+//! In a TABLE each field is a column instead, without gaps, padded to a word at its end.
+//!
+//! **Long vertices** are a word of x and y each, signed 13.3 from the picture's left top corner, x
+//! lower; with PRSP a word of depth (1/w, the near plane at 2^31; without it the near plane);
+//! with SHADE a word of colour (4x8U); with TEXT a word of u and v (2x16U).
+//!
+//! **Strips** are mended so that all triangles show the side that the first one shows. One that
+//! goes on (NEW 0) must have the same ID, SHADE, PRSP and TEXT, and no FORMAT or TABLE between; its
+//! kept vertices are taken in the state that is in force then. In INDEXED an index of all ones
+//! ends a strip and begins another. Indices lie lowest bits first; what is left over in the last
+//! word is passed over.
+//!
+//! # Where things are
+//!
+//! | file | there |
+//! |---|---|
+//! | `header.rs` | the header |
+//! | `format.rs` | the table that describes a vertex |
+//! | `block.rs` | blocks as values, each payload to the bit |
+//! | `words.rs` | slices and rings of words |
+//! | `reader.rs` | words into blocks |
+//! | `writer.rs` | blocks into words |
+//! | `vertex.rs` | parameters out of vertices and columns |
+//! | `strip.rs` | vertices into triangles |
+//! | `flow.rs` | which block comes next: jumps, commands, budget |
+//!
+//! A list is drawn by `ListRunner` of the renderer, which this room does not know.
+
+mod block;
+mod error;
+mod flow;
+mod format;
+mod header;
+mod reader;
+mod strip;
+#[cfg(test)]
+mod tests;
+mod vertex;
+mod words;
+mod writer;
+
+pub use block::{
+    Bounds, CameraWords, Flow, Head, Instruction, LightWords, MAGIC, Material, Matrix, Overlay,
+    Palette, Run, State, TexelForm, Texture, Window,
+};
+pub use error::{ListError, Reason};
+pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};
+pub use format::{Field, FieldForm, PARAMETERS, VertexFormat, parameter};
+pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
+pub use reader::{Parsed, read_block};
+pub use strip::Strip;
+pub use vertex::{Layout, Place, Slot, colour, normal};
+pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};
+pub use writer::{FieldPacker, Form, ListWriter, WriteError, words_of_column};

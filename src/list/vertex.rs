@@ -1,0 +1,309 @@
+//! Parameters out of vertices and columns, in the units of a mesh (K15).
+//!
+//! The form is looked at once a column, not once a vertex; fields of 3 and 6 bytes are taken
+//! three words at a time, so that no field costs a division or a 64-bit shift.
+
+use super::format::{FieldForm, VertexFormat, column_words, parameter};
+use super::header::{Header, Id};
+use super::words::Words;
+
+/// A coordinate of a mesh, out of a list.
+pub trait Place: Copy + Default + bytemuck::Pod {
+    /// The form that can be used where it lies.
+    const IN_PLACE: FieldForm;
+
+    /// Of a field; `None` where the type cannot hold the form.
+    fn of(form: FieldForm, field: [i32; 3]) -> Option<[Self; 3]>;
+}
+
+/// Left shifts that make Q1.14 of the fields of a place.
+const fn shifts(form: FieldForm) -> [u32; 3] {
+    match form {
+        FieldForm::S10x3 => [4, 4, 5],
+        FieldForm::S8x3 => [7; 3],
+        _ => [0; 3],
+    }
+}
+
+impl Place for i16 {
+    const IN_PLACE: FieldForm = FieldForm::S16x3;
+
+    #[inline(always)]
+    fn of(form: FieldForm, f: [i32; 3]) -> Option<[Self; 3]> {
+        if matches!(form, FieldForm::S32x3) {
+            return None;
+        }
+        let s = shifts(form);
+        Some([
+            (f[0] << s[0]) as i16,
+            (f[1] << s[1]) as i16,
+            (f[2] << s[2]) as i16,
+        ])
+    }
+}
+
+impl Place for i32 {
+    const IN_PLACE: FieldForm = FieldForm::S32x3;
+
+    #[inline(always)]
+    fn of(form: FieldForm, f: [i32; 3]) -> Option<[Self; 3]> {
+        if matches!(form, FieldForm::S32x3) {
+            return Some(f);
+        }
+        let s = shifts(form);
+        Some([
+            f[0] << (16 + s[0]),
+            f[1] << (16 + s[1]),
+            f[2] << (16 + s[2]),
+        ])
+    }
+}
+
+/// A normal in Q1.14 of a field.
+#[inline(always)]
+#[must_use]
+pub fn normal(form: FieldForm, f: [i32; 3]) -> [i16; 3] {
+    match form {
+        FieldForm::S10x3 => [
+            ((f[0] * 1025) >> 6) as i16,
+            ((f[1] * 1025) >> 6) as i16,
+            ((f[2] * 513) >> 4) as i16,
+        ],
+        FieldForm::S8x3 => f.map(|v| (v * 129) as i16),
+        _ => f.map(|v| v as i16),
+    }
+}
+
+/// A colour of a field.
+#[inline(always)]
+#[must_use]
+pub fn colour(f: [i32; 3]) -> [u8; 3] {
+    f.map(|v| v as u8)
+}
+
+/// Sign-extends the lowest `bits` of `v`.
+#[inline(always)]
+const fn signed(v: u32, bits: u32) -> i32 {
+    (v << (32 - bits)) as i32 >> (32 - bits)
+}
+
+/// The first three fields of a form, from its first words.
+#[inline(always)]
+fn fields(form: FieldForm, w: [u32; 3]) -> [i32; 3] {
+    let [w, x, y] = w;
+    match form {
+        FieldForm::U8x4 | FieldForm::U8x3 => [
+            (w & 0xFF) as i32,
+            (w >> 8 & 0xFF) as i32,
+            (w >> 16 & 0xFF) as i32,
+        ],
+        FieldForm::S8x3 => [signed(w, 8), signed(w >> 8, 8), signed(w >> 16, 8)],
+        FieldForm::S10x3 => [signed(w, 11), signed(w >> 11, 11), w as i32 >> 22],
+        FieldForm::S16x3 => [signed(w, 16), w as i32 >> 16, signed(x, 16)],
+        FieldForm::S32x3 => [w as i32, x as i32, y as i32],
+        FieldForm::U16x2 => [(w & 0xFFFF) as i32, (w >> 16) as i32, 0],
+        FieldForm::U32x1 => [w as i32, 0, 0],
+    }
+}
+
+/// A parameter's form and where it lies: words from the vertex, or from the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Slot {
+    /// Its form.
+    pub form: FieldForm,
+    /// Words before it.
+    pub word: u32,
+}
+
+/// Where the parameters lie that a mesh has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Words of a vertex, or of a table.
+    pub words: u32,
+    /// The place.
+    pub place: Slot,
+    /// The diffuse colour.
+    pub colour: Option<Slot>,
+    /// The normal.
+    pub normal: Option<Slot>,
+}
+
+impl Layout {
+    /// Of the vertices of a block.
+    #[must_use]
+    pub fn new(format: &VertexFormat, header: Header) -> Self {
+        let mut layout = Self {
+            words: 0,
+            place: Slot {
+                form: FieldForm::S16x3,
+                word: 0,
+            },
+            colour: None,
+            normal: None,
+        };
+        for field in format.fields_of(header) {
+            let slot = Slot {
+                form: field.form,
+                word: layout.words,
+            };
+            match field.parameter {
+                parameter::PLACE => layout.place = slot,
+                parameter::DIFFUSE => layout.colour = Some(slot),
+                parameter::NORMAL => layout.normal = Some(slot),
+                _ => {}
+            }
+            layout.words += if header.id == Id::Table {
+                column_words(field.form, header.count)
+            } else {
+                field.form.words()
+            };
+        }
+        layout
+    }
+}
+
+impl Slot {
+    /// The field of the vertex that begins at `at`.
+    #[inline(always)]
+    pub fn field<'w>(self, words: impl Words<'w>, at: u32) -> [i32; 3] {
+        let at = at.wrapping_add(self.word);
+        let word = |n: u32| words.word(at.wrapping_add(n));
+        let w = match self.form.words() {
+            1 => [word(0), 0, 0],
+            2 => [word(0), word(1), 0],
+            _ => [word(0), word(1), word(2)],
+        };
+        fields(self.form, w)
+    }
+
+    /// Fills `out` with the column of the table that begins at `at`: as many as `out` is long,
+    /// at most 65,535.
+    #[inline]
+    pub fn column<'w, T>(
+        self,
+        words: impl Words<'w>,
+        at: u32,
+        out: &mut [T],
+        of: impl Fn([i32; 3]) -> T,
+    ) {
+        let at = at.wrapping_add(self.word);
+        let len = column_words(self.form, out.len().min(0xFFFF) as u16);
+        match words.slice(at, len) {
+            // Whole threes of words, without a question for each whether it is there.
+            Some(slice) if self.form == FieldForm::S8x3 => {
+                let (threes, whole) = (slice.chunks_exact(3), out.len() / 4 * 4);
+                let rest = threes.remainder();
+                let (fours, end) = out.split_at_mut(whole);
+                for (three, four) in threes.clone().zip(fours.chunks_exact_mut(4)) {
+                    if let ([a, b, c], [p, q, r, s]) = (three, four) {
+                        let w = four_of([a, b, c].map(|w| u32::from_le(*w)));
+                        let value = |w| of(fields(FieldForm::S8x3, [w, 0, 0]));
+                        (*p, *q, *r, *s) = (value(w[0]), value(w[1]), value(w[2]), value(w[3]));
+                    }
+                }
+                // Three left over take three words, which then are no remainder.
+                let rest = if end.len() == 3 {
+                    slice.get(slice.len().saturating_sub(3)..).unwrap_or(rest)
+                } else {
+                    rest
+                };
+                let words = rest.iter().map(|w| u32::from_le(*w));
+                column(self.form, words, end, of);
+            }
+            Some(slice) => {
+                let words = slice.iter().map(|w| u32::from_le(*w));
+                column(self.form, words, out, of);
+            }
+            None => {
+                let words = (0..len).map(|n| words.word(at.wrapping_add(n)));
+                column(self.form, words, out, of);
+            }
+        }
+    }
+
+    /// The column itself, where it lies in one piece and is of this type: `[T; 3]` for each.
+    #[inline]
+    pub fn in_place<'w, T: bytemuck::Pod>(
+        self,
+        words: impl Words<'w>,
+        at: u32,
+        count: u16,
+    ) -> Option<&'w [[T; 3]]>
+    where
+        [T; 3]: bytemuck::Pod,
+    {
+        let one = size_of::<[T; 3]>();
+        if cfg!(target_endian = "big") || self.form.column_bytes() as usize != one {
+            return None;
+        }
+        let len = column_words(self.form, count);
+        let slice = words.slice(at.wrapping_add(self.word), len)?;
+        let bytes: &[u8] = bytemuck::cast_slice(slice);
+        let bytes = bytes.get(..usize::from(count) * one)?;
+        bytemuck::try_cast_slice(bytes).ok()
+    }
+}
+
+/// Takes a column's words apart.
+#[inline(always)]
+fn column<T>(
+    form: FieldForm,
+    mut words: impl Iterator<Item = u32>,
+    out: &mut [T],
+    of: impl Fn([i32; 3]) -> T,
+) {
+    // The words are as many as the column has; what the last of them lacks is 0.
+    let mut next = move || words.next().unwrap_or(0);
+    match form {
+        FieldForm::U8x3 => bytes(FieldForm::U8x3, next, out, of),
+        FieldForm::S8x3 => bytes(FieldForm::S8x3, next, out, of),
+        FieldForm::S16x3 => {
+            for pair in out.chunks_mut(2) {
+                let (a, b) = (next(), next());
+                if let [first, rest @ ..] = pair {
+                    *first = of(fields(form, [a, b, 0]));
+                    if let [second, ..] = rest {
+                        let c = next();
+                        *second = of(fields(form, [b >> 16 | c << 16, c >> 16, 0]));
+                    }
+                }
+            }
+        }
+        FieldForm::S32x3 => {
+            for slot in out {
+                *slot = of(fields(form, [next(), next(), next()]));
+            }
+        }
+        form => {
+            for slot in out {
+                *slot = of(fields(form, [next(), 0, 0]));
+            }
+        }
+    }
+}
+
+/// Four fields of three bytes each, in three words.
+#[inline(always)]
+const fn four_of([a, b, c]: [u32; 3]) -> [u32; 4] {
+    [a, a >> 24 | b << 8, b >> 16 | c << 16, c >> 8]
+}
+
+/// Fields of three bytes out of words.
+#[inline(always)]
+fn bytes<T>(
+    form: FieldForm,
+    mut next: impl FnMut() -> u32,
+    out: &mut [T],
+    of: impl Fn([i32; 3]) -> T,
+) {
+    let mut four = || four_of([next(), next(), next()]);
+    let mut whole = out.chunks_exact_mut(4);
+    for part in &mut whole {
+        for (slot, word) in part.iter_mut().zip(four()) {
+            *slot = of(fields(form, [word, 0, 0]));
+        }
+    }
+    for (slot, word) in whole.into_remainder().iter_mut().zip(four()) {
+        *slot = of(fields(form, [word, 0, 0]));
+    }
+}

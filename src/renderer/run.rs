@@ -1,0 +1,390 @@
+//! Executes instruction lists into a scene (H11-H14, H16).
+//!
+//! [`ListRunner`] walks a list block by block, keeps the state that blocks set, and draws what
+//! they hold through [`Scene::draw`], so a list gives the same bits as the same calls. It halts
+//! at the list's end, at PAUSE and SYNC, when a ring is empty and when the budget is spent, and
+//! goes on where it halted.
+//!
+//! What a list cannot do (H13): reach the master state, draw to a window that was not granted,
+//! jump or read outside itself. A try is an event, and the list goes on or stops, as the settings
+//! say. What this pipeline does not have is an event as well, and the rest is drawn.
+
+use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
+use super::frame::FrameStats;
+use super::scene::{Instance, Scene};
+use crate::event::{Event, EventSet, EventSink, Notice};
+use crate::geometry::{Affine, Camera, Cull, Light};
+use crate::list::{
+    Budget, Halt, Id, Instruction, ListCommand, ListControl, ListError, Material, Reason, State,
+    Step, Walker, Window, Words,
+};
+use crate::pipeline::Pipeline;
+
+/// What becomes of a list that reaches for what is not its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum OnViolation {
+    /// The block is passed over.
+    #[default]
+    GoOn,
+    /// The list stops.
+    Stop,
+}
+
+/// What a list starts from, and what it may do.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ListSettings<'c> {
+    /// The list's world in the application's: its matrices come first, then this one. Culling,
+    /// light and colour until the list says otherwise.
+    pub instance: Instance,
+    /// Whether its cameras count; else they are access violations.
+    pub camera: bool,
+    /// The part of the picture that it may ask for as its window; `None`: all.
+    pub window: Option<Window>,
+    /// After an access violation.
+    pub on_violation: OnViolation,
+    /// Where commands come from, beside [`ListRunner::command`].
+    pub control: Option<&'c ListControl>,
+}
+
+/// What a list has done since it was started.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RunCounts {
+    /// Blocks, flow control left out.
+    pub blocks: u32,
+    /// Meshes that were drawn.
+    pub draws: u32,
+    /// Vertices that were transformed.
+    pub vertices: u32,
+    /// Triangles that were submitted.
+    pub triangles: u32,
+    /// Triangles that found no room in the scene.
+    pub dropped: u32,
+    /// Features that the pipeline does not have, each time one was asked for.
+    pub unimplemented: u32,
+    /// Access violations.
+    pub violations: u32,
+}
+
+/// Executes lists.
+pub struct ListRunner<'m, 'c, C = i16> {
+    settings: ListSettings<'c>,
+    walker: Walker,
+    batch: Batch<'m, C>,
+    matrix: Affine,
+    light: Option<Light>,
+    material: Material,
+    /// What the three make of the settings' instance.
+    instance: Instance,
+    /// The state has changed since: to be made anew before anything is gathered.
+    stale: bool,
+    counts: RunCounts,
+}
+
+impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
+    /// Stopped; [`start`](ListRunner::start) begins.
+    #[must_use]
+    pub fn new(memory: ListMemory<'m, C>, settings: ListSettings<'c>) -> Self {
+        let mut runner = Self {
+            walker: Walker::new(),
+            batch: Batch::new(memory),
+            matrix: Affine::IDENTITY,
+            light: None,
+            material: Material::default(),
+            instance: settings.instance,
+            stale: true,
+            settings,
+            counts: RunCounts::default(),
+        };
+        runner.reset();
+        runner
+    }
+
+    /// Begins at word `at`, with the state that the settings give.
+    pub fn start(&mut self, at: u32) {
+        self.command(ListCommand::Start(at));
+    }
+
+    /// Obeys a command at once.
+    pub fn command(&mut self, command: ListCommand) {
+        self.walker.command(command);
+        if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
+            self.reset();
+        }
+    }
+
+    /// Other settings, from the next start on; where the list stands in the world at once.
+    pub fn set_instance(&mut self, instance: Instance) {
+        self.settings.instance = instance;
+        self.stale = true;
+    }
+
+    /// Position of the next block; what lies before it in a ring may be freed.
+    #[must_use]
+    pub fn position(&self) -> u32 {
+        self.walker.position()
+    }
+
+    /// What was done since the start.
+    #[must_use]
+    pub fn counts(&self) -> RunCounts {
+        let batch = self.batch.counts;
+        RunCounts {
+            draws: batch.draws,
+            vertices: batch.vertices,
+            triangles: batch.triangles,
+            dropped: batch.dropped,
+            ..self.counts
+        }
+    }
+
+    fn reset(&mut self) {
+        self.batch.reset();
+        self.batch.counts = Default::default();
+        self.counts = RunCounts::default();
+        self.matrix = Affine::IDENTITY;
+        self.light = self.settings.instance.light;
+        let [r, g, b] = self.settings.instance.colour;
+        self.material = Material {
+            diffuse: [r, g, b],
+            two_sided: self.settings.instance.cull == Cull::None,
+            ..Material::default()
+        };
+        self.stale = true;
+    }
+
+    /// The instance that the state makes.
+    fn renew(&mut self) {
+        self.stale = false;
+        self.instance = Instance {
+            model: self.matrix.then(&self.settings.instance.model),
+            cull: if self.material.two_sided {
+                Cull::None
+            } else {
+                Cull::Back
+            },
+            light: self.light.filter(|_| !self.material.unlit),
+            colour: self.material.diffuse,
+        };
+    }
+
+    /// Executes the list until it halts. The scene must have been begun.
+    ///
+    /// What an error stops at is named; what stands before it is drawn.
+    ///
+    /// # Errors
+    /// When a block is malformed. The list has stopped; a start begins it again.
+    pub fn run<'w, P: Pipeline>(
+        &mut self,
+        words: impl Words<'w>,
+        scene: &mut Scene<'_, P>,
+        budget: &mut Budget,
+        events: &mut impl EventSink,
+    ) -> Result<Halt, ListError> {
+        loop {
+            if let Some(command) = self.settings.control.and_then(ListControl::take) {
+                if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
+                    self.flush(words, scene, events);
+                }
+                self.command(command);
+            }
+            let step = match self.walker.step(words, budget) {
+                Ok(Step::Do(instruction)) => self.execute(words, instruction, scene, events),
+                other => other,
+            };
+            match step {
+                Ok(Step::Do(_) | Step::Passed) => {}
+                Ok(Step::Interrupt(vector)) => {
+                    self.notice(events, Event::Interrupt, u32::from(vector));
+                }
+                Ok(Step::Later) => self.unimplemented(events),
+                Ok(Step::Violation) => {
+                    self.counts.violations += 1;
+                    self.notice(events, Event::AccessViolation, 0);
+                    if self.settings.on_violation == OnViolation::Stop {
+                        self.walker.stop();
+                        self.flush(words, scene, events);
+                        return Ok(Halt::Violation);
+                    }
+                }
+                Ok(Step::Halt(halt)) => {
+                    self.flush(words, scene, events);
+                    let event = match halt {
+                        Halt::End => Some(Event::ListEnd),
+                        Halt::Waiting if self.walker.meets_anew(words) => Some(Event::ListEnd),
+                        Halt::Paused => Some(Event::Paused),
+                        Halt::Sync => Some(Event::Sync),
+                        _ => None,
+                    };
+                    if let Some(event) = event {
+                        self.notice(events, event, 0);
+                    }
+                    return Ok(halt);
+                }
+                Err(error) => {
+                    self.flush(words, scene, events);
+                    self.notice(events, Event::Malformed, 0);
+                    return Err(error);
+                }
+            }
+        }
+    }
+
+    #[cold]
+    fn notice(&self, events: &mut impl EventSink, event: Event, value: u32) {
+        events.notice(Notice {
+            event,
+            offset: self.walker.offset(),
+            value,
+        });
+    }
+
+    #[cold]
+    fn unimplemented(&mut self, events: &mut impl EventSink) {
+        self.counts.unimplemented += 1;
+        self.notice(events, Event::Unimplemented, 0);
+    }
+
+    fn flush<'w, P: Pipeline>(
+        &mut self,
+        words: impl Words<'w>,
+        scene: &mut Scene<'_, P>,
+        events: &mut impl EventSink,
+    ) {
+        let mut target = Target {
+            scene,
+            instance: &self.instance,
+            events,
+            offset: self.walker.offset(),
+        };
+        self.batch.flush(words, &mut target);
+    }
+
+    /// Does one block.
+    fn execute<'w, P: Pipeline>(
+        &mut self,
+        words: impl Words<'w>,
+        instruction: Instruction,
+        scene: &mut Scene<'_, P>,
+        events: &mut impl EventSink,
+    ) -> Result<Step, ListError> {
+        self.counts.blocks += 1;
+        // State comes in groups and is combined once, before the first block that draws.
+        if self.stale && !matches!(instruction, Instruction::State(_)) {
+            self.renew();
+        }
+        let mut target = Target {
+            scene,
+            instance: &self.instance,
+            events,
+            offset: self.walker.offset(),
+        };
+        let format = self.walker.format();
+        let done = match instruction {
+            Instruction::Short(run) => self.batch.run(words, format, run, false, &mut target),
+            Instruction::Quads(run) => self.batch.run(words, format, run, true, &mut target),
+            Instruction::Table(run) => self.batch.table(words, format, run, &mut target),
+            Instruction::Indexed(run) => {
+                if let Err(BadIndex(index, count)) = self.batch.indexed(words, run, &mut target) {
+                    let reason = Reason::Index { index, count };
+                    return Err(self.walker.fail(Id::Indexed, reason));
+                }
+                Ok(())
+            }
+            Instruction::State(state) => return self.state(words, state, scene, events),
+            _ => Err(Event::Unimplemented),
+        };
+        let textured = match instruction {
+            Instruction::Short(r) | Instruction::Quads(r) | Instruction::Table(r) => r.header.text,
+            _ => false,
+        };
+        match done {
+            Err(Event::Unimplemented) => self.unimplemented(events),
+            Err(event) => self.notice(events, event, 0),
+            Ok(()) if textured => self.unimplemented(events),
+            Ok(()) => {}
+        }
+        Ok(Step::Do(instruction))
+    }
+
+    /// Takes new state; what was gathered is drawn with the old one.
+    fn state<'w, P: Pipeline>(
+        &mut self,
+        words: impl Words<'w>,
+        state: State,
+        scene: &mut Scene<'_, P>,
+        events: &mut impl EventSink,
+    ) -> Result<Step, ListError> {
+        match state {
+            State::Head(_) | State::Format(_) | State::Bounds(_) => return Ok(Step::Passed),
+            _ => self.flush(words, scene, events),
+        }
+        let screen = scene.screen();
+        match state {
+            State::Matrix(matrix) => self.matrix = Affine::from(&matrix),
+            State::Light { number: 0, light } => self.light = Some(Light::from(light)),
+            State::LightOff { number: 0 } => self.light = None,
+            // A light that is not there is off.
+            State::LightOff { .. } => {}
+            State::Material(material) => {
+                if material.opacity != 255
+                    || material.specular != [0; 3]
+                    || material.texture.is_some()
+                {
+                    self.unimplemented(events);
+                }
+                self.material = material;
+            }
+            State::Camera(_) if !self.settings.camera => return Ok(Step::Violation),
+            State::Camera(camera) => match Camera::listed(&camera, screen.height()) {
+                Ok(camera) => scene.set_camera(&camera),
+                Err(_) => return Err(self.walker.fail(Id::State, Reason::Camera)),
+            },
+            State::Window(window) => {
+                let all = Window {
+                    left: 0,
+                    top: 0,
+                    right: screen.width(),
+                    bottom: screen.height(),
+                };
+                let granted = self.settings.window.unwrap_or(all);
+                if window.left < granted.left
+                    || window.top < granted.top
+                    || window.right > granted.right
+                    || window.bottom > granted.bottom
+                {
+                    return Ok(Step::Violation);
+                }
+                if window != all {
+                    self.unimplemented(events);
+                }
+            }
+            _ => self.unimplemented(events),
+        }
+        self.stale = true;
+        Ok(Step::Passed)
+    }
+}
+
+impl FrameStats {
+    /// The events of a frame that was drawn (H14). Those of pixels need a pipeline that counts.
+    #[must_use]
+    pub fn events(&self) -> EventSet {
+        let spans = &self.spans;
+        let seen = [
+            (Event::PixelRendered, spans.pixels_shaded > 0),
+            (Event::Clipped, self.pass_one.clipped > 0),
+            (
+                Event::DepthPassed,
+                spans.depth_tests > 0 && spans.pixels_shaded > 0,
+            ),
+            (Event::DepthFailed, spans.pixels_hidden > 0),
+            (Event::Full, self.pass_one.dropped > 0),
+        ];
+        let mut set = EventSet::NONE;
+        for (event, _) in seen.into_iter().filter(|(_, seen)| *seen) {
+            set = set.with(event);
+        }
+        set
+    }
+}
