@@ -50,8 +50,9 @@ fn random_bytes_are_tokens_and_vertices() {
 #[test]
 fn random_bytes_are_lists() {
     let mut rng = Rng::new(74);
-    let blocks: usize = (0..20_000).map(|_| list::run(&bytes(&mut rng, 240))).sum();
-    assert!(blocks > 1_000, "{blocks}");
+    // Few random bytes make a block: three in a thousand tries.
+    let blocks: usize = (0..100_000).map(|_| list::run(&bytes(&mut rng, 240))).sum();
+    assert!(blocks > 200, "{blocks}");
 }
 
 #[test]
