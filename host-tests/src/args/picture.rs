@@ -67,7 +67,7 @@ pub struct PictureArgs {
 }
 
 impl PictureArgs {
-    /// The view that the flags describe; already checked when it comes from [`parse`].
+    /// The view that the flags describe; already checked when it comes from [`parse`](super::parse).
     #[must_use]
     pub fn view(&self) -> View {
         View {

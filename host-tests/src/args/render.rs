@@ -100,7 +100,7 @@ pub struct RenderArgs {
 }
 
 impl RenderArgs {
-    /// The view that the flags describe; already checked when it comes from [`parse`].
+    /// The view that the flags describe; already checked when it comes from [`parse`](super::parse).
     #[must_use]
     pub fn view(&self) -> View {
         self.picture.view()
