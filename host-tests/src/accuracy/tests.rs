@@ -142,10 +142,8 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
         let (_, _, _, bound) = BOUNDS.iter().find(fits).expect(row.method);
         assert!(row.max <= *bound, "{row:?}: above {bound}");
         assert!(row.mean <= row.max && row.samples > 1000, "{row:?}");
-        assert!(
-            row.p999.is_none_or(|p| p <= row.max && p >= row.mean),
-            "{row:?}"
-        );
+        // A few pixels may lift the mean above what all but a thousandth keep.
+        assert!(row.p999.is_none_or(|p| p <= row.max), "{row:?}");
     }
     let (costs, note) = Costs::measured().unwrap();
     assert_eq!(note, None, "QEMU and a compiler for it are needed here");
