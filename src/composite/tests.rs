@@ -2,6 +2,7 @@
 
 use super::lirp::blend;
 use super::*;
+use crate::num::random::Rng;
 use crate::shade::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
     Packed16, Quality, QuarterRate, Stretch,
@@ -21,18 +22,6 @@ fn formats_round_trip_and_keep_their_bytes() {
         [0, 255, 0]
     );
     assert_eq!(Rgb888::from_rgb8([1, 2, 3]), [1, 2, 3]);
-}
-
-struct Rng(u64);
-
-impl Rng {
-    fn below(&mut self, n: u32) -> u32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-    }
 }
 
 /// Which pixels are seen, as depth would tell.
