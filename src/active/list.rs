@@ -89,6 +89,8 @@ pub struct ActiveList<'m, T> {
     spilled: u32,
     /// No object of the active list that is in a slot ends above this line.
     first_end: i32,
+    /// Something was taken out since the last [`update`](ActiveList::update).
+    released: bool,
     pub(crate) counts: CacheCounts,
 }
 
@@ -110,6 +112,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
             cached: 0,
             spilled: 0,
             first_end: i32::MAX,
+            released: false,
             counts: CacheCounts::default(),
         };
         list.clear();
@@ -163,6 +166,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.free = Link::NONE;
         (self.used, self.waiting, self.cached, self.spilled) = (0, 0, 0, 0);
         self.first_end = i32::MAX;
+        self.released = false;
         self.counts = CacheCounts::default();
         for (i, slot) in self.slots.iter_mut().enumerate().rev() {
             slot.next = self.free;
@@ -297,21 +301,24 @@ impl<'m, T: Member> ActiveList<'m, T> {
     /// changed.
     #[inline]
     pub(crate) fn update(&mut self, line: i32, visitor: &mut impl Visitor<T>) -> bool {
+        let released = core::mem::take(&mut self.released);
         // What stays is a hit, and what comes in its slot is one too.
         if self.incoming.is_some() || self.spilled > 0 || line >= self.first_end {
             // Where slots are scarce, those of what has ended have to be free first.
             if self.used + self.waiting + self.spilled > self.slots.len() as u32 {
                 self.release(line);
+                self.released = false;
             }
             self.merge_incoming(line, visitor);
             true
         } else {
             self.counts.hits += self.cached;
-            false
+            released
         }
     }
 
-    /// Takes out what has ended above `line`, so that its slots are free.
+    /// Takes out what has ended above `line`, so that its slots are free; the next
+    /// [`update`](ActiveList::update) tells of it.
     pub(crate) fn release(&mut self, line: i32) {
         if line < self.first_end {
             return;
@@ -326,6 +333,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
                     if end <= line {
                         self.set_next(before, after);
                         self.put_back(current);
+                        self.released = true;
                         current = after;
                         continue;
                     }
