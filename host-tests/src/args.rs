@@ -63,6 +63,8 @@ pub enum Command {
     Firmware(FirmwareArgs),
     /// Count and time frames on this machine, beside other renderers
     Bench(BenchArgs),
+    /// Make a page with pictures, their errors and what they cost
+    Report(ReportArgs),
     /// Make a list of a model: strips of quantised vertices for flash
     Bake(BakeArgs),
     /// Execute a list and draw it to a picture
@@ -141,6 +143,22 @@ pub struct CacheArgs {
 /// Flags of `accuracy`: those of `cache`.
 pub type AccuracyArgs = CacheArgs;
 
+/// Flags of `report`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct ReportArgs {
+    /// Folder for the page, made when it is not there
+    #[arg(
+        short = 'o',
+        long = "output",
+        value_name = "DIR",
+        default_value = "report"
+    )]
+    pub output: PathBuf,
+    /// Draw with other renderers too, which are fetched and built for it
+    #[arg(long)]
+    pub peers: bool,
+}
+
 /// Why no command is to be run.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Stop {
@@ -174,6 +192,7 @@ where
         | Command::Accuracy(_)
         | Command::Firmware(_)
         | Command::Bench(_)
+        | Command::Report(_)
         | Command::Disassemble(_) => Ok(()),
     };
     checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;

@@ -73,6 +73,17 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
+/// The charts of all scenes.
+///
+/// # Errors
+/// When this file lends too little memory.
+pub fn charts() -> Result<Vec<Chart>, Box<dyn Error>> {
+    SHOTS
+        .into_iter()
+        .map(|shot| Ok(chart(shot, &measure(shot)?)))
+        .collect()
+}
+
 /// Draws a scene with every size of cache, and once with fetching ahead.
 fn measure(shot: Shot) -> Result<Vec<Row>, Box<dyn Error>> {
     let mut lent = SceneRooms::<Drawn>::new(VERTICES, OBJECTS, HEIGHT.into());

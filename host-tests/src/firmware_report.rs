@@ -7,7 +7,7 @@ use crate::figures::{Bench, Figure, Size, growth};
 use crate::firmware::{
     self, BOARDS, Board, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
-use crate::image_out::{write_atomically, write_image};
+use crate::image_out::{Frame, write_atomically, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
@@ -230,6 +230,20 @@ pub fn host_counts() -> Result<BTreeMap<&'static str, FrameStats>, Box<dyn Error
         counts.insert(shot.name(), drawn.1);
     }
     Ok(counts)
+}
+
+/// A shot as a picture, and what its frame had.
+///
+/// # Errors
+/// When a shot does not fit the arenas that it asks for.
+pub fn picture(shot: Shot) -> Result<(Frame, FrameStats), Box<dyn Error>> {
+    let (bytes, stats) = drawn::<Counted<GouraudDepth<Rgb565Be>>>(shot)?;
+    let words = bytes
+        .chunks_exact(2)
+        .map(|b| u16::from_ne_bytes([b[0], b[1]]));
+    let rgb = words.flat_map(Rgb565Be::to_rgb8).collect();
+    let frame = Frame::new(WIDTH.into(), HEIGHT.into(), rgb).ok_or("a frame of another size")?;
+    Ok((frame, stats))
 }
 
 /// The bytes of a shot in scan-out order.

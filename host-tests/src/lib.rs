@@ -19,6 +19,7 @@ pub mod mock;
 pub mod model;
 pub mod plot;
 pub mod reference;
+pub mod report;
 pub mod texture_file;
 pub mod texture_report;
 pub mod trace;

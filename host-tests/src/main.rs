@@ -5,7 +5,7 @@ use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
-use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, trace};
+use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, report, trace};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -28,6 +28,7 @@ fn main() -> ExitCode {
         Command::Cache(args) => cache_report::run(&args),
         Command::Accuracy(args) => accuracy::run(&args),
         Command::Bench(args) => bench::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Bake(args) => bake::run(&args),
         Command::RunList(args) => list_run::run(&args),
         Command::Disassemble(args) => list_text::run(&args),

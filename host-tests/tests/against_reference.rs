@@ -6,42 +6,17 @@ mod common;
 use common::Rng;
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, draw};
-use host_tests::model::Model;
+use host_tests::model::{Model, obj_text};
 use host_tests::reference::{
     Comparison, Cull, Options, Shade, TOLERANCE_LEVELS, View, compare, render_with,
 };
-use scanbeam::{Faces, Mesh};
+use scanbeam::Mesh;
 use std::fmt::Write;
 use std::path::Path;
 
 /// A mesh of the test scenes as OBJ text, with colours and normals.
 fn obj_of(mesh: &Mesh<'_>) -> String {
-    let q14 = |v: i16| f64::from(v) / f64::from(1 << 14);
-    let mut text = String::new();
-    for (i, p) in mesh.positions.iter().enumerate() {
-        let [x, y, z] = p.map(q14);
-        let [r, g, b] = mesh
-            .colours
-            .get(i)
-            .map_or([1.0; 3], |c| c.map(|c| f64::from(c) / 255.0));
-        writeln!(text, "v {x} {y} {z} {r} {g} {b}").unwrap();
-    }
-    for n in mesh.normals {
-        let [x, y, z] = n.map(q14);
-        writeln!(text, "vn {x} {y} {z}").unwrap();
-    }
-    let Faces::Triangles(faces) = mesh.faces else {
-        panic!("triangles are asked for");
-    };
-    for face in faces {
-        let [a, b, c] = face.map(|i| i + 1);
-        if mesh.normals.is_empty() {
-            writeln!(text, "f {a} {b} {c}").unwrap();
-        } else {
-            writeln!(text, "f {a}//{a} {b}//{b} {c}//{c}").unwrap();
-        }
-    }
-    text
+    obj_text(mesh).expect("triangles are asked for")
 }
 
 fn model(text: &str) -> Model {

@@ -27,6 +27,7 @@ mod tests;
 
 use crate::args::AccuracyArgs;
 use crate::image_out::{write_atomically, write_image};
+use crate::plot::Scatter;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use cost::Costs;
 pub(crate) use cost::solve;
@@ -205,6 +206,19 @@ pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
         }
     }
     Ok(())
+}
+
+/// The plots of all families, and why there are no costs where there are none.
+///
+/// # Errors
+/// As [`run`].
+pub fn plots() -> Result<(Vec<Scatter>, Option<String>), Box<dyn Error>> {
+    let mut rows = measure()?;
+    let (costs, note) = Costs::measured()?;
+    costs.fill(&mut rows)?;
+    mark_frontier(&mut rows);
+    let plots = scatter::plots(&rows).into_iter();
+    Ok((plots.map(|(_, plot)| plot).collect(), note))
 }
 
 /// The rows for people.

@@ -81,6 +81,14 @@ impl Row {
     }
 }
 
+/// Measures all scenes, with other renderers or without.
+///
+/// # Errors
+/// When a program cannot be built or run, or a renderer draws something else.
+pub fn rows(peers: bool) -> Result<Vec<Row>, Box<dyn Error>> {
+    Bench::new(peers)?.rows()
+}
+
 /// Measures and prints, and writes the tables where that is asked.
 ///
 /// # Errors

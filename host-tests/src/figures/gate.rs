@@ -13,7 +13,7 @@
 use super::Figure;
 use crate::image_out::write_atomically;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::error::Error;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -131,6 +131,13 @@ impl Record {
                 .map(|(board, figures)| (board.clone(), rounded(figures)))
                 .collect(),
         );
+    }
+
+    /// The boards that any compiler was measured for, by name.
+    #[must_use]
+    pub fn boards(&self) -> Vec<String> {
+        let names: BTreeSet<&String> = self.0.values().flat_map(BTreeMap::keys).collect();
+        names.into_iter().cloned().collect()
     }
 
     /// A figure as the latest compiler that has it was measured.

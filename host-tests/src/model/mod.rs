@@ -20,6 +20,9 @@ mod mtl;
 mod obj;
 #[cfg(test)]
 mod tests;
+mod text;
+
+pub use text::obj_text;
 
 use std::fmt;
 use std::io::Read;

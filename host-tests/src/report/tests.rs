@@ -1,0 +1,49 @@
+use super::page::{Page, escaped};
+use super::{cache, errors, memory, shots};
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD;
+
+/// The values of an attribute.
+fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
+    let start = format!("{attribute}=\"");
+    let rest = page.split(&start).skip(1);
+    rest.filter_map(|rest| rest.split('"').next()).collect()
+}
+
+#[test]
+fn text_is_escaped() {
+    assert_eq!(escaped("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
+}
+
+/// Every picture is in the page and can be decoded; nothing is asked of another file.
+#[test]
+fn no_picture_is_missing() {
+    let mut page = Page::new("test");
+    shots(&mut page).unwrap();
+    errors(&mut page).unwrap();
+    cache(&mut page).unwrap();
+    memory(&mut page);
+    let page = page.finish();
+    let sources = values(&page, " src");
+    // 8 shots, and 6 pictures with their errors.
+    assert_eq!(sources.len(), 8 + 12);
+    for source in sources {
+        let data = source.strip_prefix("data:image/png;base64,").unwrap();
+        let png = STANDARD.decode(data).unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(png))
+            .read_info()
+            .unwrap();
+        let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut pixels).unwrap();
+        assert!(
+            pixels.iter().any(|&level| level != pixels[0]),
+            "a picture of one colour"
+        );
+    }
+    assert_eq!(page.matches("<svg").count(), 3);
+    assert_eq!(page.matches("</svg>").count(), 3);
+    for link in values(&page, "href") {
+        let id = link.strip_prefix('#').expect("no other page is linked");
+        assert!(page.contains(&format!("id=\"{id}\"")), "{link}");
+    }
+}
