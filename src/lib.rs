@@ -194,9 +194,9 @@ pub use composite::{
 };
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
-    Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
-    Gouraud, Light, MatrixRange, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex,
-    Screen, ScreenError, Shading, Sphere,
+    Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, DirectionalLight, Dropped,
+    Faces, Flat, Gouraud, Light, Lighting, LightingModel, Material, MatrixRange, Mesh, MeshError,
+    Object, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError, Shading, Sphere,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
