@@ -20,6 +20,8 @@ mod block_fix;
 mod edge;
 mod inverse_root;
 mod plane;
+#[cfg(test)]
+pub(crate) mod random;
 mod recip;
 mod recip_table;
 mod small;
