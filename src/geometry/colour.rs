@@ -96,15 +96,13 @@ impl Tint {
     /// rounding.
     #[inline]
     pub(super) fn shone_on(&self, shine: &Shine, scale: &Scale) -> Colour {
-        let mut field = [0; 3];
-        for i in 0..3 {
+        Colour::from_fields([0, 1, 2].map(|i| {
             let full = scale.full[i] << 3;
             // 14 and 21 bits each.
             let part = |a: u32, b: u32| u64::from(a) * u64::from(b);
             let sum = part(self.field[i], shine.factor[i]) + part(full, shine.more[i]);
-            field[i] = (sum.min(u64::from(full) << 15) as u32 + self.half[i]) >> 18;
-        }
-        Colour::from_fields(field)
+            (sum.min(u64::from(full) << 15) as u32 + self.half[i]) >> 18
+        }))
     }
 }
 

@@ -12,7 +12,7 @@
 //! 2 per cent of 2^-14. The power is a chain of squares in 32-bit fractions, each one product.
 //!
 //! Measured against the formula in `f64` (see the tests), the rounding of the colour to 10 and 11
-//! bits included: at most 0.26 levels of 255 with powers up to 64, 0.34 up to 255, 0.48 up to 1000.
+//! bits included: at most 0.26 levels of 255 with powers up to 64, 0.35 up to 255, 0.5 up to 1000.
 //!
 //! One light without a material is [`Light`](super::Light).
 
