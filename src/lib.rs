@@ -133,6 +133,7 @@
 //! | X2 | an error budget | `shade/quality.rs`, `shade/interpolation.rs` | `shade/interpolation.rs`, `composite/tests.rs`, `host-tests/src/accuracy/` |
 //! | X3, X4, M4 | skipping, counted | `geometry/bounds.rs`, `scan_out/changed.rs`, `renderer/frame.rs`, `stats.rs` | `skipped.rs`, `changed.rs` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
+//! | K10 | ambient, diffuse, specular at vertices, several coloured lights | `geometry/light.rs`, `geometry/lighting.rs` | `geometry/light.rs`, `geometry/lighting/tests.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
 //! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/` | `list/tests.rs`, `lists.rs` |
 //! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `lists.rs` |
@@ -194,9 +195,9 @@ pub use composite::{
 };
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
-    Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, Dropped, Faces, Flat,
-    Gouraud, Light, MatrixRange, Mesh, MeshError, Object, QuadSplit, Room, Scale, SceneVertex,
-    Screen, ScreenError, Shading, Sphere,
+    Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, DirectionalLight, Dropped,
+    Faces, Flat, Gouraud, Light, Lighting, LightingModel, Material, MatrixRange, Mesh, MeshError,
+    Object, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError, Shading, Sphere,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};

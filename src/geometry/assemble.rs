@@ -4,7 +4,7 @@
 use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
 use super::colour::{Colour, Scale, Tint};
-use super::light::Light;
+use super::light::{LightingModel, ModelLight};
 use super::mesh::{Coordinate, Faces, Mesh, QuadSplit};
 use super::object::{OUTSIDE, Object, SceneVertex};
 use super::project::Projection;
@@ -78,7 +78,7 @@ pub struct Assembled {
 }
 
 /// One mesh on its way to the screen.
-pub(crate) struct Assembler<'a, 'm, 'k, S: Shading> {
+pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     /// Where vertices go.
     vertices: &'a mut Arena<'m, SceneVertex<S::Vertex>>,
     projection: Projection,
@@ -87,7 +87,7 @@ pub(crate) struct Assembler<'a, 'm, 'k, S: Shading> {
     lines: Range<i32>,
     cull: Cull,
     /// The light in model space.
-    light: Option<Light>,
+    light: Option<L>,
     /// Colour of vertices without one.
     tint: Tint,
     /// A piece of the current triangle found no room.
@@ -104,22 +104,19 @@ pub(crate) struct Store<'m, S: Shading> {
     pub(crate) vertices: Arena<'m, SceneVertex<S::Vertex>>,
 }
 
-impl<'a, 'm, 'k, S: Shading> Assembler<'a, 'm, 'k, S> {
+impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     /// Prepares for meshes at `model` seen by `camera`; only objects on `lines` of the picture
     /// are kept.
-    pub(crate) fn new(
+    pub(crate) fn new<M: LightingModel<InModel = L>>(
         store: &'a mut Store<'m, S>,
         camera: &Camera,
         screen: Screen,
         lines: Range<u16>,
         model: &Affine,
-        (cull, light, colour): (Cull, Option<Light>, [u8; 3]),
+        (cull, light, colour): (Cull, Option<M>, [u8; 3]),
         (scale, skin): (&'a Scale, S::Skin<'k>),
     ) -> Self {
-        let light = light.map(|l| Light {
-            direction: model.direction_to_model(l.direction),
-            ..l
-        });
+        let light = light.map(|l| l.in_model(model, &camera.view));
         let (left, top) = (screen.left(), screen.top());
         Self {
             vertices: &mut store.vertices,
@@ -214,9 +211,10 @@ impl<'a, 'm, 'k, S: Shading> Assembler<'a, 'm, 'k, S> {
         }
         match &self.light {
             Some(light) if !mesh.normals.is_empty() && mesh.colours.is_empty() => {
-                let (light, tint) = (*light, self.tint);
-                for (vertex, &normal) in vertices.iter_mut().zip(mesh.normals) {
-                    vertex.attribute = S::vertex(tint.lit(light.level(normal).to_bits()));
+                let (light, tint, scale) = (*light, self.tint, self.scale);
+                for (i, (vertex, &normal)) in vertices.iter_mut().zip(mesh.normals).enumerate() {
+                    let place = || mesh.positions[i];
+                    vertex.attribute = S::vertex(light.lit(&tint, scale, normal, place));
                 }
             }
             _ => {
@@ -423,7 +421,7 @@ impl<'a, 'm, 'k, S: Shading> Assembler<'a, 'm, 'k, S> {
     }
 
     /// The lit colour of a vertex.
-    fn vertex_colour<C>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
+    fn vertex_colour<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
         let colours = Colours {
             light: self.light,
             tint: self.tint,
@@ -462,7 +460,8 @@ impl<'a, 'm, 'k, S: Shading> Assembler<'a, 'm, 'k, S> {
         S::face(match &self.light {
             Some(light) => {
                 let p = corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30));
-                tint.lit(light.level(face_normal(p)).to_bits())
+                let place = || mesh.positions[usize::from(provoking)];
+                light.lit(&tint, self.scale, face_normal(p), place)
             }
             None => tint.lit(1 << 15),
         })
@@ -493,24 +492,26 @@ fn leading_away<A>(vertices: &[SceneVertex<A>], faces: &[[u16; 3]], cull: Cull) 
 }
 
 /// What lights the vertices of a mesh.
-struct Colours<'a> {
+struct Colours<'a, L> {
     /// The light in model space.
-    light: Option<Light>,
+    light: Option<L>,
     /// Colour of vertices without one.
     tint: Tint,
     scale: &'a Scale,
 }
 
-impl Colours<'_> {
+impl<L: ModelLight> Colours<'_, L> {
     /// The lit colour of a vertex.
     #[inline]
-    fn vertex<C>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
+    fn vertex<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
         let tint = match mesh.colours.get(i) {
             Some(&colour) => Tint::new(colour, self.scale),
             None => self.tint,
         };
         match (&self.light, mesh.normals.get(i)) {
-            (Some(light), Some(&normal)) => tint.lit(light.level(normal).to_bits()),
+            (Some(light), Some(&normal)) => {
+                light.lit(&tint, self.scale, normal, || mesh.positions[i])
+            }
             _ => tint.lit(1 << 15),
         }
     }

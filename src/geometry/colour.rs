@@ -5,6 +5,8 @@
 //! lie half a step within the fields: an interpolation that errs by less than that at either
 //! end cannot leave its field, so no colour ever wraps (P4).
 
+use super::lighting::Shine;
+
 /// Red in bits 31..21, blue in bits 20..11, green in bits 10..0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Colour(u32);
@@ -53,7 +55,7 @@ impl Scale {
 
 /// A colour that waits for its light: one multiply-add a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Tint {
+pub struct Tint {
     /// The fields of red, green and blue in full light, times 2^3; at most 14 bits.
     field: [u32; 3],
     /// Half a step and the rounding, in 2^-18 of a field's unit.
@@ -86,6 +88,21 @@ impl Tint {
             i += 1;
         }
         Colour::from_fields(field)
+    }
+}
+
+impl Tint {
+    /// In light of several colours; stops at full level, within 1/8 of a field's unit before
+    /// rounding.
+    #[inline]
+    pub(super) fn shone_on(&self, shine: &Shine, scale: &Scale) -> Colour {
+        Colour::from_fields([0, 1, 2].map(|i| {
+            let full = scale.full[i] << 3;
+            // 14 and 21 bits each.
+            let part = |a: u32, b: u32| u64::from(a) * u64::from(b);
+            let sum = part(self.field[i], shine.factor[i]) + part(full, shine.more[i]);
+            (sum.min(u64::from(full) << 15) as u32 + self.half[i]) >> 18
+        }))
     }
 }
 

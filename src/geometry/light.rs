@@ -1,7 +1,32 @@
 //! Light at a vertex: ambient and one infinite light, Lambert's law (K10).
 
-use super::transform::{inverse_sqrt, unit};
+use super::colour::{Colour, Scale, Tint};
+use super::mesh::Coordinate;
+use super::transform::{Affine, inverse_sqrt, unit};
 use crate::num::{I2F14, U1F15};
+
+/// What can light an instance: [`Light`], or [`Lighting`](super::Lighting).
+///
+/// What is not used has no code: a draw call is compiled for the one that it is given.
+pub trait LightingModel: Copy {
+    /// The same for the vertices of one draw call, in their space.
+    type InModel: ModelLight;
+
+    /// Taken to the space of a model, by the maps from there to the world and on to the camera.
+    fn in_model(&self, model: &Affine, view: &Affine) -> Self::InModel;
+}
+
+/// A light in model space.
+pub trait ModelLight: Copy {
+    /// A colour in this light, at a place with a normal; the place is asked for where it matters.
+    fn lit<C: Coordinate>(
+        &self,
+        tint: &Tint,
+        scale: &Scale,
+        normal: [i16; 3],
+        place: impl FnOnce() -> [C; 3],
+    ) -> Colour;
+}
 
 /// An infinite light and the ambient level.
 ///
@@ -21,15 +46,9 @@ impl Light {
     /// `None` when the direction is zero or not finite.
     #[must_use]
     pub fn new(direction: [f32; 3], ambient: f32) -> Option<Self> {
-        let largest = direction.iter().fold(0.0f32, |m, c| m.max(c.abs()));
-        if !(largest > 0.0 && largest < f32::INFINITY) || direction.iter().any(|c| c.is_nan()) {
-            return None;
-        }
-        let v = direction.map(|c| c / largest);
-        let scale = inverse_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
         let ambient = if ambient > 0.0 { ambient.min(1.0) } else { 0.0 };
         Some(Self {
-            direction: unit(v.map(|c| (c * scale * (1 << 30) as f32) as i64)),
+            direction: self::direction(direction)?,
             ambient: U1F15::from_bits((ambient * 32_768.0 + 0.5) as u16),
         })
     }
@@ -48,6 +67,42 @@ impl Light {
         let ambient = u32::from(self.ambient.to_bits());
         let level = ambient + ((((1 << 15) - ambient) * lambert + (1 << 14)) >> 15);
         U1F15::from_bits(level as u16)
+    }
+}
+
+/// A direction of any length as a unit vector; `None` when it is zero or not finite.
+pub(super) fn direction(v: [f32; 3]) -> Option<[I2F14; 3]> {
+    let largest = v.iter().fold(0.0f32, |m, c| m.max(c.abs()));
+    if !(largest > 0.0 && largest < f32::INFINITY) || v.iter().any(|c| c.is_nan()) {
+        return None;
+    }
+    let v = v.map(|c| c / largest);
+    let scale = inverse_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    Some(unit(v.map(|c| (c * scale * (1 << 30) as f32) as i64)))
+}
+
+impl LightingModel for Light {
+    type InModel = Self;
+
+    #[inline(always)]
+    fn in_model(&self, model: &Affine, _: &Affine) -> Self {
+        Self {
+            direction: model.direction_to_model(self.direction),
+            ..*self
+        }
+    }
+}
+
+impl ModelLight for Light {
+    #[inline(always)]
+    fn lit<C: Coordinate>(
+        &self,
+        tint: &Tint,
+        _: &Scale,
+        normal: [i16; 3],
+        _: impl FnOnce() -> [C; 3],
+    ) -> Colour {
+        tint.lit(self.level(normal).to_bits())
     }
 }
 

@@ -146,6 +146,17 @@ impl Affine {
     ///
     /// Right for rotations and uniform scales: the transpose stands in for the inverse.
     pub(super) fn direction_to_model(&self, direction: [I2F14; 3]) -> [I2F14; 3] {
+        unit(self.transposed_times(direction))
+    }
+
+    /// The same in Q1.30, 2^-28 off at most; zero where there is no direction.
+    pub(super) fn direction_to_model_q30(&self, direction: [I2F14; 3]) -> [i32; 3] {
+        unit_q30(self.transposed_times(direction)).map_or([0; 3], |v| v.map(|c| c as i32))
+    }
+
+    /// The transpose of the linear part times a direction, of any length below 2^32.
+    #[inline(always)]
+    fn transposed_times(&self, direction: [I2F14; 3]) -> [i64; 3] {
         let m = &self.linear.mantissa;
         let mut v = [0i64; 3];
         for (i, value) in v.iter_mut().enumerate() {
@@ -154,7 +165,30 @@ impl Affine {
             }
             *value >>= 14;
         }
-        unit(v)
+        v
+    }
+
+    /// The point that this map takes to the origin; where it has no inverse, the origin.
+    ///
+    /// Right for rotations and uniform scales, as above.
+    pub(super) fn origin_in_model(&self) -> Block<3> {
+        let m = self.linear.mantissa.map(i64::from);
+        let o = self.offset.mantissa.map(i64::from);
+        let along = [0, 1, 2].map(|i| m[i] * o[0] + m[3 + i] * o[1] + m[6 + i] * o[2]);
+        // The scale squared: the mean of the rows, times 3.
+        let square: i64 = m.iter().map(|c| c * c / 4).sum();
+        let (along, square) = (Block::new(along, 0), Block::new([square], 0));
+        let divisor = i64::from(square.mantissa[0]);
+        if divisor == 0 {
+            return Block::ZERO;
+        }
+        // 12 / 4 of the scale squared is 3 of them.
+        let ratio = along
+            .mantissa
+            .map(|c| ((-3 * i64::from(c)) << 30) / (4 * divisor));
+        let exponent =
+            along.exponent - square.exponent + self.offset.exponent - self.linear.exponent;
+        Block::new(ratio, exponent)
     }
 }
 

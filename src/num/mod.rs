@@ -18,6 +18,7 @@
 mod block;
 mod block_fix;
 mod edge;
+mod inverse_root;
 mod plane;
 #[cfg(test)]
 pub(crate) mod random;
@@ -30,6 +31,7 @@ pub use block::{Block, shift_round};
 pub use block_fix::BlockFix16;
 pub use edge::{Edge, column_exact, first_at};
 pub use fixed::types::{I2F14, I2F30, U1F15, U13F3};
+pub use inverse_root::inverse_root;
 pub use plane::{InverseArea, Plane};
 pub use recip::recip;
 pub use recip_table::{Reciprocal, mul_high};

@@ -4,8 +4,8 @@ use super::spans::scale;
 use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, Mesh, MeshError, Room,
-    Screen, Sphere, Store, triangles,
+    Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, LightingModel, Mesh,
+    MeshError, Room, Screen, Sphere, Store, triangles,
 };
 use crate::link::Link;
 use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, SkinOf, VertexOf};
@@ -24,14 +24,17 @@ pub struct SceneMemory<'m, P: Pipeline> {
 }
 
 /// How and where a mesh stands in the world.
+///
+/// `L` is what lights it: [`Light`], or [`Lighting`](crate::Lighting) for several lights and a
+/// material with highlights.
 #[derive(Clone, Copy, Debug)]
-pub struct Instance {
+pub struct Instance<L = Light> {
     /// Model space to world space.
     pub model: Affine,
     /// Which faces are dropped.
     pub cull: Cull,
     /// The light, where the mesh is to be lit.
-    pub light: Option<Light>,
+    pub light: Option<L>,
     /// Colour of vertices that have none of their own.
     pub colour: [u8; 3],
 }
@@ -44,6 +47,19 @@ impl Default for Instance {
             cull: Cull::Back,
             light: None,
             colour: [255; 3],
+        }
+    }
+}
+
+impl<L> Instance<L> {
+    /// The same instance lit by something else, or not at all.
+    #[must_use]
+    pub fn lit_by<M>(self, light: Option<M>) -> Instance<M> {
+        Instance {
+            model: self.model,
+            cull: self.cull,
+            light,
+            colour: self.colour,
         }
     }
 }
@@ -266,10 +282,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// # Errors
     /// [`DrawError::Full`] when an arena had no room for all of it: what was kept is drawn.
     /// [`DrawError::Mesh`] when the mesh contradicts itself: nothing of it is drawn.
-    pub fn draw<C: Coordinate>(
+    pub fn draw<C: Coordinate, L: LightingModel>(
         &mut self,
         mesh: &Mesh<'_, C>,
-        instance: &Instance,
+        instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
         self.draw_skinned(mesh, SkinOf::<P>::default(), instance)
     }
@@ -280,11 +296,11 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// # Errors
     /// As [`draw`](Scene::draw); a skin that is neither empty nor as long as the mesh's positions
     /// is a [`MeshError::AttributeLength`].
-    pub fn draw_skinned<C: Coordinate>(
+    pub fn draw_skinned<C: Coordinate, L: LightingModel>(
         &mut self,
         mesh: &Mesh<'_, C>,
         skin: SkinOf<'_, P>,
-        instance: &Instance,
+        instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
         let Some(camera) = &self.camera else {
             return Ok(Assembled::default());
@@ -332,10 +348,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     ///
     /// # Errors
     /// As [`draw`](Scene::draw); a mesh that is skipped is not checked for contradictions.
-    pub fn draw_within<C: Coordinate>(
+    pub fn draw_within<C: Coordinate, L: LightingModel>(
         &mut self,
         mesh: &Mesh<'_, C>,
-        instance: &Instance,
+        instance: &Instance<L>,
         sphere: &Sphere,
     ) -> Result<Assembled, DrawError> {
         match self.skip_outside(mesh, instance, sphere) {
@@ -346,10 +362,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
 
     /// What [`draw_within`](Scene::draw_within) does with a mesh whose sphere is outside of the
     /// picture: counts it, and nothing else; `None` when it has to be drawn.
-    pub fn skip_outside<C: Coordinate>(
+    pub fn skip_outside<C: Coordinate, L>(
         &mut self,
         mesh: &Mesh<'_, C>,
-        instance: &Instance,
+        instance: &Instance<L>,
         sphere: &Sphere,
     ) -> Option<Assembled> {
         let is_outside =

@@ -1,0 +1,285 @@
+//! Lit colours against the formula in `f64`, in the world's space and from numbers that were not
+//! rounded.
+
+use super::*;
+use crate::num::I2F30;
+use crate::num::random::Rng;
+use std::vec::Vec;
+
+impl Rng {
+    fn about(&mut self, reach: f64) -> f64 {
+        (2.0 * self.unit() - 1.0) * reach
+    }
+
+    fn direction(&mut self) -> [f64; 3] {
+        loop {
+            let v = [(); 3].map(|()| self.about(1.0));
+            let length = times(v, v).sqrt();
+            if (0.1..1.0).contains(&length) {
+                return v.map(|c| c / length);
+            }
+        }
+    }
+}
+
+fn times(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = times(v, v).sqrt();
+    v.map(|c| c / length)
+}
+
+/// Everything as it is meant: world space, levels from 0 to 1.
+struct Truth {
+    lights: Vec<([f64; 3], [f64; 3])>,
+    ambient: [f64; 3],
+    ka: [f64; 3],
+    kd: [f64; 3],
+    ks: [f64; 3],
+    ke: [f64; 3],
+    power: u16,
+}
+
+impl Truth {
+    fn random(rng: &mut Rng, lights: usize, power: u16) -> Self {
+        let mut colour = |most: f64| [(); 3].map(|()| rng.unit() * most);
+        let (ambient, ka, kd, ks, ke) = (
+            colour(0.4),
+            colour(1.0),
+            colour(1.0),
+            colour(1.0),
+            colour(0.1),
+        );
+        let each = |_| (rng.direction(), [(); 3].map(|()| rng.unit() * 1.2));
+        Self {
+            lights: (0..lights).map(each).collect(),
+            ambient,
+            ka,
+            kd,
+            ks,
+            ke,
+            power,
+        }
+    }
+
+    /// Levels from 0 to 255.
+    fn colour(&self, colour: [u8; 3], n: [f64; 3], place: [f64; 3], eye: [f64; 3]) -> [f64; 3] {
+        let v = unit([0, 1, 2].map(|i| eye[i] - place[i]));
+        [0, 1, 2].map(|i| {
+            let mut factor = self.ambient[i] * self.ka[i];
+            let mut more = self.ke[i];
+            for (l, colour) in &self.lights {
+                let cosine = times(n, *l);
+                if cosine > 0.0 {
+                    factor += colour[i] * self.kd[i] * cosine;
+                    let r = [0, 1, 2].map(|k| 2.0 * cosine * n[k] - l[k]);
+                    let mirrored = times(r, v).max(0.0);
+                    more += colour[i] * self.ks[i] * mirrored.powi(i32::from(self.power));
+                }
+            }
+            (f64::from(colour[i]) * factor + 255.0 * more).min(255.0)
+        })
+    }
+
+    fn lights(&self) -> Vec<DirectionalLight> {
+        let f = |v: [f64; 3]| v.map(|c| c as f32);
+        let light = |(l, c): &(_, _)| DirectionalLight::new(f(*l), f(*c));
+        self.lights.iter().filter_map(light).collect()
+    }
+
+    fn material(&self) -> Material {
+        let of = |c: [f64; 3]| c.map(|c| level(c as f32));
+        Material {
+            ambient: of(self.ka),
+            diffuse: of(self.kd),
+            specular: of(self.ks),
+            emission: of(self.ke),
+            shininess: self.power,
+        }
+    }
+}
+
+/// The largest difference from `f64`, in levels, of vertices in random places, and their number.
+fn worst(powers: &[u16], rounds: u32, seed: u64) -> (f64, u32) {
+    let mut rng = Rng(seed);
+    let scale = Scale::new([255; 3]);
+    let (mut worst, mut seen) = (0.0f64, 0);
+    for round in 0..rounds {
+        let power = powers[round as usize % powers.len()];
+        let truth = Truth::random(&mut rng, 1 + round as usize % 8, power);
+        let lights = truth.lights();
+        let ambient = truth.ambient.map(|c| level(c as f32));
+        let lighting = Lighting::new(&lights, ambient, truth.material()).unwrap();
+        // A turn about two axes, with its rows in f64 as the map has them, to 2^-23.
+        let (a, b) = (rng.about(3.0), rng.about(3.0));
+        let turn = Affine::rotation_y(a as f32).then(&Affine::rotation_x(b as f32));
+        let size = (rng.about(6.0)).exp2();
+        let at = [(); 3].map(|()| rng.about(3.0) as f32);
+        let model = turn.then(&Affine::placed(size as f32, at).unwrap());
+        let entry = |m: &Affine, i: usize| {
+            f64::from(m.linear.mantissa[i]) * f64::from(m.linear.exponent - 30).exp2()
+        };
+        let turned =
+            |v: [f64; 3]| [0, 1, 2].map(|i| times([0, 1, 2].map(|k| entry(&turn, 3 * i + k)), v));
+        let eye = [(); 3].map(|()| (rng.about(9.0) * (1.0 + size)) as f32);
+        let camera =
+            super::super::Camera::look_at(eye, [0.1, 0.2, 0.3], [0.1, 1.0, 0.2], 100.0, 0.1, 1e4);
+        let Ok(camera) = camera else { continue };
+        let in_model = lighting.in_model(&model, &camera.view);
+        for _ in 0..200 {
+            // Half of the normals are near where the first light is mirrored to the eye.
+            let p = [(); 3].map(|()| rng.about(1.5));
+            let moved = turned(p);
+            let place = [0, 1, 2].map(|i| moved[i] * f64::from(size as f32) + f64::from(at[i]));
+            let eye = eye.map(f64::from);
+            let v = unit([0, 1, 2].map(|i| eye[i] - place[i]));
+            let l = truth.lights[0].0;
+            let spread = rng.unit();
+            let off = rng.direction();
+            let world = if rng.unit() < 0.5 {
+                rng.direction()
+            } else {
+                unit([0, 1, 2].map(|i| l[i] + v[i] + spread * off[i]))
+            };
+            // Back to the model: the transpose of the turn.
+            let n = [0, 1, 2].map(|k| times([0, 1, 2].map(|i| entry(&turn, 3 * i + k)), world));
+            // Where a light begins to reach, what is mirrored may jump from 0 to a low power.
+            if truth
+                .lights
+                .iter()
+                .any(|(l, _)| times(world, *l).abs() < 2e-4)
+            {
+                continue;
+            }
+            let colour = [(); 3].map(|()| (rng.unit() * 255.99) as u8);
+            let exact = truth.colour(colour, world, place, eye);
+            let normal = n.map(|c| (c * 16_384.0).round() as i16);
+            let place = p.map(|c| I2F30::from_num(c).to_bits());
+            let got = in_model.lit(&Tint::new(colour, &scale), &scale, normal, || place);
+            let fields = got.fields();
+            for i in 0..3 {
+                let bits = scale.fraction()[i];
+                let got = f64::from(fields[i]) / f64::from(1u32 << bits) - 0.5;
+                worst = worst.max((got - exact[i]).abs());
+            }
+            seen += 1;
+        }
+    }
+    (worst, seen)
+}
+
+#[test]
+fn random_vertices_lights_and_materials_are_as_in_f64() {
+    let (low, count) = worst(&[0, 1, 2, 5, 10, 20, 40, 64], 4_000, 1);
+    std::println!("powers up to 64: {low:.3} levels of {count}");
+    let (high, more) = worst(&[100, 128, 200, 255], 3_000, 2);
+    std::println!("powers up to 255: {high:.3} levels of {more}");
+    let (most, _) = worst(&[300, 500, 800, 1000], 3_000, 3);
+    std::println!("powers up to 1000: {most:.3} levels");
+    assert!(count + more > 1_200_000);
+    assert!(low <= 0.26, "{low}");
+    assert!(high <= 0.35, "{high}");
+    assert!(most <= 0.5, "{most}");
+}
+
+#[test]
+fn a_power_is_a_power() {
+    let mut rng = Rng(9);
+    for i in 0..200_000u32 {
+        let base = if i < 1000 {
+            u32::MAX - i
+        } else {
+            (rng.unit() * 4294967296.0) as u32
+        };
+        let exponent = (rng.unit() * 1001.0) as u16;
+        let exact = (f64::from(base) / 4294967295.0).powi(i32::from(exponent)) * 4294967295.0;
+        let error = f64::from(power(base, exponent)) - exact;
+        let bound = 3.0 * f64::from(exponent) + 1.0;
+        assert!(
+            (-bound..=bound).contains(&error),
+            "{base} {exponent}: {error}"
+        );
+    }
+    assert_eq!(power(u32::MAX, 1000), u32::MAX);
+    assert_eq!(power(0, 0), u32::MAX);
+    assert_eq!(power(0, 7), 0);
+}
+
+/// Whatever numbers come in, nothing overflows, and channels stop at full level (P4).
+#[test]
+fn no_colour_wraps() {
+    let mut rng = Rng(4);
+    let scale = Scale::new([31, 63, 31]);
+    let full = [U1F15::from_bits(u16::MAX); 3];
+    for round in 0..3_000 {
+        let light = |rng: &mut Rng| DirectionalLight {
+            direction: [(); 3].map(|()| I2F14::from_bits(rng.about(32_767.99) as i16)),
+            colour: full,
+        };
+        let lights = [(); 8].map(|()| light(&mut rng));
+        let material = Material {
+            ambient: full,
+            diffuse: full,
+            specular: full,
+            emission: if round % 2 == 0 {
+                full
+            } else {
+                [U1F15::ZERO; 3]
+            },
+            shininess: (rng.unit() * 65_535.0) as u16,
+        };
+        let lighting = Lighting::new(&lights, full, material).unwrap();
+        let reach = rng.about(80.0).exp2() as f32;
+        let model = Affine::from_rows(
+            [(); 3].map(|()| [(); 3].map(|()| rng.about(1.0) as f32 * reach)),
+            [(); 3].map(|()| rng.about(1e20) as f32),
+        )
+        .unwrap();
+        let in_model = lighting.in_model(&model, &Affine::rotation_y(1.0));
+        for _ in 0..50 {
+            let normal = [(); 3].map(|()| rng.about(32_768.99) as i16);
+            let place = [(); 3].map(|()| rng.about(2147483647.0) as i32);
+            let tint = Tint::new([255; 3], &scale);
+            let got = in_model.lit(&tint, &scale, normal, || place);
+            assert!((0..3).all(|i| got.steps(&scale)[i] <= [31, 63, 31][i]));
+            if round % 2 == 0 {
+                assert_eq!(got.steps(&scale), [31, 63, 31]);
+            }
+        }
+    }
+    assert_eq!(
+        Lighting::new(&[], full, Material::default()).map(|l| l.lights),
+        Some(&[][..])
+    );
+    let light = DirectionalLight::new([0.0, 0.0, 1.0], [1.0; 3]).unwrap();
+    assert_eq!(Lighting::new(&[light; 9], full, Material::default()), None);
+}
+
+/// One white light on a matt surface gives what [`Light`] gives, within one unit of a field.
+#[test]
+fn a_single_matt_light_is_lamberts() {
+    let mut rng = Rng(5);
+    let scale = Scale::new([255; 3]);
+    let mut worst = 0;
+    for _ in 0..2_000 {
+        let (towards, ambient) = (rng.direction().map(|c| c as f32), rng.unit() as f32);
+        let one = super::super::Light::new(towards, ambient).unwrap();
+        let lights = [DirectionalLight::new(towards, [1.0 - ambient; 3]).unwrap()];
+        let lighting = Lighting::new(&lights, [level(ambient); 3], Material::default()).unwrap();
+        let model = Affine::rotation_y(rng.about(3.0) as f32);
+        let many = lighting.in_model(&model, &Affine::IDENTITY);
+        let one = one.in_model(&model, &Affine::IDENTITY);
+        for _ in 0..50 {
+            let normal = rng.direction().map(|c| (c * 16_384.0).round() as i16);
+            let tint = Tint::new([(); 3].map(|()| (rng.unit() * 255.99) as u8), &scale);
+            let a = one.lit(&tint, &scale, normal, || [0i16; 3]).fields();
+            let b = many.lit(&tint, &scale, normal, || [0i16; 3]).fields();
+            for i in 0..3 {
+                worst = worst.max(a[i].abs_diff(b[i]));
+            }
+        }
+    }
+    assert!(worst <= 1, "{worst}");
+}
