@@ -209,9 +209,12 @@ pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
     Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
     ListMemory, ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError,
-    RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices, draw_frame,
-    draw_frame_changed, send_changed, send_frame,
+    RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices, draw_continuous,
+    draw_frame, draw_frame_changed, draw_frame_changed_runs, send_changed, send_changed_runs,
+    send_frame,
 };
+#[cfg(feature = "async")]
+pub use renderer::{draw_frame_async, send_frame_async};
 pub use shade::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
     Packed16, Precision, Quality, QuarterRate,

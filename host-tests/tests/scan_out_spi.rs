@@ -9,7 +9,8 @@ use embedded_hal_mock::eh1::digital::{
 };
 use embedded_hal_mock::eh1::spi::{Mock as SpiMock, Transaction as SpiTransaction};
 use scanbeam::scan_out::{
-    Error as _, ErrorKind, Pump, ScanError, ScanStats, ScanoutDma, SpiSink, SpiSinkError, Window,
+    BlockingError, Error as _, ErrorKind, PanelError, Pump, ScanError, ScanStats, ScanoutDma,
+    SpiSink, Window,
 };
 
 /// One `SpiDevice` transaction that writes `bytes`.
@@ -137,7 +138,7 @@ fn the_spi_sink_refuses_misuse_without_a_byte_on_the_bus() {
     let mut pin = dc(3);
     let mut sink = SpiSink::<_, _, [u8; 2]>::new(spi.clone(), pin.clone());
     let (error, _) = sink.start(leak(2), 2).unwrap_err();
-    assert_eq!(error, SpiSinkError::Sequence);
+    assert_eq!(error, BlockingError::Sequence);
     for window in [
         Window { width: 0, ..window },
         Window {
@@ -153,17 +154,17 @@ fn the_spi_sink_refuses_misuse_without_a_byte_on_the_bus() {
             ..window
         },
     ] {
-        assert_eq!(sink.begin(window), Err(SpiSinkError::Length));
+        assert_eq!(sink.begin(window).unwrap_err().kind(), ErrorKind::Length);
     }
     sink.begin(window).unwrap();
     for len in [0, 1, 3, 6, 9] {
         let (error, buf) = sink.start(leak(8), len).unwrap_err();
-        assert_eq!((error, buf.len()), (SpiSinkError::Length, 8));
+        assert_eq!((error, buf.len()), (BlockingError::Length, 8));
     }
     sink.start(leak(2), 2).unwrap();
     let (error, _) = sink.start(leak(2), 2).unwrap_err();
     assert_eq!(error.kind(), ErrorKind::Sequence); // the first buffer was not polled
-    assert_eq!(sink.end(), Err(SpiSinkError::Sequence)); // a line is missing
+    assert_eq!(sink.end(), Err(BlockingError::Sequence)); // a line is missing
     assert_eq!(sink.end(), Ok(())); // closed all the same
     spi.done();
     pin.done();
@@ -187,7 +188,7 @@ fn an_spi_sink_whose_pin_fails_says_so() {
         error,
         ScanError::Sink {
             line: 0,
-            error: SpiSinkError::Pin(failed)
+            error: BlockingError::Writer(PanelError::Pin(failed))
         }
     );
     assert_eq!(error.kind(), ErrorKind::Bus);

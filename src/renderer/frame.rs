@@ -6,7 +6,8 @@ use crate::active::{CacheCounts, Interleave};
 use crate::composite::PixelFormat;
 use crate::pipeline::{Pipeline, WordOf};
 use crate::scan_out::{
-    ErrorType, LineBuf, LineWord, Pump, ScanError, ScanStats, ScanoutDma, ShownLines, Window,
+    ContinuousPanel, ErrorType, FeedStats, LineBuf, LineWord, Pump, ScanError, ScanStats,
+    ScanoutDma, ShownLines, ShownRuns, Window, feed_frame,
 };
 use crate::stats::SpanCounts;
 
@@ -125,6 +126,51 @@ where
     Ok(source.stats(scan_out))
 }
 
+/// Draws all lines of `scene` as [`draw_frame`] does, but sends only the runs within them that differ
+/// from what `shown` knows the display to show: see [`send_changed_runs`].
+///
+/// # Errors
+/// Those of [`draw_frame`]; the lines that were reached count as not shown then.
+pub fn draw_frame_changed_runs<P, D>(
+    scene: &Scene<'_, P>,
+    renderer: &mut LineRenderer<'_, P>,
+    pump: &mut Pump<D>,
+    background: WordOf<P>,
+    lines_per_transfer: u16,
+    shown: &mut ShownRuns<'_>,
+) -> Result<FrameStats, FrameError<<D as ErrorType>::Error>>
+where
+    P: Pipeline,
+    WordOf<P>: LineWord,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+{
+    let mut source = Alone::new(scene, renderer, background)?;
+    let scan_out = send_changed_runs(scene, &mut source, pump, lines_per_transfer, shown)?;
+    Ok(source.stats(scan_out))
+}
+
+/// Draws the lines of `scene` for a panel that reads them by its own clock. A line whose deadline is over
+/// is counted and left out, and the picture goes on at the next.
+///
+/// # Errors
+/// When the renderer has too little memory.
+pub fn draw_continuous<P, C>(
+    scene: &Scene<'_, P>,
+    renderer: &mut LineRenderer<'_, P>,
+    panel: &mut C,
+    background: WordOf<P>,
+) -> Result<(FeedStats, FrameStats), RendererError>
+where
+    P: Pipeline,
+    C: ContinuousPanel<Word = WordOf<P>>,
+{
+    let mut source = Alone::new(scene, renderer, background)?;
+    let fed = feed_frame(panel, scene.lines(), |line, pixels| {
+        source.line(line, pixels)
+    })?;
+    Ok((fed, source.stats(ScanStats::default())))
+}
+
 /// Where the lines of a frame come from: one renderer here, or several anywhere.
 pub trait LineSource<P: Pipeline> {
     /// Writes every pixel of `line` of the picture.
@@ -214,8 +260,38 @@ where
     sent
 }
 
+/// Sends the lines of `scene` as [`send_frame`] does, but leaves those cells out that the display
+/// shows already (X4). Rectangles begin and end at edges of cells, whose size `shown` sets. [`ScanStats`]
+/// counts the bytes not sent, and the lines of which nothing was.
+///
+/// # Errors
+/// Those of [`send_frame`], and [`ScanError::Misaligned`] when the scene's lines do not begin at the
+/// edge of a cell. What an unfinished frame has reached counts as not shown, so the next sends it.
+pub fn send_changed_runs<P, D>(
+    scene: &Scene<'_, P>,
+    source: &mut impl LineSource<P>,
+    pump: &mut Pump<D>,
+    lines_per_transfer: u16,
+    shown: &mut ShownRuns<'_>,
+) -> Result<ScanStats, FrameError<<D as ErrorType>::Error>>
+where
+    P: Pipeline,
+    WordOf<P>: LineWord,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+{
+    pump.take_stats();
+    let mut frame = pump.begin_in_runs(window(scene), lines_per_transfer, shown)?;
+    for line in scene.lines() {
+        source.line(line, frame.line()?)?;
+        frame.line_done()?;
+        source.idle(line + 1);
+    }
+    frame.finish()?;
+    Ok(pump.stats())
+}
+
 /// The part of the display that a scene fills.
-fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
+pub(super) fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
     let lines = scene.lines();
     Window {
         x: 0,
@@ -226,7 +302,7 @@ fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
 }
 
 /// One renderer that draws every line itself.
-struct Alone<'a, 'm, 'r, P: Pipeline> {
+pub(super) struct Alone<'a, 'm, 'r, P: Pipeline> {
     scene: &'a Scene<'m, P>,
     renderer: &'a mut LineRenderer<'r, P>,
     background: WordOf<P>,
@@ -234,7 +310,7 @@ struct Alone<'a, 'm, 'r, P: Pipeline> {
 }
 
 impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
-    fn new(
+    pub(super) fn new(
         scene: &'a Scene<'m, P>,
         renderer: &'a mut LineRenderer<'r, P>,
         background: WordOf<P>,
@@ -251,7 +327,7 @@ impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
     }
 
     /// What the frame took.
-    fn stats(self, scan_out: ScanStats) -> FrameStats {
+    pub(super) fn stats(self, scan_out: ScanStats) -> FrameStats {
         let mut stats = FrameStats {
             pass_one: self.scene.pass_one(),
             scanlines_skipped: self.skipped,

@@ -8,6 +8,8 @@
 mod batch;
 mod fill;
 mod frame;
+#[cfg(feature = "async")]
+mod frame_async;
 mod immediate;
 mod input;
 mod lines;
@@ -20,8 +22,11 @@ mod spans;
 
 pub use batch::{ListCoordinate, ListMemory};
 pub use frame::{
-    FrameError, FrameStats, LineSource, draw_frame, draw_frame_changed, send_changed, send_frame,
+    FrameError, FrameStats, LineSource, draw_continuous, draw_frame, draw_frame_changed,
+    draw_frame_changed_runs, send_changed, send_changed_runs, send_frame,
 };
+#[cfg(feature = "async")]
+pub use frame_async::{draw_frame_async, send_frame_async};
 pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};

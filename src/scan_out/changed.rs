@@ -17,7 +17,7 @@ pub trait LineWord: Copy {
 
 /// Takes in a number: one to one for each of `hash` and `value`.
 #[inline(always)]
-fn step(hash: u32, value: u32) -> u32 {
+pub(super) fn step(hash: u32, value: u32) -> u32 {
     // Upper bits have to reach lower ones before they are multiplied, and again after.
     let mixed = hash ^ value;
     let mixed = (mixed ^ mixed >> 15).wrapping_mul(0x2C1B_3C6D);

@@ -1,11 +1,21 @@
 //! Scan-out: finished lines leave for the display while the next ones are drawn (SPEC S5, K12, X5).
 //!
-//! Four things live here, and none of them knows what a triangle is:
+//! None of what lives here knows what a triangle is:
 //!
 //! - [`ScanoutDma`], the trait of anything that takes lines: a DMA channel, a display on a bus, a mock.
 //! - [`Pump`], which holds the two line buffers and swaps them, so that one is filled while the other is sent.
-//! - [`ShownLines`], which knows what the display shows, so that lines which stay are not sent (X4).
-//! - [`SpiSink`], a blocking sink for the common SPI panels, over `embedded-hal` 1.0.
+//! - [`ShownLines`] and [`ShownRuns`], which know what the display shows, so that lines, or runs of pixels
+//!   within them, which stay are not sent (X4).
+//! - [`LineWriter`] and [`Blocking`], which make a sink of three functions that block.
+//! - [`feed_line`] and [`ContinuousPanel`], for panels that read on their own clock.
+//!
+//! | sink | for | feature |
+//! |---|---|---|
+//! | [`SpiSink`] | SPI panels with MIPI commands, over `embedded-hal` 1.0 | |
+//! | [`FrameBufferSink`] | frames in memory that a controller scans, swapped without tearing | |
+//! | `MipidsiSink` | panels that `mipidsi` 0.10 has set up | `mipidsi` |
+//! | `DrawTargetSink` | any `DrawTarget` of `embedded-graphics` | `embedded-graphics` |
+//! | `AsyncSpiPanel`, with an `AsyncPump` | SPI panels over `embedded-hal-async` | `async` |
 //!
 //! ```text
 //!   renderer --line()/line_done()--> Pump --start(buf, len)--> ScanoutDma --> bus
@@ -13,12 +23,32 @@
 //!                                     +---- poll() -> Some(buf) ---+
 //! ```
 
+#[cfg(feature = "async")]
+mod async_out;
 mod changed;
+mod continuous;
 mod dma;
+#[cfg(feature = "embedded-graphics")]
+mod draw_target;
+mod frame_buffer;
+#[cfg(feature = "mipidsi")]
+mod mipidsi;
 mod pump;
+mod shown_runs;
 mod spi;
+mod writer;
 
+#[cfg(feature = "async")]
+pub use async_out::{AsyncLineWriter, AsyncPump, AsyncSpiPanel};
 pub use changed::{LineWord, ShownLines};
+pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
 pub use dma::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
-pub use pump::{PUMP_BUFFERS, Pump, ScanError, ScanStats};
-pub use spi::{SpiSink, SpiSinkError};
+#[cfg(feature = "embedded-graphics")]
+pub use draw_target::{DrawTargetError, DrawTargetLines, DrawTargetSink};
+pub use frame_buffer::{FrameBuffer, FrameBufferError, FrameBufferSink, SwapFlag};
+#[cfg(feature = "mipidsi")]
+pub use mipidsi::{MipidsiLines, MipidsiSink, MipidsiWire};
+pub use pump::{PUMP_BUFFERS, Pump, RunFrame, ScanError, ScanStats};
+pub use shown_runs::ShownRuns;
+pub use spi::{PanelError, SpiPanel, SpiSink};
+pub use writer::{Blocking, BlockingError, LineWriter};

@@ -16,6 +16,10 @@ use core::task::Poll;
 
 use super::dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
 
+mod runs;
+
+pub use runs::RunFrame;
+
 /// How many line buffers a pump holds.
 pub const PUMP_BUFFERS: usize = 2;
 
@@ -33,6 +37,13 @@ pub enum ScanError<E> {
         line: u16,
         /// What the sink said.
         error: E,
+    },
+    /// The window does not begin at the edge of a cell. Nothing was sent.
+    Misaligned {
+        /// Columns and lines of a cell.
+        cell: (u16, u16),
+        /// Left column and top line of the window.
+        corner: (u16, u16),
     },
     /// A buffer does not hold the lines of one transfer. Nothing was sent.
     BufferTooShort {
@@ -71,7 +82,9 @@ impl<E: Error> ScanError<E> {
     pub fn kind(&self) -> ErrorKind {
         match self {
             Self::Sink { error, .. } => error.kind(),
-            Self::BufferTooShort { .. } | Self::Empty => ErrorKind::Length,
+            Self::BufferTooShort { .. } | Self::Empty | Self::Misaligned { .. } => {
+                ErrorKind::Length
+            }
             Self::OutOfTurn { .. } | Self::LinesMissing { .. } => ErrorKind::Sequence,
             Self::Timeout { .. } => ErrorKind::Timeout,
             Self::BufferLost { .. } => ErrorKind::Other,
@@ -89,6 +102,10 @@ impl<E: Error> Display for ScanError<E> {
                     "a line buffer holds {have} words, one transfer takes {needed}"
                 )
             }
+            Self::Misaligned { cell, corner } => write!(
+                f,
+                "the window begins at {corner:?}, cells are {cell:?} pixels"
+            ),
             Self::Empty => f.write_str("the window or the transfer is empty"),
             Self::OutOfTurn { line } => write!(f, "scan-out call out of turn at line {line}"),
             Self::LinesMissing { line } => {
@@ -425,14 +442,30 @@ impl<D: ScanoutDma> Pump<D> {
         while self.in_flight > 0 && !self.dma.chains() {
             self.wait_home()?;
         }
-        if self.in_parts {
-            self.open_part(window)?;
-        }
         let line = self.band_first;
+        if self.in_parts {
+            self.open_part(
+                line,
+                Window {
+                    y: window.y.saturating_add(line),
+                    height: self.band_filled,
+                    ..window
+                },
+            )?;
+        }
         let Some(buf) = self.filling.take() else {
             return Err(ScanError::BufferLost { line });
         };
         let len = usize::from(window.width) * usize::from(self.band_filled);
+        self.launch(line, buf, len)?;
+        self.band_first = self.next_line();
+        self.band_filled = 0;
+        Ok(())
+    }
+
+    /// Starts a transfer, whose first line is `line`. Called when the sink can take it.
+    #[inline]
+    fn launch(&mut self, line: u16, buf: D::Buf, len: usize) -> Result<(), ScanError<D::Error>> {
         if let Err((error, buf)) = self.dma.start(buf, len) {
             self.put_idle(buf);
             return Err(ScanError::Sink { line, error });
@@ -445,34 +478,32 @@ impl<D: ScanoutDma> Pump<D> {
         let bytes = len as u64 * size_of::<WordOf<D>>() as u64;
         self.stats.bytes_sent = self.stats.bytes_sent.wrapping_add(bytes);
         self.stats.transfers = self.stats.transfers.saturating_add(1);
-        self.band_first = self.next_line();
-        self.band_filled = 0;
         Ok(())
     }
 
-    /// Closes the rectangle of the last band and opens that of the next.
+    /// Closes the rectangle of the last band and opens `part`, whose first line is `line` of the frame.
     #[inline(never)]
-    fn open_part(&mut self, window: Window) -> Result<(), ScanError<D::Error>> {
+    fn open_part(&mut self, line: u16, part: Window) -> Result<(), ScanError<D::Error>> {
         while self.in_flight > 0 {
             self.wait_home()?;
         }
+        self.close_part()?;
+        self.dma
+            .begin(part)
+            .map_err(|error| ScanError::Sink { line, error })?;
+        self.open = true;
+        self.part_first = line;
+        Ok(())
+    }
+
+    /// Closes the rectangle of the last band, if there is one.
+    fn close_part(&mut self) -> Result<(), ScanError<D::Error>> {
         if core::mem::take(&mut self.open) {
             let line = self.part_first;
             self.dma
                 .end()
                 .map_err(|error| ScanError::Sink { line, error })?;
         }
-        let line = self.band_first;
-        let part = Window {
-            y: window.y.saturating_add(line),
-            height: self.band_filled,
-            ..window
-        };
-        self.dma
-            .begin(part)
-            .map_err(|error| ScanError::Sink { line, error })?;
-        self.open = true;
-        self.part_first = line;
         Ok(())
     }
 
