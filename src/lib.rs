@@ -189,8 +189,12 @@ mod stats;
 mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
+#[cfg(feature = "embedded-graphics")]
+pub use composite::{Canvas, DrawnLines};
 pub use composite::{
-    PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf, TextureSource, Textures,
+    Cut, CutOff, Dithered, Grey8, Ink, LineOverlay, Ordered, Overlay, PixelFormat, Pixels, Ranks,
+    Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures,
+    Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
 };
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
@@ -207,9 +211,10 @@ pub use pipeline::{
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
     Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
-    ListMemory, ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError,
-    RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices, draw_frame,
-    draw_frame_changed, send_changed, send_frame,
+    ListMemory, ListRunner, ListSettings, OnViolation, Overlaid, PassOne, Prefetched, Relay,
+    RendererError, RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices,
+    draw_frame, draw_frame_changed, draw_frame_overlaid, draw_frame_overlaid_changed, send_changed,
+    send_frame,
 };
 pub use shade::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,

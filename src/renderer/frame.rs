@@ -226,7 +226,7 @@ fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
 }
 
 /// One renderer that draws every line itself.
-struct Alone<'a, 'm, 'r, P: Pipeline> {
+pub(super) struct Alone<'a, 'm, 'r, P: Pipeline> {
     scene: &'a Scene<'m, P>,
     renderer: &'a mut LineRenderer<'r, P>,
     background: WordOf<P>,
@@ -234,7 +234,7 @@ struct Alone<'a, 'm, 'r, P: Pipeline> {
 }
 
 impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
-    fn new(
+    pub(super) fn new(
         scene: &'a Scene<'m, P>,
         renderer: &'a mut LineRenderer<'r, P>,
         background: WordOf<P>,
@@ -251,7 +251,7 @@ impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
     }
 
     /// What the frame took.
-    fn stats(self, scan_out: ScanStats) -> FrameStats {
+    pub(super) fn stats(self, scan_out: ScanStats) -> FrameStats {
         let mut stats = FrameStats {
             pass_one: self.scene.pass_one(),
             scanlines_skipped: self.skipped,

@@ -7,7 +7,7 @@ use crate::num::Plane;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Levels, Stretch};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Masked, Tested, Visible};
+use crate::visible::{Everywhere, LineDepth, Masked, Placed, Tested, Visible};
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -54,6 +54,34 @@ pub(super) fn draw_span<P: Pipeline>(
 /// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
 #[inline(always)]
 fn colour<P: Pipeline>(
+    pixels: &mut [WordOf<P>],
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    (interpolation, textures): (P::Interpolation, P::Textures),
+    visible: &mut impl Visible,
+) {
+    if P::Pixel::DITHERS {
+        let placed = &mut Placed::new(visible, column, line);
+        colour_placed::<P>(
+            pixels,
+            levels,
+            (column, line),
+            (interpolation, textures),
+            placed,
+        );
+    } else {
+        colour_placed::<P>(
+            pixels,
+            levels,
+            (column, line),
+            (interpolation, textures),
+            visible,
+        );
+    }
+}
+
+#[inline(always)]
+fn colour_placed<P: Pipeline>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
@@ -126,17 +154,14 @@ pub(super) fn draw_thin<P: Pipeline>(
         if cell.is_none_or(|cell| P::Depth::test(cell, depth)) {
             let pixels = &mut pixels[i..=i];
             let textures = scene.textures();
+            let mut everywhere = Everywhere;
+            let placed = &mut Placed::new(&mut everywhere, column, line);
             let textured = levels.texture(column, line).is_some_and(|(index, place)| {
                 let stretch = levels.stretch(column, line);
-                textures.paint(index, pixels, place, stretch, &mut Everywhere)
+                textures.paint(index, pixels, place, stretch, placed)
             });
             if !textured {
-                paint::<P::Pixel, _>(
-                    pixels,
-                    levels.stretch(column, line),
-                    Forward,
-                    &mut Everywhere,
-                );
+                paint::<P::Pixel, _>(pixels, levels.stretch(column, line), Forward, placed);
             }
             count_fetches::<P>(&levels, at, textures, 1, counter);
             seen += 1;
