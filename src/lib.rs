@@ -134,6 +134,8 @@
 //! | X3, X4, M4 | skipping, counted | `geometry/bounds.rs`, `scan_out/changed.rs`, `renderer/frame.rs`, `stats.rs` | `skipped.rs`, `changed.rs` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
+//! | K14 | overlays: runs, sprites, drawables | `composite/overlay.rs`, `composite/canvas.rs`, `renderer/overlay.rs` | the first of these |
+//! | H10, K12 | ordered dither, bypassed by D; rounding or cutting | `composite/dither.rs`, `composite/texels.rs` | the first of these |
 //! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/` | `list/tests.rs`, `lists.rs` |
 //! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `lists.rs` |
 //! | H14 | status events | `event.rs`, `renderer/run.rs` | `event.rs`, `lists.rs` |
