@@ -135,6 +135,8 @@
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K10 | ambient, diffuse, specular at vertices, several coloured lights | `geometry/light.rs`, `geometry/lighting.rs` | `geometry/light.rs`, `geometry/lighting/tests.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
+//! | K14 | overlays: runs, sprites, drawables | `composite/overlay.rs`, `composite/canvas.rs`, `renderer/overlay.rs` | the first of these |
+//! | H10, K12 | ordered dither, bypassed by D; rounding or cutting | `composite/dither.rs`, `composite/texels.rs` | the first of these |
 //! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/` | `list/tests.rs`, `lists.rs` |
 //! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `lists.rs` |
 //! | H14 | status events | `event.rs`, `renderer/run.rs` | `event.rs`, `lists.rs` |
@@ -190,8 +192,12 @@ mod stats;
 mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
+#[cfg(feature = "embedded-graphics")]
+pub use composite::{Canvas, DrawnLines};
 pub use composite::{
-    PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf, TextureSource, Textures,
+    Cut, CutOff, Dithered, Grey8, Ink, LineOverlay, Ordered, Overlay, PixelFormat, Pixels, Ranks,
+    Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures,
+    Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
 };
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
@@ -208,10 +214,10 @@ pub use pipeline::{
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
     Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
-    ListMemory, ListRunner, ListSettings, OnViolation, PassOne, Prefetched, Relay, RendererError,
-    RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices, draw_continuous,
-    draw_frame, draw_frame_changed, draw_frame_changed_runs, send_changed, send_changed_runs,
-    send_frame,
+    ListMemory, ListRunner, ListSettings, OnViolation, Overlaid, PassOne, Prefetched, Relay,
+    RendererError, RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices,
+    draw_continuous, draw_frame, draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid,
+    draw_frame_overlaid_changed, send_changed, send_changed_runs, send_frame,
 };
 #[cfg(feature = "async")]
 pub use renderer::{draw_frame_async, send_frame_async};

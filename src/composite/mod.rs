@@ -7,18 +7,35 @@
 //! | `ramp.rs` | packed channels in one or two registers |
 //! | `lirp.rs` | LIRP between a span's ends |
 //! | `texels.rs` | texels times the shaded colour |
+//! | `dither.rs` | ordered dither, and cutting instead of rounding |
+//! | `grey.rs` | 8-bit grey, and 1 bit a pixel made of it |
+//! | `overlay.rs` | runs and sprites over a finished line |
+//! | `canvas.rs` | drawables of `embedded-graphics` into such |
+//! | `xrgb.rs` | 8 bits a channel in a 32-bit word |
 
+#[cfg(feature = "embedded-graphics")]
+mod canvas;
 mod course;
+mod dither;
+mod grey;
 mod lirp;
+mod overlay;
 mod paint;
 mod ramp;
 #[cfg(test)]
 mod tests;
 mod texels;
+mod xrgb;
 
+#[cfg(feature = "embedded-graphics")]
+pub use canvas::{Canvas, DrawnLines};
+pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
+pub use grey::{Grey8, mono_page, mono_row};
+pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};
 pub use texels::{TexelOf, TextureSource, Textures};
+pub use xrgb::Xrgb8888;
 
 use crate::shade::Precision;
 
@@ -46,6 +63,32 @@ pub trait PixelFormat {
     /// A pixel from two words with 16 bits a channel: red and blue, green in the upper half.
     fn pack_words(red_blue: u32, green: u32) -> Self::Word;
 
+    /// Whether a pixel depends on its place; only [`Dithered`] formats do.
+    const DITHERS: bool = false;
+
+    /// The thresholds of four pixels of a line, the first at this column and line of the picture
+    /// modulo 4.
+    #[inline(always)]
+    fn thresholds(tile: (u8, u8)) -> [Threshold; 4] {
+        let _ = tile;
+        [Threshold::default(); 4]
+    }
+
+    /// A pixel from whole steps at a place with this threshold.
+    #[inline(always)]
+    fn pack_at(steps: [u8; 3], threshold: Threshold) -> Self::Word {
+        let _ = threshold;
+        Self::pack(steps)
+    }
+
+    /// A pixel from two words, as [`pack_words`](PixelFormat::pack_words), at a place with this
+    /// threshold.
+    #[inline(always)]
+    fn pack_words_at(red_blue: u32, green: u32, threshold: Threshold) -> Self::Word {
+        let _ = threshold;
+        Self::pack_words(red_blue, green)
+    }
+
     /// Three channels that step from pixel to pixel in as few registers as the format needs.
     type Ramp;
 
@@ -63,6 +106,14 @@ pub trait PixelFormat {
     #[inline]
     fn fill(pixels: &mut [Self::Word], word: Self::Word) {
         pixels.fill(word);
+    }
+
+    /// The sum of two pixels, each channel at most its full light.
+    fn add(a: Self::Word, b: Self::Word) -> Self::Word {
+        // Levels are off by half a level each, so what they add up to is nearest to the right
+        // step of up to 7 bits, and of 8 bits they are exact.
+        let (a, b) = (Self::to_rgb8(a), Self::to_rgb8(b));
+        Self::from_rgb8([0, 1, 2].map(|i| a[i].saturating_add(b[i])))
     }
 
     /// A pixel from 8-bit levels, rounded to nearest.
@@ -200,6 +251,18 @@ impl PixelFormat for Rgb565 {
         tail.fill(word);
     }
 
+    /// All channels at once, with room above each for its carry.
+    #[inline(always)]
+    fn add(a: u16, b: u16) -> u16 {
+        let apart = |word: u16| (u32::from(word) << 16 | u32::from(word)) & 0x07E0_F81F;
+        let sum = apart(a) + apart(b);
+        // Of what has overflown all bits are set: 5 below the carry, of green one more.
+        let over = sum & 0x0801_0020;
+        let full = (over - (over >> 5)) | over >> 6 & 0x0020_0000;
+        let sum = (sum | full) & 0x07E0_F81F;
+        (sum | sum >> 16) as u16
+    }
+
     fn to_rgb8(word: u16) -> [u8; 3] {
         let scale = |v: u16, steps: u16| {
             ((u32::from(v) * 510 + u32::from(steps)) / (2 * u32::from(steps))) as u8
@@ -252,6 +315,11 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     #[inline(always)]
     fn fill(pixels: &mut [u16], word: u16) {
         Rgb565::fill(pixels, word);
+    }
+
+    #[inline(always)]
+    fn add(a: u16, b: u16) -> u16 {
+        Self::in_memory(Rgb565::add(Self::in_memory(a), Self::in_memory(b)))
     }
 
     fn to_rgb8(word: u16) -> [u8; 3] {

@@ -2,6 +2,7 @@
 
 use super::PixelFormat;
 use super::course::{Course, Wide, Words};
+use super::dither;
 use super::lirp::{blend, blend_packed};
 use crate::shade::{Interpolation, Method, Stretch};
 use crate::visible::Visible;
@@ -14,6 +15,10 @@ pub(crate) fn paint<F: PixelFormat, I: Interpolation>(
     interpolation: I,
     visible: &mut impl Visible,
 ) {
+    if F::DITHERS {
+        dither::paint::<F>(pixels, stretch, visible);
+        return;
+    }
     match stretch {
         Stretch::Constant(steps) => whole::<F>(pixels, F::pack(steps), visible),
         Stretch::Packed {

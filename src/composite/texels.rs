@@ -4,8 +4,8 @@
 //! of all pixels follow from the span's first and last pixel, seen or not, so the bits do not
 //! depend on what hides what.
 
-use super::PixelFormat;
 use super::course::apart;
+use super::{PixelFormat, Threshold};
 use crate::geometry::texturing::SpanPlace;
 use crate::shade::Stretch;
 use crate::shade::texture::{PaintRun, PerspectiveSpan, Texel, Texels, Uv};
@@ -19,6 +19,12 @@ pub trait TexelOf<F: PixelFormat>: Copy {
 
     /// The 8-bit levels.
     fn levels(self) -> [u8; 3];
+
+    /// Whether the pixel is not dithered, by its D bit or as it is a word of the format already.
+    #[inline(always)]
+    fn undithered(self) -> bool {
+        true
+    }
 }
 
 impl<F: PixelFormat> TexelOf<F> for Texel {
@@ -30,6 +36,11 @@ impl<F: PixelFormat> TexelOf<F> for Texel {
     #[inline]
     fn levels(self) -> [u8; 3] {
         self.rgb
+    }
+
+    #[inline(always)]
+    fn undithered(self) -> bool {
+        self.undithered
     }
 }
 
@@ -175,6 +186,26 @@ fn walk<W>(place: SpanPlace, pixels: &mut [W], mut paint: impl PaintRun<W>) {
     }
 }
 
+/// The thresholds of the pixels to come, none where the format does not dither.
+#[inline(always)]
+fn thresholds<F: PixelFormat>(tile: (u8, u8)) -> impl Iterator<Item = Threshold> {
+    let mut row = F::thresholds(tile);
+    core::iter::from_fn(move || {
+        if !F::DITHERS {
+            return None;
+        }
+        row.rotate_left(1);
+        Some(row[3])
+    })
+}
+
+/// Whole steps of 8-bit levels, rounded to nearest.
+#[inline(always)]
+fn steps<F: PixelFormat>(levels: [u8; 3]) -> [u8; 3] {
+    let step = |i: usize| ((u32::from(levels[i]) * u32::from(F::STEPS[i]) + 127) / 255) as u8;
+    [step(0), step(1), step(2)]
+}
+
 /// Texels as they are.
 struct Copies<'a, F, T, V> {
     texels: &'a T,
@@ -190,9 +221,17 @@ where
 {
     #[inline(always)]
     fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
+        let mut thresholds = thresholds::<F>(self.visible.tile());
         self.visible.each(pixels, |pixel, shown| {
+            let threshold = thresholds.next();
             if shown {
-                *pixel = self.texels.at(from).word();
+                let texel = self.texels.at(from);
+                *pixel = match threshold {
+                    Some(threshold) if !texel.undithered() => {
+                        F::pack_at(steps::<F>(texel.levels()), threshold)
+                    }
+                    _ => texel.word(),
+                };
             }
             from = from.plus(step);
         });
@@ -216,9 +255,16 @@ where
     #[inline(always)]
     fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
         let light = &mut self.light;
+        let mut thresholds = thresholds::<F>(self.visible.tile());
         self.visible.each(pixels, |pixel, shown| {
+            let threshold = thresholds.next();
             if shown {
-                *pixel = F::pack(light.times::<F>(self.texels.at(from).levels()));
+                let texel = self.texels.at(from);
+                let steps = light.times::<F>(texel.levels());
+                *pixel = match threshold {
+                    Some(threshold) if !texel.undithered() => F::pack_at(steps, threshold),
+                    _ => F::pack(steps),
+                };
             }
             from = from.plus(step);
             light.advance();

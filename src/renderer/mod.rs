@@ -2,7 +2,7 @@
 //!
 //! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
 //! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
-//! `place` fetches ahead (C4); `frame` sends what one renderer draws, `relay` what several do on
+//! `place` fetches ahead (C4); `frame` sends what one renderer draws, `overlay` with what is painted over it (K14), `relay` what several do on
 //! their own cores (K16, X6).
 
 mod batch;
@@ -14,6 +14,7 @@ mod immediate;
 mod input;
 mod lines;
 mod order;
+mod overlay;
 mod place;
 mod relay;
 mod run;
@@ -30,6 +31,7 @@ pub use frame_async::{draw_frame_async, send_frame_async};
 pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
+pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};
 pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};

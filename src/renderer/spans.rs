@@ -7,7 +7,7 @@ use crate::num::Plane;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Interpolation, Levels, Stretch};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Masked, Tested, Visible};
+use crate::visible::{Everywhere, LineDepth, Masked, Placed, Tested, Visible};
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -116,6 +116,35 @@ fn draw_span<P: Pipeline>(
 /// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
 #[inline(always)]
 fn colour<P: Pipeline, I: Interpolation>(
+    pixels: &mut [WordOf<P>],
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    (interpolation, textures): (I, P::Textures),
+    visible: &mut impl Visible,
+) {
+    if P::Pixel::DITHERS {
+        let placed = &mut Placed::new(visible, column, line);
+        colour_placed::<P, _>(
+            pixels,
+            levels,
+            (column, line),
+            (interpolation, textures),
+            placed,
+        );
+    } else {
+        colour_placed::<P, _>(
+            pixels,
+            levels,
+            (column, line),
+            (interpolation, textures),
+            visible,
+        );
+    }
+}
+
+/// The same, for pixels whose place is known where it matters.
+#[inline(always)]
+fn colour_placed<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),

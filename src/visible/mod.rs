@@ -4,8 +4,10 @@
 //! Where objects can be ordered from front to back, `cover` does without depth.
 
 mod cover;
+mod placed;
 
 pub use cover::{Cover, Covered, Masked};
+pub use placed::Placed;
 
 use crate::stats::SpanCounter;
 use core::marker::PhantomData;
@@ -80,6 +82,13 @@ impl LineDepth for () {
 pub trait Visible {
     /// Whether all pixels are seen, so that nobody has to ask.
     const ALL: bool = false;
+
+    /// Column and line of the next pixel modulo 4, for formats that dither; both 0 where no one
+    /// has said where it is.
+    #[inline(always)]
+    fn tile(&self) -> (u8, u8) {
+        (0, 0)
+    }
 
     /// Gives `each` the next pixels in turn, and whether each is seen.
     fn each<W>(&mut self, pixels: &mut [W], each: impl FnMut(&mut W, bool));
