@@ -190,7 +190,8 @@ mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{
-    PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf, TextureSource, Textures,
+    DetailedTextures, PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, TexelOf,
+    TextureSource, Textures,
 };
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
@@ -201,8 +202,9 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
+    CellOf, Counted, DetailedDepth, DrawableOf, FlatDepth, FlatPainter, GouraudDepth,
+    GouraudPainter, Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth,
+    VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,

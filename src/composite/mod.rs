@@ -7,8 +7,10 @@
 //! | `ramp.rs` | packed channels in one or two registers |
 //! | `lirp.rs` | LIRP between a span's ends |
 //! | `texels.rs` | texels times the shaded colour |
+//! | `detailed.rs` | the same in levels of detail |
 
 mod course;
+mod detailed;
 mod lirp;
 mod paint;
 mod ramp;
@@ -16,6 +18,7 @@ mod ramp;
 mod tests;
 mod texels;
 
+pub use detailed::DetailedTextures;
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};
 pub use texels::{TexelOf, TextureSource, Textures};

@@ -62,7 +62,8 @@ fn colour<P: Pipeline>(
 ) {
     let stretch = levels.stretch(column, line);
     if let Some((index, place)) = levels.texture(column, line) {
-        if textures.paint(index, pixels, place, stretch, visible) {
+        let course = (place, levels.detail());
+        if textures.paint(index, pixels, course, stretch, visible) {
             return;
         }
     }
@@ -128,7 +129,8 @@ pub(super) fn draw_thin<P: Pipeline>(
             let textures = scene.textures();
             let textured = levels.texture(column, line).is_some_and(|(index, place)| {
                 let stretch = levels.stretch(column, line);
-                textures.paint(index, pixels, place, stretch, &mut Everywhere)
+                let course = (place, levels.detail());
+                textures.paint(index, pixels, course, stretch, &mut Everywhere)
             });
             if !textured {
                 paint::<P::Pixel, _>(
