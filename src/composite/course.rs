@@ -52,17 +52,19 @@ pub(super) struct Words {
 }
 
 impl Words {
-    /// The steps of red, green and blue. A step of two fields is ambiguous where the lower one is
-    /// half its range or more, which no span of 3 pixels has room for.
+    /// The steps of red, green and blue.
     #[inline(always)]
     fn step(&self) -> [i32; 3] {
-        let blue = i32::from(self.steps.0 as i16);
-        [
-            self.steps.0.wrapping_sub(blue) >> 16,
-            self.steps.1 >> 16,
-            blue,
-        ]
+        apart(self.steps)
     }
+}
+
+/// The steps of red, green and blue from two words. A step of two fields is ambiguous where the
+/// lower one is half its range or more, which no span of 3 pixels has room for.
+#[inline(always)]
+pub(super) fn apart((red_blue, green): (i32, i32)) -> [i32; 3] {
+    let blue = i32::from(red_blue as i16);
+    [red_blue.wrapping_sub(blue) >> 16, green >> 16, blue]
 }
 
 /// Two steps in one word.
@@ -150,8 +152,11 @@ pub(super) struct Wide {
 impl Wide {
     #[inline(always)]
     pub(super) fn new<F: PixelFormat>(at: [i32; 3], step: [i32; 3]) -> Self {
-        let bits = F::STEPS.map(|steps| 16 - steps.leading_zeros());
-        Self { at, step, bits }
+        Self {
+            at,
+            step,
+            bits: F::BITS,
+        }
     }
 }
 

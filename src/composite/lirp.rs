@@ -47,11 +47,11 @@ pub(super) fn blend<F: PixelFormat, const N: u32>(
     let mut weight = Weight::<N>::new(pixels.len());
     let base = first.map(|a| a << 16);
     let rise = [0, 1, 2].map(|i| last[i].wrapping_sub(first[i]) << (16 - N));
-    let bits = F::STEPS.map(|steps| 16 - steps.leading_zeros());
     visible.each(pixels, |pixel, shown| {
         let w = weight.next();
         if shown {
-            let level = |i: usize| base[i].wrapping_add(w.wrapping_mul(rise[i])) >> (32 - bits[i]);
+            let level =
+                |i: usize| base[i].wrapping_add(w.wrapping_mul(rise[i])) >> (32 - F::BITS[i]);
             *pixel = F::pack([level(0) as u8, level(1) as u8, level(2) as u8]);
         }
     });

@@ -31,6 +31,12 @@ pub trait PixelFormat {
     type Word: Copy + Send + Sync + PartialEq + Default + 'static;
     /// Steps a channel above 0: 255 for 8 bits.
     const STEPS: [u16; 3];
+    /// Bits a channel, which its steps tell.
+    const BITS: [u32; 3] = [
+        16 - Self::STEPS[0].leading_zeros(),
+        16 - Self::STEPS[1].leading_zeros(),
+        16 - Self::STEPS[2].leading_zeros(),
+    ];
 
     /// What a [`Ramp`](PixelFormat::Ramp) errs.
     const PRECISION: Precision;

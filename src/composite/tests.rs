@@ -2,6 +2,7 @@
 
 use super::lirp::blend;
 use super::*;
+use crate::num::random::Rng;
 use crate::shade::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
     Packed16, Quality, QuarterRate, Stretch,
@@ -21,18 +22,6 @@ fn formats_round_trip_and_keep_their_bytes() {
         [0, 255, 0]
     );
     assert_eq!(Rgb888::from_rgb8([1, 2, 3]), [1, 2, 3]);
-}
-
-struct Rng(u64);
-
-impl Rng {
-    fn below(&mut self, n: u32) -> u32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-    }
 }
 
 /// Which pixels are seen, as depth would tell.
@@ -78,7 +67,7 @@ impl Colours {
             colours.step[i] = (to as i32 - from as i32) / (pixels as i32 - 1).max(1);
             if small {
                 // 16 bits are all that there is.
-                let cut = 16 - F::STEPS[i].leading_zeros();
+                let cut = F::BITS[i];
                 colours.at[i] = colours.at[i] >> cut << cut;
                 colours.step[i] = colours.step[i] / (1 << cut) * (1 << cut);
             }
@@ -90,7 +79,7 @@ impl Colours {
         if !self.small {
             return Stretch::Channels(self.at, self.step);
         }
-        let bits = F::STEPS.map(|steps| 16 - steps.leading_zeros());
+        let bits = F::BITS;
         let at = [0, 1, 2].map(|i| self.at[i] >> bits[i]);
         let step = [0, 1, 2].map(|i| self.step[i] >> bits[i]);
         let pair = |high: i32, low: i32| (high << 16).wrapping_add(low);
@@ -108,7 +97,7 @@ impl Colours {
     /// The largest step, and the largest rise, units of 2^-16 of a channel's range.
     fn slope<F: PixelFormat>(&self) -> (f64, f64) {
         let slope = (0..3).fold(0.0f64, |most, i| {
-            let bits = 16 - F::STEPS[i].leading_zeros();
+            let bits = F::BITS[i];
             most.max(f64::from(self.step[i].abs()) / f64::from(1 << bits))
         });
         (slope, slope * (self.pixels - 1) as f64)
@@ -161,7 +150,7 @@ fn each_keeps_its_bound<F: PixelFormat, I: Interpolation>(rng: &mut Rng, interpo
                 let exact = f64::from(colours.at[i]) + f64::from(colours.step[i]) * k as f64;
                 let exact = exact / 65536.0 - 0.5;
                 let off = (step - exact).abs() - 0.5;
-                let range = f64::from(1u32 << (16 - F::STEPS[i].leading_zeros()));
+                let range = f64::from(1u32 << (F::BITS[i]));
                 let off = off * 65536.0 / range;
                 worst = worst.max(off);
                 assert!(
@@ -255,7 +244,7 @@ fn the_blend_is_the_circuit() {
                 let lacking = k as f64 * f64::from(1 << N) / 4_294_967_296.0;
                 let level = |w: u32, i: usize| {
                     let (a, b) = (i64::from(ends[0][i]), i64::from(ends[1][i]));
-                    let bits = 16 - F::STEPS[i].leading_zeros();
+                    let bits = F::BITS[i];
                     (circuit(a, b, w, N) >> (16 - bits)) as u8
                 };
                 let pack = |w: f64| {

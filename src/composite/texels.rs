@@ -5,6 +5,7 @@
 //! depend on what hides what.
 
 use super::PixelFormat;
+use super::course::apart;
 use crate::geometry::texturing::{LevelEnds, SpanPlace};
 use crate::shade::Stretch;
 use crate::shade::texture::{PaintRun, PerspectiveSpan, Texel, Texels, Uv};
@@ -251,24 +252,13 @@ pub(super) struct Light {
     down: [u32; 3],
 }
 
-/// Bits of a channel of the output.
-const fn bits<F: PixelFormat>() -> [u32; 3] {
-    let steps = F::STEPS;
-    [
-        16 - steps[0].leading_zeros(),
-        16 - steps[1].leading_zeros(),
-        16 - steps[2].leading_zeros(),
-    ]
-}
-
 impl Light {
     #[inline(always)]
     pub(super) fn new<F: PixelFormat>(stretch: Stretch) -> Self {
-        let bits = bits::<F>();
         match stretch {
             Stretch::Constant(steps) => {
                 // Half a step is added, as vertices have it.
-                let at = |i: usize| ((2 * i32::from(steps[i]) + 1) << (16 - bits[i])) >> 1;
+                let at = |i: usize| ((2 * i32::from(steps[i]) + 1) << (16 - F::BITS[i])) >> 1;
                 Self {
                     at: [at(0), at(1), at(2)],
                     step: [0; 3],
@@ -280,18 +270,15 @@ impl Light {
                 green,
                 steps,
                 ..
-            } => {
-                let blue = i32::from(steps.0 as i16);
-                Self {
-                    at: [red_blue >> 16, green >> 16, red_blue],
-                    step: [steps.0.wrapping_sub(blue) >> 16, steps.1 >> 16, blue],
-                    down: [0; 3],
-                }
-            }
+            } => Self {
+                at: [red_blue >> 16, green >> 16, red_blue],
+                step: apart(steps),
+                down: [0; 3],
+            },
             Stretch::Channels(at, step) => Self {
                 at,
                 step,
-                down: bits,
+                down: F::BITS,
             },
         }
     }
@@ -305,8 +292,7 @@ impl Light {
     /// Whether every pixel is in full light.
     #[inline(always)]
     fn is_white<F: PixelFormat>(&self) -> bool {
-        let bits = bits::<F>();
-        let full = |i: usize| u32::from(F::STEPS[i]) << (16 - bits[i]);
+        let full = |i: usize| u32::from(F::STEPS[i]) << (16 - F::BITS[i]);
         self.step == [0; 3] && (0..3).all(|i| self.channel(i) >= full(i))
     }
 
@@ -320,13 +306,12 @@ impl Light {
     /// Whole steps of a texel of these 8-bit levels, rounded to nearest.
     #[inline(always)]
     fn times<F: PixelFormat>(&self, levels: [u8; 3]) -> [u8; 3] {
-        let bits = bits::<F>();
         let channel = |i: usize| {
-            let half = 1 << (15 - bits[i]);
+            let half = 1 << (15 - F::BITS[i]);
             // 8 and 16 bits; divided by 255 within a unit.
             let product = u32::from(levels[i]) * self.channel(i).saturating_sub(half);
             let part = (product + (product >> 8) + (product >> 16)) >> 8;
-            ((part + half) >> (16 - bits[i])) as u8
+            ((part + half) >> (16 - F::BITS[i])) as u8
         };
         [channel(0), channel(1), channel(2)]
     }

@@ -230,6 +230,7 @@ pub(super) fn inverse_sqrt(x: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::random::Rng;
 
     fn value<const N: usize>(b: &Block<N>, i: usize) -> f64 {
         f64::from(b.mantissa[i]) * 2f64.powi(b.exponent - 30)
@@ -301,19 +302,6 @@ mod tests {
             + a[2] * (b[0] * c[1] - b[1] * c[0])
     }
 
-    /// 32 random bits.
-    fn random(state: &mut u64) -> u32 {
-        *state = state
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (*state >> 32) as u32
-    }
-
-    /// From -1 to 1.
-    fn signed(state: &mut u64) -> f32 {
-        random(state) as i32 as f32 / 2_147_483_648.0
-    }
-
     /// M3, a million turns of a thousandth of a radian, the same ones over and over, which is
     /// the worst case: errors of a step add up.
     ///
@@ -373,14 +361,14 @@ mod tests {
     /// where the map does; or the rows are too near to a line.
     #[test]
     fn any_map_can_be_made_orthonormal_unless_its_rows_are_parallel() {
-        let mut state = 5;
+        let mut rng = Rng(5);
         let mut made = 0;
         for i in 0..100_000 {
             let thin = [1.0, 1e-2, 1e-4, 1e-6][i % 4];
             let size = [1.0f32, 1e20, 1e-20][i / 4 % 3];
-            let a = [(); 3].map(|()| signed(&mut state));
-            let b = a.map(|c| c + thin * signed(&mut state));
-            let c = [(); 3].map(|()| signed(&mut state));
+            let a = [(); 3].map(|()| rng.signed());
+            let b = a.map(|c| c + thin * rng.signed());
+            let c = [(); 3].map(|()| rng.signed());
             let map = Affine::from_rows([a, b, c].map(|r| r.map(|v| v * size)), [1.0, 2.0, 3.0]);
             let map = map.unwrap();
             let m = rows(&map);
@@ -418,15 +406,15 @@ mod tests {
     /// the product of their norms (largest row sums), whatever their magnitudes.
     #[test]
     fn chains_of_any_magnitude_keep_their_bound() {
-        let mut state = 9;
+        let mut rng = Rng(9);
         for _ in 0..20_000 {
             let mut chain = Affine::IDENTITY;
             let (mut exact, mut norm) = (IDENTITY, 1.0);
             for n in 1..=8 {
-                let power = f64::from(random(&mut state) % 180) - 85.0;
-                let map = [(); 3]
-                    .map(|()| [(); 3].map(|()| signed(&mut state) * 2f64.powf(power) as f32));
-                let offset = [(); 3].map(|()| signed(&mut state));
+                let power = f64::from(rng.bits() % 180) - 85.0;
+                let map =
+                    [(); 3].map(|()| [(); 3].map(|()| rng.signed() * 2f64.powf(power) as f32));
+                let offset = [(); 3].map(|()| rng.signed());
                 let map = Affine::from_rows(map, offset).unwrap();
                 chain = chain.then(&map);
                 let m = rows(&map);
@@ -454,21 +442,21 @@ mod tests {
     /// What is not finite is refused, and so is nothing else up to 2^96.
     #[test]
     fn any_floats_are_a_map_or_refused() {
-        let mut state = 3;
+        let mut rng = Rng(3);
         let mut refused = 0;
         for i in 0..500_000 {
             let mut v = [0f32; 12];
             for v in &mut v {
-                *v = signed(&mut state);
+                *v = rng.signed();
             }
             let bits = match i % 5 {
-                0 => 0x7F80_0000 | random(&mut state) & 0x807F_FFFF,
-                1 => random(&mut state) & 0x807F_FFFF,
+                0 => 0x7F80_0000 | rng.bits() & 0x807F_FFFF,
+                1 => rng.bits() & 0x807F_FFFF,
                 2 => 0x7F80_0000,
-                _ => random(&mut state),
+                _ => rng.bits(),
             };
             let odd = f32::from_bits(bits);
-            v[random(&mut state) as usize % 12] = odd;
+            v[rng.bits() as usize % 12] = odd;
             let map = Affine::from_rows(
                 [[v[0], v[1], v[2]], [v[3], v[4], v[5]], [v[6], v[7], v[8]]],
                 [v[9], v[10], v[11]],

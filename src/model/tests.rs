@@ -2,26 +2,15 @@
 
 use super::{EdgeFunctions, ModelSpan};
 use crate::geometry::{Drawable, Gouraud, Object, Scale, SceneVertex};
+use crate::num::random::Rng;
 
-struct Rng(u64);
-
-impl Rng {
-    fn below(&mut self, n: u32) -> u32 {
-        self.0 = self
-            .0
-            .wrapping_mul(6364136223846793005)
-            .wrapping_add(1442695040888963407);
-        (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-    }
-
-    /// Three corners in a square of `size` eighths of a pixel, on a grid of `grid` of them.
-    fn triangle(&mut self, size: u32, grid: u32) -> [(u16, u16); 3] {
-        let base = [(); 2].map(|()| self.below(65_536 - size));
-        [(); 3].map(|()| {
-            let [x, y] = base.map(|base| (base + self.below(size)) / grid * grid);
-            (x as u16, y as u16)
-        })
-    }
+/// Three corners in a square of `size` eighths of a pixel, on a grid of `grid` of them.
+fn triangle(rng: &mut Rng, size: u32, grid: u32) -> [(u16, u16); 3] {
+    let base = [(); 2].map(|()| rng.below(65_536 - size));
+    [(); 3].map(|()| {
+        let [x, y] = base.map(|base| (base + rng.below(size)) / grid * grid);
+        (x as u16, y as u16)
+    })
 }
 
 /// Sizes and grids that random triangles are made on: on coarse grids centres lie on edges, and
@@ -41,7 +30,7 @@ fn spans_are_those_of_the_fast_path() {
     let (mut covered, mut lines) = (0, 0);
     for i in 0..60_000 {
         let (size, grid) = KINDS[i % KINDS.len()];
-        let p = rng.triangle(size, grid);
+        let p = triangle(&mut rng, size, grid);
         let vertices = p.map(|(x, y)| SceneVertex {
             x,
             y,
@@ -84,7 +73,7 @@ fn edge_functions_cover_the_same_pixels_stepped_and_from_scratch() {
     let (mut covered, mut on_edges) = (0, 0);
     for i in 0..30_000 {
         let (size, grid) = KINDS[i % 4];
-        let p = rng.triangle(size, grid);
+        let p = triangle(&mut rng, size, grid);
         let column = p.iter().map(|p| i32::from(p.0 >> 3)).min().unwrap_or(0);
         let line = p.iter().map(|p| i32::from(p.1 >> 3)).min().unwrap_or(0);
         let reach = (size / 8 + 2) as i32;

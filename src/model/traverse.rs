@@ -336,34 +336,23 @@ impl Iterator for Traversal {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::random::Rng;
     use crate::num::{column_exact, first_at};
     use std::vec::Vec;
 
-    struct Rng(u64);
-
-    impl Rng {
-        fn below(&mut self, n: u32) -> u32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-        }
-
-        fn triangle(&mut self, size: u32) -> [(u16, u16); 3] {
-            // Not at the picture's rim alone, and slivers among them.
-            let base = (self.below(200), self.below(200));
-            let (wide, high) = match self.below(4) {
-                0 => (size, 9),
-                1 => (9, size),
-                _ => (size, size),
-            };
-            [(); 3].map(|()| {
-                let x = base.0 + self.below(wide);
-                let y = base.1 + self.below(high);
-                (x as u16, y as u16)
-            })
-        }
+    fn triangle(rng: &mut Rng, size: u32) -> [(u16, u16); 3] {
+        // Not at the picture's rim alone, and slivers among them.
+        let base = (rng.below(200), rng.below(200));
+        let (wide, high) = match rng.below(4) {
+            0 => (size, 9),
+            1 => (9, size),
+            _ => (size, size),
+        };
+        [(); 3].map(|()| {
+            let x = base.0 + rng.below(wide);
+            let y = base.1 + rng.below(high);
+            (x as u16, y as u16)
+        })
     }
 
     /// The pixels that the scanline path covers: exact columns between the edges of each line.
@@ -419,7 +408,7 @@ mod tests {
         let mut rng = Rng(1);
         let mut pixels = 0;
         for i in 0..24 {
-            let corners = rng.triangle([60, 320, 640][i % 3]);
+            let corners = triangle(&mut rng, [60, 320, 640][i % 3]);
             let expected = scanlines(corners);
             pixels += expected.len();
             for width in 1..=8 {
@@ -446,7 +435,7 @@ mod tests {
         let mut rng = Rng(2);
         let mut directions = [0; 4];
         for i in 0..6_000 {
-            let corners = rng.triangle([16, 100, 700, 1500][i % 4]);
+            let corners = triangle(&mut rng, [16, 100, 700, 1500][i % 4]);
             let cluster = (1 + rng.below(8) as u8, 1 + rng.below(4) as u8);
             let strip = u16::from(cluster.0) * (1 + rng.below(8) as u16);
             let grid = Grid::new(cluster, strip).unwrap();
@@ -518,7 +507,7 @@ mod tests {
         let (mut looked, mut found) = (0, 0);
         for _ in 0..2_000 {
             let grid = Grid::new((4, 2), 16).unwrap();
-            let mut traversal = Traversal::new(rng.triangle(900), grid);
+            let mut traversal = Traversal::new(triangle(&mut rng, 900), grid);
             found += traversal.by_ref().count() as u32;
             looked += traversal.looked_at();
         }

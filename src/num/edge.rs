@@ -151,20 +151,9 @@ impl Edge {
 mod tests {
     use super::*;
     use crate::num::GUARD_CENTRE;
+    use crate::num::random::Rng;
 
     /// A small generator with a full period, so that failures can be repeated.
-    struct Rng(u64);
-
-    impl Rng {
-        fn below(&mut self, n: u32) -> u32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-        }
-    }
-
     #[test]
     fn narrow_edges_are_exact() {
         let mut rng = Rng(1);

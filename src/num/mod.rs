@@ -19,6 +19,8 @@ mod block;
 mod block_fix;
 mod edge;
 mod plane;
+#[cfg(test)]
+pub(crate) mod random;
 mod recip;
 mod recip_table;
 mod small;

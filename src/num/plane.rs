@@ -153,18 +153,7 @@ impl InverseArea {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    struct Rng(u64);
-
-    impl Rng {
-        fn below(&mut self, n: u32) -> u32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-        }
-    }
+    use crate::num::random::Rng;
 
     /// The exact value of the plane at a pixel centre.
     fn exact(p: [(u16, u16); 3], v: [i32; 3], column: i32, line: i32) -> f64 {

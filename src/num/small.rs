@@ -175,18 +175,7 @@ const fn shift_by(value: i32, down: i32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    struct Rng(u64);
-
-    impl Rng {
-        fn below(&mut self, n: u32) -> u32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6364136223846793005)
-                .wrapping_add(1442695040888963407);
-            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-        }
-    }
+    use crate::num::random::Rng;
 
     #[test]
     fn planes_of_small_triangles_keep_their_bound() {

@@ -6,6 +6,7 @@
 
 use super::{ActiveList, Member, Slot, Visitor};
 use crate::link::Link;
+use crate::num::random::Rng;
 use std::collections::BTreeMap;
 use std::vec::Vec;
 use std::{format, vec};
@@ -69,17 +70,6 @@ fn walk(
             assert_eq!(slot.object(), list.slots()[index].object());
             tell.visit(slot.object(), slot.body());
         }
-    }
-}
-
-struct Rng(u64);
-
-impl Rng {
-    fn below(&mut self, n: u32) -> u32 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        ((self.0 >> 32) as u32) % n.max(1)
     }
 }
 

@@ -200,8 +200,8 @@ impl Iterator for BlockRuns {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rng::Rng;
     use super::*;
+    use crate::num::random::Rng;
     use std::collections::BTreeSet;
     use std::vec;
 

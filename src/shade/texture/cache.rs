@@ -163,9 +163,9 @@ impl<S: Store> Store for BlockCache<'_, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::rng::Rng;
     use super::super::{Blocked, Size, Texels, Texture, Uv, Words, Wrap};
     use super::*;
+    use crate::num::random::Rng;
     use std::vec;
 
     #[test]

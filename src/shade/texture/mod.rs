@@ -104,24 +104,3 @@ impl<T: Texels + ?Sized> Texels for &T {
         (**self).run(pixels, from, step, each);
     }
 }
-
-#[cfg(test)]
-pub(crate) mod rng {
-    /// A small generator with a full period, so that failures can be repeated.
-    pub(crate) struct Rng(pub(crate) u64);
-
-    impl Rng {
-        pub(crate) fn below(&mut self, n: u32) -> u32 {
-            self.0 = self
-                .0
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (((self.0 >> 32) * u64::from(n)) >> 32) as u32
-        }
-
-        /// 0 to 1.
-        pub(crate) fn unit(&mut self) -> f64 {
-            f64::from(self.below(1 << 30)) / f64::from(1 << 30)
-        }
-    }
-}

@@ -1,7 +1,7 @@
 //! Spans against f64, which shares no arithmetic: texels chosen, budgets kept, levels and filters.
 
-use super::rng::Rng;
 use super::*;
+use crate::num::random::Rng;
 use std::vec;
 use std::vec::Vec;
 
