@@ -4,8 +4,8 @@
 //! memory model makes times of the counts. The pictures must be the same, or there is no report.
 
 use crate::args::CacheArgs;
-use crate::crew::LineRooms;
 use crate::image_out::{write_atomically, write_image};
+use crate::lent::{LineRooms, SceneRooms};
 use crate::memory_model::{
     Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
 };
@@ -13,10 +13,7 @@ use crate::mock::{HostLine, MockFrameBuffer};
 use crate::plot::{Chart, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::scan_out::Pump;
-use scanbeam::{
-    Counted, FrameStats, GouraudDepth, Link, ObjectOf, PixelFormat, Rgb565Be, Scene, SceneMemory,
-    SlotOf, VertexOf, draw_frame,
-};
+use scanbeam::{Counted, FrameStats, GouraudDepth, PixelFormat, Rgb565Be, SlotOf, draw_frame};
 use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
 use serde_json::{Value, json};
 use std::error::Error;
@@ -78,24 +75,15 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
 
 /// Draws a scene with every size of cache, and once with fetching ahead.
 fn measure(shot: Shot) -> Result<Vec<Row>, Box<dyn Error>> {
-    let mut vertices = vec![VertexOf::<Drawn>::empty(); VERTICES];
-    let mut objects = vec![ObjectOf::<Drawn>::default(); OBJECTS];
-    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
-    let mut scene = Scene::<Drawn>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: &mut vertices,
-            objects: &mut objects,
-            buckets: &mut buckets,
-        },
-    );
+    let mut lent = SceneRooms::<Drawn>::new(VERTICES, OBJECTS, HEIGHT.into());
+    let mut scene = lent.scene(Shot::screen());
     shot.build(&mut scene)
         .map_err(|error| format!("{}: {error:?}", shot.name()))?;
     let mut rows = Vec::new();
     let mut first = None;
     let settings = SLOTS.into_iter().map(|slots| (slots, 0));
     for (slots, prefetch) in settings.chain([(GOAL_SLOTS, AHEAD)]) {
-        let mut rooms = LineRooms::<Drawn>::new(slots, OBJECTS, WIDTH);
+        let mut rooms = LineRooms::<Drawn>::new(slots, OBJECTS, WIDTH.into());
         let mut renderer = rooms.renderer();
         renderer.set_prefetch(prefetch);
         let words = usize::from(WIDTH) * usize::from(LINES);

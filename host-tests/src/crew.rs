@@ -4,50 +4,17 @@
 //! relay, and this thread sends it in order.
 
 use crate::draw::CrewSettings;
+use crate::lent::LineRooms;
 use crate::mock::HostLine;
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::{
-    CellOf, Crew, FrameError, FrameStats, Interleave, LineDepth, LineMemory, LineRenderer, Link,
-    Pipeline, Relay, Scene, SlotOf, WordOf, send_frame,
+    Crew, FrameError, FrameStats, Interleave, LineRenderer, Pipeline, Relay, Scene, WordOf,
+    send_frame,
 };
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Line buffers between a thread and the sender, and one more, as the queues keep one free.
 const QUEUE: usize = 5;
-
-/// What one renderer is lent.
-pub struct LineRooms<P: Pipeline> {
-    slots: Vec<SlotOf<P>>,
-    links: Vec<Link>,
-    depth: Vec<CellOf<P>>,
-}
-
-impl<P: Pipeline> LineRooms<P> {
-    /// So many cache slots, links and depth cells.
-    #[must_use]
-    pub fn new(slots: usize, links: usize, width: u16) -> Self {
-        Self {
-            slots: vec![LineRenderer::<P>::empty_slot(); slots],
-            links: vec![Link::NONE; links],
-            depth: vec![P::Depth::FARTHEST; usize::from(width)],
-        }
-    }
-
-    /// Bytes that firmware would put into fast memory.
-    #[must_use]
-    pub fn fast_bytes(&self) -> usize {
-        size_of_val(self.slots.as_slice()) + size_of_val(self.depth.as_slice())
-    }
-
-    /// A renderer in this memory.
-    pub fn renderer(&mut self) -> LineRenderer<'_, P> {
-        LineRenderer::new(LineMemory {
-            slots: &mut self.slots,
-            links: &mut self.links,
-            depth: &mut self.depth,
-        })
-    }
-}
 
 /// A renderer in each of the rooms, which share the lines of the picture.
 pub fn renderers<P: Pipeline>(

@@ -6,14 +6,14 @@
 
 use crate::args::DemoArgs;
 use crate::image_out::{Frame, ImageError, write_animation, write_image, write_strip};
+use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
 use scanbeam::scan_out::{Pump, ShownLines};
 use scanbeam::{
-    Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, LineDepth,
-    LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
-    Screen, SlotOf, VertexOf, WordOf, draw_frame_changed,
+    Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, Link, ObjectOf,
+    PixelFormat, Rgb565Be, Screen, SlotOf, VertexOf, WordOf, draw_frame_changed,
 };
 use scenes::TEAPOT;
 use std::error::Error;
@@ -100,25 +100,10 @@ struct Turn {
 impl Turn {
     /// Draws `count` frames, each one the same angle on, and calls `done` after each.
     fn draw(count: u32, mut done: impl FnMut()) -> Result<Self, Box<dyn Error>> {
-        let mut vertices = vec![VertexOf::<Drawn>::empty(); VERTICES];
-        let mut objects = vec![ObjectOf::<Drawn>::default(); OBJECTS];
-        let mut buckets = [Link::NONE; HEIGHT as usize];
-        let mut slots = [LineRenderer::<Drawn>::empty_slot(); SLOTS];
-        let mut links = [Link::NONE; OBJECTS];
-        let mut depth = [<Drawn as Pipeline>::Depth::FARTHEST; WIDTH as usize];
-        let mut scene = Scene::<Drawn>::new(
-            Screen::new(WIDTH, HEIGHT)?,
-            SceneMemory {
-                vertices: &mut vertices,
-                objects: &mut objects,
-                buckets: &mut buckets,
-            },
-        );
-        let mut renderer = LineRenderer::<Drawn>::new(LineMemory {
-            slots: &mut slots,
-            links: &mut links,
-            depth: &mut depth,
-        });
+        let mut lent = SceneRooms::<Drawn>::new(VERTICES, OBJECTS, HEIGHT.into());
+        let mut scene = lent.scene(Screen::new(WIDTH, HEIGHT)?);
+        let mut rooms = LineRooms::<Drawn>::new(SLOTS, OBJECTS, WIDTH.into());
+        let mut renderer = rooms.renderer();
         let words = usize::from(WIDTH * LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
         let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);

@@ -9,8 +9,9 @@ pub use prepared::Prepared;
 pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
 
 use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
-use crate::crew::{self, LineRooms};
+use crate::crew;
 use crate::image_out::Frame;
+use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockError, MockFrameBuffer};
 use crate::model::Model;
 use crate::reference::{Cull, Shade, View};
@@ -20,8 +21,8 @@ use scanbeam::model::{
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     Camera, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth, Instance,
-    Light, Link, Mesh, ObjectOf, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be, Rgb888, Scene,
-    SceneMemory, Screen, VertexOf, WordOf,
+    Light, Link, Mesh, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be, Rgb888, Scene, Screen,
+    WordOf,
 };
 use serde_json::json;
 use std::ops::Range;
@@ -224,11 +225,11 @@ fn draw_with<P: Pipeline>(
 ) -> Result<Drawn, DrawFailure> {
     let setting = Setting::new(prepared, view)?;
     let (width, height) = (view.width as u16, view.height as u16);
-    let mut rooms = SceneRooms::<P>::new(prepared, height);
+    let mut rooms = rooms_for::<P>(prepared, height);
     rooms.textures = textures;
-    let links = rooms.objects.len();
+    let links = rooms.objects();
     let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
-        .map(|_| LineRooms::new(crew.slots, links, width))
+        .map(|_| LineRooms::new(crew.slots, links, width.into()))
         .collect();
     let fast_bytes = line_rooms.iter().map(LineRooms::fast_bytes).sum();
     let mut renderers = crew::renderers(&mut line_rooms, crew);
@@ -265,7 +266,7 @@ where
 {
     let setting = Setting::new(prepared, view)?;
     let (width, height) = (view.width as u16, view.height as u16);
-    let mut rooms = SceneRooms::<P>::new(prepared, height);
+    let mut rooms = rooms_for::<P>(prepared, height);
     let mut lines_of_model = ModelLines::new(width);
     let mut renderer = lines_of_model.renderer();
     let background = P::Pixel::from_rgb8(view.background);
@@ -509,42 +510,17 @@ impl Setting {
     }
 }
 
-/// What the host lends to a scene.
-pub(crate) struct SceneRooms<P: Pipeline> {
-    vertices: Vec<VertexOf<P>>,
-    objects: Vec<ObjectOf<P>>,
-    buckets: Vec<Link>,
-    textures: P::Textures,
-}
-
-impl<P: Pipeline> SceneRooms<P> {
-    /// An empty scene in them.
-    fn scene(&mut self, screen: Screen) -> Scene<'_, P> {
-        let mut scene = Scene::new(
-            screen,
-            SceneMemory {
-                vertices: &mut self.vertices,
-                objects: &mut self.objects,
-                buckets: &mut self.buckets,
-            },
-        );
-        scene.set_textures(self.textures);
-        scene
-    }
-
-    pub(crate) fn new(prepared: &Prepared, height: u16) -> Self {
-        let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
-        let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
-        // Clipping can make several triangles of one; a scene that needs more is drawn in bands.
-        let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
-        let vertices = (vertices + 8 * faces + 64).min(1 << 16);
-        Self {
-            vertices: vec![VertexOf::<P>::empty(); vertices],
-            objects: vec![ObjectOf::<P>::default(); objects],
-            buckets: vec![Link::NONE; usize::from(height)],
-            textures: P::Textures::default(),
-        }
-    }
+/// Memory for a model's scene.
+pub(crate) fn rooms_for<P: Pipeline>(prepared: &Prepared, height: u16) -> SceneRooms<P> {
+    let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
+    let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
+    // Clipping can make several triangles of one; a scene that needs more is drawn in bands.
+    let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
+    SceneRooms::new(
+        (vertices + 8 * faces + 64).min(1 << 16),
+        objects,
+        height.into(),
+    )
 }
 
 /// Adds the figures of a band.

@@ -8,14 +8,14 @@ use crate::firmware::{
     self, BOARDS, Board, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
 use crate::image_out::{write_atomically, write_image};
+use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, LineMemory,
-    LineRenderer, Link, ListMemory, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene, SceneMemory,
-    VertexOf, draw_frame,
+    Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, ListMemory,
+    Pipeline, PixelFormat, Rgb565Be, Scene, draw_frame,
 };
 use scenes::{
     HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS, STACKS, STRESS, SWATCHES, Shot, VARIANTS,
@@ -250,17 +250,14 @@ fn by_lines<P: Pipeline<Pixel = Rgb565Be>>(
     pump: &mut Display,
     background: u16,
 ) -> Result<FrameStats, Box<dyn Error>> {
-    use scanbeam::LineDepth;
-    const SLOTS: usize = 64;
-    let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
-    let mut links = vec![Link::NONE; OBJECTS];
-    let mut depth = vec![P::Depth::FARTHEST; usize::from(WIDTH)];
-    let mut renderer = LineRenderer::new(LineMemory {
-        slots: &mut slots,
-        links: &mut links,
-        depth: &mut depth,
-    });
-    Ok(draw_frame(scene, &mut renderer, pump, background, LINES)?)
+    let mut rooms = LineRooms::<P>::new(64, OBJECTS, WIDTH.into());
+    Ok(draw_frame(
+        scene,
+        &mut rooms.renderer(),
+        pump,
+        background,
+        LINES,
+    )?)
 }
 
 /// The bytes of a shot as the hardware model draws it.
@@ -309,17 +306,8 @@ fn shown<P: Pipeline<Pixel = Rgb565Be>, T>(
     build: impl FnOnce(&mut Scene<'_, P>) -> Result<(), Box<dyn Error>>,
     draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<T, Box<dyn Error>>,
 ) -> Result<(Vec<u8>, T), Box<dyn Error>> {
-    let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
-    let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
-    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
-    let mut scene = Scene::<P>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: &mut vertices,
-            objects: &mut objects,
-            buckets: &mut buckets,
-        },
-    );
+    let mut lent = SceneRooms::<P>::new(VERTICES, OBJECTS, HEIGHT.into());
+    let mut scene = lent.scene(Shot::screen());
     build(&mut scene)?;
     let words = usize::from(WIDTH) * usize::from(LINES);
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);

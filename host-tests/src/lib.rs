@@ -11,6 +11,7 @@ pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;
+pub mod lent;
 pub mod lists;
 pub mod memory_model;
 pub mod method_frames;

@@ -1,12 +1,9 @@
 //! The small frame of each interpolation method, as this machine draws it.
 
-use crate::crew::LineRooms;
+use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::scan_out::Pump;
-use scanbeam::{
-    GouraudDepth, Interpolated, Interpolation, Link, ObjectOf, Quality, Rgb565Be, Scene,
-    SceneMemory, VertexOf, draw_frame,
-};
+use scanbeam::{GouraudDepth, Interpolated, Interpolation, Quality, Rgb565Be, draw_frame};
 use scenes::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };
@@ -27,19 +24,10 @@ impl DrawsMethod for Words {
 
 fn words<I: Interpolation>(quality: Quality) -> Result<Vec<u16>, Box<dyn Error>> {
     type By<I> = Interpolated<GouraudDepth<Rgb565Be>, I>;
-    let mut vertices = vec![VertexOf::<By<I>>::empty(); ROOM];
-    let mut objects = vec![ObjectOf::<By<I>>::default(); ROOM];
-    let mut buckets = vec![Link::NONE; usize::from(METHOD_HEIGHT)];
-    let mut scene = Scene::<By<I>>::new(
-        method_screen(),
-        SceneMemory {
-            vertices: &mut vertices,
-            objects: &mut objects,
-            buckets: &mut buckets,
-        },
-    );
+    let mut lent = SceneRooms::<By<I>>::new(ROOM, ROOM, METHOD_HEIGHT.into());
+    let mut scene = lent.scene(method_screen());
     build_method(&mut scene).map_err(|error| format!("{error:?}"))?;
-    let mut rooms = LineRooms::<By<I>>::new(64, ROOM, METHOD_WIDTH);
+    let mut rooms = LineRooms::<By<I>>::new(64, ROOM, METHOD_WIDTH.into());
     let mut renderer = rooms.renderer();
     renderer.set_quality(quality);
     let words = usize::from(METHOD_WIDTH);

@@ -4,7 +4,7 @@
 //! is on the wires, not what the program meant.
 
 use crate::args::TraceArgs;
-use crate::draw::{ModelLines, Prepared, SceneRooms, Setting};
+use crate::draw::{ModelLines, Prepared, Setting, rooms_for};
 use crate::model::Model;
 use crate::reference::{Shade, View};
 use scanbeam::model::{Chart, CornerColours, PipeCounts, Token, TokenBits};
@@ -57,7 +57,7 @@ where
 {
     let width = view.width as u16;
     let setting = Setting::new(prepared, view)?;
-    let mut rooms = SceneRooms::<P>::new(prepared, 1);
+    let mut rooms = rooms_for::<P>(prepared, 1);
     let mut lines = ModelLines::new(width);
     let mut renderer = lines.renderer();
     let background = P::Pixel::from_rgb8(view.background);

@@ -89,6 +89,8 @@ pub struct ActiveList<'m, T> {
     spilled: u32,
     /// No object of the active list that is in a slot ends above this line.
     first_end: i32,
+    /// Something was taken out since the last [`update`](ActiveList::update).
+    released: bool,
     pub(crate) counts: CacheCounts,
 }
 
@@ -110,6 +112,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
             cached: 0,
             spilled: 0,
             first_end: i32::MAX,
+            released: false,
             counts: CacheCounts::default(),
         };
         list.clear();
@@ -163,6 +166,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
         self.free = Link::NONE;
         (self.used, self.waiting, self.cached, self.spilled) = (0, 0, 0, 0);
         self.first_end = i32::MAX;
+        self.released = false;
         self.counts = CacheCounts::default();
         for (i, slot) in self.slots.iter_mut().enumerate().rev() {
             slot.next = self.free;
@@ -297,21 +301,24 @@ impl<'m, T: Member> ActiveList<'m, T> {
     /// changed.
     #[inline]
     pub(crate) fn update(&mut self, line: i32, visitor: &mut impl Visitor<T>) -> bool {
+        let released = core::mem::take(&mut self.released);
         // What stays is a hit, and what comes in its slot is one too.
         if self.incoming.is_some() || self.spilled > 0 || line >= self.first_end {
             // Where slots are scarce, those of what has ended have to be free first.
             if self.used + self.waiting + self.spilled > self.slots.len() as u32 {
                 self.release(line);
+                self.released = false;
             }
             self.merge_incoming(line, visitor);
             true
         } else {
             self.counts.hits += self.cached;
-            false
+            released
         }
     }
 
-    /// Takes out what has ended above `line`, so that its slots are free.
+    /// Takes out what has ended above `line`, so that its slots are free; the next
+    /// [`update`](ActiveList::update) tells of it.
     pub(crate) fn release(&mut self, line: i32) {
         if line < self.first_end {
             return;
@@ -326,6 +333,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
                     if end <= line {
                         self.set_next(before, after);
                         self.put_back(current);
+                        self.released = true;
                         current = after;
                         continue;
                     }
@@ -345,11 +353,11 @@ impl<'m, T: Member> ActiveList<'m, T> {
         let mut before = Link::NONE;
         let mut current = self.head;
         let mut first_end = i32::MAX;
-        // The object that heads `incoming`.
-        let mut coming = self.coming();
         // What was in its slot before this line.
         let mut hits = 0;
         loop {
+            // The object that heads `incoming`.
+            let coming = self.coming();
             // What stays; all locals, so that they stay in registers.
             let slots = &*self.slots;
             let is_new = loop {
@@ -376,86 +384,80 @@ impl<'m, T: Member> ActiveList<'m, T> {
                 current = after;
                 continue;
             }
-            if is_new && coming == NOTHING {
-                break;
-            }
-            if is_new {
-                let node = self.incoming;
-                if node.is_cached() {
-                    // Fetched ahead: into the list with it, and on as with any other.
-                    let slot = &mut self.slots[node.slot()];
-                    self.incoming = core::mem::replace(&mut slot.next, current);
-                    self.cached += 1;
-                    self.counts.fetched_hits += 1;
-                } else {
-                    self.incoming = self.links[usize::from(node.object())];
-                    self.waiting -= 1;
-                    let free = self.free;
-                    if !free.is_some() {
-                        // It will be set up on each line on which it is drawn.
-                        self.set_next(node, current);
-                        self.spilled += 1;
-                        self.counts.spills += 1;
-                        self.set_next(before, node);
-                        before = node;
-                        coming = self.coming();
-                        continue;
-                    }
-                    self.counts.misses += 1;
-                    if !self.take_slot(node.object(), current, visitor) {
-                        coming = self.coming();
-                        continue;
-                    }
-                    // The walk will count it once more.
-                    hits -= 1;
-                    self.set_next(before, free);
-                    current = free;
-                    coming = self.coming();
+            if !is_new {
+                // In slow memory, and there already.
+                let object = current.object();
+                let after = self.links[usize::from(object)];
+                if !self.free.is_some() {
+                    self.counts.link_reads += 1;
+                    (before, current) = (current, after);
                     continue;
                 }
-                self.set_next(before, node);
-                current = node;
-                coming = self.coming();
+                // It moves in.
+                self.spilled -= 1;
+                current = self.move_in(object, before, after, visitor);
+                // The walk will count it once more.
+                hits -= i32::from(current != after);
                 continue;
             }
-            let free = self.free;
-            let after = self.links[usize::from(current.object())];
-            if free.is_some() {
-                // It moves in.
-                self.counts.misses += 1;
-                self.spilled -= 1;
-                if self.take_slot(current.object(), after, visitor) {
-                    hits -= 1;
-                    self.set_next(before, free);
-                    current = free;
-                } else {
-                    self.set_next(before, after);
-                    current = after;
-                }
+            if coming == NOTHING {
+                break;
+            }
+            let node = self.incoming;
+            if node.is_cached() {
+                // Fetched ahead: into the list with it, and on as with any other.
+                let slot = &mut self.slots[node.slot()];
+                self.incoming = core::mem::replace(&mut slot.next, current);
+                self.cached += 1;
+                self.counts.fetched_hits += 1;
+                self.set_next(before, node);
+                current = node;
+                continue;
+            }
+            self.incoming = self.links[usize::from(coming)];
+            self.waiting -= 1;
+            if self.free.is_some() {
+                let after = current;
+                current = self.move_in(coming, before, after, visitor);
+                hits -= i32::from(current != after);
             } else {
-                before = current;
-                current = after;
+                // It will be set up on each line on which it is drawn.
+                self.counts.link_reads += 1;
+                self.counts.spills += 1;
+                self.spilled += 1;
+                self.set_next(node, current);
+                self.set_next(before, node);
+                before = node;
             }
         }
         self.first_end = first_end;
         self.counts.hits = self.counts.hits.wrapping_add_signed(hits);
     }
 
-    /// Sets `object` up in the first free slot, which is taken then and leads to `next`; `false`
-    /// when the object has ended.
+    /// Sets `object` up in the first free slot and puts it between `before` and `after`; what
+    /// comes after `before` now. That is `after` when the object has ended.
     #[inline]
-    fn take_slot(&mut self, object: u16, next: Link, visitor: &mut impl Visitor<T>) -> bool {
-        let Some(slot) = self.slots.get_mut(self.free.slot()) else {
-            return false;
-        };
-        let there = visitor.set_up(object, &mut slot.body);
-        if there {
-            self.free = core::mem::replace(&mut slot.next, next);
-            slot.object = object;
-            self.cached += 1;
-            self.take_count();
+    fn move_in(
+        &mut self,
+        object: u16,
+        before: Link,
+        after: Link,
+        visitor: &mut impl Visitor<T>,
+    ) -> Link {
+        self.counts.misses += 1;
+        let node = self.free;
+        let mut now = after;
+        if let Some(slot) = self.slots.get_mut(node.slot()) {
+            if visitor.set_up(object, &mut slot.body) {
+                self.free = core::mem::replace(&mut slot.next, after);
+                slot.object = object;
+                self.cached += 1;
+                self.take_count();
+                now = node;
+            }
         }
-        there
+        self.set_next(before, now);
+        now
     }
 
     /// Frees the slot of a node that has left the list.

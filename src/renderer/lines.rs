@@ -3,9 +3,9 @@
 use super::order::{Doubt, Order};
 use super::place::Place;
 use super::scene::Scene;
-use super::spans::{draw_span, draw_thin};
+use super::spans::Brush;
 use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
-use crate::geometry::{Drawable, Parameters};
+use crate::geometry::Drawable;
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::shade::{Interpolation, Quality};
@@ -280,16 +280,18 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             return Ok(false);
         };
         let mut pass = LinePass {
-            scene,
+            brush: Brush {
+                scene,
+                thin: 0,
+                counter: &mut self.counter,
+                interpolation: self.interpolation,
+            },
             pixels,
             cells,
             dirty: &mut self.dirty,
             order: &mut self.order,
             line: now,
             left,
-            thin: 0,
-            counter: &mut self.counter,
-            interpolation: self.interpolation,
         };
         if self.list.update(now, &mut pass) {
             pass.order.forget();
@@ -315,7 +317,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             pass.begin_together();
             self.list.visit_all(next, &mut self.spare, &mut pass);
         }
-        self.list.counts.set_ups += pass.thin;
+        self.list.counts.set_ups += pass.brush.thin;
         Ok(true)
     }
 
@@ -341,7 +343,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
 /// from mark to mark, drawing, then meets all of them exactly if none overlap; if not, or if an
 /// object has no slot, all are drawn anew with depth.
 pub(super) struct LinePass<'a, 's, P: Pipeline> {
-    pub(super) scene: &'a Scene<'s, P>,
+    pub(super) brush: Brush<'a, 's, P>,
     pub(super) pixels: &'a mut [WordOf<P>],
     pub(super) cells: &'a mut [CellOf<P>],
     /// Whether depth cells are not all at their farthest.
@@ -349,16 +351,12 @@ pub(super) struct LinePass<'a, 's, P: Pipeline> {
     pub(super) order: &'a mut Order,
     pub(super) line: i32,
     pub(super) left: i32,
-    /// Triangles drawn from their corners in slow memory.
-    pub(super) thin: u32,
-    pub(super) counter: &'a mut P::Counter,
-    pub(super) interpolation: P::Interpolation,
 }
 
 impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
     #[inline(always)]
     fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
-        self.scene.set_up(object, self.line, body)
+        self.brush.scene.set_up(object, self.line, body)
     }
 
     #[inline]
@@ -375,20 +373,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
         let Some(pixels) = self.pixels.get_mut(start..end) else {
             return;
         };
-        match &body.parameters {
-            Parameters::Planes(plane, levels) => {
-                let how = (
-                    self.interpolation,
-                    self.scene.textures(),
-                    &mut *self.counter,
-                );
-                draw_span::<P>((plane, levels), at, (pixels, cells), how);
-            }
-            Parameters::Corners => {
-                self.thin += 1;
-                draw_thin::<P>(self.scene, object, at, (pixels, cells), self.counter);
-            }
-        }
+        self.brush.draw(object, body, at, (pixels, cells));
     }
 }
 
@@ -433,14 +418,14 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     #[inline]
     fn draw_apart(&mut self, list: &ActiveList<'_, DrawableOf<P>>) -> bool {
         self.clear();
-        let (thin, counter) = (self.thin, *self.counter);
+        let (thin, counter) = (self.brush.thin, *self.brush.counter);
         let apart = match self.mark(list) {
             Some((first, count)) => self.draw_marked(list.slots(), first, count),
             None => false,
         };
         if !apart {
             *self.dirty = true;
-            (self.thin, *self.counter) = (thin, counter);
+            (self.brush.thin, *self.brush.counter) = (thin, counter);
         }
         apart
     }
@@ -492,20 +477,8 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 return false;
             };
             let at = (left + start as i32, line);
-            match &slot.body().parameters {
-                Parameters::Planes(plane, levels) => {
-                    let how = (
-                        self.interpolation,
-                        self.scene.textures(),
-                        &mut *self.counter,
-                    );
-                    draw_span::<P>((plane, levels), at, (pixels, None), how);
-                }
-                Parameters::Corners => {
-                    self.thin += 1;
-                    draw_thin::<P>(self.scene, slot.object(), at, (pixels, None), self.counter);
-                }
-            }
+            self.brush
+                .draw(slot.object(), slot.body(), at, (pixels, None));
             start = end;
         }
         true

@@ -10,7 +10,6 @@
 //! either order of submission; by depth it is 16.4 million when the nearest comes first.
 
 use super::lines::LinePass;
-use super::spans::{draw_masked, draw_span, draw_thin};
 use crate::active::{ActiveList, Slot};
 use crate::geometry::{Drawable, Parameters};
 use crate::pipeline::{DrawableOf, Pipeline};
@@ -184,41 +183,13 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             return;
         };
         let at = (self.left + start as i32, self.line);
-        match (cover.look(start, end), &slot.body().parameters) {
-            (Covered::All, _) => self.counter.span(0, pixels.len() as u32, false),
-            (Covered::Nothing, Parameters::Planes(plane, levels)) => {
-                let textures = self.scene.textures();
-                let how = (self.interpolation, textures, &mut *self.counter);
-                draw_span::<P>((plane, levels), at, (pixels, None), how);
-            }
-            (Covered::Some, Parameters::Planes(_, levels)) => {
-                let textures = self.scene.textures();
-                let how = (self.interpolation, textures, &mut *self.counter);
-                draw_masked::<P>(levels, at, (pixels, cover.masked(start)), how);
-            }
-            (Covered::Nothing, Parameters::Corners) => {
-                self.thin += 1;
-                draw_thin::<P>(self.scene, slot.object(), at, (pixels, None), self.counter);
-            }
-            (Covered::Some, Parameters::Corners) => {
-                // Pixel by pixel, each as a span of its own.
-                self.thin += 1;
-                let (mut seen, count) = (0, pixels.len() as u32);
-                for (i, column) in (0..pixels.len()).zip(at.0..) {
-                    if cover.look(start + i, start + i + 1) == Covered::Nothing {
-                        let pixel = &mut pixels[i..=i];
-                        let none = &mut P::Counter::default();
-                        draw_thin::<P>(
-                            self.scene,
-                            slot.object(),
-                            (column, at.1),
-                            (pixel, None),
-                            none,
-                        );
-                        seen += 1;
-                    }
-                }
-                self.counter.span(seen, count - seen, false);
+        let (object, body) = (slot.object(), slot.body());
+        match cover.look(start, end) {
+            Covered::All => self.brush.counter.span(0, pixels.len() as u32, false),
+            Covered::Nothing => self.brush.draw(object, body, at, (pixels, None)),
+            Covered::Some => {
+                self.brush
+                    .draw_masked(object, body, at, (pixels, cover.masked(start)))
             }
         }
     }

@@ -102,6 +102,8 @@ impl<P: Pipeline> LineRenderer<'_, P> {
             }
         };
         place.next = line;
+        // What has ended makes room.
+        self.list.release(line);
         let mut left = budget;
         let done = self.fetch(scene, &mut place, line, &mut left);
         self.place = Some(place);

@@ -2,10 +2,10 @@
 
 use super::scene::Scene;
 use crate::composite::{PixelFormat, TextureSource, paint};
-use crate::geometry::{Scale, at_pixel};
+use crate::geometry::{Parameters, Scale, at_pixel};
 use crate::num::Plane;
-use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::{Forward, Levels, Stretch};
+use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
+use crate::shade::{Forward, Interpolation, Levels, Stretch};
 use crate::stats::SpanCounter;
 use crate::visible::{Everywhere, LineDepth, Masked, Tested, Visible};
 
@@ -14,10 +14,77 @@ pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
     const { &Scale::new(<P::Pixel as PixelFormat>::STEPS) }
 }
 
+/// What draws the objects of a line: from their planes, or from their corners.
+pub(super) struct Brush<'a, 's, P: Pipeline> {
+    pub(super) scene: &'a Scene<'s, P>,
+    /// Triangles drawn from their corners in slow memory.
+    pub(super) thin: u32,
+    pub(super) counter: &'a mut P::Counter,
+    pub(super) interpolation: P::Interpolation,
+}
+
+impl<P: Pipeline> Brush<'_, '_, P> {
+    /// Draws a span of an object from a column and line of guard space on, into its pixels and,
+    /// where other spans may share them, its depth cells.
+    #[inline(always)]
+    pub(super) fn draw(
+        &mut self,
+        object: u16,
+        body: &DrawableOf<P>,
+        at: (i32, i32),
+        (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
+    ) {
+        match &body.parameters {
+            Parameters::Planes(plane, levels) => {
+                let textures = self.scene.textures();
+                let how = (self.interpolation, textures, &mut *self.counter);
+                draw_span::<P>((plane, levels), at, (pixels, cells), how);
+            }
+            Parameters::Corners => {
+                self.thin += 1;
+                let (count, tested) = (pixels.len() as u32, cells.is_some());
+                let cells = cells.unwrap_or_default();
+                let shown = &mut |i, depth| {
+                    let cell = cells.get_mut(i);
+                    cell.is_none_or(|cell| P::Depth::test(cell, depth))
+                };
+                let seen = draw_thin(self.scene, object, at, pixels, self.counter, shown);
+                self.counter.span(seen, count - seen, tested);
+            }
+        }
+    }
+
+    /// Draws those pixels of a span that are not covered, and covers them.
+    #[inline]
+    pub(super) fn draw_masked(
+        &mut self,
+        object: u16,
+        body: &DrawableOf<P>,
+        at: (i32, i32),
+        (pixels, mut masked): (&mut [WordOf<P>], Masked<'_, '_, P::Depth>),
+    ) {
+        let count = pixels.len() as u32;
+        match &body.parameters {
+            Parameters::Planes(_, levels) => {
+                let textures = self.scene.textures();
+                let how = (self.interpolation, textures, &mut *self.counter);
+                draw_masked::<P>(levels, at, (pixels, &mut masked), how);
+            }
+            Parameters::Corners => {
+                self.thin += 1;
+                let shown = &mut |_, _| masked.next();
+                draw_thin(self.scene, object, at, pixels, self.counter, shown);
+            }
+        }
+        let seen = masked.seen();
+        self.counter.span(seen, count - seen, false);
+    }
+}
+
 /// Draws a span of an object with this depth and these levels, from a column and line of guard
 /// space on, into its pixels and, where other spans may share them, its depth cells.
 #[inline(always)]
-pub(super) fn draw_span<P: Pipeline>(
+fn draw_span<P: Pipeline>(
     (plane, levels): (&Plane, &LevelsOf<P>),
     (column, line): (i32, i32),
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
@@ -33,17 +100,12 @@ pub(super) fn draw_span<P: Pipeline>(
         Some(cells) => {
             let depth = plane.at(column, line) as u32;
             let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
-            colour::<P>(pixels, levels, at, (interpolation, textures), &mut tests);
+            colour::<P, _>(pixels, levels, at, (interpolation, textures), &mut tests);
             tests.seen()
         }
         None => {
-            colour::<P>(
-                pixels,
-                levels,
-                at,
-                (interpolation, textures),
-                &mut Everywhere,
-            );
+            let how = (interpolation, textures);
+            colour::<P, _>(pixels, levels, at, how, &mut Everywhere);
             count
         }
     };
@@ -53,11 +115,11 @@ pub(super) fn draw_span<P: Pipeline>(
 
 /// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
 #[inline(always)]
-fn colour<P: Pipeline>(
+fn colour<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
-    (interpolation, textures): (P::Interpolation, P::Textures),
+    (interpolation, textures): (I, P::Textures),
     visible: &mut impl Visible,
 ) {
     let stretch = levels.stretch(column, line);
@@ -89,60 +151,44 @@ fn count_fetches<P: Pipeline>(
 
 /// Draws those pixels of a span that are not covered, and covers them.
 #[inline(never)]
-pub(super) fn draw_masked<P: Pipeline>(
+fn draw_masked<P: Pipeline>(
     levels: &LevelsOf<P>,
     at: (i32, i32),
-    (pixels, mut masked): (&mut [WordOf<P>], Masked<'_, '_, P::Depth>),
+    (pixels, masked): (&mut [WordOf<P>], &mut Masked<'_, '_, P::Depth>),
     (interpolation, textures, counter): (P::Interpolation, P::Textures, &mut P::Counter),
 ) {
-    let count = pixels.len() as u32;
-    colour::<P>(pixels, levels, at, (interpolation, textures), &mut masked);
-    let seen = masked.seen();
-    counter.span(seen, count - seen, false);
-    count_fetches::<P>(levels, at, textures, seen, counter);
+    colour::<P, _>(pixels, levels, at, (interpolation, textures), masked);
+    count_fetches::<P>(levels, at, textures, masked.seen(), counter);
 }
 
-/// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners.
+/// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners, where
+/// it is `shown`, which gets the index of each pixel and its depth; how many were.
 #[cold]
 #[inline(never)]
-pub(super) fn draw_thin<P: Pipeline>(
+fn draw_thin<P: Pipeline>(
     scene: &Scene<'_, P>,
     object: u16,
     (column, line): (i32, i32),
-    (pixels, mut cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
+    pixels: &mut [WordOf<P>],
     counter: &mut P::Counter,
-) {
+    shown: &mut dyn FnMut(usize, u32) -> bool,
+) -> u32 {
     let Some((face, corners)) = scene
         .object(object)
         .and_then(|o| Some((o.face, o.corners(scene.vertices())?)))
     else {
-        return;
+        return 0;
     };
     let mut seen = 0;
-    let count = pixels.len() as u32;
-    for (i, column) in (0..pixels.len()).zip(column..) {
+    let textures = scene.textures();
+    for (i, (pixel, column)) in pixels.chunks_mut(1).zip(column..).enumerate() {
         let at = (column, line);
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
-        let cell = cells.as_mut().and_then(|cells| cells.get_mut(i));
-        if cell.is_none_or(|cell| P::Depth::test(cell, depth)) {
-            let pixels = &mut pixels[i..=i];
-            let textures = scene.textures();
-            let textured = levels.texture(column, line).is_some_and(|(index, place)| {
-                let stretch = levels.stretch(column, line);
-                let course = (place, levels.detail());
-                textures.paint(index, pixels, course, stretch, &mut Everywhere)
-            });
-            if !textured {
-                paint::<P::Pixel, _>(
-                    pixels,
-                    levels.stretch(column, line),
-                    Forward,
-                    &mut Everywhere,
-                );
-            }
+        if shown(i, depth) {
+            colour::<P, _>(pixel, &levels, at, (Forward, textures), &mut Everywhere);
             count_fetches::<P>(&levels, at, textures, 1, counter);
             seen += 1;
         }
     }
-    counter.span(seen, count - seen, cells.is_some());
+    seen
 }

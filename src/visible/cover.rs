@@ -122,23 +122,29 @@ impl<D: LineDepth> Masked<'_, '_, D> {
     pub fn seen(&self) -> u32 {
         self.seen
     }
+
+    /// Whether the next pixel is seen.
+    #[inline(always)]
+    pub fn next(&mut self) -> bool {
+        let bit = 1 << (self.at % 32);
+        let mut shown = false;
+        if let Some(cell) = self.cover.words.get_mut(self.at / 32) {
+            let word = D::number(cell);
+            shown = word & bit == 0;
+            D::set_number(cell, word | bit);
+        }
+        self.seen += u32::from(shown);
+        self.cover.free -= usize::from(shown);
+        self.at += 1;
+        shown
+    }
 }
 
 impl<D: LineDepth> Visible for Masked<'_, '_, D> {
     #[inline(always)]
     fn each<W>(&mut self, pixels: &mut [W], mut each: impl FnMut(&mut W, bool)) {
         for pixel in pixels {
-            let bit = 1 << (self.at % 32);
-            let mut shown = false;
-            if let Some(cell) = self.cover.words.get_mut(self.at / 32) {
-                let word = D::number(cell);
-                shown = word & bit == 0;
-                D::set_number(cell, word | bit);
-            }
-            each(pixel, shown);
-            self.seen += u32::from(shown);
-            self.cover.free -= usize::from(shown);
-            self.at += 1;
+            each(pixel, self.next());
         }
     }
 }

@@ -1,9 +1,9 @@
 //! What a pixel costs: the firmware's kernels, and two of its frames.
 
 use super::Row;
-use crate::crew::LineRooms;
 use crate::firmware::{FirmwareError, KernelRun, M4, Output, Profile, Toolchain, measure};
-use scanbeam::{Counted, GouraudDepth, Link, ObjectOf, Rgb565Be, Scene, SceneMemory, VertexOf};
+use crate::lent::{LineRooms, SceneRooms};
+use scanbeam::{Counted, GouraudDepth, Rgb565Be};
 use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -82,20 +82,11 @@ pub(crate) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
 /// Pixels that show the teapot: those that are the same over any background.
 fn teapot_pixels() -> Result<u32, Box<dyn Error>> {
     type P = Counted<GouraudDepth<Rgb565Be>>;
-    let mut vertices = vec![VertexOf::<P>::empty(); VERTICES];
-    let mut objects = vec![ObjectOf::<P>::default(); OBJECTS];
-    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
-    let mut scene = Scene::<P>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: &mut vertices,
-            objects: &mut objects,
-            buckets: &mut buckets,
-        },
-    );
+    let mut lent = SceneRooms::<P>::new(VERTICES, OBJECTS, HEIGHT.into());
+    let mut scene = lent.scene(Shot::screen());
     let built = Shot::Teapot.build(&mut scene);
     built.map_err(|error| format!("teapot: {error:?}"))?;
-    let mut rooms = LineRooms::<P>::new(64, OBJECTS, WIDTH);
+    let mut rooms = LineRooms::<P>::new(64, OBJECTS, WIDTH.into());
     let mut renderer = rooms.renderer();
     let mut shown = 0;
     let mut pixels = [0; WIDTH as usize];

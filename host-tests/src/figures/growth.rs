@@ -5,10 +5,10 @@
 //! counted here, where the same triangles lie on the same pixels. The share of such a line does
 //! rise as triangles become smaller than a few pixels: each is set up for fewer of them.
 
-use crate::crew::LineRooms;
 use crate::firmware::GrowthRun;
+use crate::lent::{LineRooms, SceneRooms};
 use crate::plot::{Dot, Scatter};
-use scanbeam::{Counted, GouraudDepth, Link, ObjectOf, Rgb565Be, Scene, SceneMemory, VertexOf};
+use scanbeam::{Counted, GouraudDepth, Rgb565Be};
 use scenes::{HEIGHT, MOST_SLOTS, OCTASPHERES, Octasphere, Shot, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -40,19 +40,16 @@ pub fn spans() -> Result<BTreeMap<u64, u64>, Box<dyn Error>> {
     type P = Counted<GouraudDepth<Rgb565Be>>;
     let mut positions = vec![[0; 3]; Octasphere::MOST_VERTICES];
     let mut faces = vec![[0; 3]; Octasphere::MOST_FACES];
-    let mut vertices = vec![VertexOf::<P>::empty(); Octasphere::MOST_VERTICES];
-    let mut objects = vec![ObjectOf::<P>::default(); Octasphere::MOST_FACES];
-    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
-    let mut rooms = LineRooms::<P>::new(MOST_SLOTS, Octasphere::MOST_FACES, WIDTH);
+    let mut lent = SceneRooms::<P>::new(
+        Octasphere::MOST_VERTICES,
+        Octasphere::MOST_FACES,
+        HEIGHT.into(),
+    );
+    let mut rooms = LineRooms::<P>::new(MOST_SLOTS, Octasphere::MOST_FACES, WIDTH.into());
     let mut spans = BTreeMap::new();
     for parts in OCTASPHERES {
         let sphere = Octasphere::new(parts, &mut positions, &mut faces).ok_or("no room")?;
-        let memory = SceneMemory {
-            vertices: &mut vertices,
-            objects: &mut objects,
-            buckets: &mut buckets,
-        };
-        let mut scene = Scene::<P>::new(Shot::screen(), memory);
+        let mut scene = lent.scene(Shot::screen());
         let drawn = sphere.draw(&mut scene);
         drawn.map_err(|error| format!("a sphere of {parts} parts: {error:?}"))?;
         let mut renderer = rooms.renderer();

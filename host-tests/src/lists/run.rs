@@ -3,14 +3,14 @@
 use super::args::RunListArgs;
 use super::{print, read_list};
 use crate::image_out::{Frame, write_image};
+use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::reference::{Cull, Shade, View};
 use scanbeam::list::{Budget, Halt, Head, Instruction, State, VertexFormat, read_block};
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Affine, Camera, Counted, Event, FlatDepth, GouraudDepth, Instance, Light, LineDepth,
-    LineMemory, LineRenderer, Link, ListMemory, ListRunner, ListSettings, Notice, ObjectOf,
-    Pipeline, PixelFormat, Rgb888, RunCounts, Scene, SceneMemory, Screen, VertexOf, draw_frame,
+    Affine, Camera, Counted, Event, FlatDepth, GouraudDepth, Instance, Light, Link, ListMemory,
+    ListRunner, ListSettings, Notice, Pipeline, PixelFormat, Rgb888, RunCounts, Screen, draw_frame,
 };
 use std::error::Error;
 
@@ -94,17 +94,8 @@ where
         view.near as f32,
         view.far as f32,
     )?;
-    let mut vertices = vec![VertexOf::<P>::empty(); 1 << 16];
-    let mut objects = vec![ObjectOf::<P>::default(); usize::from(Link::CACHED)];
-    let mut buckets = vec![Link::NONE; usize::from(height)];
-    let mut scene = Scene::<P>::new(
-        Screen::new(width, height)?,
-        SceneMemory {
-            vertices: &mut vertices,
-            objects: &mut objects,
-            buckets: &mut buckets,
-        },
-    );
+    let mut lent = SceneRooms::<P>::new(1 << 16, usize::from(Link::CACHED), height.into());
+    let mut scene = lent.scene(Screen::new(width, height)?);
     scene.begin(&camera)?;
 
     let mut positions = vec![[0i32; 3]; TABLE];
@@ -150,14 +141,8 @@ where
     };
     events.retain(|e| !matches!(e.0, Event::ListEnd | Event::Clipped));
 
-    let mut slots = vec![LineRenderer::<P>::empty_slot(); SLOTS];
-    let mut links = vec![Link::NONE; usize::from(Link::CACHED)];
-    let mut depth = vec![P::Depth::FARTHEST; usize::from(width)];
-    let mut renderer = LineRenderer::<P>::new(LineMemory {
-        slots: &mut slots,
-        links: &mut links,
-        depth: &mut depth,
-    });
+    let mut rooms = LineRooms::<P>::new(SLOTS, usize::from(Link::CACHED), width.into());
+    let mut renderer = rooms.renderer();
     let words = usize::from(width);
     let sink = MockFrameBuffer::new(width, height);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);

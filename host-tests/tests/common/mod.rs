@@ -2,10 +2,9 @@
 //! frames drawn line by line.
 #![allow(dead_code, reason = "each proof uses its own part")]
 
-use scanbeam::{
-    CellOf, LineDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, Scene, SceneMemory,
-    Screen, SlotOf, VertexOf, WordOf,
-};
+#[allow(unused_imports, reason = "each proof uses its own part")]
+pub use host_tests::lent::{LineRooms, SceneRooms};
+use scanbeam::{LineRenderer, Pipeline, Scene, WordOf};
 
 /// xorshift64*: small, and the same everywhere.
 #[derive(Clone, Debug)]
@@ -49,77 +48,6 @@ impl Rng {
         for i in (1..values.len()).rev() {
             values.swap(i, self.below(i as u32 + 1) as usize);
         }
-    }
-}
-
-/// Memory for one scene.
-pub struct SceneRooms<P: Pipeline> {
-    vertices: Vec<VertexOf<P>>,
-    objects: Vec<ObjectOf<P>>,
-    buckets: Vec<Link>,
-}
-
-impl<P: Pipeline> SceneRooms<P> {
-    /// So many vertices, objects and buckets.
-    pub fn new(vertices: usize, objects: usize, buckets: usize) -> Self {
-        Self {
-            vertices: vec![VertexOf::<P>::empty(); vertices],
-            objects: vec![ObjectOf::<P>::default(); objects],
-            buckets: vec![Link::NONE; buckets],
-        }
-    }
-
-    /// An empty scene in this memory.
-    pub fn scene(&mut self, screen: Screen) -> Scene<'_, P> {
-        Scene::new(
-            screen,
-            SceneMemory {
-                vertices: &mut self.vertices,
-                objects: &mut self.objects,
-                buckets: &mut self.buckets,
-            },
-        )
-    }
-}
-
-/// Memory for one line renderer.
-pub struct LineRooms<P: Pipeline> {
-    slots: Vec<SlotOf<P>>,
-    links: Vec<Link>,
-    depth: Vec<CellOf<P>>,
-}
-
-impl<P: Pipeline> LineRooms<P> {
-    /// So many cache slots, links and depth cells.
-    pub fn new(slots: usize, links: usize, depth: usize) -> Self {
-        Self {
-            slots: vec![LineRenderer::<P>::empty_slot(); slots],
-            links: vec![Link::NONE; links],
-            depth: vec![P::Depth::FARTHEST; depth],
-        }
-    }
-
-    /// Enough for any line of `scene`, with so many cache slots.
-    pub fn fitting(slots: usize, scene: &Scene<'_, P>) -> Self {
-        Self::new(
-            slots,
-            scene.pass_one().objects as usize,
-            usize::from(scene.screen().width()),
-        )
-    }
-
-    /// The depth of the line that was drawn last.
-    pub fn depth(&self) -> &[CellOf<P>] {
-        &self.depth
-    }
-
-    /// A renderer in this memory.
-    pub fn renderer(&mut self) -> LineRenderer<'_, P> {
-        LineRenderer::new(LineMemory {
-            slots: &mut self.slots,
-            links: &mut self.links,
-            depth: &mut self.depth,
-        })
     }
 }
 
