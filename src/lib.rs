@@ -195,9 +195,9 @@ pub use active::{CacheCounts, Interleave, Slot};
 #[cfg(feature = "embedded-graphics")]
 pub use composite::{Canvas, DrawnLines};
 pub use composite::{
-    Cut, CutOff, Dithered, Grey8, Ink, LineOverlay, Ordered, Overlay, PixelFormat, Pixels, Ranks,
-    Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures,
-    Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
+    Cut, CutOff, DetailedTextures, Dithered, Grey8, Ink, LineOverlay, Ordered, Overlay,
+    PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf,
+    TextureSource, Textures, Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
 };
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
@@ -208,8 +208,9 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Counted, DrawableOf, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
+    CellOf, Counted, DetailedDepth, DrawableOf, FlatDepth, FlatPainter, GouraudDepth,
+    GouraudPainter, Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth,
+    VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,

@@ -7,11 +7,12 @@
 //! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any | [`Packed8`] |
 //! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
 //! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
+//! | [`DetailedDepth`] | [`Gouraud`] times a texture in levels of detail | [`Depth32`] | any | forward |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
-use crate::composite::{PixelFormat, TextureSource, Textures};
-use crate::geometry::texturing::Textured;
+use crate::composite::{DetailedTextures, PixelFormat, TextureSource, Textures};
+use crate::geometry::texturing::{LevelEnds, Textured};
 use crate::geometry::{Flat, Gouraud, Shading};
 use crate::shade::{Interpolation, Levels, Packed8};
 use crate::stats::{SpanCounter, SpanCounts};
@@ -68,6 +69,9 @@ pub type FlatPainter<F> = Parts<Flat, (), F>;
 /// [`Scene::set_textures`]: crate::Scene::set_textures
 pub type TexturedDepth<'t, F, T> =
     Parts<Textured<Gouraud>, Depth32, F, (), Packed8, Textures<'t, T>>;
+/// The same with textures in levels of detail.
+pub type DetailedDepth<'t, F, T> =
+    Parts<Textured<Gouraud, LevelEnds>, Depth32, F, (), Packed8, DetailedTextures<'t, T>>;
 /// The pipeline `P`, and its spans and pixels are counted.
 pub type Counted<P> = Parts<
     <P as Pipeline>::Shading,

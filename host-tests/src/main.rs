@@ -61,7 +61,7 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let textures = match args.method() {
         // The hardware model has none.
         InterpArg::Model => TextureSet::default(),
-        _ => TextureSet::load(&model, args.texture.as_deref())?,
+        _ => TextureSet::load(&model, args.texture.as_deref())?.with_levels(args.levels.is_on()),
     };
     let drawn = if textures.is_empty() {
         draw::draw_by(&model, &view, format, crew, args.method())?

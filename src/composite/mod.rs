@@ -12,12 +12,14 @@
 //! | `overlay.rs` | runs and sprites over a finished line |
 //! | `canvas.rs` | drawables of `embedded-graphics` into such |
 //! | `xrgb.rs` | 8 bits a channel in a 32-bit word |
+//! | `detailed.rs` | the same in levels of detail |
 
 #[cfg(feature = "embedded-graphics")]
 mod canvas;
 mod course;
 mod dither;
 mod grey;
+mod detailed;
 mod lirp;
 mod overlay;
 mod paint;
@@ -32,6 +34,7 @@ pub use canvas::{Canvas, DrawnLines};
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
+pub use detailed::DetailedTextures;
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};
 pub use texels::{TexelOf, TextureSource, Textures};

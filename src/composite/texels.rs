@@ -6,7 +6,7 @@
 
 use super::course::apart;
 use super::{PixelFormat, Threshold};
-use crate::geometry::texturing::SpanPlace;
+use crate::geometry::texturing::{LevelEnds, SpanPlace};
 use crate::shade::Stretch;
 use crate::shade::texture::{PaintRun, PerspectiveSpan, Texel, Texels, Uv};
 use crate::visible::Visible;
@@ -73,12 +73,13 @@ pub trait TextureSource<F: PixelFormat>: Copy + Default + Send + Sync {
     /// Texels that one pixel of texture `index` fetches; 0 where there is no such texture.
     fn fetches(&self, index: u16) -> u32;
 
-    /// Draws a span with texture `index`, if it exists; `false` otherwise.
+    /// Draws a span with texture `index`, if it exists, in the detail that is right by 1/w;
+    /// `false` otherwise.
     fn paint(
         &self,
         index: u16,
         pixels: &mut [F::Word],
-        place: SpanPlace,
+        course: (SpanPlace, &LevelEnds),
         stretch: Stretch,
         visible: &mut impl Visible,
     ) -> bool;
@@ -95,7 +96,7 @@ impl<F: PixelFormat> TextureSource<F> for () {
         &self,
         _: u16,
         _: &mut [F::Word],
-        _: SpanPlace,
+        _: (SpanPlace, &LevelEnds),
         _: Stretch,
         _: &mut impl Visible,
     ) -> bool {
@@ -103,7 +104,8 @@ impl<F: PixelFormat> TextureSource<F> for () {
     }
 }
 
-/// Textures by number, each with its levels of detail in itself where it has any.
+/// Textures by number, each drawn as it is whatever its size on the screen; those with levels of
+/// detail are [`DetailedTextures`](super::DetailedTextures).
 #[derive(Debug)]
 pub struct Textures<'t, T>(
     /// The textures; a face without one among them is drawn untextured.
@@ -139,31 +141,47 @@ where
         &self,
         index: u16,
         pixels: &mut [F::Word],
-        place: SpanPlace,
+        (place, _): (SpanPlace, &LevelEnds),
         stretch: Stretch,
         visible: &mut impl Visible,
     ) -> bool {
         let Some(texels) = self.0.get(usize::from(index)) else {
             return false;
         };
-        let light = Light::new::<F>(stretch);
-        if light.is_white::<F>() {
-            let paint = Copies::<F, _, _> {
-                texels,
-                visible,
-                format: PhantomData,
-            };
-            walk(place, pixels, paint);
-        } else {
-            let paint = Lit::<F, _, _> {
-                texels,
-                visible,
-                light,
-                format: PhantomData,
-            };
-            walk(place, pixels, paint);
-        }
+        let mut light = Light::new::<F>(stretch);
+        paint_part::<F, _, _>(texels, pixels, place, &mut light, visible);
         true
+    }
+}
+
+/// Draws the next pixels of a span from `place` on.
+#[inline(always)]
+pub(super) fn paint_part<F, T, V>(
+    texels: &T,
+    pixels: &mut [F::Word],
+    place: SpanPlace,
+    light: &mut Light,
+    visible: &mut V,
+) where
+    F: PixelFormat,
+    T: Texels<Texel: TexelOf<F>>,
+    V: Visible,
+{
+    if light.is_white::<F>() {
+        let paint = Copies::<F, _, _> {
+            texels,
+            visible,
+            format: PhantomData,
+        };
+        walk(place, pixels, paint);
+    } else {
+        let paint = Lit::<F, _, _> {
+            texels,
+            visible,
+            light,
+            format: PhantomData,
+        };
+        walk(place, pixels, paint);
     }
 }
 
@@ -242,7 +260,7 @@ where
 struct Lit<'a, F, T, V> {
     texels: &'a T,
     visible: &'a mut V,
-    light: Light,
+    light: &'a mut Light,
     format: PhantomData<F>,
 }
 
@@ -254,7 +272,7 @@ where
 {
     #[inline(always)]
     fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
-        let light = &mut self.light;
+        let light = &mut *self.light;
         let mut thresholds = thresholds::<F>(self.visible.tile());
         self.visible.each(pixels, |pixel, shown| {
             let threshold = thresholds.next();
@@ -274,7 +292,7 @@ where
 
 /// The shaded colour along a span: 16 bits a channel above `down` more, half a step too large.
 #[derive(Clone, Copy)]
-struct Light {
+pub(super) struct Light {
     at: [i32; 3],
     step: [i32; 3],
     down: [u32; 3],
@@ -282,7 +300,7 @@ struct Light {
 
 impl Light {
     #[inline(always)]
-    fn new<F: PixelFormat>(stretch: Stretch) -> Self {
+    pub(super) fn new<F: PixelFormat>(stretch: Stretch) -> Self {
         match stretch {
             Stretch::Constant(steps) => {
                 // Half a step is added, as vertices have it.

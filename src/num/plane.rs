@@ -86,6 +86,14 @@ impl InverseArea {
         })
     }
 
+    /// The doubled area, in units of 1/64 pixel.
+    #[inline]
+    #[must_use]
+    pub fn doubled(&self) -> u64 {
+        let product = |a: i32, b: i32| i64::from(a) * i64::from(b);
+        (product(self.dx1, self.dy2) - product(self.dx2, self.dy1)).unsigned_abs()
+    }
+
     /// The plane through `value` at the three corners (in the order given to
     /// [`new`](InverseArea::new)), values in `0 ..< 2^31`.
     ///

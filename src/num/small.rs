@@ -75,6 +75,13 @@ impl SmallArea {
         })
     }
 
+    /// The doubled area, in units of 1/64 pixel.
+    #[inline]
+    #[must_use]
+    pub fn doubled(&self) -> u64 {
+        u64::from((self.dx1 * self.dy2 - self.dx2 * self.dy1).unsigned_abs())
+    }
+
     /// The gradient of a quantity by its rises from the first corner to the others, each below
     /// 2^17 in magnitude.
     #[inline(always)]

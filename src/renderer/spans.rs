@@ -153,7 +153,8 @@ fn colour_placed<P: Pipeline, I: Interpolation>(
 ) {
     let stretch = levels.stretch(column, line);
     if let Some((index, place)) = levels.texture(column, line) {
-        if textures.paint(index, pixels, place, stretch, visible) {
+        let course = (place, levels.detail());
+        if textures.paint(index, pixels, course, stretch, visible) {
             return;
         }
     }

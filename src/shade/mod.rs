@@ -16,7 +16,7 @@ pub use quality::Quality;
 
 pub mod texture;
 
-use crate::geometry::texturing::{SpanPlace, TexturedLevels};
+use crate::geometry::texturing::{Detail, LevelEnds, SpanPlace, TexturedLevels};
 use crate::geometry::{FlatLevels, GouraudLevels};
 
 /// The colours of a span from its first pixel on, steps of the output.
@@ -49,9 +49,15 @@ pub trait Levels: Copy {
     fn texture(&self, _column: i32, _line: i32) -> Option<(u16, SpanPlace)> {
         None
     }
+
+    /// Where which level of detail of it is right.
+    #[inline(always)]
+    fn detail(&self) -> &LevelEnds {
+        const { &LevelEnds::FULL }
+    }
 }
 
-impl<L: Levels> Levels for TexturedLevels<L> {
+impl<L: Levels, D: Detail> Levels for TexturedLevels<L, D> {
     #[inline(always)]
     fn stretch(&self, column: i32, line: i32) -> Stretch {
         self.colour.stretch(column, line)
@@ -60,6 +66,11 @@ impl<L: Levels> Levels for TexturedLevels<L> {
     #[inline(always)]
     fn texture(&self, column: i32, line: i32) -> Option<(u16, SpanPlace)> {
         self.planes.at(column, line)
+    }
+
+    #[inline(always)]
+    fn detail(&self) -> &LevelEnds {
+        self.detail.ends()
     }
 }
 

@@ -59,6 +59,23 @@ impl QualityArg {
     }
 }
 
+/// Whether something is done.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum SwitchArg {
+    /// It is
+    On,
+    /// It is not
+    Off,
+}
+
+impl SwitchArg {
+    /// Whether it is.
+    #[must_use]
+    pub fn is_on(self) -> bool {
+        self == Self::On
+    }
+}
+
 /// Flags of `render`.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct RenderArgs {
@@ -80,6 +97,10 @@ pub struct RenderArgs {
     /// How texels are taken from textures
     #[arg(long, value_enum, value_name = "FILTER", default_value = "nearest")]
     pub filter: FilterArg,
+    /// Whether textures have four levels of detail, each half of the one before, for where they
+    /// are small on the picture
+    #[arg(long, value_enum, value_name = "SWITCH", default_value = "on")]
+    pub levels: SwitchArg,
     /// How far colours and texture places may be off where the method is auto
     #[arg(long, value_enum, value_name = "BUDGET")]
     pub quality: Option<QualityArg>,

@@ -7,11 +7,12 @@ use crate::reference::{Shade, View};
 use crate::texture_file::{TextureFileError, TextureImage, of_materials};
 use clap::ValueEnum;
 use scanbeam::texture::{
-    Bilinear, Quality, Rgba8871, Texel, TexelFormat, Texels, Texture, Textured, Uv, Words,
+    Bilinear, Detail, LEVELS, LevelEnds, Levels, Quality, Rgba8871, Texel, TexelFormat, Texels,
+    Texture, Textured, Uv, Words,
 };
 use scanbeam::{
-    Counted, Depth32, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be, Rgb888, Shading,
-    Textures,
+    Counted, Depth32, DetailedTextures, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be,
+    Rgb888, Shading, TextureSource, Textures,
 };
 use std::path::Path;
 
@@ -42,6 +43,8 @@ pub struct TextureSet {
     images: Vec<TextureImage>,
     /// One for each triangle.
     of_triangle: Vec<Option<u16>>,
+    /// Whether they are drawn in levels of detail.
+    levels: bool,
 }
 
 impl TextureSet {
@@ -79,7 +82,15 @@ impl TextureSet {
         Self {
             images: vec![image],
             of_triangle: vec![Some(0); model.triangles.len()],
+            levels: false,
         }
+    }
+
+    /// Whether its textures are drawn in levels of detail, as they grow smaller on the screen; at
+    /// first they are not.
+    #[must_use]
+    pub fn with_levels(self, levels: bool) -> Self {
+        Self { levels, ..self }
     }
 
     /// Whether nothing is textured.
@@ -140,38 +151,67 @@ pub fn draw_textured(
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure> {
     let prepared = Prepared::textured(model, set, quality);
-    let textures: Vec<HostTexture<'_>> = set
+    let textures: Vec<Levels<HostTexture<'_>>> = set
         .images
         .iter()
         .map(|image| {
-            let texture = Texture::new(Words(&image.levels[0]), image.size)
-                .map_err(|error| DrawFailure::View(error.to_string()))?;
-            Ok(match filter {
-                FilterArg::Nearest => HostTexture::Nearest(texture),
-                FilterArg::Bilinear => HostTexture::Bilinear(Bilinear::new(texture)),
-            })
+            let mut levels = Vec::new();
+            for (level, words) in (0..).zip(&image.levels) {
+                let texture = Texture::new(Words(words), image.size.level(level))
+                    .map_err(|error| DrawFailure::View(error.to_string()))?;
+                levels.push(match filter {
+                    FilterArg::Nearest => HostTexture::Nearest(texture),
+                    FilterArg::Bilinear => HostTexture::Bilinear(Bilinear::new(texture)),
+                });
+            }
+            let levels: [_; LEVELS] = std::array::from_fn(|i| levels[i]);
+            Ok(Levels { levels })
         })
         .collect::<Result<_, DrawFailure>>()?;
-    let by = match (view.shade, format) {
-        (Shade::Flat, PixelFormatArg::Rgb888) => by::<Flat, Rgb888>,
-        (Shade::Flat, PixelFormatArg::Rgb565) => by::<Flat, Rgb565Be>,
-        (_, PixelFormatArg::Rgb888) => by::<Gouraud, Rgb888>,
-        (_, PixelFormatArg::Rgb565) => by::<Gouraud, Rgb565Be>,
-    };
-    by(&prepared, &textures, view, crew)
+    let how = (&prepared, view, crew);
+    if set.levels {
+        return by::<LevelEnds, _>(how, format, DetailedTextures(&textures));
+    }
+    let whole: Vec<HostTexture<'_>> = textures.iter().map(|t| t.levels[0]).collect();
+    by::<(), _>(how, format, Textures(&whole))
 }
 
-fn by<S, F>(
+/// Draws with textures of some kind, in the detail `D`.
+fn by<D, X>(
+    (prepared, view, crew): (&Prepared, &View, CrewSettings),
+    format: PixelFormatArg,
+    textures: X,
+) -> Result<Drawn, DrawFailure>
+where
+    D: Detail,
+    X: TextureSource<Rgb888> + TextureSource<Rgb565Be>,
+{
+    match (view.shade, format) {
+        (Shade::Flat, PixelFormatArg::Rgb888) => {
+            by_shading::<Textured<Flat, D>, Rgb888, X>(prepared, textures, view, crew)
+        }
+        (Shade::Flat, PixelFormatArg::Rgb565) => {
+            by_shading::<Textured<Flat, D>, Rgb565Be, X>(prepared, textures, view, crew)
+        }
+        (_, PixelFormatArg::Rgb888) => {
+            by_shading::<Textured<Gouraud, D>, Rgb888, X>(prepared, textures, view, crew)
+        }
+        (_, PixelFormatArg::Rgb565) => {
+            by_shading::<Textured<Gouraud, D>, Rgb565Be, X>(prepared, textures, view, crew)
+        }
+    }
+}
+
+fn by_shading<S, F, X>(
     prepared: &Prepared,
-    textures: &[HostTexture<'_>],
+    textures: X,
     view: &View,
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure>
 where
     S: Shading<Levels: scanbeam::Levels>,
     F: PixelFormat,
+    X: TextureSource<F>,
 {
-    type Look<'t, S, F> =
-        Parts<Textured<S>, Depth32, F, (), Packed8, Textures<'t, HostTexture<'t>>>;
-    draw_with::<Counted<Look<'_, S, F>>>(prepared, view, crew, Textures(textures))
+    draw_with::<Counted<Parts<S, Depth32, F, (), Packed8, X>>>(prepared, view, crew, textures)
 }

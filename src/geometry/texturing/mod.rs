@@ -11,11 +11,14 @@
 //! |---|---|
 //! | `place` | texture places, their homogeneous form, the budget |
 //! | `corners` | a triangle's 1/w, u/w, v/w with one exponent; straight or not |
+//! | `detail` | which level of detail is right where |
 
 mod corners;
+mod detail;
 mod place;
 
 pub use corners::{Corner, Corners};
+pub use detail::{Detail, LEVELS, LevelEnds};
 pub use place::{Budget, FRACTION, Homogeneous, Quality, Uv};
 
 use super::colour::{Colour, Scale};
@@ -89,9 +92,10 @@ impl Default for FaceTexture {
     }
 }
 
-/// The shading `S`, multiplied by a texture.
+/// The shading `S`, multiplied by a texture: the whole texture everywhere, or with
+/// [`LevelEnds`] for `D` in levels of detail.
 #[derive(Clone, Copy, Debug)]
-pub struct Textured<S>(PhantomData<S>);
+pub struct Textured<S, D = ()>(PhantomData<(S, D)>);
 
 /// A vertex of a textured mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,11 +113,13 @@ pub struct TexturedFace<F> {
 
 /// What an object is coloured by, and its places on a texture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TexturedLevels<L> {
+pub struct TexturedLevels<L, D = ()> {
     /// The levels of its shading.
     pub colour: L,
     /// Where on which texture.
     pub planes: TexturePlanes,
+    /// In which detail.
+    pub detail: D,
 }
 
 /// Texture places of an object, as planes.
@@ -159,44 +165,43 @@ impl TexturePlanes {
         Some((texture, place))
     }
 
-    /// From a triangle's corners; `None` where `plane` cannot have it, or it is not straight and
+    /// From a triangle's corners and its doubled area in units of 1/64 pixel; `None` where `plane` cannot have it, or it is not straight and
     /// has to be.
     #[inline]
-    fn new<V: Copy>(
+    fn new<V: Copy, D: Detail>(
         texture: FaceTexture,
         corners: [TexturedVertex<V>; 3],
         depths: [u32; 3],
-        only_straight: bool,
+        (only_straight, area): (bool, u64),
         plane: impl Fn([i32; 3]) -> Option<Plane>,
-    ) -> Option<Self> {
+    ) -> Option<(Self, D)> {
         let Some(places) = common(texture, corners, depths) else {
-            return Some(Self::NONE);
+            return Some((Self::NONE, D::FULL));
         };
-        if places.straight(texture.budget()) {
+        let straight = places.straight(texture.budget());
+        let planes = if straight {
             // Below 4096 texels: 31 bits.
             let uv = places.places().map(|(u, v)| (wide(u), wide(v)));
-            return Some(Self {
-                texture,
-                straight: true,
-                planes: [
-                    plane(uv.map(|p| p.0))?,
-                    plane(uv.map(|p| p.1))?,
-                    Plane::ZERO,
-                ],
-            });
-        }
-        if only_straight {
+            [
+                plane(uv.map(|p| p.0))?,
+                plane(uv.map(|p| p.1))?,
+                Plane::ZERO,
+            ]
+        } else if only_straight {
             return None;
-        }
-        Some(Self {
-            texture,
-            straight: false,
-            planes: [
+        } else {
+            [
                 plane(places.at.map(|at| at.q))?,
                 plane(places.at.map(|at| at.s))?,
                 plane(places.at.map(|at| at.t))?,
-            ],
-        })
+            ]
+        };
+        let planes = Self {
+            texture,
+            straight,
+            planes,
+        };
+        Some((planes, D::new(&places, straight, area)))
     }
 }
 
@@ -220,13 +225,14 @@ fn common<V: Copy>(
     Corners::new([corner(0), corner(1), corner(2)], 1024)
 }
 
-impl<S: Shading> Shading for Textured<S> {
+impl<S: Shading, D: Detail> Shading for Textured<S, D> {
     type Vertex = TexturedVertex<S::Vertex>;
     type Face = TexturedFace<S::Face>;
-    type Levels = TexturedLevels<S::Levels>;
+    type Levels = TexturedLevels<S::Levels, D>;
     const NO_LEVELS: Self::Levels = TexturedLevels {
         colour: S::NO_LEVELS,
         planes: TexturePlanes::NONE,
+        detail: D::FULL,
     };
     const PER_FACE: bool = S::PER_FACE;
 
@@ -283,8 +289,11 @@ impl<S: Shading> Shading for Textured<S> {
     ) -> Option<Self::Levels> {
         let colours = corners.map(|c| c.colour);
         let plane = |values| area.wide_plane(values);
+        let how = (true, area.doubled());
+        let (planes, detail) = TexturePlanes::new(face.texture, corners, depths, how, plane)?;
         Some(TexturedLevels {
-            planes: TexturePlanes::new(face.texture, corners, depths, true, plane)?,
+            planes,
+            detail,
             colour: S::set_up_small(area, colours, depths, face.colour, scale)?,
         })
     }
@@ -298,8 +307,11 @@ impl<S: Shading> Shading for Textured<S> {
     ) -> Option<Self::Levels> {
         let colours = corners.map(|c| c.colour);
         let plane = |values| area.plane(values);
+        let how = (false, area.doubled());
+        let (planes, detail) = TexturePlanes::new(face.texture, corners, depths, how, plane)?;
         Some(TexturedLevels {
-            planes: TexturePlanes::new(face.texture, corners, depths, false, plane)?,
+            planes,
+            detail,
             colour: S::set_up(area, colours, depths, face.colour, scale)?,
         })
     }
@@ -330,6 +342,7 @@ impl<S: Shading> Shading for Textured<S> {
         TexturedLevels {
             colour: S::weighted(w, colours, depths, face.colour, scale),
             planes,
+            detail: D::FULL,
         }
     }
 }

@@ -1,17 +1,11 @@
 //! Four levels of detail (H6).
 //!
 //! Each is the 2x2 average of the one before, channel by channel, rounded to nearest. Which one is
-//! right follows from 1/w: within a triangle the texture's area under a pixel is `D q^-3` with one
-//! constant D, since it is a projective map. So three limits of 1/w are found once a triangle, and
-//! a span compares. A level is taken where its texels are at least `1 / sqrt 2` pixels wide on
-//! average and the next one's more than `sqrt 2`.
+//! right follows from 1/w: see [`LevelEnds`](super::LevelEnds).
 
 use super::format::{Texel, TexelFormat};
 use super::sample::{Size, TextureError};
-use super::{Corners, Texels, Uv};
-
-/// How many levels there are, the texture itself among them.
-pub const LEVELS: usize = 4;
+use super::{LEVELS, Texels, Uv};
 
 /// Words that the levels below the first need together.
 #[must_use]
@@ -62,74 +56,6 @@ fn average(four: [Texel; 4]) -> Texel {
         rgb: [0, 1, 2].map(|i| mean(&|t: &Texel| t.rgb[i])),
         alpha: mean(&|t| t.alpha),
         undithered: four.iter().filter(|t| t.undithered).count() >= 2,
-    }
-}
-
-/// At which 1/w each coarser level begins, in the triangle's exponent.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct LevelEnds([u32; LEVELS - 1]);
-
-impl LevelEnds {
-    /// The full texture everywhere.
-    pub const FULL: Self = Self([0; LEVELS - 1]);
-
-    /// From a triangle's doubled areas on the texture (units of 2^-16 texel) and on the screen
-    /// (units of 2^-6 pixel), and 1/w of its corners.
-    #[must_use]
-    pub fn new(texels: u64, pixels: u64, q: [u32; 3]) -> Self {
-        if texels == 0 || pixels == 0 {
-            return Self::FULL;
-        }
-        // The ratio of the areas is D / (q0 q1 q2). D q^-3 = 2 4^(level - 1), by logarithms.
-        let product: i32 = q.iter().map(|&q| log2(u64::from(q.max(1)))).sum();
-        let constant = log2(texels) - log2(pixels) - (10 << 8) + product;
-        Self(core::array::from_fn(|i| {
-            exp2((constant - ((2 * i as i32 + 1) << 8)).div_euclid(3))
-        }))
-    }
-
-    /// The level where 1/w is `q`: 0 to 3, coarser as 1/w falls.
-    #[inline(always)]
-    #[must_use]
-    pub const fn level(&self, q: u32) -> u32 {
-        let [a, b, c] = self.0;
-        (q < a) as u32 + (q < b) as u32 + (q < c) as u32
-    }
-}
-
-impl Corners {
-    /// From which 1/w on down the coarser levels of detail are right; `area` is the triangle's
-    /// doubled area on the screen, in units of 1/64 pixel.
-    #[must_use]
-    pub fn levels(&self, area: u64) -> LevelEnds {
-        let p = self.places().map(|(u, v)| (i64::from(u), i64::from(v)));
-        let d = |i: usize| (p[i].0 - p[0].0, p[i].1 - p[0].1);
-        let (a, b) = (d(1), d(2));
-        let texels = (a.0 * b.1 - a.1 * b.0).unsigned_abs();
-        LevelEnds::new(texels, area, self.at.map(|at| at.q as u32))
-    }
-}
-
-/// The logarithm of a number above 0, 8 fraction bits, within 3 of 2^-8.
-fn log2(x: u64) -> i32 {
-    let whole = 63 - x.leading_zeros() as i32;
-    let part = ((x << x.leading_zeros() >> 55) & 0xFF) as i32;
-    // log2(1 + f) is above f by about 0.344 f (1 - f).
-    (whole << 8) + part + ((part * (256 - part) * 88) >> 16)
-}
-
-/// 2 to the power of a number with 8 fraction bits; 0 below 2^0, the largest above 2^32.
-fn exp2(log: i32) -> u32 {
-    if log < 0 {
-        return 0;
-    }
-    let part = log & 0xFF;
-    let part = (256 + part - ((part * (256 - part) * 88) >> 16)) as u64;
-    let value = part.checked_shl(log as u32 >> 8).unwrap_or(u64::MAX) >> 8;
-    if log >= 32 << 8 {
-        u32::MAX
-    } else {
-        value as u32
     }
 }
 

@@ -8,12 +8,12 @@
 //!
 //! | file | what | rows |
 //! |---|---|---|
-//! //! | `perspective` | (u, v) along a span: exact, every 2nd, linear over 4, 8, 16 pixels, affine | H4, H5, K18 |
+//! | `perspective` | (u, v) along a span: exact, every 2nd, linear over 4, 8, 16 pixels, affine | H4, H5, K18 |
 //! | `select` | which of these keeps an error budget | X2 |
 //! | `format` | texel formats and their expansion | H7 |
 //! | `tlut` | texels in memory: whole words, and 1 to 8 bits through a lookup table | H7 |
 //! | `sample` | textures: size, wrap, mirror, clamp, nearest, bilinear | H6 |
-//! | `lod` | four levels of detail, built and chosen | H6 |
+//! | `lod` | four levels of detail, built | H6 |
 //! | `block` | layouts of texture memory, runs inside a block | B1, B5 |
 //! | `cache` | a small cache of blocks, with counters | B5 |
 //! | `procedural` | textures that are computed | H17 |
@@ -34,12 +34,13 @@ mod tests;
 mod tlut;
 
 pub use crate::geometry::texturing::{
-    Budget, Corner, Corners, FRACTION, Homogeneous, Quality, Skin, TexturePlanes, Textured, Uv,
+    Budget, Corner, Corners, Detail, FRACTION, Homogeneous, LEVELS, LevelEnds, Quality, Skin,
+    TexturePlanes, Textured, Uv,
 };
 pub use block::{BlockRun, BlockRuns, Blocked, Layout, Linear};
 pub use cache::{BlockCache, CacheError, CacheReads};
 pub use format::{Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Texel, TexelFormat};
-pub use lod::{LEVELS, Level, LevelEnds, Levels, build_level, level_words};
+pub use lod::{Level, Levels, build_level, level_words};
 pub use perspective::{AllSeen, PaintRun, PerspectiveSpan, Stride};
 pub use procedural::{Checker, Gradient};
 pub use sample::{
