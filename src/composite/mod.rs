@@ -17,9 +17,9 @@
 #[cfg(feature = "embedded-graphics")]
 mod canvas;
 mod course;
+mod detailed;
 mod dither;
 mod grey;
-mod detailed;
 mod lirp;
 mod overlay;
 mod paint;
@@ -31,10 +31,10 @@ mod xrgb;
 
 #[cfg(feature = "embedded-graphics")]
 pub use canvas::{Canvas, DrawnLines};
+pub use detailed::DetailedTextures;
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
-pub use detailed::DetailedTextures;
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};
 pub use texels::{TexelOf, TextureSource, Textures};

@@ -200,7 +200,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
             let source = self.pump.filling.as_mut().map(LineBuf::pixels);
             let rows = source
                 .and_then(|words| words.get(from..))
-                .unwrap_or(&mut []);
+                .unwrap_or(&[]);
             let run_width = usize::from(run.width);
             for (to, row) in other
                 .pixels()
