@@ -238,21 +238,20 @@ where
     V: Visible,
 {
     #[inline(always)]
-    fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
+    fn run(&mut self, pixels: &mut [F::Word], from: Uv, step: Uv) {
         let mut thresholds = thresholds::<F>(self.visible.tile());
-        self.visible.each(pixels, |pixel, shown| {
-            let threshold = thresholds.next();
-            if shown {
-                let texel = self.texels.at(from);
-                *pixel = match threshold {
-                    Some(threshold) if !texel.undithered() => {
-                        F::pack_at(steps::<F>(texel.levels()), threshold)
-                    }
-                    _ => texel.word(),
-                };
-            }
-            from = from.plus(step);
-        });
+        self.texels
+            .along(pixels, from, step, self.visible, |pixel, texel| {
+                let threshold = thresholds.next();
+                if let Some(texel) = texel {
+                    *pixel = match threshold {
+                        Some(threshold) if !texel.undithered() => {
+                            F::pack_at(steps::<F>(texel.levels()), threshold)
+                        }
+                        _ => texel.word(),
+                    };
+                }
+            });
     }
 }
 
@@ -271,22 +270,21 @@ where
     V: Visible,
 {
     #[inline(always)]
-    fn run(&mut self, pixels: &mut [F::Word], mut from: Uv, step: Uv) {
+    fn run(&mut self, pixels: &mut [F::Word], from: Uv, step: Uv) {
         let light = &mut *self.light;
         let mut thresholds = thresholds::<F>(self.visible.tile());
-        self.visible.each(pixels, |pixel, shown| {
-            let threshold = thresholds.next();
-            if shown {
-                let texel = self.texels.at(from);
-                let steps = light.times::<F>(texel.levels());
-                *pixel = match threshold {
-                    Some(threshold) if !texel.undithered() => F::pack_at(steps, threshold),
-                    _ => F::pack(steps),
-                };
-            }
-            from = from.plus(step);
-            light.advance();
-        });
+        self.texels
+            .along(pixels, from, step, self.visible, |pixel, texel| {
+                let threshold = thresholds.next();
+                if let Some(texel) = texel {
+                    let steps = light.times::<F>(texel.levels());
+                    *pixel = match threshold {
+                        Some(threshold) if !texel.undithered() => F::pack_at(steps, threshold),
+                        _ => F::pack(steps),
+                    };
+                }
+                light.advance();
+            });
     }
 }
 

@@ -139,10 +139,10 @@ impl Swatch {
 }
 
 /// A size of which the sides are known to be right.
-fn size(width: u32, height: u32) -> Size {
+pub(crate) const fn size(width: u32, height: u32) -> Size {
     match Size::new(width, height) {
         Ok(size) => size,
-        Err(error) => unreachable!("{error}"),
+        Err(_) => unreachable!(),
     }
 }
 

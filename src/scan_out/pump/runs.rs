@@ -198,9 +198,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
             // `carry` has seen to it that nothing is packed.
             let mut other = self.spare()?;
             let source = self.pump.filling.as_mut().map(LineBuf::pixels);
-            let rows = source
-                .and_then(|words| words.get(from..))
-                .unwrap_or(&[]);
+            let rows = source.and_then(|words| words.get(from..)).unwrap_or(&[]);
             let run_width = usize::from(run.width);
             for (to, row) in other
                 .pixels()

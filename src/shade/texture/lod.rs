@@ -6,6 +6,7 @@
 use super::format::{Texel, TexelFormat};
 use super::sample::{Size, TextureError};
 use super::{LEVELS, Texels, Uv};
+use crate::visible::Visible;
 
 /// Words that the levels below the first need together.
 #[must_use]
@@ -105,8 +106,15 @@ impl<T: Texels> Texels for Level<'_, T> {
     }
 
     #[inline(always)]
-    fn run<W>(&self, pixels: &mut [W], from: Uv, step: Uv, each: impl FnMut(&mut W, T::Texel)) {
-        self.texels
-            .run(pixels, self.scaled(from), self.scaled(step), each);
+    fn along<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        each: impl FnMut(&mut W, Option<T::Texel>),
+    ) {
+        let (from, step) = (self.scaled(from), self.scaled(step));
+        self.texels.along(pixels, from, step, visible, each);
     }
 }

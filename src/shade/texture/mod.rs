@@ -44,14 +44,17 @@ pub use lod::{Level, Levels, build_level, level_words};
 pub use perspective::{AllSeen, PaintRun, PerspectiveSpan, Stride};
 pub use procedural::{Checker, Gradient};
 pub use sample::{
-    Address, Bilinear, Clamp, MAX_SIDE, Mirror, Size, Square, Texture, TextureError, Wrap,
+    Address, Bilinear, Clamp, Fetch, MAX_SIDE, Mirror, Size, Square, Square64, Square128,
+    Square256, Texture, TextureError, Whole, Wrap,
 };
 pub use tlut::{Indexed, Store, Words};
+
+use crate::visible::{Everywhere, Visible};
 
 /// A texture: what colour is where.
 ///
 /// Only [`at`](Texels::at) has to be there, as for a texture that is computed (H17). One that lies
-/// in memory says with [`run`](Texels::run) how it is best read along a straight way.
+/// in memory says with [`along`](Texels::along) how it is best read along a straight way.
 pub trait Texels {
     /// What is found at a place: a word of the display, an expanded [`Texel`], a level.
     type Texel: Copy;
@@ -65,11 +68,28 @@ pub trait Texels {
         1
     }
 
-    /// Gives `each` the pixels in turn, each with the colour at its place: the first at `from`,
-    /// the next a `step` further on.
+    /// Gives `each` the pixels in turn, each with the colour at its place where it is seen: the
+    /// first at `from`, the next a `step` further on.
     ///
     /// A texture may take the steps in coarser units, as long as it is nowhere off by more than 1/16
-    /// texel.
+    /// texel, and the places are the same whatever is seen.
+    #[inline(always)]
+    fn along<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        mut each: impl FnMut(&mut W, Option<Self::Texel>),
+    ) {
+        let mut place = from;
+        visible.each(pixels, |pixel, shown| {
+            each(pixel, shown.then(|| self.at(place)));
+            place = place.plus(step);
+        });
+    }
+
+    /// [`along`](Self::along) with all pixels seen.
     #[inline(always)]
     fn run<W>(
         &self,
@@ -78,11 +98,11 @@ pub trait Texels {
         step: Uv,
         mut each: impl FnMut(&mut W, Self::Texel),
     ) {
-        let mut place = from;
-        for pixel in pixels {
-            each(pixel, self.at(place));
-            place = place.plus(step);
-        }
+        self.along(pixels, from, step, &mut Everywhere, |pixel, texel| {
+            if let Some(texel) = texel {
+                each(pixel, texel);
+            }
+        });
     }
 }
 
@@ -100,7 +120,14 @@ impl<T: Texels + ?Sized> Texels for &T {
     }
 
     #[inline(always)]
-    fn run<W>(&self, pixels: &mut [W], from: Uv, step: Uv, each: impl FnMut(&mut W, T::Texel)) {
-        (**self).run(pixels, from, step, each);
+    fn along<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        each: impl FnMut(&mut W, Option<T::Texel>),
+    ) {
+        (**self).along(pixels, from, step, visible, each);
     }
 }

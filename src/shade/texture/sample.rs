@@ -8,6 +8,7 @@ use super::block::{Layout, Linear};
 use super::format::{Texel, TexelFormat};
 use super::tlut::Store;
 use super::{FRACTION, Texels, Uv};
+use crate::visible::Visible;
 use core::marker::PhantomData;
 
 /// Longest side of a texture, in texels.
@@ -260,26 +261,85 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
 /// 10/256 texel off at 256 texels a side, and 1/256 more each time it goes beyond a side, so it is
 /// taken anew every 16 pixels, every 32 with 128 texels a side, and so on: less than 1/16 texel,
 /// where a pixel's step is less than a quarter of the side.
+///
+/// The places of pixels do not depend on which are seen.
 #[derive(Clone, Copy, Debug)]
 pub struct Square<F, const LOG: u32>(F);
+
+/// Texels by index, for [`Square`]: a function, or [`Whole`].
+pub trait Fetch {
+    /// A texel as it is stored.
+    type Texel: Copy;
+
+    /// The texel at an index below the square of the side; any texel at others.
+    fn fetch(&self, index: usize) -> Self::Texel;
+}
+
+impl<T: Copy, F: Fn(usize) -> T> Fetch for F {
+    type Texel = T;
+
+    #[inline(always)]
+    fn fetch(&self, index: usize) -> T {
+        self(index)
+    }
+}
+
+/// `N` texels, a power of two, whose number is known when it is compiled.
+#[derive(Clone, Copy, Debug)]
+pub struct Whole<'t, W, const N: usize>(&'t [W; N]);
+
+impl<W: Copy, const N: usize> Fetch for Whole<'_, W, N> {
+    type Texel = W;
+
+    #[inline(always)]
+    fn fetch(&self, index: usize) -> W {
+        self.0[index & (N - 1)]
+    }
+}
+
+/// 64 x 64 texels of a word each.
+pub type Square64<'t, W> = Square<Whole<'t, W, 4096>, 6>;
+/// 128 x 128 texels of a word each.
+pub type Square128<'t, W> = Square<Whole<'t, W, 16_384>, 7>;
+/// 256 x 256 texels of a word each.
+pub type Square256<'t, W> = Square<Whole<'t, W, 65_536>, 8>;
+
+impl<'t, W, const N: usize, const LOG: u32> Square<Whole<'t, W, N>, LOG> {
+    /// Rows of texels from the top.
+    #[must_use]
+    pub const fn new(texels: &'t [W; N]) -> Self {
+        const {
+            assert!(LOG <= 8 && N == 1 << (2 * LOG));
+        }
+        Self(Whole(texels))
+    }
+}
 
 /// A value in both halves of a word.
 const fn twice(half: u32) -> u32 {
     half & 0xFFFF | half << 16
 }
 
-impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Texels for Square<F, LOG> {
-    type Texel = T;
+impl<F: Fetch, const LOG: u32> Texels for Square<F, LOG> {
+    type Texel = F::Texel;
 
     #[inline(always)]
-    fn at(&self, place: Uv) -> T {
+    fn at(&self, place: Uv) -> F::Texel {
         let mask = (1 << LOG) - 1;
         let row = (place.v >> (FRACTION - LOG)) as u32 & mask << LOG;
-        (self.0)((row | (place.u >> FRACTION) as u32 & mask) as usize)
+        self.0
+            .fetch((row | (place.u >> FRACTION) as u32 & mask) as usize)
     }
 
     #[inline(always)]
-    fn run<W>(&self, pixels: &mut [W], mut from: Uv, step: Uv, mut each: impl FnMut(&mut W, T)) {
+    fn along<W>(
+        &self,
+        pixels: &mut [W],
+        mut from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        mut each: impl FnMut(&mut W, Option<F::Texel>),
+    ) {
         let anchor = const { 16 << (8 - LOG) };
         let ahead = Uv {
             u: step.u.wrapping_mul(anchor as i32),
@@ -288,25 +348,32 @@ impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Texels for Square<F, LOG> {
         let mut rest = pixels;
         while rest.len() > anchor {
             let (run, more) = rest.split_at_mut(anchor);
-            self.pairs(run, from, step, &mut each);
+            self.pairs(run, from, step, visible, &mut each);
             from = from.plus(ahead);
             rest = more;
         }
-        self.pairs(rest, from, step, &mut each);
+        self.pairs(rest, from, step, visible, &mut each);
     }
 }
 
-impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Square<F, LOG> {
-    /// [`run`](Texels::run), from one pair of words on.
+impl<F: Fetch, const LOG: u32> Square<F, LOG> {
+    /// [`along`](Texels::along), from one pair of words on.
     #[inline(always)]
-    fn pairs<W>(&self, pixels: &mut [W], from: Uv, step: Uv, mut each: impl FnMut(&mut W, T)) {
+    fn pairs<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        mut each: impl FnMut(&mut W, Option<F::Texel>),
+    ) {
         // Packing pays from the third pair on.
         if pixels.len() <= 4 {
             let mut place = from;
-            for pixel in pixels {
-                each(pixel, self.at(place));
+            visible.each(pixels, |pixel, shown| {
+                each(pixel, shown.then(|| self.at(place)));
                 place = place.plus(step);
-            }
+            });
             return;
         }
         // 16 bits hold a whole side, 16 - LOG of them fractions.
@@ -323,34 +390,40 @@ impl<T: Copy, F: Fn(usize) -> T, const LOG: u32> Square<F, LOG> {
         let (du, dv) = (two(step.u), two(step.v));
         let columns = twice((1 << LOG) - 1);
         let rows = twice(((1 << LOG) - 1) << LOG);
-        let mut index = || {
+        let mut two_pixels = |pair: &mut [W; 2]| {
             let both = u >> (16 - LOG) & columns | v >> (16 - 2 * LOG) & rows;
             u = u.wrapping_add(du);
             v = v.wrapping_add(dv);
-            ((both & 0xFFFF) as usize, (both >> 16) as usize)
+            let (mut now, next) = ((both & 0xFFFF) as usize, (both >> 16) as usize);
+            visible.block(pair, |pixel, shown| {
+                each(pixel, shown.then(|| self.0.fetch(now)));
+                now = next;
+            });
         };
         let (blocks, rest) = pixels.split_at_mut(pixels.len() & !7);
         for block in blocks.chunks_exact_mut(8) {
-            if let [a, b, c, d, e, f, g, h] = block {
-                for [first, second] in [[a, b], [c, d], [e, f], [g, h]] {
-                    let (i, j) = index();
-                    each(first, (self.0)(i));
-                    each(second, (self.0)(j));
-                }
+            for pair in block.chunks_exact_mut(2).filter_map(two_of) {
+                two_pixels(pair);
             }
         }
         let (pairs, last) = rest.split_at_mut(rest.len() & !1);
-        for pair in pairs.chunks_exact_mut(2) {
-            if let [first, second] = pair {
-                let (i, j) = index();
-                each(first, (self.0)(i));
-                each(second, (self.0)(j));
-            }
+        for pair in pairs.chunks_exact_mut(2).filter_map(two_of) {
+            two_pixels(pair);
         }
-        if let [one] = last {
-            each(one, (self.0)(index().0));
+        if !last.is_empty() {
+            let index = u >> (16 - LOG) & columns | v >> (16 - 2 * LOG) & rows;
+            let index = (index & 0xFFFF) as usize;
+            visible.each(last, |pixel, shown| {
+                each(pixel, shown.then(|| self.0.fetch(index)));
+            });
         }
     }
+}
+
+/// Two pixels as an array.
+#[inline(always)]
+fn two_of<W>(pair: &mut [W]) -> Option<&mut [W; 2]> {
+    pair.try_into().ok()
 }
 
 /// The weighted mean of the four nearest texels, 4 bits of weight each way, rounded once.
