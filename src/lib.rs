@@ -192,33 +192,36 @@ mod stats;
 mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
+pub use composite::{
+    Blender, Blending, Compositing, Cut, CutOff, DetailedTextures, Dithered, Grey8, Ink,
+    LineOverlay, Mix, Ordered, Overlay, PixelAlpha, PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be,
+    Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures, Threshold,
+    UnsortedSprites, Xrgb8888, mono_page, mono_row,
+};
 #[cfg(feature = "embedded-graphics")]
 pub use composite::{Canvas, DrawnLines};
-pub use composite::{
-    Cut, CutOff, DetailedTextures, Dithered, Grey8, Ink, LineOverlay, Ordered, Overlay,
-    PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf,
-    TextureSource, Textures, Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
-};
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
-    Affine, Assembled, Camera, CameraError, Colour, Coordinate, Cull, DirectionalLight, Dropped,
-    Faces, Flat, Gouraud, Light, Lighting, LightingModel, Material, MatrixRange, Mesh, MeshError,
-    Object, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError, Shading, Sphere,
+    Affine, Assembled, Blend, Blended, Camera, CameraError, Colour, Coordinate, Cull,
+    DepthFunction, DirectionalLight, Dropped, Faces, Factor, Finish, Flat, Gouraud, Light,
+    Lighting, LightingModel, Material, MatrixRange, Mesh, MeshError, Object, QuadSplit, Room,
+    Scale, SceneVertex, Screen, ScreenError, Shading, Shadow, ShadowEdge, ShadowLight,
+    ShadowMemory, ShadowRoom, Sphere, Surface,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Counted, DetailedDepth, DrawableOf, FlatDepth, FlatPainter, GouraudDepth,
-    GouraudPainter, Interpolated, ObjectOf, Parts, Pipeline, SkinOf, SlotOf, TexturedDepth,
-    VertexOf, WordOf,
+    CellOf, Composited, Counted, DetailedDepth, DrawableOf, FlatDepth, FlatPainter, GouraudDepth,
+    GouraudPainter, Interpolated, ObjectOf, Parts, Pipeline, Shadowed, SkinOf, SlotOf,
+    TexturedDepth, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
     Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
     ListMemory, ListRunner, ListSettings, OnViolation, Overlaid, PassOne, Prefetched, Relay,
-    RendererError, RunCounts, Scene, SceneError, SceneMemory, Source, Stalled, Stream, Vertices,
-    draw_continuous, draw_frame, draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid,
-    draw_frame_overlaid_changed, send_changed, send_changed_runs, send_frame,
+    RendererError, RunCounts, Scene, SceneError, SceneMemory, ShadowError, Source, Stalled, Stream,
+    Vertices, draw_continuous, draw_frame, draw_frame_changed, draw_frame_changed_runs,
+    draw_frame_overlaid, draw_frame_overlaid_changed, send_changed, send_changed_runs, send_frame,
 };
 #[cfg(feature = "async")]
 pub use renderer::{draw_frame_async, send_frame_async};
@@ -228,4 +231,4 @@ pub use shade::{
 };
 pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
-pub use visible::{Depth32, LineDepth};
+pub use visible::{Depth32, LineDepth, ShadowCell, ShadowDepth32};

@@ -8,15 +8,19 @@
 //! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
 //! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
 //! | [`DetailedDepth`] | [`Gouraud`] times a texture in levels of detail | [`Depth32`] | any | forward |
+//! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
+//! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
-use crate::composite::{DetailedTextures, PixelFormat, TextureSource, Textures};
+use crate::composite::{
+    Blending, Compositing, DetailedTextures, PixelFormat, TextureSource, Textures,
+};
 use crate::geometry::texturing::{LevelEnds, Textured};
-use crate::geometry::{Flat, Gouraud, Shading};
+use crate::geometry::{Blended, Flat, Gouraud, Shading};
 use crate::shade::{Interpolation, Levels, Packed8};
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::{Depth32, LineDepth};
+use crate::visible::{Depth32, LineDepth, ShadowDepth32};
 use core::marker::PhantomData;
 
 /// The choices of a renderer, made at compile time: what is not chosen has no code and no bytes.
@@ -33,13 +37,16 @@ pub trait Pipeline {
     type Interpolation: Interpolation;
     /// Textures lent to a scene: [`Textures`], or `()` for none.
     type Textures: TextureSource<Self::Pixel>;
+    /// Whether surfaces are composited by their finish: [`Blending`], or `()` where all are
+    /// opaque. Shadings that are [`Blended`] have one.
+    type Compositing: Compositing;
 }
 
 /// A pipeline by its parts.
 #[derive(Clone, Copy, Debug)]
-pub struct Parts<S, D, F, C = (), I = Packed8, X = ()>(PhantomData<(S, D, F, C, I, X)>);
+pub struct Parts<S, D, F, C = (), I = Packed8, X = (), B = ()>(PhantomData<(S, D, F, C, I, X, B)>);
 
-impl<S, D, F, C, I, X> Pipeline for Parts<S, D, F, C, I, X>
+impl<S, D, F, C, I, X, B> Pipeline for Parts<S, D, F, C, I, X, B>
 where
     S: Shading<Levels: Levels>,
     D: LineDepth,
@@ -47,6 +54,7 @@ where
     C: SpanCounter,
     I: Interpolation,
     X: TextureSource<F>,
+    B: Compositing,
 {
     type Shading = S;
     type Depth = D;
@@ -54,6 +62,7 @@ where
     type Counter = C;
     type Interpolation = I;
     type Textures = X;
+    type Compositing = B;
 }
 
 /// Colours linear between vertices, 32-bit depth.
@@ -72,6 +81,26 @@ pub type TexturedDepth<'t, F, T> =
 /// The same with textures in levels of detail.
 pub type DetailedDepth<'t, F, T> =
     Parts<Textured<Gouraud, LevelEnds>, Depth32, F, (), Packed8, DetailedTextures<'t, T>>;
+/// The pipeline `P`, and surfaces have a finish: some may be transparent.
+pub type Composited<P> = Parts<
+    Blended<<P as Pipeline>::Shading>,
+    <P as Pipeline>::Depth,
+    <P as Pipeline>::Pixel,
+    <P as Pipeline>::Counter,
+    <P as Pipeline>::Interpolation,
+    <P as Pipeline>::Textures,
+    Blending,
+>;
+/// The pipeline `P`, and surfaces have a finish: some may be transparent, or bound shadows.
+pub type Shadowed<P> = Parts<
+    Blended<<P as Pipeline>::Shading>,
+    ShadowDepth32,
+    <P as Pipeline>::Pixel,
+    <P as Pipeline>::Counter,
+    <P as Pipeline>::Interpolation,
+    <P as Pipeline>::Textures,
+    Blending,
+>;
 /// The pipeline `P`, and its spans and pixels are counted.
 pub type Counted<P> = Parts<
     <P as Pipeline>::Shading,
@@ -80,6 +109,7 @@ pub type Counted<P> = Parts<
     SpanCounts,
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
+    <P as Pipeline>::Compositing,
 >;
 /// The pipeline `P`, with colours by the method `I`.
 pub type Interpolated<P, I> = Parts<
@@ -89,6 +119,7 @@ pub type Interpolated<P, I> = Parts<
     <P as Pipeline>::Counter,
     I,
     <P as Pipeline>::Textures,
+    <P as Pipeline>::Compositing,
 >;
 
 /// The word of a pipeline's pixels.

@@ -30,6 +30,12 @@ pub trait Visitor<T> {
 
     /// An object of the line.
     fn visit(&mut self, object: u16, body: &T);
+
+    /// The same, and in which slot it is.
+    #[inline(always)]
+    fn visit_slot(&mut self, _slot: usize, object: u16, body: &T) {
+        self.visit(object, body);
+    }
 }
 
 /// A slot of the cache.
@@ -481,7 +487,7 @@ impl<'m, T: Member> ActiveList<'m, T> {
         let mut current = self.head;
         while current.is_some() {
             if let Some(slot) = self.slots.get(current.slot()) {
-                visitor.visit(slot.object, &slot.body);
+                visitor.visit_slot(current.slot(), slot.object, &slot.body);
                 before = current;
                 current = slot.next;
                 continue;

@@ -3,8 +3,8 @@
 //! Each pixel has the level that its 1/w asks for: where the level changes along a span, the span
 //! is cut, which is a division a cut and happens to few.
 
-use super::texels::{Light, TexelOf, TextureSource, paint_part};
-use crate::composite::PixelFormat;
+use super::texels::{Light, TexelOf, TextureSource, alphas_part, paint_part};
+use super::{PixelAlpha, PixelFormat};
 use crate::geometry::texturing::{LevelEnds, SpanPlace};
 use crate::shade::Stretch;
 use crate::shade::texture::{Levels, Texels};
@@ -65,6 +65,20 @@ where
             (rest, place) = (later, next);
         }
         true
+    }
+
+    #[inline(never)]
+    fn alphas(&self, index: u16, alphas: &mut [PixelAlpha], (at, ends): (SpanPlace, &LevelEnds)) {
+        let Some(levels) = self.0.get(usize::from(index)) else {
+            return;
+        };
+        let (mut rest, mut place) = (alphas, at);
+        while !rest.is_empty() {
+            let (level, count, next) = part(place, ends, rest.len());
+            let (now, later) = rest.split_at_mut(count);
+            alphas_part::<F, _>(&levels.level(level), now, place);
+            (rest, place) = (later, next);
+        }
     }
 }
 

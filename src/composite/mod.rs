@@ -2,6 +2,8 @@
 //!
 //! | file | there |
 //! |---|---|
+//! | `blend/` | a new pixel and the one that is there become one |
+//! | `compositing.rs` | whether surfaces have a finish |
 //! | `paint.rs` | the pixels of a span, by the method that the pipeline chose |
 //! | `course.rs` | where a span's colours come from: two words, or three channels |
 //! | `ramp.rs` | packed channels in one or two registers |
@@ -14,8 +16,10 @@
 //! | `xrgb.rs` | 8 bits a channel in a 32-bit word |
 //! | `detailed.rs` | the same in levels of detail |
 
+mod blend;
 #[cfg(feature = "embedded-graphics")]
 mod canvas;
+mod compositing;
 mod course;
 mod detailed;
 mod dither;
@@ -29,8 +33,10 @@ mod tests;
 mod texels;
 mod xrgb;
 
+pub use blend::{Blender, Mix, PixelAlpha};
 #[cfg(feature = "embedded-graphics")]
 pub use canvas::{Canvas, DrawnLines};
+pub use compositing::{Blending, Compositing};
 pub use detailed::DetailedTextures;
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
@@ -109,6 +115,14 @@ pub trait PixelFormat {
     #[inline]
     fn fill(pixels: &mut [Self::Word], word: Self::Word) {
         pixels.fill(word);
+    }
+
+    /// Blends `new` pixels over `old` ones, as many as both have.
+    fn mix(old: &mut [Self::Word], new: &[Self::Word], mix: Mix)
+    where
+        Self: Sized,
+    {
+        blend::mix_levels::<Self>(old, new, mix);
     }
 
     /// The sum of two pixels, each channel at most its full light.
@@ -197,6 +211,10 @@ impl PixelFormat for Rgb888 {
         ramp.step();
     }
 
+    fn mix(old: &mut [[u8; 3]], new: &[[u8; 3]], mix: Mix) {
+        blend::mix_bytes(old.as_flattened_mut(), new.as_flattened(), mix);
+    }
+
     fn to_rgb8(word: [u8; 3]) -> [u8; 3] {
         word
     }
@@ -252,6 +270,10 @@ impl PixelFormat for Rgb565 {
         }
         runs.into_remainder().fill(pair);
         tail.fill(word);
+    }
+
+    fn mix(old: &mut [u16], new: &[u16], mix: Mix) {
+        blend::mix_565::<false>(old, new, mix);
     }
 
     /// All channels at once, with room above each for its carry.
@@ -318,6 +340,14 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     #[inline(always)]
     fn fill(pixels: &mut [u16], word: u16) {
         Rgb565::fill(pixels, word);
+    }
+
+    fn mix(old: &mut [u16], new: &[u16], mix: Mix) {
+        if Self::in_memory(1) == 1 {
+            blend::mix_565::<false>(old, new, mix);
+        } else {
+            blend::mix_565::<true>(old, new, mix);
+        }
     }
 
     #[inline(always)]

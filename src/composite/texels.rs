@@ -5,7 +5,7 @@
 //! depend on what hides what.
 
 use super::course::apart;
-use super::{PixelFormat, Threshold};
+use super::{PixelAlpha, PixelFormat, Threshold};
 use crate::geometry::texturing::{LevelEnds, SpanPlace};
 use crate::shade::Stretch;
 use crate::shade::texture::{PaintRun, PerspectiveSpan, Texel, Texels, Uv};
@@ -19,6 +19,18 @@ pub trait TexelOf<F: PixelFormat>: Copy {
 
     /// The 8-bit levels.
     fn levels(self) -> [u8; 3];
+
+    /// The alpha, 255 for 1.
+    #[inline(always)]
+    fn alpha(self) -> u8 {
+        255
+    }
+
+    /// Whether it is added where a finish says so (ForceAdditive, K11).
+    #[inline(always)]
+    fn is_additive(self) -> bool {
+        false
+    }
 
     /// Whether the pixel is not dithered, by its D bit or as it is a word of the format already.
     #[inline(always)]
@@ -36,6 +48,18 @@ impl<F: PixelFormat> TexelOf<F> for Texel {
     #[inline]
     fn levels(self) -> [u8; 3] {
         self.rgb
+    }
+
+    /// 127 of A is 1.
+    #[inline]
+    fn alpha(self) -> u8 {
+        let alpha = self.alpha.min(127);
+        alpha << 1 | alpha >> 6
+    }
+
+    #[inline]
+    fn is_additive(self) -> bool {
+        self.undithered
     }
 
     #[inline(always)]
@@ -83,6 +107,9 @@ pub trait TextureSource<F: PixelFormat>: Copy + Default + Send + Sync {
         stretch: Stretch,
         visible: &mut impl Visible,
     ) -> bool;
+
+    /// What the texels of a span with texture `index` say of their alpha, if it exists.
+    fn alphas(&self, _: u16, _: &mut [PixelAlpha], _: (SpanPlace, &LevelEnds)) {}
 }
 
 impl<F: PixelFormat> TextureSource<F> for () {
@@ -151,6 +178,45 @@ where
         let mut light = Light::new::<F>(stretch);
         paint_part::<F, _, _>(texels, pixels, place, &mut light, visible);
         true
+    }
+
+    #[inline(never)]
+    fn alphas(&self, index: u16, alphas: &mut [PixelAlpha], (place, _): (SpanPlace, &LevelEnds)) {
+        if let Some(texels) = self.0.get(usize::from(index)) {
+            alphas_part::<F, _>(texels, alphas, place);
+        }
+    }
+}
+
+/// The alphas of the next pixels of a span from `place` on.
+pub(super) fn alphas_part<F, T>(texels: &T, alphas: &mut [PixelAlpha], place: SpanPlace)
+where
+    F: PixelFormat,
+    T: Texels<Texel: TexelOf<F>>,
+{
+    let paint = Alphas::<F, _> {
+        texels,
+        format: PhantomData,
+    };
+    walk(place, alphas, paint);
+}
+
+/// Alphas of texels.
+struct Alphas<'a, F, T> {
+    texels: &'a T,
+    format: PhantomData<F>,
+}
+
+impl<F, T> PaintRun<PixelAlpha> for Alphas<'_, F, T>
+where
+    F: PixelFormat,
+    T: Texels<Texel: TexelOf<F>>,
+{
+    fn run(&mut self, alphas: &mut [PixelAlpha], from: Uv, step: Uv) {
+        self.texels.run(alphas, from, step, |pixel, texel| {
+            pixel.texel = texel.alpha();
+            pixel.additive = texel.is_additive();
+        });
     }
 }
 

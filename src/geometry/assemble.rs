@@ -81,7 +81,7 @@ pub struct Assembled {
 pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     /// Where vertices go.
     vertices: &'a mut Arena<'m, SceneVertex<S::Vertex>>,
-    projection: Projection,
+    pub(super) projection: Projection,
     /// Columns and lines of guard space that are drawn.
     columns: Range<i32>,
     lines: Range<i32>,
@@ -95,8 +95,8 @@ pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     /// How levels become steps of the output.
     scale: &'a Scale,
     /// What the mesh brings beside its colours.
-    skin: S::Skin<'k>,
-    done: Assembled,
+    pub(super) skin: S::Skin<'k>,
+    pub(super) done: Assembled,
 }
 
 /// The arena in which pass one keeps vertices.
@@ -270,7 +270,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
 
     /// Counts the current triangle among the dropped, if a piece of it was.
     #[inline]
-    fn count_lost(&mut self) -> bool {
+    pub(super) fn count_lost(&mut self) -> bool {
         let lost = core::mem::take(&mut self.lost);
         if let Some(dropped) = self.done.dropped.as_mut().filter(|_| lost) {
             dropped.triangles += 1;
@@ -344,7 +344,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     }
 
     /// A triangle within all planes.
-    fn piece(
+    pub(super) fn piece(
         &mut self,
         corner: [Corner<S::Vertex>; 3],
         face_colour: S::Face,
@@ -583,7 +583,7 @@ fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
 
 /// Calls `f` with face, corners and provoking vertex of each triangle.
 #[inline]
-fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
+pub(super) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
     let mut quad = |face: u32, q: [u16; 4], split| {
         let [a, b, c, d] = q;
         match split {

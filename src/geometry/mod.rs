@@ -6,10 +6,12 @@
 //! object's corners what drawing needs, once it is reached.
 
 mod assemble;
+mod blended;
 mod bounds;
 mod camera;
 mod clip;
 mod colour;
+mod finish;
 mod light;
 mod lighting;
 mod listed;
@@ -18,14 +20,17 @@ mod object;
 mod project;
 mod setup;
 mod shading;
+mod shadow;
 pub mod texturing;
 mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room};
 pub(crate) use assemble::{Assembler, Store, triangles};
+pub use blended::{Blended, BlendedLevels, ObjectFinish, Surface};
 pub use bounds::Sphere;
 pub use camera::{Camera, CameraError, Screen, ScreenError};
 pub use colour::{Colour, Scale};
+pub use finish::{Blend, DepthFunction, Factor, Finish, Role, Shadow};
 pub use light::{Light, LightingModel};
 pub use lighting::{DirectionalLight, Lighting, Material};
 pub use listed::MatrixRange;
@@ -34,4 +39,6 @@ pub use object::{Object, SceneVertex};
 pub(crate) use setup::at_pixel;
 pub use setup::{Drawable, Parameters};
 pub use shading::{Flat, FlatLevels, Gouraud, GouraudLevels, Shading};
+pub(crate) use shadow::Extrusion;
+pub use shadow::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use transform::Affine;

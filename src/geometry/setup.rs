@@ -166,6 +166,7 @@ impl<F: Copy> Object<F> {
             ((a.max(b).max(c) >> 15) as u16).saturating_add(1),
             (a.min(b).min(c) >> 15) as u16,
         );
+        let mut kept = None;
         if let Some(area) = area {
             let depth = area.wide_plane(corners.map(|c| c.depth as i32));
             let levels = S::set_up_small(
@@ -179,24 +180,31 @@ impl<F: Copy> Object<F> {
                 out.parameters = Parameters::Planes(depth, levels);
                 return true;
             }
+            if S::COMPOSITED {
+                kept = depth;
+            }
         }
-        large::<S>(corners, self.face, scale, out);
+        large::<S>(corners, self.face, (scale, kept), out);
         true
     }
 }
 
-/// Parameters of a triangle that is large or thin.
+/// Parameters of a triangle that is large or thin; of its depth, where it is `kept`, that of a
+/// small one.
 #[cold]
 #[inline(never)]
 fn large<S: Shading>(
     corners: [&SceneVertex<S::Vertex>; 3],
     face: S::Face,
-    scale: &Scale,
+    (scale, kept): (&Scale, Option<Plane>),
     out: &mut Drawable<S::Levels>,
 ) {
     let planes = || {
         let area = InverseArea::new(corners.map(|c| (c.x, c.y)))?;
-        let depth = area.plane(corners.map(|c| c.depth as i32))?;
+        let depth = match kept {
+            Some(depth) => depth,
+            None => area.plane(corners.map(|c| c.depth as i32))?,
+        };
         let levels = S::set_up(
             &area,
             corners.map(|c| c.attribute),

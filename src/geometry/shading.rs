@@ -3,6 +3,7 @@
 //! A shading that needs nothing somewhere has `()` there: no bytes in the records, no code.
 
 use super::colour::{Colour, Scale};
+use super::finish::Finish;
 use crate::num::{InverseArea, Plane, SmallArea};
 
 /// Which colours an object carries, from vertex to plane.
@@ -43,6 +44,15 @@ pub trait Shading {
 
     /// Gives a face of a mesh its part of the skin.
     fn dress_face(_: &mut Self::Face, _: &Self::Skin<'_>) {}
+
+    /// Whether the same triangle may be drawn several times, with other colours where its depth is
+    /// equal: then its depth must not depend on its colours.
+    const COMPOSITED: bool = false;
+
+    /// What a face does to the pixels that are there, in shadings that say so.
+    fn finish(_: &Self::Face) -> Option<&Finish> {
+        None
+    }
 
     /// Sets up an object of at most 64 x 64 pixels; `None` when it is too thin.
     fn set_up_small(

@@ -4,7 +4,9 @@ use super::order::{Doubt, Order};
 use super::place::Place;
 use super::scene::Scene;
 use super::spans::Brush;
+use super::transparent::{is_dormant, is_special};
 use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
+use crate::composite::Compositing;
 use crate::geometry::Drawable;
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
@@ -136,6 +138,8 @@ pub struct LineRenderer<'m, P: Pipeline> {
     order: Order,
     /// Where an object is set up that has no slot.
     spare: DrawableOf<P>,
+    /// The first line below all objects in slots that are not drawn in the usual way.
+    pub(super) special_end: i32,
     /// How far which scene has been drawn; `None` before its first line.
     pub(super) place: Option<Place>,
     pub(super) interleave: Interleave,
@@ -164,6 +168,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             apart: Doubt::default(),
             order: Order::default(),
             spare: Drawable::EMPTY,
+            special_end: 0,
             place: None,
             interleave: Interleave::ALL,
             prefetch: 0,
@@ -264,6 +269,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             Some(place) if place.serves(scene.content(), now) => place,
             _ => {
                 self.list.clear();
+                self.special_end = 0;
                 Place::above(scene)
             }
         };
@@ -290,6 +296,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             cells,
             dirty: &mut self.dirty,
             order: &mut self.order,
+            special_end: &mut self.special_end,
             line: now,
             left,
         };
@@ -298,6 +305,11 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         if self.list.is_empty() {
             return Ok(false);
+        }
+        if P::Compositing::BLENDS && (now < *pass.special_end || self.list.has_spilled()) {
+            pass.draw_composited(&mut self.list, next, &mut self.spare);
+            self.list.counts.set_ups += pass.brush.thin;
+            return Ok(true);
         }
         let whole =
             P::Depth::TESTS && self.depth_use == DepthUse::WhereNeeded && !self.list.has_spilled();
@@ -349,6 +361,8 @@ pub(super) struct LinePass<'a, 's, P: Pipeline> {
     /// Whether depth cells are not all at their farthest.
     pub(super) dirty: &'a mut bool,
     pub(super) order: &'a mut Order,
+    /// See [`LineRenderer::special_end`].
+    pub(super) special_end: &'a mut i32,
     pub(super) line: i32,
     pub(super) left: i32,
 }
@@ -356,7 +370,11 @@ pub(super) struct LinePass<'a, 's, P: Pipeline> {
 impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
     #[inline(always)]
     fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
-        self.brush.scene.set_up(object, self.line, body)
+        let there = self.brush.scene.set_up(object, self.line, body);
+        if P::Compositing::BLENDS && there && is_special(self.brush.scene, object, body) {
+            *self.special_end = (*self.special_end).max(i32::from(body.end()));
+        }
+        there
     }
 
     #[inline]
@@ -389,7 +407,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     }
 
     /// Spans to come may overlap.
-    fn begin_together(&mut self) {
+    pub(super) fn begin_together(&mut self) {
         if P::Depth::TESTS {
             self.clear();
             *self.dirty = true;
@@ -399,6 +417,15 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     /// The pixels of an object on this line, if there are any.
     #[inline(always)]
     pub(super) fn span(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
+        if P::Compositing::BLENDS && is_dormant::<P>(body) {
+            return None;
+        }
+        self.columns(body)
+    }
+
+    /// The same, whatever the object's finish says.
+    #[inline(always)]
+    pub(super) fn columns(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
         if body.is_inside() {
             let (start, end) = body.inside(self.line);
             return (start < end).then_some((start as usize, end as usize));

@@ -2,7 +2,8 @@
 //!
 //! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
 //! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
-//! `place` fetches ahead (C4); `frame` sends what one renderer draws, `overlay` with what is painted over it (K14), `relay` what several do on
+//! `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9); `frame` sends what one
+//! renderer draws, `overlay` with what is painted over it (K14), `relay` what several do on
 //! their own cores (K16, X6).
 
 mod batch;
@@ -19,7 +20,9 @@ mod place;
 mod relay;
 mod run;
 mod scene;
+mod shadow;
 mod spans;
+mod transparent;
 
 pub use batch::{ListCoordinate, ListMemory};
 pub use frame::{
@@ -36,4 +39,5 @@ pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};
+pub use shadow::ShadowError;
 pub(crate) use spans::scale;

@@ -2,6 +2,8 @@
 
 use super::lines::{LineRenderer, RendererError};
 use super::scene::Scene;
+use super::transparent::is_special;
+use crate::composite::Compositing;
 use crate::link::Link;
 use crate::pipeline::Pipeline;
 
@@ -98,6 +100,7 @@ impl<P: Pipeline> LineRenderer<'_, P> {
             }
             _ => {
                 self.list.clear();
+                self.special_end = 0;
                 Place::above(scene)
             }
         };
@@ -144,8 +147,14 @@ impl<P: Pipeline> LineRenderer<'_, P> {
                 };
                 *left = after;
                 // It may end before this renderer's next line, and then is none of its own.
-                self.list
-                    .admit_fetched(object, |body| scene.set_up(object, line, body));
+                let special_end = &mut self.special_end;
+                self.list.admit_fetched(object, |body| {
+                    let there = scene.set_up(object, line, body);
+                    if P::Compositing::BLENDS && there && is_special(scene, object, body) {
+                        *special_end = (*special_end).max(i32::from(body.end()));
+                    }
+                    there
+                });
                 rest = scene.object(object).map_or(Link::NONE, |o| o.next());
                 place.rest = Some(rest);
             }

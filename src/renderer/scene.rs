@@ -5,7 +5,7 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::geometry::{
     Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, LightingModel, Mesh,
-    MeshError, Room, Screen, Sphere, Store, triangles,
+    MeshError, Object, Room, Screen, Sphere, Store, triangles,
 };
 use crate::link::Link;
 use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, SkinOf, VertexOf};
@@ -178,17 +178,35 @@ pub struct PassOne {
 
 /// A scene in memory: shared by any number of line renderers, read-only while they draw.
 pub struct Scene<'m, P: Pipeline> {
-    screen: Screen,
-    camera: Option<Camera>,
-    store: Store<'m, P::Shading>,
-    objects: Arena<'m, ObjectOf<P>>,
-    buckets: Buckets<'m>,
+    pub(super) screen: Screen,
+    pub(super) camera: Option<Camera>,
+    pub(super) store: Store<'m, P::Shading>,
+    pub(super) objects: Arena<'m, ObjectOf<P>>,
+    pub(super) buckets: Buckets<'m>,
     /// Lines of the picture that are drawn.
-    lines: Range<u16>,
+    pub(super) lines: Range<u16>,
     pass_one: PassOne,
     textures: P::Textures,
     /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
+}
+
+/// Files an object under the line on which it is first seen; `false` when there is no room.
+#[inline(always)]
+pub(super) fn file<F>(
+    objects: &mut Arena<'_, Object<F>>,
+    buckets: &mut Buckets<'_>,
+    mut object: Object<F>,
+    first: i32,
+) -> bool {
+    if objects.free_below(usize::from(Link::CACHED)) == 0 {
+        return false;
+    }
+    let Some(chain) = buckets.file(objects.len() as u16, first) else {
+        return false;
+    };
+    object.chain(chain);
+    objects.push(object).is_some()
 }
 
 impl<'m, P: Pipeline> Scene<'m, P> {
@@ -317,17 +335,14 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         );
         let (objects, buckets) = (&mut self.objects, &mut self.buckets);
         let done = assembler
-            .mesh(mesh, |mut object, first| {
-                if objects.free_below(usize::from(Link::CACHED)) == 0 {
-                    return false;
-                }
-                let Some(chain) = buckets.file(objects.len() as u16, first) else {
-                    return false;
-                };
-                object.chain(chain);
-                objects.push(object).is_some()
-            })
+            .mesh(mesh, |object, first| file(objects, buckets, object, first))
             .map_err(DrawError::Mesh)?;
+        self.add(done)
+    }
+
+    /// Counts what was assembled.
+    #[inline]
+    pub(super) fn add(&mut self, done: Assembled) -> Result<Assembled, DrawError> {
         self.pass_one.triangles += done.triangles;
         self.pass_one.culled += done.culled;
         self.pass_one.clipped += done.clipped;

@@ -1,8 +1,8 @@
 //! The pixels of one object on one line: tested, coloured, stored (K8).
 
 use super::scene::Scene;
-use crate::composite::{PixelFormat, TextureSource, paint};
-use crate::geometry::{Parameters, Scale, at_pixel};
+use crate::composite::{Compositing, PixelFormat, TextureSource, paint};
+use crate::geometry::{Parameters, Role, Scale, Shading, at_pixel};
 use crate::num::Plane;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Interpolation, Levels, Stretch};
@@ -115,7 +115,7 @@ fn draw_span<P: Pipeline>(
 
 /// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
 #[inline(always)]
-fn colour<P: Pipeline, I: Interpolation>(
+pub(super) fn colour<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
@@ -163,7 +163,7 @@ fn colour_placed<P: Pipeline, I: Interpolation>(
 
 /// Counts the texels of `seen` pixels, where they are counted.
 #[inline(always)]
-fn count_fetches<P: Pipeline>(
+pub(super) fn count_fetches<P: Pipeline>(
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
     textures: P::Textures,
@@ -208,6 +208,11 @@ fn draw_thin<P: Pipeline>(
     else {
         return 0;
     };
+    // What waits for its shadow is not drawn in the usual way.
+    let finish = P::Shading::finish(&face);
+    if P::Compositing::BLENDS && finish.is_some_and(|f| f.role() != Role::Plain) {
+        return 0;
+    }
     let mut seen = 0;
     let textures = scene.textures();
     for (i, (pixel, column)) in pixels.chunks_mut(1).zip(column..).enumerate() {

@@ -17,7 +17,7 @@ pub use quality::Quality;
 pub mod texture;
 
 use crate::geometry::texturing::{Detail, LevelEnds, SpanPlace, TexturedLevels};
-use crate::geometry::{FlatLevels, GouraudLevels};
+use crate::geometry::{BlendedLevels, FlatLevels, GouraudLevels, ObjectFinish};
 
 /// The colours of a span from its first pixel on, steps of the output.
 #[derive(Clone, Copy, Debug)]
@@ -50,10 +50,38 @@ pub trait Levels: Copy {
         None
     }
 
+    /// How it is composited, where a finish says so.
+    #[inline(always)]
+    fn finish(&self) -> Option<&ObjectFinish> {
+        None
+    }
+
     /// Where which level of detail of it is right.
     #[inline(always)]
     fn detail(&self) -> &LevelEnds {
         const { &LevelEnds::FULL }
+    }
+}
+
+impl<L: Levels> Levels for BlendedLevels<L> {
+    #[inline(always)]
+    fn stretch(&self, column: i32, line: i32) -> Stretch {
+        self.inner.stretch(column, line)
+    }
+
+    #[inline(always)]
+    fn texture(&self, column: i32, line: i32) -> Option<(u16, SpanPlace)> {
+        self.inner.texture(column, line)
+    }
+
+    #[inline(always)]
+    fn detail(&self) -> &LevelEnds {
+        self.inner.detail()
+    }
+
+    #[inline(always)]
+    fn finish(&self) -> Option<&ObjectFinish> {
+        Some(&self.finish)
     }
 }
 

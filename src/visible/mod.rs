@@ -4,12 +4,17 @@
 //! Where objects can be ordered from front to back, `cover` does without depth.
 
 mod cover;
+mod function;
 mod placed;
+mod shadow;
 
 pub use cover::{Cover, Covered, Masked};
+pub use function::{MOST, Rule, ShadowCount};
 pub use placed::Placed;
+pub use shadow::{ShadowCell, ShadowDepth32, count_span};
 
 use crate::stats::SpanCounter;
+use core::cmp::Ordering;
 use core::marker::PhantomData;
 
 /// A way to find hidden surfaces along one line.
@@ -30,6 +35,30 @@ pub trait LineDepth {
     /// Keeps a number in a cell instead of a depth, where pixels are tested at all; 0 makes it
     /// farthest.
     fn set_number(cell: &mut Self::Cell, number: u32);
+
+    /// How `depth` compares with that of a cell: greater is nearer, and equal is all there is
+    /// without depth.
+    #[inline(always)]
+    fn compare(cell: &Self::Cell, depth: u32) -> Ordering {
+        if Self::TESTS {
+            depth.cmp(&Self::number(cell))
+        } else {
+            Ordering::Equal
+        }
+    }
+
+    /// Whether shadow polygons can be counted (K9).
+    const COUNTS: bool = false;
+
+    /// Shadow polygons in front of what is seen, backs less fronts.
+    #[inline(always)]
+    fn count(_: &Self::Cell) -> i32 {
+        0
+    }
+
+    /// Keeps a count of shadow polygons, where they can be counted.
+    #[inline(always)]
+    fn set_count(_: &mut Self::Cell, _count: i32) {}
 }
 
 /// 32 bits of 1/w: nearer or equal wins.

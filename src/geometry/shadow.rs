@@ -1,0 +1,307 @@
+//! Shadow volumes: the silhouette of a mesh seen from an infinite light, drawn out away from it
+//! (K9).
+//!
+//! The faces that look at the light cast the shadow, and the border of them all is the
+//! silhouette: an edge is on it when exactly one of its two faces looks at the light. Each edge is
+//! drawn out into a quad, and so the volume is closed whatever the mesh is, for a border is always
+//! made of closed loops. Faces are decided by integers, each once.
+//!
+//! The light's own faces and their far copies are part of the volume too, but never in front of
+//! what is seen where their mesh is drawn, and so not counted. They are needed where the near
+//! plane cuts the volume: the cut is its border in the plane, from which triangles to one point
+//! of it, each with its own sign, give the same count as the cut itself. So the eye may be inside a
+//! shadow.
+
+use super::assemble::{Assembled, Assembler, each_triangle};
+use super::clip::{Corner, guard, near_ends};
+use super::light::ModelLight;
+use super::mesh::{Coordinate, Mesh};
+use super::project::ClipPoint;
+use super::shading::Shading;
+use super::transform::Affine;
+use crate::num::I2F14;
+
+/// Which light casts a shadow, and how far it is drawn out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShadowLight {
+    /// The light's number, below [`Finish::LIGHTS`](super::Finish::LIGHTS).
+    pub light: u8,
+    /// Unit vector towards the light, world space.
+    pub direction: [I2F14; 3],
+    /// A shadow is 2^reach units of model space long, 1 to 12: past all that is seen.
+    pub reach: u8,
+}
+
+/// A side of a face that looks at the light.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct ShadowEdge {
+    /// The corners, by vertex of the mesh; the lower first.
+    ends: [u16; 2],
+    /// Whether the face goes from the lower to the higher.
+    rises: bool,
+}
+
+impl ShadowEdge {
+    /// From where to where the face goes.
+    const fn directed(self) -> [u16; 2] {
+        if self.rises {
+            self.ends
+        } else {
+            [self.ends[1], self.ends[0]]
+        }
+    }
+}
+
+/// Memory for one shadow volume, used while it is drawn.
+#[derive(Debug)]
+pub struct ShadowMemory<'m> {
+    /// Three for each triangle that looks at the light.
+    pub edges: &'m mut [ShadowEdge],
+    /// Two for each edge of the silhouette.
+    pub positions: &'m mut [[i32; 3]],
+    /// Two for each edge of the silhouette.
+    pub faces: &'m mut [[u16; 3]],
+}
+
+/// Which part of [`ShadowMemory`] is too short.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum ShadowRoom {
+    /// The edges.
+    Edges,
+    /// The positions, or there are more than 65,536.
+    Positions,
+    /// The faces.
+    Faces,
+}
+
+impl core::fmt::Display for ShadowRoom {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Edges => "edges",
+            Self::Positions => "positions",
+            Self::Faces => "faces",
+        })
+    }
+}
+
+/// The sides of a shadow volume, in coordinates of model space by 2^-reach, Q1.30.
+#[derive(Debug)]
+pub(crate) struct Sides<'m> {
+    pub(crate) positions: &'m [[i32; 3]],
+    pub(crate) faces: &'m [[u16; 3]],
+}
+
+/// How a mesh is drawn out: model space to that of the volume.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Extrusion {
+    /// Towards the light, model space, Q1.14.
+    direction: [i64; 3],
+    reach: u32,
+}
+
+impl Extrusion {
+    /// Of a mesh that stands at `model`.
+    pub(crate) fn new(light: &ShadowLight, model: &Affine) -> Self {
+        let direction = model.direction_to_model(light.direction);
+        Self {
+            direction: direction.map(|c| i64::from(c.to_bits())),
+            reach: u32::from(light.reach.clamp(1, 12)),
+        }
+    }
+
+    /// Space of the volume to world space.
+    pub(crate) fn model(&self, model: &Affine) -> Affine {
+        let mut model = *model;
+        model.linear.exponent += self.reach as i32;
+        model
+    }
+
+    /// A position of the mesh, and the one it casts its shadow to.
+    fn ends<C: Coordinate>(&self, position: [C; 3]) -> [[i32; 3]; 2] {
+        let near = position.map(|c| c.to_q30() >> self.reach);
+        // Below 1 and 1: no sum leaves 2.
+        let far = [0, 1, 2].map(|i| near[i] - (self.direction[i] << 16) as i32);
+        [near, far]
+    }
+
+    /// Whether a face looks at the light.
+    fn is_lit<C: Coordinate>(&self, corners: [[C; 3]; 3]) -> bool {
+        let p = corners.map(|c| c.map(|c| i64::from(c.to_q30())));
+        let mut e = [[0; 3]; 2];
+        let mut bits = 0;
+        for i in 0..3 {
+            e[0][i] = p[1][i] - p[0][i];
+            e[1][i] = p[2][i] - p[0][i];
+            bits |= e[0][i].unsigned_abs() | e[1][i].unsigned_abs();
+        }
+        // 20 bits: with the direction, no sum reaches 2^60. Exact for coordinates of 16 bits.
+        let down = 44u32.saturating_sub(bits.leading_zeros());
+        let [a, b] = e.map(|e| e.map(|c| c >> down));
+        let normal = [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ];
+        let dot = |i: usize| normal[i] * self.direction[i];
+        dot(0) + dot(1) + dot(2) > 0
+    }
+
+    /// Calls `f` with the corners of each face that looks at the light; the indices of the mesh
+    /// were checked.
+    fn each_lit<C: Coordinate>(
+        &self,
+        mesh: &Mesh<'_, C>,
+        mut f: impl FnMut([u16; 3], [[C; 3]; 3]),
+    ) {
+        each_triangle(mesh.faces, |_, corners, _| {
+            let at = |i: usize| mesh.positions.get(usize::from(corners[i])).copied();
+            if let (Some(a), Some(b), Some(c)) = (at(0), at(1), at(2)) {
+                if self.is_lit([a, b, c]) {
+                    f(corners, [a, b, c]);
+                }
+            }
+        });
+    }
+
+    /// Finds the silhouette of a mesh and draws it out.
+    ///
+    /// # Errors
+    /// The first room that is too short.
+    pub(crate) fn sides<'m, C: Coordinate>(
+        &self,
+        mesh: &Mesh<'_, C>,
+        memory: &'m mut ShadowMemory<'_>,
+    ) -> Result<Sides<'m>, ShadowRoom> {
+        let edges = self.silhouette(mesh, memory.edges)?;
+        let count = edges.len();
+        let positions = memory.positions.get_mut(..2 * count);
+        let positions = positions.filter(|p| p.len() <= 1 << 16);
+        let positions = positions.ok_or(ShadowRoom::Positions)?;
+        let faces = memory.faces.get_mut(..2 * count).ok_or(ShadowRoom::Faces)?;
+        // A silhouette is made of loops: each vertex on it begins an edge.
+        edges.sort_unstable_by_key(|edge| edge.directed());
+        for (i, edge) in edges.iter().enumerate() {
+            let [a, b] = edge.directed();
+            let Some(&at) = mesh.positions.get(usize::from(a)) else {
+                continue;
+            };
+            let next = edges.partition_point(|other| other.directed()[0] < b);
+            let (a, b) = (2 * i as u16, 2 * next as u16);
+            positions[2 * i..2 * i + 2].copy_from_slice(&self.ends(at));
+            faces[2 * i] = [b, a, a + 1];
+            faces[2 * i + 1] = [b, a + 1, b + 1];
+        }
+        Ok(Sides { positions, faces })
+    }
+
+    /// The edges of the silhouette, at the front of `edges`.
+    fn silhouette<'e, C: Coordinate>(
+        &self,
+        mesh: &Mesh<'_, C>,
+        edges: &'e mut [ShadowEdge],
+    ) -> Result<&'e mut [ShadowEdge], ShadowRoom> {
+        let mut count = 0;
+        let mut fits = true;
+        self.each_lit(mesh, |[a, b, c], _| {
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                match edges.get_mut(count) {
+                    Some(edge) if from != to => {
+                        *edge = ShadowEdge {
+                            ends: [from.min(to), from.max(to)],
+                            rises: from < to,
+                        };
+                        count += 1;
+                    }
+                    Some(_) => {}
+                    None => fits = false,
+                }
+            }
+        });
+        let edges = edges.get_mut(..count).filter(|_| fits);
+        let edges = edges.ok_or(ShadowRoom::Edges)?;
+        edges.sort_unstable_by_key(|edge| edge.ends);
+        // Of those between the same vertices, what one way has more than the other.
+        let (mut kept, mut i) = (0, 0);
+        while let Some(&edge) = edges.get(i) {
+            let (mut up, mut down) = (0, 0);
+            while let Some(other) = edges.get(i).filter(|other| other.ends == edge.ends) {
+                if other.rises {
+                    up += 1;
+                } else {
+                    down += 1;
+                }
+                i += 1;
+            }
+            for _ in 0..usize::abs_diff(up, down) {
+                edges[kept] = ShadowEdge {
+                    rises: up > down,
+                    ..edge
+                };
+                kept += 1;
+            }
+        }
+        Ok(&mut edges[..kept])
+    }
+}
+
+impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
+    /// Whether the shadow volume of a mesh may reach in front of the near plane.
+    pub(crate) fn is_near<C: Coordinate>(&self, extrusion: &Extrusion, mesh: &Mesh<'_, C>) -> bool {
+        mesh.positions.iter().any(|&position| {
+            let ends = extrusion.ends(position);
+            ends.iter()
+                .any(|&p| self.projection.transform(p).z < self.projection.near)
+        })
+    }
+
+    /// Closes a shadow volume at the near plane: `file` keeps the pieces.
+    pub(crate) fn near_cap<C: Coordinate>(
+        mut self,
+        extrusion: &Extrusion,
+        mesh: &Mesh<'_, C>,
+        sides: &Sides<'_>,
+        mut file: impl FnMut(super::Object<S::Face>, i32) -> bool,
+    ) -> Assembled {
+        let mut hub = None;
+        extrusion.each_lit(mesh, |_, corners| {
+            let [a, b, c] = corners.map(|corner| extrusion.ends(corner));
+            self.near_cut(&mut hub, [a[0], b[0], c[0]], &mut file);
+            self.near_cut(&mut hub, [c[1], b[1], a[1]], &mut file);
+        });
+        for face in sides.faces {
+            let at = |i: usize| sides.positions.get(usize::from(face[i])).copied();
+            if let (Some(a), Some(b), Some(c)) = (at(0), at(1), at(2)) {
+                self.near_cut(&mut hub, [a, b, c], &mut file);
+            }
+        }
+        self.done
+    }
+
+    /// Where the near plane cuts a triangle of the volume: the triangle from there to the hub.
+    fn near_cut(
+        &mut self,
+        hub: &mut Option<ClipPoint>,
+        corners: [[i32; 3]; 3],
+        file: &mut impl FnMut(super::Object<S::Face>, i32) -> bool,
+    ) {
+        let corner = |point| Corner {
+            point,
+            attribute: S::Vertex::default(),
+        };
+        let points = corners.map(|p| corner(self.projection.transform(p)));
+        // The border of the cut goes against the way of the triangle.
+        let Some([to, from]) = near_ends::<S>(points, &self.projection) else {
+            return;
+        };
+        self.done.triangles += 1;
+        let hub = *hub.get_or_insert(from);
+        let mut face = S::Face::default();
+        S::dress_face(&mut face, &self.skin);
+        let part = guard::<S>([hub, from, to].map(corner), &self.projection);
+        for k in 2..part.len() {
+            self.piece([part[0], part[k - 1], part[k]], face, 0, file);
+        }
+        self.count_lost();
+    }
+}

@@ -1,0 +1,567 @@
+//! Lines with surfaces that have a finish: what is transparent is blended over what is opaque
+//! (K11, H8, H9, P5), and shadows are counted in between (K9).
+//!
+//! Such a line is drawn in parts, each a walk of the list: first what is opaque, with depth; then
+//! for each light its shadow volumes and what they decide on (see `shadow`); last what is
+//! transparent, tested but not kept in depth. Where spans overlap that do not just add, the line is
+//! cut into stretches on which the same spans overlap, and each is drawn from back to front: that
+//! is exact for surfaces that do not cross on the stretch. No memory is lent for it: so many spans
+//! as fit on the stack are taken at a time, the farthest first.
+//!
+//! A line without such surfaces goes the usual way. Colours are found as always, into words on the
+//! stack, so every shading and texture can be blended.
+
+use super::lines::LinePass;
+use super::scene::Scene;
+use super::spans::{Brush, colour, count_fetches, scale};
+use crate::active::{ActiveList, Visitor};
+use crate::composite::{Blender, PixelAlpha, TextureSource};
+use crate::geometry::{Blend, Finish, Parameters, Role, Shading, at_pixel};
+use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
+use crate::shade::Levels;
+use crate::stats::SpanCounter;
+use crate::visible::{Everywhere, LineDepth, MOST, Rule, ShadowCount, count_span};
+
+/// When an object is drawn.
+#[inline]
+pub(super) fn role<P: Pipeline>(scene: &Scene<'_, P>, object: u16, body: &DrawableOf<P>) -> Role {
+    match &body.parameters {
+        Parameters::Planes(_, levels) => levels.finish().map_or(Role::Plain, |f| f.role),
+        Parameters::Corners => scene
+            .object(object)
+            .and_then(|o| P::Shading::finish(&o.face))
+            .map_or(Role::Plain, Finish::role),
+    }
+}
+
+/// Whether lines with this object are not drawn in the usual way.
+#[inline]
+pub(super) fn is_special<P: Pipeline>(
+    scene: &Scene<'_, P>,
+    object: u16,
+    body: &DrawableOf<P>,
+) -> bool {
+    !matches!(role(scene, object, body), Role::Plain | Role::Shadowed(_))
+}
+
+/// Whether the object waits for shadow volumes. Thin ones are found out where they are drawn.
+#[inline]
+pub(super) fn is_dormant<P: Pipeline>(body: &DrawableOf<P>) -> bool {
+    match &body.parameters {
+        Parameters::Planes(_, levels) => levels
+            .finish()
+            .is_some_and(|f| matches!(f.role, Role::Shadowed(_))),
+        Parameters::Corners => false,
+    }
+}
+
+/// A part of a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Part {
+    /// All there is, in order of submission: without depth.
+    Painted,
+    /// What is opaque; and what else there is.
+    Opaque,
+    /// The shadow volumes of a light.
+    Volumes(u8),
+    /// What these decide on.
+    Receivers(u8),
+    /// What is transparent, in order of submission.
+    Unsorted,
+    /// The farthest of what is transparent.
+    Farthest,
+}
+
+/// What there is on a line beside plain objects; a bit for each light.
+#[derive(Clone, Copy, Debug, Default)]
+struct Found {
+    volumes: u8,
+    receivers: u8,
+    sorted: bool,
+    unsorted: bool,
+}
+
+/// Most transparent spans that are sorted in one go.
+const PILE: usize = 32;
+/// No slot.
+const SPILLED: usize = usize::MAX;
+
+/// A transparent span.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pane {
+    start: u16,
+    end: u16,
+    object: u16,
+    /// [`SPILLED`] cut off, if it has none.
+    slot: u16,
+    /// Depth of the first pixel, and the step to the next.
+    depth: u32,
+    step: u32,
+}
+
+impl Pane {
+    /// Depth at a pixel.
+    fn at(&self, pixel: u16) -> u32 {
+        let pixels = u32::from(pixel - self.start);
+        self.depth.wrapping_add(self.step.wrapping_mul(pixels))
+    }
+
+    /// From back to front, and in order of submission.
+    fn key(&self) -> (u32, u16) {
+        let middle = self.start + (self.end - 1 - self.start) / 2;
+        (self.at(middle), self.object)
+    }
+}
+
+/// The farthest panes beyond a key, in order.
+#[derive(Debug)]
+struct Pile {
+    panes: [Pane; PILE],
+    count: usize,
+    /// Those up to here have been drawn.
+    after: Option<(u32, u16)>,
+    /// There are nearer ones.
+    more: bool,
+}
+
+impl Pile {
+    fn add(&mut self, pane: Pane) {
+        let key = pane.key();
+        if self.after.is_some_and(|after| key <= after) {
+            return;
+        }
+        let mut at = self.count;
+        if at == PILE {
+            self.more = true;
+            if self.panes[PILE - 1].key() < key {
+                return;
+            }
+            at -= 1;
+        } else {
+            self.count += 1;
+        }
+        while at > 0 && self.panes[at - 1].key() > key {
+            self.panes[at] = self.panes[at - 1];
+            at -= 1;
+        }
+        self.panes[at] = pane;
+    }
+
+    /// The next stretch from `pixel` on that is covered by the same panes throughout: from where
+    /// to where, and how many of `order` these are, from back to front.
+    fn stretch(&self, pixel: u16, order: &mut [u8; PILE]) -> Option<(u16, u16, usize)> {
+        let panes = self.panes.get(..self.count)?;
+        let first = |pane: &Pane| pane.start.max(pixel);
+        let start = panes.iter().filter(|p| p.end > pixel).map(first).min()?;
+        let mut end = u16::MAX;
+        let mut count = 0;
+        for (pane, index) in panes.iter().zip(0..) {
+            if pane.start > start {
+                end = end.min(pane.start);
+            } else if pane.end > start {
+                end = end.min(pane.end);
+                order[count] = index;
+                count += 1;
+            }
+        }
+        let middle = start + (end - 1 - start) / 2;
+        let key = |index: u8| {
+            let pane = &self.panes[usize::from(index)];
+            (pane.at(middle), pane.object)
+        };
+        for i in 1..count {
+            let mut at = i;
+            while at > 0 && key(order[at - 1]) > key(order[at]) {
+                order.swap(at - 1, at);
+                at -= 1;
+            }
+        }
+        Some((start, end, count))
+    }
+}
+
+/// A walk of the list for one part of a line.
+struct Walk<'w, 'a, 's, P: Pipeline> {
+    pass: &'w mut LinePass<'a, 's, P>,
+    part: Part,
+    found: Found,
+    pile: Option<&'w mut Pile>,
+}
+
+impl<P: Pipeline> Visitor<DrawableOf<P>> for Walk<'_, '_, '_, P> {
+    fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
+        self.pass.set_up(object, body)
+    }
+
+    fn visit(&mut self, object: u16, body: &DrawableOf<P>) {
+        self.visit_slot(SPILLED, object, body);
+    }
+
+    fn visit_slot(&mut self, slot: usize, object: u16, body: &DrawableOf<P>) {
+        let role = role(self.pass.brush.scene, object, body);
+        if role == Role::Plain {
+            if matches!(self.part, Part::Opaque | Part::Painted) {
+                self.pass.visit(object, body);
+            }
+            return;
+        }
+        let Some(span) = self.pass.columns(body) else {
+            return;
+        };
+        let casts = |light: u8| self.found.volumes >> light & 1 != 0;
+        let any = ShadowCount::Any;
+        match (self.part, role) {
+            (Part::Painted, Role::Opaque | Role::Lit(_) | Role::Sorted | Role::Unsorted)
+            | (Part::Opaque, Role::Opaque)
+            | (Part::Unsorted, Role::Unsorted) => self.pass.draw_ruled(object, body, span, any),
+            (Part::Opaque, Role::Volume(light)) => self.found.volumes |= 1 << light,
+            (Part::Opaque, Role::Lit(light) | Role::Shadowed(light)) => {
+                self.found.receivers |= 1 << light;
+            }
+            (Part::Opaque, Role::Sorted) => self.found.sorted = true,
+            (Part::Opaque, Role::Unsorted) => self.found.unsorted = true,
+            (Part::Volumes(light), Role::Volume(its)) if its == light => {
+                self.pass.count_volume(object, body, span);
+            }
+            (Part::Receivers(light), Role::Lit(its)) if its == light => {
+                let count = if casts(light) { ShadowCount::Lit } else { any };
+                self.pass.draw_ruled(object, body, span, count);
+            }
+            (Part::Receivers(light), Role::Shadowed(its)) if its == light && casts(light) => {
+                self.pass
+                    .draw_ruled(object, body, span, ShadowCount::Shadowed);
+            }
+            (Part::Farthest, Role::Sorted | Role::Unsorted) => {
+                if let Some(pile) = &mut self.pile {
+                    pile.add(self.pass.pane((slot, object), body, span));
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Sets slow objects up, so that those leave the list that end before the next line.
+struct Leave<'w, 'a, 's, P: Pipeline>(&'w mut LinePass<'a, 's, P>);
+
+impl<P: Pipeline> Visitor<DrawableOf<P>> for Leave<'_, '_, '_, P> {
+    fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
+        self.0.set_up(object, body)
+    }
+
+    fn visit(&mut self, _: u16, _: &DrawableOf<P>) {}
+}
+
+impl<P: Pipeline> LinePass<'_, '_, P> {
+    /// Draws a line on which there may be surfaces that are not plain. `next` is the line that
+    /// will come after, `spare` takes what has no slot.
+    #[inline(never)]
+    pub(super) fn draw_composited(
+        &mut self,
+        list: &mut ActiveList<'_, DrawableOf<P>>,
+        next: i32,
+        spare: &mut DrawableOf<P>,
+    ) {
+        self.begin_together();
+        let found = if P::Depth::TESTS {
+            let found = self.walk(list, spare, Part::Opaque, Found::default());
+            self.draw_lights(list, spare, found);
+            found
+        } else {
+            self.walk(list, spare, Part::Painted, Found::default())
+        };
+        if found.sorted {
+            self.draw_sorted(list, spare);
+        } else if found.unsorted {
+            self.walk(list, spare, Part::Unsorted, found);
+        }
+        if list.has_spilled() {
+            list.visit_all(next, spare, &mut Leave(self));
+        }
+    }
+
+    /// Goes through all that is active. Nothing leaves the list.
+    fn walk(
+        &mut self,
+        list: &mut ActiveList<'_, DrawableOf<P>>,
+        spare: &mut DrawableOf<P>,
+        part: Part,
+        found: Found,
+    ) -> Found {
+        let line = self.line;
+        let mut walk = Walk {
+            pass: self,
+            part,
+            found,
+            pile: None,
+        };
+        list.visit_all(line, spare, &mut walk);
+        walk.found
+    }
+
+    /// Counts the shadow volumes of each light, and draws what they decide on.
+    fn draw_lights(
+        &mut self,
+        list: &mut ActiveList<'_, DrawableOf<P>>,
+        spare: &mut DrawableOf<P>,
+        found: Found,
+    ) {
+        for light in 0..Finish::LIGHTS {
+            if found.receivers >> light & 1 == 0 {
+                continue;
+            }
+            if found.volumes >> light & 1 != 0 {
+                for cell in self.cells.iter_mut() {
+                    P::Depth::set_count(cell, 0);
+                }
+                self.walk(list, spare, Part::Volumes(light), found);
+            }
+            self.walk(list, spare, Part::Receivers(light), found);
+        }
+    }
+
+    /// Draws what is transparent from back to front.
+    fn draw_sorted(&mut self, list: &mut ActiveList<'_, DrawableOf<P>>, spare: &mut DrawableOf<P>) {
+        let line = self.line;
+        let mut pile = Pile {
+            panes: [Pane::default(); PILE],
+            count: 0,
+            after: None,
+            more: true,
+        };
+        while pile.more {
+            (pile.count, pile.more) = (0, false);
+            let mut walk = Walk {
+                pass: self,
+                part: Part::Farthest,
+                found: Found::default(),
+                pile: Some(&mut pile),
+            };
+            list.visit_all(line, spare, &mut walk);
+            let mut order = [0; PILE];
+            let mut pixel = 0;
+            while let Some((start, end, count)) = pile.stretch(pixel, &mut order) {
+                for &index in &order[..count] {
+                    let pane = pile.panes[usize::from(index)];
+                    let span = (usize::from(start), usize::from(end));
+                    if let Some(slot) = list.slots().get(usize::from(pane.slot)) {
+                        self.draw_ruled(pane.object, slot.body(), span, ShadowCount::Any);
+                    } else if self.brush.scene.set_up(pane.object, line, spare) {
+                        list.counts.misses += 1;
+                        self.draw_ruled(pane.object, spare, span, ShadowCount::Any);
+                    }
+                }
+                pixel = end;
+            }
+            if let Some(last) = pile.count.checked_sub(1) {
+                pile.after = Some(pile.panes[last].key());
+            }
+        }
+    }
+
+    /// A transparent span, as it is sorted.
+    fn pane(
+        &mut self,
+        (slot, object): (usize, u16),
+        body: &DrawableOf<P>,
+        (start, end): (usize, usize),
+    ) -> Pane {
+        let column = self.left + start as i32;
+        let (depth, step) = match &body.parameters {
+            Parameters::Planes(plane, _) => (plane.at(column, self.line) as u32, plane.dx as u32),
+            Parameters::Corners => {
+                let middle = self.left + ((start + end - 1) / 2) as i32;
+                let depth = thin::<P>(self.brush.scene, object, (middle, self.line));
+                (depth.map_or(0, |(depth, _)| depth), 0)
+            }
+        };
+        Pane {
+            start: start as u16,
+            end: end as u16,
+            object,
+            slot: slot as u16,
+            depth,
+            step,
+        }
+    }
+
+    /// Draws a span of an object by the rules of its finish.
+    #[inline(never)]
+    fn draw_ruled(
+        &mut self,
+        object: u16,
+        body: &DrawableOf<P>,
+        (start, end): (usize, usize),
+        count: ShadowCount,
+    ) {
+        let (Some(pixels), Some(cells)) = (
+            self.pixels.get_mut(start..end),
+            self.cells.get_mut(start..end),
+        ) else {
+            return;
+        };
+        let (column, line) = (self.left + start as i32, self.line);
+        let all = pixels.len() as u32;
+        let mut seen = 0;
+        match &body.parameters {
+            Parameters::Planes(plane, levels) => {
+                let parts = pixels.chunks_mut(MOST).zip(cells.chunks_mut(MOST));
+                for (part, column) in parts.zip((column..).step_by(MOST)) {
+                    let depth = (plane.at(column, line) as u32, plane.dx as u32);
+                    seen += self.brush.blend(levels, (column, line), part, depth, count);
+                }
+            }
+            Parameters::Corners => {
+                self.brush.thin += 1;
+                let parts = pixels.chunks_mut(1).zip(cells.chunks_mut(1));
+                for (part, column) in parts.zip(column..) {
+                    let at = (column, line);
+                    if let Some((depth, levels)) = thin::<P>(self.brush.scene, object, at) {
+                        seen += self.brush.blend(&levels, at, part, (depth, 0), count);
+                    }
+                }
+            }
+        }
+        let tested = P::Depth::TESTS;
+        self.brush.counter.span(seen, all - seen, tested);
+    }
+
+    /// Counts a polygon of a shadow volume where it is in front of what is seen.
+    fn count_volume(&mut self, object: u16, body: &DrawableOf<P>, (start, end): (usize, usize)) {
+        let Some(cells) = self.cells.get_mut(start..end) else {
+            return;
+        };
+        let (column, line) = (self.left + start as i32, self.line);
+        match &body.parameters {
+            Parameters::Planes(plane, levels) => {
+                if let Some(finish) = levels.finish() {
+                    let depth = (plane.at(column, line) as u32, plane.dx as u32);
+                    let passes = finish.rules.colour_if;
+                    count_span::<P::Depth>(cells, depth, passes, finish.away);
+                }
+            }
+            Parameters::Corners => {
+                self.brush.thin += 1;
+                let scene = self.brush.scene;
+                let corners = scene
+                    .object(object)
+                    .and_then(|o| o.corners(scene.vertices()));
+                let away = corners.is_some_and(|[a, b, c]| {
+                    let to = |p: u16, q: u16| i64::from(q) - i64::from(p);
+                    to(a.x, b.x) * to(a.y, c.y) > to(a.x, c.x) * to(a.y, b.y)
+                });
+                for (cell, column) in cells.chunks_mut(1).zip(column..) {
+                    if let Some((depth, levels)) = thin::<P>(scene, object, (column, line)) {
+                        if let Some(finish) = levels.finish() {
+                            let passes = finish.rules.colour_if;
+                            count_span::<P::Depth>(cell, (depth, 0), passes, away);
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Depth and levels of an object without planes at a pixel of guard space.
+#[cold]
+#[inline(never)]
+fn thin<P: Pipeline>(
+    scene: &Scene<'_, P>,
+    object: u16,
+    at: (i32, i32),
+) -> Option<(u32, LevelsOf<P>)> {
+    let object = scene.object(object)?;
+    let corners = object.corners(scene.vertices())?;
+    Some(at_pixel::<P::Shading>(
+        corners,
+        object.face,
+        scale::<P>(),
+        at,
+    ))
+}
+
+/// Words on the stack, so aligned that two of 16 bits can be read as one.
+#[repr(align(4))]
+struct Words<W>([W; MOST + 1]);
+
+impl<P: Pipeline> Brush<'_, '_, P> {
+    /// Draws at most [`MOST`] pixels by the rules of a finish: their depth is that of the first
+    /// and a step. How many are seen.
+    #[inline(never)]
+    fn blend(
+        &mut self,
+        levels: &LevelsOf<P>,
+        (column, line): (i32, i32),
+        (pixels, cells): (&mut [WordOf<P>], &mut [CellOf<P>]),
+        depth: (u32, u32),
+        count: ShadowCount,
+    ) -> u32 {
+        let Some(finish) = levels.finish() else {
+            return 0;
+        };
+        let rules = &finish.rules;
+        let textures = self.scene.textures();
+        let is_factor = matches!(rules.blend, Blend::Factors { .. });
+        let by_texel = rules.texel_alpha || rules.force_additive || is_factor;
+        let mut alphas = [PixelAlpha::OPAQUE; MOST];
+        let mut keep = u32::MAX;
+        let varies = finish.varies() || by_texel;
+        if varies {
+            let alphas = &mut alphas[..pixels.len().min(MOST)];
+            if let Some((index, place)) = levels.texture(column, line).filter(|_| by_texel) {
+                textures.alphas(index, alphas, (place, levels.detail()));
+            }
+            for ((i, alpha), column) in alphas.iter_mut().enumerate().zip(column..) {
+                alpha.surface = finish.alpha(column, line);
+                alpha.additive &= rules.force_additive;
+                if !(rules.texel_alpha || is_factor) {
+                    alpha.texel = 255;
+                }
+                if rules.blend == Blend::Replace && alpha.texel == 0 {
+                    keep &= !(1 << i);
+                }
+            }
+        }
+        let rule = Rule {
+            colour_if: rules.colour_if,
+            depth_if: rules.depth_if,
+            count,
+        };
+        let seen = rule.apply::<P::Depth>(cells, depth, keep);
+        if seen == 0 {
+            return 0;
+        }
+        // At the same half of a word as the pixels, which lie anywhere.
+        let mut words = Words([WordOf::<P>::default(); MOST + 1]);
+        let half = (pixels.as_ptr().addr() / size_of::<WordOf<P>>().max(1)) & 1;
+        let words = &mut words.0[half..][..pixels.len().min(MOST)];
+        let how = (self.interpolation, textures);
+        colour::<P, _>(words, levels, (column, line), how, &mut Everywhere);
+        let blender = Blender::new(rules);
+        let mut rest = seen;
+        while rest != 0 {
+            // A run of pixels that are seen.
+            let from = rest.trailing_zeros();
+            let run = (!(rest >> from)).trailing_zeros();
+            let range = from as usize..(from + run) as usize;
+            rest &= u32::MAX.checked_shl(from + run).unwrap_or(0);
+            let (old, new) = (&mut pixels[range.clone()], &words[range.clone()]);
+            if varies {
+                for ((old, &new), &alpha) in old.iter_mut().zip(new).zip(&alphas[range]) {
+                    *old = blender.pixel::<P::Pixel>(*old, new, alpha);
+                }
+            } else {
+                blender.blend::<P::Pixel>(old, new);
+            }
+        }
+        count_fetches::<P>(
+            levels,
+            (column, line),
+            textures,
+            seen.count_ones(),
+            self.counter,
+        );
+        seen.count_ones()
+    }
+}

@@ -1,0 +1,149 @@
+//! Depth functions: which pixels of a span are coloured, and which keep their depth (H9).
+//!
+//! What is hidden in the usual way does not come here: that is one comparison in the loop that
+//! colours. Here the answer is a word of bits, so that pixels which are all seen can be blended
+//! several at a time.
+
+use super::LineDepth;
+use crate::geometry::DepthFunction;
+
+/// Most pixels that are asked for in one go.
+pub const MOST: usize = 32;
+
+/// What the count of shadow polygons must be (K9).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShadowCount {
+    /// Anything.
+    Any,
+    /// 0: the light reaches the pixel.
+    Lit,
+    /// Not 0.
+    Shadowed,
+}
+
+/// Which pixels pass.
+#[derive(Clone, Copy, Debug)]
+pub struct Rule {
+    /// Those whose colour is written.
+    pub colour_if: DepthFunction,
+    /// Those whose depth is written.
+    pub depth_if: DepthFunction,
+    /// Where colour and depth may be written at all.
+    pub count: ShadowCount,
+}
+
+impl Rule {
+    /// A bit for each of at most [`MOST`] pixels whose colour is to be written, the first the
+    /// lowest; their cells get the depths that are to be written. Depths go from `depth` on by
+    /// `step`, and pixels that `keep` has no bit of are as if they were not there.
+    #[inline(never)]
+    pub fn apply<D: LineDepth>(
+        &self,
+        cells: &mut [D::Cell],
+        (mut depth, step): (u32, u32),
+        keep: u32,
+    ) -> u32 {
+        let mut seen = 0;
+        for (i, cell) in cells.iter_mut().take(MOST).enumerate() {
+            let here = match self.count {
+                ShadowCount::Any => true,
+                ShadowCount::Lit => D::count(cell) == 0,
+                ShadowCount::Shadowed => D::count(cell) != 0,
+            };
+            if here && keep >> i & 1 != 0 {
+                let order = D::compare(cell, depth);
+                seen |= u32::from(self.colour_if.passes(order)) << i;
+                if self.depth_if.passes(order) {
+                    D::set_number(cell, depth);
+                }
+            }
+            depth = depth.wrapping_add(step);
+        }
+        seen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Depth32, ShadowCell, ShadowDepth32};
+    use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    /// A function, and what it is of two depths, the new one first.
+    type Named = (DepthFunction, fn(u32, u32) -> bool);
+
+    const FUNCTIONS: [Named; 8] = [
+        (DepthFunction::NEVER, |_, _| false),
+        (DepthFunction::ALWAYS, |_, _| true),
+        (DepthFunction::NEARER, |new, old| new > old),
+        (DepthFunction::NEARER_OR_EQUAL, |new, old| new >= old),
+        (DepthFunction::EQUAL, |new, old| new == old),
+        (DepthFunction::FARTHER_OR_EQUAL, |new, old| new <= old),
+        (DepthFunction::FARTHER, |new, old| new < old),
+        (DepthFunction::DIFFERENT, |new, old| new != old),
+    ];
+
+    /// Random spans of all pairs of functions, against one pixel after the other.
+    #[test]
+    fn functions_are_those_of_a_naive_line() {
+        let mut rng = Rng(3);
+        let mut below = |n: u32| rng.below(n);
+        let mut passed = [0u32; 2];
+        for (colour_if, colours) in FUNCTIONS {
+            for (depth_if, writes) in FUNCTIONS {
+                for _ in 0..60 {
+                    // Few depths, so that many are equal.
+                    let count = 1 + below(32) as usize;
+                    let mut cells: Vec<ShadowCell> = (0..count)
+                        .map(|_| ShadowCell::new(4 * below(6), below(3) as i32 - 1))
+                        .collect();
+                    let mut plain: Vec<u32> = cells.iter().map(ShadowDepth32::number).collect();
+                    let before = cells.clone();
+                    let (depth, step) = (
+                        4 * below(6),
+                        [0u32, 4, 4u32.wrapping_neg()][below(3) as usize],
+                    );
+                    let keep = if below(2) == 0 {
+                        u32::MAX
+                    } else {
+                        below(1 << 24) << below(9)
+                    };
+                    let rule = |count| Rule {
+                        colour_if,
+                        depth_if,
+                        count,
+                    };
+                    let which = [ShadowCount::Any, ShadowCount::Lit, ShadowCount::Shadowed]
+                        [below(3) as usize];
+                    let seen = rule(which).apply::<ShadowDepth32>(&mut cells, (depth, step), keep);
+                    for i in 0..count {
+                        let new = depth.wrapping_add(step.wrapping_mul(i as u32));
+                        let old = ShadowDepth32::number(&before[i]);
+                        let count = ShadowDepth32::count(&before[i]);
+                        let here = keep >> i & 1 == 1
+                            && match which {
+                                ShadowCount::Any => true,
+                                ShadowCount::Lit => count == 0,
+                                ShadowCount::Shadowed => count != 0,
+                            };
+                        assert_eq!(seen >> i & 1 == 1, here && colours(new, old));
+                        let expected = if here && writes(new, old) { new } else { old };
+                        assert_eq!(ShadowDepth32::number(&cells[i]), expected);
+                        assert_eq!(ShadowDepth32::count(&cells[i]), count);
+                        passed[usize::from(seen >> i & 1 == 1)] += 1;
+                    }
+                    assert_eq!(seen.checked_shr(count as u32).unwrap_or(0), 0);
+                    // Depth alone, without counts, is the same.
+                    let any = rule(ShadowCount::Any);
+                    let mut same = before.clone();
+                    assert_eq!(
+                        any.apply::<Depth32>(&mut plain, (depth, step), keep),
+                        any.apply::<ShadowDepth32>(&mut same, (depth, step), keep)
+                    );
+                }
+            }
+        }
+        assert!(passed.iter().all(|n| *n > 10_000), "{passed:?}");
+    }
+}
