@@ -7,6 +7,7 @@
 //! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any | [`Packed8`] |
 //! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
 //! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
+//! | [`ListedDepth`] | [`Gouraud`] times a list's texture | [`Depth32`] | any | forward |
 //! | [`DetailedDepth`] | [`Gouraud`] times a texture in levels of detail | [`Depth32`] | any | forward |
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
 //! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
@@ -14,7 +15,7 @@
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
 use crate::composite::{
-    Blending, Compositing, DetailedTextures, PixelFormat, TextureSource, Textures,
+    Blending, Compositing, DetailedTextures, ListTextures, PixelFormat, TextureSource, Textures,
 };
 use crate::geometry::texturing::{LevelEnds, Textured};
 use crate::geometry::{Blended, Flat, Gouraud, Shading};
@@ -78,6 +79,8 @@ pub type FlatPainter<F> = Parts<Flat, (), F>;
 /// [`Scene::set_textures`]: crate::Scene::set_textures
 pub type TexturedDepth<'t, F, T> =
     Parts<Textured<Gouraud>, Depth32, F, (), Packed8, Textures<'t, T>>;
+/// Colours linear between vertices times the textures of an instruction list, 32-bit depth.
+pub type ListedDepth<'t, F> = Parts<Textured<Gouraud>, Depth32, F, (), Packed8, ListTextures<'t>>;
 /// The same with textures in levels of detail.
 pub type DetailedDepth<'t, F, T> =
     Parts<Textured<Gouraud, LevelEnds>, Depth32, F, (), Packed8, DetailedTextures<'t, T>>;

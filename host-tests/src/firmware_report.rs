@@ -302,10 +302,9 @@ fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), Box<dy
 fn build_list(scene: &mut Scene<'_, GouraudDepth<Rgb565Be>>) -> Result<(), Box<dyn Error>> {
     let (mut normals, mut indices) = ([[0; 3]; LIST_TABLE], [0; LIST_INDICES]);
     let memory = ListMemory {
-        positions: &mut [],
         normals: &mut normals,
-        colours: &mut [],
         indices: &mut indices,
+        ..ListMemory::default()
     };
     build_listed(scene, memory).map_err(|error| format!("teapot.list: {error:?}"))?;
     Ok(())

@@ -9,6 +9,7 @@
 //! | `ramp.rs` | packed channels in one or two registers |
 //! | `lirp.rs` | LIRP between a span's ends |
 //! | `texels.rs` | texels times the shaded colour |
+//! | `listed.rs` | textures of an instruction list |
 //! | `dither.rs` | ordered dither, and cutting instead of rounding |
 //! | `grey.rs` | 8-bit grey, and 1 bit a pixel made of it |
 //! | `overlay.rs` | runs and sprites over a finished line |
@@ -25,6 +26,7 @@ mod detailed;
 mod dither;
 mod grey;
 mod lirp;
+mod listed;
 mod overlay;
 mod paint;
 mod ramp;
@@ -40,6 +42,7 @@ pub use compositing::{Blending, Compositing};
 pub use detailed::DetailedTextures;
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
+pub use listed::{ListTexel, ListTextures};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};

@@ -14,6 +14,11 @@ use crate::arena::Arena;
 use crate::num::first_at;
 use core::ops::Range;
 
+mod screen;
+
+pub use screen::ScreenVertex;
+pub(crate) use screen::on_screen;
+
 /// Which faces are dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Cull {
@@ -401,23 +406,10 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         });
     }
 
-    /// The first line on which a triangle can be seen; `None` when it faces away, or covers no
-    /// pixel centre's line or column of the picture.
+    /// [`first_line`] of a triangle of this mesh.
     #[inline]
     fn first_line(&self, p: [(u16, u16); 3]) -> Option<i32> {
-        let d = |a: u16, b: u16| i64::from(b) - i64::from(a);
-        let area = d(p[0].0, p[1].0) * d(p[0].1, p[2].1) - d(p[0].0, p[2].0) * d(p[0].1, p[1].1);
-        // y points down, so a counter-clockwise face has a negative area.
-        if area == 0 || (area > 0 && self.cull == Cull::Back) {
-            return None;
-        }
-        let least = |a: u16, b: u16, c: u16| a.min(b).min(c);
-        let most = |a: u16, b: u16, c: u16| a.max(b).max(c);
-        let first = first_at(least(p[0].1, p[1].1, p[2].1)).max(self.lines.start);
-        let end = first_at(most(p[0].1, p[1].1, p[2].1)).min(self.lines.end);
-        let left = first_at(least(p[0].0, p[1].0, p[2].0)).max(self.columns.start);
-        let right = first_at(most(p[0].0, p[1].0, p[2].0)).min(self.columns.end);
-        (first < end && left < right).then_some(first)
+        first_line(p, self.cull, (&self.columns, &self.lines))
     }
 
     /// The lit colour of a vertex.
@@ -466,6 +458,29 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             None => tint.lit(1 << 15),
         })
     }
+}
+
+/// The first line on which a triangle can be seen; `None` when it faces away, or covers no
+/// pixel centre's line or column of the picture.
+#[inline]
+fn first_line(
+    p: [(u16, u16); 3],
+    cull: Cull,
+    (columns, lines): (&Range<i32>, &Range<i32>),
+) -> Option<i32> {
+    let d = |a: u16, b: u16| i64::from(b) - i64::from(a);
+    let area = d(p[0].0, p[1].0) * d(p[0].1, p[2].1) - d(p[0].0, p[2].0) * d(p[0].1, p[1].1);
+    // y points down, so a counter-clockwise face has a negative area.
+    if area == 0 || (area > 0 && cull == Cull::Back) {
+        return None;
+    }
+    let least = |a: u16, b: u16, c: u16| a.min(b).min(c);
+    let most = |a: u16, b: u16, c: u16| a.max(b).max(c);
+    let first = first_at(least(p[0].1, p[1].1, p[2].1)).max(lines.start);
+    let end = first_at(most(p[0].1, p[1].1, p[2].1)).min(lines.end);
+    let left = first_at(least(p[0].0, p[1].0, p[2].0)).max(columns.start);
+    let right = first_at(most(p[0].0, p[1].0, p[2].0)).min(columns.end);
+    (first < end && left < right).then_some(first)
 }
 
 /// How many of the first triangles are on the screen and seen from behind, or have no area.

@@ -24,8 +24,8 @@ mod shadow;
 pub mod texturing;
 mod transform;
 
-pub use assemble::{Assembled, Cull, Dropped, MeshError, Room};
-pub(crate) use assemble::{Assembler, Store, triangles};
+pub use assemble::{Assembled, Cull, Dropped, MeshError, Room, ScreenVertex};
+pub(crate) use assemble::{Assembler, Store, on_screen, triangles};
 pub use blended::{Blended, BlendedLevels, ObjectFinish, Surface};
 pub use bounds::Sphere;
 pub use camera::{Camera, CameraError, Screen, ScreenError};

@@ -117,6 +117,8 @@ pub enum State {
     Overlay(Overlay),
     /// 11: a sphere around what follows; 6 words.
     Bounds(Bounds),
+    /// 12: pixels of a point each way, the argument, 1 to 255; no word.
+    PointSize(u8),
 }
 
 /// What a list is, at its beginning, so that memory can be lent to suit.
@@ -382,6 +384,9 @@ impl Overlay {
 /// A sphere around all that the words behind this block draw, in the list's world, as
 /// `mantissa 2^(exponent - 30)`. Words 1 to 3: middle; word 4: radius, not negative; word 5:
 /// exponent, -128 ..= 96; word 6: how many words may be passed over when it is out of sight.
+///
+/// What is passed over sets no state, so what comes behind must not count on any from there. LONG
+/// vertices, and squares of points beyond one pixel, count as they are: the sphere has to hold them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bounds {
     /// Middle.

@@ -43,7 +43,15 @@
 //!
 //! **Long vertices** are a word of x and y each, signed 13.3 from the picture's left top corner, x
 //! lower; with PRSP a word of depth (1/w, the near plane at 2^31; without it the near plane);
-//! with SHADE a word of colour (4x8U); with TEXT a word of u and v (2x16U).
+//! with SHADE a word of colour (4x8U), else the material's; with TEXT a word of u and v (2x16U).
+//! They are not lit, moved or clipped.
+//!
+//! **Points** are squares of as many pixels each way as POINT SIZE says, of one at first, around
+//! their vertices, with their depths. They are lit by their own normals.
+//!
+//! **Textures** are drawn with where the header has TEXT and the material names one. Sides are 1.0
+//! of a texture place. Without PRSP places may be half a texel off, so that fewer divisions are needed.
+//! A texture is found by its number when the next block draws, and its palette too.
 //!
 //! **Strips** are mended so that all triangles show the side that the first one shows. One that
 //! goes on (NEW 0) must have the same ID, SHADE, PRSP and TEXT, and no FORMAT or TABLE between; its
@@ -63,6 +71,7 @@
 //! | `writer.rs` | blocks into words |
 //! | `vertex.rs` | parameters out of vertices and columns |
 //! | `strip.rs` | vertices into triangles |
+//! | `texels.rs` | texels where they lie, and which texture is which |
 //! | `flow.rs` | which block comes next: jumps, commands, budget |
 //!
 //! A list is drawn by `ListRunner` of the renderer, which this room does not know.
@@ -76,6 +85,7 @@ mod reader;
 mod strip;
 #[cfg(test)]
 mod tests;
+mod texels;
 mod vertex;
 mod words;
 mod writer;
@@ -88,8 +98,9 @@ pub use error::{ListError, Reason};
 pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};
 pub use format::{Field, FieldForm, PARAMETERS, VertexFormat, parameter};
 pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
-pub use reader::{Parsed, read_block};
+pub use reader::{Parsed, long_words, read_block};
 pub use strip::Strip;
+pub use texels::{Bound, NoTexture, Picture, Texels, TextureSlot, TextureSlots};
 pub use vertex::{Layout, Place, Slot, colour, normal};
 pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};
 pub use writer::{FieldPacker, Form, ListWriter, WriteError, words_of_column};

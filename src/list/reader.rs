@@ -60,7 +60,8 @@ pub fn read_block<'w>(
 }
 
 /// Words of a long vertex: x and y, with PRSP depth, with SHADE the colour, with TEXT u and v.
-pub(super) const fn long_words(header: Header) -> u32 {
+#[must_use]
+pub const fn long_words(header: Header) -> u32 {
     1 + header.prsp as u32 + header.shade as u32 + header.text as u32
 }
 
@@ -198,7 +199,7 @@ impl<'w, W: Words<'w>> Block<W> {
     fn state(&self) -> Result<Parsed, Reason> {
         let number = self.header.argument();
         let what = self.header.what();
-        if !matches!(what, 1 | 3 | 4 | 8 | 9) && number != 0 {
+        if !matches!(what, 1 | 3 | 4 | 8 | 9 | 12) && number != 0 {
             return Err(Reason::Count(self.header.count));
         }
         let (state, words) = match what {
@@ -231,6 +232,8 @@ impl<'w, W: Words<'w>> Block<W> {
                 (State::Overlay(overlay), 4 + overlay.words())
             }
             11 => (State::Bounds(self.bounds()?), 7),
+            12 if number == 0 => return Err(Reason::Count(self.header.count)),
+            12 => (State::PointSize(number), 1),
             kind => return Err(Reason::Kind(kind)),
         };
         Ok(Parsed {

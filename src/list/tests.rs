@@ -92,7 +92,10 @@ fn random_item(r: &mut Random, format: &mut VertexFormat, kept: &mut Option<Head
                 ambient: r.below(32_769) as u16,
             },
         }),
-        5 => Item::State(State::LightOff { number: byte(r) }),
+        5 => Item::State(match r.flag() {
+            true => State::LightOff { number: byte(r) },
+            false => State::PointSize(1 + r.below(255) as u8),
+        }),
         6 => Item::State(State::Material(Material {
             diffuse: bytes(r),
             opacity: byte(r),

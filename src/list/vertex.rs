@@ -126,6 +126,8 @@ pub struct Layout {
     pub colour: Option<Slot>,
     /// The normal.
     pub normal: Option<Slot>,
+    /// The texture place.
+    pub texture: Option<Slot>,
 }
 
 impl Layout {
@@ -140,6 +142,7 @@ impl Layout {
             },
             colour: None,
             normal: None,
+            texture: None,
         };
         for field in format.fields_of(header) {
             let slot = Slot {
@@ -150,6 +153,7 @@ impl Layout {
                 parameter::PLACE => layout.place = slot,
                 parameter::DIFFUSE => layout.colour = Some(slot),
                 parameter::NORMAL => layout.normal = Some(slot),
+                parameter::TEXTURE => layout.texture = Some(slot),
                 _ => {}
             }
             layout.words += if header.id == Id::Table {

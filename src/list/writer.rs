@@ -399,6 +399,7 @@ fn words_of_state(state: &State) -> (u8, u8, [u32; 13], usize) {
             w[5] = *words;
             (11, 0, 6)
         }
+        State::PointSize(pixels) => (12, *pixels, 0),
     };
     (what, argument, w, len)
 }

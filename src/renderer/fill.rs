@@ -36,28 +36,44 @@ pub(super) fn fill<const FAN: bool>(
 ) -> (usize, Filled) {
     let [mut p, mut q, mut newest] = *face;
     let mut is_odd = *odd;
-    let mut faces = 0;
-    let mut end = Filled::Full;
-    for slot in out.chunks_exact_mut(3) {
-        slot.copy_from_slice(&[p, q, newest]);
-        faces += 1;
-        match indices.next() {
-            Some(index) if index < count => {
-                if is_odd == FAN {
-                    p = newest;
-                } else {
-                    q = newest;
+    let all = out.len() / 3;
+    let mut slots = out.chunks_exact_mut(3);
+    // Puts a face in, and has the newest corner replace the one that is named.
+    macro_rules! face {
+        ($replaced:ident) => {{
+            let Some(slot) = slots.next() else {
+                break Filled::Full;
+            };
+            slot.copy_from_slice(&[p, q, newest]);
+            match indices.next() {
+                Some(index) if index < count => {
+                    $replaced = newest;
+                    newest = index;
                 }
-                newest = index;
-                is_odd ^= !FAN;
+                other => break Filled::Until(other),
             }
-            other => {
-                end = Filled::Until(other);
-                break;
-            }
-        }
+        }};
     }
+    let end = if FAN && is_odd {
+        loop {
+            face!(p);
+        }
+    } else if FAN {
+        loop {
+            face!(q);
+        }
+    } else {
+        // Two faces a round, so that none asks which of the two it is.
+        loop {
+            if !is_odd {
+                face!(p);
+                is_odd = true;
+            }
+            face!(q);
+            is_odd = false;
+        }
+    };
     *face = [p, q, newest];
     *odd = is_odd;
-    (faces, end)
+    (all - slots.len(), end)
 }

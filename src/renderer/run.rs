@@ -13,10 +13,12 @@ use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
 use super::frame::FrameStats;
 use super::scene::{Instance, Scene};
 use crate::event::{Event, EventSet, EventSink, Notice};
-use crate::geometry::{Affine, Camera, Cull, Light};
+use crate::geometry::texturing::Quality;
+use crate::geometry::{Affine, Camera, Cull, Light, Shading, Sphere};
 use crate::list::{
-    Budget, Halt, Id, Instruction, ListCommand, ListControl, ListError, Material, Reason, State,
-    Step, Walker, Window, Words,
+    Bound, Bounds, Budget, Flow, Halt, Id, Instruction, ListCommand, ListControl, ListError,
+    Material, Matrix, NoTexture, Reason, State, Step, Texture, TextureSlots, Walker, Window, Words,
+    read_block,
 };
 use crate::pipeline::Pipeline;
 
@@ -40,6 +42,8 @@ pub struct ListSettings<'c> {
     pub camera: bool,
     /// The part of the picture that it may ask for as its window; `None`: all.
     pub window: Option<Window>,
+    /// How far texture places may be off where a block has PRSP; elsewhere [`Quality::Fast`].
+    pub quality: Quality,
     /// After an access violation.
     pub on_violation: OnViolation,
     /// Where commands come from, beside [`ListRunner::command`].
@@ -64,6 +68,10 @@ pub struct RunCounts {
     pub unimplemented: u32,
     /// Access violations.
     pub violations: u32,
+    /// Times that what BOUNDS speaks of was out of sight and passed over (M4).
+    pub skipped: u32,
+    /// Words that were passed over so.
+    pub skipped_words: u32,
 }
 
 /// Executes lists.
@@ -74,6 +82,11 @@ pub struct ListRunner<'m, 'c, C = i16> {
     matrix: Affine,
     light: Option<Light>,
     material: Material,
+    point_size: u8,
+    /// The texture that the material names.
+    texture: Option<Bound>,
+    /// What was drawn has been shown: textures that it needed are no longer.
+    shown: bool,
     /// What the three make of the settings' instance.
     instance: Instance,
     /// The state has changed since: to be made anew before anything is gathered.
@@ -91,6 +104,9 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             matrix: Affine::IDENTITY,
             light: None,
             material: Material::default(),
+            point_size: 1,
+            texture: None,
+            shown: false,
             instance: settings.instance,
             stale: true,
             settings,
@@ -150,12 +166,31 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             two_sided: self.settings.instance.cull == Cull::None,
             ..Material::default()
         };
+        self.point_size = 1;
+        (self.texture, self.shown) = (None, false);
+        TextureSlots(self.batch.textures()).clear();
         self.stale = true;
     }
 
-    /// The instance that the state makes.
-    fn renew(&mut self) {
+    /// The instance and the texture that the state makes.
+    fn renew<P: Pipeline>(&mut self, events: &mut impl EventSink) {
         self.stale = false;
+        if P::Shading::SKINNED {
+            let slots = TextureSlots(self.batch.textures());
+            let bound = self.material.texture.map(|number| slots.bind(number));
+            self.texture = match bound {
+                Some(Ok(bound)) => Some(bound),
+                None => None,
+                Some(Err(NoTexture::Missing)) => {
+                    self.unimplemented(events);
+                    None
+                }
+                Some(Err(NoTexture::Full)) => {
+                    self.notice(events, Event::Full, 0);
+                    None
+                }
+            };
+        }
         self.instance = Instance {
             model: self.matrix.then(&self.settings.instance.model),
             cull: if self.material.two_sided {
@@ -181,6 +216,10 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         budget: &mut Budget,
         events: &mut impl EventSink,
     ) -> Result<Halt, ListError> {
+        if core::mem::take(&mut self.shown) {
+            TextureSlots(self.batch.textures()).release();
+            self.stale = true;
+        }
         loop {
             if let Some(command) = self.settings.control.and_then(ListControl::take) {
                 if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
@@ -209,6 +248,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
                 }
                 Ok(Step::Halt(halt)) => {
                     self.flush(words, scene, events);
+                    self.shown = halt == Halt::Sync;
                     let event = match halt {
                         Halt::End => Some(Event::ListEnd),
                         Halt::Waiting if self.walker.meets_anew(words) => Some(Event::ListEnd),
@@ -254,6 +294,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         let mut target = Target {
             scene,
             instance: &self.instance,
+            texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
             offset: self.walker.offset(),
         };
@@ -270,19 +311,26 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
     ) -> Result<Step, ListError> {
         self.counts.blocks += 1;
         // State comes in groups and is combined once, before the first block that draws.
-        if self.stale && !matches!(instruction, Instruction::State(_)) {
-            self.renew();
+        let draws = !matches!(instruction, Instruction::State(_) | Instruction::Flow(_));
+        if self.stale && draws {
+            self.renew::<P>(events);
         }
         let mut target = Target {
             scene,
             instance: &self.instance,
+            texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
             offset: self.walker.offset(),
         };
         let format = self.walker.format();
         let done = match instruction {
-            Instruction::Short(run) => self.batch.run(words, format, run, false, &mut target),
-            Instruction::Quads(run) => self.batch.run(words, format, run, true, &mut target),
+            Instruction::Short(run) | Instruction::Quads(run) | Instruction::Points(run) => self
+                .batch
+                .run(words, format, run, self.point_size, &mut target),
+            Instruction::Long(run) => {
+                self.batch.long(words, run, &mut target);
+                Ok(())
+            }
             Instruction::Table(run) => self.batch.table(words, format, run, &mut target),
             Instruction::Indexed(run) => {
                 if let Err(BadIndex(index, count)) = self.batch.indexed(words, run, &mut target) {
@@ -292,19 +340,65 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
                 Ok(())
             }
             Instruction::State(state) => return self.state(words, state, scene, events),
+            Instruction::Flow(Flow::LoadTexture { number, at }) => {
+                self.flush(words, scene, events);
+                self.load(words, number, at, events);
+                Ok(())
+            }
             _ => Err(Event::Unimplemented),
-        };
-        let textured = match instruction {
-            Instruction::Short(r) | Instruction::Quads(r) | Instruction::Table(r) => r.header.text,
-            _ => false,
         };
         match done {
             Err(Event::Unimplemented) => self.unimplemented(events),
             Err(event) => self.notice(events, event, 0),
-            Ok(()) if textured => self.unimplemented(events),
             Ok(()) => {}
         }
         Ok(Step::Do(instruction))
+    }
+
+    /// Gives a number to the texture that is defined elsewhere in the list; the walker has seen
+    /// that one is there.
+    fn load<'w>(
+        &mut self,
+        words: impl Words<'w>,
+        number: u8,
+        at: u32,
+        events: &mut impl EventSink,
+    ) {
+        let block = read_block(words, at, self.walker.format());
+        if let Ok(Instruction::State(State::Texture(texture))) = block.map(|b| b.instruction) {
+            let slots = TextureSlots(self.batch.textures());
+            if !slots.texture(&Texture { number, ..texture }) {
+                self.notice(events, Event::Full, 0);
+            }
+            self.stale = true;
+        }
+    }
+
+    /// Passes over what a sphere holds that cannot be seen.
+    fn bounds<'w, P: Pipeline>(
+        &mut self,
+        words: impl Words<'w>,
+        bounds: &Bounds,
+        scene: &Scene<'_, P>,
+    ) {
+        // The sphere in units of 2^-30, at a place of that scale.
+        let sphere = Sphere {
+            centre: bounds.centre,
+            radius: bounds.radius.unsigned_abs(),
+        };
+        let scale = Matrix {
+            linear_exponent: bounds.exponent + 1,
+            ..Matrix::IDENTITY
+        };
+        let model = Affine::from(&scale).then(&self.settings.instance.model);
+        if scene.is_outside(&sphere, &model) {
+            let to = self.walker.position().wrapping_add(bounds.words);
+            // Of a ring, what is not yet there cannot be passed over.
+            if self.walker.jump(words, to) {
+                self.counts.skipped += 1;
+                self.counts.skipped_words += bounds.words;
+            }
+        }
     }
 
     /// Takes new state; what was gathered is drawn with the old one.
@@ -316,7 +410,11 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         events: &mut impl EventSink,
     ) -> Result<Step, ListError> {
         match state {
-            State::Head(_) | State::Format(_) | State::Bounds(_) => return Ok(Step::Passed),
+            State::Head(_) | State::Format(_) => return Ok(Step::Passed),
+            State::Bounds(bounds) => {
+                self.bounds(words, &bounds, scene);
+                return Ok(Step::Passed);
+            }
             _ => self.flush(words, scene, events),
         }
         let screen = scene.screen();
@@ -329,7 +427,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             State::Material(material) => {
                 if material.opacity != 255
                     || material.specular != [0; 3]
-                    || material.texture.is_some()
+                    || (material.texture.is_some() && !P::Shading::SKINNED)
                 {
                     self.unimplemented(events);
                 }
@@ -357,6 +455,23 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
                 }
                 if window != all {
                     self.unimplemented(events);
+                }
+            }
+            State::PointSize(size) => self.point_size = size,
+            // Texels are drawn from where they lie.
+            State::Texture(texture)
+                if P::Shading::SKINNED && words.slice(texture.at, texture.words()).is_some() =>
+            {
+                if !TextureSlots(self.batch.textures()).texture(&texture) {
+                    self.notice(events, Event::Full, 0);
+                }
+            }
+            State::Palette(palette)
+                if P::Shading::SKINNED
+                    && words.slice(palette.at, u32::from(palette.count)).is_some() =>
+            {
+                if !TextureSlots(self.batch.textures()).palette(&palette) {
+                    self.notice(events, Event::Full, 0);
                 }
             }
             _ => self.unimplemented(events),

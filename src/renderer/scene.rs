@@ -5,7 +5,7 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::geometry::{
     Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, LightingModel, Mesh,
-    MeshError, Object, Room, Screen, Sphere, Store, triangles,
+    MeshError, Room, Screen, ScreenVertex, Sphere, Store, on_screen, triangles,
 };
 use crate::link::Link;
 use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, SkinOf, VertexOf};
@@ -191,22 +191,26 @@ pub struct Scene<'m, P: Pipeline> {
     generation: u32,
 }
 
-/// Files an object under the line on which it is first seen; `false` when there is no room.
-#[inline(always)]
-pub(super) fn file<F>(
-    objects: &mut Arena<'_, Object<F>>,
-    buckets: &mut Buckets<'_>,
-    mut object: Object<F>,
-    first: i32,
-) -> bool {
-    if objects.free_below(usize::from(Link::CACHED)) == 0 {
-        return false;
+/// Where objects go.
+pub(super) struct Filing<'a, 'm, P: Pipeline> {
+    pub(super) objects: &'a mut Arena<'m, ObjectOf<P>>,
+    pub(super) buckets: &'a mut Buckets<'m>,
+}
+
+impl<P: Pipeline> Filing<'_, '_, P> {
+    /// Keeps an object under the line of guard space on which it is first seen; `false`: there is
+    /// no room.
+    #[inline(always)]
+    pub(super) fn file(&mut self, mut object: ObjectOf<P>, first: i32) -> bool {
+        if self.objects.free_below(usize::from(Link::CACHED)) == 0 {
+            return false;
+        }
+        let Some(chain) = self.buckets.file(self.objects.len() as u16, first) else {
+            return false;
+        };
+        object.chain(chain);
+        self.objects.push(object).is_some()
     }
-    let Some(chain) = buckets.file(objects.len() as u16, first) else {
-        return false;
-    };
-    object.chain(chain);
-    objects.push(object).is_some()
 }
 
 impl<'m, P: Pipeline> Scene<'m, P> {
@@ -320,10 +324,75 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         skin: SkinOf<'_, P>,
         instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
+        self.assemble(instance, skin, |assembler, mut filing| {
+            assembler.mesh(mesh, |object, first| filing.file(object, first))
+        })
+    }
+
+    /// Draws vertices as points: squares of `size` pixels each way around them, with their depths
+    /// (H11); of 0 pixels nothing. A point that is lit needs a normal, and one that is textured
+    /// has the texel of its place. Points that are not within the guard band are culled.
+    ///
+    /// A point of one pixel is a triangle of the scene, a larger one two.
+    ///
+    /// # Errors
+    /// As [`draw_skinned`](Scene::draw_skinned); a face is a vertex here.
+    pub fn draw_points<C: Coordinate, L: LightingModel>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        size: u8,
+        skin: SkinOf<'_, P>,
+        instance: &Instance<L>,
+    ) -> Result<Assembled, DrawError> {
+        self.assemble(instance, skin, |assembler, mut filing| {
+            assembler.points(mesh, size, |object, first| filing.file(object, first))
+        })
+    }
+
+    /// Draws triangles whose vertices were set up beforehand: no camera, no light, and nothing to
+    /// clip (H11). Before [`begin`](Scene::begin) it does nothing.
+    ///
+    /// # Errors
+    /// As [`draw_skinned`](Scene::draw_skinned).
+    pub fn draw_screen(
+        &mut self,
+        vertices: &[ScreenVertex],
+        triangles: &[[u16; 3]],
+        skin: SkinOf<'_, P>,
+        cull: Cull,
+    ) -> Result<Assembled, DrawError> {
+        if self.camera.is_none() {
+            return Ok(Assembled::default());
+        }
+        let mut filing = Filing::<P> {
+            objects: &mut self.objects,
+            buckets: &mut self.buckets,
+        };
+        let done = on_screen(
+            &mut self.store,
+            (self.screen, self.lines.clone()),
+            cull,
+            (scale::<P>(), skin),
+            (vertices, triangles),
+            |object, first| filing.file(object, first),
+        );
+        self.count(done)
+    }
+
+    /// Lets an assembler of meshes at `instance` run, and counts what it has done.
+    #[inline(always)]
+    fn assemble<'k, L: LightingModel>(
+        &mut self,
+        instance: &Instance<L>,
+        skin: SkinOf<'k, P>,
+        run: impl FnOnce(
+            Assembler<'_, 'm, 'k, P::Shading, L::InModel>,
+            Filing<'_, 'm, P>,
+        ) -> Result<Assembled, MeshError>,
+    ) -> Result<Assembled, DrawError> {
         let Some(camera) = &self.camera else {
             return Ok(Assembled::default());
         };
-        self.generation = self.generation.wrapping_add(1);
         let assembler = Assembler::new(
             &mut self.store,
             camera,
@@ -333,16 +402,22 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             (instance.cull, instance.light, instance.colour),
             (scale::<P>(), skin),
         );
-        let (objects, buckets) = (&mut self.objects, &mut self.buckets);
-        let done = assembler
-            .mesh(mesh, |object, first| file(objects, buckets, object, first))
-            .map_err(DrawError::Mesh)?;
-        self.add(done)
+        let filing = Filing {
+            objects: &mut self.objects,
+            buckets: &mut self.buckets,
+        };
+        let done = run(assembler, filing);
+        self.count(done)
     }
 
-    /// Counts what was assembled.
-    #[inline]
-    pub(super) fn add(&mut self, done: Assembled) -> Result<Assembled, DrawError> {
+    /// Counts what an assembler has done.
+    #[inline(always)]
+    pub(super) fn count(
+        &mut self,
+        done: Result<Assembled, MeshError>,
+    ) -> Result<Assembled, DrawError> {
+        self.generation = self.generation.wrapping_add(1);
+        let done = done.map_err(DrawError::Mesh)?;
         self.pass_one.triangles += done.triangles;
         self.pass_one.culled += done.culled;
         self.pass_one.clipped += done.clipped;
@@ -375,6 +450,13 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         }
     }
 
+    /// Whether nothing within the sphere can be seen at `model`. Before [`begin`](Scene::begin)
+    /// everything can.
+    pub(crate) fn is_outside(&self, sphere: &Sphere, model: &Affine) -> bool {
+        let beyond = |camera: &Camera| sphere.is_outside(camera, self.screen, &self.lines, model);
+        self.camera.as_ref().is_some_and(beyond)
+    }
+
     /// What [`draw_within`](Scene::draw_within) does with a mesh whose sphere is outside of the
     /// picture: counts it, and nothing else; `None` when it has to be drawn.
     pub fn skip_outside<C: Coordinate, L>(
@@ -383,9 +465,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         instance: &Instance<L>,
         sphere: &Sphere,
     ) -> Option<Assembled> {
-        let is_outside =
-            |camera: &Camera| sphere.is_outside(camera, self.screen, &self.lines, &instance.model);
-        if !self.camera.as_ref().is_some_and(is_outside) {
+        if !self.is_outside(sphere, &instance.model) {
             return None;
         }
         let done = Assembled {

@@ -6,7 +6,7 @@
 //! [`Finish::lit_by`], with what one light adds, for several. Which of them a pixel gets is
 //! counted on each line; lines without volumes go the usual way.
 
-use super::scene::{DrawError, Instance, Scene, file};
+use super::scene::{DrawError, Filing, Instance, Scene};
 use super::spans::scale;
 use crate::geometry::{
     Affine, Assembled, Assembler, Blended, Coordinate, Cull, DepthFunction, Extrusion, Faces,
@@ -99,14 +99,17 @@ where
         if !assembler.is_near(&extrusion, mesh) {
             return Ok(done);
         }
-        let (objects, buckets) = (&mut self.objects, &mut self.buckets);
+        let mut filing = Filing::<P> {
+            objects: &mut self.objects,
+            buckets: &mut self.buckets,
+        };
         let near = assembler.near_cap(&extrusion, mesh, &sides, |object, first| {
-            file(objects, buckets, object, first)
+            filing.file(object, first)
         });
         done.triangles += near.triangles;
         done.kept += near.kept;
         done.dropped = near.dropped;
-        self.add(near).map_err(ShadowError::Draw)?;
+        self.count(Ok(near)).map_err(ShadowError::Draw)?;
         Ok(done)
     }
 }

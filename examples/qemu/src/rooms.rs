@@ -37,10 +37,9 @@ impl ListRoom {
     /// As a runner wants it.
     pub(crate) fn memory(&mut self) -> ListMemory<'_> {
         ListMemory {
-            positions: &mut [],
             normals: self.normals,
-            colours: &mut [],
             indices: self.indices,
+            ..ListMemory::default()
         }
     }
 }

@@ -1,12 +1,12 @@
 //! Any bytes as a list: no panic, no hang, work within the budget (X7).
 
-use scanbeam::list::{Budget, Halt, ListCommand};
+use scanbeam::list::{Budget, Halt, ListCommand, TextureSlot};
 use scanbeam::{
-    Camera, GouraudDepth, Link, ListMemory, ListRunner, ListSettings, Notice, ObjectOf, Rgb888,
-    Scene, SceneMemory, Screen, VertexOf,
+    Camera, LineMemory, LineRenderer, Link, ListMemory, ListRunner, ListSettings, ListTextures,
+    ListedDepth, Notice, ObjectOf, Rgb888, Scene, SceneMemory, Screen, VertexOf,
 };
 
-type Look = GouraudDepth<Rgb888>;
+type Look<'t> = ListedDepth<'t, Rgb888>;
 
 /// What a list may cause, each resumption included.
 const BUDGET: Budget = Budget {
@@ -21,10 +21,11 @@ pub fn run(data: &[u8]) -> usize {
         .chunks_exact(4)
         .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
         .collect();
-    let mut vertices = [VertexOf::<Look>::empty(); 512];
-    let mut objects = [ObjectOf::<Look>::default(); 512];
+    let slots = [const { TextureSlot::new() }; 8];
+    let mut vertices = [VertexOf::<Look<'_>>::empty(); 512];
+    let mut objects = [ObjectOf::<Look<'_>>::default(); 512];
     let mut buckets = [Link::NONE; 24];
-    let mut scene = Scene::<Look>::new(
+    let mut scene = Scene::<Look<'_>>::new(
         Screen::new(32, 24).expect("within the limits"),
         SceneMemory {
             vertices: &mut vertices,
@@ -36,14 +37,21 @@ pub fn run(data: &[u8]) -> usize {
     scene
         .begin(&camera.expect("it sees"))
         .expect("a bucket a line");
+    scene.set_textures(ListTextures {
+        words: &list,
+        slots: &slots,
+    });
     let (mut positions, mut normals) = ([[0i16; 3]; 32], [[0; 3]; 32]);
     let (mut colours, mut indices) = ([[0; 3]; 32], [0; 48]);
+    let mut places = [[0; 2]; 32];
     let mut runner = ListRunner::new(
         ListMemory {
             positions: &mut positions,
             normals: &mut normals,
             colours: &mut colours,
             indices: &mut indices,
+            places: &mut places,
+            textures: &slots,
         },
         ListSettings {
             camera: true,
@@ -57,6 +65,19 @@ pub fn run(data: &[u8]) -> usize {
             Ok(Halt::Paused | Halt::Sync) => runner.command(ListCommand::Resume),
             _ => break,
         }
+    }
+    let mut cache = [LineRenderer::<Look<'_>>::empty_slot(); 4];
+    let (mut links, mut depth) = ([Link::NONE; 512], [0; 32]);
+    let mut lines = LineRenderer::<Look<'_>>::new(LineMemory {
+        slots: &mut cache,
+        links: &mut links,
+        depth: &mut depth,
+    });
+    for y in [0, 12, 23] {
+        let mut pixels = [[0; 3]; 32];
+        lines
+            .draw_line(&scene, y, &mut pixels)
+            .expect("there is room for all");
     }
     assert!(runner.counts().blocks <= BUDGET.instructions - left.instructions);
     (BUDGET.instructions - left.instructions) as usize

@@ -3,8 +3,8 @@
 use super::args::DisassembleArgs;
 use super::read_list;
 use scanbeam::list::{
-    Flow, Header, Id, Instruction, Run, SEPARATE, SPLIT, State, VertexFormat, WIDE, parameter,
-    read_block,
+    Flow, Header, Id, Instruction, Run, SEPARATE, SPLIT, State, VertexFormat, WIDE, long_words,
+    parameter, read_block,
 };
 use std::error::Error;
 use std::fmt::Write as _;
@@ -98,6 +98,7 @@ fn block(
         Instruction::Short(run) | Instruction::Points(run) | Instruction::Quads(run) => {
             words(text, list, run, format.words(run.header));
         }
+        Instruction::Long(run) => words(text, list, run, long_words(run.header)),
         Instruction::Indexed(run) => indices(text, list, run),
         _ => {}
     }

@@ -6,11 +6,15 @@ use crate::image_out::{Frame, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::reference::{Cull, Shade, View};
-use scanbeam::list::{Budget, Halt, Head, Instruction, State, VertexFormat, read_block};
+use scanbeam::list::{
+    Budget, Halt, Head, Instruction, State, TextureSlot, VertexFormat, read_block,
+};
 use scanbeam::scan_out::Pump;
+use scanbeam::texture::Textured;
 use scanbeam::{
-    Affine, Camera, Counted, Event, FlatDepth, GouraudDepth, Instance, Light, Link, ListMemory,
-    ListRunner, ListSettings, Notice, Pipeline, PixelFormat, Rgb888, RunCounts, Screen, draw_frame,
+    Affine, Camera, Depth32, Event, Flat, Gouraud, Instance, Light, Link, ListMemory, ListRunner,
+    ListSettings, ListTextures, Notice, Packed8, Parts, Pipeline, PixelFormat, Rgb888, RunCounts,
+    Screen, SpanCounts, draw_frame,
 };
 use std::error::Error;
 
@@ -18,6 +22,8 @@ use std::error::Error;
 const TABLE: usize = 65_535;
 /// Indices that are drawn together: a whole table's at twice as many triangles.
 const INDICES: usize = 6 * TABLE;
+/// Textures, palettes and pairs of both.
+const TEXTURES: usize = 1024;
 /// Slots of the object cache.
 const SLOTS: usize = 64;
 
@@ -73,16 +79,29 @@ pub fn head(list: &[u32]) -> Option<Head> {
 /// # Errors
 /// When the view cannot be had, or the list is malformed.
 pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn Error>> {
+    let slots: Vec<TextureSlot> = (0..TEXTURES).map(|_| TextureSlot::new()).collect();
+    let textures = ListTextures {
+        words: list,
+        slots: &slots,
+    };
     match view.shade {
-        Shade::Flat => execute_as::<Counted<FlatDepth<Rgb888>>>(list, view, budget),
-        _ => execute_as::<Counted<GouraudDepth<Rgb888>>>(list, view, budget),
+        Shade::Flat => execute_as::<Look<'_, Flat>>(textures, view, budget),
+        _ => execute_as::<Look<'_, Gouraud>>(textures, view, budget),
     }
 }
 
-fn execute_as<P>(list: &[u32], view: &View, mut budget: Budget) -> Result<Ran, Box<dyn Error>>
+/// A shading times the list's textures.
+type Look<'t, S> = Parts<Textured<S>, Depth32, Rgb888, SpanCounts, Packed8, ListTextures<'t>>;
+
+fn execute_as<'t, P>(
+    textures: ListTextures<'t>,
+    view: &View,
+    mut budget: Budget,
+) -> Result<Ran, Box<dyn Error>>
 where
-    P: Pipeline<Pixel = Rgb888>,
+    P: Pipeline<Pixel = Rgb888, Textures = ListTextures<'t>>,
 {
+    let list = textures.words;
     let (width, height) = (view.width as u16, view.height as u16);
     let single = |v: [f64; 3]| v.map(|c| c as f32);
     let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
@@ -97,11 +116,13 @@ where
     let mut lent = SceneRooms::<P>::new(1 << 16, usize::from(Link::CACHED), height.into());
     let mut scene = lent.scene(Screen::new(width, height)?);
     scene.begin(&camera)?;
+    scene.set_textures(textures);
 
     let mut positions = vec![[0i32; 3]; TABLE];
     let mut normals = vec![[0; 3]; TABLE];
     let mut colours = vec![[0; 3]; TABLE];
     let mut indices = vec![0; INDICES];
+    let mut places = vec![[0; 2]; TABLE];
     let light = Light::new(single(view.light), view.ambient as f32);
     let mut runner = ListRunner::new(
         ListMemory {
@@ -109,6 +130,8 @@ where
             normals: &mut normals,
             colours: &mut colours,
             indices: &mut indices,
+            places: &mut places,
+            textures: textures.slots,
         },
         ListSettings {
             instance: Instance {

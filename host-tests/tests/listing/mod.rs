@@ -1,0 +1,311 @@
+//! What tests of lists share: clouds of vertices in every form, and rooms to run lists in.
+#![allow(dead_code, reason = "each test binary uses a part of it")]
+
+use crate::common::{Rng, SceneRooms, frame};
+use scanbeam::list::{
+    Budget, Field, FieldForm, FieldPacker, Halt, Header, Id, ListWriter, Matrix, State,
+    TextureSlot, VertexFormat, parameter,
+};
+use scanbeam::{
+    Affine, Camera, Cull, Event, FlatDepth, GouraudDepth, Instance, Light, ListCoordinate,
+    ListMemory, ListRunner, ListSettings, Notice, Pipeline, Rgb888, Scene, Screen, Vertices,
+    WordOf,
+};
+
+pub type Smooth = GouraudDepth<Rgb888>;
+pub type Faceted = FlatDepth<Rgb888>;
+
+pub const WIDTH: u16 = 96;
+pub const HEIGHT: u16 = 72;
+
+pub fn rooms<P: Pipeline>() -> SceneRooms<P> {
+    SceneRooms::new(60_000, 60_000, usize::from(HEIGHT))
+}
+
+pub fn begin<P: Pipeline>(scene: &mut Scene<'_, P>) {
+    let camera = Camera::look_at([0.3, 0.5, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 90.0, 0.1, 99.0);
+    scene.begin(&camera.unwrap()).unwrap();
+}
+
+/// What a call draws.
+pub fn drawn<P: Pipeline>(draw: impl FnOnce(&mut Scene<'_, P>)) -> Vec<Vec<WordOf<P>>> {
+    let mut rooms = rooms::<P>();
+    let mut scene = rooms.scene(Screen::new(WIDTH, HEIGHT).unwrap());
+    begin(&mut scene);
+    draw(&mut scene);
+    frame(&scene, 16)
+}
+
+/// Memory of a runner: so many vertices and indices.
+pub struct Room<C> {
+    pub positions: Vec<[C; 3]>,
+    pub normals: Vec<[i16; 3]>,
+    pub colours: Vec<[u8; 3]>,
+    pub indices: Vec<u16>,
+    pub places: Vec<[i32; 2]>,
+}
+
+impl<C: ListCoordinate> Room<C> {
+    pub fn new(vertices: usize, indices: usize) -> Self {
+        Self {
+            positions: vec![[C::default(); 3]; vertices],
+            normals: vec![[0; 3]; vertices],
+            colours: vec![[0; 3]; vertices],
+            indices: vec![0; indices],
+            places: vec![[0; 2]; vertices],
+        }
+    }
+
+    pub fn runner<'m, 'c>(&'m mut self, settings: ListSettings<'c>) -> ListRunner<'m, 'c, C> {
+        self.textured(settings, &[])
+    }
+
+    /// A runner that knows textures.
+    pub fn textured<'m, 'c>(
+        &'m mut self,
+        settings: ListSettings<'c>,
+        textures: &'m [TextureSlot],
+    ) -> ListRunner<'m, 'c, C> {
+        let memory = ListMemory {
+            positions: &mut self.positions,
+            normals: &mut self.normals,
+            colours: &mut self.colours,
+            indices: &mut self.indices,
+            places: &mut self.places,
+            textures,
+        };
+        ListRunner::new(memory, settings)
+    }
+}
+
+pub const PLENTY: Budget = Budget {
+    instructions: 1 << 20,
+    vertices: 1 << 24,
+    jumps: 1 << 10,
+};
+
+/// What a list draws, with so much memory; every event but the end's is a failure.
+pub fn listed<P: Pipeline, C: ListCoordinate>(
+    list: &[u32],
+    instance: Instance,
+    (vertices, indices): (usize, usize),
+) -> Vec<Vec<WordOf<P>>> {
+    drawn::<P>(|scene| {
+        let mut room = Room::<C>::new(vertices, indices);
+        let mut runner = room.runner(ListSettings {
+            instance,
+            ..ListSettings::default()
+        });
+        runner.start(0);
+        let mut notices = Vec::new();
+        let mut budget = PLENTY;
+        let halt = runner.run(list, scene, &mut budget, &mut |n: Notice| notices.push(n));
+        assert_eq!(halt, Ok(Halt::End));
+        notices.retain(|n| !matches!(n.event, Event::ListEnd | Event::Clipped));
+        assert_eq!(notices, []);
+    })
+}
+
+/// Vertices whose numbers every form of a format can hold.
+pub struct Cloud {
+    pub positions: Vec<[i16; 3]>,
+    pub normals: Vec<[i16; 3]>,
+    pub colours: Vec<[u8; 3]>,
+}
+
+impl Cloud {
+    pub fn random(rng: &mut Rng, count: usize, place: FieldForm, normal: FieldForm) -> Self {
+        let field = |rng: &mut Rng, form| match form {
+            FieldForm::S8x3 => [0; 3].map(|_: i32| rng.within(-128, 127)),
+            FieldForm::S10x3 => [
+                rng.within(-1024, 1023),
+                rng.within(-1024, 1023),
+                rng.within(-512, 511),
+            ],
+            _ => [0; 3].map(|_: i32| rng.within(-16_384, 16_384)),
+        };
+        let mut cloud = Self {
+            positions: Vec::new(),
+            normals: Vec::new(),
+            colours: Vec::new(),
+        };
+        for _ in 0..count {
+            // What the fields mean, said a second time and otherwise: as fractions of 1.
+            let p = field(rng, place);
+            let q14 = |v: i32, unit: f64| (f64::from(v) / unit * 16_384.0) as i16;
+            cloud.positions.push(match place {
+                FieldForm::S8x3 => p.map(|v| q14(v, 128.0)),
+                FieldForm::S10x3 => [q14(p[0], 1024.0), q14(p[1], 1024.0), q14(p[2], 512.0)],
+                _ => p.map(|v| v as i16),
+            });
+            let n = field(rng, normal);
+            let full = |v: i32, most: f64| (f64::from(v) * (16_384.0 - 1.0 / most) / most).floor();
+            cloud.normals.push(match normal {
+                FieldForm::S8x3 => n.map(|v| (v * 129) as i16),
+                FieldForm::S10x3 => [
+                    full(n[0], 1023.0) as i16,
+                    full(n[1], 1023.0) as i16,
+                    full(n[2], 511.0) as i16,
+                ],
+                _ => n.map(|v| v as i16),
+            });
+            cloud.colours.push([0; 3].map(|_: u8| rng.below(256) as u8));
+        }
+        cloud
+    }
+
+    /// The fields again.
+    pub fn place_fields(&self, i: usize, form: FieldForm) -> [i32; 4] {
+        let [x, y, z] = self.positions[i].map(i32::from);
+        match form {
+            FieldForm::S8x3 => [x >> 7, y >> 7, z >> 7, 0],
+            FieldForm::S10x3 => [x >> 4, y >> 4, z >> 5, 0],
+            FieldForm::S32x3 => [x << 16, y << 16, z << 16, 0],
+            _ => [x, y, z, 0],
+        }
+    }
+
+    pub fn normal_fields(&self, i: usize, form: FieldForm) -> [i32; 4] {
+        let [x, y, z] = self.normals[i].map(i32::from);
+        let back =
+            |v: i32, most: i32| ((f64::from(v) + 0.5) / 16_384.0 * f64::from(most)).round() as i32;
+        match form {
+            FieldForm::S8x3 => [x / 129, y / 129, z / 129, 0],
+            FieldForm::S10x3 => [back(x, 1023), back(y, 1023), back(z, 511), 0],
+            _ => [x, y, z, 0],
+        }
+    }
+
+    pub fn field(&self, field: Field, i: usize) -> [i32; 4] {
+        match field.parameter {
+            parameter::PLACE => self.place_fields(i, field.form),
+            parameter::NORMAL => self.normal_fields(i, field.form),
+            parameter::DIFFUSE => {
+                let [r, g, b] = self.colours[i].map(i32::from);
+                [r, g, b, 255]
+            }
+            // What this reader does not know is passed over.
+            _ => [i as i32, -1, 7, 1 << 20],
+        }
+    }
+
+    /// The words of some vertices, one after the other.
+    pub fn vertices(&self, format: &VertexFormat, header: Header, order: &[u16]) -> Vec<u32> {
+        let mut words = Vec::new();
+        let mut packer = FieldPacker::new(|w| words.push(w));
+        for &i in order {
+            for field in format.fields_of(header) {
+                packer.field(field.form, self.field(field, usize::from(i)));
+                packer.align();
+            }
+        }
+        words
+    }
+
+    /// The words of all vertices, column by column.
+    pub fn columns(&self, format: &VertexFormat, header: Header) -> Vec<u32> {
+        let mut words = Vec::new();
+        let mut packer = FieldPacker::new(|w| words.push(w));
+        for field in format.fields_of(header) {
+            for i in 0..self.positions.len() {
+                packer.field(field.form, self.field(field, i));
+            }
+            packer.align();
+        }
+        words
+    }
+
+    /// As the immediate calls take them; without colours and normals where the header has none.
+    pub fn plain(&self, shade: bool, format: &VertexFormat) -> Vertices<'_> {
+        let has = |p| shade && format.fields().iter().any(|f| f.parameter == p);
+        Vertices {
+            positions: &self.positions,
+            normals: if has(parameter::NORMAL) {
+                &self.normals
+            } else {
+                &[]
+            },
+            colours: if has(parameter::DIFFUSE) {
+                &self.colours
+            } else {
+                &[]
+            },
+        }
+    }
+}
+
+/// Triangles of a strip or fan, by the definition: each from its corners' places in the strip.
+pub fn unrolled(order: &[u16], fan: bool) -> Vec<[u16; 3]> {
+    (2..order.len())
+        .map(|k| match (fan, k % 2) {
+            (true, _) => [order[0], order[k - 1], order[k]],
+            (false, 0) => [order[k - 2], order[k - 1], order[k]],
+            (false, _) => [order[k - 1], order[k - 2], order[k]],
+        })
+        .collect()
+}
+
+pub fn some_instance(rng: &mut Rng) -> Instance {
+    Instance {
+        model: Affine::rotation_y(rng.signed() as f32 * 3.0),
+        cull: rng.pick(&[Cull::Back, Cull::None]),
+        light: rng
+            .pick(&[true, false])
+            .then(|| Light::new([0.3, 0.9, 0.5], 0.2).unwrap()),
+        colour: [200, 90, 40],
+    }
+}
+
+pub fn some_format(rng: &mut Rng) -> (VertexFormat, FieldForm, FieldForm) {
+    let place = rng.pick(&[FieldForm::S16x3, FieldForm::S10x3, FieldForm::S8x3]);
+    let normal = rng.pick(&[FieldForm::S16x3, FieldForm::S10x3, FieldForm::S8x3]);
+    let mut fields = vec![Field {
+        parameter: parameter::PLACE,
+        form: place,
+    }];
+    if rng.below(3) > 0 {
+        fields.push(Field {
+            parameter: parameter::NORMAL,
+            form: normal,
+        });
+    }
+    if rng.below(3) > 0 {
+        fields.push(Field {
+            parameter: parameter::DIFFUSE,
+            form: rng.pick(&[FieldForm::U8x3, FieldForm::U8x4]),
+        });
+    }
+    if rng.below(3) == 0 {
+        fields.push(Field {
+            parameter: 9,
+            form: rng.pick(&FieldForm::ALL),
+        });
+    }
+    rng.shuffle(&mut fields);
+    (VertexFormat::new(&fields).unwrap(), place, normal)
+}
+
+/// A block that draws one triangle at a place of its own.
+pub fn triangle(i: u32) -> Vec<u32> {
+    let mut memory = [0; 32];
+    let mut writer = ListWriter::new(&mut memory);
+    let matrix = Affine::placed(
+        0.2,
+        [i as f32 % 9.0 / 3.0 - 1.4, i as f32 / 40.0 - 1.0, 0.0],
+    );
+    let matrix = Matrix::try_from(&matrix.unwrap()).unwrap();
+    writer.state(&State::Matrix(matrix)).unwrap();
+    let header = Header {
+        new: true,
+        ..Header::of(Id::Short, 3)
+    };
+    let one = 1 << 14;
+    let mut words = Vec::new();
+    let mut packer = FieldPacker::new(|w| words.push(w));
+    for [x, y] in [[-one, -one], [one, -one], [0, one]] {
+        packer.field(FieldForm::S16x3, [x, y, 0, 0]);
+        packer.align();
+    }
+    writer.vertices(header, &words).unwrap();
+    writer.words().to_vec()
+}

@@ -1,0 +1,296 @@
+//! Texels of a list, read where they lie, and which of its textures is which (H7, H12).
+//!
+//! A TEXTURE or PALETTE block gives a number to texels or colours. What is drawn with is a pair of
+//! both, which stays while the frame is drawn, whatever numbers are given anew. All three are
+//! kept in slots that the application lends; readers on other cores see them through atomics.
+
+use super::block::{Palette, TexelForm, Texture};
+use core::sync::atomic::{AtomicU32, Ordering};
+
+/// Pixels or texels in the words of a list.
+#[derive(Clone, Copy, Debug)]
+pub struct Texels<'w> {
+    words: &'w [u32],
+    colours: &'w [u32],
+    form: TexelForm,
+}
+
+impl<'w> Texels<'w> {
+    /// Texels of a form, and the colours that those of indexed forms name.
+    #[must_use]
+    pub const fn new(words: &'w [u32], form: TexelForm, colours: &'w [u32]) -> Self {
+        Self {
+            words,
+            colours,
+            form,
+        }
+    }
+
+    /// Red, green, blue and alpha of the texel at an index, 8 bits each; 0 where there is none, or
+    /// no such colour.
+    #[inline(always)]
+    #[must_use]
+    pub fn rgba(&self, index: u32) -> [u8; 4] {
+        let word = |n: u32| self.words.get(n as usize).map_or(0, |w| u32::from_le(*w));
+        let indexed = |log_bits: u32, mask: u32| {
+            let bit = index << log_bits;
+            let code = word(bit >> 5) >> (bit & 31) & mask;
+            let colour = self.colours.get(code as usize);
+            colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
+        };
+        // A field of some bits grows by repeating its top bits.
+        let grown = |v: u32, bits: u32| {
+            let v = (v & ((1 << bits) - 1)) << (8 - bits);
+            (v | v >> bits) as u8
+        };
+        match self.form {
+            TexelForm::Index1 => indexed(0, 1),
+            TexelForm::Index2 => indexed(1, 3),
+            TexelForm::Index4 => indexed(2, 15),
+            TexelForm::Index6 => indexed(3, 63),
+            TexelForm::Index8 => indexed(3, 255),
+            TexelForm::Rgb565 => {
+                let v = word(index >> 1) >> (16 * (index & 1));
+                [grown(v >> 11, 5), grown(v >> 5, 6), grown(v, 5), 255]
+            }
+            TexelForm::Rgb888 => {
+                let byte = index.wrapping_mul(3);
+                let shift = 8 * (byte & 3);
+                let low = word(byte >> 2) >> shift;
+                // The upper bytes of the next word, if they are needed; none by a shift of 32.
+                let high = u64::from(word((byte >> 2) + 1)) << (32 - shift);
+                let [r, g, b, _] = (low | high as u32).to_le_bytes();
+                [r, g, b, 255]
+            }
+            TexelForm::Rgba => {
+                let [r, g, b, a] = word(index).to_le_bytes();
+                [r, g, b, grown(u32::from(a), 7)]
+            }
+        }
+    }
+}
+
+/// The full picture of a texture, with sides.
+#[derive(Clone, Copy, Debug)]
+pub struct Picture<'w> {
+    texels: Texels<'w>,
+    log_width: u32,
+    log_height: u32,
+    clamped: bool,
+}
+
+impl Picture<'_> {
+    /// The texel at a column and row, which go on beyond the sides as the texture says.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, (column, row): (i32, i32)) -> [u8; 4] {
+        let side = |v: i32, log: u32| {
+            let last = (1 << log) - 1;
+            if self.clamped {
+                v.clamp(0, last) as u32
+            } else {
+                (v & last) as u32
+            }
+        };
+        let (x, y) = (side(column, self.log_width), side(row, self.log_height));
+        self.texels.rgba(y << self.log_width | x)
+    }
+}
+
+/// Room for the name of a texture or palette, or for a pair of them that is drawn with.
+///
+/// Bits 31..30 of the first word say which, 0 for none; see [`TextureSlots`].
+#[derive(Debug, Default)]
+pub struct TextureSlot {
+    name: AtomicU32,
+    /// Position of the texels, or of the colours.
+    at: AtomicU32,
+    /// Position of the colours of a pair.
+    colours: AtomicU32,
+}
+
+impl TextureSlot {
+    /// Empty.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            name: AtomicU32::new(0),
+            at: AtomicU32::new(0),
+            colours: AtomicU32::new(0),
+        }
+    }
+}
+
+/// Why there is no texture to draw with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoTexture {
+    /// There is none of this number, or the palette that it names is not there.
+    Missing,
+    /// No slot is free.
+    Full,
+}
+
+/// A texture that can be drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bound {
+    /// Its slot.
+    pub index: u16,
+    /// Binary logarithms of width and height.
+    pub log_sides: [u8; 2],
+}
+
+/// A texture has a number: bits 7..0 the number, 8..11 and 12..15 the sides, 16..19 the form, 20
+/// clamped, 21..28 the palette.
+const TEXTURE: u32 = 1 << 30;
+/// A palette has a number: bits 7..0 the number, 8..15 colours less one.
+const PALETTE: u32 = 2 << 30;
+/// A pair: bits 7..0 colours less one, 8..20 as those of the texture.
+const PAIR: u32 = 3 << 30;
+/// Bits that say what a slot is.
+const KIND: u32 = 3 << 30;
+
+/// The slots that textures are kept in: one for each number of a texture and of a palette, and
+/// one for each pair that is drawn with.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct TextureSlots<'m>(
+    /// The slots.
+    pub &'m [TextureSlot],
+);
+
+impl<'m> TextureSlots<'m> {
+    /// Forgets everything.
+    pub fn clear(self) {
+        self.0
+            .iter()
+            .for_each(|s| s.name.store(0, Ordering::Relaxed));
+    }
+
+    /// Forgets the pairs, once what was drawn with them is on the display.
+    pub fn release(self) {
+        for slot in self.0 {
+            if slot.name.load(Ordering::Relaxed) & KIND == PAIR {
+                slot.name.store(0, Ordering::Relaxed);
+            }
+        }
+    }
+
+    /// The first slot whose words satisfy `is`.
+    fn find(self, is: impl Fn(u32, &TextureSlot) -> bool) -> Option<(usize, &'m TextureSlot)> {
+        let fits = |s: &&TextureSlot| is(s.name.load(Ordering::Relaxed), s);
+        let index = self.0.iter().position(|s| fits(&s))?;
+        Some((index, self.0.get(index)?))
+    }
+
+    /// The slot of a kind with a number.
+    fn numbered(self, kind: u32, number: u8) -> Option<&'m TextureSlot> {
+        let is = |name: u32, _: &TextureSlot| name & (KIND | 0xFF) == kind | u32::from(number);
+        self.find(is).map(|(_, slot)| slot)
+    }
+
+    fn free(self) -> Option<(usize, &'m TextureSlot)> {
+        self.find(|name, _| name == 0)
+    }
+
+    fn define(self, name: u32, at: u32) -> bool {
+        let known = self.numbered(name & KIND, name as u8);
+        match known.or_else(|| self.free().map(|(_, slot)| slot)) {
+            Some(slot) => {
+                slot.at.store(at, Ordering::Relaxed);
+                slot.name.store(name, Ordering::Relaxed);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// Gives a texture its number; `false` where no slot is free.
+    #[must_use]
+    pub fn texture(self, t: &Texture) -> bool {
+        let name = TEXTURE
+            | u32::from(t.number)
+            | u32::from(t.log_width) << 8
+            | u32::from(t.log_height) << 12
+            | (t.form as u32) << 16
+            | u32::from(t.clamped) << 20
+            | u32::from(t.palette) << 21;
+        self.define(name, t.at)
+    }
+
+    /// Gives a palette its number; `false` where no slot is free.
+    #[must_use]
+    pub fn palette(self, p: &Palette) -> bool {
+        let less = u32::from(p.count.saturating_sub(1).min(255));
+        self.define(PALETTE | u32::from(p.number) | less << 8, p.at)
+    }
+
+    /// Makes the texture of a number, as its palette is now, one that can be drawn with.
+    ///
+    /// # Errors
+    /// [`NoTexture`].
+    pub fn bind(self, number: u8) -> Result<Bound, NoTexture> {
+        let texture = self.numbered(TEXTURE, number).ok_or(NoTexture::Missing)?;
+        let name = texture.name.load(Ordering::Relaxed);
+        let at = texture.at.load(Ordering::Relaxed);
+        let (mut less, mut colours) = (0, 0);
+        if is_indexed(form_of(name)) {
+            let palette = self.numbered(PALETTE, (name >> 21) as u8);
+            let palette = palette.ok_or(NoTexture::Missing)?;
+            less = palette.name.load(Ordering::Relaxed) >> 8 & 0xFF;
+            colours = palette.at.load(Ordering::Relaxed);
+        }
+        let pair = PAIR | name & 0x001F_FF00 | less;
+        let same = |name: u32, s: &TextureSlot| {
+            name == pair
+                && s.at.load(Ordering::Relaxed) == at
+                && s.colours.load(Ordering::Relaxed) == colours
+        };
+        let index = match self.find(same) {
+            Some((index, _)) => index,
+            None => {
+                let (index, slot) = self.free().ok_or(NoTexture::Full)?;
+                slot.at.store(at, Ordering::Relaxed);
+                slot.colours.store(colours, Ordering::Relaxed);
+                slot.name.store(pair, Ordering::Relaxed);
+                index
+            }
+        };
+        Ok(Bound {
+            index: u16::try_from(index).map_err(|_| NoTexture::Full)?,
+            log_sides: [(pair >> 8) as u8 & 15, (pair >> 12) as u8 & 15],
+        })
+    }
+
+    /// The picture of the pair in a slot, out of the words of its list; `None` where there is none.
+    #[inline]
+    #[must_use]
+    pub fn picture<'w>(self, index: u16, words: &'w [u32]) -> Option<Picture<'w>> {
+        let slot = self.0.get(usize::from(index))?;
+        let name = slot.name.load(Ordering::Relaxed);
+        if name & KIND != PAIR {
+            return None;
+        }
+        let from = |at: u32| words.get(at as usize..);
+        let form = form_of(name);
+        let mut colours: &[u32] = &[];
+        if is_indexed(form) {
+            let count = (name as usize & 0xFF) + 1;
+            colours = from(slot.colours.load(Ordering::Relaxed))?.get(..count)?;
+        }
+        Some(Picture {
+            texels: Texels::new(from(slot.at.load(Ordering::Relaxed))?, form, colours),
+            log_width: name >> 8 & 15,
+            log_height: name >> 12 & 15,
+            clamped: name >> 20 & 1 != 0,
+        })
+    }
+}
+
+fn form_of(name: u32) -> TexelForm {
+    // Put there as the code of one.
+    let code = (name >> 16 & 15) as usize;
+    *TexelForm::ALL.get(code).unwrap_or(&TexelForm::Rgba)
+}
+
+const fn is_indexed(form: TexelForm) -> bool {
+    (form as u32) < TexelForm::Rgb565 as u32
+}

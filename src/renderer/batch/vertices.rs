@@ -1,0 +1,126 @@
+//! Short vertices: strips, fans, quads, quad strips and points.
+
+use super::{Attributes, Batch, Kind, ListCoordinate, RunFaces, Target};
+use crate::event::{Event, EventSink};
+use crate::geometry::{QuadSplit, Shading};
+use crate::list::{Id, Layout, Run, SPLIT, VertexFormat, Words, colour, normal};
+use crate::pipeline::Pipeline;
+
+impl<C: ListCoordinate> Batch<'_, C> {
+    /// Takes the vertices of a block of SHORT, QUADS, or POINTS of so many pixels each way.
+    pub(in super::super) fn run<'w, P: Pipeline, E: EventSink>(
+        &mut self,
+        words: impl Words<'w>,
+        format: &VertexFormat,
+        run: Run,
+        point_size: u8,
+        target: &mut Target<'_, '_, P, E>,
+    ) -> Result<(), Event> {
+        let header = run.header;
+        let (quads, points) = (header.id == Id::Quads, header.id == Id::Points);
+        let layout = Layout::new(format, header);
+        if C::of(layout.place.form, [0; 3]).is_none() {
+            return Err(Event::Unimplemented);
+        }
+        let texture = layout.texture.filter(|_| P::Shading::SKINNED);
+        if texture.is_some() && target.texture.is_some() && self.memory.places.is_empty() {
+            target.notice(Event::Full, 0);
+        }
+        let has = Attributes {
+            normals: layout.normal.is_some(),
+            colours: layout.colour.is_some(),
+            places: texture.is_some() && !self.memory.places.is_empty(),
+            prsp: texture.is_some() && header.prsp,
+        };
+        let room = self.room(has).saturating_sub(self.base);
+        if room < 4 || self.memory.indices.len() < 4 {
+            return Err(Event::Full);
+        }
+        let strip = !points && (!quads || header.rm);
+        if !strip || header.new {
+            self.strip.restart();
+        }
+        let split = match header.low & SPLIT != 0 {
+            false => QuadSplit::Corner0To2,
+            true => QuadSplit::Corner1To3,
+        };
+        let faces = |odd: bool| match (quads, header.rm) {
+            _ if points => RunFaces::Points(point_size),
+            (false, _) => RunFaces::Triangles,
+            (true, false) => RunFaces::Quads(split),
+            (true, true) if odd => RunFaces::QuadStrip(split.other()),
+            (true, true) => RunFaces::QuadStrip(split),
+        };
+        let kind = |odd| Kind::Run {
+            faces: faces(odd),
+            has,
+        };
+        let one_strip = quads && header.rm;
+        if self.kind != kind(self.strip.odd) || (one_strip && header.new) {
+            self.flush(words, target);
+            self.kind = kind(self.strip.odd);
+            if self.strip.have == 0 {
+                self.vertices = 0;
+            }
+        }
+        let group = if quads && !header.rm { 4 } else { 2 };
+        let mut at = run.at;
+        for n in 0..usize::from(header.count) {
+            // A quad is never parted, nor the two vertices that a strip of them takes.
+            let parts = if quads { n % group == 0 } else { true };
+            let vertices = if quads { group } else { 1 };
+            let indices = if quads { group } else { 3 };
+            if parts
+                && (self.vertices + vertices > room
+                    || self.indices + indices > self.memory.indices.len())
+            {
+                self.flush(words, target);
+                self.kind = kind(self.strip.odd);
+            }
+            if one_strip && self.indices == 0 && self.strip.have == 2 {
+                self.push(&[0, 1]);
+            }
+            let index = self.vertices;
+            let to = self.base + index;
+            let place = C::of(layout.place.form, layout.place.field(words, at));
+            if let (Some(place), Some(slot)) = (place, self.memory.positions.get_mut(to)) {
+                *slot = place;
+            }
+            if let (Some(from), Some(slot)) = (layout.normal, self.memory.normals.get_mut(to)) {
+                *slot = normal(from.form, from.field(words, at));
+            }
+            if let (Some(from), Some(slot)) = (layout.colour, self.memory.colours.get_mut(to)) {
+                *slot = colour(from.field(words, at));
+            }
+            if let (Some(from), Some(slot)) = (texture, self.memory.places.get_mut(to)) {
+                let [u, v, _] = from.field(words, at);
+                *slot = [u, v];
+            }
+            at = at.wrapping_add(layout.words);
+            self.vertices += 1;
+            let index = index as u16;
+            match (quads, header.rm) {
+                _ if points => {}
+                (false, fan) => {
+                    if let Some(face) = self.strip.push(index, fan) {
+                        self.push(&face);
+                    }
+                }
+                (true, false) => self.push(&[index]),
+                (true, true) => {
+                    self.push(&[index]);
+                    let strip = &mut self.strip;
+                    if strip.have < 2 {
+                        strip.corners[usize::from(strip.have)] = index;
+                        strip.have += 1;
+                    } else {
+                        strip.corners = [strip.corners[1], index, 0];
+                        // A quad is whole after each second vertex.
+                        strip.odd ^= n % 2 == 1;
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
