@@ -211,9 +211,9 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Composited, Counted, DetailedDepth, DrawableOf, FlatDepth, FlatPainter, GouraudDepth,
-    GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts, Pipeline, Shadowed, SkinOf, SlotOf,
-    TexturedDepth, VertexOf, WordOf,
+    CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth, FlatPainter,
+    GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts, Pipeline, Shadowed,
+    SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
@@ -231,4 +231,4 @@ pub use shade::{
 };
 pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
-pub use visible::{Depth32, LineDepth, ShadowCell, ShadowDepth32};
+pub use visible::{Depth32, DepthAndId, LineDepth, ShadowCell, ShadowDepth32};

@@ -12,6 +12,7 @@
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
 //! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
+//! | [`Deferred`] | as the preset it wraps | [`DepthAndId`]: the same picture, each pixel shaded once | | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
 use crate::composite::{
@@ -21,7 +22,7 @@ use crate::geometry::texturing::{LevelEnds, Textured};
 use crate::geometry::{Blended, Flat, Gouraud, Shading};
 use crate::shade::{Interpolation, Levels, Packed8};
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::{Depth32, LineDepth, ShadowDepth32};
+use crate::visible::{Depth32, DepthAndId, LineDepth, ShadowDepth32};
 use core::marker::PhantomData;
 
 /// The choices of a renderer, made at compile time: what is not chosen has no code and no bytes.
@@ -110,6 +111,16 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Depth,
     <P as Pipeline>::Pixel,
     SpanCounts,
+    <P as Pipeline>::Interpolation,
+    <P as Pipeline>::Textures,
+    <P as Pipeline>::Compositing,
+>;
+/// The pipeline `P`, which shades no pixel before it is known whose it is (X3).
+pub type Deferred<P> = Parts<
+    <P as Pipeline>::Shading,
+    DepthAndId,
+    <P as Pipeline>::Pixel,
+    <P as Pipeline>::Counter,
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,

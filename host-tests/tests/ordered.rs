@@ -7,7 +7,7 @@ mod common;
 
 use common::{Rng, SceneRooms};
 use scanbeam::{
-    Affine, Camera, Counted, Cull, DepthUse, Faces, FlatDepth, GouraudDepth, Instance,
+    Affine, Camera, Counted, Cull, Deferred, DepthUse, Faces, FlatDepth, GouraudDepth, Instance,
     Interpolated, LineDepth, LineMemory, LineRenderer, Link, Mesh, Pipeline, QuadSplit,
     QuarterRate, Rgb565Be, Rgb888, Scene, Screen, SpanCounts, WordOf,
 };
@@ -129,7 +129,7 @@ fn compare<P: Pipeline>(layers: Layers, seeds: std::ops::Range<u64>) -> (u32, u3
 where
     WordOf<P>: std::fmt::Debug,
 {
-    let (mut frames, mut without) = (0, 0);
+    let (mut frames, mut without, mut saved) = (0, 0, 0);
     for seed in seeds {
         let mut rng = Rng::new(seed + 77);
         let size = rng.pick(&[(64, 40), (33, 20), (320, 30), (5, 9), (1, 4)]);
@@ -154,9 +154,26 @@ where
         let mut scene = rooms.scene(screen);
         build(&mut scene, layers, seed);
         assert!(draw(&scene, slots, DepthUse::WhereNeeded).0 == by_depth);
+        // And where shading waits for depth: no pixel is shaded twice, however it is drawn.
+        let mut rooms = SceneRooms::<Counted<Deferred<P>>>::new(400, 200, 64);
+        let mut scene = rooms.scene(screen);
+        build(&mut scene, layers, seed);
+        for depth_use in [DepthUse::Always, DepthUse::WhereNeeded] {
+            let (deferred, less) = draw(&scene, slots, depth_use);
+            let what = format!("{layers:?}, seed {seed}, {slots} slots, {depth_use:?}");
+            assert!(deferred == by_depth, "{what}");
+            assert_eq!(
+                (less.spans, less.pixels_shaded + less.pixels_hidden),
+                (counts.spans, counts.pixels_shaded + counts.pixels_hidden),
+                "{what}"
+            );
+            assert!(less.pixels_shaded <= counts.pixels_shaded, "{what}");
+            saved += counts.pixels_shaded - less.pixels_shaded;
+        }
         frames += 1;
         without += u32::from(fewer.depth_tests == 0 && slots == 100);
     }
+    assert!(saved > 0, "{layers:?}: nothing was hidden in time");
     (frames, without)
 }
 

@@ -325,6 +325,9 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             pass.draw_ordered(self.list.slots());
             drawn = true;
         }
+        if P::Depth::DEFERS && !drawn && !self.list.has_spilled() {
+            drawn = pass.draw_deferred(&self.list);
+        }
         if !drawn {
             pass.begin_together();
             self.list.visit_all(next, &mut self.spare, &mut pass);

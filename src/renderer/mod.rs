@@ -7,6 +7,7 @@
 //! their own cores (K16, X6).
 
 mod batch;
+mod deferred;
 mod fill;
 mod frame;
 #[cfg(feature = "async")]

@@ -7,7 +7,7 @@ use crate::num::Plane;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Interpolation, Levels, Stretch};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Masked, Placed, Tested, Visible};
+use crate::visible::{Everywhere, LineDepth, Masked, Named, Placed, Tested, Visible};
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -52,6 +52,26 @@ impl<P: Pipeline> Brush<'_, '_, P> {
                 self.counter.span(seen, count - seen, tested);
             }
         }
+    }
+
+    /// Draws those pixels of a span of planes that have its name.
+    #[inline(never)]
+    pub(super) fn draw_named(
+        &mut self,
+        body: &DrawableOf<P>,
+        at: (i32, i32),
+        (pixels, mut named): (&mut [WordOf<P>], Named<'_, P::Depth>),
+    ) {
+        let Parameters::Planes(_, levels) = &body.parameters else {
+            return;
+        };
+        let count = pixels.len() as u32;
+        let textures = self.scene.textures();
+        let how = (self.interpolation, textures);
+        colour::<P, _>(pixels, levels, at, how, &mut named);
+        let seen = named.seen();
+        self.counter.span(seen, count - seen, true);
+        count_fetches::<P>(levels, at, textures, seen, self.counter);
     }
 
     /// Draws those pixels of a span that are not covered, and covers them.

@@ -5,11 +5,13 @@
 
 mod cover;
 mod function;
+mod named;
 mod placed;
 mod shadow;
 
 pub use cover::{Cover, Covered, Masked};
 pub use function::{MOST, Rule, ShadowCount};
+pub use named::{DepthAndId, MOST_NAMES, Named, name};
 pub use placed::Placed;
 pub use shadow::{ShadowCell, ShadowDepth32, count_span};
 
@@ -25,6 +27,8 @@ pub trait LineDepth {
     const FARTHEST: Self::Cell;
     /// Whether pixels are tested at all.
     const TESTS: bool;
+    /// Whether pixels are shaded only when it is known whose they are.
+    const DEFERS: bool = false;
 
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32) -> bool;
