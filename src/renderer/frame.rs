@@ -326,7 +326,7 @@ impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
         })
     }
 
-    /// What the frame took.
+    /// What the frame took, which the log gets at trace level.
     pub(super) fn stats(self, scan_out: ScanStats) -> FrameStats {
         let mut stats = FrameStats {
             pass_one: self.scene.pass_one(),
@@ -335,6 +335,8 @@ impl<'a, 'm, 'r, P: Pipeline> Alone<'a, 'm, 'r, P> {
             ..FrameStats::default()
         };
         stats.add_renderer(self.renderer);
+        #[cfg(feature = "defmt")]
+        defmt::trace!("frame: {}", stats);
         stats
     }
 }
