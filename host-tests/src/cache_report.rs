@@ -10,7 +10,7 @@ use crate::memory_model::{
     Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
 };
 use crate::mock::{HostLine, MockFrameBuffer};
-use crate::plot::{Chart, Series};
+use crate::plot::{Chart, Marks, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::scan_out::Pump;
 use scanbeam::{Counted, FrameStats, GouraudDepth, PixelFormat, Rgb565Be, SlotOf, draw_frame};
@@ -256,6 +256,7 @@ fn chart(shot: Shot, rows: &[Row]) -> Chart {
         x_name: "cache slots".into(),
         y_name: "ms, second pass, 150 MHz".into(),
         series: series.into(),
+        marks: Marks::Lines,
     }
 }
 

@@ -17,6 +17,7 @@ pub mod memory_model;
 pub mod method_frames;
 pub mod mock;
 pub mod model;
+pub mod places;
 pub mod plot;
 pub mod reference;
 pub mod report;

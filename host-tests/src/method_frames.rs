@@ -71,4 +71,34 @@ mod tests {
         // Wide LIRP, and exact planes however they are chosen, may agree.
         assert!(different.len() >= 8, "{}", different.len());
     }
+
+    /// QEMU draws the same bits, so what holds here holds there (X1, X2).
+    #[test]
+    fn what_auto_chooses_keeps_its_budget_beside_planes() {
+        let frames = method_frames().unwrap();
+        let of = |name: &str| &frames.iter().find(|frame| frame.0 == name).unwrap().1;
+        let planes = of("method_plane");
+        assert_eq!(of("method_auto_exact"), planes);
+        for (name, quality) in [
+            ("method_auto_fast", Quality::fast()),
+            ("method_auto_balanced", Quality::balanced()),
+        ] {
+            let (mut worst, mut differ) = (0.0f64, 0);
+            for (shown, plane) in of(name).iter().zip(planes) {
+                differ += u32::from(shown != plane);
+                let [shown, plane] = [shown, plane].map(|word| {
+                    let word = u16::from_be(*word);
+                    [word >> 11, word >> 5 & 63, word & 31]
+                });
+                for (channel, steps) in [31.0, 63.0, 31.0].into_iter().enumerate() {
+                    let steps_off = f64::from(shown[channel].abs_diff(plane[channel]));
+                    // Either is rounded by half a step.
+                    worst = worst.max((steps_off - 1.0) * 255.0 / steps);
+                }
+            }
+            println!("{name}: {differ} pixels differ, by {worst:.2} levels beyond rounding");
+            let budget: f64 = quality.levels.to_num();
+            assert!(differ > 0 && worst <= budget, "{name}: {worst}");
+        }
+    }
 }

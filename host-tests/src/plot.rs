@@ -38,6 +38,18 @@ pub struct Chart {
     pub y_name: String,
     /// At most four are told apart.
     pub series: Vec<Series>,
+    /// How values are shown.
+    pub marks: Marks,
+}
+
+/// How the values of a chart are shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Marks {
+    /// Points, joined: places are in an order, and something lies between them.
+    #[default]
+    Lines,
+    /// A bar each, side by side: places are things of their own.
+    Bars,
 }
 
 /// A point of a scatter plot.
@@ -150,6 +162,7 @@ impl Scatter {
         canvas.text(((left + right) / 2, bottom + 40), 1, &self.x_name);
         canvas.text((left, top - 8), 0, &self.y_name);
         canvas.text((WIDTH / 2, 18), 1, &self.title);
+        let mut stairs = Vec::new();
         for (n, group) in self.groups.iter().enumerate() {
             let colour = COLOURS[n % COLOURS.len()];
             let mut marked: Vec<&Dot> = self
@@ -161,8 +174,17 @@ impl Scatter {
             for pair in marked.windows(2) {
                 // A staircase: between two methods there is none.
                 let corner = (x(pair[1].x), y(pair[0].y));
-                canvas.line((x(pair[0].x), y(pair[0].y)), corner, colour, 1);
-                canvas.line(corner, (x(pair[1].x), y(pair[1].y)), colour, 1);
+                for end in pair {
+                    let (ex, ey) = (x(end.x), y(end.y));
+                    canvas.line((ex, ey), corner, colour, 1);
+                    let (across, along) = ([ex, corner.0], [ey, corner.1]);
+                    stairs.push(Room([
+                        across[0].min(across[1]),
+                        along[0].min(along[1]),
+                        across[0].max(across[1]) + 1,
+                        along[0].max(along[1]) + 1,
+                    ]));
+                }
             }
             // One alone is named by the title.
             if self.groups.len() > 1 {
@@ -173,7 +195,14 @@ impl Scatter {
                 canvas.text((x, at), 0, group);
             }
         }
-        let mut taken: Vec<(i32, i32, i32)> = Vec::new();
+        // Where names should not be: frames of points, names before, and, if there is room
+        // elsewhere, the stairs.
+        let mut taken: Vec<Room> = Vec::new();
+        for dot in &self.dots {
+            let (px, py) = (x(dot.x), y(dot.y));
+            let half = if dot.marked { 8 } else { 4 };
+            taken.push(Room([px - half, py - half, px + half, py + half]));
+        }
         for dot in &self.dots {
             let colour = COLOURS[dot.group % COLOURS.len()];
             let (px, py) = (x(dot.x), y(dot.y));
@@ -193,25 +222,46 @@ impl Scatter {
                     );
                 }
             }
-            // Names to the side where there is room, below each other where points are close.
-            let (anchor, tx) = if px > (left + right) / 2 {
-                (2, px - 13)
-            } else {
-                (0, px + 13)
-            };
-            // Above the line that joins those of the frontier.
-            let mut ty = if dot.marked { py - 11 } else { py + 4 };
             let wide = 8 * dot.name.chars().count() as i32;
-            let from = tx - wide * anchor / 2;
-            while taken
-                .iter()
-                .any(|(start, end, y)| *start < from + wide && from < *end && (y - ty).abs() < 12)
-            {
-                ty += if py > bottom - 60 { -12 } else { 12 };
-            }
-            taken.push((from, from + wide, ty));
-            canvas.text((tx, ty), anchor, &dot.name);
+            let name = Room::beside((px, py), wide, &taken, &stairs);
+            taken.push(name);
+            canvas.text((name.0[0], name.0[3] - 2), 0, &dot.name);
         }
+    }
+}
+
+/// Left, top, right and bottom of a part of a plot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Room([i32; 4]);
+
+impl Room {
+    fn meets(self, other: &Self) -> bool {
+        let ([l, t, r, b], [ol, ot, or, ob]) = (self.0, other.0);
+        l < or && ol < r && t < ob && ot < b
+    }
+
+    /// For a name so wide beside a point: on the nearest of the lines above and below, to the right
+    /// or to the left, clear of what is taken and, where that can be, of lines.
+    fn beside((x, y): (i32, i32), wide: i32, taken: &[Self], lines: &[Self]) -> Self {
+        let [left, top, right, bottom] = AREA;
+        let sides = [x + 12, x - 12 - wide];
+        let places = (0..20).flat_map(|n| {
+            // 0, 1 up, 1 down, 2 up, and so on.
+            let down = (n + 1) / 2 * if n % 2 == 0 { 11 } else { -11 };
+            sides.map(|at| Self([at, y + down - 6, at + wide, y + down + 6]))
+        });
+        let inside = places.filter(|place| {
+            let [l, t, r, b] = place.0;
+            l > left && r <= right && t >= top && b <= bottom
+        });
+        let free = inside.filter(|place| !taken.iter().any(|one| place.meets(one)));
+        let free: Vec<Self> = free.collect();
+        let clear = free
+            .iter()
+            .take(6)
+            .find(|place| !lines.iter().any(|line| place.meets(line)));
+        let none = Self([x + 12, y - 6, x + 12 + wide, y + 6]);
+        clear.or(free.first()).copied().unwrap_or(none)
     }
 }
 
@@ -259,9 +309,22 @@ impl Chart {
         let largest = values.fold(0.0f64, |m, v| m.max(*v));
         let step = nice(largest / 8.0);
         let full = (largest / step).ceil().max(1.0) * step;
+        // Room above for the legend, where a value at its places would go through it.
+        let legend = f64::from(16 + 18 * self.series.len() as i32) / f64::from(bottom - top);
+        let under = |values: &Vec<f64>| {
+            let from = values.len() * 3 / 5;
+            values[from..].iter().fold(0.0f64, |m, v| m.max(*v))
+        };
+        let under = self.series.iter().map(|s| under(&s.values));
+        let under = under.fold(0.0, f64::max) / (1.0 - legend).max(0.2);
+        let full = full.max((under / step).ceil() * step);
         let y = |v: f64| bottom - (v / full * f64::from(bottom - top)).round() as i32;
         let count = self.x.len().max(2) as i32;
-        let x = |i: usize| left + 20 + i as i32 * (right - left - 40) / (count - 1);
+        let wide = (right - left) / count;
+        let x = |i: usize| match self.marks {
+            Marks::Lines => left + 20 + i as i32 * (right - left - 40) / (count - 1),
+            Marks::Bars => left + i as i32 * wide + wide / 2,
+        };
         for tick in 0..=(full / step).round() as i32 {
             let v = f64::from(tick) * step;
             canvas.line((left, y(v)), (right, y(v)), GRID, 1);
@@ -281,11 +344,23 @@ impl Chart {
             let colour = COLOURS[n % COLOURS.len()];
             let values = series.values.iter().enumerate();
             let points: Vec<_> = values.map(|(i, v)| (x(i), y(*v))).collect();
-            for pair in points.windows(2) {
-                canvas.line(pair[0], pair[1], colour, 2);
-            }
-            for (px, py) in points {
-                canvas.line((px - 3, py), (px + 3, py), colour, 4);
+            match self.marks {
+                Marks::Lines => {
+                    for pair in points.windows(2) {
+                        canvas.line(pair[0], pair[1], colour, 2);
+                    }
+                    for (px, py) in points {
+                        canvas.line((px - 3, py), (px + 3, py), colour, 4);
+                    }
+                }
+                Marks::Bars => {
+                    let bar = (wide - 30).max(1) / self.series.len() as i32;
+                    for ((px, py), value) in points.into_iter().zip(&series.values) {
+                        let at = px + (2 * n as i32 + 1 - self.series.len() as i32) * bar / 2;
+                        canvas.line((at, bottom), (at, py), colour, (bar - 6).max(1));
+                        canvas.text((at, py - 4), 1, &value.to_string());
+                    }
+                }
             }
             let at = top + 16 + 18 * n as i32;
             canvas.line((right - 260, at - 4), (right - 235, at - 4), colour, 3);
@@ -419,8 +494,13 @@ mod tests {
 
     #[test]
     fn empty_and_extreme_charts_can_be_drawn() {
-        for values in [vec![], vec![0.0], vec![0.0, 1e12], vec![1e-6; 40]] {
+        let all = [vec![], vec![0.0], vec![0.0, 1e12], vec![1e-6; 40]];
+        let both = all
+            .iter()
+            .flat_map(|v| [Marks::Lines, Marks::Bars].map(|m| (v.clone(), m)));
+        for (values, marks) in both {
             let chart = Chart {
+                marks,
                 title: "a < b & c".into(),
                 x: values.iter().map(f64::to_string).collect(),
                 x_name: String::new(),

@@ -10,7 +10,7 @@
 //! one than the access before; a small cache holds lines of 32 bytes.
 
 use crate::image_out::{ImageError, write_atomically, write_image};
-use crate::plot::{Chart, Series};
+use crate::plot::{Chart, Marks, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::BlockFix16;
 use scanbeam::model::{Cluster, Grid, Traversal};
@@ -320,14 +320,58 @@ pub fn triangle_pages(corners: [(u16, u16); 3], size: (u32, u32), block: (i32, i
     [by_strips, by_lines, in_rows].map(|frame| frame.page_changes)
 }
 
-/// Writes the plot of [`depth_resolution`] into a folder, as SVG and PNG.
+/// Writes `depth-resolution`, `texture-pages` and `texture-reads` into a folder, as SVG and PNG.
 ///
 /// # Errors
 /// When a file cannot be written.
 pub fn write_plots(folder: &Path) -> Result<(), ImageError> {
-    let plot = depth_resolution();
-    write_atomically(&folder.join("depth.svg"), plot.to_svg().as_bytes())?;
-    write_image(&folder.join("depth.png"), &plot.to_frame())
+    for (name, plot) in [
+        ("depth-resolution", depth_resolution()),
+        ("texture-pages", texture_pages()),
+        ("texture-reads", texture_reads()),
+    ] {
+        let file = |extension: &str| folder.join(format!("{name}.{extension}"));
+        write_atomically(&file("svg"), plot.to_svg().as_bytes())?;
+        write_image(&file("png"), &plot.to_frame())?;
+    }
+    Ok(())
+}
+
+/// Page changes of each view, texels in rows and in blocks (B1, B5).
+#[must_use]
+pub fn texture_pages() -> Chart {
+    views(
+        "Page changes (1 KB) of a frame, a texture of 256 x 256 x 16 bits",
+        "page changes",
+        |access| access.page_changes,
+    )
+}
+
+/// Texels of each view that a cache of 1 KB read from slow memory again, in rows and in blocks.
+#[must_use]
+pub fn texture_reads() -> Chart {
+    views(
+        "Texels read again, a cache of 32 lines of 32 bytes",
+        "texels re-read",
+        |access| access.re_reads,
+    )
+}
+
+/// A count of all views, in rows and in blocks.
+fn views(title: &str, y_name: &str, of: impl Fn(&Access) -> usize) -> Chart {
+    let counts = VIEWS.map(|(_, view)| compare(view).map(|access| of(&access) as f64));
+    let series = |name: &str, layout: usize| Series {
+        name: name.to_owned(),
+        values: counts.iter().map(|count| count[layout]).collect(),
+    };
+    Chart {
+        title: title.into(),
+        x: VIEWS.map(|(name, _)| name.to_owned()).into(),
+        x_name: "what is seen, 320 x 240".into(),
+        y_name: y_name.into(),
+        series: vec![series("linear: rows", 0), series("blocked", 1)],
+        marks: Marks::Bars,
+    }
 }
 
 /// Bits of distance that depth formats tell apart: `-log2` of the smallest relative difference,
@@ -339,6 +383,7 @@ pub fn depth_resolution() -> Chart {
         .map(|i| 2f64.powf(f64::from(i) / f64::from(STEPS)) * 1.01)
         .collect();
     let depth = |w: f64| (2f64.powi(31) / w) as u32;
+    const FARTHEST: f64 = 4096.0;
     // A step of 1/w by `step` is one of w by `step w²`.
     let bits = |w: f64, step: f64| (-(step * w).log2()).max(0.0);
     let series = |name: &str, step: &dyn Fn(f64) -> f64| Series {
@@ -365,7 +410,12 @@ pub fn depth_resolution() -> Chart {
             }),
             series("16-bit fixed 1/w", &|_| 2f64.powi(-16)),
             series("32-bit 1/w", &|_| 2f64.powi(-31)),
+            // Even steps of w from the near plane to the far one.
+            series("32-bit linear", &|w| {
+                (FARTHEST - 1.0) * 2f64.powi(-32) / (w * w)
+            }),
         ],
+        marks: Marks::Lines,
     }
 }
 
@@ -440,8 +490,8 @@ mod tests {
     #[test]
     fn depth_resolution_is_that_of_the_ranges() {
         let chart = depth_resolution();
-        let [fix, fixed, wide] = &chart.series[..] else {
-            panic!("three formats");
+        let [fix, fixed, wide, linear] = &chart.series[..] else {
+            panic!("four formats");
         };
         for (i, w) in (0..=12 * 4).map(|i| (i as usize, 2f64.powf(f64::from(i) / 4.0) * 1.01)) {
             let range = ((w.log2() / 3.0) as u32).min(3);
@@ -454,15 +504,42 @@ mod tests {
             );
             assert!((fixed.values[i] - (16.0 - w.log2()).max(0.0)).abs() < 1e-9);
             assert!(wide.values[i] > fix.values[i]);
+            // The two of 32 bits together have 51 bits: what one loses with distance,
+            // the other gains.
+            assert!((linear.values[i] + wide.values[i] - 51.0).abs() < 1e-3);
             if range > 0 {
                 assert!(fix.values[i] > fixed.values[i]);
             }
         }
         let folder = tempfile::tempdir().expect("there is room");
         write_plots(folder.path()).expect("there is room");
-        let svg = std::fs::read_to_string(folder.path().join("depth.svg")).expect("it is there");
-        assert!(svg.contains("block-fix 16"));
-        let plot = crate::image_out::read_image(&folder.path().join("depth.png"));
-        assert_eq!(plot.expect("it is there"), chart.to_frame());
+        let read = |name: &str| std::fs::read_to_string(folder.path().join(name));
+        for name in ["block-fix 16", "32-bit 1/w", "32-bit linear"] {
+            let svg = read("depth-resolution.svg").expect("it is there");
+            assert!(svg.contains(name), "{name}");
+        }
+        for (name, chart) in [
+            ("depth-resolution.png", chart),
+            ("texture-pages.png", texture_pages()),
+            ("texture-reads.png", texture_reads()),
+        ] {
+            let plot = crate::image_out::read_image(&folder.path().join(name));
+            assert_eq!(plot.expect("it is there"), chart.to_frame());
+        }
+        // Every count of the table is written in the plots.
+        for (name, view) in VIEWS {
+            for access in compare(view) {
+                for (file, count) in [
+                    ("texture-pages.svg", access.page_changes),
+                    ("texture-reads.svg", access.re_reads),
+                ] {
+                    let svg = read(file).expect("it is there");
+                    assert!(
+                        svg.contains(&format!(">{count}<")) && svg.contains(name),
+                        "{file}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -31,7 +31,7 @@ fn the_list_has_its_keys_and_the_defaults_are_on_the_frontier() {
         assert!(!on || !cost.is_null(), "{row}");
     }
     let of = |family: &'static str| rows.iter().filter(move |row| row["family"] == family);
-    for family in ["interpolation", "depth", "coverage", "frame"] {
+    for family in ["interpolation", "depth", "coverage", "frame", "texture"] {
         assert!(of(family).any(|row| row["on_frontier"] == true), "{family}");
     }
     let default = of("interpolation")

@@ -68,6 +68,62 @@ pub(crate) fn run(counter: &Counter, console: &mut Console) {
             p[0] = 1;
         }
     });
+    by_quality(&square, counter, console);
+}
+
+/// What a quality's choice costs where 1/w falls evenly to anything from all of it to a tenth.
+///
+/// Both widths have the stride that the whole span gets, so what differs is pixels alone.
+fn by_quality(texels: &impl Texels<Texel = u16>, counter: &Counter, console: &mut Console) {
+    let spans: [PerspectiveSpan; SPANS as usize] = core::array::from_fn(|i| tilted(i as i32));
+    for (name, quality) in [
+        ("texture_fast", Quality::Fast),
+        ("texture_balanced", Quality::Balanced),
+    ] {
+        for width in [LONG, LONG / 2] {
+            let mut line = [0u16; LONG];
+            let instructions = counter.instructions(|| {
+                for span in black_box(&spans) {
+                    chosen(texels, *span, quality, black_box(&mut line[..width]));
+                }
+            });
+            let pixels = SPANS * width as u32;
+            console.line(format_args!(
+                "kernel name={name} pixels={pixels} spans={SPANS} instructions={instructions}"
+            ));
+        }
+    }
+}
+
+#[inline(never)]
+fn chosen(
+    texels: &impl Texels<Texel = u16>,
+    span: PerspectiveSpan,
+    quality: Quality,
+    pixels: &mut [u16],
+) {
+    let stride = quality.budget().stride(&span, LONG);
+    span.draw(stride, texels, pixels, |pixel, texel| *pixel = texel);
+}
+
+/// A span from texel 10 to some 70; 1/w falls by up to nine tenths.
+fn tilted(i: i32) -> PerspectiveSpan {
+    let (near, last) = (1 << 30, LONG as i32 - 1);
+    let far = near / 60 * (60 - i * 9 / 10);
+    // u over w at both ends, in units of 2^10 texels.
+    let over = |texel: i32, q: i32| texel * (q >> 10);
+    PerspectiveSpan {
+        at: Homogeneous {
+            q: near,
+            s: over(10, near),
+            t: over(30, near),
+        },
+        step: Homogeneous {
+            q: (far - near) / last,
+            s: (over(50 + i / 3, far) - over(10, near)) / last,
+            t: (over(20, far) - over(30, near)) / last,
+        },
+    }
 }
 
 /// A span whose 1/w falls by half; no two are alike.

@@ -23,6 +23,8 @@
 #[cfg(feature = "bench")]
 mod bench;
 #[cfg(feature = "bench")]
+mod bench_depth;
+#[cfg(feature = "bench")]
 mod bench_texture;
 mod console;
 mod count;
@@ -95,6 +97,8 @@ fn main() -> ! {
         ));
         count += 1;
     }
+    // What frames take; the pictures below, and kernels, lend memory from the stack.
+    let stack = rooms::stack_peak();
     for (name, swatch) in SWATCHES {
         let mut digest = CRC.digest();
         swatch.draw(|line| digest.update(bytemuck::cast_slice(line)));
@@ -114,6 +118,7 @@ fn main() -> ! {
     {
         bench::run(&counter, &mut console, &mut rooms);
         bench_texture::run(&counter, &mut console);
+        bench_depth::run(&counter, &mut console);
     }
 
     // What reading a list costs beyond the same immediate calls.
@@ -131,10 +136,7 @@ fn main() -> ! {
         console.line(format_args!("figure name={name} value={value}"));
     }
 
-    console.line(format_args!(
-        "figure name=stack_bytes value={}",
-        rooms::stack_peak()
-    ));
+    console.line(format_args!("figure name=stack_bytes value={stack}"));
     console.line(format_args!("done frames={}", count));
     console::exit(all_hold)
 }

@@ -24,6 +24,7 @@ mod sheet;
 mod shots;
 mod stress;
 mod texels;
+mod textured;
 
 pub use listed::{LIST_INDICES, LIST_TABLE, ListedError, build_listed, teapot_list};
 pub use methods::{
@@ -37,6 +38,7 @@ pub use shots::{
 };
 pub use stress::STRESS;
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
+pub use textured::textured;
 
 use scanbeam::{Faces, Mesh, QuadSplit};
 

@@ -2,8 +2,10 @@
 //!
 //! Each is drawn line by line from stated spans, without scene and renderer: every way of taking
 //! the perspective, every texel format, what lies beyond the sides, both filters, blocks and their
-//! cache, levels of detail, and block-fix depth.
+//! cache, levels of detail, and block-fix depth. The last ones are a scene through the whole
+//! pipeline, at each quality (`textured.rs`).
 
+use crate::textured::textured;
 use crate::{HEIGHT, WIDTH};
 use scanbeam::BlockFix16;
 use scanbeam::texture::{
@@ -63,10 +65,12 @@ pub enum Swatch {
     Blocks,
     /// Textures that are computed, and block-fix depth of what they lie on.
     Computed,
+    /// A scene: set-up, clipping, depth and light as well.
+    Scene(Quality),
 }
 
 /// All of them, and their names.
-pub const SWATCHES: [(&str, Swatch); 12] = [
+pub const SWATCHES: [(&str, Swatch); 15] = [
     ("texels_exact", Swatch::Ground(Stride::One)),
     ("texels_2", Swatch::Ground(Stride::Two)),
     ("texels_4", Swatch::Ground(Stride::Four)),
@@ -79,6 +83,9 @@ pub const SWATCHES: [(&str, Swatch); 12] = [
     ("texels_details", Swatch::Details),
     ("texels_blocks", Swatch::Blocks),
     ("texels_computed", Swatch::Computed),
+    ("textured_fast", Swatch::Scene(Quality::Fast)),
+    ("textured_balanced", Swatch::Scene(Quality::Balanced)),
+    ("textured_exact", Swatch::Scene(Quality::Exact)),
 ];
 
 /// A line of a tilted plane that goes far away.
@@ -115,6 +122,11 @@ impl Swatch {
         match self {
             Self::Details => return details(emit),
             Self::Blocks => return blocks(emit),
+            Self::Scene(quality) => {
+                // A test says that its memory suffices.
+                let _ = textured(quality, emit);
+                return;
+            }
             _ => {}
         }
         for line in 0..HEIGHT {
@@ -133,7 +145,7 @@ impl Swatch {
             Self::Tables => tables(line, pixels),
             Self::Formats => formats(line, pixels),
             Self::Computed => computed(line, pixels),
-            Self::Details | Self::Blocks => {}
+            Self::Details | Self::Blocks | Self::Scene(_) => {}
         }
     }
 }

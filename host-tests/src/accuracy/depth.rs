@@ -4,7 +4,7 @@ use super::coverage::rates;
 use super::stage::{Place, Rng, Setting, Stage, at_place, covers, doubled_area, plane};
 use super::{Errors, Row};
 use scanbeam::model::{ModelRenderer, PipeMemory};
-use scanbeam::{GouraudDepth, Rgb565, Rgb888};
+use scanbeam::{BlockFix16, GouraudDepth, Rgb565, Rgb888};
 use std::error::Error;
 
 type P = GouraudDepth<Rgb888>;
@@ -27,6 +27,67 @@ const APART: [(&str, f64); 3] = [
     ("order, 0.1 % apart, range 1:100", 0.001),
     ("order, 0.01 % apart, range 1:100", 0.0001),
 ];
+
+/// Depth formats that are compared without planes: what a value loses when it is kept.
+/// By name, with the firmware's kernel.
+const FORMATS: [(&str, &str); 5] = [
+    ("16-bit 1/w", "depth_16"),
+    ("22-bit 1/w", "depth_22"),
+    ("block-fix 16", "depth_block_fix"),
+    ("32-bit 1/w", "depth_32"),
+    ("32-bit linear", "depth_linear"),
+];
+const FORMATS_APART: [(&str, f64); 3] = [
+    ("format alone, 1 % apart, range 1:100", 0.01),
+    ("format alone, 0.1 % apart, range 1:100", 0.001),
+    ("format alone, 0.01 % apart, range 1:100", 0.0001),
+];
+
+/// Pixels where a format cannot tell that the nearer of two triangles is nearer, and all pixels;
+/// the near plane is at 1, and what is drawn later wins where depth is the same.
+fn formats(apart: f64) -> [Batches; 5] {
+    let mut counts = [(); 5].map(|()| vec![(0, 0); BATCHES]);
+    let mut rng = Rng::new(8);
+    for batch in 0..BATCHES {
+        for _ in 0..2 * TRIANGLES {
+            let (places, near) = triangle(&mut rng, LARGE);
+            let Some((others, far)) = behind(&mut rng, (places, near), apart, LARGE) else {
+                continue;
+            };
+            let nearest = |w: [f64; 3]| w.into_iter().fold(f64::INFINITY, f64::min);
+            if nearest(far) < 1.0 {
+                continue;
+            }
+            let keys = |q: f64, w: [f64; 3]| -> [u64; 5] {
+                let fixed = |bits: i32| (q * 2f64.powi(bits)) as u64;
+                // A triangle has one range, that of its nearest corner.
+                let range = BlockFix16::range_of((2f64.powi(31) / nearest(w)) as u32);
+                let linear = (1.0 / q - 1.0) / 104.0;
+                [
+                    fixed(16),
+                    fixed(22),
+                    BlockFix16::new(fixed(31) as u32, range).key().into(),
+                    fixed(31),
+                    ((1.0 - linear) * 2f64.powi(32)) as u64,
+                ]
+            };
+            for line in 0..i32::from(SIDE) {
+                for column in 0..i32::from(SIDE) {
+                    if !(covers(places, column, line) && covers(others, column, line)) {
+                        continue;
+                    }
+                    let q = plane(places, near.map(|w| 1.0 / w), column, line);
+                    let (front, back) = (keys(q, near), keys(q / (1.0 + apart), far));
+                    for (i, counts) in counts.iter_mut().enumerate() {
+                        counts[batch].0 += u32::from(back[i] >= front[i]);
+                        counts[batch].1 += 1;
+                    }
+                }
+            }
+        }
+    }
+    counts
+}
 
 fn setting() -> Result<Setting, Box<dyn Error>> {
     Setting::new(SIDE, SIDE, (128.0, NEAR as f32, 110.0), SCALE as f32)
@@ -65,6 +126,12 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             ("32-bit 1/w, large planes", "packed_565_large_depth", large),
             ("hardware model, 32-bit z, 10-bit W", "model_565", model),
         ] {
+            let name = ("depth", case, method, "% wrong order", Some(kernel));
+            rows.push(rates(name, 100.0, &batches));
+        }
+    }
+    for (case, apart) in FORMATS_APART {
+        for ((method, kernel), batches) in FORMATS.into_iter().zip(formats(apart)) {
             let name = ("depth", case, method, "% wrong order", Some(kernel));
             rows.push(rates(name, 100.0, &batches));
         }

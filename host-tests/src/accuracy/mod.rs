@@ -7,12 +7,13 @@
 //! | `spans.rs` | family `interpolation`: colour along spans, by every method |
 //! | `coverage.rs` | family `coverage`: which pixels a triangle has |
 //! | `depth.rs` | family `depth`: which surface is in front, and how exact planes of depth are |
+//! | `texture.rs` | family `texture`: places along spans by every way of dividing, whole scenes by every quality |
 //! | `frames.rs` | whole scenes: family `interpolation` by every method, family `frame` beside the model |
 //! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |
 //! | `scatter.rs` | the plots, one for each family, or for each case of a large one |
 //!
 //! Every random choice comes from a generator with a fixed seed, so the figures are the same in
-//! every run. Family `texture` comes with texturing. A row is there only if its figures were measured by code of this crate that runs.
+//! every run. A row is there only if its figures were measured by code of this crate that runs.
 
 mod cost;
 mod coverage;
@@ -24,6 +25,7 @@ mod spans;
 mod stage;
 #[cfg(test)]
 mod tests;
+mod texture;
 
 use crate::args::AccuracyArgs;
 use crate::image_out::{write_atomically, write_image};
@@ -140,6 +142,7 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
     rows.extend(coverage::rows()?);
     rows.extend(depth::rows()?);
     rows.extend(frames::rows()?);
+    rows.extend(texture::rows()?);
     Ok(rows)
 }
 
@@ -204,6 +207,7 @@ pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
             write_atomically(&file("svg"), plot.to_svg().as_bytes())?;
             write_image(&file("png"), &plot.to_frame())?;
         }
+        crate::texture_report::write_plots(folder)?;
     }
     Ok(())
 }

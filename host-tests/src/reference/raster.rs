@@ -3,7 +3,7 @@
 //! Three passes: draw everything; go over all triangles again for objects that are too close in depth to tell; mark
 //! along the edges. The later passes need what the first has found to be in front.
 
-use super::{NO_OBJECT, Reference, View};
+use super::{NO_OBJECT, Reference, TextureMap, View};
 
 /// Pixels whose centre is nearer than this to a visible edge are left out of comparisons.
 const EDGE_DISTANCE: f64 = 0.75;
@@ -23,6 +23,8 @@ pub(super) struct ScreenVertex {
     pub(super) q: f64,
     /// In levels.
     pub(super) colour: [f64; 3],
+    /// In texels.
+    pub(super) place: [f64; 2],
 }
 
 /// Twice the signed area; positive when clockwise to the eye (y goes down).
@@ -82,6 +84,17 @@ struct Fragment {
     q: f64,
     /// Weights of the corners, sum 1.
     weights: [f64; 3],
+}
+
+impl Fragment {
+    /// Where the pixel lies on the texture: places over w are linear on the screen, and so is 1/w.
+    fn place(&self, corners: &[ScreenVertex; 3]) -> [f64; 2] {
+        let over = |i: usize| -> f64 {
+            let parts = self.weights.iter().zip(corners);
+            parts.map(|(weight, c)| weight * c.place[i] * c.q).sum()
+        };
+        [over(0) / self.q, over(1) / self.q]
+    }
 }
 
 impl Triangle {
@@ -174,6 +187,7 @@ impl Raster {
                 colour: vec![view.background.map(f64::from); pixels],
                 object: vec![NO_OBJECT; pixels],
                 inverse_w: vec![0.0; pixels],
+                place: vec![[0.0; 2]; pixels],
                 near_edge: vec![false; pixels],
             },
             slack: vec![0.0; pixels],
@@ -183,7 +197,12 @@ impl Raster {
     }
 
     /// Draws a convex polygon of at least 3 corners as a fan from the first.
-    pub(super) fn draw(&mut self, object: u32, polygon: &[ScreenVertex]) {
+    pub(super) fn draw(
+        &mut self,
+        object: u32,
+        polygon: &[ScreenVertex],
+        texture: Option<&TextureMap>,
+    ) {
         for pair in polygon[1..].windows(2) {
             let corners = [polygon[0], pair[0], pair[1]];
             let Some(triangle) = Triangle::new(object, corners) else {
@@ -201,7 +220,16 @@ impl Raster {
                     let parts = (0..3).map(|k| fragment.weights[k] * triangle.corners[k].colour[i]);
                     parts.sum::<f64>().clamp(0.0, 255.0)
                 };
-                picture.colour[fragment.index] = std::array::from_fn(channel);
+                let colour: [f64; 3] = std::array::from_fn(channel);
+                let place = match texture {
+                    Some(_) => fragment.place(&triangle.corners),
+                    None => [0.0; 2],
+                };
+                picture.place[fragment.index] = place;
+                picture.colour[fragment.index] = texture.map_or(colour, |texture| {
+                    let texel = texture.at(place);
+                    std::array::from_fn(|i| colour[i] * texel[i] / 255.0)
+                });
             });
             self.triangles.push(triangle);
         }

@@ -4,6 +4,8 @@ use super::*;
 use crate::image_out::Frame;
 use crate::model::ModelVertex;
 
+mod texels;
+
 /// A model of triangles with one colour per corner.
 fn model(triangles: &[[([f64; 3], [f64; 3]); 3]]) -> Model {
     let mut model = Model::default();

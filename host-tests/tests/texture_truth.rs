@@ -1,0 +1,446 @@
+//! Texture places of the pipeline, bit by bit, against `f64` (H1, H3, K18, X2): shared edges, the
+//! near plane, a ground plane that rolls, 1/w of 1:10 and 1:100 over long spans; bilinear levels.
+//!
+//! Corners of the first and the fourth lie on the grid of the screen, so what they cover is known
+//! exactly, and no pixel has to be left out.
+
+use host_tests::args::PixelFormatArg;
+use host_tests::draw::{CrewSettings, FilterArg, TextureSet, draw_textured};
+use host_tests::image_out::Frame;
+use host_tests::model::{Model, ModelVertex};
+use host_tests::places::{Shown, places};
+use host_tests::reference::{
+    Filter, NO_OBJECT, Options, Reference, TextureMap, Textures, View, render_textured,
+};
+use host_tests::texture_file::TextureImage;
+use scanbeam::texture::Quality;
+use scenes::textured;
+
+/// Texels a side.
+const SIDE: u32 = 128;
+const QUALITIES: [(Quality, f64); 3] = [
+    (Quality::Exact, 1.0),
+    (Quality::Balanced, 0.25),
+    (Quality::Fast, 0.5),
+];
+
+struct Rng(u64);
+
+impl Rng {
+    /// 0 to 1.
+    fn unit(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 40) as f64 / (1u64 << 24) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
+
+/// The eye at (0, 0, 0) looks along -z; a focal length of half the height.
+fn view(width: u32, height: u32) -> View {
+    View {
+        width,
+        height,
+        eye: [0.0; 3],
+        at: [0.0, 0.0, -1.0],
+        fov: 90.0,
+        ..View::default()
+    }
+}
+
+/// A corner that is seen at a place of the screen, in pixels, at distance `w`.
+fn seen_at(view: &View, [x, y]: [f64; 2], w: f64, uv: [f64; 2]) -> ModelVertex {
+    let half = f64::from(view.height) / 2.0;
+    vertex(
+        [
+            (x - f64::from(view.width) / 2.0) / half * w,
+            (half - y) / half * w,
+            -w,
+        ],
+        uv,
+    )
+}
+
+fn vertex(position: [f64; 3], uv: [f64; 2]) -> ModelVertex {
+    ModelVertex {
+        position,
+        normal: [0.0, 0.0, 1.0],
+        colour: [1.0; 3],
+        uv,
+    }
+}
+
+fn model(vertices: Vec<ModelVertex>, triangles: Vec<[u32; 3]>) -> Model {
+    Model {
+        triangle_materials: vec![None; triangles.len()],
+        vertices,
+        triangles,
+        ..Model::default()
+    }
+}
+
+fn truth(model: &Model, map: &TextureMap, view: &View, snapped: bool) -> Reference {
+    let of_triangle = vec![Some(0); model.triangles.len()];
+    let textures = Textures {
+        maps: std::slice::from_ref(map),
+        of_triangle: &of_triangle,
+    };
+    let options = Options {
+        steps_per_pixel: snapped.then_some(8.0),
+    };
+    render_textured(model, textures, view, options).unwrap()
+}
+
+fn white() -> TextureMap {
+    TextureMap::made(SIDE, SIDE, |_, _| [255.0; 3])
+}
+
+fn farther(off: [f64; 2]) -> f64 {
+    off[0].abs().max(off[1].abs())
+}
+
+/// How many texels lie between a pixel and the next ones of its own triangle, in both directions.
+fn texels_a_pixel(reference: &Reference, at: usize) -> Option<f64> {
+    let width = reference.width as usize;
+    let step = |to: Option<usize>| {
+        let to = to.filter(|to| reference.object.get(*to) == Some(&reference.object[at]))?;
+        let (a, b) = (reference.place[at], reference.place[to]);
+        Some((a[0] - b[0]).abs().max((a[1] - b[1]).abs()))
+    };
+    let left = step((!at.is_multiple_of(width)).then(|| at - 1));
+    let right = step((at % width + 1 < width).then_some(at + 1));
+    let up = step(at.checked_sub(width));
+    let down = step(Some(at + width));
+    let larger = |a: Option<f64>, b: Option<f64>| {
+        a.into_iter()
+            .chain(b)
+            .fold(None, |m: Option<f64>, x| Some(m.map_or(x, |m| m.max(x))))
+    };
+    Some(larger(left, right)? + larger(up, down)?)
+}
+
+/// A mesh of `n` squares a side whose inner corners are moved at random, each with a distance and a
+/// place of its own.
+fn crumpled(rng: &mut Rng, n: usize, view: &View) -> Model {
+    let cell = f64::from(view.height) / n as f64;
+    let mut vertices = Vec::new();
+    for j in 0..=n {
+        for i in 0..=n {
+            let moved = |rng: &mut Rng, k: usize| {
+                let inner = k > 0 && k < n;
+                let by = if inner { rng.between(-0.4, 0.4) } else { 0.0 };
+                ((k as f64 + by) * cell * 8.0).round() / 8.0
+            };
+            let at = [moved(rng, i), moved(rng, j)];
+            let w = rng.between(0.0, 1.0).mul_add(2.3, 0.0).exp();
+            let uv = [i, j].map(|k| (k as f64 + rng.between(-0.3, 0.3)) / n as f64 * 2.0);
+            vertices.push(seen_at(view, at, w, uv));
+        }
+    }
+    let mut triangles = Vec::new();
+    for j in 0..n as u32 {
+        for i in 0..n as u32 {
+            let at = j * (n as u32 + 1) + i;
+            let [a, b, c, d] = [at, at + 1, at + n as u32 + 2, at + n as u32 + 1];
+            if rng.unit() < 0.5 {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            } else {
+                triangles.extend([[b, c, d], [b, d, a]]);
+            }
+        }
+    }
+    model(vertices, triangles)
+}
+
+#[test]
+fn meshes_have_no_crack_and_no_seam() {
+    let view = view(128, 128);
+    for (quality, most) in QUALITIES {
+        let mut rng = Rng(11);
+        let (mut pixels, mut beside, mut wrong, mut worst) = (0, 0, 0, [0.0f64; 2]);
+        for n in [3, 6, 12, 24] {
+            for _ in 0..3 {
+                let model = crumpled(&mut rng, n, &view);
+                let reference = truth(&model, &white(), &view, true);
+                let drawn = places(&model, SIDE, quality, &view).unwrap();
+                for (at, shown) in drawn.iter().enumerate() {
+                    // The mesh fills the picture.
+                    assert_ne!(reference.object[at], NO_OBJECT);
+                    let off = shown.off(reference.place[at]).expect("no crack is seen");
+                    let own = reference.object[at];
+                    let beside_edge = [1, 128].iter().any(|by| {
+                        let next = reference.object.get(at + by);
+                        next.is_some_and(|next| *next != own)
+                    });
+                    pixels += 1;
+                    beside += u32::from(beside_edge);
+                    wrong += u32::from(!shown.is_texel_of(reference.place[at]));
+                    let worst = &mut worst[usize::from(beside_edge)];
+                    *worst = worst.max(farther(off));
+                }
+            }
+        }
+        let share = 100.0 * f64::from(wrong) / f64::from(pixels);
+        println!(
+            "{quality:?}: {pixels} pixels, {beside} at shared edges, {share:.3} % another texel, \
+             off by {:.4} texels inside and {:.4} at edges",
+            worst[0], worst[1]
+        );
+        assert!(beside > 10_000, "{beside}");
+        assert!(worst[0].max(worst[1]) <= most, "{quality:?}: {worst:?}");
+        assert!(quality != Quality::Exact || share <= 0.3, "{share} %");
+    }
+}
+
+/// What the grid of the screen may move a corner that is cut, against the reference's: a step.
+const STEP: f64 = 1.0 / 8.0;
+
+#[test]
+fn what_the_near_plane_cuts_keeps_its_places() {
+    let view = View {
+        near: 0.5,
+        ..view(128, 128)
+    };
+    for (quality, most) in QUALITIES {
+        let mut rng = Rng(12);
+        let (mut pixels, mut worst) = (0, 0.0f64);
+        for _ in 0..150 {
+            let mut vertices = Vec::new();
+            while vertices.len() < 3 {
+                let z = rng.between(-6.0, 4.0);
+                let position = [rng.between(-4.0, 4.0), rng.between(-4.0, 4.0), z];
+                let uv = [rng.between(0.0, 2.0), rng.between(0.0, 2.0)];
+                vertices.push(vertex(position, uv));
+            }
+            let crosses = |v: &ModelVertex| -v.position[2] < view.near;
+            if vertices.iter().filter(|v| crosses(v)).count() % 3 == 0 {
+                continue;
+            }
+            let model = model(vertices, vec![[0, 1, 2]]);
+            let reference = truth(&model, &white(), &view, true);
+            let drawn = places(&model, SIDE, quality, &view).unwrap();
+            for (at, shown) in drawn.iter().enumerate() {
+                if reference.near_edge[at] || reference.object[at] == NO_OBJECT {
+                    continue;
+                }
+                let Some(slope) = texels_a_pixel(&reference, at) else {
+                    continue;
+                };
+                pixels += 1;
+                let off = shown.off(reference.place[at]).expect("it is drawn");
+                let beyond = farther(off) - STEP * slope;
+                worst = worst.max(beyond);
+                assert!(
+                    beyond <= most,
+                    "{quality:?}: {off:?} at {at}, {slope} texels a pixel: {model:?}"
+                );
+            }
+        }
+        println!(
+            "{quality:?}: {pixels} pixels, off by {worst:.4} texels beyond a step of the grid"
+        );
+        assert!(pixels > 100_000, "{pixels}");
+    }
+}
+
+#[test]
+fn a_ground_plane_does_not_swim_when_the_camera_rolls() {
+    // From behind the eye to far away; the horizon is in the picture.
+    let corner = |x: f64, z: f64| vertex([x, -1.0, z], [(x + 40.0) / 10.0, (2.0 - z) / 10.0]);
+    let ground = model(
+        vec![
+            corner(-40.0, 2.0),
+            corner(40.0, 2.0),
+            corner(40.0, -88.0),
+            corner(-40.0, -88.0),
+        ],
+        vec![[0, 1, 2], [0, 2, 3]],
+    );
+    for (quality, most) in QUALITIES {
+        let mut means: Vec<[f64; 2]> = Vec::new();
+        let (mut pixels, mut worst) = (0, 0.0f64);
+        for step in -20..=20 {
+            let roll = f64::from(step) * 0.05f64.to_radians();
+            let view = View {
+                up: [roll.sin(), roll.cos(), 0.0],
+                ..view(160, 120)
+            };
+            let reference = truth(&ground, &white(), &view, false);
+            let drawn = places(&ground, SIDE, quality, &view).unwrap();
+            let (mut sum, mut near) = ([0.0; 2], 0);
+            for (at, shown) in drawn.iter().enumerate() {
+                if reference.near_edge[at] || reference.object[at] == NO_OBJECT {
+                    continue;
+                }
+                let Some(slope) = texels_a_pixel(&reference, at) else {
+                    continue;
+                };
+                pixels += 1;
+                let off = shown.off(reference.place[at]).expect("it is drawn");
+                let beyond = farther(off) - STEP * slope;
+                worst = worst.max(beyond);
+                assert!(
+                    beyond <= most,
+                    "{quality:?}, {step}: {off:?} at {at}, {slope}"
+                );
+                // Where texels are as large as pixels they are seen to move.
+                if slope < 2.0 {
+                    near += 1;
+                    sum = [0, 1].map(|i| sum[i] + off[i]);
+                }
+            }
+            assert!(near > 1000, "{near}");
+            means.push(sum.map(|s| s / f64::from(near)));
+        }
+        let largest = means.iter().map(|m| farther(*m)).fold(0.0, f64::max);
+        let jump = means
+            .windows(2)
+            .map(|pair| farther([0, 1].map(|i| pair[1][i] - pair[0][i])))
+            .fold(0.0, f64::max);
+        println!(
+            "{quality:?}: {pixels} pixels, off by {worst:.4} texels beyond a step of the grid; \
+             the picture by {largest:.4} in the mean, {jump:.4} more or less from one to the next"
+        );
+        // In the mean it is off by less than snapping may move a corner, and jumps by no more.
+        assert!(largest <= STEP, "{quality:?}: {largest}");
+        assert!(jump <= STEP, "{quality:?}: {jump}");
+    }
+}
+
+/// Half a line down, a triangle over all of it has 1024 pixels of 1058.
+const WIDTH: u32 = 1058;
+
+#[test]
+fn long_spans_at_any_ratio_of_depth_keep_their_texels() {
+    let view = View {
+        near: 0.5,
+        far: 200.0,
+        ..view(WIDTH, 16)
+    };
+    for ratio in [10.0, 100.0] {
+        for (quality, most) in QUALITIES {
+            let mut rng = Rng(13);
+            let (mut pixels, mut wrong, mut farthest, mut longest) = (0, 0, 0.0f64, 0);
+            for round in 0..60 {
+                // From the left side to the right one, or less.
+                let ends = match round % 6 {
+                    0 => [0.0, f64::from(WIDTH)],
+                    _ => [rng.between(0.0, 64.0), rng.between(100.0, 1024.0)],
+                };
+                let mut depths = [1.0, ratio];
+                if rng.unit() < 0.5 {
+                    depths.reverse();
+                }
+                let grid = |x: f64| (8.0 * x).round() / 8.0;
+                let mut place = || [rng.between(0.0, 4.0), rng.between(0.0, 4.0)];
+                let corners = vec![
+                    seen_at(&view, [grid(ends[0]), 0.0], depths[0], place()),
+                    seen_at(&view, [grid(ends[1]), 0.0], depths[1], place()),
+                    seen_at(&view, [grid(ends[0]), 16.0], depths[0], place()),
+                    seen_at(&view, [grid(ends[1]), 16.0], depths[1], place()),
+                ];
+                let model = model(corners, vec![[0, 1, 3], [0, 3, 2]]);
+                let reference = truth(&model, &white(), &view, true);
+                let drawn = places(&model, SIDE, quality, &view).unwrap();
+                for row in reference.object.chunks_exact(WIDTH as usize) {
+                    let spans = row.chunk_by(|a, b| a == b).filter(|s| s[0] != NO_OBJECT);
+                    longest = spans.map(<[_]>::len).fold(longest, usize::max);
+                }
+                for (at, shown) in drawn.iter().enumerate() {
+                    let none = reference.object[at] == NO_OBJECT;
+                    assert_eq!(none, *shown == Shown::Nothing, "pixel {at}");
+                    if none {
+                        continue;
+                    }
+                    let want = reference.place[at];
+                    pixels += 1;
+                    wrong += u32::from(!shown.is_texel_of(want));
+                    farthest = farthest.max(farther(shown.off(want).expect("it is textured")));
+                }
+            }
+            let share = 100.0 * f64::from(wrong) / f64::from(pixels);
+            println!(
+                "1:{ratio} {quality:?}: {pixels} pixels in spans to {longest}, {share:.3} % another \
+                 texel, off by {farthest:.4}"
+            );
+            assert!(longest >= 1024 && pixels > 500_000, "{longest} {pixels}");
+            assert!(farthest <= most, "1:{ratio} {quality:?}: {farthest}");
+            assert!(
+                quality != Quality::Exact || share <= 0.3,
+                "1:{ratio}: {share} %"
+            );
+        }
+    }
+}
+
+#[test]
+fn bilinear_pictures_are_those_of_the_reference() {
+    let view = view(128, 128);
+    // Neighbours differ by at most this many levels, also around the sides.
+    const RISE: f64 = 8.0;
+    let wave = |x: u32, k: u32| {
+        let x = (x * k) % 64;
+        f64::from(if x < 32 { x } else { 64 - x }) * RISE / f64::from(k)
+    };
+    let level = |x: u32, y: u32| [wave(x, 1).min(255.0), wave(y, 1).min(255.0), 200.0];
+    let map = TextureMap {
+        filter: Filter::Bilinear,
+        ..TextureMap::made(64, 64, level)
+    };
+    let rgb = map.texels.iter().flat_map(|t| t.map(|l| l.round() as u8));
+    let image = TextureImage::new(&Frame::new(64, 64, rgb.collect()).unwrap()).unwrap();
+    for (quality, off) in [(Quality::Exact, 1.0 / 16.0), (Quality::Balanced, 0.25)] {
+        let mut rng = Rng(14);
+        let (mut pixels, mut worst, mut sum) = (0, 0.0f64, 0.0);
+        for n in [2, 5, 9] {
+            let mut model = crumpled(&mut rng, n, &view);
+            for lit in [false, true] {
+                if lit {
+                    for vertex in &mut model.vertices {
+                        vertex.colour = [(); 3].map(|()| (rng.unit() * 255.0).round() / 255.0);
+                    }
+                }
+                let reference = truth(&model, &map, &view, true);
+                let set = TextureSet::whole(&model, image.clone());
+                let how = (FilterArg::Bilinear, quality);
+                let crew = CrewSettings::default();
+                let format = PixelFormatArg::Rgb888;
+                let drawn = draw_textured(&model, &set, how, &view, format, crew).unwrap();
+                for (shown, want) in drawn.frame.rgb().chunks_exact(3).zip(&reference.colour) {
+                    for (shown, want) in shown.iter().zip(want) {
+                        let error = (f64::from(*shown) - want).abs();
+                        worst = worst.max(error);
+                        sum += error;
+                        pixels += 1;
+                    }
+                }
+            }
+        }
+        // A place off by so much in both directions, two roundings, and planes of colour.
+        let most = RISE * off + 2.0;
+        let mean = sum / f64::from(pixels);
+        println!("{quality:?}: bilinear off by {worst:.3} levels, {mean:.4} in the mean");
+        assert!(worst <= most, "{quality:?}: {worst} levels, {most} allowed");
+        assert!(pixels > 200_000, "{pixels}");
+    }
+}
+
+/// What QEMU draws with the same bits: a frame that tells no quality apart would compare nothing.
+#[test]
+fn the_frames_of_qualities_are_textured_and_differ() {
+    let frames = QUALITIES.map(|(quality, _)| {
+        let mut frame = Vec::new();
+        let counts = textured(quality, |line| frame.extend_from_slice(line));
+        let counts = counts.expect("the memory suffices");
+        println!("{quality:?}: {counts:?}");
+        assert!(counts.texture_fetches > 40_000, "{counts:?}");
+        assert_eq!(frame.len(), 320 * 240);
+        frame
+    });
+    assert!(frames[0] != frames[1] && frames[1] != frames[2] && frames[0] != frames[2]);
+}
