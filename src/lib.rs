@@ -135,10 +135,10 @@
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
 //! | K10 | ambient, diffuse, specular at vertices, several coloured lights | `geometry/light.rs`, `geometry/lighting.rs` | `geometry/light.rs`, `geometry/lighting/tests.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
-//! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/`, `renderer/batch/`, `geometry/assemble/screen.rs`, `composite/listed.rs` | `list/tests.rs`, `lists.rs`, `list_screen.rs`, `list_textures.rs` |
+//! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/`, `renderer/batch/`, `renderer/lights.rs`, `geometry/assemble/screen.rs`, `composite/listed.rs` | `list/tests.rs`, `lists.rs`, `list_screen.rs`, `list_textures.rs`, `list_looks.rs` |
 //! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `list_flow.rs` |
 //! | H14 | status events | `event.rs`, `renderer/run.rs` | `event.rs`, `list_flow.rs` |
-//! | K14 | overlays: runs, sprites, drawables | `composite/overlay.rs`, `composite/canvas.rs`, `renderer/overlay.rs` | the first of these |
+//! | K14 | overlays: runs, sprites, drawables, those of lists | `composite/overlay.rs`, `composite/canvas.rs`, `composite/listed.rs`, `list/overlays.rs`, `renderer/overlay.rs` | the first of these, `list_looks.rs` |
 //! | H10, K12 | ordered dither, bypassed by D; rounding or cutting | `composite/dither.rs`, `composite/texels.rs` | the first of these |
 //! | C1, C2 | active objects are copied to the cache, and leave at once | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
 //! | C3 | a hit is one comparison of a link | `link.rs` | `active/list/tests.rs` |
@@ -194,9 +194,9 @@ mod visible;
 pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{
     Blender, Blending, Compositing, Cut, CutOff, DetailedTextures, Dithered, Grey8, Ink,
-    LineOverlay, ListTexel, ListTextures, Mix, Ordered, Overlay, PixelAlpha, PixelFormat, Pixels,
-    Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource,
-    Textures, Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
+    LineOverlay, ListOverlays, ListTexel, ListTextures, Mix, Ordered, Overlay, PixelAlpha,
+    PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf,
+    TextureSource, Textures, Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
 };
 #[cfg(feature = "embedded-graphics")]
 pub use composite::{Canvas, DrawnLines};
@@ -204,9 +204,9 @@ pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
     Affine, Assembled, Blend, Blended, Camera, CameraError, Colour, Coordinate, Cull,
     DepthFunction, DirectionalLight, Dropped, Faces, Factor, Finish, Flat, Gouraud, Light,
-    Lighting, LightingModel, Material, MatrixRange, Mesh, MeshError, Object, QuadSplit, Room,
-    Scale, SceneVertex, Screen, ScreenError, ScreenVertex, Shading, Shadow, ShadowEdge,
-    ShadowLight, ShadowMemory, ShadowRoom, Sphere, Surface,
+    Lighting, LightingModel, ListLamps, ListLighting, Material, MatrixRange, Mesh, MeshError,
+    Object, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError, ScreenVertex, Shading,
+    Shadow, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom, Sphere, Surface,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
@@ -216,12 +216,13 @@ pub use pipeline::{
     SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
 };
 pub use renderer::{
-    Command, Crew, DepthUse, DrawError, FrameError, FrameStats, Input, InputError, InputQueue,
-    Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker, ListCoordinate,
-    ListMemory, ListRunner, ListSettings, OnViolation, Overlaid, PassOne, Prefetched, Relay,
-    RendererError, RunCounts, Scene, SceneError, SceneMemory, ShadowError, Source, Stalled, Stream,
-    Vertices, draw_continuous, draw_frame, draw_frame_changed, draw_frame_changed_runs,
-    draw_frame_overlaid, draw_frame_overlaid_changed, send_changed, send_changed_runs, send_frame,
+    Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,
+    InputQueue, Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker,
+    ListCoordinate, ListLights, ListMemory, ListRunner, ListSettings, OnViolation, OneLight,
+    Overlaid, PassOne, Prefetched, Relay, RendererError, RunCounts, Scene, SceneError, SceneMemory,
+    ShadowError, Source, Stalled, Stream, Vertices, draw_continuous, draw_frame,
+    draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid, draw_frame_overlaid_changed,
+    send_changed, send_changed_runs, send_frame,
 };
 #[cfg(feature = "async")]
 pub use renderer::{draw_frame_async, send_frame_async};

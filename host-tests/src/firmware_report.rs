@@ -11,15 +11,16 @@ use crate::image_out::{Frame, write_atomically, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::{
     Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, ListMemory,
-    Pipeline, PixelFormat, Rgb565Be, Scene, draw_frame,
+    ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene, draw_frame,
 };
 use scenes::{
-    HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS, STACKS, STRESS, SWATCHES, Shot, VARIANTS,
-    VERTICES, WIDTH, build_listed,
+    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS,
+    STACKS, STRESS, SWATCHES, Shot, VARIANTS, VERTICES, WIDTH, build_crate, build_listed,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -199,6 +200,10 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     frames.insert("teapot_model", crc32fast::hash(&model));
     let (listed, _) = shown(Shot::Teapot, build_list, by_lines)?;
     frames.insert("teapot_list", crc32fast::hash(&listed));
+    let slots = [const { TextureSlot::new() }; CRATE_TEXTURES];
+    let build = |scene: &mut Scene<'_, _>| build_crate_list(scene, &slots);
+    let (listed, _) = shown(Shot::Teapot, build, by_lines)?;
+    frames.insert("crate_list", crc32fast::hash(&listed));
     for variant in VARIANTS {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
@@ -307,6 +312,24 @@ fn build_list(scene: &mut Scene<'_, GouraudDepth<Rgb565Be>>) -> Result<(), Box<d
         ..ListMemory::default()
     };
     build_listed(scene, memory).map_err(|error| format!("teapot.list: {error:?}"))?;
+    Ok(())
+}
+
+/// The baked crate, as the firmware runs it from flash.
+fn build_crate_list<'t>(
+    scene: &mut Scene<'_, ListedDepth<'t, Rgb565Be>>,
+    slots: &'t [TextureSlot],
+) -> Result<(), Box<dyn Error>> {
+    let (mut positions, mut normals) = ([[0; 3]; CRATE_TABLE], [[0; 3]; CRATE_TABLE]);
+    let (mut places, mut indices) = ([[0; 2]; CRATE_TABLE], [0; CRATE_INDICES]);
+    let memory = ListMemory {
+        positions: &mut positions,
+        normals: &mut normals,
+        indices: &mut indices,
+        places: &mut places,
+        ..ListMemory::default()
+    };
+    build_crate(scene, memory, slots).map_err(|error| format!("crate.list: {error:?}"))?;
     Ok(())
 }
 

@@ -7,6 +7,11 @@
 use std::fmt;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
+use zune_jpeg::JpegDecoder;
+use zune_jpeg::errors::DecodeErrors;
+use zune_jpeg::zune_core::bytestream::ZCursor;
+use zune_jpeg::zune_core::colorspace::ColorSpace;
+use zune_jpeg::zune_core::options::DecoderOptions;
 
 /// Longest side of a picture that is read or written, in pixels, inclusive.
 pub const MAX_SIDE: u32 = 1 << 16;
@@ -292,20 +297,50 @@ fn encode_ppm(frame: &Frame) -> Vec<u8> {
     bytes
 }
 
-/// Reads a PNG (any colour type; transparency is dropped; of an animation the first frame) or a binary PPM of 8 bits,
-/// by the extension.
+/// Reads a PNG (any colour type; transparency is dropped; of an animation the first frame), a JPEG, or a binary PPM of
+/// 8 bits, by the extension.
 ///
 /// # Errors
 /// Unknown extension, missing file, malformed or oversized picture.
 pub fn read_image(path: &Path) -> Result<Frame, ImageError> {
-    let format = ImageFormat::from_path(path)?;
+    let extension = path.extension().map(|text| text.to_ascii_lowercase());
+    let jpeg = extension.is_some_and(|text| text == "jpg" || text == "jpeg");
+    let format = match jpeg {
+        true => None,
+        false => Some(ImageFormat::from_path(path)?),
+    };
     let bytes =
         std::fs::read(path).map_err(|error| ImageError::new(path, cannot("read", &error)))?;
     match format {
-        ImageFormat::Png => decode_png(&bytes),
-        ImageFormat::Ppm => decode_ppm(&bytes),
+        Some(ImageFormat::Png) => decode_png(&bytes),
+        Some(ImageFormat::Ppm) => decode_ppm(&bytes),
+        None => decode_jpeg(&bytes),
     }
     .map_err(|reason| ImageError::new(path, reason))
+}
+
+/// Reads a PNG or a JPEG, whichever it is.
+///
+/// # Errors
+/// When it is neither, or malformed.
+pub fn decode_image(bytes: &[u8]) -> Result<Frame, String> {
+    match bytes {
+        [0xFF, 0xD8, ..] => decode_jpeg(bytes),
+        _ => decode_png(bytes),
+    }
+}
+
+fn decode_jpeg(bytes: &[u8]) -> Result<Frame, String> {
+    let malformed = |error: DecodeErrors| format!("is not a good JPEG: {error}");
+    let options = DecoderOptions::default()
+        .jpeg_set_out_colorspace(ColorSpace::RGB)
+        .set_max_width(MAX_SIDE as usize)
+        .set_max_height(MAX_SIDE as usize);
+    let mut decoder = JpegDecoder::new_with_options(ZCursor::new(bytes), options);
+    let rgb = decoder.decode().map_err(malformed)?;
+    let info = decoder.info().ok_or("is not a good JPEG")?;
+    Frame::new(info.width.into(), info.height.into(), rgb)
+        .ok_or_else(|| "is not a good JPEG: wrong length".into())
 }
 
 fn decode_png(bytes: &[u8]) -> Result<Frame, String> {

@@ -4,13 +4,15 @@
 mod common;
 
 use common::{LineRooms, Rng, SceneRooms};
+use host_tests::lists::print;
 use scanbeam::list::{
-    Bounds, Budget, Field, FieldForm, Flow, Header, Id, ListWriter, Material, Matrix, Palette,
-    State, TexelForm, Texture, TextureSlot, VertexFormat, parameter,
+    Bounds, Budget, CameraWords, Field, FieldForm, Flow, Form, Halt, Head, Header, Id, LightWords,
+    ListWriter, Material, Matrix, Overlay, OverlaySlot, Palette, State, TexelForm, Texture,
+    TextureSlot, VertexFormat, Window, parameter,
 };
 use scanbeam::{
-    Camera, Instance, Light, ListMemory, ListRunner, ListSettings, ListTextures, ListedDepth,
-    Notice, Rgb888, Screen,
+    Camera, EightLights, Instance, Light, LineOverlay, ListMemory, ListOverlays, ListRunner,
+    ListSettings, ListTextures, ListedDepth, Notice, Rgb888, Screen,
 };
 
 /// Memory of a scene whose textures lie in a list.
@@ -22,8 +24,10 @@ const BUDGET: Budget = Budget {
     jumps: 8,
 };
 
-/// Runs a list and draws two lines of what it made; how much of the budget was spent.
-fn survives<'t>(list: &'t [u32], slots: &'t [TextureSlot]) -> Budget {
+/// Runs a list and draws two lines of what it made; what is left of the budget, and whether it came
+/// to its end.
+fn survives<'t>(list: &'t [u32], slots: &'t [TextureSlot]) -> (Budget, bool) {
+    let overlays = [const { OverlaySlot::new() }; 2];
     let mut rooms = Rooms::<'t>::new(512, 512, 30);
     let mut scene = rooms.scene(Screen::new(40, 30).unwrap());
     let camera = Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 40.0, 0.1, 99.0);
@@ -39,6 +43,7 @@ fn survives<'t>(list: &'t [u32], slots: &'t [TextureSlot]) -> Budget {
         indices: &mut indices,
         places: &mut places,
         textures: slots,
+        overlays: &overlays,
     };
     let settings = ListSettings {
         instance: Instance {
@@ -48,22 +53,29 @@ fn survives<'t>(list: &'t [u32], slots: &'t [TextureSlot]) -> Budget {
         camera: true,
         ..ListSettings::default()
     };
-    let mut runner = ListRunner::new(memory, settings);
+    let mut runner = ListRunner::<'_, '_, _, EightLights>::with_lights(memory, settings);
     runner.start(0);
     let mut left = BUDGET;
     let mut notices = 0;
+    let mut ended = false;
     for _ in 0..3 {
-        let _ = runner.run(list, &mut scene, &mut left, &mut |_: Notice| notices += 1);
+        let halt = runner.run(list, &mut scene, &mut left, &mut |_: Notice| notices += 1);
+        ended = halt == Ok(Halt::End);
         runner.command(scanbeam::list::ListCommand::Resume);
     }
     // Each block can cause a few events, a face that finds no room among them.
     assert!(notices < 10_000, "{notices}");
     let mut line = LineRooms::fitting(4, &scene);
     let mut renderer = line.renderer();
+    let mut over = ListOverlays {
+        words: list,
+        slots: &overlays,
+    };
     for y in [0, 17] {
-        common::line(&mut renderer, &scene, y);
+        let mut pixels = common::line(&mut renderer, &scene, y);
+        LineOverlay::<Rgb888>::paint(&mut over, y, &mut pixels);
     }
-    left
+    (left, ended)
 }
 
 fn slots() -> [TextureSlot; 6] {
@@ -87,16 +99,73 @@ fn random_words_do_no_harm() {
                 }
             })
             .collect();
-        let left = survives(&list, &slots);
+        let (left, _) = survives(&list, &slots);
         blocks += BUDGET.instructions - left.instructions;
     }
     assert!(blocks > 10_000, "{blocks} blocks were run");
 }
 
-/// A valid list of some of everything that draws.
+/// State of every kind that is not about vertices and textures.
+fn valid_state(rng: &mut Rng, writer: &mut ListWriter<'_>) {
+    for number in [0, 5] {
+        let light = LightWords {
+            direction: [0; 3].map(|_: i16| rng.within(-16_384, 16_384) as i16),
+            ambient: 3000,
+            colour: [255, 200, 90],
+        };
+        writer.state(&State::Light { number, light }).unwrap();
+    }
+    writer.state(&State::LightOff { number: 1 }).unwrap();
+    let camera = CameraWords {
+        eye: [0.0, 0.5, 4.0],
+        at: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        focal: 300.0,
+        near: 0.1,
+        far: 90.0,
+    };
+    writer.state(&State::Camera(camera)).unwrap();
+    let window = Window {
+        left: 0,
+        top: 0,
+        right: 40,
+        bottom: 30,
+    };
+    writer.state(&State::Window(window)).unwrap();
+    for (form, additive) in [(TexelForm::Index2, true), (TexelForm::Rgb565, false)] {
+        let overlay = Overlay {
+            left: 30,
+            top: 0,
+            width: 5,
+            height: 3,
+            form,
+            additive,
+            palette: 2,
+            at: 0,
+        };
+        let pixels: Vec<u32> = (0..overlay.words())
+            .map(|_| rng.below(1 << 16) << 16)
+            .collect();
+        writer.bulk(&State::Overlay(overlay), &pixels).unwrap();
+    }
+}
+
+/// Flow of every kind, but for the end, and what is passed over.
+fn valid_flow(writer: &mut ListWriter<'_>) {
+    writer.flow(Flow::Pause).unwrap();
+    writer.flow(Flow::Interrupt(9)).unwrap();
+    writer.flow(Flow::JumpRelative(2)).unwrap();
+    writer.master(7).unwrap();
+    let next = writer.position() + 2;
+    writer.flow(Flow::Jump(next)).unwrap();
+    writer.flow(Flow::Sync).unwrap();
+}
+
+/// A valid list of some of everything there is.
 fn valid(rng: &mut Rng) -> Vec<u32> {
     let mut memory = vec![0; 1024];
     let mut writer = ListWriter::new(&mut memory);
+    writer.state(&State::Head(Head::default())).unwrap();
     let forms = [FieldForm::S16x3, FieldForm::S10x3, FieldForm::S8x3];
     let format = VertexFormat::new(&[
         Field {
@@ -149,8 +218,11 @@ fn valid(rng: &mut Rng) -> Vec<u32> {
         .bulk(&State::Palette(palette), &[0x00AA_55FF; 6])
         .unwrap();
     writer.flow(Flow::LoadTexture { number: 3, at }).unwrap();
+    valid_state(rng, &mut writer);
     let material = Material {
         texture: Some(3),
+        specular: [90, 255, 255],
+        exponent: 20,
         two_sided: true,
         ..Material::default()
     };
@@ -177,8 +249,30 @@ fn valid(rng: &mut Rng) -> Vec<u32> {
     }
     let indices: Vec<_> = (0..12).map(|_| Some(rng.below(8) as u16)).collect();
     writer.indexed(None, false, indices.into_iter()).unwrap();
+    valid_flow(&mut writer);
+    let strips = [Some(1), Some(2), Some(3), None, Some(4), Some(5), Some(6)];
+    let strips = strips.into_iter();
+    writer.indexed(Some(Form::Fan), true, strips).unwrap();
     writer.flow(Flow::End).unwrap();
-    writer.words().to_vec()
+    let head = Head {
+        words: writer.position() + 2,
+        table: 8,
+        triangles: 30,
+    };
+    writer.rewrite(0, &State::Head(head)).unwrap();
+    // A block of a later version, before the end.
+    let mut list = writer.words().to_vec();
+    let end = list.pop();
+    list.extend([0x9100_0100u32.to_le(), 5]);
+    list.extend(end);
+    list
+}
+
+/// The list with a head that says it has no words.
+fn headless(list: &[u32]) -> Vec<u32> {
+    let mut open = list.to_vec();
+    open[2] = 0;
+    open
 }
 
 #[test]
@@ -187,8 +281,12 @@ fn every_cut_and_every_flipped_bit_is_survived() {
     let mut rng = Rng::new(2);
     for _ in 0..3 {
         let list = valid(&mut rng);
+        assert!(survives(&list, &slots).1, "undamaged it comes to its end");
+        // With a head that does not say how long it is, a cut is noticed only where it is.
+        let open = headless(&list);
         for len in 0..list.len() {
-            survives(&list[..len], &slots);
+            survives(&open[..len], &slots);
+            assert!(len == 0 || !survives(&list[..len], &slots).1);
         }
         for bit in 0..32 * list.len() {
             let mut list = list.clone();
@@ -196,4 +294,59 @@ fn every_cut_and_every_flipped_bit_is_survived() {
             survives(&list, &slots);
         }
     }
+}
+
+#[test]
+fn every_kind_of_block_is_printed_and_drawn() {
+    let list = headless(&valid(&mut Rng::new(9)));
+    let (text, error) = print::listing(&list);
+    assert_eq!(error, None);
+    for part in [
+        "Head",
+        "format:",
+        "Matrix",
+        "Light ",
+        "LightOff",
+        "Material",
+        "Camera",
+        "Window",
+        "Texture",
+        "Palette",
+        "Overlay",
+        "Bounds",
+        "PointSize",
+        "Pause",
+        "Sync",
+        "Interrupt(9)",
+        "LoadTexture",
+        "jump by 2 words to",
+        "jump to",
+        "MASTER",
+        "later version",
+        "SHORT  8 shade text new fan",
+        "LONG  8 shade",
+        "POINTS  8",
+        "QUADS  8",
+        "TABLE  8",
+        "INDEXED  12 separate",
+        "INDEXED  7 new fan wide",
+        "FLOW  End",
+    ] {
+        assert!(text.contains(part), "{part}:\n{text}");
+    }
+    // Cut anywhere, what stands before is printed and the place of the fault is told.
+    let (mut last, mut refused) = (0, 0);
+    for len in 1..list.len() {
+        let (part, error) = print::listing(&list[..len]);
+        assert!(text.starts_with(&part) && last <= part.len() && part.len() < text.len());
+        last = part.len();
+        if let Some(error) = error {
+            assert!(
+                error.contains("offset 0x") && error.contains("words are needed"),
+                "{error}"
+            );
+            refused += 1;
+        }
+    }
+    assert!(refused > list.len() / 2);
 }

@@ -1,12 +1,12 @@
-//! Textures of an instruction list, drawn from where they lie (H7, H12).
+//! Textures and overlays of an instruction list, drawn from where they lie (H7, H12, K14).
 //!
 //! One sampler for all forms: what a texel is made of is asked at each texel, and in exchange the
 //! code is there once. Firmware with one form of its own lends [`Textures`] instead.
 
-use super::PixelFormat;
 use super::texels::{TexelOf, TextureSource, Textures};
+use super::{LineOverlay, PixelFormat};
 use crate::geometry::texturing::{LevelEnds, SpanPlace};
-use crate::list::{Picture, TextureSlot, TextureSlots};
+use crate::list::{OverlaySlot, OverlaySlots, Picture, TextureSlot, TextureSlots};
 use crate::shade::Stretch;
 use crate::shade::texture::{Texels, Uv};
 use crate::visible::Visible;
@@ -78,5 +78,37 @@ impl<F: PixelFormat> TextureSource<F> for ListTextures<'_> {
         };
         let one = [Listed(picture)];
         TextureSource::<F>::paint(&Textures(&one), 0, pixels, course, stretch, visible)
+    }
+}
+
+/// The overlays of a list, for [`draw_frame_overlaid`](crate::draw_frame_overlaid). Each pixel is
+/// expanded where it is painted.
+///
+/// A list that is not in one piece, such as a ring, has none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ListOverlays<'t> {
+    /// The words of the list.
+    pub words: &'t [u32],
+    /// The slots that its [`ListMemory`](crate::ListMemory) has too.
+    pub slots: &'t [OverlaySlot],
+}
+
+impl<F: PixelFormat> LineOverlay<F> for ListOverlays<'_> {
+    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
+        for row in OverlaySlots(self.slots).on(line, self.words) {
+            let below = pixels.get_mut(usize::from(row.left)..).unwrap_or_default();
+            for (column, pixel) in (0..row.width).zip(below) {
+                let [r, g, b, alpha] = row.rgba(column);
+                if alpha == 0 {
+                    continue;
+                }
+                let word = F::from_rgb8([r, g, b]);
+                *pixel = if row.additive {
+                    F::add(*pixel, word)
+                } else {
+                    word
+                };
+            }
+        }
     }
 }

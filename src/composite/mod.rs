@@ -42,7 +42,7 @@ pub use compositing::{Blending, Compositing};
 pub use detailed::DetailedTextures;
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
-pub use listed::{ListTexel, ListTextures};
+pub use listed::{ListOverlays, ListTexel, ListTextures};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, TwoWords};

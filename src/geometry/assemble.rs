@@ -139,16 +139,17 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     }
 
     /// Takes a mesh; `file` keeps an object that is first seen on a line of guard space, or says
-    /// that it has no room for it.
+    /// that it has no room for it. Indices that are known to be below a number are not looked at
+    /// where there are as many vertices.
     ///
     /// # Errors
     /// When the mesh contradicts itself; then nothing of it has been kept.
     pub(crate) fn mesh<C: Coordinate>(
         mut self,
-        mesh: &Mesh<'_, C>,
+        (mesh, below): (&Mesh<'_, C>, usize),
         mut file: impl FnMut(Object<S::Face>, i32) -> bool,
     ) -> Result<Assembled, MeshError> {
-        check(mesh)?;
+        check(mesh, below)?;
         if !S::fits(&self.skin, mesh.positions.len()) {
             return Err(MeshError::AttributeLength);
         }
@@ -569,26 +570,30 @@ pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
     }) as u32
 }
 
-/// Whether all slices agree and all indices exist.
-fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
+/// Whether all slices agree and all indices exist, which those do that are known to be below a
+/// number of vertices that are there.
+fn check<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
     let count = mesh.positions.len();
     let fits = |len: usize| len == 0 || len == count;
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
         return Err(MeshError::AttributeLength);
     }
+    if let Faces::QuadStrip(strip, _) = mesh.faces
+        && (strip.len() % 2 != 0 || strip.len() == 2)
+    {
+        return Err(MeshError::StripLength);
+    }
+    if below <= count {
+        return Ok(());
+    }
     let good = |face: &[u16]| face.iter().all(|&i| usize::from(i) < count);
     let bad = match mesh.faces {
         Faces::Triangles(faces) => faces.iter().position(|f| !good(f)),
         Faces::Quads(faces, _) => faces.iter().position(|f| !good(f)),
-        Faces::QuadStrip(strip, _) => {
-            if strip.len() % 2 != 0 || strip.len() == 2 {
-                return Err(MeshError::StripLength);
-            }
-            strip
-                .iter()
-                .position(|&i| usize::from(i) >= count)
-                .map(|i| i.saturating_sub(2) / 2)
-        }
+        Faces::QuadStrip(strip, _) => strip
+            .iter()
+            .position(|&i| usize::from(i) >= count)
+            .map(|i| i.saturating_sub(2) / 2),
     };
     match bad {
         Some(face) => Err(MeshError::Index { face: face as u32 }),

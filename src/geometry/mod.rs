@@ -33,7 +33,7 @@ pub use colour::{Colour, Scale};
 pub use finish::{Blend, DepthFunction, Factor, Finish, Role, Shadow};
 pub use light::{Light, LightingModel};
 pub use lighting::{DirectionalLight, Lighting, Material};
-pub use listed::MatrixRange;
+pub use listed::{ListLamps, ListLighting, MatrixRange};
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
 pub use object::{Object, SceneVertex};
 pub(crate) use setup::at_pixel;

@@ -91,7 +91,7 @@ pub enum State {
     Format(VertexFormat),
     /// 2: model space to the list's world; 13 words.
     Matrix(Matrix),
-    /// 3: the light of a number; 2 words.
+    /// 3: the light of a number; 3 words.
     Light {
         /// The argument.
         number: u8,
@@ -162,13 +162,19 @@ impl Matrix {
     };
 }
 
-/// An infinite light with ambient light. Word 1: x and y; word 2: z and the ambient level.
+/// An infinite light with ambient light. Word 1: x and y; word 2: z and the ambient level; word 3:
+/// red, green and blue, 8 bits each, red lowest.
+///
+/// It gives `ambient` everywhere, and `1 - ambient` of its colour where it falls. What several
+/// lights give is added up; the ambient level ends at 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LightWords {
     /// Towards the light, Q1.14, of length 1 in the list's world.
     pub direction: [i16; 3],
     /// 0 to 2^15 for 0 to 1.
     pub ambient: u16,
+    /// Of what falls; all 255: white.
+    pub colour: [u8; 3],
 }
 
 /// How surfaces look. Word 1: diffuse red, green, blue and opacity, 8 bits each, red lowest;
@@ -272,6 +278,12 @@ impl TexelForm {
         Self::Rgba,
     ];
 
+    /// Whether texels name colours of a palette.
+    #[must_use]
+    pub const fn is_indexed(self) -> bool {
+        (self as u32) < Self::Rgb565 as u32
+    }
+
     /// Bits of a texel.
     #[must_use]
     pub const fn bits(self) -> u32 {
@@ -346,7 +358,10 @@ pub struct Palette {
 
 /// Pixels over the picture. Word 1: left and top; word 2: width and height, 1 to 1024 each;
 /// word 3: bits 3..0 the form, bit 4 added instead of replacing, bits 15..8 the palette. Rows
-/// from the top, lowest bits first, all together padded to a word.
+/// from the top, lowest bits first, all together padded to a word. Pixels of alpha 0 are left out.
+///
+/// It lies over all that is drawn until the next SYNC, and over the overlays before it, with the
+/// palette that has the number now.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Overlay {
     /// Column of the first pixel.

@@ -25,8 +25,10 @@
 //! | 7 | 3x8S | signed 8, 8, 8, then 8 unused bits in a vertex | 1 | 3 |
 //!
 //! Places: 3x16S is Q1.14 and 3x32S Q1.30, -2 ..< 2; 3x10S and 3x8S are -1 ..< 1 with 10 or 9, and
-//! 7 fraction bits. Normals: the largest number of a form is 1 - 2^-14. Colours: red, green,
-//! blue, and in 4x8U alpha. Texture places: u and v in 4.12, v downwards.
+//! 7 fraction bits. Normals: 3x16S is Q1.14; in the others a field of n fraction bits is `1 + 2^-n`
+//! times its place's meaning, so that the largest is 1, rounded down to 14 bits. Colours: red,
+//! green, blue, and in 4x8U alpha; the specular one is passed over here, since a material has it.
+//! Texture places: u and v in 4.12, v downwards.
 
 use super::error::Reason;
 use super::header::Header;

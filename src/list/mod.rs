@@ -72,6 +72,7 @@
 //! | `vertex.rs` | parameters out of vertices and columns |
 //! | `strip.rs` | vertices into triangles |
 //! | `texels.rs` | texels where they lie, and which texture is which |
+//! | `overlays.rs` | pixels over the picture |
 //! | `flow.rs` | which block comes next: jumps, commands, budget |
 //!
 //! A list is drawn by `ListRunner` of the renderer, which this room does not know.
@@ -81,6 +82,7 @@ mod error;
 mod flow;
 mod format;
 mod header;
+mod overlays;
 mod reader;
 mod strip;
 #[cfg(test)]
@@ -98,6 +100,7 @@ pub use error::{ListError, Reason};
 pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};
 pub use format::{Field, FieldForm, PARAMETERS, VertexFormat, parameter};
 pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
+pub use overlays::{OverlayRow, OverlaySlot, OverlaySlots};
 pub use reader::{Parsed, long_words, read_block};
 pub use strip::Strip;
 pub use texels::{Bound, NoTexture, Picture, Texels, TextureSlot, TextureSlots};

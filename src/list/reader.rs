@@ -213,7 +213,7 @@ impl<'w, W: Words<'w>> Block<W> {
             2 => (State::Matrix(self.matrix()?), 14),
             3 => {
                 let light = self.light()?;
-                (State::Light { number, light }, 3)
+                (State::Light { number, light }, 4)
             }
             4 => (State::LightOff { number }, 1),
             5 => (State::Material(self.material()?), 4),
@@ -292,8 +292,12 @@ impl<'w, W: Words<'w>> Block<W> {
     }
 
     fn light(&self) -> Result<LightWords, Reason> {
-        self.length(2)?;
+        self.length(3)?;
         let (xy, za) = (self.word(1), self.word(2));
+        let [r, g, b, none] = self.word(3).to_le_bytes();
+        if none != 0 {
+            return self.bad(3);
+        }
         let ambient = (za >> 16) as u16;
         if ambient > 1 << 15 {
             return self.bad(2);
@@ -301,6 +305,7 @@ impl<'w, W: Words<'w>> Block<W> {
         Ok(LightWords {
             direction: [xy as i16, (xy >> 16) as i16, za as i16],
             ambient,
+            colour: [r, g, b],
         })
     }
 

@@ -90,6 +90,7 @@ fn random_item(r: &mut Random, format: &mut VertexFormat, kept: &mut Option<Head
             light: LightWords {
                 direction: [0; 3].map(|_: i32| r.next() as i16),
                 ambient: r.below(32_769) as u16,
+                colour: bytes(r),
             },
         }),
         5 => Item::State(match r.flag() {

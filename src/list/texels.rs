@@ -223,6 +223,14 @@ impl<'m> TextureSlots<'m> {
         self.define(PALETTE | u32::from(p.number) | less << 8, p.at)
     }
 
+    /// Position and number of the colours of a palette, 1 to 256.
+    #[must_use]
+    pub fn colours(self, number: u8) -> Option<(u32, u32)> {
+        let palette = self.numbered(PALETTE, number)?;
+        let count = (palette.name.load(Ordering::Relaxed) >> 8 & 0xFF) + 1;
+        Some((palette.at.load(Ordering::Relaxed), count))
+    }
+
     /// Makes the texture of a number, as its palette is now, one that can be drawn with.
     ///
     /// # Errors
@@ -232,11 +240,9 @@ impl<'m> TextureSlots<'m> {
         let name = texture.name.load(Ordering::Relaxed);
         let at = texture.at.load(Ordering::Relaxed);
         let (mut less, mut colours) = (0, 0);
-        if is_indexed(form_of(name)) {
-            let palette = self.numbered(PALETTE, (name >> 21) as u8);
-            let palette = palette.ok_or(NoTexture::Missing)?;
-            less = palette.name.load(Ordering::Relaxed) >> 8 & 0xFF;
-            colours = palette.at.load(Ordering::Relaxed);
+        if form_of(name).is_indexed() {
+            let (at, count) = self.colours((name >> 21) as u8).ok_or(NoTexture::Missing)?;
+            (less, colours) = (count - 1, at);
         }
         let pair = PAIR | name & 0x001F_FF00 | less;
         let same = |name: u32, s: &TextureSlot| {
@@ -272,7 +278,7 @@ impl<'m> TextureSlots<'m> {
         let from = |at: u32| words.get(at as usize..);
         let form = form_of(name);
         let mut colours: &[u32] = &[];
-        if is_indexed(form) {
+        if form.is_indexed() {
             let count = (name as usize & 0xFF) + 1;
             colours = from(slot.colours.load(Ordering::Relaxed))?.get(..count)?;
         }
@@ -286,11 +292,12 @@ impl<'m> TextureSlots<'m> {
 }
 
 fn form_of(name: u32) -> TexelForm {
-    // Put there as the code of one.
-    let code = (name >> 16 & 15) as usize;
-    *TexelForm::ALL.get(code).unwrap_or(&TexelForm::Rgba)
+    form_of_code(name >> 16 & 15)
 }
 
-const fn is_indexed(form: TexelForm) -> bool {
-    (form as u32) < TexelForm::Rgb565 as u32
+/// Of a code that was put somewhere as that of a form.
+pub(super) fn form_of_code(code: u32) -> TexelForm {
+    *TexelForm::ALL
+        .get(code as usize)
+        .unwrap_or(&TexelForm::Rgba)
 }

@@ -325,11 +325,17 @@ fn words_of_state(state: &State) -> (u8, u8, [u32; 13], usize) {
         }
         State::Light {
             number,
-            light: LightWords { direction, ambient },
+            light:
+                LightWords {
+                    direction,
+                    ambient,
+                    colour: [r, g, b],
+                },
         } => {
             w[0] = pair(direction[0] as u16, direction[1] as u16);
             w[1] = pair(direction[2] as u16, *ambient);
-            (3, *number, 2)
+            w[2] = u32::from_le_bytes([*r, *g, *b, 0]);
+            (3, *number, 3)
         }
         State::LightOff { number } => (4, *number, 0),
         State::Material(m) => {

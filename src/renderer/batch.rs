@@ -20,8 +20,8 @@ mod vertices;
 use super::scene::{DrawError, Instance, Scene};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::texturing::{Quality, Skin};
-use crate::geometry::{Assembled, Coordinate, Faces, Mesh, QuadSplit, Shading};
-use crate::list::{Bound, Place, Slot, Strip, TextureSlot, Words};
+use crate::geometry::{Assembled, Coordinate, Faces, LightingModel, Mesh, QuadSplit, Shading};
+use crate::list::{Bound, OverlaySlot, OverlaySlots, Place, Slot, Strip, TextureSlot, Words};
 use crate::pipeline::{Pipeline, SkinOf};
 use long::LongStrip;
 
@@ -51,6 +51,9 @@ pub struct ListMemory<'m, C = i16> {
     /// pair of both that is drawn with; none where nothing is textured. The scene's
     /// [`ListTextures`](crate::ListTextures) have the same ones.
     pub textures: &'m [TextureSlot],
+    /// One for each overlay of a frame; none where there are none. The
+    /// [`ListOverlays`](crate::ListOverlays) that paint them have the same ones.
+    pub overlays: &'m [OverlaySlot],
 }
 
 /// Where an attribute of the table is.
@@ -138,9 +141,9 @@ pub(super) struct Batch<'m, C> {
 }
 
 /// Where faces go and who is told.
-pub(super) struct Target<'t, 'm, P: Pipeline, E> {
+pub(super) struct Target<'t, 'm, P: Pipeline, E, M> {
     pub(super) scene: &'t mut Scene<'m, P>,
-    pub(super) instance: &'t Instance,
+    pub(super) instance: Instance<M>,
     /// The texture, where there is one.
     pub(super) texture: Option<(Bound, Quality)>,
     pub(super) events: &'t mut E,
@@ -177,6 +180,11 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         self.memory.textures
     }
 
+    /// The overlays.
+    pub(super) fn overlays(&self) -> OverlaySlots<'m> {
+        OverlaySlots(self.memory.overlays)
+    }
+
     /// Vertices that can be unpacked where these attributes are.
     fn room(&self, has: Attributes) -> usize {
         let m = &self.memory;
@@ -192,10 +200,10 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
     }
 
     /// Draws what was gathered. Vertices from which a strip may go on stay.
-    pub(super) fn flush<'w, P: Pipeline, E: EventSink>(
+    pub(super) fn flush<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) {
         let run = self.base..self.base + self.vertices;
         let kept = self.kept_places::<P>();
@@ -242,11 +250,20 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         let skin = target.skin(places, prsp);
         let vertices = mesh.positions.len() as u32;
         let done = match points {
-            Some(size) if vertices > 0 => {
-                Some(target.scene.draw_points(&mesh, size, skin, target.instance))
-            }
+            Some(size) if vertices > 0 => Some(target.scene.draw_points(
+                &mesh,
+                size,
+                skin,
+                &target.instance,
+            )),
             None if self.indices > 0 => {
-                Some(target.scene.draw_skinned(&mesh, skin, target.instance))
+                // Those of a table were checked as they were gathered.
+                let below = match (self.kind, &self.table) {
+                    (Kind::Table, Some(table)) => usize::from(table.count),
+                    _ => usize::MAX,
+                };
+                let mesh = (&mesh, below);
+                Some(target.scene.draw_known(mesh, skin, &target.instance))
             }
             _ => None,
         };
@@ -311,11 +328,11 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
 
 impl BatchCounts {
     /// Counts what a call has done with some vertices, and tells what was lost.
-    fn take<P: Pipeline, E: EventSink>(
+    fn take<P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         vertices: u32,
         done: Result<Assembled, DrawError>,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) {
         self.draws += 1;
         self.vertices += vertices;
@@ -336,7 +353,7 @@ impl BatchCounts {
     }
 }
 
-impl<P: Pipeline, E: EventSink> Target<'_, '_, P, E> {
+impl<P: Pipeline, E: EventSink, M: LightingModel> Target<'_, '_, P, E, M> {
     /// The texture with these places on it, that are to be exact or not.
     fn skin<'p>(&self, places: &'p [[i32; 2]], prsp: bool) -> SkinOf<'p, P> {
         match self.texture {

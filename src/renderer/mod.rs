@@ -14,6 +14,7 @@ mod frame;
 mod frame_async;
 mod immediate;
 mod input;
+mod lights;
 mod lines;
 mod order;
 mod overlay;
@@ -34,6 +35,7 @@ pub use frame::{
 pub use frame_async::{draw_frame_async, send_frame_async};
 pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
+pub use lights::{EightLights, ListLights, OneLight};
 pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
 pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};
 pub use place::Prefetched;

@@ -11,14 +11,15 @@
 
 use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
 use super::frame::FrameStats;
+use super::lights::{ListLights, OneLight};
 use super::scene::{Instance, Scene};
 use crate::event::{Event, EventSet, EventSink, Notice};
 use crate::geometry::texturing::Quality;
-use crate::geometry::{Affine, Camera, Cull, Light, Shading, Sphere};
+use crate::geometry::{Affine, Camera, Cull, Shading, Sphere};
 use crate::list::{
     Bound, Bounds, Budget, Flow, Halt, Id, Instruction, ListCommand, ListControl, ListError,
-    Material, Matrix, NoTexture, Reason, State, Step, Texture, TextureSlots, Walker, Window, Words,
-    read_block,
+    Material, Matrix, NoTexture, Overlay, Reason, State, Step, Texture, TextureSlots, Walker,
+    Window, Words, read_block,
 };
 use crate::pipeline::Pipeline;
 
@@ -75,19 +76,21 @@ pub struct RunCounts {
 }
 
 /// Executes lists.
-pub struct ListRunner<'m, 'c, C = i16> {
+///
+/// `L` says which lights they can have: [`OneLight`], or [`EightLights`](crate::EightLights).
+pub struct ListRunner<'m, 'c, C = i16, L = OneLight> {
     settings: ListSettings<'c>,
     walker: Walker,
     batch: Batch<'m, C>,
     matrix: Affine,
-    light: Option<Light>,
+    lights: L,
     material: Material,
     point_size: u8,
     /// The texture that the material names.
     texture: Option<Bound>,
     /// What was drawn has been shown: textures that it needed are no longer.
     shown: bool,
-    /// What the three make of the settings' instance.
+    /// What they make of the settings' instance, but for its light.
     instance: Instance,
     /// The state has changed since: to be made anew before anything is gathered.
     stale: bool,
@@ -95,14 +98,22 @@ pub struct ListRunner<'m, 'c, C = i16> {
 }
 
 impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
-    /// Stopped; [`start`](ListRunner::start) begins.
+    /// Stopped; [`start`](ListRunner::start) begins. Its lists have [`OneLight`].
     #[must_use]
     pub fn new(memory: ListMemory<'m, C>, settings: ListSettings<'c>) -> Self {
+        Self::with_lights(memory, settings)
+    }
+}
+
+impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
+    /// The same with lights of a kind.
+    #[must_use]
+    pub fn with_lights(memory: ListMemory<'m, C>, settings: ListSettings<'c>) -> Self {
         let mut runner = Self {
             walker: Walker::new(),
             batch: Batch::new(memory),
             matrix: Affine::IDENTITY,
-            light: None,
+            lights: L::default(),
             material: Material::default(),
             point_size: 1,
             texture: None,
@@ -159,7 +170,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         self.batch.counts = Default::default();
         self.counts = RunCounts::default();
         self.matrix = Affine::IDENTITY;
-        self.light = self.settings.instance.light;
+        self.lights.begin(self.settings.instance.light);
         let [r, g, b] = self.settings.instance.colour;
         self.material = Material {
             diffuse: [r, g, b],
@@ -169,6 +180,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         self.point_size = 1;
         (self.texture, self.shown) = (None, false);
         TextureSlots(self.batch.textures()).clear();
+        self.batch.overlays().clear();
         self.stale = true;
     }
 
@@ -198,7 +210,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
             } else {
                 Cull::Back
             },
-            light: self.light.filter(|_| !self.material.unlit),
+            light: None,
             colour: self.material.diffuse,
         };
     }
@@ -218,6 +230,7 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
     ) -> Result<Halt, ListError> {
         if core::mem::take(&mut self.shown) {
             TextureSlots(self.batch.textures()).release();
+            self.batch.overlays().clear();
             self.stale = true;
         }
         loop {
@@ -291,9 +304,10 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         scene: &mut Scene<'_, P>,
         events: &mut impl EventSink,
     ) {
+        let light = self.lights.on(&self.material);
         let mut target = Target {
             scene,
-            instance: &self.instance,
+            instance: self.instance.lit_by(light.filter(|_| !self.material.unlit)),
             texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
             offset: self.walker.offset(),
@@ -315,9 +329,10 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         if self.stale && draws {
             self.renew::<P>(events);
         }
+        let light = self.lights.on(&self.material);
         let mut target = Target {
             scene,
-            instance: &self.instance,
+            instance: self.instance.lit_by(light.filter(|_| !self.material.unlit)),
             texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
             offset: self.walker.offset(),
@@ -374,6 +389,24 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         }
     }
 
+    /// Keeps an overlay for those who draw the lines.
+    fn overlay(&mut self, overlay: &Overlay, events: &mut impl EventSink) {
+        let slots = self.batch.overlays();
+        let colours = match overlay.form.is_indexed() {
+            true => TextureSlots(self.batch.textures()).colours(overlay.palette),
+            false => Some((0, 1)),
+        };
+        match colours {
+            Some(colours) if !slots.0.is_empty() => {
+                if !slots.push(overlay, colours) {
+                    self.notice(events, Event::Full, 0);
+                }
+            }
+            // Nobody paints them, or there is no such palette.
+            _ => self.unimplemented(events),
+        }
+    }
+
     /// Passes over what a sphere holds that cannot be seen.
     fn bounds<'w, P: Pipeline>(
         &mut self,
@@ -420,13 +453,17 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
         let screen = scene.screen();
         match state {
             State::Matrix(matrix) => self.matrix = Affine::from(&matrix),
-            State::Light { number: 0, light } => self.light = Some(Light::from(light)),
-            State::LightOff { number: 0 } => self.light = None,
-            // A light that is not there is off.
-            State::LightOff { .. } => {}
+            State::Light { number, light } => {
+                if !self.lights.set(number, Some(light)) {
+                    self.unimplemented(events);
+                }
+            }
+            State::LightOff { number } => {
+                self.lights.set(number, None);
+            }
             State::Material(material) => {
                 if material.opacity != 255
-                    || material.specular != [0; 3]
+                    || (material.specular != [0; 3] && !L::HIGHLIGHTS)
                     || (material.texture.is_some() && !P::Shading::SKINNED)
                 {
                     self.unimplemented(events);
@@ -467,12 +504,15 @@ impl<'m, 'c, C: ListCoordinate> ListRunner<'m, 'c, C> {
                 }
             }
             State::Palette(palette)
-                if P::Shading::SKINNED
+                if (P::Shading::SKINNED || !self.batch.overlays().0.is_empty())
                     && words.slice(palette.at, u32::from(palette.count)).is_some() =>
             {
                 if !TextureSlots(self.batch.textures()).palette(&palette) {
                     self.notice(events, Event::Full, 0);
                 }
+            }
+            State::Overlay(overlay) if words.slice(overlay.at, overlay.words()).is_some() => {
+                self.overlay(&overlay, events);
             }
             _ => self.unimplemented(events),
         }

@@ -324,6 +324,17 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         skin: SkinOf<'_, P>,
         instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
+        self.draw_known((mesh, usize::MAX), skin, instance)
+    }
+
+    /// [`draw_skinned`](Scene::draw_skinned) of a mesh whose indices are known to be below a
+    /// number, so that they are not looked at once more.
+    pub(crate) fn draw_known<C: Coordinate, L: LightingModel>(
+        &mut self,
+        mesh: (&Mesh<'_, C>, usize),
+        skin: SkinOf<'_, P>,
+        instance: &Instance<L>,
+    ) -> Result<Assembled, DrawError> {
         self.assemble(instance, skin, |assembler, mut filing| {
             assembler.mesh(mesh, |object, first| filing.file(object, first))
         })

@@ -3,20 +3,23 @@
 use crate::rooms::{Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
+use scanbeam::list::TextureSlot;
 use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
     Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, LineMemory,
-    LineRenderer, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory, draw_frame,
-    send_frame,
+    LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory,
+    draw_frame, send_frame,
 };
 use scenes::{
-    DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant, build_listed,
-    build_method, by_method, method_screen,
+    CRATE_TEXTURES, DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant,
+    build_crate, build_listed, build_method, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
+/// The same times textures of a list.
+pub(crate) type Listed = ListedDepth<'static, Rgb565Be>;
 /// One colour a face.
 pub(crate) type Faceted = FlatDepth<Rgb565Be>;
 
@@ -32,6 +35,8 @@ enum Way {
     Model,
     /// A baked list in flash.
     List,
+    /// One with textures.
+    Crate,
     /// A small frame by this interpolation method of the scenes' table.
     Method(usize),
 }
@@ -45,7 +50,7 @@ pub(crate) struct Frame {
 }
 
 /// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
-/// faces, one by the hardware model and one from a baked list, then what the cache and its
+/// faces, one by the hardware model and two from baked lists, then what the cache and its
 /// renderers must not change, then the interpolation methods.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
@@ -72,6 +77,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
             plain("teapot_model", Shot::Teapot, Way::Model),
             plain("crossings_flat", Shot::Crossings, Way::Faceted),
             plain("teapot_list", Shot::Teapot, Way::List),
+            plain("crate_list", Shot::Teapot, Way::Crate),
         ])
         .chain(variants)
         .chain(
@@ -94,6 +100,7 @@ impl Frame {
             }
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
             Way::List => draw_list(rooms, &mut pump),
+            Way::Crate => draw_crate(rooms, &mut pump),
             Way::Method(index) => by_method(
                 index,
                 &mut SmallFrame {
@@ -222,6 +229,30 @@ fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
         slots: &mut smooth.slots[..SLOTS],
         links: smooth.links,
         depth: smooth.depth,
+    });
+    let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
+    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
+}
+
+/// The baked crate, from flash, its texels too.
+#[inline(never)]
+fn draw_crate(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
+    static TEXTURES: [TextureSlot; CRATE_TEXTURES] = [const { TextureSlot::new() }; CRATE_TEXTURES];
+    let listed = &mut rooms.listed;
+    let mut scene = Scene::<Listed>::new(
+        Shot::screen(),
+        SceneMemory {
+            vertices: listed.vertices,
+            objects: listed.objects,
+            buckets: listed.buckets,
+        },
+    );
+    build_crate(&mut scene, rooms.list.memory(), &TEXTURES).expect("the rooms are large enough");
+    let mut renderer = LineRenderer::new(LineMemory {
+        slots: listed.slots,
+        links: listed.links,
+        depth: listed.depth,
     });
     let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)

@@ -1,6 +1,6 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
-use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
+use crate::frames::{Faceted, LINES_PER_TRANSFER, Listed, Smooth};
 use crate::lend::lend;
 use crate::listed::Unpacked;
 use scanbeam::{
@@ -8,12 +8,15 @@ use scanbeam::{
     SceneMemory, SceneVertex, SlotOf, VertexOf,
 };
 use scenes::{
-    HEIGHT, LIST_INDICES, LIST_TABLE, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet, SheetPipeline,
-    Shot, VERTICES, WIDTH,
+    CRATE_TABLE, HEIGHT, LIST_INDICES, LIST_TABLE, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet,
+    SheetPipeline, Shot, VERTICES, WIDTH,
 };
 
 /// Slots of the object cache.
 pub(crate) const SLOTS: usize = 43;
+
+/// Vertices, and objects, of a scene with few of them.
+const FEW: usize = 64;
 
 /// What one pipeline is lent.
 pub(crate) struct RoomsOf<P: Pipeline> {
@@ -27,8 +30,11 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     pub(crate) depth: &'static mut [CellOf<P>],
 }
 
-/// Normals and indices of a list; its places are used where they lie, and it has no colours.
+/// Normals and indices of a list, and for a small one with textures places in space and on them;
+/// those of the teapot are used where they lie. None has colours.
 pub(crate) struct ListRoom {
+    pub(crate) positions: &'static mut [[i16; 3]],
+    pub(crate) places: &'static mut [[i32; 2]],
     pub(crate) normals: &'static mut [[i16; 3]],
     pub(crate) indices: &'static mut [u16],
 }
@@ -37,6 +43,8 @@ impl ListRoom {
     /// As a runner wants it.
     pub(crate) fn memory(&mut self) -> ListMemory<'_> {
         ListMemory {
+            positions: self.positions,
+            places: self.places,
             normals: self.normals,
             indices: self.indices,
             ..ListMemory::default()
@@ -48,6 +56,8 @@ impl ListRoom {
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
     pub(crate) faceted: RoomsOf<Faceted>,
+    /// For a textured list; all in external RAM.
+    pub(crate) listed: RoomsOf<Listed>,
     /// Depth and colour of two lines each, for the hardware model: external RAM.
     pub(crate) model: [&'static mut [u64]; 4],
     /// What comparisons take beyond what one renderer needs: a cache for everything and a second
@@ -86,6 +96,19 @@ impl Rooms {
         Self {
             smooth: rooms_of!(Smooth),
             faceted: rooms_of!(Faceted),
+            listed: RoomsOf {
+                vertices: lend!(".slow", VertexOf<Listed>, FEW, SceneVertex::empty()),
+                objects: lend!(".slow", ObjectOf<Listed>, FEW, Object::default()),
+                buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
+                links: lend!(".slow", Link, FEW, Link::NONE),
+                slots: lend!(
+                    ".slow",
+                    SlotOf<Listed>,
+                    SLOTS,
+                    LineRenderer::<Listed>::empty_slot()
+                ),
+                depth: lend!(".slow", CellOf<Listed>, WIDTH as usize, 0),
+            },
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
@@ -93,6 +116,8 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
             list: ListRoom {
+                positions: lend!(".slow", [i16; 3], CRATE_TABLE, [0; 3]),
+                places: lend!(".slow", [i32; 2], CRATE_TABLE, [0; 2]),
                 normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
                 indices: lend!(".slow", u16, LIST_INDICES, 0),
             },

@@ -13,7 +13,8 @@
 //!
 //! The two cubes share their vertices, 360 bytes.
 //!
-//! [`teapot_list`] is the teapot as `scanbeam bake` makes it: 14,380 bytes.
+//! [`teapot_list`] is the teapot as `scanbeam bake` makes it: 14,380 bytes; [`crate_list`] is a
+//! textured box.
 #![no_std]
 #![forbid(unsafe_code)]
 
@@ -26,7 +27,10 @@ mod stress;
 mod texels;
 mod textured;
 
-pub use listed::{LIST_INDICES, LIST_TABLE, ListedError, build_listed, teapot_list};
+pub use listed::{
+    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, LIST_INDICES, LIST_TABLE, ListedError, build_crate,
+    build_listed, crate_list, teapot_list,
+};
 pub use methods::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };

@@ -1,9 +1,10 @@
 //! Any bytes as a list: no panic, no hang, work within the budget (X7).
 
-use scanbeam::list::{Budget, Halt, ListCommand, TextureSlot};
+use scanbeam::list::{Budget, Halt, ListCommand, OverlaySlot, TextureSlot};
 use scanbeam::{
-    Camera, LineMemory, LineRenderer, Link, ListMemory, ListRunner, ListSettings, ListTextures,
-    ListedDepth, Notice, ObjectOf, Rgb888, Scene, SceneMemory, Screen, VertexOf,
+    Camera, EightLights, Instance, Light, LineMemory, LineOverlay, LineRenderer, Link, ListMemory,
+    ListOverlays, ListRunner, ListSettings, ListTextures, ListedDepth, Notice, ObjectOf, Rgb888,
+    Scene, SceneMemory, Screen, VertexOf,
 };
 
 type Look<'t> = ListedDepth<'t, Rgb888>;
@@ -21,6 +22,7 @@ pub fn run(data: &[u8]) -> usize {
         .chunks_exact(4)
         .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
         .collect();
+    let overlays = [const { OverlaySlot::new() }; 3];
     let slots = [const { TextureSlot::new() }; 8];
     let mut vertices = [VertexOf::<Look<'_>>::empty(); 512];
     let mut objects = [ObjectOf::<Look<'_>>::default(); 512];
@@ -44,7 +46,7 @@ pub fn run(data: &[u8]) -> usize {
     let (mut positions, mut normals) = ([[0i16; 3]; 32], [[0; 3]; 32]);
     let (mut colours, mut indices) = ([[0; 3]; 32], [0; 48]);
     let mut places = [[0; 2]; 32];
-    let mut runner = ListRunner::new(
+    let mut runner = ListRunner::<'_, '_, _, EightLights>::with_lights(
         ListMemory {
             positions: &mut positions,
             normals: &mut normals,
@@ -52,9 +54,14 @@ pub fn run(data: &[u8]) -> usize {
             indices: &mut indices,
             places: &mut places,
             textures: &slots,
+            overlays: &overlays,
         },
         ListSettings {
             camera: true,
+            instance: Instance {
+                light: Light::new([0.0, 1.0, 0.0], 0.1),
+                ..Instance::default()
+            },
             ..ListSettings::default()
         },
     );
@@ -73,11 +80,16 @@ pub fn run(data: &[u8]) -> usize {
         links: &mut links,
         depth: &mut depth,
     });
+    let mut over = ListOverlays {
+        words: &list,
+        slots: &overlays,
+    };
     for y in [0, 12, 23] {
         let mut pixels = [[0; 3]; 32];
         lines
             .draw_line(&scene, y, &mut pixels)
             .expect("there is room for all");
+        LineOverlay::<Rgb888>::paint(&mut over, y, &mut pixels);
     }
     assert!(runner.counts().blocks <= BUDGET.instructions - left.instructions);
     (BUDGET.instructions - left.instructions) as usize

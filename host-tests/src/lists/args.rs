@@ -23,6 +23,15 @@ pub struct BakeArgs {
     /// Whether normals are kept
     #[arg(long, value_enum, default_value_t = Normals::Keep)]
     pub normals: Normals,
+    /// Whether textures are kept
+    #[arg(long, value_enum, default_value_t = Pictures::Keep)]
+    pub textures: Pictures,
+    /// Picture for all of the model instead of those that its materials name, .png, .jpg or .ppm
+    #[arg(long, value_name = "FILE", conflicts_with = "textures")]
+    pub texture: Option<PathBuf>,
+    /// How far texels may be off: root of the mean square, in levels of 255. 0 keeps every texel
+    #[arg(long, value_name = "LEVELS", default_value = "4", value_parser = parse_level, allow_hyphen_values = true)]
+    pub texel_error: f64,
     /// Print the sizes as JSON
     #[arg(long)]
     pub json: bool,
@@ -34,6 +43,15 @@ pub enum Normals {
     /// For lit surfaces
     Keep,
     /// For surfaces that show their colours alone
+    Drop,
+}
+
+/// Whether textures are kept.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Pictures {
+    /// With their palettes
+    Keep,
+    /// For firmware that draws none
     Drop,
 }
 
@@ -98,6 +116,13 @@ impl RunListArgs {
             return Err("-o must not be the list itself".into());
         }
         Ok(())
+    }
+}
+
+fn parse_level(text: &str) -> Result<f64, String> {
+    match text.trim().parse::<f64>() {
+        Ok(value) if (0.0..=255.0).contains(&value) => Ok(value),
+        _ => Err("a number from 0 to 255 is needed".into()),
     }
 }
 

@@ -3,20 +3,25 @@
 //! Vertices are rounded to the smallest form that keeps the error asked for, and merged where
 //! they become the same; triangles of one colour share a material instead of a column; strips
 //! and fans index tables of 255 vertices in bytes, or one large table in half words, whichever is
-//! smaller. HEAD says what memory the list needs, BOUNDS where it is.
+//! smaller. Pictures become textures of the smallest form that keeps the error asked for, and
+//! texture places are moved by whole sides to where 2x16U holds them. HEAD says what memory the
+//! list needs, BOUNDS where it is.
 
-use super::args::{BakeArgs, Normals};
-use super::gltf;
+use super::args::{BakeArgs, Normals, Pictures};
+use super::fields::{Grid, Packed, Places, degrees_between, normal_fields};
+use super::gltf::{self, Loaded};
+use super::sizes;
 use super::strips::strips_of;
 use super::tables::{Table, tables};
-use crate::image_out::write_atomically;
+use super::texels::{Picture, Texels};
+use crate::image_out::{read_image, write_atomically};
 use crate::model::Model;
+use crate::texture_file;
 use scanbeam::Affine;
 use scanbeam::list::{
     Bounds, Field, FieldForm, FieldPacker, Flow, Form, Head, Header, Id, ListWriter, Material,
     Matrix, State, VertexFormat, WriteError, parameter,
 };
-use serde_json::json;
 use std::collections::{BTreeMap, HashMap};
 use std::error::Error;
 
@@ -30,6 +35,8 @@ pub struct BakeSettings {
     pub normal_error: f64,
     /// Whether normals are kept.
     pub normals: bool,
+    /// How far texels may be off: root of the mean square, in levels of 255.
+    pub texel_error: f64,
 }
 
 impl Default for BakeSettings {
@@ -38,6 +45,7 @@ impl Default for BakeSettings {
             error: None,
             normal_error: 1.0,
             normals: true,
+            texel_error: 4.0,
         }
     }
 }
@@ -65,13 +73,18 @@ pub struct Baked {
     pub normal_error: f64,
     /// Vertices of the largest table.
     pub table: usize,
+    /// The textures, by number.
+    pub textures: Vec<Texels>,
+    /// Texture places that no number of sides brings to where 2x16U holds them: moved to its rim.
+    pub places_cut: usize,
 }
 
 impl Baked {
-    /// Bytes of the list for each triangle that it draws.
+    /// Bytes of the list for each triangle that it draws, texels and palettes left out.
     #[must_use]
     pub fn bytes_per_triangle(&self) -> f64 {
-        4.0 * self.words.len() as f64 / self.triangles.max(1) as f64
+        let texels: usize = self.textures.iter().map(Texels::bytes).sum();
+        (4 * self.words.len() - texels) as f64 / self.triangles.max(1) as f64
     }
 }
 
@@ -80,149 +93,74 @@ impl Baked {
 /// # Errors
 /// When the model cannot be read or baked, or the list cannot be written.
 pub fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
-    let obj = args
-        .model
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("obj"));
-    let model = if obj {
-        Model::load(&args.model)?
-    } else {
-        gltf::load(&args.model)?
-    };
+    let Loaded { model, pictures } = load(args)?;
     let settings = BakeSettings {
         error: args.error,
         normal_error: args.normal_error,
         normals: args.normals == Normals::Keep,
+        texel_error: args.texel_error,
     };
-    let baked = bake(&model, &settings).map_err(|e| format!("{}: {e}", args.model.display()))?;
+    let baked = bake_textured(&model, &pictures, &settings)
+        .map_err(|e| format!("{}: {e}", args.model.display()))?;
     let bytes: Vec<u8> = baked.words.iter().flat_map(|w| w.to_ne_bytes()).collect();
     write_atomically(&args.output, &bytes)?;
-    report(&baked, args.json)?;
+    sizes::report(&baked, args.json)?;
     model.print_warnings();
     Ok(())
 }
 
-fn report(b: &Baked, json: bool) -> Result<(), Box<dyn Error>> {
-    let [strips, fans, separate] = b.runs;
-    let bytes = 4 * b.words.len();
-    if json {
-        let report = json!({
-            "bytes": bytes,
-            "triangles": b.triangles,
-            "triangles_dropped": b.dropped,
-            "bytes_per_triangle": b.bytes_per_triangle(),
-            "vertices": b.vertices,
-            "strips": strips,
-            "fans": fans,
-            "separate": separate,
-            "place": format!("{:?}", b.place),
-            "normal": b.normal.map(|n| format!("{n:?}")),
-            "error": b.error,
-            "normal_error_degrees": b.normal_error,
-            "largest_table": b.table,
-        });
-        println!("{}", serde_json::to_string_pretty(&report)?);
-        return Ok(());
-    }
-    println!(
-        "{bytes} bytes, {} triangles: {:.2} bytes a triangle",
-        b.triangles,
-        b.bytes_per_triangle()
-    );
-    println!(
-        "{} vertices in tables of at most {}; {strips} strips, {fans} fans, {separate} triangles alone",
-        b.vertices, b.table
-    );
-    println!("places {:?}, moved by {:.3e} at most", b.place, b.error);
-    if let Some(normal) = b.normal {
-        println!(
-            "normals {normal:?}, turned by {:.3} degrees at most",
-            b.normal_error
-        );
-    }
-    if b.dropped > 0 {
-        println!("{} triangles fell together and are left out", b.dropped);
-    }
-    Ok(())
-}
-
-/// Where a form puts places: `centre + scale field / unit`.
-#[derive(Clone, Copy)]
-struct Grid {
-    form: FieldForm,
-    centre: [f32; 3],
-    /// Size of 1.0 of the mesh in the model.
-    scale: f32,
-}
-
-impl Grid {
-    /// The finest grid of a form that holds `reach` each way.
-    fn new(form: FieldForm, centre: [f64; 3], reach: f64) -> Self {
-        let [most, unit, _] = Self::limits(form)[0];
-        let reach = if reach > 0.0 { reach } else { 1.0 };
-        // A little more, so that rounding to single precision cannot leave the range.
-        let scale = (reach * unit / most * (1.0 + 1e-6)) as f32;
-        Self {
-            form,
-            centre: centre.map(|c| c as f32),
-            scale,
-        }
-    }
-
-    /// For each axis the largest field, the field of 1.0, and the field's least.
-    fn limits(form: FieldForm) -> [[f64; 3]; 3] {
-        match form {
-            FieldForm::S8x3 => [[127.0, 128.0, -128.0]; 3],
-            FieldForm::S10x3 => [
-                // By the coarsest axis, so that one scale suits all.
-                [1022.0, 1024.0, -1024.0],
-                [1022.0, 1024.0, -1024.0],
-                [511.0, 512.0, -512.0],
-            ],
-            FieldForm::S16x3 => [[32_767.0, 16_384.0, -32_768.0]; 3],
-            _ => [[2_147_483_647.0, 1_073_741_824.0, -2_147_483_648.0]; 3],
-        }
-    }
-
-    fn fields(&self, p: [f64; 3]) -> [i32; 3] {
-        let limits = Self::limits(self.form);
-        [0, 1, 2].map(|i| {
-            let [most, unit, least] = limits[i];
-            let v = (p[i] - f64::from(self.centre[i])) / f64::from(self.scale) * unit;
-            v.round().clamp(least, most) as i32
-        })
-    }
-
-    fn place(&self, fields: [i32; 3]) -> [f64; 3] {
-        let limits = Self::limits(self.form);
-        [0, 1, 2].map(|i| {
-            f64::from(self.centre[i]) + f64::from(fields[i]) / limits[i][1] * f64::from(self.scale)
-        })
-    }
-}
-
-/// The fields of a normal, and what they mean, not yet of length 1.
-fn normal_fields(form: FieldForm, n: [f64; 3]) -> ([i32; 3], [f64; 3]) {
-    let most = match form {
-        FieldForm::S8x3 => [127.0; 3],
-        FieldForm::S10x3 => [1023.0, 1023.0, 511.0],
-        _ => [16_384.0; 3],
+/// The model with its pictures, as the flags ask for them.
+fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
+    let obj = args
+        .model
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("obj"));
+    let mut loaded = if obj {
+        let model = Model::load(&args.model)?;
+        let pictures = match (args.textures, &args.texture) {
+            (Pictures::Keep, None) => of_materials(&model)?,
+            _ => Vec::new(),
+        };
+        Loaded { model, pictures }
+    } else {
+        gltf::load(&args.model)?
     };
-    let fields = [0, 1, 2].map(|i| (n[i] * most[i]).round() as i32);
-    (fields, [0, 1, 2].map(|i| f64::from(fields[i]) / most[i]))
-}
-
-fn degrees_between(a: [f64; 3], b: [f64; 3]) -> f64 {
-    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    let lengths = (dot(a, a) * dot(b, b)).sqrt();
-    if lengths == 0.0 {
-        return 0.0;
+    if let Some(file) = &args.texture {
+        // The last material, which no triangle has had, is for those without.
+        let one = Picture::new(&read_image(file)?)?;
+        let model = &mut loaded.model;
+        model.materials.push(crate::model::Material {
+            name: String::new(),
+            kd: [1.0; 3],
+            ks: [0.0; 3],
+            ns: 0.0,
+            d: 1.0,
+            map_kd: None,
+        });
+        let last = model.materials.len() as u32 - 1;
+        for material in &mut model.triangle_materials {
+            material.get_or_insert(last);
+        }
+        loaded.pictures = vec![Some(one); model.materials.len()];
+    } else if args.textures == Pictures::Drop {
+        loaded.pictures.clear();
     }
-    (dot(a, b) / lengths).clamp(-1.0, 1.0).acos().to_degrees()
+    for picture in loaded.pictures.iter().flatten() {
+        let note = picture.image.note.as_deref();
+        note.into_iter().for_each(|note| eprintln!("note: {note}"));
+    }
+    Ok(loaded)
 }
 
-/// A vertex in fields.
-type Packed = ([i32; 3], [i32; 3], [u8; 3]);
+/// The pictures of an OBJ file's materials, which repeat.
+fn of_materials(model: &Model) -> Result<Vec<Option<Picture>>, Box<dyn Error>> {
+    let images = texture_file::of_materials(model)?.into_iter();
+    let picture = |image| Picture {
+        image,
+        clamped: false,
+    };
+    Ok(images.map(|image| image.map(picture)).collect())
+}
 
 /// Triangles that share a material.
 struct Group {
@@ -232,11 +170,35 @@ struct Group {
     triangles: Vec<usize>,
 }
 
-/// Makes a list of a model.
+impl Group {
+    fn header(&self, id: Id, count: usize) -> Header {
+        let textured = self.material.texture.is_some();
+        Header {
+            shade: true,
+            prsp: textured,
+            text: textured,
+            ..Header::of(id, count as u16)
+        }
+    }
+}
+
+/// Makes a list of a model without textures.
 ///
 /// # Errors
 /// When no form keeps the error, or the model is beyond what a matrix can say.
 pub fn bake(model: &Model, settings: &BakeSettings) -> Result<Baked, Box<dyn Error>> {
+    bake_textured(model, &[], settings)
+}
+
+/// Makes a list of a model with the pictures of its materials, of which the last may be missing.
+///
+/// # Errors
+/// As [`bake`]; when there are more than 256 pictures.
+pub fn bake_textured(
+    model: &Model,
+    pictures: &[Option<Picture>],
+    settings: &BakeSettings,
+) -> Result<Baked, Box<dyn Error>> {
     let (low, high) = model.bounds().unwrap_or(([0.0; 3], [0.0; 3]));
     let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
     let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));
@@ -279,9 +241,34 @@ pub fn bake(model: &Model, settings: &BakeSettings) -> Result<Baked, Box<dyn Err
         .map(|v| {
             let n = normal.map_or([0; 3], |form| normal_fields(form, v.normal).0);
             let colour = v.colour.map(|c| (c * 255.0).round() as u8);
-            (grid.fields(v.position), n, colour)
+            Packed {
+                place: grid.fields(v.position),
+                normal: n,
+                colour,
+                uv: [0; 2],
+            }
         })
         .collect();
+    // Materials that share a picture share its texture.
+    let mut distinct: Vec<&Picture> = Vec::new();
+    let numbers: Vec<Option<u8>> = pictures
+        .iter()
+        .map(|picture| {
+            let picture = picture.as_ref()?;
+            let at = distinct.iter().position(|d| *d == picture);
+            let at = at.unwrap_or_else(|| {
+                distinct.push(picture);
+                distinct.len() - 1
+            });
+            Some(at as u8)
+        })
+        .collect();
+    if distinct.len() > 256 {
+        return Err("more than 256 textures".into());
+    }
+    let reduced = |p: &&Picture| Texels::new(p, settings.texel_error);
+    let textures: Vec<Texels> = distinct.iter().map(reduced).collect();
+    let texel_words: usize = textures.iter().map(|t| t.bytes() / 4 + 8).sum();
     let mut baked = Baked {
         words: Vec::new(),
         triangles: 0,
@@ -293,15 +280,18 @@ pub fn bake(model: &Model, settings: &BakeSettings) -> Result<Baked, Box<dyn Err
         error,
         normal_error,
         table: 0,
+        textures,
+        places_cut: 0,
     };
     let writer = Plan {
         grid,
         normal,
         packed: &packed,
         model,
+        textures: &numbers,
     };
     // 16 words a triangle and what comes once: more than any of the forms takes.
-    let mut memory = vec![0; 32 * model.triangles.len() + 1024];
+    let mut memory = vec![0; 32 * model.triangles.len() + 1024 + texel_words];
     let mut out = ListWriter::new(&mut memory);
     writer.write(&mut out, &mut baked, reach)?;
     baked.words = out.words().to_vec();
@@ -314,6 +304,8 @@ struct Plan<'a> {
     normal: Option<FieldForm>,
     packed: &'a [Packed],
     model: &'a Model,
+    /// Numbers of the materials' textures.
+    textures: &'a [Option<u8>],
 }
 
 impl Plan<'_> {
@@ -326,13 +318,15 @@ impl Plan<'_> {
         let mut groups: Vec<Group> = Vec::new();
         for (material, triangles) in by_material {
             let corners = triangles.iter().flat_map(|n| model.triangles[*n]);
-            let mut colours = corners.map(|v| self.packed[v as usize].2);
+            let mut colours = corners.map(|v| self.packed[v as usize].colour);
             let first = colours.next().unwrap_or([255; 3]);
             let coloured = colours.any(|c| c != first);
+            let texture = material.and_then(|m| *self.textures.get(m as usize)?);
             let d = material.map_or(1.0, |m| model.materials[m as usize].d);
             let material = Material {
                 diffuse: if coloured { [255; 3] } else { first },
                 opacity: (d * 255.0).round() as u8,
+                texture,
                 ..Material::default()
             };
             let same = |g: &&mut Group| g.material == material && g.coloured == coloured;
@@ -355,6 +349,10 @@ impl Plan<'_> {
         reach: f64,
     ) -> Result<(), Box<dyn Error>> {
         out.state(&State::Head(Head::default()))?;
+        // Before BOUNDS, so that what it lets pass over sets none of them.
+        for (number, texels) in baked.textures.iter().enumerate() {
+            texels.write(out, number as u8)?;
+        }
         let matrix = Affine::placed(self.grid.scale, self.grid.centre)
             .and_then(|m| Matrix::try_from(&m).ok())
             .ok_or("it is too large")?;
@@ -365,7 +363,7 @@ impl Plan<'_> {
         out.state(&State::Matrix(matrix))?;
         for group in self.groups() {
             out.state(&State::Material(group.material))?;
-            let format = self.format(group.coloured);
+            let format = self.format(&group);
             out.state(&State::Format(format))?;
             self.group(out, baked, &group, &format)?;
         }
@@ -389,7 +387,7 @@ impl Plan<'_> {
     fn bounds(&self, matrix: &Matrix, reach: f64) -> Result<Bounds, Box<dyn Error>> {
         let centre = self.grid.centre.map(f64::from);
         let radius = self.packed.iter().fold(0.0f64, |r, v| {
-            let p = self.grid.place(v.0);
+            let p = self.grid.place(v.place);
             let d = [0, 1, 2].map(|i| p[i] - centre[i]);
             r.max((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
         });
@@ -408,7 +406,7 @@ impl Plan<'_> {
         })
     }
 
-    fn format(&self, coloured: bool) -> VertexFormat {
+    fn format(&self, group: &Group) -> VertexFormat {
         let mut fields = vec![Field {
             parameter: parameter::PLACE,
             form: self.grid.form,
@@ -417,9 +415,13 @@ impl Plan<'_> {
             parameter: parameter::NORMAL,
             form,
         }));
-        fields.extend(coloured.then_some(Field {
+        fields.extend(group.coloured.then_some(Field {
             parameter: parameter::DIFFUSE,
             form: FieldForm::U8x3,
+        }));
+        fields.extend(group.material.texture.map(|_| Field {
+            parameter: parameter::TEXTURE,
+            form: FieldForm::U16x2,
         }));
         // A place, and each parameter once.
         VertexFormat::new(&fields).unwrap_or_default()
@@ -436,18 +438,33 @@ impl Plan<'_> {
         let mut known: HashMap<Packed, u32> = HashMap::new();
         let mut vertices: Vec<Packed> = Vec::new();
         let mut triangles = Vec::new();
+        let textured = group.material.texture.is_some();
+        let clamped = group
+            .material
+            .texture
+            .is_some_and(|t| baked.textures[usize::from(t)].clamped);
+        let places = Places::of(self.model, &group.triangles, clamped);
         for &n in &group.triangles {
-            let triangle = self.model.triangles[n].map(|v| {
+            let corners = self.model.triangles[n];
+            let moved = places.moved(corners.map(|v| self.model.vertices[v as usize].uv));
+            let mut at = 0..3;
+            let triangle = corners.map(|v| {
                 let mut packed = self.packed[v as usize];
                 if !group.coloured {
-                    packed.2 = [0; 3];
+                    packed.colour = [0; 3];
+                }
+                let corner = at.next().unwrap_or_default();
+                if textured {
+                    let (uv, cut) = moved[corner];
+                    packed.uv = uv;
+                    baked.places_cut += usize::from(cut);
                 }
                 *known.entry(packed).or_insert_with(|| {
                     vertices.push(packed);
                     vertices.len() as u32 - 1
                 })
             });
-            let [a, b, c] = triangle.map(|v| vertices[v as usize].0);
+            let [a, b, c] = triangle.map(|v| vertices[v as usize].place);
             if a == b || b == c || c == a {
                 baked.dropped += 1;
             } else {
@@ -476,7 +493,7 @@ impl Plan<'_> {
             for (sum, n) in baked.runs.iter_mut().zip(counts) {
                 *sum += n;
             }
-            self.table(out, table, &vertices, format, is_wide)?;
+            self.table(out, (group, table), &vertices, format, is_wide)?;
         }
         Ok(())
     }
@@ -484,23 +501,26 @@ impl Plan<'_> {
     fn table(
         &self,
         out: &mut ListWriter<'_>,
-        table: &Table,
+        (group, table): (&Group, &Table),
         vertices: &[Packed],
         format: &VertexFormat,
         wide: bool,
     ) -> Result<(), WriteError> {
-        let header = Header {
-            shade: true,
-            ..Header::of(Id::Table, table.vertices.len() as u16)
-        };
+        let header = group.header(Id::Table, table.vertices.len());
         let mut words = Vec::new();
         let mut packer = FieldPacker::new(|w| words.push(w));
         for field in format.fields() {
             for &v in &table.vertices {
-                let (place, normal, colour) = vertices[v as usize];
+                let Packed {
+                    place,
+                    normal,
+                    colour,
+                    uv,
+                } = vertices[v as usize];
                 let [x, y, z] = match field.parameter {
                     parameter::PLACE => place,
                     parameter::NORMAL => normal,
+                    parameter::TEXTURE => [i32::from(uv[0]), i32::from(uv[1]), 0],
                     _ => colour.map(i32::from),
                 };
                 packer.field(field.form, [x, y, z, 255]);

@@ -1,13 +1,16 @@
 //! glTF 2.0, text and binary, into a model: triangles of all scenes' nodes in place, with their
-//! normals, vertex colours and base colours.
+//! normals, vertex colours, base colours and their pictures.
 //!
-//! Textures are left out with a warning, because no pipeline draws them yet. Buffers are read from
-//! the file itself, from `data:` URIs, and from files beside it.
+//! Buffers and pictures are read from the file itself, from `data:` URIs, and from files beside it.
+//! Pictures are PNG or JPEG. Their texture places are those of the set that the material names.
 
+use super::texels::Picture;
+use crate::image_out::decode_image;
 use crate::model::{Material, Model, ModelError, ModelVertex};
 use base64::Engine as _;
 use gltf::buffer::Source;
 use gltf::mesh::Mode;
+use gltf::texture::WrappingMode;
 use std::collections::HashSet;
 use std::path::Path;
 
@@ -16,11 +19,20 @@ const MAX_BUFFER: u64 = 1 << 30;
 /// Most nodes that are placed, each as often as it stands in the tree.
 const MAX_NODES: usize = 1 << 16;
 
+/// A model, and for each of its materials the picture on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Loaded {
+    /// The model.
+    pub model: Model,
+    /// As many as materials.
+    pub pictures: Vec<Option<Picture>>,
+}
+
 /// Reads a model.
 ///
 /// # Errors
 /// When a file cannot be read or contradicts itself, or a number is not finite.
-pub fn load(path: &Path) -> Result<Model, ModelError> {
+pub fn load(path: &Path) -> Result<Loaded, ModelError> {
     let wrong = |reason: String| ModelError {
         file: path.to_path_buf(),
         line: None,
@@ -45,14 +57,20 @@ pub fn load(path: &Path) -> Result<Model, ModelError> {
         model: Model::default(),
         nodes: 0,
         above: HashSet::new(),
-        textures: false,
     };
+    let mut pictures = Vec::new();
     for material in gltf.materials() {
         let [r, g, b, a] = material.pbr_metallic_roughness().base_color_factor();
-        reader.textures |= material
-            .pbr_metallic_roughness()
-            .base_color_texture()
-            .is_some();
+        let info = material.pbr_metallic_roughness().base_color_texture();
+        let picture = info.map(|info| {
+            let number = info.texture().source().index();
+            let named = |reason| wrong(format!("picture {number}: {reason}"));
+            picture_of(&info.texture(), &buffers, path, &mut |reason| {
+                reader.model.warnings.push(named(reason));
+            })
+            .map_err(named)
+        });
+        pictures.push(picture.transpose()?);
         reader.model.materials.push(Material {
             name: material.name().unwrap_or("").to_owned(),
             kd: [r, g, b].map(level),
@@ -72,11 +90,36 @@ pub fn load(path: &Path) -> Result<Model, ModelError> {
     for node in scenes.iter().flat_map(|scene| scene.nodes()) {
         reader.node(&node, IDENTITY).map_err(wrong)?;
     }
-    if reader.textures {
-        let warning = wrong("textures are left out".into());
-        reader.model.warnings.push(warning);
+    Ok(Loaded {
+        model: reader.model,
+        pictures,
+    })
+}
+
+/// The picture of a texture; `warn` takes what is left out.
+fn picture_of(
+    texture: &gltf::Texture<'_>,
+    buffers: &[Vec<u8>],
+    path: &Path,
+    warn: &mut impl FnMut(String),
+) -> Result<Picture, String> {
+    let frame = match texture.source().source() {
+        gltf::image::Source::Uri { uri, .. } => decode_image(&buffer_of(uri, path)?)?,
+        gltf::image::Source::View { view, .. } => {
+            let buffer = buffers.get(view.buffer().index()).map(Vec::as_slice);
+            let end = view.offset().checked_add(view.length());
+            let bytes = end.and_then(|end| buffer?.get(view.offset()..end));
+            decode_image(bytes.ok_or("it is not within its buffer")?)?
+        }
+    };
+    let mut picture = Picture::new(&frame).map_err(|e| e.to_string())?;
+    let sampler = texture.sampler();
+    let wraps = [sampler.wrap_s(), sampler.wrap_t()];
+    picture.clamped = wraps == [WrappingMode::ClampToEdge; 2];
+    if !picture.clamped && wraps != [WrappingMode::Repeat; 2] {
+        warn("it repeats both ways, which is not what its sampler says".into());
     }
-    Ok(reader.model)
+    Ok(picture)
 }
 
 /// Linear light as a level of the display.
@@ -156,7 +199,6 @@ struct Reader<'b> {
     nodes: usize,
     /// The nodes above the one at work, so that a circle is noticed.
     above: HashSet<usize>,
-    textures: bool,
 }
 
 impl Reader<'_> {
@@ -241,6 +283,13 @@ impl Reader<'_> {
         let kd = material.pbr_metallic_roughness().base_color_factor();
         let colours: Option<Vec<[f32; 3]>> =
             reader.read_colors(0).map(|c| c.into_rgb_f32().collect());
+        let info = material.pbr_metallic_roughness().base_color_texture();
+        let places: Option<Vec<[f32; 2]>> = info
+            .and_then(|info| reader.read_tex_coords(info.tex_coord()))
+            .map(|places| places.into_f32().collect());
+        if places.iter().flatten().flatten().any(|c| !c.is_finite()) {
+            return Err("a texture place is not finite".into());
+        }
         let base = self.model.vertices.len() as u32;
         for (i, position) in positions.into_iter().enumerate() {
             let own = colours.as_ref().and_then(|c| c.get(i)).copied();
@@ -253,7 +302,10 @@ impl Reader<'_> {
                 position,
                 normal,
                 colour: [0, 1, 2].map(|k| level(own[k] * kd[k])),
-                uv: [0.0; 2],
+                uv: places
+                    .as_ref()
+                    .and_then(|p| p.get(i))
+                    .map_or([0.0; 2], |[u, v]| [f64::from(*u), 1.0 - f64::from(*v)]),
             });
         }
         for t in triangles {

@@ -4,7 +4,10 @@
 //! |---|---|
 //! | `args.rs` | the flags of `bake`, `run-list` and `disassemble` |
 //! | `bake.rs` | a model into a list: forms, groups, tables |
+//! | `fields.rs` | vertices as fields of a list |
 //! | `strips.rs` | triangles into strips and fans |
+//! | `texels.rs` | pictures into textures and palettes |
+//! | `sizes.rs` | what of a list takes how many bytes |
 //! | `tables.rs` | strips and fans into tables of vertices |
 //! | `gltf.rs` | glTF 2.0 into a model |
 //! | `print.rs` | a list as text |
@@ -12,11 +15,14 @@
 
 pub mod args;
 pub mod bake;
+mod fields;
 pub mod gltf;
 pub mod print;
 pub mod run;
+pub mod sizes;
 pub mod strips;
 mod tables;
+pub mod texels;
 
 use std::error::Error;
 use std::fs::File;

@@ -7,14 +7,14 @@ use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::reference::{Cull, Shade, View};
 use scanbeam::list::{
-    Budget, Halt, Head, Instruction, State, TextureSlot, VertexFormat, read_block,
+    Budget, Halt, Head, Instruction, OverlaySlot, State, TextureSlot, VertexFormat, read_block,
 };
 use scanbeam::scan_out::Pump;
 use scanbeam::texture::Textured;
 use scanbeam::{
-    Affine, Camera, Depth32, Event, Flat, Gouraud, Instance, Light, Link, ListMemory, ListRunner,
-    ListSettings, ListTextures, Notice, Packed8, Parts, Pipeline, PixelFormat, Rgb888, RunCounts,
-    Screen, SpanCounts, draw_frame,
+    Affine, Camera, Depth32, EightLights, Event, Flat, Gouraud, Instance, Light, Link, ListMemory,
+    ListOverlays, ListRunner, ListSettings, ListTextures, Notice, Packed8, Parts, Pipeline,
+    PixelFormat, Rgb888, RunCounts, Screen, SpanCounts, draw_frame_overlaid,
 };
 use std::error::Error;
 
@@ -24,6 +24,8 @@ const TABLE: usize = 65_535;
 const INDICES: usize = 6 * TABLE;
 /// Textures, palettes and pairs of both.
 const TEXTURES: usize = 1024;
+/// Overlays of a picture.
+const OVERLAYS: usize = 256;
 /// Slots of the object cache.
 const SLOTS: usize = 64;
 
@@ -84,9 +86,14 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
         words: list,
         slots: &slots,
     };
+    let slots: Vec<OverlaySlot> = (0..OVERLAYS).map(|_| OverlaySlot::new()).collect();
+    let overlays = ListOverlays {
+        words: list,
+        slots: &slots,
+    };
     match view.shade {
-        Shade::Flat => execute_as::<Look<'_, Flat>>(textures, view, budget),
-        _ => execute_as::<Look<'_, Gouraud>>(textures, view, budget),
+        Shade::Flat => execute_as::<Look<'_, Flat>>((textures, overlays), view, budget),
+        _ => execute_as::<Look<'_, Gouraud>>((textures, overlays), view, budget),
     }
 }
 
@@ -94,7 +101,7 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
 type Look<'t, S> = Parts<Textured<S>, Depth32, Rgb888, SpanCounts, Packed8, ListTextures<'t>>;
 
 fn execute_as<'t, P>(
-    textures: ListTextures<'t>,
+    (textures, overlays): (ListTextures<'t>, ListOverlays<'t>),
     view: &View,
     mut budget: Budget,
 ) -> Result<Ran, Box<dyn Error>>
@@ -124,7 +131,7 @@ where
     let mut indices = vec![0; INDICES];
     let mut places = vec![[0; 2]; TABLE];
     let light = Light::new(single(view.light), view.ambient as f32);
-    let mut runner = ListRunner::new(
+    let mut runner = ListRunner::<'_, '_, _, EightLights>::with_lights(
         ListMemory {
             positions: &mut positions,
             normals: &mut normals,
@@ -132,6 +139,7 @@ where
             indices: &mut indices,
             places: &mut places,
             textures: textures.slots,
+            overlays: overlays.slots,
         },
         ListSettings {
             instance: Instance {
@@ -170,7 +178,7 @@ where
     let sink = MockFrameBuffer::new(width, height);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb888::from_rgb8(view.background);
-    draw_frame(&scene, &mut renderer, &mut pump, background, 1)
+    draw_frame_overlaid(&scene, &mut renderer, &mut pump, background, 1, overlays)
         .map_err(|error| format!("display: {error}"))?;
     let pixels = pump.sink().frame().map_err(|e| format!("display: {e:?}"))?;
     let rgb = pixels.into_iter().flat_map(Rgb888::to_rgb8).collect();

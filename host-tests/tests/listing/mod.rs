@@ -3,13 +3,13 @@
 
 use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::list::{
-    Budget, Field, FieldForm, FieldPacker, Halt, Header, Id, ListWriter, Matrix, State,
-    TextureSlot, VertexFormat, parameter,
+    Budget, Field, FieldForm, FieldPacker, Halt, Header, Id, ListWriter, Matrix, OverlaySlot,
+    State, TextureSlot, VertexFormat, parameter,
 };
 use scanbeam::{
-    Affine, Camera, Cull, Event, FlatDepth, GouraudDepth, Instance, Light, ListCoordinate,
-    ListMemory, ListRunner, ListSettings, Notice, Pipeline, Rgb888, Scene, Screen, Vertices,
-    WordOf,
+    Affine, Camera, Cull, EightLights, Event, FlatDepth, GouraudDepth, Instance, Light,
+    ListCoordinate, ListMemory, ListRunner, ListSettings, Notice, Pipeline, Rgb888, Scene, Screen,
+    Vertices, WordOf,
 };
 
 pub type Smooth = GouraudDepth<Rgb888>;
@@ -73,8 +73,27 @@ impl<C: ListCoordinate> Room<C> {
             indices: &mut self.indices,
             places: &mut self.places,
             textures,
+            ..ListMemory::default()
         };
         ListRunner::new(memory, settings)
+    }
+
+    /// A runner that knows eight lights and overlays.
+    pub fn lit<'m, 'c>(
+        &'m mut self,
+        settings: ListSettings<'c>,
+        (textures, overlays): (&'m [TextureSlot], &'m [OverlaySlot]),
+    ) -> ListRunner<'m, 'c, C, EightLights> {
+        let memory = ListMemory {
+            positions: &mut self.positions,
+            normals: &mut self.normals,
+            colours: &mut self.colours,
+            indices: &mut self.indices,
+            places: &mut self.places,
+            textures,
+            overlays,
+        };
+        ListRunner::with_lights(memory, settings)
     }
 }
 
@@ -139,14 +158,13 @@ impl Cloud {
                 _ => p.map(|v| v as i16),
             });
             let n = field(rng, normal);
-            let full = |v: i32, most: f64| (f64::from(v) * (16_384.0 - 1.0 / most) / most).floor();
+            let full = |v: i32, unit: f64| {
+                let real = f64::from(v) * (1.0 + 1.0 / unit) / unit;
+                (real * 16_384.0).floor() as i16
+            };
             cloud.normals.push(match normal {
                 FieldForm::S8x3 => n.map(|v| (v * 129) as i16),
-                FieldForm::S10x3 => [
-                    full(n[0], 1023.0) as i16,
-                    full(n[1], 1023.0) as i16,
-                    full(n[2], 511.0) as i16,
-                ],
+                FieldForm::S10x3 => [full(n[0], 1024.0), full(n[1], 1024.0), full(n[2], 512.0)],
                 _ => n.map(|v| v as i16),
             });
             cloud.colours.push([0; 3].map(|_: u8| rng.below(256) as u8));

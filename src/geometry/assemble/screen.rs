@@ -156,7 +156,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
             faces: Faces::Triangles(&[]),
             ..*mesh
         };
-        check(mesh)?;
+        check(mesh, 0)?;
         if !S::fits(&self.skin, mesh.positions.len()) {
             return Err(MeshError::AttributeLength);
         }

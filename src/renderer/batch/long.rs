@@ -5,7 +5,7 @@
 use super::places::texels;
 use super::{Batch, Kind, ListCoordinate, Target};
 use crate::event::EventSink;
-use crate::geometry::{ScreenVertex, Shading};
+use crate::geometry::{LightingModel, ScreenVertex, Shading};
 use crate::list::{Run, Words};
 use crate::pipeline::Pipeline;
 
@@ -30,11 +30,11 @@ struct Piece {
 
 impl<C: ListCoordinate> Batch<'_, C> {
     /// Takes a strip or fan of long vertices.
-    pub(in super::super) fn long<'w, P: Pipeline, E: EventSink>(
+    pub(in super::super) fn long<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         run: Run,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) {
         self.flush(words, target);
         self.kind = Kind::Nothing;
@@ -105,11 +105,11 @@ impl<C: ListCoordinate> Batch<'_, C> {
     }
 
     /// Keeps what the strip goes on with, and draws.
-    fn end_piece<P: Pipeline, E: EventSink>(
+    fn end_piece<P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         piece: &mut Piece,
         prsp: bool,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) {
         for (n, i) in self.strip.corners.into_iter().enumerate() {
             let i = usize::from(i);

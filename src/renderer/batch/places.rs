@@ -5,7 +5,7 @@
 
 use super::{Batch, Kind, ListCoordinate, Target};
 use crate::event::{Event, EventSink};
-use crate::geometry::Shading;
+use crate::geometry::{LightingModel, Shading};
 use crate::list::Words;
 use crate::pipeline::Pipeline;
 use core::ops::Range;
@@ -31,11 +31,11 @@ impl<C: ListCoordinate> Batch<'_, C> {
     }
 
     /// Makes texels of the places of what is about to be drawn; where they are then.
-    pub(super) fn place<'w, P: Pipeline, E: EventSink>(
+    pub(super) fn place<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         run: Range<usize>,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) -> Option<Range<usize>> {
         let (bound, _) = target.texture.filter(|_| P::Shading::SKINNED)?;
         let sides = bound.log_sides;

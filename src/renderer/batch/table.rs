@@ -3,19 +3,19 @@
 use super::super::fill::{Filled, fill, fill_one};
 use super::{BadIndex, Batch, Column, Kind, ListCoordinate, Table, Target};
 use crate::event::{Event, EventSink};
-use crate::geometry::Shading;
+use crate::geometry::{LightingModel, Shading};
 use crate::list::{FieldForm, Layout, Run, SEPARATE, VertexFormat, WIDE, Words, colour, normal};
 use crate::pipeline::Pipeline;
 
 impl<C: ListCoordinate> Batch<'_, C> {
     /// Takes a table: columns that cannot be used where they lie are unpacked. `false`: there is
     /// no room, or the coordinates are too fine for `C`.
-    pub(in super::super) fn table<'w, P: Pipeline, E: EventSink>(
+    pub(in super::super) fn table<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         format: &VertexFormat,
         run: Run,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) -> Result<(), Event> {
         self.flush(words, target);
         self.reset();
@@ -94,11 +94,11 @@ impl<C: ListCoordinate> Batch<'_, C> {
     }
 
     /// Takes triangles of the table.
-    pub(in super::super) fn indexed<'w, P: Pipeline, E: EventSink>(
+    pub(in super::super) fn indexed<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         run: Run,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) -> Result<(), BadIndex> {
         let Some(table) = self.table.filter(|t| t.usable) else {
             target.notice(Event::Full, u32::from(run.header.count));
@@ -143,31 +143,31 @@ impl<C: ListCoordinate> Batch<'_, C> {
     /// Strips and fans each in a loop of their own: what is asked once a block is not asked once
     /// an index.
     #[inline]
-    fn faces<'w, P: Pipeline, E: EventSink>(
+    fn faces<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         count: u16,
         run: Run,
         restart: u16,
         indices: impl Iterator<Item = u16>,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) -> Result<(), BadIndex> {
         if run.header.rm {
-            self.faces_as::<P, E, true>(words, count, run, restart, indices, target)
+            self.faces_as::<P, E, M, true>(words, count, run, restart, indices, target)
         } else {
-            self.faces_as::<P, E, false>(words, count, run, restart, indices, target)
+            self.faces_as::<P, E, M, false>(words, count, run, restart, indices, target)
         }
     }
 
     #[inline]
-    fn faces_as<'w, P: Pipeline, E: EventSink, const FAN: bool>(
+    fn faces_as<'w, P: Pipeline, E: EventSink, M: LightingModel, const FAN: bool>(
         &mut self,
         words: impl Words<'w>,
         count: u16,
         run: Run,
         restart: u16,
         indices: impl Iterator<Item = u16>,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) -> Result<(), BadIndex> {
         let separate = run.header.low & SEPARATE != 0;
         let mut indices = indices;

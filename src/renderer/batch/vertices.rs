@@ -2,19 +2,19 @@
 
 use super::{Attributes, Batch, Kind, ListCoordinate, RunFaces, Target};
 use crate::event::{Event, EventSink};
-use crate::geometry::{QuadSplit, Shading};
+use crate::geometry::{LightingModel, QuadSplit, Shading};
 use crate::list::{Id, Layout, Run, SPLIT, VertexFormat, Words, colour, normal};
 use crate::pipeline::Pipeline;
 
 impl<C: ListCoordinate> Batch<'_, C> {
     /// Takes the vertices of a block of SHORT, QUADS, or POINTS of so many pixels each way.
-    pub(in super::super) fn run<'w, P: Pipeline, E: EventSink>(
+    pub(in super::super) fn run<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         format: &VertexFormat,
         run: Run,
         point_size: u8,
-        target: &mut Target<'_, '_, P, E>,
+        target: &mut Target<'_, '_, P, E, M>,
     ) -> Result<(), Event> {
         let header = run.header;
         let (quads, points) = (header.id == Id::Quads, header.id == Id::Points);

@@ -1,0 +1,130 @@
+//! Overlays of a list: rectangles of pixels over the picture, read where they lie (K14).
+//!
+//! A list leaves them in slots that the application lends; who draws the lines reads them there,
+//! on another core too.
+
+use super::block::Overlay;
+use super::texels::{Texels, form_of_code};
+use core::sync::atomic::{AtomicU32, Ordering};
+
+/// Room for one overlay.
+#[derive(Debug, Default)]
+pub struct OverlaySlot {
+    /// Bit 31: in use; 3..0 the form, 4 added, 15..8 colours less one.
+    name: AtomicU32,
+    /// Left and top, lower half first.
+    place: AtomicU32,
+    /// Width and height.
+    size: AtomicU32,
+    /// Position of the pixels.
+    at: AtomicU32,
+    /// Position of the colours.
+    colours: AtomicU32,
+}
+
+impl OverlaySlot {
+    /// Empty.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self {
+            name: AtomicU32::new(0),
+            place: AtomicU32::new(0),
+            size: AtomicU32::new(0),
+            at: AtomicU32::new(0),
+            colours: AtomicU32::new(0),
+        }
+    }
+}
+
+const IN_USE: u32 = 1 << 31;
+
+/// The overlays of a list, the later ones on top.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct OverlaySlots<'m>(
+    /// The slots.
+    pub &'m [OverlaySlot],
+);
+
+impl<'m> OverlaySlots<'m> {
+    /// Forgets all.
+    pub fn clear(self) {
+        for slot in self.0 {
+            slot.name.store(0, Ordering::Relaxed);
+        }
+    }
+
+    /// Keeps one, with the position and the number of its colours, 1 to 256, where it needs some;
+    /// `false`: no slot is free.
+    #[must_use]
+    pub fn push(self, overlay: &Overlay, (colours, count): (u32, u32)) -> bool {
+        let free = |s: &&OverlaySlot| s.name.load(Ordering::Relaxed) == 0;
+        let Some(slot) = self.0.iter().find(free) else {
+            return false;
+        };
+        let pair = |low: u16, high: u16| u32::from(low) | u32::from(high) << 16;
+        let put = |to: &AtomicU32, value| to.store(value, Ordering::Relaxed);
+        put(&slot.place, pair(overlay.left, overlay.top));
+        put(&slot.size, pair(overlay.width, overlay.height));
+        put(&slot.at, overlay.at);
+        put(&slot.colours, colours);
+        let name = overlay.form as u32
+            | u32::from(overlay.additive) << 4
+            | (count.saturating_sub(1) & 0xFF) << 8;
+        put(&slot.name, IN_USE | name);
+        true
+    }
+
+    /// What lies on a line of the picture, from the lowest to the topmost, out of the words of the
+    /// list.
+    pub fn on<'w>(self, line: u16, words: &'w [u32]) -> impl Iterator<Item = OverlayRow<'w>> + 'm
+    where
+        'w: 'm,
+    {
+        let row = move |slot: &OverlaySlot| {
+            let get = |from: &AtomicU32| from.load(Ordering::Relaxed);
+            let name = get(&slot.name);
+            let (place, size) = (get(&slot.place), get(&slot.size));
+            let row = line.checked_sub((place >> 16) as u16)?;
+            if name & IN_USE == 0 || u32::from(row) >= size >> 16 {
+                return None;
+            }
+            let form = form_of_code(name & 15);
+            let mut colours: &[u32] = &[];
+            if form.is_indexed() {
+                let from = words.get(get(&slot.colours) as usize..)?;
+                colours = from.get(..=(name >> 8 & 0xFF) as usize)?;
+            }
+            let width = size as u16;
+            Some(OverlayRow {
+                left: place as u16,
+                width,
+                additive: name >> 4 & 1 != 0,
+                first: u32::from(row) * u32::from(width),
+                texels: Texels::new(words.get(get(&slot.at) as usize..)?, form, colours),
+            })
+        };
+        self.0.iter().filter_map(row)
+    }
+}
+
+/// A row of an overlay.
+#[derive(Clone, Copy, Debug)]
+pub struct OverlayRow<'w> {
+    /// Column of the first pixel.
+    pub left: u16,
+    /// Pixels.
+    pub width: u16,
+    /// They are added.
+    pub additive: bool,
+    first: u32,
+    texels: Texels<'w>,
+}
+
+impl OverlayRow<'_> {
+    /// Red, green, blue and alpha of the pixel so many columns from the left one.
+    #[inline]
+    #[must_use]
+    pub fn rgba(&self, column: u16) -> [u8; 4] {
+        self.texels.rgba(self.first + u32::from(column))
+    }
+}
