@@ -133,13 +133,16 @@
 //! | X2 | an error budget | `shade/quality.rs`, `shade/interpolation.rs` | `shade/interpolation.rs`, `composite/tests.rs`, `host-tests/src/accuracy/` |
 //! | X3, X4, M4 | skipping, counted | `geometry/bounds.rs`, `scan_out/changed.rs`, `renderer/frame.rs`, `stats.rs` | `skipped.rs`, `changed.rs` |
 //! | K8 | line depth | `visible/` | `against_reference.rs`, `model_pipe.rs` |
+//! | K9 | shadow volumes, counted on a line | `geometry/shadow.rs`, `visible/shadow.rs`, `renderer/shadow.rs` | `visible/shadow.rs`, `shadows.rs` |
 //! | K10 | ambient, diffuse, specular at vertices, several coloured lights | `geometry/light.rs`, `geometry/lighting.rs` | `geometry/light.rs`, `geometry/lighting/tests.rs` |
+//! | K10, K15 | the same at pixels, by interpolated 12-bit normals | `geometry/phong.rs`, `shade/lights.rs` | `phong.rs` |
+//! | K11, P5, H8, H9 | blends, alpha, write masks, depth functions | `geometry/finish.rs`, `composite/blend/`, `visible/function.rs`, `renderer/transparent.rs` | `composite/blend/tests.rs`, `visible/function.rs`, `composite.rs` |
 //! | K12 | double-buffered lines, pixel formats | `scan_out/pump.rs`, `composite/`, `renderer/frame.rs` | `scan_out.rs` |
 //! | K15, H11, H12, H16 | instruction lists: form, vertices by a table, flow control | `list/`, `renderer/batch/`, `renderer/lights.rs`, `geometry/assemble/screen.rs`, `composite/listed.rs` | `list/tests.rs`, `lists.rs`, `list_screen.rs`, `list_textures.rs`, `list_looks.rs` |
 //! | H13, X7 | lists are safe against any bytes, within a budget | `list/reader.rs`, `list/flow.rs`, `renderer/run.rs` | `list/tests.rs`, `list_fuzz.rs`, `list_flow.rs` |
 //! | H14 | status events | `event.rs`, `renderer/run.rs` | `event.rs`, `list_flow.rs` |
-//! | K14 | overlays: runs, sprites, drawables, those of lists | `composite/overlay.rs`, `composite/canvas.rs`, `composite/listed.rs`, `list/overlays.rs`, `renderer/overlay.rs` | the first of these, `list_looks.rs` |
-//! | H10, K12 | ordered dither, bypassed by D; rounding or cutting | `composite/dither.rs`, `composite/texels.rs` | the first of these |
+//! | K14 | overlays: runs, sprites, drawables, those of lists | `composite/overlay.rs`, `composite/canvas.rs`, `composite/listed.rs`, `list/overlays.rs`, `renderer/overlay.rs` | the first of these, `output.rs`, `list_looks.rs` |
+//! | H10, K12 | ordered dither, bypassed by D; rounding or cutting | `composite/dither.rs`, `composite/texels.rs` | the first of these, `output.rs` |
 //! | C1, C2 | active objects are copied to the cache, and leave at once | `active/list.rs` | `active/list/tests.rs`, `cache.rs` |
 //! | C3 | a hit is one comparison of a link | `link.rs` | `active/list/tests.rs` |
 //! | C4 | fetched one line ahead | `active/list.rs`, `renderer/place.rs` | `cache.rs` |
@@ -204,16 +207,17 @@ pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
     Affine, Assembled, Blend, Blended, Camera, CameraError, Colour, Coordinate, Cull,
     DepthFunction, DirectionalLight, Dropped, Faces, Factor, Finish, Flat, Gouraud, Light,
-    Lighting, LightingModel, ListLamps, ListLighting, Material, MatrixRange, Mesh, MeshError,
-    Object, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError, ScreenVertex, Shading,
-    Shadow, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom, Sphere, Surface,
+    Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Material, MatrixRange, Mesh,
+    MeshError, Object, Phong, PixelLamps, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError,
+    ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom, Sphere,
+    Surface,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
     CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth, FlatPainter,
-    GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts, Pipeline, Shadowed,
-    SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
+    GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts, PhongDepth, Pipeline,
+    Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,
@@ -227,8 +231,8 @@ pub use renderer::{
 #[cfg(feature = "async")]
 pub use renderer::{draw_frame_async, send_frame_async};
 pub use shade::{
-    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
-    Packed16, Precision, Quality, QuarterRate,
+    Auto, Forward, HalfRate, Interpolation, Lamplight, Lirp10, Lirp12, Lirp16, LirpPacked, Method,
+    Packed8, Packed16, PixelLights, Precision, Quality, QuarterRate,
 };
 pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};

@@ -9,6 +9,7 @@
 //! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
 //! | [`ListedDepth`] | [`Gouraud`] times a list's texture | [`Depth32`] | any | forward |
 //! | [`DetailedDepth`] | [`Gouraud`] times a texture in levels of detail | [`Depth32`] | any | forward |
+//! | [`PhongDepth`] | [`Gouraud`], lit at each pixel | [`Depth32`] | any | pixel by pixel |
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
 //! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
@@ -19,8 +20,8 @@ use crate::composite::{
     Blending, Compositing, DetailedTextures, ListTextures, PixelFormat, TextureSource, Textures,
 };
 use crate::geometry::texturing::{LevelEnds, Textured};
-use crate::geometry::{Blended, Flat, Gouraud, Shading};
-use crate::shade::{Interpolation, Levels, Packed8};
+use crate::geometry::{Blended, Flat, Gouraud, Phong, Shading};
+use crate::shade::{Interpolation, Lamplight, Levels, Packed8, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::{Depth32, DepthAndId, LineDepth, ShadowDepth32};
 use core::marker::PhantomData;
@@ -42,13 +43,19 @@ pub trait Pipeline {
     /// Whether surfaces are composited by their finish: [`Blending`], or `()` where all are
     /// opaque. Shadings that are [`Blended`] have one.
     type Compositing: Compositing;
+    /// What lights pixels: [`Lamplight`], or `()` where light falls on vertices and faces. Shadings
+    /// that are [`Phong`](crate::Phong) have normals for it.
+    type Lights: PixelLights;
 }
 
 /// A pipeline by its parts.
 #[derive(Clone, Copy, Debug)]
-pub struct Parts<S, D, F, C = (), I = Packed8, X = (), B = ()>(PhantomData<(S, D, F, C, I, X, B)>);
+pub struct Parts<S, D, F, C = (), I = Packed8, X = (), B = (), L = ()>(
+    PhantomData<(S, D, F, C, I)>,
+    PhantomData<(X, B, L)>,
+);
 
-impl<S, D, F, C, I, X, B> Pipeline for Parts<S, D, F, C, I, X, B>
+impl<S, D, F, C, I, X, B, L> Pipeline for Parts<S, D, F, C, I, X, B, L>
 where
     S: Shading<Levels: Levels>,
     D: LineDepth,
@@ -57,6 +64,7 @@ where
     I: Interpolation,
     X: TextureSource<F>,
     B: Compositing,
+    L: PixelLights,
 {
     type Shading = S;
     type Depth = D;
@@ -65,6 +73,7 @@ where
     type Interpolation = I;
     type Textures = X;
     type Compositing = B;
+    type Lights = L;
 }
 
 /// Colours linear between vertices, 32-bit depth.
@@ -85,6 +94,8 @@ pub type ListedDepth<'t, F> = Parts<Textured<Gouraud>, Depth32, F, (), Packed8, 
 /// The same with textures in levels of detail.
 pub type DetailedDepth<'t, F, T> =
     Parts<Textured<Gouraud, LevelEnds>, Depth32, F, (), Packed8, DetailedTextures<'t, T>>;
+/// Normals linear between vertices and light at each pixel, 32-bit depth.
+pub type PhongDepth<'l, F> = Parts<Phong<Gouraud>, Depth32, F, (), Packed8, (), (), Lamplight<'l>>;
 /// The pipeline `P`, and surfaces have a finish: some may be transparent.
 pub type Composited<P> = Parts<
     Blended<<P as Pipeline>::Shading>,
@@ -94,6 +105,7 @@ pub type Composited<P> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     Blending,
+    <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, and surfaces have a finish: some may be transparent, or bound shadows.
 pub type Shadowed<P> = Parts<
@@ -104,6 +116,7 @@ pub type Shadowed<P> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     Blending,
+    <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, and its spans and pixels are counted.
 pub type Counted<P> = Parts<
@@ -114,6 +127,7 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,
+    <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, which shades no pixel before it is known whose it is (X3).
 pub type Deferred<P> = Parts<
@@ -124,6 +138,7 @@ pub type Deferred<P> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,
+    <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, with colours by the method `I`.
 pub type Interpolated<P, I> = Parts<
@@ -134,6 +149,7 @@ pub type Interpolated<P, I> = Parts<
     I,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,
+    <P as Pipeline>::Lights,
 >;
 
 /// The word of a pipeline's pixels.

@@ -11,7 +11,7 @@ mod render;
 mod tests;
 
 pub use bench::{BenchArgs, FirmwareArgs};
-pub use picture::{PictureArgs, PixelFormatArg, Size};
+pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
 pub use render::{InterpArg, QualityArg, RenderArgs, SwitchArg};
 
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
@@ -93,6 +93,9 @@ impl TraceArgs {
             .view()
             .check()
             .map_err(|error| error.to_string())?;
+        if self.picture.shade == ShadeArg::Phong {
+            return Err("the hardware model has no --shade phong".into());
+        }
         let height = self.picture.size.height;
         if u32::from(self.line) >= height {
             return Err(format!(

@@ -1,9 +1,12 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
+mod effects;
+mod formats;
 mod interp;
 mod prepared;
 mod textured;
 
+pub use effects::{Effects, draw_effects};
 pub use interp::draw_by;
 pub use prepared::Prepared;
 pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
@@ -20,9 +23,9 @@ use scanbeam::model::{
 };
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Camera, Counted, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth, Instance,
-    Light, Link, Mesh, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be, Rgb888, Scene, Screen,
-    WordOf,
+    Camera, Compositing, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth,
+    Instance, Light, Link, Mesh, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be, Rgb888, Scene,
+    Screen, ShadowError, WordOf,
 };
 use serde_json::json;
 use std::ops::Range;
@@ -166,20 +169,7 @@ pub fn draw(
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure> {
     let prepared = Prepared::new(model);
-    match (view.shade, format) {
-        (Shade::Flat, PixelFormatArg::Rgb888) => {
-            draw_as::<Counted<FlatDepth<Rgb888>>>(&prepared, view, crew)
-        }
-        (Shade::Flat, PixelFormatArg::Rgb565) => {
-            draw_as::<Counted<FlatDepth<Rgb565Be>>>(&prepared, view, crew)
-        }
-        (_, PixelFormatArg::Rgb888) => {
-            draw_as::<Counted<GouraudDepth<Rgb888>>>(&prepared, view, crew)
-        }
-        (_, PixelFormatArg::Rgb565) => {
-            draw_as::<Counted<GouraudDepth<Rgb565Be>>>(&prepared, view, crew)
-        }
-    }
+    formats::draw_in(&prepared, view, format, crew)
 }
 
 /// Draws a model as [`draw`] does, through the hardware model.
@@ -201,6 +191,7 @@ pub fn draw_model(
         }
         (_, PixelFormatArg::Rgb888) => draw_model_as::<GouraudDepth<Rgb888>>(&prepared, view),
         (_, PixelFormatArg::Rgb565) => draw_model_as::<GouraudDepth<Rgb565Be>>(&prepared, view),
+        _ => Err(formats::refused("the hardware model draws")),
     }
 }
 
@@ -224,9 +215,27 @@ fn draw_with<P: Pipeline>(
     textures: P::Textures,
 ) -> Result<Drawn, DrawFailure> {
     let setting = Setting::new(prepared, view)?;
-    let (width, height) = (view.width as u16, view.height as u16);
-    let mut rooms = rooms_for::<P>(prepared, height);
+    let mut rooms = rooms_for::<P>(prepared, view.height as u16);
     rooms.textures = textures;
+    let build = |scene: &mut Scene<'_, P>, chunk: usize, alone: bool| {
+        let chunk = &prepared.chunks[chunk];
+        let done = chunk.draw(scene, (&setting.instance, &()), alone);
+        done.map_err(ShadowError::Draw)
+    };
+    let steps = prepared.chunks.len();
+    draw_scenes::<P>((prepared, &setting, rooms), (view, crew), (steps, build))
+}
+
+/// Draws the scenes that `build` makes, step by step, of a prepared model.
+fn draw_scenes<P: Pipeline>(
+    (prepared, setting, mut rooms): (&Prepared, &Setting, SceneRooms<P>),
+    (view, crew): (&View, CrewSettings),
+    (steps, build): (
+        usize,
+        impl FnMut(&mut Scene<'_, P>, usize, bool) -> Result<(), ShadowError>,
+    ),
+) -> Result<Drawn, DrawFailure> {
+    let (width, height) = (view.width as u16, view.height as u16);
     let links = rooms.objects();
     let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
         .map(|_| LineRooms::new(crew.slots, links, width.into()))
@@ -239,14 +248,15 @@ fn draw_with<P: Pipeline>(
     let (mut pump, lines) = display::<P>(width, height);
     let mut total = FrameStats::default();
     let mut slow_bytes = 0;
-    let bands = setting.bands(prepared, &mut rooms, 0..height, |scene| {
+    let bands = setting.bands_of((&mut rooms, 0..height), (steps, build), |scene| {
         let stats = crew::draw_frame(scene, &mut renderers, &mut pump, background, lines)
             .map_err(DrawFailure::Display)?;
         add(&mut total, &stats);
         slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
-    if bands > 1 {
+    if bands > 1 || P::Compositing::BLENDS {
+        // Volumes, and what is drawn twice, are none of the model's triangles.
         setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
     }
     Ok(Drawn {
@@ -398,13 +408,31 @@ impl Setting {
         })
     }
 
-    /// Builds the scene of `lines` and hands it to `draw`; in several bands from top to bottom
-    /// where it does not fit the arenas as a whole. How many bands it took.
+    /// Builds the scene of `lines` of a model and hands it to `draw`; see
+    /// [`bands_of`](Self::bands_of).
     pub(crate) fn bands<P: Pipeline>(
         &self,
         prepared: &Prepared,
         rooms: &mut SceneRooms<P>,
         lines: Range<u16>,
+        draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
+    ) -> Result<u32, DrawFailure> {
+        let build = |scene: &mut Scene<'_, P>, chunk: usize, alone: bool| {
+            let done = prepared.chunks[chunk].draw(scene, (&self.instance, &()), alone);
+            done.map_err(ShadowError::Draw)
+        };
+        self.bands_of((rooms, lines), (prepared.chunks.len(), build), draw)
+    }
+
+    /// Builds the scene of `lines` and hands it to `draw`; in several bands from top to bottom
+    /// where it does not fit the arenas as a whole. How many bands it took.
+    fn bands_of<P: Pipeline>(
+        &self,
+        (rooms, lines): (&mut SceneRooms<P>, Range<u16>),
+        (steps, mut build): (
+            usize,
+            impl FnMut(&mut Scene<'_, P>, usize, bool) -> Result<(), ShadowError>,
+        ),
         mut draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
     ) -> Result<u32, DrawFailure> {
         let mut scene = rooms.scene(self.screen);
@@ -412,7 +440,7 @@ impl Setting {
         let mut start = lines.start;
         let mut count = lines.len() as u16;
         // Chunks whose triangles bring their own vertices.
-        let mut alone = vec![false; prepared.chunks.len()];
+        let mut alone = vec![false; steps];
         while start < lines.end {
             count = count.min(lines.end - start);
             scene
@@ -420,11 +448,15 @@ impl Setting {
                 .map_err(|error| DrawFailure::View(error.to_string()))?;
             let mut full = None;
             let mut changed = false;
-            for (chunk, alone) in prepared.chunks.iter().zip(&mut alone) {
+            for (step, alone) in alone.iter_mut().enumerate() {
                 let before = scene.pass_one();
-                if let Err(error) = chunk.draw(&mut scene, &self.instance, *alone) {
-                    full = Some(error);
-                    break;
+                match build(&mut scene, step, *alone) {
+                    Ok(()) => {}
+                    Err(ShadowError::Draw(error)) => {
+                        full = Some(error);
+                        break;
+                    }
+                    Err(error) => return Err(DrawFailure::View(error.to_string())),
                 }
                 let after = scene.pass_one();
                 let (vertices, objects) = (

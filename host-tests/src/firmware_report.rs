@@ -2,6 +2,7 @@
 
 use crate::args::FirmwareArgs;
 use crate::draw::ModelLines;
+use crate::effect_frames::effect_frames;
 use crate::figures::gate::{Record, Verdict};
 use crate::figures::{Bench, Figure, Size, growth};
 use crate::firmware::{
@@ -214,7 +215,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
         swatch.draw(|line| bytes.extend(line.iter().flat_map(|word| word.to_ne_bytes())));
         frames.insert(name, crc32fast::hash(&bytes));
     }
-    for (name, words) in method_frames()? {
+    for (name, words) in method_frames()?.into_iter().chain(effect_frames(64)?) {
         let bytes: Vec<u8> = words.into_iter().flat_map(u16::to_ne_bytes).collect();
         frames.insert(name, crc32fast::hash(&bytes));
     }

@@ -7,6 +7,7 @@ pub mod cache_report;
 pub mod crew;
 pub mod demo;
 pub mod draw;
+pub mod effect_frames;
 pub mod figures;
 pub mod firmware;
 pub mod firmware_report;

@@ -1,6 +1,8 @@
 //! The command line tool: see `scanbeam --help`.
 
-use host_tests::args::{self, Command, EXIT_BAD_INPUT, InterpArg, QualityArg, RenderArgs, Stop};
+use host_tests::args::{
+    self, Command, EXIT_BAD_INPUT, InterpArg, PixelFormatArg, QualityArg, RenderArgs, Stop,
+};
 use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
@@ -57,13 +59,28 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         prefetch: args.prefetch,
         quality: args.quality.map(QualityArg::quality).unwrap_or_default(),
     };
-    let (view, format) = (args.view(), args.picture.format);
+    let (view, format) = (args.view(), args.format());
     let textures = match args.method() {
         // The hardware model has none.
         InterpArg::Model => TextureSet::default(),
         _ => TextureSet::load(&model, args.texture.as_deref())?.with_levels(args.levels.is_on()),
     };
-    let drawn = if textures.is_empty() {
+    let effects = args.effects();
+    let seen = effects.are_seen(&model, &view);
+    let dithered = [PixelFormatArg::Dithered565, PixelFormatArg::Dithered888];
+    let common = [PixelFormatArg::Rgb565, PixelFormatArg::Rgb888];
+    let is_dithered = dithered.contains(&format);
+    let is_plain = args.interp.is_some() || !is_dithered && !common.contains(&format);
+    let drawn = if !is_plain && (seen || is_dithered && !textures.is_empty()) {
+        if !textures.is_empty() && !textures.has_levels() {
+            return Err(
+                "--levels off draws textures without dither, and without materials that shine or are transparent"
+                    .into(),
+            );
+        }
+        let how = (args.filter, args.texture_quality());
+        draw::draw_effects(&model, &textures, how, (&view, format), crew, effects)?
+    } else if textures.is_empty() {
         draw::draw_by(&model, &view, format, crew, args.method())?
     } else {
         let how = (args.filter, args.texture_quality());
@@ -79,6 +96,11 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     picture.commit()?;
     // Last, so that a refusal is one line alone.
     model.print_warnings();
+    if seen && is_plain {
+        eprintln!(
+            "note: with --interp, and with formats other than rgb888 and rgb565, highlights and transparency of materials are left out"
+        );
+    }
     for note in textures.notes() {
         eprintln!("note: {note}");
     }

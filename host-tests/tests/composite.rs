@@ -401,7 +401,7 @@ fn any_cache_gives_the_same_picture() {
 }
 
 #[test]
-fn opaque_materials_change_nothing() {
+fn opaque_finishes_change_nothing() {
     let mut rng = Rng::new(33);
     for _ in 0..20 {
         let mut panes = panes(&mut rng, 12, |_| Finish::OPAQUE);

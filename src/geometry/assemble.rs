@@ -95,6 +95,8 @@ pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     light: Option<L>,
     /// Colour of vertices without one.
     tint: Tint,
+    /// What turns normals for the vertices that keep them.
+    turn: S::Turn,
     /// A piece of the current triangle found no room.
     lost: bool,
     /// How levels become steps of the output.
@@ -131,6 +133,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             cull,
             light,
             tint: Tint::new(colour, scale),
+            turn: S::turn(model, &camera.view),
             lost: false,
             scale,
             skin,
@@ -161,6 +164,12 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             let vertices = self.vertices.as_mut_slice().get_mut(base..);
             for (i, vertex) in vertices.unwrap_or_default().iter_mut().enumerate() {
                 S::dress(&mut vertex.attribute, &self.skin, i);
+            }
+        }
+        if S::NORMALS && shared {
+            let vertices = self.vertices.as_mut_slice().get_mut(base..);
+            for (vertex, &normal) in vertices.unwrap_or_default().iter_mut().zip(mesh.normals) {
+                S::set_normal(&mut vertex.attribute, &self.turn, normal);
             }
         }
         self.done.triangles = triangles(mesh.faces);
@@ -325,6 +334,9 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
                 S::vertex(self.vertex_colour(mesh, i))
             };
             S::dress(&mut attribute, &self.skin, i);
+            if let Some(&normal) = mesh.normals.get(i).filter(|_| S::NORMALS) {
+                S::set_normal(&mut attribute, &self.turn, normal);
+            }
             Corner {
                 point: self.projection.transform(mesh.positions[i]),
                 attribute,

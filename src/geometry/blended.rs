@@ -8,6 +8,7 @@ use super::colour::{Colour, Scale};
 use super::finish::{Finish, Role};
 use super::shading::Shading;
 use super::texturing;
+use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 use core::marker::PhantomData;
 
@@ -183,6 +184,18 @@ impl<S: Shading> Shading for Blended<S> {
         S::dress_face(&mut face.inner, &surface.skin);
         face.finish = surface.finish;
         face.varies = !surface.alphas.is_empty();
+    }
+
+    type Turn = S::Turn;
+    const NORMALS: bool = S::NORMALS;
+
+    fn turn(model: &Affine, view: &Affine) -> S::Turn {
+        S::turn(model, view)
+    }
+
+    #[inline]
+    fn set_normal(vertex: &mut Self::Vertex, turn: &S::Turn, normal: [i16; 3]) {
+        S::set_normal(&mut vertex.inner, turn, normal);
     }
 
     const COMPOSITED: bool = true;

@@ -4,6 +4,7 @@
 
 use super::colour::{Colour, Scale};
 use super::finish::Finish;
+use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 
 /// Which colours an object carries, from vertex to plane.
@@ -44,6 +45,17 @@ pub trait Shading {
 
     /// Gives a face of a mesh its part of the skin.
     fn dress_face(_: &mut Self::Face, _: &Self::Skin<'_>) {}
+
+    /// What turns normals of meshes for the vertices that keep them: `()` where none do.
+    type Turn: Copy;
+    /// Whether vertices keep normals.
+    const NORMALS: bool = false;
+
+    /// By the maps of a mesh to the world and on to the camera.
+    fn turn(model: &Affine, view: &Affine) -> Self::Turn;
+
+    /// Gives a vertex its normal.
+    fn set_normal(_: &mut Self::Vertex, _turn: &Self::Turn, _normal: [i16; 3]) {}
 
     /// Whether the same triangle may be drawn several times, with other colours where its depth is
     /// equal: then its depth must not depend on its colours.
@@ -130,6 +142,10 @@ impl Shading for Flat {
 
     type Skin<'a> = ();
 
+    type Turn = ();
+
+    fn turn(_: &Affine, _: &Affine) {}
+
     #[inline]
     fn set_up_small(
         _: &SmallArea,
@@ -181,6 +197,10 @@ impl Shading for Gouraud {
     }
 
     type Skin<'a> = ();
+
+    type Turn = ();
+
+    fn turn(_: &Affine, _: &Affine) {}
 
     #[inline]
     fn set_up_small(

@@ -168,6 +168,19 @@ impl Affine {
         v
     }
 
+    /// The linear part times a direction.
+    #[inline]
+    pub(super) fn turned(&self, direction: [I2F14; 3]) -> [i64; 3] {
+        let v = direction.map(|c| i32::from(c.to_bits()));
+        times(&self.linear.mantissa, v).map(|c| c >> 14)
+    }
+
+    /// A direction of model space seen from where the map leads, a unit vector in Q1.30, 2^-28
+    /// off at most; zero where there is no direction.
+    pub(super) fn direction_from_model_q30(&self, direction: [I2F14; 3]) -> [i32; 3] {
+        unit_q30(self.turned(direction)).map_or([0; 3], |v| v.map(|c| c as i32))
+    }
+
     /// The point that this map takes to the origin; where it has no inverse, the origin.
     ///
     /// Right for rotations and uniform scales, as above.

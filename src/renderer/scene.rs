@@ -187,6 +187,7 @@ pub struct Scene<'m, P: Pipeline> {
     pub(super) lines: Range<u16>,
     pass_one: PassOne,
     textures: P::Textures,
+    lights: P::Lights,
     /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
 }
@@ -229,6 +230,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             lines: 0..0,
             pass_one: PassOne::default(),
             textures: P::Textures::default(),
+            lights: P::Lights::default(),
             generation: 0,
         }
     }
@@ -280,6 +282,18 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// there are none. They stay until others are lent.
     pub fn set_textures(&mut self, textures: P::Textures) {
         self.textures = textures;
+    }
+
+    /// Lends the lights that shine on pixels, where the pipeline has such; at first there are none.
+    /// They stay until others are lent.
+    pub fn set_lights(&mut self, lights: P::Lights) {
+        self.lights = lights;
+    }
+
+    /// What is lent.
+    #[inline(always)]
+    pub(super) fn lent(&self) -> (P::Textures, P::Lights) {
+        (self.textures, self.lights)
     }
 
     /// The textures lent.

@@ -5,9 +5,12 @@ use crate::composite::{Compositing, PixelFormat, TextureSource, paint};
 use crate::geometry::{Parameters, Role, Scale, Shading, at_pixel};
 use crate::num::Plane;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::{Forward, Interpolation, Levels, Stretch};
+use crate::shade::{Forward, Interpolation, Levels, PixelLights, Stretch};
 use crate::stats::SpanCounter;
 use crate::visible::{Everywhere, LineDepth, Masked, Named, Placed, Tested, Visible};
+
+/// What is lent to a scene.
+type Lent<P> = (<P as Pipeline>::Textures, <P as Pipeline>::Lights);
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -36,8 +39,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
     ) {
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
-                let textures = self.scene.textures();
-                let how = (self.interpolation, textures, &mut *self.counter);
+                let how = (self.interpolation, self.scene.lent(), &mut *self.counter);
                 draw_span::<P>((plane, levels), at, (pixels, cells), how);
             }
             Parameters::Corners => {
@@ -66,12 +68,12 @@ impl<P: Pipeline> Brush<'_, '_, P> {
             return;
         };
         let count = pixels.len() as u32;
-        let textures = self.scene.textures();
-        let how = (self.interpolation, textures);
+        let lent = self.scene.lent();
+        let how = (self.interpolation, lent);
         colour::<P, _>(pixels, levels, at, how, &mut named);
         let seen = named.seen();
         self.counter.span(seen, count - seen, true);
-        count_fetches::<P>(levels, at, textures, seen, self.counter);
+        count_fetches::<P>(levels, at, lent.0, seen, self.counter);
     }
 
     /// Draws those pixels of a span that are not covered, and covers them.
@@ -86,8 +88,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         let count = pixels.len() as u32;
         match &body.parameters {
             Parameters::Planes(_, levels) => {
-                let textures = self.scene.textures();
-                let how = (self.interpolation, textures, &mut *self.counter);
+                let how = (self.interpolation, self.scene.lent(), &mut *self.counter);
                 draw_masked::<P>(levels, at, (pixels, &mut masked), how);
             }
             Parameters::Corners => {
@@ -108,7 +109,7 @@ fn draw_span<P: Pipeline>(
     (plane, levels): (&Plane, &LevelsOf<P>),
     (column, line): (i32, i32),
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
-    (interpolation, textures, counter): (P::Interpolation, P::Textures, &mut P::Counter),
+    (interpolation, lent, counter): (P::Interpolation, Lent<P>, &mut P::Counter),
 ) {
     let at = (column, line);
     if P::Counter::COUNTS && matches!(levels.stretch(column, line), Stretch::Constant(_)) {
@@ -120,17 +121,17 @@ fn draw_span<P: Pipeline>(
         Some(cells) => {
             let depth = plane.at(column, line) as u32;
             let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
-            colour::<P, _>(pixels, levels, at, (interpolation, textures), &mut tests);
+            colour::<P, _>(pixels, levels, at, (interpolation, lent), &mut tests);
             tests.seen()
         }
         None => {
-            let how = (interpolation, textures);
+            let how = (interpolation, lent);
             colour::<P, _>(pixels, levels, at, how, &mut Everywhere);
             count
         }
     };
     counter.span(seen, count - seen, tested);
-    count_fetches::<P>(levels, at, textures, seen, counter);
+    count_fetches::<P>(levels, at, lent.0, seen, counter);
 }
 
 /// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
@@ -139,7 +140,7 @@ pub(super) fn colour<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
-    (interpolation, textures): (I, P::Textures),
+    (interpolation, lent): (I, Lent<P>),
     visible: &mut impl Visible,
 ) {
     if P::Pixel::DITHERS {
@@ -148,7 +149,7 @@ pub(super) fn colour<P: Pipeline, I: Interpolation>(
             pixels,
             levels,
             (column, line),
-            (interpolation, textures),
+            (interpolation, lent),
             placed,
         );
     } else {
@@ -156,7 +157,7 @@ pub(super) fn colour<P: Pipeline, I: Interpolation>(
             pixels,
             levels,
             (column, line),
-            (interpolation, textures),
+            (interpolation, lent),
             visible,
         );
     }
@@ -168,10 +169,32 @@ fn colour_placed<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
-    (interpolation, textures): (I, P::Textures),
+    (interpolation, lent): (I, Lent<P>),
     visible: &mut impl Visible,
 ) {
+    if P::Lights::SHINE && LevelsOf::<P>::NORMALS {
+        for (pixel, column) in pixels.chunks_mut(1).zip(column..) {
+            let format = (P::Pixel::BITS, P::Pixel::STEPS);
+            let stretch = lent.1.lit(levels, (column, line), format);
+            let how = (Forward, lent.0);
+            colour_stretch::<P, _>(pixel, levels, (column, line), (stretch, how), visible);
+        }
+        return;
+    }
     let stretch = levels.stretch(column, line);
+    let how = (interpolation, lent.0);
+    colour_stretch::<P, _>(pixels, levels, (column, line), (stretch, how), visible);
+}
+
+/// The same, by the colours of a stretch.
+#[inline(always)]
+fn colour_stretch<P: Pipeline, I: Interpolation>(
+    pixels: &mut [WordOf<P>],
+    levels: &LevelsOf<P>,
+    (column, line): (i32, i32),
+    (stretch, (interpolation, textures)): (Stretch, (I, P::Textures)),
+    visible: &mut impl Visible,
+) {
     if let Some((index, place)) = levels.texture(column, line) {
         let course = (place, levels.detail());
         if textures.paint(index, pixels, course, stretch, visible) {
@@ -204,10 +227,10 @@ fn draw_masked<P: Pipeline>(
     levels: &LevelsOf<P>,
     at: (i32, i32),
     (pixels, masked): (&mut [WordOf<P>], &mut Masked<'_, '_, P::Depth>),
-    (interpolation, textures, counter): (P::Interpolation, P::Textures, &mut P::Counter),
+    (interpolation, lent, counter): (P::Interpolation, Lent<P>, &mut P::Counter),
 ) {
-    colour::<P, _>(pixels, levels, at, (interpolation, textures), masked);
-    count_fetches::<P>(levels, at, textures, masked.seen(), counter);
+    colour::<P, _>(pixels, levels, at, (interpolation, lent), masked);
+    count_fetches::<P>(levels, at, lent.0, masked.seen(), counter);
 }
 
 /// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners, where
@@ -234,13 +257,13 @@ fn draw_thin<P: Pipeline>(
         return 0;
     }
     let mut seen = 0;
-    let textures = scene.textures();
+    let lent = scene.lent();
     for (i, (pixel, column)) in pixels.chunks_mut(1).zip(column..).enumerate() {
         let at = (column, line);
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
         if shown(i, depth) {
-            colour::<P, _>(pixel, &levels, at, (Forward, textures), &mut Everywhere);
-            count_fetches::<P>(&levels, at, textures, 1, counter);
+            colour::<P, _>(pixel, &levels, at, (Forward, lent), &mut Everywhere);
+            count_fetches::<P>(&levels, at, lent.0, 1, counter);
             seen += 1;
         }
     }

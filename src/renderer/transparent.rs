@@ -224,8 +224,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for Walk<'_, '_, '_, P> {
                 self.pass.count_volume(object, body, span);
             }
             (Part::Receivers(light), Role::Lit(its)) if its == light => {
-                let count = if casts(light) { ShadowCount::Lit } else { any };
-                self.pass.draw_ruled(object, body, span, count);
+                self.pass.draw_ruled(object, body, span, ShadowCount::Lit);
             }
             (Part::Receivers(light), Role::Shadowed(its)) if its == light && casts(light) => {
                 self.pass
@@ -310,10 +309,10 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             if found.receivers >> light & 1 == 0 {
                 continue;
             }
+            for cell in self.cells.iter_mut() {
+                P::Depth::set_count(cell, 0);
+            }
             if found.volumes >> light & 1 != 0 {
-                for cell in self.cells.iter_mut() {
-                    P::Depth::set_count(cell, 0);
-                }
                 self.walk(list, spare, Part::Volumes(light), found);
             }
             self.walk(list, spare, Part::Receivers(light), found);
@@ -536,7 +535,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         let mut words = Words([WordOf::<P>::default(); MOST + 1]);
         let half = (pixels.as_ptr().addr() / size_of::<WordOf<P>>().max(1)) & 1;
         let words = &mut words.0[half..][..pixels.len().min(MOST)];
-        let how = (self.interpolation, textures);
+        let how = (self.interpolation, self.scene.lent());
         colour::<P, _>(words, levels, (column, line), how, &mut Everywhere);
         let blender = Blender::new(rules);
         let mut rest = seen;

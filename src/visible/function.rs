@@ -15,11 +15,15 @@ pub const MOST: usize = 32;
 pub enum ShadowCount {
     /// Anything.
     Any,
-    /// 0: the light reaches the pixel.
+    /// 0: the light reaches the pixel. What is coloured then is not 0 any more.
     Lit,
     /// Not 0.
     Shadowed,
 }
+
+/// The count of a pixel that has a light's part already: where two faces meet at one depth, such
+/// as at the outline of a mesh, the light is added once.
+const DONE: i32 = i32::MAX;
 
 /// Which pixels pass.
 #[derive(Clone, Copy, Debug)]
@@ -52,7 +56,11 @@ impl Rule {
             };
             if here && keep >> i & 1 != 0 {
                 let order = D::compare(cell, depth);
-                seen |= u32::from(self.colour_if.passes(order)) << i;
+                let passes = self.colour_if.passes(order);
+                seen |= u32::from(passes) << i;
+                if passes && self.count == ShadowCount::Lit {
+                    D::set_count(cell, DONE);
+                }
                 if self.depth_if.passes(order) {
                     D::set_number(cell, depth);
                 }
@@ -130,7 +138,9 @@ mod tests {
                         assert_eq!(seen >> i & 1 == 1, here && colours(new, old));
                         let expected = if here && writes(new, old) { new } else { old };
                         assert_eq!(ShadowDepth32::number(&cells[i]), expected);
-                        assert_eq!(ShadowDepth32::count(&cells[i]), count);
+                        let lit = which == ShadowCount::Lit && seen >> i & 1 == 1;
+                        let expected = if lit { DONE } else { count };
+                        assert_eq!(ShadowDepth32::count(&cells[i]), expected);
                         passed[usize::from(seen >> i & 1 == 1)] += 1;
                     }
                     assert_eq!(seen.checked_shr(count as u32).unwrap_or(0), 0);

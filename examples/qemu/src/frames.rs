@@ -1,19 +1,20 @@
 //! The frames that this firmware draws, by name.
 
-use crate::rooms::{Rooms, RoomsOf, SLOTS};
+use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::list::TextureSlot;
 use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
-    Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, LineMemory,
+    Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, Lamplight, LineMemory,
     LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory,
     draw_frame, send_frame,
 };
 use scenes::{
-    CRATE_TEXTURES, DrawsMethod, METHODS, SHOTS, STACKS, STRESS, Shot, VARIANTS, Variant,
-    build_crate, build_listed, build_method, by_method, method_screen,
+    CRATE_TEXTURES, DrawsEffect, DrawsMethod, EFFECTS, Grainy, Lit, METHODS, SHOTS, STACKS, STRESS,
+    Shady, Shot, ShotError, Transparent, VARIANTS, Variant, build_crate, build_listed,
+    build_method, by_effect, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -39,6 +40,8 @@ enum Way {
     Crate,
     /// A small frame by this interpolation method of the scenes' table.
     Method(usize),
+    /// A small frame of this effect of the scenes' table.
+    Effect(usize),
 }
 
 /// One frame: how a shot is drawn.
@@ -51,7 +54,7 @@ pub(crate) struct Frame {
 
 /// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
 /// faces, one by the hardware model and two from baked lists, then what the cache and its
-/// renderers must not change, then the interpolation methods.
+/// renderers must not change, then the interpolation methods and effects.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
         name,
@@ -85,6 +88,11 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
                 .zip(METHODS)
                 .map(move |(index, name)| plain(name, Shot::Quads, Way::Method(index))),
         )
+        .chain(
+            (0..)
+                .zip(EFFECTS)
+                .map(move |(index, name)| plain(name, Shot::Quads, Way::Effect(index))),
+        )
 }
 
 impl Frame {
@@ -108,6 +116,13 @@ impl Frame {
                     pump: &mut pump,
                 },
             ),
+            Way::Effect(index) => {
+                let mut small = SmallEffect {
+                    rooms: &mut rooms.effects,
+                    pump: &mut pump,
+                };
+                by_effect(index, &mut small).expect("cameras and lights can be made");
+            }
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 let rooms = &mut rooms.smooth;
                 draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
@@ -191,6 +206,80 @@ impl DrawsMethod for SmallFrame<'_, '_> {
         draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
             .expect("the sink cannot fail and the rooms are large enough");
     }
+}
+
+/// A small frame of an effect.
+struct SmallEffect<'a, 'e> {
+    rooms: &'a mut EffectRooms,
+    pump: &'a mut Pump<Emit<'e>>,
+}
+
+impl DrawsEffect for SmallEffect<'_, '_> {
+    fn transparent(
+        &mut self,
+        build: impl Fn(&mut Scene<'_, Transparent>) -> Result<(), ShotError>,
+    ) {
+        draw_effect::<Transparent>(&mut self.rooms.transparent, (), self.pump, build);
+    }
+
+    fn shady(&mut self, build: impl Fn(&mut Scene<'_, Shady>) -> Result<(), ShotError>) {
+        draw_effect::<Shady>(&mut self.rooms.shady, (), self.pump, build);
+    }
+
+    fn lit<'l>(
+        &mut self,
+        lights: Lamplight<'l>,
+        build: impl Fn(&mut Scene<'_, Lit<'l>>) -> Result<(), ShotError>,
+    ) {
+        // Records are those of lights that live for any time.
+        let rooms = &mut self.rooms.lit;
+        let mut scene = Scene::<Lit<'l>>::new(
+            method_screen(),
+            SceneMemory {
+                vertices: rooms.vertices,
+                objects: rooms.objects,
+                buckets: rooms.buckets,
+            },
+        );
+        scene.set_lights(lights);
+        build(&mut scene).expect("the rooms are large enough");
+        let mut renderer = LineRenderer::<Lit<'l>>::new(LineMemory {
+            slots: rooms.slots,
+            links: rooms.links,
+            depth: rooms.depth,
+        });
+        draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
+            .expect("the sink cannot fail and the rooms are large enough");
+    }
+
+    fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
+        draw_effect::<Grainy>(&mut self.rooms.grainy, (), self.pump, build);
+    }
+}
+
+fn draw_effect<P: Pipeline<Pixel: PixelFormat<Word = u16>>>(
+    rooms: &mut RoomsOf<P>,
+    lights: P::Lights,
+    pump: &mut Pump<Emit<'_>>,
+    build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
+) {
+    let mut scene = Scene::<P>::new(
+        method_screen(),
+        SceneMemory {
+            vertices: rooms.vertices,
+            objects: rooms.objects,
+            buckets: rooms.buckets,
+        },
+    );
+    scene.set_lights(lights);
+    build(&mut scene).expect("the rooms are large enough");
+    let mut renderer = LineRenderer::<P>::new(LineMemory {
+        slots: rooms.slots,
+        links: rooms.links,
+        depth: rooms.depth,
+    });
+    draw_frame(&scene, &mut renderer, pump, 0, LINES_PER_TRANSFER)
+        .expect("the sink cannot fail and the rooms are large enough");
 }
 
 fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {

@@ -5,11 +5,12 @@ use crate::lend::lend;
 use crate::listed::Unpacked;
 use scanbeam::{
     CellOf, LineMemory, LineRenderer, Link, ListMemory, Object, ObjectOf, Pipeline, Scene,
-    SceneMemory, SceneVertex, SlotOf, VertexOf,
+    SceneMemory, SceneVertex, ShadowCell, SlotOf, VertexOf,
 };
 use scenes::{
-    CRATE_TABLE, HEIGHT, LIST_INDICES, LIST_TABLE, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Sheet,
-    SheetPipeline, Shot, VERTICES, WIDTH,
+    CRATE_TABLE, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy, HEIGHT, LIST_INDICES,
+    LIST_TABLE, Lit, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Shady, Sheet, SheetPipeline, Shot,
+    Transparent, VERTICES, WIDTH,
 };
 
 /// Slots of the object cache.
@@ -67,6 +68,8 @@ pub(crate) struct Rooms {
     pub(crate) list: ListRoom,
     /// For sheets, which are drawn without depth and counted.
     pub(crate) sheet: RoomsOf<SheetPipeline>,
+    /// For small frames of effects, one after the other: external RAM.
+    pub(crate) effects: EffectRooms,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
     pub(crate) lines: Option<[&'static mut [u16]; 2]>,
 }
@@ -85,6 +88,37 @@ macro_rules! rooms_of {
                 LineRenderer::<$pipeline>::empty_slot()
             ),
             depth: lend!(".fast", CellOf<$pipeline>, WIDTH as usize, 0),
+        }
+    };
+}
+
+/// What the pipelines of effects are lent.
+pub(crate) struct EffectRooms {
+    pub(crate) transparent: RoomsOf<Transparent>,
+    pub(crate) shady: RoomsOf<Shady>,
+    pub(crate) lit: RoomsOf<Lit<'static>>,
+    pub(crate) grainy: RoomsOf<Grainy>,
+}
+
+macro_rules! small_rooms_of {
+    ($pipeline:ty, $cell:expr) => {
+        RoomsOf::<$pipeline> {
+            vertices: lend!(
+                ".slow",
+                VertexOf<$pipeline>,
+                EFFECT_ROOM,
+                SceneVertex::empty()
+            ),
+            objects: lend!(".slow", ObjectOf<$pipeline>, EFFECT_ROOM, Object::default()),
+            buckets: lend!(".slow", Link, EFFECT_HEIGHT as usize, Link::NONE),
+            links: lend!(".slow", Link, EFFECT_ROOM, Link::NONE),
+            slots: lend!(
+                ".slow",
+                SlotOf<$pipeline>,
+                SLOTS,
+                LineRenderer::<$pipeline>::empty_slot()
+            ),
+            depth: lend!(".slow", CellOf<$pipeline>, EFFECT_WIDTH as usize, $cell),
         }
     };
 }
@@ -143,6 +177,12 @@ impl Rooms {
                     LineRenderer::<SheetPipeline>::empty_slot()
                 ),
                 depth: lend!(".slow", CellOf<SheetPipeline>, WIDTH as usize, ()),
+            },
+            effects: EffectRooms {
+                transparent: small_rooms_of!(Transparent, 0),
+                shady: small_rooms_of!(Shady, ShadowCell::default()),
+                lit: small_rooms_of!(Lit<'static>, 0),
+                grainy: small_rooms_of!(Grainy, 0),
             },
             second: RoomsOf {
                 vertices: &mut [],

@@ -18,6 +18,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod effects;
 mod listed;
 mod methods;
 mod octasphere;
@@ -27,6 +28,10 @@ mod stress;
 mod texels;
 mod textured;
 
+pub use effects::{
+    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit, Shady,
+    Transparent, by_effect,
+};
 pub use listed::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, LIST_INDICES, LIST_TABLE, ListedError, build_crate,
     build_listed, crate_list, teapot_list,

@@ -11,6 +11,31 @@ pub enum PixelFormatArg {
     Rgb888,
     /// 16 bits
     Rgb565,
+    /// 24 bits in a word of 32
+    Xrgb8888,
+    /// 8 bits of grey
+    Grey8,
+    /// 1 bit, dithered, 8 pixels a byte
+    Mono,
+    /// 16 bits, dithered: --dither on
+    #[value(skip)]
+    Dithered565,
+    /// 24 bits, dithered
+    #[value(skip)]
+    Dithered888,
+}
+
+/// How light is applied.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum ShadeArg {
+    /// Vertex colours as they are
+    None,
+    /// One light level for a face
+    Flat,
+    /// Light at the corners, linear between
+    Gouraud,
+    /// Light at each pixel, by normals linear between the corners
+    Phong,
 }
 
 /// Width and height of a picture in pixels, each `1..=`[`MAX_SIDE`].
@@ -53,8 +78,8 @@ pub struct PictureArgs {
     #[arg(long, value_name = "A", default_value = "0.2", value_parser = parse_number, allow_hyphen_values = true)]
     pub ambient: f64,
     /// How light is applied
-    #[arg(long, value_enum, default_value_t = Shade::None)]
-    pub shade: Shade,
+    #[arg(long, value_enum, default_value_t = ShadeArg::None)]
+    pub shade: ShadeArg,
     /// Which triangles are dropped by the side that they show
     #[arg(long, value_enum, default_value_t = Cull::None)]
     pub cull: Cull,
@@ -67,7 +92,8 @@ pub struct PictureArgs {
 }
 
 impl PictureArgs {
-    /// The view that the flags describe; already checked when it comes from [`parse`](super::parse).
+    /// The view that the flags describe, with light at the corners where it is to be at each
+    /// pixel; already checked when it comes from [`parse`](super::parse).
     #[must_use]
     pub fn view(&self) -> View {
         View {
@@ -81,7 +107,11 @@ impl PictureArgs {
             far: self.far,
             light: self.light,
             ambient: self.ambient,
-            shade: self.shade,
+            shade: match self.shade {
+                ShadeArg::None => Shade::None,
+                ShadeArg::Flat => Shade::Flat,
+                ShadeArg::Gouraud | ShadeArg::Phong => Shade::Gouraud,
+            },
             cull: self.cull,
             background: self.background,
         }

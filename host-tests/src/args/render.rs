@@ -1,8 +1,8 @@
 //! Flags of `render`.
 
-use super::picture::PictureArgs;
+use super::picture::{PictureArgs, PixelFormatArg, ShadeArg, parse_number};
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS};
-use crate::draw::FilterArg;
+use crate::draw::{Effects, FilterArg};
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
@@ -101,6 +101,16 @@ pub struct RenderArgs {
     /// are small on the picture
     #[arg(long, value_enum, value_name = "SWITCH", default_value = "on")]
     pub levels: SwitchArg,
+    /// Highlights of a level S, 0 to 1, and a power N, 0 to 65535, on all surfaces; without it those
+    /// of its materials (Ks, Ns)
+    #[arg(long, value_name = "S,N", value_parser = parse_specular, allow_hyphen_values = true)]
+    pub specular: Option<(f64, u16)>,
+    /// Whether the model throws shadows onto itself
+    #[arg(long, value_enum, value_name = "SWITCH", default_value = "off")]
+    pub shadows: SwitchArg,
+    /// Whether colours between two steps of the format are mixed by an ordered 4x4 dither
+    #[arg(long, value_enum, value_name = "SWITCH", default_value = "off")]
+    pub dither: SwitchArg,
     /// How far colours and texture places may be off where the method is auto
     #[arg(long, value_enum, value_name = "BUDGET")]
     pub quality: Option<QualityArg>,
@@ -121,6 +131,16 @@ pub struct RenderArgs {
 }
 
 impl RenderArgs {
+    /// What pixels are sent, dithered ones being a format of their own.
+    #[must_use]
+    pub fn format(&self) -> PixelFormatArg {
+        match (self.picture.format, self.dither) {
+            (PixelFormatArg::Rgb565, SwitchArg::On) => PixelFormatArg::Dithered565,
+            (PixelFormatArg::Rgb888, SwitchArg::On) => PixelFormatArg::Dithered888,
+            (format, _) => format,
+        }
+    }
+
     /// The view that the flags describe; already checked when it comes from [`parse`](super::parse).
     #[must_use]
     pub fn view(&self) -> View {
@@ -134,6 +154,21 @@ impl RenderArgs {
             (Some(interp), _) => interp,
             (None, Some(_)) => InterpArg::Auto,
             (None, None) => InterpArg::Packed8,
+        }
+    }
+
+    /// Whether something is asked for that materials have a part in.
+    fn has_effects(&self) -> bool {
+        self.specular.is_some() || self.shadows.is_on() || self.picture.shade == ShadeArg::Phong
+    }
+
+    /// What light and materials are to do beside one matt light.
+    #[must_use]
+    pub fn effects(&self) -> Effects {
+        Effects {
+            specular: self.specular,
+            shadows: self.shadows.is_on(),
+            phong: self.picture.shade == ShadeArg::Phong,
         }
     }
 
@@ -155,6 +190,26 @@ impl RenderArgs {
                 "--interp model has no --cache, --renderers, --prefetch or --quality".into(),
             );
         }
+        let common = [PixelFormatArg::Rgb888, PixelFormatArg::Rgb565];
+        let is_common = common.contains(&self.picture.format);
+        if self.dither.is_on() && !is_common {
+            return Err("--dither on needs --format rgb888 or rgb565".into());
+        }
+        if self.interp.is_some() && !common.contains(&self.format()) {
+            return Err("--interp needs --format rgb888 or rgb565, and --dither off".into());
+        }
+        if !is_common && (self.texture.is_some() || self.quality.is_some() || self.has_effects()) {
+            return Err(
+                "--texture, --quality, --specular, --shadows and --shade phong need --format rgb888 or rgb565"
+                    .into(),
+            );
+        }
+        if self.interp.is_some() && self.has_effects() {
+            return Err("--interp has no --specular, --shadows on or --shade phong".into());
+        }
+        if self.specular.is_some() && self.picture.shade == ShadeArg::None {
+            return Err("--specular needs --shade flat, gouraud or phong".into());
+        }
         self.view().check().map_err(|error| error.to_string())?;
         ImageFormat::from_path(&self.output).map_err(|error| error.to_string())?;
         if self.texture.as_ref() == Some(&self.output) {
@@ -175,4 +230,15 @@ impl RenderArgs {
         }
         Ok(())
     }
+}
+
+fn parse_specular(text: &str) -> Result<(f64, u16), String> {
+    text.split_once(',')
+        .and_then(|(level, power)| {
+            let level = parse_number(level)
+                .ok()
+                .filter(|s| (0.0..=1.0).contains(s))?;
+            Some((level, power.trim().parse().ok()?))
+        })
+        .ok_or_else(|| "a level from 0 to 1 and a whole power up to 65535, S,N, are needed".into())
 }

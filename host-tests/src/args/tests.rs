@@ -83,7 +83,7 @@ fn every_flag_arrives() {
     match words("trace m.obj --line 8191 --size 17x8192 --shade flat") {
         Ok(Command::Trace(trace)) => {
             assert_eq!((trace.line, trace.model), (8191, PathBuf::from("m.obj")));
-            assert_eq!(trace.picture.shade, Shade::Flat);
+            assert_eq!(trace.picture.shade, ShadeArg::Flat);
         }
         other => panic!("{other:?}"),
     }
@@ -267,6 +267,30 @@ fn refusals_say_what_is_wrong() {
         "error: up is parallel to the view direction"
     );
     assert_eq!(refusal("--near 5 --far 5"), "error: near must be below far");
+    assert_eq!(
+        refusal("--dither on --format grey8"),
+        "error: --dither on needs --format rgb888 or rgb565"
+    );
+    assert_eq!(
+        refusal("--format grey8 --interp plane"),
+        "error: --interp needs --format rgb888 or rgb565, and --dither off"
+    );
+    assert_eq!(
+        refusal("--format mono --texture x.png"),
+        "error: --texture, --quality, --specular, --shadows and --shade phong need --format rgb888 or rgb565"
+    );
+    assert_eq!(
+        refusal("--specular 0.5,8"),
+        "error: --specular needs --shade flat, gouraud or phong"
+    );
+    assert_eq!(
+        refusal("--shadows on --interp plane"),
+        "error: --interp has no --specular, --shadows on or --shade phong"
+    );
+    for wrong in ["0.5", "1.5,8", "0.5,-1", "0.5,8.5", "a,b"] {
+        let line = refusal(&format!("--shade flat --specular {wrong}"));
+        assert!(line.contains("S,N"), "{line}");
+    }
     assert_eq!(
         refusal("--textures x.png"),
         "error: unexpected argument '--textures' found"

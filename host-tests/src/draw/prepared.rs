@@ -3,7 +3,11 @@
 use super::TextureSet;
 use crate::model::Model;
 use scanbeam::texture::{Quality, Skin};
-use scanbeam::{Affine, DrawError, Faces, Instance, Mesh, Pipeline, Scene, Sphere};
+use scanbeam::{
+    Affine, Blended, DrawError, Faces, Instance, LightingModel, Mesh, Pipeline, Scene, Shading,
+    ShadowEdge, ShadowError, ShadowLight, ShadowMemory, SkinOf, Sphere,
+};
+use std::collections::HashMap;
 
 /// A model in the crate's number formats.
 pub struct Prepared {
@@ -11,6 +15,53 @@ pub struct Prepared {
     /// Where the middle of the model is, and what one unit of its coordinates means.
     pub(super) centre: [f64; 3],
     scale: f64,
+}
+
+/// How a part's texture places become what a mesh brings to the pipeline `P`.
+pub(super) trait Dress<P: Pipeline> {
+    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P>;
+}
+
+/// As they are.
+impl<P: Pipeline> Dress<P> for () {
+    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P> {
+        skin.into()
+    }
+}
+
+/// What throws a shadow.
+#[derive(Default)]
+pub(super) struct ShadowMesh {
+    positions: Vec<[i32; 3]>,
+    faces: Vec<[u16; 3]>,
+}
+
+impl ShadowMesh {
+    /// Draws its shadow volume.
+    pub(super) fn draw<P, S>(
+        &self,
+        scene: &mut Scene<'_, P>,
+        model: &Affine,
+        light: &ShadowLight,
+    ) -> Result<(), ShadowError>
+    where
+        S: Shading,
+        P: Pipeline<Shading = Blended<S>>,
+    {
+        let edges = 3 * self.faces.len();
+        let memory = ShadowMemory {
+            edges: &mut vec![ShadowEdge::default(); edges],
+            positions: &mut vec![[0; 3]; 2 * edges],
+            faces: &mut vec![[0; 3]; 2 * edges],
+        };
+        let mesh = Mesh {
+            positions: &self.positions,
+            normals: &[],
+            colours: &[],
+            faces: Faces::Triangles(&self.faces),
+        };
+        scene.draw_shadow(&mesh, model, light, memory).map(drop)
+    }
 }
 
 /// At most 65,536 vertices and the triangles among them.
@@ -25,6 +76,8 @@ pub(super) struct Chunk {
     places: Vec<[i32; 2]>,
     texture: Option<u16>,
     quality: Quality,
+    /// Which of the model's looks.
+    pub(super) look: u16,
 }
 
 impl Prepared {
@@ -37,6 +90,16 @@ impl Prepared {
     /// The same with textures: a part has one, or none.
     #[must_use]
     pub fn textured(model: &Model, set: &TextureSet, quality: Quality) -> Self {
+        Self::split(model, set, quality, |_| 0)
+    }
+
+    /// The same, and the triangles of a part have one look.
+    pub(super) fn split(
+        model: &Model,
+        set: &TextureSet,
+        quality: Quality,
+        look: impl Fn(usize) -> u16,
+    ) -> Self {
         let (low, high) = model.bounds().unwrap_or(([-1.0; 3], [1.0; 3]));
         let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
         let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));
@@ -55,13 +118,19 @@ impl Prepared {
         const CHUNK: usize = 4096;
         let mut new_index = vec![u16::MAX; model.vertices.len()];
         let mut used = Vec::new();
-        let mut chunk = Chunk::new(set.of(0).map(|(number, _)| number), quality);
+        let first = if model.triangles.is_empty() {
+            0
+        } else {
+            look(0)
+        };
+        let mut chunk = Chunk::new(set.of(0).map(|(number, _)| number), quality, first);
         for (number, triangle) in model.triangles.iter().enumerate() {
             let (texture, image) = set.of(number).unzip();
-            if chunk.positions.len() + 3 > CHUNK || chunk.texture != texture {
-                prepared
-                    .chunks
-                    .push(std::mem::replace(&mut chunk, Chunk::new(texture, quality)));
+            let look = look(number);
+            let is_other = (chunk.texture, chunk.look) != (texture, look);
+            if chunk.positions.len() + 3 > CHUNK || is_other {
+                let next = Chunk::new(texture, quality, look);
+                prepared.chunks.push(std::mem::replace(&mut chunk, next));
                 for index in used.drain(..) {
                     new_index[index] = u16::MAX;
                 }
@@ -72,10 +141,8 @@ impl Prepared {
                     new_index[index] = chunk.positions.len() as u16;
                     used.push(index);
                     let vertex = &model.vertices[index];
-                    let q30 = |v: f64| (v * f64::from(1 << 30)).round() as i32;
                     let q14 = |v: f64| (v * f64::from(1 << 14)).round() as i16;
-                    let p = [0, 1, 2].map(|i| q30((vertex.position[i] - centre[i]) / scale));
-                    chunk.positions.push(p);
+                    chunk.positions.push(prepared.q30(vertex.position));
                     if let Some(image) = image {
                         let (u, v) = image.texels(vertex.uv);
                         chunk.places.push([u, v]);
@@ -96,13 +163,49 @@ impl Prepared {
         prepared
     }
 
+    fn q30(&self, position: [f64; 3]) -> [i32; 3] {
+        let q30 = |v: f64| (v * f64::from(1 << 30)).round() as i32;
+        [0, 1, 2].map(|i| q30((position[i] - self.centre[i]) / self.scale))
+    }
+
+    /// What throws shadows: the triangles of `model` that `casts`, their corners shared wherever
+    /// they are at one place, so that a closed model is a closed mesh.
+    pub(super) fn shadow_meshes(
+        &self,
+        model: &Model,
+        casts: impl Fn(usize) -> bool,
+    ) -> Vec<ShadowMesh> {
+        let mut meshes = Vec::new();
+        let mut mesh = ShadowMesh::default();
+        let mut index = HashMap::new();
+        for (number, triangle) in model.triangles.iter().enumerate() {
+            if !casts(number) {
+                continue;
+            }
+            if mesh.positions.len() + 3 > 1 << 16 {
+                meshes.push(std::mem::take(&mut mesh));
+                index.clear();
+            }
+            let face = triangle.map(|i| {
+                let position = self.q30(model.vertices[i as usize].position);
+                *index.entry(position).or_insert_with(|| {
+                    mesh.positions.push(position);
+                    mesh.positions.len() as u16 - 1
+                })
+            });
+            mesh.faces.push(face);
+        }
+        meshes.push(mesh);
+        meshes
+    }
+
     pub(super) fn model_matrix(&self) -> Option<Affine> {
         Affine::placed(self.scale as f32, [0.0; 3])
     }
 }
 
 impl Chunk {
-    fn new(texture: Option<u16>, quality: Quality) -> Self {
+    fn new(texture: Option<u16>, quality: Quality, look: u16) -> Self {
         Self {
             positions: Vec::new(),
             normals: Vec::new(),
@@ -112,6 +215,7 @@ impl Chunk {
             places: Vec::new(),
             texture,
             quality,
+            look,
         }
     }
 
@@ -134,10 +238,10 @@ impl Chunk {
 
     /// Draws the chunk with shared vertices or, `alone`, triangle by triangle: then only the
     /// vertices of triangles that can be seen take room. The pixels are the same.
-    pub(super) fn draw<P: Pipeline>(
+    pub(super) fn draw<P: Pipeline, L: LightingModel>(
         &self,
         scene: &mut Scene<'_, P>,
-        instance: &Instance,
+        (instance, dress): (&Instance<L>, &impl Dress<P>),
         alone: bool,
     ) -> Result<(), DrawError> {
         if !alone {
@@ -149,7 +253,7 @@ impl Chunk {
             }
             let skin = self.skin(&self.places);
             return scene
-                .draw_skinned(&self.mesh(), skin.into(), instance)
+                .draw_skinned(&self.mesh(), dress.dress(skin), instance)
                 .map(drop);
         }
         for face in &self.faces {
@@ -165,7 +269,7 @@ impl Chunk {
                 Some(_) => self.skin(&places),
                 None => Skin::default(),
             };
-            scene.draw_skinned(&mesh, skin.into(), instance)?;
+            scene.draw_skinned(&mesh, dress.dress(skin), instance)?;
         }
         Ok(())
     }

@@ -93,6 +93,12 @@ impl TextureSet {
         Self { levels, ..self }
     }
 
+    /// Whether they are.
+    #[must_use]
+    pub fn has_levels(&self) -> bool {
+        self.levels
+    }
+
     /// Whether nothing is textured.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -151,8 +157,21 @@ pub fn draw_textured(
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure> {
     let prepared = Prepared::textured(model, set, quality);
-    let textures: Vec<Levels<HostTexture<'_>>> = set
-        .images
+    let textures = textures(set, filter)?;
+    let how = (&prepared, view, crew);
+    if set.levels {
+        return by::<LevelEnds, _>(how, format, DetailedTextures(&textures));
+    }
+    let whole: Vec<HostTexture<'_>> = textures.iter().map(|t| t.levels[0]).collect();
+    by::<(), _>(how, format, Textures(&whole))
+}
+
+/// The textures of a set, read through a filter.
+pub(super) fn textures(
+    set: &TextureSet,
+    filter: FilterArg,
+) -> Result<Vec<Levels<HostTexture<'_>>>, DrawFailure> {
+    set.images
         .iter()
         .map(|image| {
             let mut levels = Vec::new();
@@ -167,13 +186,7 @@ pub fn draw_textured(
             let levels: [_; LEVELS] = std::array::from_fn(|i| levels[i]);
             Ok(Levels { levels })
         })
-        .collect::<Result<_, DrawFailure>>()?;
-    let how = (&prepared, view, crew);
-    if set.levels {
-        return by::<LevelEnds, _>(how, format, DetailedTextures(&textures));
-    }
-    let whole: Vec<HostTexture<'_>> = textures.iter().map(|t| t.levels[0]).collect();
-    by::<(), _>(how, format, Textures(&whole))
+        .collect()
 }
 
 /// Draws with textures of some kind, in the detail `D`.
@@ -199,6 +212,7 @@ where
         (_, PixelFormatArg::Rgb565) => {
             by_shading::<Textured<Gouraud, D>, Rgb565Be, X>(prepared, textures, view, crew)
         }
+        _ => Err(super::formats::refused("textures are drawn")),
     }
 }
 

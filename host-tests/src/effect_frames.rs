@@ -1,0 +1,107 @@
+//! The small frame of each effect, as this machine draws it.
+
+use crate::lent::{LineRooms, SceneRooms};
+use crate::method_frames::MethodFrame;
+use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::scan_out::Pump;
+use scanbeam::{Lamplight, Pipeline, Scene, WordOf, draw_frame};
+use scenes::{
+    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit, Shady, ShotError,
+    Transparent, by_effect, method_screen,
+};
+use std::error::Error;
+
+/// A frame's words, once it is drawn with so many slots.
+struct Words {
+    slots: usize,
+    drawn: Option<Result<Vec<u16>, Box<dyn Error>>>,
+}
+
+impl Words {
+    fn draw<P: Pipeline>(
+        &mut self,
+        lights: P::Lights,
+        build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
+    ) where
+        WordOf<P>: Into<u16>,
+    {
+        self.drawn = Some(words::<P>(self.slots, lights, build));
+    }
+}
+
+impl DrawsEffect for Words {
+    fn transparent(
+        &mut self,
+        build: impl Fn(&mut Scene<'_, Transparent>) -> Result<(), ShotError>,
+    ) {
+        self.draw((), build);
+    }
+
+    fn shady(&mut self, build: impl Fn(&mut Scene<'_, Shady>) -> Result<(), ShotError>) {
+        self.draw((), build);
+    }
+
+    fn lit<'l>(
+        &mut self,
+        lights: Lamplight<'l>,
+        build: impl Fn(&mut Scene<'_, Lit<'l>>) -> Result<(), ShotError>,
+    ) {
+        self.draw(lights, build);
+    }
+
+    fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
+        self.draw((), build);
+    }
+}
+
+fn words<P: Pipeline>(
+    slots: usize,
+    lights: P::Lights,
+    build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
+) -> Result<Vec<u16>, Box<dyn Error>>
+where
+    WordOf<P>: Into<u16>,
+{
+    let mut lent = SceneRooms::<P>::new(EFFECT_ROOM, EFFECT_ROOM, EFFECT_HEIGHT.into());
+    lent.lights = lights;
+    let mut scene = lent.scene(method_screen());
+    build(&mut scene).map_err(|error| format!("{error:?}"))?;
+    let mut rooms = LineRooms::<P>::fitting(slots, &scene);
+    let mut renderer = rooms.renderer();
+    let words = usize::from(EFFECT_WIDTH);
+    let sink = MockFrameBuffer::new(EFFECT_WIDTH, EFFECT_HEIGHT);
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    let background = WordOf::<P>::default();
+    draw_frame(&scene, &mut renderer, &mut pump, background, 1)?;
+    Ok(pump.sink().frame()?.into_iter().map(Into::into).collect())
+}
+
+/// The words of all frames, by name, drawn with so many slots.
+///
+/// # Errors
+/// When a frame does not fit the memory that it is lent.
+pub fn effect_frames(slots: usize) -> Result<Vec<MethodFrame>, Box<dyn Error>> {
+    let drawn = EFFECTS.into_iter().enumerate().map(|(index, name)| {
+        let mut words = Words { slots, drawn: None };
+        by_effect(index, &mut words).map_err(|error| format!("{error:?}"))?;
+        Ok((name, words.drawn.ok_or("nothing was drawn")??))
+    });
+    drawn.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::BTreeSet;
+
+    #[test]
+    fn frames_are_full_of_colours_and_the_same_with_any_cache() {
+        let frames = effect_frames(64).unwrap();
+        for (name, words) in &frames {
+            let colours: BTreeSet<u16> = words.iter().copied().collect();
+            assert!(colours.len() > 25, "{name}: {}", colours.len());
+        }
+        assert!(effect_frames(0).unwrap() == frames);
+        assert!(effect_frames(5).unwrap() == frames);
+    }
+}

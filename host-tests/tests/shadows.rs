@@ -1,0 +1,487 @@
+//! Shadow volumes of random closed meshes against rays cast in f64 (K9).
+
+mod common;
+
+use common::{LineRooms, Rng, SceneRooms, frame, line};
+use scanbeam::{
+    Affine, Camera, Counted, Cull, Faces, Finish, GouraudDepth, Instance, Light, Mesh, Pipeline,
+    Rgb888, Scene, Screen, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, ShadowRoom,
+    Shadowed, Surface,
+};
+
+const WIDTH: usize = 72;
+const HEIGHT: usize = 54;
+const FOCAL: f64 = 60.0;
+/// Samples of a pixel's side.
+const FINE: usize = 2;
+
+type Plain = GouraudDepth<Rgb888>;
+type Shady = Shadowed<Counted<Plain>>;
+type V = [f64; 3];
+
+fn sub(a: V, b: V) -> V {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+fn along(a: V, d: V, t: f64) -> V {
+    [0, 1, 2].map(|i| a[i] + d[i] * t)
+}
+
+fn cross(a: V, b: V) -> V {
+    [
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    ]
+}
+
+fn dot(a: V, b: V) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn unit(a: V) -> V {
+    a.map(|c| c / dot(a, a).sqrt())
+}
+
+/// A mesh that stands in the world.
+struct Body {
+    positions: Vec<[i16; 3]>,
+    faces: Vec<[u16; 3]>,
+    scale: f64,
+    offset: V,
+}
+
+impl Body {
+    fn mesh<'a>(&'a self, colours: &'a [[u8; 3]]) -> Mesh<'a> {
+        Mesh {
+            positions: &self.positions,
+            normals: &[],
+            colours: &colours[..self.positions.len()],
+            faces: Faces::Triangles(&self.faces),
+        }
+    }
+
+    fn model(&self) -> Affine {
+        Affine::placed(self.scale as f32, self.offset.map(|c| c as f32)).unwrap()
+    }
+
+    fn triangles(&self) -> impl Iterator<Item = [V; 3]> + '_ {
+        self.faces.iter().map(|face| {
+            face.map(|i| {
+                let p = self.positions[usize::from(i)];
+                [0, 1, 2].map(|k| f64::from(p[k]) / 16_384.0 * self.scale + self.offset[k])
+            })
+        })
+    }
+
+    fn shadow<P>(
+        &self,
+        scene: &mut Scene<'_, P>,
+        light: &ShadowLight,
+        rooms: [usize; 3],
+    ) -> Result<(), ShadowError>
+    where
+        P: Pipeline<Shading = scanbeam::Blended<scanbeam::Gouraud>>,
+    {
+        let memory = ShadowMemory {
+            edges: &mut vec![ShadowEdge::default(); rooms[0]],
+            positions: &mut vec![[0; 3]; rooms[1]],
+            faces: &mut vec![[0; 3]; rooms[2]],
+        };
+        scene
+            .draw_shadow(&self.mesh(&WHITE), &self.model(), light, memory)
+            .map(drop)
+    }
+}
+
+const WHITE: [[u8; 3]; 128] = [[255; 3]; 128];
+
+/// A ball of 6 to 66 corners whose radii are random: closed, and anything but convex.
+fn ball(rng: &mut Rng, scale: f64, offset: V) -> Body {
+    let mut points: Vec<V> = vec![
+        [1., 0., 0.],
+        [-1., 0., 0.],
+        [0., 1., 0.],
+        [0., -1., 0.],
+        [0., 0., 1.],
+        [0., 0., -1.],
+    ];
+    let mut faces: Vec<[u16; 3]> = vec![
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    for _ in 0..rng.below(3) {
+        let mut middle = std::collections::HashMap::new();
+        let mut finer = Vec::new();
+        for [a, b, c] in faces {
+            let mut half = |a: u16, b: u16| {
+                *middle.entry((a.min(b), a.max(b))).or_insert_with(|| {
+                    let (p, q) = (points[usize::from(a)], points[usize::from(b)]);
+                    points.push(unit(along(p, q, 1.0)));
+                    points.len() as u16 - 1
+                })
+            };
+            let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
+            finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+        faces = finer;
+    }
+    let rough = rng.pick(&[0.0, 0.3, 0.6]);
+    let positions = points
+        .iter()
+        .map(|p| {
+            let radius = 16_000.0 * (1.0 - rough * f64::from(rng.below(1000)) / 1000.0);
+            p.map(|c| (c * radius) as i16)
+        })
+        .collect();
+    Body {
+        positions,
+        faces,
+        scale,
+        offset,
+    }
+}
+
+fn floor() -> Body {
+    let c = 16_000;
+    Body {
+        positions: vec![[-c, 0, -c], [c, 0, -c], [c, 0, c], [-c, 0, c]],
+        faces: vec![[0, 2, 1], [0, 3, 2]],
+        scale: 3.0,
+        offset: [0.0, -0.9, -3.0],
+    }
+}
+
+/// Where a ray first meets a triangle, beyond `from`.
+fn first(triangles: &[[V; 3]], eye: V, way: V, from: f64) -> Option<(f64, usize)> {
+    let mut best: Option<(f64, usize)> = None;
+    for (i, [a, b, c]) in triangles.iter().enumerate() {
+        let (ab, ac) = (sub(*b, *a), sub(*c, *a));
+        let p = cross(way, ac);
+        let det = dot(ab, p);
+        if det == 0.0 {
+            continue;
+        }
+        let to = sub(eye, *a);
+        let u = dot(to, p) / det;
+        let q = cross(to, ab);
+        let v = dot(way, q) / det;
+        let t = dot(ac, q) / det;
+        let inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
+        if inside && t > from && best.is_none_or(|b| t < b.0) {
+            best = Some((t, i));
+        }
+    }
+    best
+}
+
+/// Which lights reach what is seen at a sample, a bit for each; `None` for the background.
+type Sample = Option<u32>;
+
+/// What rays say at a place of the picture, in pixels; a second answer from a little above the
+/// surface, for those that lie almost along the light.
+fn cast(
+    all: &[[V; 3]],
+    casters: &[[V; 3]],
+    lights: &[V],
+    near: f64,
+    (x, y): (f64, f64),
+) -> [Sample; 2] {
+    let way = [
+        (x - WIDTH as f64 / 2.0) / FOCAL,
+        (HEIGHT as f64 / 2.0 - y) / FOCAL,
+        -1.0,
+    ];
+    let Some((t, face)) = first(all, [0.0; 3], way, near) else {
+        return [None; 2];
+    };
+    let at = along([0.0; 3], way, t);
+    let [a, b, c] = all[face];
+    let mut normal = unit(cross(sub(b, a), sub(c, a)));
+    if dot(normal, way) > 0.0 {
+        normal = normal.map(|c| -c);
+    }
+    [1e-7, 1.5 * t / FOCAL].map(|up| {
+        let from = along(at, normal, up);
+        let lit = |l: &V| first(casters, from, *l, 0.0).is_none();
+        Some(
+            lights
+                .iter()
+                .enumerate()
+                .map(|(i, l)| u32::from(lit(l)) << i)
+                .sum(),
+        )
+    })
+}
+
+struct World {
+    bodies: Vec<Body>,
+    floor: Body,
+    lights: Vec<ShadowLight>,
+}
+
+fn camera() -> Camera {
+    Camera::look_at(
+        [0.0; 3],
+        [0.0, 0.0, -1.0],
+        [0.0, 1.0, 0.0],
+        FOCAL as f32,
+        0.25,
+        30.0,
+    )
+    .unwrap()
+}
+
+fn world(rng: &mut Rng, lights: u8, eye_in_shadow: bool) -> World {
+    let lights: Vec<ShadowLight> = (0..lights)
+        .map(|light| {
+            let towards = if eye_in_shadow {
+                [rng.signed() * 0.2, 0.3 + rng.signed() * 0.2, 1.0]
+            } else {
+                [0.7 * rng.signed(), 0.8, 0.7 * rng.signed()]
+            };
+            ShadowLight {
+                light: light * 3,
+                direction: Light::new(towards.map(|c| c as f32), 0.0)
+                    .unwrap()
+                    .direction,
+                reach: 5,
+            }
+        })
+        .collect();
+    let mut bodies: Vec<Body> = (0..1 + rng.below(3))
+        .map(|_| {
+            let scale = 0.3 + 0.4 * (rng.signed() + 1.0) / 2.0;
+            let offset = [rng.signed() * 1.2, rng.signed() * 0.7, -3.0 + rng.signed()];
+            ball(rng, scale, offset)
+        })
+        .collect();
+    if eye_in_shadow {
+        let l = towards(&lights[0]);
+        let off = [rng.signed() * 0.4, rng.signed() * 0.4, rng.signed() * 0.4];
+        bodies.push(ball(rng, 0.9, along(l.map(|c| c * 1.6), off, 1.0)));
+    }
+    World {
+        bodies,
+        floor: floor(),
+        lights,
+    }
+}
+
+fn towards(light: &ShadowLight) -> V {
+    light.direction.map(|c| f64::from(c.to_bits()) / 16_384.0)
+}
+
+const DARK: [[u8; 3]; 128] = [[30, 20, 10]; 128];
+/// What each light adds.
+const ADDS: [[[u8; 3]; 128]; 2] = [[[100, 0, 7]; 128], [[0, 150, 70]; 128]];
+const LIT: [[u8; 3]; 128] = [[130, 20, 17]; 128];
+
+/// Draws a world; in one light the dark is drawn over, in several each adds its own.
+fn build(scene: &mut Scene<'_, Shady>, world: &World, volumes: bool) {
+    scene.begin(&camera()).unwrap();
+    let all = || world.bodies.iter().chain([&world.floor]);
+    let draw = |scene: &mut Scene<'_, Shady>, colours: &[[u8; 3]], finish: Finish| {
+        for body in all() {
+            let instance = Instance {
+                model: body.model(),
+                cull: Cull::None,
+                ..Instance::default()
+            };
+            scene
+                .draw_skinned(&body.mesh(colours), Surface::from(finish), &instance)
+                .unwrap();
+        }
+    };
+    let alone = world.lights.len() == 1;
+    draw(scene, if alone { &LIT } else { &DARK }, Finish::OPAQUE);
+    for light in world.lights.iter().filter(|_| volumes) {
+        for body in &world.bodies {
+            body.shadow(scene, light, [1000; 3]).unwrap();
+        }
+    }
+    for (light, adds) in world.lights.iter().zip(&ADDS) {
+        if alone {
+            draw(scene, &DARK, Finish::in_shadow(light.light));
+        } else {
+            draw(scene, adds, Finish::lit_by(light.light));
+        }
+    }
+}
+
+fn rooms() -> SceneRooms<Shady> {
+    SceneRooms::new(20_000, 8_000, HEIGHT)
+}
+
+fn screen() -> Screen {
+    Screen::new(WIDTH as u16, HEIGHT as u16).unwrap()
+}
+
+/// Compares a world with rays: pixels that were compared, and how many of them are in shadow.
+fn compare(world: &World) -> (u32, u32) {
+    let mut memory = rooms();
+    let mut scene = memory.scene(screen());
+    build(&mut scene, world, true);
+    let drawn = frame(&scene, 2000);
+    let casters: Vec<_> = world.bodies.iter().flat_map(Body::triangles).collect();
+    let mut all = casters.clone();
+    all.extend(world.floor.triangles());
+    let lights: Vec<V> = world.lights.iter().map(towards).collect();
+    let columns = FINE * WIDTH + 1;
+    let samples: Vec<[Sample; 2]> = (0..(FINE * HEIGHT + 1) * columns)
+        .map(|i| {
+            let at = |n: usize| n as f64 / FINE as f64;
+            let place = (at(i % columns), at(i / columns));
+            cast(&all, &casters, &lights, 0.25, place)
+        })
+        .collect();
+    let (mut compared, mut shadows) = (0, 0);
+    let full = (1u32 << lights.len()) - 1;
+    for (y, words) in drawn.iter().enumerate().take(HEIGHT - 1).skip(1) {
+        for (x, word) in words.iter().enumerate().take(WIDTH - 1).skip(1) {
+            let (left, top) = (FINE * x - 1, FINE * y - 1);
+            let here = samples[(top + 2) * columns + left + 2][0];
+            let same = (0..2 * FINE + 1).all(|dy| {
+                (0..2 * FINE + 1).all(|dx| samples[(top + dy) * columns + left + dx] == [here; 2])
+            });
+            if !same {
+                continue;
+            }
+            let want = match here {
+                None => [0; 3],
+                Some(lit) if lights.len() == 1 => {
+                    if lit == 1 {
+                        LIT[0]
+                    } else {
+                        DARK[0]
+                    }
+                }
+                Some(lit) => {
+                    let part = |i: usize, k: usize| (lit >> i & 1) as u8 * ADDS[i][0][k];
+                    [0, 1, 2].map(|k| DARK[0][k] + part(0, k) + part(1, k))
+                }
+            };
+            assert_eq!(*word, want, "({x}, {y})");
+            compared += 1;
+            shadows += u32::from(here.is_some_and(|lit| lit != full));
+        }
+    }
+    (compared, shadows)
+}
+
+fn many(seed: u64, lights: u8, eye_in_shadow: bool) {
+    let mut rng = Rng::new(seed);
+    let (mut compared, mut shadows) = (0, 0);
+    let rounds = 40;
+    for _ in 0..rounds {
+        let (c, s) = compare(&world(&mut rng, lights, eye_in_shadow));
+        compared += c;
+        shadows += s;
+    }
+    let share = f64::from(compared) / f64::from(rounds * (WIDTH * HEIGHT) as u32);
+    println!("{compared} pixels compared, {share:.2} of all, {shadows} in shadow, none wrong");
+    assert!(share > 0.5 && shadows > 2000, "{share} {shadows}");
+}
+
+#[test]
+fn shadows_of_random_closed_meshes_are_those_of_rays() {
+    many(41, 1, false);
+}
+
+#[test]
+fn several_lights_each_have_their_shadows() {
+    many(43, 2, false);
+}
+
+#[test]
+fn the_eye_may_be_in_a_shadow() {
+    many(47, 1, true);
+}
+
+#[test]
+fn any_cache_and_any_lines_give_the_same_shadows() {
+    let mut rng = Rng::new(5);
+    for round in 0..6 {
+        let world = world(&mut rng, 1 + round % 2, round % 3 == 0);
+        let mut memory = rooms();
+        let mut scene = memory.scene(screen());
+        build(&mut scene, &world, true);
+        let reference = frame(&scene, 2000);
+        for slots in [0, 1, 7, 40] {
+            assert!(frame(&scene, slots) == reference, "{slots} slots");
+            for step in [2, 3] {
+                for offset in 0..step {
+                    let mut lines = LineRooms::fitting(slots, &scene);
+                    let mut renderer = lines.renderer();
+                    for y in scene.lines().skip(offset).step_by(step) {
+                        let got = line(&mut renderer, &scene, y);
+                        assert!(got == reference[usize::from(y)], "{slots} slots, line {y}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn lines_without_volumes_pay_nothing() {
+    let mut rng = Rng::new(9);
+    let world = world(&mut rng, 1, false);
+    let counts = |shadows: bool| {
+        let mut memory = rooms();
+        let mut scene = memory.scene(screen());
+        if shadows {
+            build(&mut scene, &world, false);
+        } else {
+            let unlit = World {
+                bodies: world.bodies.iter().map(again).collect(),
+                floor: floor(),
+                lights: Vec::new(),
+            };
+            build(&mut scene, &unlit, false);
+        }
+        let mut lines = LineRooms::fitting(2000, &scene);
+        let mut renderer = lines.renderer();
+        for y in scene.lines() {
+            let _ = line(&mut renderer, &scene, y);
+        }
+        renderer.take_span_counts()
+    };
+    let (with, without) = (counts(true), counts(false));
+    assert!(without.pixels_shaded > 1000);
+    assert_eq!(with.spans, without.spans);
+    assert_eq!(with.pixels_shaded, without.pixels_shaded);
+    assert_eq!(with.depth_tests, without.depth_tests);
+}
+
+fn again(body: &Body) -> Body {
+    Body {
+        positions: body.positions.clone(),
+        faces: body.faces.clone(),
+        ..*body
+    }
+}
+
+#[test]
+fn memory_that_is_too_short_is_named() {
+    let mut rng = Rng::new(2);
+    let world = world(&mut rng, 1, false);
+    let mut memory = rooms();
+    let mut scene = memory.scene(screen());
+    scene.begin(&camera()).unwrap();
+    for (rooms, expected) in [
+        ([2, 1000, 1000], ShadowRoom::Edges),
+        ([1000, 3, 1000], ShadowRoom::Positions),
+        ([1000, 1000, 3], ShadowRoom::Faces),
+    ] {
+        let done = world.bodies[0].shadow(&mut scene, &world.lights[0], rooms);
+        assert_eq!(done, Err(ShadowError::Room(expected)));
+    }
+    assert_eq!(scene.pass_one().objects, 0);
+}
