@@ -215,9 +215,9 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth, FlatPainter,
-    GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts, PhongDepth, Pipeline,
-    Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, WordOf,
+    BlockFixed, CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth,
+    FlatPainter, GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts,
+    PhongDepth, Pipeline, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, WithDepth, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,
@@ -236,4 +236,4 @@ pub use shade::{
 };
 pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
-pub use visible::{Depth32, DepthAndId, LineDepth, ShadowCell, ShadowDepth32};
+pub use visible::{BlockFixDepth, Depth32, DepthAndId, LineDepth, ShadowCell, ShadowDepth32};

@@ -13,6 +13,7 @@
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
 //! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
+//! | [`BlockFixed`] | as the preset it wraps | [`BlockFixDepth`]: 16 bits | | |
 //! | [`Deferred`] | as the preset it wraps | [`DepthAndId`]: the same picture, each pixel shaded once | | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
@@ -23,7 +24,7 @@ use crate::geometry::texturing::{LevelEnds, Textured};
 use crate::geometry::{Blended, Flat, Gouraud, Phong, Shading};
 use crate::shade::{Interpolation, Lamplight, Levels, Packed8, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::{Depth32, DepthAndId, LineDepth, ShadowDepth32};
+use crate::visible::{BlockFixDepth, Depth32, DepthAndId, LineDepth, ShadowDepth32};
 use core::marker::PhantomData;
 
 /// The choices of a renderer, made at compile time: what is not chosen has no code and no bytes.
@@ -129,10 +130,14 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Compositing,
     <P as Pipeline>::Lights,
 >;
+/// The pipeline `P`, with 16 bits of block-fix depth (H2).
+pub type BlockFixed<P> = WithDepth<P, BlockFixDepth>;
 /// The pipeline `P`, which shades no pixel before it is known whose it is (X3).
-pub type Deferred<P> = Parts<
+pub type Deferred<P> = WithDepth<P, DepthAndId>;
+/// The pipeline `P`, with the depth `D`.
+pub type WithDepth<P, D> = Parts<
     <P as Pipeline>::Shading,
-    DepthAndId,
+    D,
     <P as Pipeline>::Pixel,
     <P as Pipeline>::Counter,
     <P as Pipeline>::Interpolation,

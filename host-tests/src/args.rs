@@ -12,7 +12,7 @@ mod tests;
 
 pub use bench::{BenchArgs, FirmwareArgs};
 pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
-pub use render::{InterpArg, QualityArg, RenderArgs, SwitchArg};
+pub use render::{DepthArg, InterpArg, QualityArg, RenderArgs, SwitchArg};
 
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use clap::error::ErrorKind;

@@ -27,6 +27,7 @@ pub fn renderers<P: Pipeline>(
         renderer.set_interleave(Interleave::lines(count, offset).unwrap_or_default());
         renderer.set_prefetch(settings.prefetch);
         renderer.set_quality(settings.quality);
+        renderer.set_depth_use(settings.depth_use);
     }
     renderers
 }

@@ -1,11 +1,13 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
+mod depth;
 mod effects;
 mod formats;
 mod interp;
 mod prepared;
 mod textured;
 
+pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
 pub use interp::draw_by;
 pub use prepared::Prepared;
@@ -23,9 +25,9 @@ use scanbeam::model::{
 };
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Camera, Compositing, DrawError, Faces, FlatDepth, FrameError, FrameStats, GouraudDepth,
-    Instance, Light, Link, Mesh, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be, Rgb888, Scene,
-    Screen, ShadowError, WordOf,
+    Camera, Compositing, DepthUse, DrawError, Faces, FlatDepth, FrameError, FrameStats,
+    GouraudDepth, Instance, Light, Link, Mesh, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be,
+    Rgb888, Scene, Screen, ShadowError, WordOf,
 };
 use serde_json::json;
 use std::ops::Range;
@@ -41,6 +43,8 @@ pub struct CrewSettings {
     pub prefetch: u32,
     /// How far the picture may be off where the method chooses.
     pub quality: Quality,
+    /// When depth is compared, where there is any.
+    pub depth_use: DepthUse,
 }
 
 impl Default for CrewSettings {
@@ -50,6 +54,7 @@ impl Default for CrewSettings {
             slots: usize::from(DEFAULT_SLOTS),
             prefetch: 0,
             quality: Quality::default(),
+            depth_use: DepthUse::default(),
         }
     }
 }

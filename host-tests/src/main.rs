@@ -58,6 +58,7 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         slots: usize::from(args.cache),
         prefetch: args.prefetch,
         quality: args.quality.map(QualityArg::quality).unwrap_or_default(),
+        depth_use: args.depth.depth_use(),
     };
     let (view, format) = (args.view(), args.format());
     let textures = match args.method() {
@@ -71,7 +72,16 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let common = [PixelFormatArg::Rgb565, PixelFormatArg::Rgb888];
     let is_dithered = dithered.contains(&format);
     let is_plain = args.interp.is_some() || !is_dithered && !common.contains(&format);
-    let drawn = if !is_plain && (seen || is_dithered && !textures.is_empty()) {
+    if args.depth.is_a_pipeline() && (seen || !textures.is_empty()) {
+        return Err(format!(
+            "--depth {} draws no textures, and no materials that shine or are transparent",
+            args.depth
+        )
+        .into());
+    }
+    let drawn = if args.depth.is_a_pipeline() {
+        draw::draw_by_depth(&model, &view, format, crew, args.depth)?
+    } else if !is_plain && (seen || is_dithered && !textures.is_empty()) {
         if !textures.is_empty() && !textures.has_levels() {
             return Err(
                 "--levels off draws textures without dither, and without materials that shine or are transparent"

@@ -321,7 +321,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             drawn = pass.draw_apart(&self.list);
             self.apart.learn(drawn);
         }
-        if whole && !drawn && pass.find_order(&self.list) {
+        if P::Depth::ORDERS && whole && !drawn && pass.find_order(&self.list) {
             pass.draw_ordered(self.list.slots());
             drawn = true;
         }

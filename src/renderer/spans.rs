@@ -40,15 +40,17 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
                 let how = (self.interpolation, self.scene.lent(), &mut *self.counter);
-                draw_span::<P>((plane, levels), at, (pixels, cells), how);
+                let grain = P::Depth::grain(body.range().0);
+                draw_span::<P>((plane, grain, levels), at, (pixels, cells), how);
             }
             Parameters::Corners => {
                 self.thin += 1;
                 let (count, tested) = (pixels.len() as u32, cells.is_some());
                 let cells = cells.unwrap_or_default();
+                let grain = P::Depth::grain(body.range().0);
                 let shown = &mut |i, depth| {
                     let cell = cells.get_mut(i);
-                    cell.is_none_or(|cell| P::Depth::test(cell, depth))
+                    cell.is_none_or(|cell| P::Depth::test(cell, depth, grain))
                 };
                 let seen = draw_thin(self.scene, object, at, pixels, self.counter, shown);
                 self.counter.span(seen, count - seen, tested);
@@ -106,7 +108,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
 /// space on, into its pixels and, where other spans may share them, its depth cells.
 #[inline(always)]
 fn draw_span<P: Pipeline>(
-    (plane, levels): (&Plane, &LevelsOf<P>),
+    (plane, grain, levels): (&Plane, <P::Depth as LineDepth>::Grain, &LevelsOf<P>),
     (column, line): (i32, i32),
     (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
     (interpolation, lent, counter): (P::Interpolation, Lent<P>, &mut P::Counter),
@@ -119,8 +121,8 @@ fn draw_span<P: Pipeline>(
     let tested = cells.is_some();
     let seen = match cells {
         Some(cells) => {
-            let depth = plane.at(column, line) as u32;
-            let mut tests = Tested::<P::Depth, P::Counter>::new(cells, depth, plane.dx as u32);
+            let course = (plane.at(column, line) as u32, plane.dx as u32);
+            let mut tests = Tested::<P::Depth, P::Counter>::new(cells, course, grain);
             colour::<P, _>(pixels, levels, at, (interpolation, lent), &mut tests);
             tests.seen()
         }

@@ -3,12 +3,14 @@
 //! A method is a type; the one without depth is `()`, and then the object submitted last wins.
 //! Where objects can be ordered from front to back, `cover` does without depth.
 
+mod block_fix;
 mod cover;
 mod function;
 mod named;
 mod placed;
 mod shadow;
 
+pub use block_fix::BlockFixDepth;
 pub use cover::{Cover, Covered, Masked};
 pub use function::{MOST, Rule, ShadowCount};
 pub use named::{DepthAndId, MOST_NAMES, Named, name};
@@ -27,11 +29,19 @@ pub trait LineDepth {
     const FARTHEST: Self::Cell;
     /// Whether pixels are tested at all.
     const TESTS: bool;
+    /// Whether of two objects whose ranges of depth do not meet, the nearer one always wins.
+    const ORDERS: bool = true;
+    /// What a depth of one object is rounded to.
+    type Grain: Copy;
     /// Whether pixels are shaded only when it is known whose they are.
     const DEFERS: bool = false;
 
+    /// What the depths of an object are rounded to whose nearest corner is in unit `nearest` of
+    /// 2^15.
+    fn grain(nearest: u16) -> Self::Grain;
+
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
-    fn test(cell: &mut Self::Cell, depth: u32) -> bool;
+    fn test(cell: &mut Self::Cell, depth: u32, grain: Self::Grain) -> bool;
 
     /// The number that is kept in a cell, 0 where that is at its farthest.
     fn number(cell: &Self::Cell) -> u32;
@@ -73,9 +83,13 @@ impl LineDepth for Depth32 {
     type Cell = u32;
     const FARTHEST: u32 = 0;
     const TESTS: bool = true;
+    type Grain = ();
 
     #[inline(always)]
-    fn test(cell: &mut u32, depth: u32) -> bool {
+    fn grain(_: u16) {}
+
+    #[inline(always)]
+    fn test(cell: &mut u32, depth: u32, (): ()) -> bool {
         let seen = depth >= *cell;
         if seen {
             *cell = depth;
@@ -98,9 +112,13 @@ impl LineDepth for () {
     type Cell = ();
     const FARTHEST: () = ();
     const TESTS: bool = false;
+    type Grain = ();
 
     #[inline(always)]
-    fn test((): &mut (), _: u32) -> bool {
+    fn grain(_: u16) {}
+
+    #[inline(always)]
+    fn test((): &mut (), _: u32, (): ()) -> bool {
         true
     }
 
@@ -157,6 +175,7 @@ pub struct Tested<'d, D: LineDepth, C> {
     depth: u32,
     /// The step to the pixel after it.
     step: u32,
+    grain: D::Grain,
     seen: u32,
     counter: PhantomData<C>,
 }
@@ -164,11 +183,12 @@ pub struct Tested<'d, D: LineDepth, C> {
 impl<'d, D: LineDepth, C: SpanCounter> Tested<'d, D, C> {
     /// Over the cells of a span, with the depth of its first pixel and the step to the next.
     #[inline(always)]
-    pub fn new(cells: &'d mut [D::Cell], depth: u32, step: u32) -> Self {
+    pub fn new(cells: &'d mut [D::Cell], (depth, step): (u32, u32), grain: D::Grain) -> Self {
         Self {
             cells,
             depth,
             step,
+            grain,
             seen: 0,
             counter: PhantomData,
         }
@@ -183,7 +203,7 @@ impl<'d, D: LineDepth, C: SpanCounter> Tested<'d, D, C> {
     /// Tests the next pixel.
     #[inline(always)]
     fn test(&mut self, cell: &mut D::Cell) -> bool {
-        let shown = D::test(cell, self.depth);
+        let shown = D::test(cell, self.depth, self.grain);
         if C::COUNTS {
             self.seen += u32::from(shown);
         }

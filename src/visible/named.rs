@@ -24,10 +24,14 @@ impl LineDepth for DepthAndId {
     const FARTHEST: u32 = Depth32::FARTHEST;
     const TESTS: bool = true;
     const DEFERS: bool = true;
+    type Grain = ();
 
     #[inline(always)]
-    fn test(cell: &mut u32, depth: u32) -> bool {
-        Depth32::test(cell, depth)
+    fn grain(_: u16) {}
+
+    #[inline(always)]
+    fn test(cell: &mut u32, depth: u32, (): ()) -> bool {
+        Depth32::test(cell, depth, ())
     }
 
     #[inline(always)]

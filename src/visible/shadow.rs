@@ -32,9 +32,13 @@ impl LineDepth for ShadowDepth32 {
     const FARTHEST: ShadowCell = ShadowCell::new(0, 0);
     const TESTS: bool = true;
     const COUNTS: bool = true;
+    type Grain = ();
 
     #[inline(always)]
-    fn test(cell: &mut ShadowCell, depth: u32) -> bool {
+    fn grain(_: u16) {}
+
+    #[inline(always)]
+    fn test(cell: &mut ShadowCell, depth: u32, (): ()) -> bool {
         let seen = depth >= cell.depth;
         if seen {
             cell.depth = depth;

@@ -7,6 +7,7 @@ use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
 use scanbeam::Quality;
+use std::fmt;
 use std::path::PathBuf;
 
 /// How colours are taken from pixel to pixel of a line, and with the model also depth.
@@ -34,6 +35,39 @@ pub enum InterpArg {
     Auto,
     /// The hardware model: 12-bit weights down edges, 10-bit weights along spans
     Model,
+}
+
+/// How what is seen is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DepthArg {
+    /// For each line the cheapest that shows the same: none where spans do not overlap, from front
+    /// to back where there is an order, else 32 bits
+    Auto,
+    /// 32 bits of 1/w on every line
+    Z32,
+    /// 16 bits of block-fix 1/w
+    BlockFix,
+    /// First whose each pixel is, then colours: the same picture, no pixel shaded twice
+    Id,
+    /// None: what comes later in the model is in front
+    Priority,
+}
+
+impl DepthArg {
+    /// Whether it is a pipeline of its own.
+    #[must_use]
+    pub fn is_a_pipeline(self) -> bool {
+        !matches!(self, Self::Auto | Self::Z32)
+    }
+}
+
+impl fmt::Display for DepthArg {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.to_possible_value() {
+            Some(value) => f.write_str(value.get_name()),
+            None => Ok(()),
+        }
+    }
 }
 
 /// How far a picture may be off.
@@ -91,6 +125,9 @@ pub struct RenderArgs {
     /// How colours are taken from pixel to pixel; packed8 when not said, auto with --quality
     #[arg(long, value_enum, value_name = "METHOD")]
     pub interp: Option<InterpArg>,
+    /// How what is seen is found
+    #[arg(long, value_enum, value_name = "METHOD", default_value_t = DepthArg::Auto)]
+    pub depth: DepthArg,
     /// Texture of the whole model, .png or .ppm; without it those of its materials (map_Kd)
     #[arg(long, value_name = "FILE")]
     pub texture: Option<PathBuf>,
@@ -183,6 +220,31 @@ impl RenderArgs {
         }
     }
 
+    /// Whether the method by which what is seen is found goes with the rest.
+    fn check_depth(&self) -> Result<(), String> {
+        let depth = self.depth;
+        if depth != DepthArg::Auto && self.interp == Some(InterpArg::Model) {
+            return Err("--interp model has no --depth: its own is what it is".into());
+        }
+        if !depth.is_a_pipeline() {
+            return Ok(());
+        }
+        if self.method() != InterpArg::Packed8 {
+            return Err(format!("--depth {depth} goes with --interp packed8 alone"));
+        }
+        if self.texture.is_some() || self.has_effects() {
+            return Err(format!(
+                "--depth {depth} has no --texture, --specular, --shadows on or --shade phong"
+            ));
+        }
+        if ![PixelFormatArg::Rgb888, PixelFormatArg::Rgb565].contains(&self.format()) {
+            return Err(format!(
+                "--depth {depth} needs --format rgb888 or rgb565, and --dither off"
+            ));
+        }
+        Ok(())
+    }
+
     pub(super) fn check(&self) -> Result<(), String> {
         let crew = (self.cache, self.renderers, self.prefetch, self.quality);
         if self.interp == Some(InterpArg::Model) && crew != (DEFAULT_SLOTS, 1, 0, None) {
@@ -190,6 +252,7 @@ impl RenderArgs {
                 "--interp model has no --cache, --renderers, --prefetch or --quality".into(),
             );
         }
+        self.check_depth()?;
         let common = [PixelFormatArg::Rgb888, PixelFormatArg::Rgb565];
         let is_common = common.contains(&self.picture.format);
         if self.dither.is_on() && !is_common {

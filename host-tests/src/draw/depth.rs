@@ -1,0 +1,69 @@
+//! The pipeline of each way to find what is seen.
+
+use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as, formats};
+use crate::args::{DepthArg, PixelFormatArg};
+use crate::model::Model;
+use crate::reference::{Shade, View};
+use scanbeam::{
+    BlockFixDepth, Counted, DepthAndId, DepthUse, FlatDepth, GouraudDepth, LineDepth, PixelFormat,
+    Rgb565Be, Rgb888, WithDepth,
+};
+
+/// Draws a model as [`draw`](super::draw) does, and finds what is seen by a method.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub fn draw_by_depth(
+    model: &Model,
+    view: &View,
+    format: PixelFormatArg,
+    crew: CrewSettings,
+    depth: DepthArg,
+) -> Result<Drawn, DrawFailure> {
+    let crew = CrewSettings {
+        depth_use: depth.depth_use(),
+        ..crew
+    };
+    match depth {
+        DepthArg::Auto | DepthArg::Z32 => super::draw(model, view, format, crew),
+        DepthArg::BlockFix => seen_by::<BlockFixDepth>(model, view, format, crew),
+        DepthArg::Id => seen_by::<DepthAndId>(model, view, format, crew),
+        DepthArg::Priority => seen_by::<()>(model, view, format, crew),
+    }
+}
+
+impl DepthArg {
+    /// What a renderer is told.
+    #[must_use]
+    pub fn depth_use(self) -> DepthUse {
+        match self {
+            Self::Z32 => DepthUse::Always,
+            _ => DepthUse::WhereNeeded,
+        }
+    }
+}
+
+fn seen_by<D: LineDepth>(
+    model: &Model,
+    view: &View,
+    format: PixelFormatArg,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
+    let prepared = &Prepared::new(model);
+    match format {
+        PixelFormatArg::Rgb888 => shaded::<Rgb888, D>(prepared, view, crew),
+        PixelFormatArg::Rgb565 => shaded::<Rgb565Be, D>(prepared, view, crew),
+        _ => Err(formats::refused("a chosen depth draws")),
+    }
+}
+
+fn shaded<F: PixelFormat, D: LineDepth>(
+    prepared: &Prepared,
+    view: &View,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
+    match view.shade {
+        Shade::Flat => draw_as::<Counted<WithDepth<FlatDepth<F>, D>>>(prepared, view, crew),
+        _ => draw_as::<Counted<WithDepth<GouraudDepth<F>, D>>>(prepared, view, crew),
+    }
+}
