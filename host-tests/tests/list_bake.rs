@@ -278,3 +278,48 @@ fn gltf_gives_the_same_triangles_as_obj() {
         assert!(gltf::load(&file).is_err(), "{buffer}");
     }
 }
+
+#[test]
+fn materials_keep_opacity_and_highlights() {
+    let mut model = teapot();
+    let material = |d: f64, ks: [f64; 3], ns: f64| host_tests::model::Material {
+        name: String::new(),
+        kd: [1.0; 3],
+        ks,
+        ns,
+        d,
+        map_kd: None,
+    };
+    model.materials = vec![
+        material(0.5, [1.0, 0.5, 0.0], 96.0),
+        material(1.0, [9.0, -1.0, 0.2], 1e9),
+    ];
+    for (n, of) in model.triangle_materials.iter_mut().enumerate() {
+        *of = Some(n as u32 / 1128);
+    }
+    let materials = |normals| {
+        let settings = BakeSettings {
+            normals,
+            ..BakeSettings::default()
+        };
+        let list = bake(&model, &settings).unwrap().words;
+        let (mut at, mut format, mut found) = (0, VertexFormat::default(), Vec::new());
+        while (at as usize) < list.len() {
+            let parsed = read_block(&list[..], at, &format).unwrap();
+            match parsed.instruction {
+                Instruction::State(State::Format(new)) => format = new,
+                Instruction::State(State::Material(m)) => {
+                    found.push((m.opacity, m.specular, m.exponent));
+                }
+                _ => {}
+            }
+            at += parsed.words;
+        }
+        found
+    };
+    assert_eq!(
+        materials(true),
+        [(128, [255, 128, 0], 96), (255, [255, 0, 51], 255)]
+    );
+    assert_eq!(materials(false), [(128, [0; 3], 0), (255, [0; 3], 0)]);
+}

@@ -10,8 +10,8 @@ use scanbeam::list::{
     Palette, State, TexelForm, TextureSlot,
 };
 use scanbeam::{
-    DirectionalLight, Event, I2F14, Instance, Light, Lighting, LineOverlay, ListOverlays,
-    ListRunner, ListSettings, Notice, PixelFormat, Rgb565, Rgb888, Screen, U1F15,
+    Composited, DirectionalLight, Event, Finish, I2F14, Instance, Light, Lighting, LineOverlay,
+    ListOverlays, ListRunner, ListSettings, Notice, PixelFormat, Rgb565, Rgb888, Screen, U1F15,
 };
 
 type Picture = Vec<Vec<[u8; 3]>>;
@@ -151,6 +151,65 @@ fn lights_of_lists_are_those_of_calls() {
         assert!(got == want, "seed {seed}");
     }
     assert!(alone > 5 && highlights > 40, "{alone}, {highlights}");
+}
+
+#[test]
+fn opacity_is_a_finish_where_there_are_finishes() {
+    type Mixed = Composited<Smooth>;
+    let mut through = 0;
+    for seed in 0..40 {
+        let mut rng = Rng::new(seed);
+        let cloud = Cloud::random(&mut rng, 20, FieldForm::S16x3, FieldForm::S10x3);
+        let mut memory = vec![0; 1024];
+        let mut writer = ListWriter::new(&mut memory);
+        let mut sheets = Vec::new();
+        for _ in 0..3 {
+            let material = Material {
+                diffuse: [0; 3].map(|_: u8| rng.below(256) as u8),
+                opacity: rng.pick(&[255, 255, rng.clone().below(256) as u8]),
+                two_sided: true,
+                ..Material::default()
+            };
+            let order: Vec<u16> = (0..5).map(|_| rng.below(20) as u16).collect();
+            let header = Header {
+                new: true,
+                ..Header::of(Id::Short, 5)
+            };
+            writer.state(&State::Material(material)).unwrap();
+            let format = *writer.format();
+            let words = cloud.vertices(&format, header, &order);
+            writer.vertices(header, &words).unwrap();
+            sheets.push((material, listing::unrolled(&order, false)));
+        }
+        let format = *writer.format();
+        let draw = |composited: bool| {
+            drawn::<Mixed>(|scene| {
+                for (material, faces) in &sheets {
+                    let vertices = cloud.plain(false, &format);
+                    let mesh = scanbeam::Mesh {
+                        positions: vertices.positions,
+                        normals: &[],
+                        colours: &[],
+                        faces: scanbeam::Faces::Triangles(faces),
+                    };
+                    let instance = Instance {
+                        cull: scanbeam::Cull::None,
+                        colour: material.diffuse,
+                        ..Instance::default()
+                    };
+                    let finish = match material.opacity {
+                        a if a < 255 && composited => Finish::filtered(a),
+                        _ => Finish::OPAQUE,
+                    };
+                    scene.draw_skinned(&mesh, finish.into(), &instance).unwrap();
+                }
+            })
+        };
+        let got = listing::listed::<Mixed, i16>(writer.words(), Instance::default(), (64, 256));
+        assert!(got == draw(true), "seed {seed}");
+        through += u32::from(got != draw(false));
+    }
+    assert!(through > 10, "{through}");
 }
 
 #[test]

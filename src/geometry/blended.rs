@@ -167,6 +167,7 @@ impl<S: Shading> Shading for Blended<S> {
 
     type Skin<'a> = Surface<'a, S::Skin<'a>>;
     const SKINNED: bool = true;
+    const TEXTURED: bool = S::TEXTURED;
 
     fn fits(surface: &Self::Skin<'_>, vertices: usize) -> bool {
         S::fits(&surface.skin, vertices)
@@ -199,6 +200,10 @@ impl<S: Shading> Shading for Blended<S> {
     }
 
     const COMPOSITED: bool = true;
+
+    fn finished<'a>(surface: Self::Skin<'a>, finish: Finish) -> Self::Skin<'a> {
+        Surface { finish, ..surface }
+    }
 
     #[inline]
     fn finish(face: &Self::Face) -> Option<&Finish> {

@@ -34,6 +34,8 @@ pub trait Shading {
     type Skin<'a>: Copy + Default + From<super::texturing::Skin<'a>>;
     /// Whether it brings anything.
     const SKINNED: bool = false;
+    /// Whether that can be a texture.
+    const TEXTURED: bool = Self::SKINNED;
 
     /// Whether the skin fits a mesh of so many vertices.
     fn fits(_: &Self::Skin<'_>, _vertices: usize) -> bool {
@@ -60,6 +62,11 @@ pub trait Shading {
     /// Whether the same triangle may be drawn several times, with other colours where its depth is
     /// equal: then its depth must not depend on its colours.
     const COMPOSITED: bool = false;
+
+    /// The skin with what its pixels do to those that are there, where that is kept.
+    fn finished<'a>(skin: Self::Skin<'a>, _: Finish) -> Self::Skin<'a> {
+        skin
+    }
 
     /// What a face does to the pixels that are there, in shadings that say so.
     fn finish(_: &Self::Face) -> Option<&Finish> {

@@ -20,7 +20,9 @@ mod vertices;
 use super::scene::{DrawError, Instance, Scene};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::texturing::{Quality, Skin};
-use crate::geometry::{Assembled, Coordinate, Faces, LightingModel, Mesh, QuadSplit, Shading};
+use crate::geometry::{
+    Assembled, Coordinate, Faces, Finish, LightingModel, Mesh, QuadSplit, Shading,
+};
 use crate::list::{Bound, OverlaySlot, OverlaySlots, Place, Slot, Strip, TextureSlot, Words};
 use crate::pipeline::{Pipeline, SkinOf};
 use long::LongStrip;
@@ -144,6 +146,8 @@ pub(super) struct Batch<'m, C> {
 pub(super) struct Target<'t, 'm, P: Pipeline, E, M> {
     pub(super) scene: &'t mut Scene<'m, P>,
     pub(super) instance: Instance<M>,
+    /// The surface's, 255 for 1.
+    pub(super) opacity: u8,
     /// The texture, where there is one.
     pub(super) texture: Option<(Bound, Quality)>,
     pub(super) events: &'t mut E,
@@ -354,17 +358,21 @@ impl BatchCounts {
 }
 
 impl<P: Pipeline, E: EventSink, M: LightingModel> Target<'_, '_, P, E, M> {
-    /// The texture with these places on it, that are to be exact or not.
+    /// The texture with these places on it, that are to be exact or not, and how it is composited.
     fn skin<'p>(&self, places: &'p [[i32; 2]], prsp: bool) -> SkinOf<'p, P> {
-        match self.texture {
-            Some((bound, quality)) if P::Shading::SKINNED => Skin {
+        let skin = match self.texture {
+            Some((bound, quality)) if P::Shading::TEXTURED => Skin {
                 places,
                 texture: bound.index,
                 quality: if prsp { quality } else { Quality::Fast },
             }
             .into(),
             _ => SkinOf::<P>::default(),
+        };
+        if P::Shading::COMPOSITED && self.opacity != 255 {
+            return P::Shading::finished(skin, Finish::filtered(self.opacity));
         }
+        skin
     }
 
     #[cold]

@@ -7,7 +7,10 @@
 //!
 //! What a list cannot do (H13): reach the master state, draw to a window that was not granted,
 //! jump or read outside itself. A try is an event, and the list goes on or stops, as the settings
-//! say. What this pipeline does not have is an event as well, and the rest is drawn.
+//! say. What this pipeline does not have is an event as well, and the rest is drawn: textures where
+//! the shading has none, opacity where it is not [`Composited`](crate::Composited), several lights
+//! and highlights without [`EightLights`](crate::EightLights), overlays without slots, and windows that
+//! are not the whole picture. Of levels of detail the first is drawn.
 
 use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
 use super::frame::FrameStats;
@@ -41,7 +44,8 @@ pub struct ListSettings<'c> {
     pub instance: Instance,
     /// Whether its cameras count; else they are access violations.
     pub camera: bool,
-    /// The part of the picture that it may ask for as its window; `None`: all.
+    /// The part of the picture that it may ask for as its window; `None`: all. What it draws is not
+    /// cut to a part: bands confine it to lines, as they do all that is drawn.
     pub window: Option<Window>,
     /// How far texture places may be off where a block has PRSP; elsewhere [`Quality::Fast`].
     pub quality: Quality,
@@ -187,7 +191,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
     /// The instance and the texture that the state makes.
     fn renew<P: Pipeline>(&mut self, events: &mut impl EventSink) {
         self.stale = false;
-        if P::Shading::SKINNED {
+        if P::Shading::TEXTURED {
             let slots = TextureSlots(self.batch.textures());
             let bound = self.material.texture.map(|number| slots.bind(number));
             self.texture = match bound {
@@ -308,6 +312,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
         let mut target = Target {
             scene,
             instance: self.instance.lit_by(light.filter(|_| !self.material.unlit)),
+            opacity: self.material.opacity,
             texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
             offset: self.walker.offset(),
@@ -333,6 +338,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
         let mut target = Target {
             scene,
             instance: self.instance.lit_by(light.filter(|_| !self.material.unlit)),
+            opacity: self.material.opacity,
             texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
             offset: self.walker.offset(),
@@ -462,9 +468,9 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
                 self.lights.set(number, None);
             }
             State::Material(material) => {
-                if material.opacity != 255
+                if (material.opacity != 255 && !P::Shading::COMPOSITED)
                     || (material.specular != [0; 3] && !L::HIGHLIGHTS)
-                    || (material.texture.is_some() && !P::Shading::SKINNED)
+                    || (material.texture.is_some() && !P::Shading::TEXTURED)
                 {
                     self.unimplemented(events);
                 }
@@ -497,14 +503,14 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
             State::PointSize(size) => self.point_size = size,
             // Texels are drawn from where they lie.
             State::Texture(texture)
-                if P::Shading::SKINNED && words.slice(texture.at, texture.words()).is_some() =>
+                if P::Shading::TEXTURED && words.slice(texture.at, texture.words()).is_some() =>
             {
                 if !TextureSlots(self.batch.textures()).texture(&texture) {
                     self.notice(events, Event::Full, 0);
                 }
             }
             State::Palette(palette)
-                if (P::Shading::SKINNED || !self.batch.overlays().0.is_empty())
+                if (P::Shading::TEXTURED || !self.batch.overlays().0.is_empty())
                     && words.slice(palette.at, u32::from(palette.count)).is_some() =>
             {
                 if !TextureSlots(self.batch.textures()).palette(&palette) {

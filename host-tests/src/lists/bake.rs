@@ -4,8 +4,8 @@
 //! they become the same; triangles of one colour share a material instead of a column; strips
 //! and fans index tables of 255 vertices in bytes, or one large table in half words, whichever is
 //! smaller. Pictures become textures of the smallest form that keeps the error asked for, and
-//! texture places are moved by whole sides to where 2x16U holds them. HEAD says what memory the
-//! list needs, BOUNDS where it is.
+//! texture places are moved by whole sides to where 2x16U holds them. Materials keep opacity and
+//! highlights. HEAD says what memory the list needs, BOUNDS where it is.
 
 use super::args::{BakeArgs, Normals, Pictures};
 use super::fields::{Grid, Packed, Places, degrees_between, normal_fields};
@@ -322,10 +322,16 @@ impl Plan<'_> {
             let first = colours.next().unwrap_or([255; 3]);
             let coloured = colours.any(|c| c != first);
             let texture = material.and_then(|m| *self.textures.get(m as usize)?);
-            let d = material.map_or(1.0, |m| model.materials[m as usize].d);
+            let of = material.map(|m| &model.materials[m as usize]);
+            let d = of.map_or(1.0, |m| m.d);
+            // Highlights need normals.
+            let shiny = of.filter(|_| self.normal.is_some());
+            let specular = shiny.map_or([0.0; 3], |m| m.ks);
             let material = Material {
                 diffuse: if coloured { [255; 3] } else { first },
                 opacity: (d * 255.0).round() as u8,
+                specular: specular.map(|k| (k.clamp(0.0, 1.0) * 255.0).round() as u8),
+                exponent: shiny.map_or(0.0, |m| m.ns.clamp(0.0, 255.0).round()) as u8,
                 texture,
                 ..Material::default()
             };

@@ -12,9 +12,9 @@ use scanbeam::list::{
 use scanbeam::scan_out::Pump;
 use scanbeam::texture::Textured;
 use scanbeam::{
-    Affine, Camera, Depth32, EightLights, Event, Flat, Gouraud, Instance, Light, Link, ListMemory,
-    ListOverlays, ListRunner, ListSettings, ListTextures, Notice, Packed8, Parts, Pipeline,
-    PixelFormat, Rgb888, RunCounts, Screen, SpanCounts, draw_frame_overlaid,
+    Affine, Camera, Composited, Depth32, EightLights, Event, Flat, Gouraud, Instance, Light, Link,
+    ListMemory, ListOverlays, ListRunner, ListSettings, ListTextures, Notice, Packed8, Parts,
+    Pipeline, PixelFormat, Rgb888, RunCounts, Screen, SpanCounts, draw_frame_overlaid,
 };
 use std::error::Error;
 
@@ -97,8 +97,9 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
     }
 }
 
-/// A shading times the list's textures.
-type Look<'t, S> = Parts<Textured<S>, Depth32, Rgb888, SpanCounts, Packed8, ListTextures<'t>>;
+/// A shading times the list's textures, of surfaces that may be transparent.
+type Look<'t, S> =
+    Composited<Parts<Textured<S>, Depth32, Rgb888, SpanCounts, Packed8, ListTextures<'t>>>;
 
 fn execute_as<'t, P>(
     (textures, overlays): (ListTextures<'t>, ListOverlays<'t>),

@@ -124,7 +124,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         let drawn = piece.vertices.get(..vertices).unwrap_or(&[]);
         let mut places = piece.places.get_mut(..vertices).unwrap_or(&mut []);
         match target.texture {
-            Some((bound, _)) if P::Shading::SKINNED => {
+            Some((bound, _)) if P::Shading::TEXTURED => {
                 for place in places.iter_mut() {
                     *place = texels(*place, bound.log_sides);
                 }

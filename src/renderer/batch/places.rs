@@ -21,7 +21,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
     pub(super) fn kept_places<P: Pipeline>(&self) -> [[i32; 2]; 3] {
         let mut kept = [[0; 2]; 3];
         let places = matches!(self.kind, Kind::Run { has, .. } if has.places);
-        if P::Shading::SKINNED && places {
+        if P::Shading::TEXTURED && places {
             for (slot, i) in kept.iter_mut().zip(self.strip.corners) {
                 let place = self.memory.places.get(self.base + usize::from(i));
                 *slot = place.copied().unwrap_or_default();
@@ -37,7 +37,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         run: Range<usize>,
         target: &mut Target<'_, '_, P, E, M>,
     ) -> Option<Range<usize>> {
-        let (bound, _) = target.texture.filter(|_| P::Shading::SKINNED)?;
+        let (bound, _) = target.texture.filter(|_| P::Shading::TEXTURED)?;
         let sides = bound.log_sides;
         match self.kind {
             Kind::Nothing => None,

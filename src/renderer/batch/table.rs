@@ -80,7 +80,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
             slot.column(words, at, out, colour);
         }
         // Room for texture places, which are unpacked when something is drawn.
-        let placed = P::Shading::SKINNED && table.texture.is_some();
+        let placed = P::Shading::TEXTURED && table.texture.is_some();
         if placed && m.places.len() >= n {
             self.base = n;
         }

@@ -22,7 +22,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         if C::of(layout.place.form, [0; 3]).is_none() {
             return Err(Event::Unimplemented);
         }
-        let texture = layout.texture.filter(|_| P::Shading::SKINNED);
+        let texture = layout.texture.filter(|_| P::Shading::TEXTURED);
         if texture.is_some() && target.texture.is_some() && self.memory.places.is_empty() {
             target.notice(Event::Full, 0);
         }
