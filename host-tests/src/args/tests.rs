@@ -162,7 +162,7 @@ fn bad_lines_are_refused_in_one_line() {
         "--ambient -0.1",
         "--ambient 1.1",
         "--ambient x",
-        "--shade phong",
+        "--shade toon",
         "--shade",
         "--cull front",
         "--format rgb666",

@@ -3,6 +3,7 @@
 //! All on it is drawn and measured when it is made, except the instruction counts of whole
 //! frames: those are the recorded ones that `firmware --bench` is held against.
 
+mod effects;
 mod page;
 #[cfg(test)]
 mod tests;
@@ -34,6 +35,7 @@ pub fn run(args: &ReportArgs) -> Result<(), Box<dyn Error>> {
     let mut page = Page::new("scanbeam");
     shots(&mut page)?;
     errors(&mut page)?;
+    effects::effects(&mut page)?;
     accuracy_plots(&mut page)?;
     cache(&mut page)?;
     costs(&mut page)?;

@@ -1,3 +1,4 @@
+use super::effects::effects;
 use super::page::{Page, escaped};
 use super::{cache, errors, memory, shots};
 use base64::Engine as _;
@@ -21,12 +22,13 @@ fn no_picture_is_missing() {
     let mut page = Page::new("test");
     shots(&mut page).unwrap();
     errors(&mut page).unwrap();
+    effects(&mut page).unwrap();
     cache(&mut page).unwrap();
     memory(&mut page);
     let page = page.finish();
     let sources = values(&page, " src");
-    // 8 shots, and 6 pictures with their errors.
-    assert_eq!(sources.len(), 8 + 12);
+    // 8 shots, 6 pictures with their errors, and 4 effects.
+    assert_eq!(sources.len(), 8 + 12 + 4);
     for source in sources {
         let data = source.strip_prefix("data:image/png;base64,").unwrap();
         let png = STANDARD.decode(data).unwrap();
