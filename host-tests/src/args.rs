@@ -9,10 +9,12 @@ mod picture;
 mod render;
 #[cfg(test)]
 mod tests;
+mod view;
 
 pub use bench::{BenchArgs, FirmwareArgs};
 pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
 pub use render::{DepthArg, InterpArg, QualityArg, RenderArgs, SwitchArg};
+pub use view::ViewArgs;
 
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use clap::error::ErrorKind;
@@ -51,6 +53,8 @@ struct Cli {
 pub enum Command {
     /// Draw an OBJ model to a picture
     Render(RenderArgs),
+    /// Show an OBJ model that turns, live in the terminal
+    View(ViewArgs),
     /// Draw the Utah teapot: frames, a strip, an animated picture (the default)
     Demo(DemoArgs),
     /// Print the tokens that the hardware model makes of one line
@@ -187,6 +191,7 @@ where
     let command = cli.command.unwrap_or(Command::Demo(DemoArgs::default()));
     let checked = match &command {
         Command::Render(render) => render.check(),
+        Command::View(view) => view.check(),
         Command::Trace(trace) => trace.check(),
         Command::Bake(bake) => bake.check(),
         Command::RunList(list) => list.check(),

@@ -9,7 +9,7 @@ mod textured;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
-pub use interp::draw_by;
+pub use interp::{draw_by, draw_prepared};
 pub use prepared::Prepared;
 pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
 

@@ -25,3 +25,4 @@ pub mod report;
 pub mod texture_file;
 pub mod texture_report;
 pub mod trace;
+pub mod view;

@@ -7,7 +7,7 @@ use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
-use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, report, trace};
+use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, report, trace, view};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -25,6 +25,7 @@ fn main() -> ExitCode {
     };
     let done = match command {
         Command::Render(args) => render(&args),
+        Command::View(args) => view::run(&args),
         Command::Trace(args) => trace::run(&args),
         Command::Demo(args) => demo::run(&args),
         Command::Cache(args) => cache_report::run(&args),

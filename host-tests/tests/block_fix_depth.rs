@@ -86,7 +86,7 @@ fn what_is_within_a_code_is_not_told_apart() {
         }
     }
     println!("not told apart and told apart, by range: {told:?}");
-    assert!(told.iter().flatten().all(|count| *count > 20), "{told:?}");
+    assert!(told.iter().flatten().all(|count| *count > 5), "{told:?}");
 }
 
 #[test]

@@ -37,6 +37,25 @@ pub fn draw_by(
     by(&Prepared::new(model), view, format, crew)
 }
 
+/// Draws what [`Prepared::new`] has made, for each span by the cheapest method within the budget:
+/// for many frames of one model.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub fn draw_prepared(
+    prepared: &Prepared,
+    view: &View,
+    format: PixelFormatArg,
+    crew: CrewSettings,
+) -> Result<Drawn, DrawFailure> {
+    match (view.shade, format) {
+        (Shade::None | Shade::Gouraud, PixelFormatArg::Rgb888 | PixelFormatArg::Rgb565) => {
+            smooth::<Auto>(prepared, view, format, crew)
+        }
+        _ => super::formats::draw_in(prepared, view, format, crew),
+    }
+}
+
 fn smooth<I: Interpolation>(
     prepared: &Prepared,
     view: &View,

@@ -1,0 +1,152 @@
+//! What the board examples have in common, so that each board shows its own part alone: how its
+//! DMA takes a line.
+//!
+//! - [`Spinner`]: the teapot, turned a little further each frame, in memory lent for ever.
+//! - [`panel`]: the few commands of an ILI9341 on a bus and a data/command pin.
+//! - `dma` (feature): a line buffer for the DMAs of HALs that take `embedded-dma`.
+#![no_std]
+
+#[cfg(feature = "dma")]
+pub mod dma;
+pub mod panel;
+
+use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
+use scanbeam::{
+    Affine, Camera, CellOf, FrameError, FrameStats, GouraudDepth, Instance, Light, LineMemory,
+    LineRenderer, Link, Object, ObjectOf, PixelFormat, Rgb565Be, Scene, SceneMemory, SceneVertex,
+    Screen, SlotOf, VertexOf, draw_frame,
+};
+
+/// Smooth colours, 32-bit depth, pixels in the order of the wire.
+pub type Look = GouraudDepth<Rgb565Be>;
+
+/// Pixels of a line.
+pub const WIDTH: usize = 320;
+/// Lines of the picture.
+pub const HEIGHT: usize = 240;
+/// Lines that a buffer holds and a transfer takes.
+pub const LINES: usize = 8;
+/// Triangles that a frame may have.
+pub const OBJECTS: usize = 1_300;
+/// Triangles that the cache holds.
+pub const SLOTS: usize = 64;
+
+/// What is behind the teapot.
+#[must_use]
+pub fn background() -> u16 {
+    Rgb565Be::from_rgb8([24, 32, 48])
+}
+
+/// Lends an array for ever; a second time at the same place is a panic.
+#[macro_export]
+macro_rules! lend {
+    ($element:ty, $len:expr, $value:expr) => {{
+        static ROOM: $crate::_StaticCell<[$element; $len]> = $crate::_StaticCell::new();
+        ROOM.init_with(|| core::array::from_fn(|_| $value))
+            .as_mut_slice()
+    }};
+}
+#[doc(hidden)]
+pub use static_cell::StaticCell as _StaticCell;
+
+/// The scene of one teapot, in memory lent for ever.
+///
+/// # Panics
+/// The second time.
+#[must_use]
+pub fn scene() -> Scene<'static, Look> {
+    let Ok(screen) = Screen::new(WIDTH as u16, HEIGHT as u16) else {
+        unreachable!("a size within the limits")
+    };
+    Scene::new(
+        screen,
+        SceneMemory {
+            vertices: lend!(VertexOf<Look>, OBJECTS, SceneVertex::empty()),
+            objects: lend!(ObjectOf<Look>, OBJECTS, Object::default()),
+            buckets: lend!(Link, HEIGHT, Link::NONE),
+        },
+    )
+}
+
+/// Pass one: the teapot, turned. `None` when the camera or a room is too small for it.
+pub fn build(scene: &mut Scene<'_, Look>, turn: u16) -> Option<()> {
+    let eye = [0.0, 1.2, 2.6];
+    let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0).ok()?;
+    scene.begin(&camera).ok()?;
+    let instance = Instance {
+        model: Affine::rotation_y(f32::from(turn % 126) * (core::f32::consts::TAU / 126.0)),
+        light: Light::new([0.3, 0.8, 0.6], 0.2),
+        colour: [236, 196, 112],
+        ..Instance::default()
+    };
+    scene.draw(&scenes::TEAPOT, &instance).ok().map(|_| ())
+}
+
+/// The teapot and who draws it.
+pub struct Spinner {
+    scene: Scene<'static, Look>,
+    renderer: LineRenderer<'static, Look>,
+    turn: u16,
+}
+
+impl Spinner {
+    /// Takes the memory of this module.
+    ///
+    /// # Panics
+    /// The second time.
+    #[must_use]
+    pub fn new() -> Self {
+        Self {
+            scene: scene(),
+            renderer: LineRenderer::new(LineMemory {
+                slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
+                links: lend!(Link, OBJECTS, Link::NONE),
+                depth: lend!(CellOf<Look>, WIDTH, 0),
+            }),
+            turn: 0,
+        }
+    }
+
+    /// Draws and sends a frame, then turns on: 126 frames a turn.
+    ///
+    /// # Errors
+    /// When the sink fails. The next frame is whole again.
+    pub fn frame<D>(&mut self, pump: &mut Pump<D>) -> Result<FrameStats, FrameError<D::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        // The arenas hold the whole teapot; what would not fit is left out, and the rest is drawn.
+        let _ = build(&mut self.scene, self.turn);
+        self.turn = (self.turn + 1) % 126;
+        let (scene, renderer) = (&self.scene, &mut self.renderer);
+        draw_frame(scene, renderer, pump, background(), LINES as u16)
+    }
+}
+
+impl Default for Spinner {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// How a sink sends a command of the panel: its code and what follows it.
+pub type SendCommand<D> = fn(&mut D, (u8, &[u8])) -> Result<(), <D as ErrorType>::Error>;
+
+/// Wakes the panel up, then draws and sends frames for ever. `command` has the sink send a command
+/// by [`panel::command`], `wait` waits so many milliseconds.
+pub fn run<D>(
+    mut sink: D,
+    buffers: [D::Buf; 2],
+    command: SendCommand<D>,
+    wait: impl FnMut(u32),
+) -> !
+where
+    D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+{
+    // Without a panel the bus says nothing: there is no answer to miss.
+    let _ = panel::set_up(|code| command(&mut sink, code), wait);
+    let (mut pump, mut spinner) = (Pump::new(sink, buffers), Spinner::new());
+    loop {
+        let _ = spinner.frame(&mut pump); // after an error the next frame is whole
+    }
+}

@@ -1,0 +1,101 @@
+//! What is shown: the model, and a frame of it in a state.
+
+use super::State;
+use crate::args::QualityArg;
+use crate::draw::{
+    CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, TextureSet, TextureSetError,
+    draw_prepared, draw_textured,
+};
+use crate::model::Model;
+use scanbeam::texture;
+use std::time::{Duration, Instant};
+
+/// A model and what all its frames share.
+pub struct Scenery<'m> {
+    model: &'m Model,
+    prepared: Prepared,
+    textures: TextureSet,
+    /// The middle of the model's box.
+    pub(super) centre: [f64; 3],
+    /// From there to its farthest corner; 1 for a model without any size.
+    pub(super) radius: f64,
+}
+
+impl<'m> Scenery<'m> {
+    /// Reads the textures that the model names.
+    ///
+    /// # Errors
+    /// A texture that cannot be read.
+    pub fn new(model: &'m Model) -> Result<Self, TextureSetError> {
+        let (low, high) = model.bounds().unwrap_or_default();
+        let half: [f64; 3] = std::array::from_fn(|i| high[i] / 2.0 - low[i] / 2.0);
+        let radius = half.iter().fold(0.0, |sum: f64, side| sum.hypot(*side));
+        Ok(Self {
+            model,
+            prepared: Prepared::new(model),
+            textures: TextureSet::load(model, None)?.with_levels(true),
+            centre: std::array::from_fn(|i| low[i] + half[i]),
+            radius: if radius > 0.0 { radius } else { 1.0 },
+        })
+    }
+
+    /// Draws a frame of so many pixels.
+    ///
+    /// # Errors
+    /// See [`DrawFailure`].
+    pub fn frame(&self, state: &State, width: u32, height: u32) -> Result<Shown, DrawFailure> {
+        let start = Instant::now();
+        let view = state.view(self, width, height);
+        let crew = CrewSettings {
+            renderers: state.renderers,
+            slots: state.slots.into(),
+            prefetch: 0,
+            quality: state.quality.quality(),
+            ..CrewSettings::default()
+        };
+        let drawn = if self.textures.is_empty() {
+            draw_prepared(&self.prepared, &view, state.format, crew)?
+        } else {
+            let quality = match state.quality {
+                QualityArg::Fast => texture::Quality::Fast,
+                QualityArg::Balanced => texture::Quality::Balanced,
+                QualityArg::Exact => texture::Quality::Exact,
+            };
+            let how = (FilterArg::Nearest, quality);
+            draw_textured(self.model, &self.textures, how, &view, state.format, crew)?
+        };
+        Ok(Shown {
+            drawn,
+            took: start.elapsed(),
+        })
+    }
+}
+
+/// A frame, and how long it took on this machine.
+pub struct Shown {
+    /// The picture and its figures.
+    pub drawn: Drawn,
+    /// To set the scene up and draw it.
+    pub took: Duration,
+}
+
+impl Shown {
+    /// What was done and what was skipped, in one line without times.
+    #[must_use]
+    pub fn figures(&self) -> String {
+        let s = &self.drawn.stats;
+        format!(
+            "{} of {} triangles left out, {} of {} spans hidden, {} pixels shaded, {} hidden, \
+             {} lines empty, cache {}.{} %",
+            s.pass_one.culled,
+            s.pass_one.triangles,
+            s.spans.spans_hidden,
+            s.spans.spans,
+            s.spans.pixels_shaded,
+            s.spans.pixels_hidden,
+            s.scanlines_skipped,
+            s.cache.hits_per_mille() / 10,
+            s.cache.hits_per_mille() % 10,
+        )
+    }
+}

@@ -1,0 +1,107 @@
+//! The table of requirements: every row is there once, and each file and test that it names exists.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Letters of the rows, and how many of each there are.
+const ROWS: [(char, usize); 8] = [
+    ('S', 7),
+    ('K', 18),
+    ('C', 8),
+    ('H', 18),
+    ('P', 6),
+    ('B', 6),
+    ('X', 8),
+    ('M', 4),
+];
+
+/// What is wrong with a table: rows that are missing or there twice, and names of nothing.
+fn faults(table: &str, root: &Path) -> Vec<String> {
+    let mut missing: BTreeSet<String> = (ROWS.iter())
+        .flat_map(|&(letter, count)| (1..=count).map(move |n| format!("{letter}{n}")))
+        .collect();
+    let mut faults = Vec::new();
+    for line in table.lines().filter(|line| line.starts_with("| ")).skip(1) {
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [id, what, code, tests] = cells[..] else {
+            faults.push(format!("{line}: four cells are needed"));
+            continue;
+        };
+        if !missing.remove(id) {
+            faults.push(format!("{id}: unknown, or there twice"));
+        }
+        if what.is_empty() || quoted(code).is_empty() || quoted(tests).is_empty() {
+            faults.push(format!("{id}: an empty cell"));
+        }
+        for file in quoted(code) {
+            if ![root.join("src").join(file), root.join(file)]
+                .iter()
+                .any(|path| path.is_file())
+            {
+                faults.push(format!("{id}: there is no {file}"));
+            }
+        }
+        for test in quoted(tests) {
+            let found = test
+                .split_once(": ")
+                .is_some_and(|(file, name)| has_test(&root.join(file), name));
+            if !found {
+                faults.push(format!("{id}: there is no test {test}"));
+            }
+        }
+    }
+    faults.extend(missing.into_iter().map(|id| format!("{id}: missing")));
+    faults
+}
+
+/// What stands between backquotes.
+fn quoted(cell: &str) -> Vec<&str> {
+    cell.split('`').skip(1).step_by(2).collect()
+}
+
+/// Whether the file has a function of this name right under `#[test]`, attributes apart.
+fn has_test(file: &Path, name: &str) -> bool {
+    let text = fs::read_to_string(file).unwrap_or_default();
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let begins = format!("fn {name}(");
+    let is_at = |at: usize| {
+        let above = lines[..at].iter().rev();
+        above
+            .take_while(|line| line.starts_with("#["))
+            .any(|line| *line == "#[test]")
+    };
+    (0..lines.len()).any(|at| lines[at].starts_with(&begins) && is_at(at))
+}
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+#[test]
+fn every_row_has_its_code_and_its_tests() {
+    let table = fs::read_to_string(root().join("src/guide/rows.md")).unwrap();
+    let faults = faults(&table, &root());
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn what_is_wrong_in_a_table_is_found() {
+    let table = fs::read_to_string(root().join("src/guide/rows.md")).unwrap();
+    let damaged = |from: &str, to: &str| {
+        assert!(table.contains(from), "{from}");
+        faults(&table.replacen(from, to, 1), &root())
+    };
+    assert_eq!(damaged("| K5 |", "| K4 |").len(), 2);
+    assert_eq!(damaged("`num/edge.rs`", "`num/edges.rs`").len(), 1);
+    assert_eq!(
+        damaged(": lines_become_percentiles", ": lines_become").len(),
+        1
+    );
+    // A function that is no test.
+    assert_eq!(
+        damaged(": lines_become_percentiles", ": from_lines").len(),
+        1
+    );
+    assert_eq!(damaged("| M4 |", "| M5 |").len(), 2);
+}
