@@ -4,6 +4,7 @@
 #![no_main]
 
 use core::panic::PanicInfo;
+use cortex_m as _; // its critical section
 use defmt_semihosting as _;
 use scanbeam::scan_out::{Blocking, ErrorKind, ErrorType, LineWriter, Pump, Window};
 use spinner::{LINES, Spinner, WIDTH, lend};
