@@ -590,10 +590,11 @@ fn check<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
         return Err(MeshError::AttributeLength);
     }
-    if let Faces::QuadStrip(strip, _) = mesh.faces
-        && (strip.len() % 2 != 0 || strip.len() == 2)
-    {
-        return Err(MeshError::StripLength);
+    match mesh.faces {
+        Faces::QuadStrip(strip, _) if strip.len() % 2 != 0 || strip.len() == 2 => {
+            return Err(MeshError::StripLength);
+        }
+        _ => {}
     }
     if below <= count {
         return Ok(());

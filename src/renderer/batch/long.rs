@@ -77,9 +77,8 @@ impl<C: ListCoordinate> Batch<'_, C> {
                 (*v, *p) = (vertex, uv);
             }
             piece.used.0 += 1;
-            if let Some(face) = self.strip.push(n as u16, header.rm)
-                && let Some(slot) = piece.faces.get_mut(faces)
-            {
+            let face = self.strip.push(n as u16, header.rm);
+            if let (Some(face), Some(slot)) = (face, piece.faces.get_mut(faces)) {
                 *slot = face;
                 piece.used.1 += 1;
             }

@@ -36,14 +36,12 @@ impl<C: ListCoordinate> Batch<'_, C> {
         if place.form == C::IN_PLACE && place.in_place::<C>(words, at, count).is_some() {
             table.place = Column::InPlace(place);
         }
-        if let Some(slot) = layout.normal.filter(|s| s.form == FieldForm::S16x3)
-            && slot.in_place::<i16>(words, at, count).is_some()
-        {
+        let normals = layout.normal.filter(|s| s.form == FieldForm::S16x3);
+        if let Some(slot) = normals.filter(|s| s.in_place::<i16>(words, at, count).is_some()) {
             table.normal = Column::InPlace(slot);
         }
-        if let Some(slot) = layout.colour.filter(|s| s.form == FieldForm::U8x3)
-            && slot.in_place::<u8>(words, at, count).is_some()
-        {
+        let colours = layout.colour.filter(|s| s.form == FieldForm::U8x3);
+        if let Some(slot) = colours.filter(|s| s.in_place::<u8>(words, at, count).is_some()) {
             table.colour = Column::InPlace(slot);
         }
         let n = usize::from(count);
