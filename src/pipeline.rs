@@ -109,16 +109,7 @@ pub type Composited<P> = Parts<
     <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, and surfaces have a finish: some may be transparent, or bound shadows.
-pub type Shadowed<P> = Parts<
-    Blended<<P as Pipeline>::Shading>,
-    ShadowDepth32,
-    <P as Pipeline>::Pixel,
-    <P as Pipeline>::Counter,
-    <P as Pipeline>::Interpolation,
-    <P as Pipeline>::Textures,
-    Blending,
-    <P as Pipeline>::Lights,
->;
+pub type Shadowed<P> = WithDepth<Composited<P>, ShadowDepth32>;
 /// The pipeline `P`, and its spans and pixels are counted.
 pub type Counted<P> = Parts<
     <P as Pipeline>::Shading,

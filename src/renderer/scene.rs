@@ -178,13 +178,13 @@ pub struct PassOne {
 
 /// A scene in memory: shared by any number of line renderers, read-only while they draw.
 pub struct Scene<'m, P: Pipeline> {
-    pub(super) screen: Screen,
-    pub(super) camera: Option<Camera>,
-    pub(super) store: Store<'m, P::Shading>,
-    pub(super) objects: Arena<'m, ObjectOf<P>>,
-    pub(super) buckets: Buckets<'m>,
+    screen: Screen,
+    camera: Option<Camera>,
+    store: Store<'m, P::Shading>,
+    objects: Arena<'m, ObjectOf<P>>,
+    buckets: Buckets<'m>,
     /// Lines of the picture that are drawn.
-    pub(super) lines: Range<u16>,
+    lines: Range<u16>,
     pass_one: PassOne,
     textures: P::Textures,
     lights: P::Lights,
@@ -194,8 +194,8 @@ pub struct Scene<'m, P: Pipeline> {
 
 /// Where objects go.
 pub(super) struct Filing<'a, 'm, P: Pipeline> {
-    pub(super) objects: &'a mut Arena<'m, ObjectOf<P>>,
-    pub(super) buckets: &'a mut Buckets<'m>,
+    objects: &'a mut Arena<'m, ObjectOf<P>>,
+    buckets: &'a mut Buckets<'m>,
 }
 
 impl<P: Pipeline> Filing<'_, '_, P> {
@@ -406,7 +406,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
 
     /// Lets an assembler of meshes at `instance` run, and counts what it has done.
     #[inline(always)]
-    fn assemble<'k, L: LightingModel>(
+    pub(super) fn assemble<'k, L: LightingModel>(
         &mut self,
         instance: &Instance<L>,
         skin: SkinOf<'k, P>,
@@ -437,10 +437,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
 
     /// Counts what an assembler has done.
     #[inline(always)]
-    pub(super) fn count(
-        &mut self,
-        done: Result<Assembled, MeshError>,
-    ) -> Result<Assembled, DrawError> {
+    fn count(&mut self, done: Result<Assembled, MeshError>) -> Result<Assembled, DrawError> {
         self.generation = self.generation.wrapping_add(1);
         let done = done.map_err(DrawError::Mesh)?;
         self.pass_one.triangles += done.triangles;

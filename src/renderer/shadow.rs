@@ -6,11 +6,10 @@
 //! [`Finish::lit_by`], with what one light adds, for several. Which of them a pixel gets is
 //! counted on each line; lines without volumes go the usual way.
 
-use super::scene::{DrawError, Filing, Instance, Scene};
-use super::spans::scale;
+use super::scene::{DrawError, Instance, Scene};
 use crate::geometry::{
-    Affine, Assembled, Assembler, Blended, Coordinate, Cull, DepthFunction, Extrusion, Faces,
-    Finish, Light, Mesh, Shading, ShadowLight, ShadowMemory, ShadowRoom, Surface,
+    Affine, Assembled, Blended, Coordinate, Cull, DepthFunction, Extrusion, Faces, Finish, Mesh,
+    Shading, ShadowLight, ShadowMemory, ShadowRoom, Surface,
 };
 use crate::pipeline::Pipeline;
 
@@ -79,37 +78,25 @@ where
         let mut done = self
             .draw_skinned(&volume, Surface::from(finish), &instance)
             .map_err(ShadowError::Draw)?;
-        let Some(camera) = &self.camera else {
-            return Ok(done);
-        };
         // In front of all that is seen, wherever rounding puts it.
         let cap = Finish {
             colour_if: DepthFunction::ALWAYS,
             ..finish
         };
-        let assembler = Assembler::new(
-            &mut self.store,
-            camera,
-            self.screen,
-            self.lines.clone(),
-            &instance.model,
-            (Cull::None, None::<Light>, [0; 3]),
-            (scale::<P>(), Surface::from(cap)),
-        );
-        if !assembler.is_near(&extrusion, mesh) {
-            return Ok(done);
-        }
-        let mut filing = Filing::<P> {
-            objects: &mut self.objects,
-            buckets: &mut self.buckets,
-        };
-        let near = assembler.near_cap(&extrusion, mesh, &sides, |object, first| {
-            filing.file(object, first)
-        });
+        let near = self
+            .assemble(&instance, Surface::from(cap), |assembler, mut filing| {
+                if !assembler.is_near(&extrusion, mesh) {
+                    return Ok(Assembled::default());
+                }
+                Ok(
+                    assembler.near_cap(&extrusion, mesh, &sides, |object, first| {
+                        filing.file(object, first)
+                    }),
+                )
+            })
+            .map_err(ShadowError::Draw)?;
         done.triangles += near.triangles;
         done.kept += near.kept;
-        done.dropped = near.dropped;
-        self.count(Ok(near)).map_err(ShadowError::Draw)?;
         Ok(done)
     }
 }
