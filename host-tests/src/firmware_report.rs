@@ -212,7 +212,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     }
     for (name, swatch) in SWATCHES {
         let mut bytes = Vec::new();
-        swatch.draw(|line| bytes.extend(line.iter().flat_map(|word| word.to_ne_bytes())));
+        swatch.draw(&mut |line| bytes.extend(line.iter().flat_map(|word| word.to_ne_bytes())));
         frames.insert(name, crc32fast::hash(&bytes));
     }
     for (name, words) in method_frames()?.into_iter().chain(effect_frames(64)?) {

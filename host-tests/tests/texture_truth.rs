@@ -435,7 +435,7 @@ fn bilinear_pictures_are_those_of_the_reference() {
 fn the_frames_of_qualities_are_textured_and_differ() {
     let frames = QUALITIES.map(|(quality, _)| {
         let mut frame = Vec::new();
-        let counts = textured(quality, |line| frame.extend_from_slice(line));
+        let counts = textured(quality, &mut |line| frame.extend_from_slice(line));
         let counts = counts.expect("the memory suffices");
         println!("{quality:?}: {counts:?}");
         assert!(counts.texture_fetches > 40_000, "{counts:?}");

@@ -153,7 +153,7 @@ impl Shading for Flat {
 
     fn turn(_: &Affine, _: &Affine) {}
 
-    #[inline]
+    #[inline(always)]
     fn set_up_small(
         _: &SmallArea,
         _: [(); 3],
@@ -209,7 +209,7 @@ impl Shading for Gouraud {
 
     fn turn(_: &Affine, _: &Affine) {}
 
-    #[inline]
+    #[inline(always)]
     fn set_up_small(
         area: &SmallArea,
         corners: [Colour; 3],

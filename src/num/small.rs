@@ -155,7 +155,7 @@ impl SmallArea {
     /// The plane of a quantity of up to 31 bits; `None` where it would err by more than 2^13.
     ///
     /// Its differences are kept to 15 bits and a sign.
-    #[inline]
+    #[inline(always)]
     #[must_use]
     pub fn wide_plane(&self, value: [i32; 3]) -> Option<Plane> {
         let d1 = value[1] - value[0];

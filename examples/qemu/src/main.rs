@@ -101,10 +101,10 @@ fn main() -> ! {
     let stack = rooms::stack_peak();
     for (name, swatch) in SWATCHES {
         let mut digest = CRC.digest();
-        swatch.draw(|line| digest.update(bytemuck::cast_slice(line)));
+        swatch.draw(&mut |line| digest.update(bytemuck::cast_slice(line)));
         let crc = digest.finalize();
         let instructions = counter.instructions(|| {
-            swatch.draw(|line| {
+            swatch.draw(&mut |line| {
                 black_box(line);
             });
         });

@@ -117,7 +117,11 @@ type Line<'a> = &'a mut [u16];
 
 impl Swatch {
     /// Draws all lines in turn, and hands each to `emit`.
-    pub fn draw(self, mut emit: impl FnMut(&[u16])) {
+    ///
+    /// Code of its own: where it is built into its caller, what it takes depends on the rest
+    /// of that.
+    #[inline(never)]
+    pub fn draw(self, emit: &mut dyn FnMut(&[u16])) {
         let mut pixels = [0u16; WIDTH as usize];
         match self {
             Self::Details => return details(emit),
@@ -235,7 +239,8 @@ fn formats(line: u16, pixels: Line) {
     }
 }
 
-fn details(mut emit: impl FnMut(&[u16])) {
+#[inline(never)]
+fn details(emit: &mut dyn FnMut(&[u16])) {
     let full = size(32, 32);
     let texels = &TEXELS_565[..1024];
     let (mut half, mut quarter, mut eighth) = ([0; 256], [0; 64], [0; 16]);
@@ -284,7 +289,8 @@ fn details(mut emit: impl FnMut(&[u16])) {
     }
 }
 
-fn blocks(mut emit: impl FnMut(&[u16])) {
+#[inline(never)]
+fn blocks(emit: &mut dyn FnMut(&[u16])) {
     let size = size(64, 32);
     let layout = Blocked::of_page(32, 16);
     let mut arranged = [0u16; 64 * 32];

@@ -73,7 +73,7 @@ const SIDES: [[i32; 2]; 24] = {
 /// Draws the scene, hands each line to `emit`, and tells what was counted.
 ///
 /// `None` when memory is short, which would be a mistake of this module.
-pub fn textured(quality: Quality, mut emit: impl FnMut(&[u16])) -> Option<SpanCounts> {
+pub fn textured(quality: Quality, emit: &mut dyn FnMut(&[u16])) -> Option<SpanCounts> {
     let store = Words(&TEXELS_565[..]);
     let texture = Texture::<_, Wrap>::new(store, size(TEXEL_SIDE, TEXEL_SIDE)).ok()?;
     let textures = [texture];

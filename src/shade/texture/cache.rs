@@ -135,6 +135,7 @@ impl<S: Store> Store for BlockCache<'_, S> {
         self.slow.count()
     }
 
+    #[inline(always)]
     fn fetch(&self, index: usize) -> S::Texel {
         // A store of 2^n texels wraps; block numbers must not differ for the same texel.
         let index = index & self.slow.count().wrapping_sub(1);

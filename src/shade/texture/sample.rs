@@ -252,6 +252,24 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
     fn at(&self, place: Uv) -> S::Texel {
         self.texel(place.texel())
     }
+
+    #[inline(always)]
+    fn along<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        mut each: impl FnMut(&mut W, Option<S::Texel>),
+    ) {
+        // A copy that nothing else can see stays in registers whatever is written meanwhile.
+        let texture = *self;
+        let mut place = from;
+        visible.each(pixels, |pixel, shown| {
+            each(pixel, shown.then(|| texture.at(place)));
+            place = place.plus(step);
+        });
+    }
 }
 
 /// A texture of `2^LOG` texels each side, at most 256, repeating, in rows.
