@@ -11,7 +11,7 @@ use super::project::Projection;
 use super::shading::Shading;
 use super::transform::{Affine, unit};
 use crate::arena::Arena;
-use crate::num::first_at;
+use crate::num::{first_at, turn};
 use core::ops::Range;
 
 mod screen;
@@ -481,8 +481,7 @@ fn first_line(
     cull: Cull,
     (columns, lines): (&Range<i32>, &Range<i32>),
 ) -> Option<i32> {
-    let d = |a: u16, b: u16| i64::from(b) - i64::from(a);
-    let area = d(p[0].0, p[1].0) * d(p[0].1, p[2].1) - d(p[0].0, p[2].0) * d(p[0].1, p[1].1);
+    let area = turn(p);
     // y points down, so a counter-clockwise face has a negative area.
     if area == 0 || (area > 0 && cull == Cull::Back) {
         return None;
@@ -507,9 +506,8 @@ fn leading_away<A>(vertices: &[SceneVertex<A>], faces: &[[u16; 3]], cull: Cull) 
         let (Some(a), Some(b), Some(c)) = (at(a), at(b), at(c)) else {
             return true;
         };
-        let d = |a: u16, b: u16| i64::from(i32::from(b) - i32::from(a));
         // y points down, so a counter-clockwise face has a negative area.
-        let area = d(a.x, b.x) * d(a.y, c.y) - d(a.x, c.x) * d(a.y, b.y);
+        let area = turn([(a.x, a.y), (b.x, b.y), (c.x, c.y)]);
         // Depths on the screen are below 2^31.
         area >= 0 && (a.depth | b.depth | c.depth) >> 31 == 0 && (cull == Cull::Back || area == 0)
     };

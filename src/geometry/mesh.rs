@@ -2,6 +2,8 @@
 //!
 //! Attributes are separate slices, so that a mesh without normals, say, has no bytes for them.
 
+use crate::num::{mul_16, mul_high};
+
 /// A coordinate of model space: `i16` in Q1.14 or `i32` in Q1.30.
 pub trait Coordinate: Copy + Send + Sync {
     /// The product with a matrix entry: `entry / 4 x` for the real value x of the coordinate,
@@ -15,7 +17,7 @@ pub trait Coordinate: Copy + Send + Sync {
 impl Coordinate for i16 {
     #[inline(always)]
     fn times(self, entry: i32) -> i32 {
-        ((i64::from(entry) * i64::from(self)) >> 16) as i32
+        mul_16(entry, self)
     }
 
     fn to_q30(self) -> i32 {
@@ -26,7 +28,7 @@ impl Coordinate for i16 {
 impl Coordinate for i32 {
     #[inline(always)]
     fn times(self, entry: i32) -> i32 {
-        ((i64::from(entry) * i64::from(self)) >> 32) as i32
+        mul_high(entry, self)
     }
 
     fn to_q30(self) -> i32 {

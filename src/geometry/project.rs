@@ -7,7 +7,7 @@
 use super::camera::{Camera, Screen};
 use super::mesh::Coordinate;
 use super::transform::Affine;
-use crate::num::{recip, shift_round};
+use crate::num::{leading_zeros, mul_high, mul_high_unsigned, recip, shift_round};
 
 /// Depth of the near plane, the largest a vertex gets.
 ///
@@ -180,9 +180,9 @@ impl Projection {
     pub(super) fn project(&self, p: ClipPoint) -> ScreenPoint {
         let z = p.z.max(1) as u32;
         // z 2^up in 2^30 ..< 2^31
-        let up = z.leading_zeros() as i32 - 1;
+        let up = leading_zeros(z) as i32 - 1;
         let inverse = recip(z << (up + 1));
-        let depth = ((u64::from(self.near_mantissa) * u64::from(inverse)) >> 32) as u32;
+        let depth = mul_high_unsigned(self.near_mantissa, inverse);
         // depth < 2^30, and near / z = depth 2^(up + 2 - near_down)
         let down = self.near_down - up - 2;
         let depth = if down >= 0 {
@@ -202,8 +202,8 @@ impl Projection {
         // 2^31 itself, for a power of two, is a unit less: so a signed product will do.
         let inverse = inverse.min(i32::MAX as u32) as i32;
         let place = |v: i32, centre: i32| {
-            let q = (i64::from(scaled(v)) * i64::from(inverse)) >> 32;
-            ((((q as i32) + (1 << 13)) >> 14) + centre).clamp(0, 0xFFFF) as u16
+            let q = mul_high(scaled(v), inverse);
+            (((q + (1 << 13)) >> 14) + centre).clamp(0, 0xFFFF) as u16
         };
         ScreenPoint {
             x: place(p.x, self.centre[0]),

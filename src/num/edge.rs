@@ -12,6 +12,8 @@
 //! of any height; all others are divided out by [`column_exact`]. Both are evaluated for any line
 //! alone, without state.
 
+use super::short::{self, SHORT};
+
 /// The first line or column whose centre lies beyond the 13.3 coordinate `at`.
 ///
 /// A triangle from `top` to `bottom` is on the lines `first_at(top) .. first_at(bottom)`.
@@ -31,6 +33,17 @@ pub const fn column_exact(a: (u16, u16), b: (u16, u16), line: i32) -> i32 {
     let dx = b.0 as i64 - a.0 as i64;
     let down = 8 * line as i64 + 4 - a.1 as i64;
     ((a.0 as i64 + 4) * dy + down * dx).div_euclid(8 * dy) as i32
+}
+
+/// `dx / dy` in units of 2^-22 column a line, by the reciprocal of a `dy` in 1 ..= 512.
+#[inline(always)]
+fn slope(dx: i32, dy: u32) -> i32 {
+    if SHORT {
+        short::side_times(dx, short::of_side(dy) as i32)
+    } else {
+        let recip = i32::MAX as u32 / dy;
+        ((i64::from(dx) * i64::from(recip)) >> 9) as i32
+    }
 }
 
 /// An edge as `column = (at + slope line) >> 22`, modulo 2^32, counted from an origin.
@@ -106,11 +119,15 @@ impl Edge {
         debug_assert!(dy > 0 && dy <= 512 && dx.abs() <= 512);
         let start = ((i32::from(a.0) + 4 - 8 * origin) << 19).wrapping_add(256);
         // dy is above 0; said so that no check for it is compiled in.
-        let recip = (i32::MAX as u32 / (dy as u32).max(1)) as i32;
-        let slope = ((i64::from(dx) * i64::from(recip)) >> 9) as i32;
+        let slope = slope(dx, (dy as u32).max(1));
         let first = first_at(a.1);
         let down = 8 * first + 4 - i32::from(a.1);
-        let at = start.wrapping_add(((i64::from(slope) * i64::from(down)) >> 3) as i32);
+        let way = if SHORT {
+            short::eighth(slope, down)
+        } else {
+            ((i64::from(slope) * i64::from(down)) >> 3) as i32
+        };
+        let at = start.wrapping_add(way);
         Self {
             at: at.wrapping_sub(slope.wrapping_mul(first)),
             slope,

@@ -3,6 +3,8 @@
 //! A table of 192 bytes gives 7 bits, and two Newton steps of two products each double them twice:
 //! no division and no loop, the same for all values.
 
+use super::product::mul_high_unsigned;
+
 /// `2^15 / sqrt(x)` for the upper byte of a normalised number, from 0x40 on, to nearest.
 const SEEDS: [u8; 192] = {
     let mut seeds = [0; 192];
@@ -33,9 +35,9 @@ pub const fn inverse_root(x: u32) -> (u32, u32) {
     let mut step = 0;
     while step < 2 {
         // y (3 - X y^2) / 2
-        let square = ((y as u64 * y as u64) >> 32) as u32;
-        let off = (3 << 28) - ((x as u64 * square as u64) >> 32) as u32;
-        y = ((y as u64 * off as u64) >> 29) as u32;
+        let square = mul_high_unsigned(y, y);
+        let off = (3 << 28) - mul_high_unsigned(x, square);
+        y = mul_high_unsigned(y, off) << 3 | y.wrapping_mul(off) >> 29;
         step += 1;
     }
     (y, up / 2)

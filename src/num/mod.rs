@@ -20,10 +20,12 @@ mod block_fix;
 mod edge;
 mod inverse_root;
 mod plane;
+mod product;
 #[cfg(test)]
 pub(crate) mod random;
 mod recip;
 mod recip_table;
+mod short;
 mod small;
 
 pub(crate) use block::shift_round_inline;
@@ -33,8 +35,9 @@ pub use edge::{Edge, column_exact, first_at};
 pub use fixed::types::{I2F14, I2F30, U1F15, U13F3};
 pub use inverse_root::inverse_root;
 pub use plane::{InverseArea, Plane};
+pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned, turn};
 pub use recip::recip;
-pub use recip_table::{Reciprocal, mul_high};
+pub use recip_table::Reciprocal;
 pub use small::SmallArea;
 
 /// The pixel column and line that lies at the middle of guard space.

@@ -3,6 +3,8 @@
 //! 64-bit division is a library call of some hundred instructions on every Cortex-M; this is
 //! one `UDIV` and two widening products, and only 32-bit results are kept.
 
+use super::short::{self, SHORT};
+
 /// `2^62 / a` for a normalised `a` (top bit set), in `2^30 ..= 2^31`.
 ///
 /// The result is never above the true quotient by more than one unit and never below it by more
@@ -10,6 +12,10 @@
 #[inline]
 #[must_use]
 pub const fn recip(a: u32) -> u32 {
+    if SHORT {
+        let (seed, rest) = short::divide(0xFFFF_FFFF, a >> 16);
+        return short::newton(a, seed, rest);
+    }
     // 2^48 / a to 16 bits: relative error within -2^-16 and +2^-15.
     let seed = 0xFFFF_FFFF / (a >> 16);
     let miss = (1i64 << 48) - (a as u64 * seed as u64) as i64;
@@ -21,7 +27,19 @@ pub const fn recip(a: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::recip;
+    use super::{recip, short};
+    use crate::num::random::Rng;
+
+    #[test]
+    fn short_products_give_the_same() {
+        let mut rng = Rng(45);
+        let some = (0..400_000).map(|_| 1 << 31 | rng.below(1 << 31));
+        let uppers = (1u32 << 15..1 << 16).flat_map(|u| [u << 16, u << 16 | 0xFFFF]);
+        for a in some.chain(uppers) {
+            let (seed, rest) = short::divide(0xFFFF_FFFF, a >> 16);
+            assert_eq!(short::newton(a, seed, rest), recip(a), "{a:#x}");
+        }
+    }
 
     #[test]
     fn stays_within_its_bound() {

@@ -7,6 +7,7 @@
 //! on a Cortex-M0+.
 
 use super::Plane;
+use super::product::{divide_16, leading_zeros, mul_16};
 
 /// What the planes of a small triangle share.
 #[derive(Clone, Copy, Debug)]
@@ -57,10 +58,10 @@ impl SmallArea {
         if size < 32 {
             return None;
         }
-        let up = size.leading_zeros();
+        let up = leading_zeros(size);
         // area = a 2^(16 - up), a in 2^15 ..< 2^16, to nearest
         let a = ((size << up) >> 16).max(1 << 15);
-        let recip = (((1u32 << 30) + a / 2) / a).min(0x7FFF) as i32;
+        let recip = divide_16((1 << 30) + a / 2, a).min(0x7FFF) as i32;
         Some(Self {
             dx1,
             dy1,
@@ -71,7 +72,7 @@ impl SmallArea {
             recip: if area < 0 { -recip } else { recip },
             // n 8 / area = (n recip / 2^16) 2^(16 + 3 - 30 - 16 + up)
             shift: 27 - up as i32,
-            extent_bits: 32 - (extent as u32 >> 2).leading_zeros(),
+            extent_bits: 32 - leading_zeros(extent as u32 >> 2),
         })
     }
 
@@ -94,7 +95,7 @@ impl SmallArea {
     #[inline(always)]
     #[must_use]
     pub fn gradient(&self, d1: i32, d2: i32) -> Gradient {
-        let times = |n: i32| ((i64::from(n) * i64::from(self.recip as i16)) >> 16) as i32;
+        let times = |n: i32| mul_16(n, self.recip as i16);
         Gradient {
             x: times(d1 * self.dy2 - d2 * self.dy1),
             y: times(d2 * self.dx1 - d1 * self.dx2),
@@ -111,7 +112,7 @@ impl SmallArea {
         let all = gradients
             .iter()
             .fold(0, |all, g| all | (g.x ^ (g.x >> 31)) | (g.y ^ (g.y >> 31)));
-        32 - all.leading_zeros() as i32 + self.extent_bits as i32 + up - self.shift
+        32 - leading_zeros(all as u32) as i32 + self.extent_bits as i32 + up - self.shift
     }
 
     /// The step of a gradient to the next column and line, rounded to nearest.
@@ -160,7 +161,8 @@ impl SmallArea {
     pub fn wide_plane(&self, value: [i32; 3]) -> Option<Plane> {
         let d1 = value[1] - value[0];
         let d2 = value[2] - value[0];
-        let bits = 32 - ((d1 ^ (d1 >> 31)) | (d2 ^ (d2 >> 31))).leading_zeros() as i32;
+        let size = (d1 ^ (d1 >> 31)) | (d2 ^ (d2 >> 31));
+        let bits = 32 - leading_zeros(size as u32) as i32;
         let down = (bits - 15).max(0);
         let half = (1 << down) >> 1;
         let g = self.gradient((d1 + half) >> down, (d2 + half) >> down);

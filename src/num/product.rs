@@ -1,0 +1,72 @@
+//! Products and quotients in the form that the target does best (S4).
+//!
+//! Where a processor has long products (Cortex-M3 and above), each is one or two instructions;
+//! where it has none, [`short`](super::short) has the same bits in pieces.
+
+use super::short::{self, SHORT};
+
+/// `floor(a b / 2^32)`: SMULL, or SMMUL, on a Cortex-M4.
+#[inline(always)]
+#[must_use]
+pub const fn mul_high(a: i32, b: i32) -> i32 {
+    if SHORT {
+        short::high(a, b)
+    } else {
+        ((a as i64 * b as i64) >> 32) as i32
+    }
+}
+
+/// `floor(a b / 2^32)` without signs.
+#[inline(always)]
+#[must_use]
+pub const fn mul_high_unsigned(a: u32, b: u32) -> u32 {
+    if SHORT {
+        short::high_unsigned(a, b)
+    } else {
+        ((a as u64 * b as u64) >> 32) as u32
+    }
+}
+
+/// `floor(a b / 2^16)` modulo 2^32: SMULWB on a Cortex-M4.
+#[inline(always)]
+#[must_use]
+pub const fn mul_16(a: i32, b: i16) -> i32 {
+    if SHORT {
+        short::by_16(a, b)
+    } else {
+        ((a as i64 * b as i64) >> 16) as i32
+    }
+}
+
+/// `n / d` for `d` in 2^15 ..< 2^16.
+#[inline(always)]
+#[must_use]
+pub const fn divide_16(n: u32, d: u32) -> u32 {
+    if SHORT { short::divide(n, d).0 } else { n / d }
+}
+
+/// Zero bits above the topmost one, 32 for 0.
+#[inline(always)]
+#[must_use]
+pub fn leading_zeros(x: u32) -> u32 {
+    if SHORT {
+        short::leading_zeros(x)
+    } else {
+        x.leading_zeros()
+    }
+}
+
+/// Twice the area of a triangle by corners in 13.3, in units of 1/64 pixel: positive where they go
+/// clockwise on a screen whose lines go down. Only its sign counts.
+#[inline(always)]
+#[must_use]
+pub fn turn(p: [(u16, u16); 3]) -> i64 {
+    let d = |a: u16, b: u16| i32::from(b) - i32::from(a);
+    let (dx1, dy1) = (d(p[0].0, p[1].0), d(p[0].1, p[1].1));
+    let (dx2, dy2) = (d(p[0].0, p[2].0), d(p[0].1, p[2].1));
+    if SHORT {
+        i64::from(short::turn((dx1, dy1), (dx2, dy2)))
+    } else {
+        i64::from(dx1) * i64::from(dy2) - i64::from(dx2) * i64::from(dy1)
+    }
+}

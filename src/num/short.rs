@@ -1,0 +1,270 @@
+//! What a processor does whose only multiplication is 32 x 32 to 32 bits: a Cortex-M0+.
+//!
+//! There a 64-bit product is a library call of 42 instructions, a division one of 192, and a count
+//! of leading zeros one of 33. The forms here give the same bits in 6 to 45. They are chosen where
+//! `build.rs` finds such a target ([`SHORT`]); all others keep the plain forms beside the calls,
+//! and the tests hold one against the other. Reciprocals take 1.3 KB of flash, on those targets
+//! alone.
+
+/// Whether the target has neither long products nor a division.
+pub const SHORT: bool = cfg!(short_multiply);
+
+/// `a` in an upper half with a sign and a lower one without.
+#[inline(always)]
+const fn halves(a: i32) -> (i32, i32) {
+    (a >> 16, a & 0xFFFF)
+}
+
+/// `floor(a b / 2^16)` modulo 2^32: two multiplications.
+#[inline(always)]
+pub(super) const fn by_16(a: i32, b: i16) -> i32 {
+    let (high, low) = halves(a);
+    let b = b as i32;
+    (high.wrapping_mul(b)).wrapping_add((low * b) >> 16)
+}
+
+/// `floor(a b / 2^32)`: four multiplications.
+#[inline(always)]
+pub(super) const fn high(a: i32, b: i32) -> i32 {
+    let ((ah, al), (bh, bl)) = (halves(a), halves(b));
+    let low = (al as u32 * bl as u32) >> 16;
+    let first = ah * bl + low as i32;
+    let second = al * bh + (first & 0xFFFF);
+    ah * bh + (first >> 16) + (second >> 16)
+}
+
+/// `floor(a b / 2^32)` without signs.
+#[inline(always)]
+pub(super) const fn high_unsigned(a: u32, b: u32) -> u32 {
+    let (ah, al, bh, bl) = (a >> 16, a & 0xFFFF, b >> 16, b & 0xFFFF);
+    let first = ah * bl + ((al * bl) >> 16);
+    let second = al * bh + (first & 0xFFFF);
+    ah * bh + (first >> 16) + (second >> 16)
+}
+
+/// `floor(a b / 2^9)` modulo 2^32, for `a` of at most 512 in magnitude and `b` without a sign bit.
+#[inline(always)]
+pub(super) const fn side_times(a: i32, b: i32) -> i32 {
+    let (high, low) = halves(b);
+    ((a * high) << 7).wrapping_add((a * low) >> 9)
+}
+
+/// `floor(a b / 8)` modulo 2^32, for `b` of at most 16 in magnitude.
+#[inline(always)]
+pub(super) const fn eighth(a: i32, b: i32) -> i32 {
+    (a >> 3).wrapping_mul(b).wrapping_add(((a & 7) * b) >> 3)
+}
+
+/// `floor((a 2^32 - b c) / 2^32)` modulo 2^32.
+#[inline(always)]
+pub(super) const fn less_product(a: i32, b: i32, c: i32) -> i32 {
+    // A lower word that is taken off takes one from the upper.
+    let borrow = (b.wrapping_mul(c) != 0) as i32;
+    a.wrapping_sub(high(b, c)).wrapping_sub(borrow)
+}
+
+/// A number with the sign of `dx1 dy2 - dx2 dy1`, of differences in 17 bits.
+#[inline(always)]
+pub(super) fn turn((dx1, dy1): (i32, i32), (dx2, dy2): (i32, i32)) -> i32 {
+    let size = |d: i32| d ^ (d >> 31);
+    if (size(dx1) | size(dy1) | size(dx2) | size(dy2)) < 1 << 15 {
+        dx1 * dy2 - dx2 * dy1
+    } else {
+        let wide = |a: i32, b: i32| i64::from(a) * i64::from(b);
+        (wide(dx1, dy2) - wide(dx2, dy1)).signum() as i32
+    }
+}
+
+/// `(2^31 - 1) / d` for odd `d` below 512.
+static ODD: [u32; 256] = {
+    let mut odd = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        odd[i] = i32::MAX as u32 / (2 * i as u32 + 1);
+        i += 1;
+    }
+    odd
+};
+
+/// `(2^31 - 1) / d` for `d` in 1 ..= 512.
+#[inline(always)]
+pub(super) fn of_side(d: u32) -> u32 {
+    let (mut odd, mut down) = (d, 0);
+    while odd & 1 == 0 && down < 9 {
+        odd >>= 1;
+        down += 1;
+    }
+    ODD[(odd >> 1) as usize & 255] >> down
+}
+
+/// `2^31 / d` for the middle of each 256 of `d` in 2^15 ..< 2^16.
+static SEEDS: [u16; 128] = {
+    let mut seeds = [0; 128];
+    let mut i = 0;
+    while i < 128 {
+        seeds[i] = ((1u32 << 31) / ((i as u32 + 128) * 256 + 128)) as u16;
+        i += 1;
+    }
+    seeds
+};
+
+/// `n / d` and the remainder, for `d` in 2^15 ..< 2^16.
+#[inline(always)]
+pub(super) const fn divide(n: u32, d: u32) -> (u32, u32) {
+    // 2^31 / d, 2^-8 of itself off, and after Newton's step less than 3 units, made too small.
+    let seed = SEEDS[(d >> 8) as usize & 127] as i32;
+    let miss = (1u32 << 31).wrapping_sub(d.wrapping_mul(seed as u32)) as i32;
+    let reciprocal = (seed + ((seed * (miss >> 8)) >> 23) - 3) as u32;
+    // Twice the upper part of the rest: at most 11 units are missing after the first.
+    let first = ((n >> 16) * reciprocal) >> 15;
+    let rest = n.wrapping_sub(first.wrapping_mul(d));
+    let second = ((rest >> 4) * reciprocal) >> 27;
+    let (mut quotient, mut rest) = (first + second, rest.wrapping_sub(second * d));
+    while rest >= d {
+        rest -= d;
+        quotient += 1;
+    }
+    (quotient, rest)
+}
+
+/// One Newton step from `seed = (2^32 - 1) / (a >> 16)`, which left `rest`: see
+/// [`recip`](super::recip()).
+#[inline(always)]
+pub(super) const fn newton(a: u32, seed: u32, rest: u32) -> u32 {
+    // An eighth of 2^48 - a seed, in which a >> 16 times the seed is 2^32 - 1 - rest.
+    let low = a & 0xFFFF;
+    let miss = ((rest + 1) << 13)
+        .wrapping_sub(low * (seed >> 3))
+        .wrapping_sub((low * (seed & 7) + 7) >> 3) as i32;
+    // seed miss / 2^31, by the halves of miss; the seed has 17 bits.
+    let (up, down) = halves(miss);
+    let down = down as u32;
+    let part = (seed >> 1) * down + (((seed & 1) * down) >> 1);
+    let step = ((seed as i32).wrapping_mul(up)).wrapping_add((part >> 15) as i32) >> 15;
+    ((seed << 14) as i32).wrapping_add(step) as u32
+}
+
+/// Bits set in none of the upper places.
+#[inline(always)]
+pub(super) fn leading_zeros(x: u32) -> u32 {
+    /// Of four bits.
+    static OF_FOUR: [u8; 16] = [4, 3, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
+    let (mut x, mut zeros) = (x, 0);
+    if x >> 16 == 0 {
+        (x, zeros) = (x << 16, 16);
+    }
+    if x >> 24 == 0 {
+        (x, zeros) = (x << 8, zeros + 8);
+    }
+    if x >> 28 == 0 {
+        (x, zeros) = (x << 4, zeros + 4);
+    }
+    zeros + u32::from(OF_FOUR[(x >> 28) as usize & 15])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+
+    /// Numbers of any size, the ends of the range among them.
+    fn any(rng: &mut Rng) -> i32 {
+        let ends = [
+            0,
+            1,
+            -1,
+            i32::MAX,
+            i32::MIN,
+            0x7FFF,
+            0x8000,
+            0xFFFF,
+            0x1_0000,
+            -0x8000,
+        ];
+        match rng.below(8) {
+            0 => ends[rng.below(10) as usize],
+            _ => (rng.below(u32::MAX) as i32) >> rng.below(32),
+        }
+    }
+
+    #[test]
+    fn products_are_those_of_64_bits() {
+        let mut rng = Rng(41);
+        for _ in 0..2_000_000 {
+            let (a, b) = (any(&mut rng), any(&mut rng));
+            let wide = i64::from(a) * i64::from(b);
+            assert_eq!(high(a, b), (wide >> 32) as i32, "{a} {b}");
+            let (ua, ub) = (a as u32, b as u32);
+            let unsigned = u64::from(ua) * u64::from(ub);
+            assert_eq!(high_unsigned(ua, ub), (unsigned >> 32) as u32, "{ua} {ub}");
+            let short = i64::from(a) * i64::from(b as i16);
+            assert_eq!(by_16(a, b as i16), (short >> 16) as i32, "{a} {}", b as i16);
+            let less = (i64::from(!a) << 32).wrapping_sub(wide) >> 32;
+            assert_eq!(less_product(!a, a, b), less as i32, "{a} {b}");
+            let side = a % 513;
+            let positive = b & i32::MAX;
+            let expected = (i64::from(side) * i64::from(positive)) >> 9;
+            assert_eq!(
+                side_times(side, positive),
+                expected as i32,
+                "{side} {positive}"
+            );
+            let few = b % 17;
+            let expected = (i64::from(a) * i64::from(few)) >> 3;
+            assert_eq!(eighth(a, few), expected as i32, "{a} {few}");
+        }
+    }
+
+    #[test]
+    fn turns_have_the_sign_of_the_area() {
+        let mut rng = Rng(42);
+        for i in 0..500_000 {
+            let size = [4, 300, 40_000, 65_536][i % 4];
+            let mut d = || (rng.below(2 * size) as i32 - size as i32).clamp(-0xFFFF, 0xFFFF);
+            let (one, two) = ((d(), d()), (d(), d()));
+            let wide = |a: i32, b: i32| i64::from(a) * i64::from(b);
+            let area = wide(one.0, two.1) - wide(two.0, one.1);
+            assert_eq!(
+                i64::from(turn(one, two).signum()),
+                area.signum(),
+                "{one:?} {two:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn every_divisor_divides() {
+        for d in 1..=512 {
+            assert_eq!(of_side(d), i32::MAX as u32 / d, "{d}");
+        }
+        let mut rng = Rng(43);
+        for d in 1 << 15..1 << 16 {
+            let some = [(); 24].map(|()| rng.below(u32::MAX));
+            let ends = [
+                0,
+                1,
+                d - 1,
+                d,
+                d + 1,
+                u32::MAX,
+                (1 << 30) + d / 2,
+                7 * d - 1,
+                7 * d,
+            ];
+            for n in some.into_iter().chain(ends) {
+                assert_eq!(divide(n, d), (n / d, n % d), "{n} / {d}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_number_has_its_zeros() {
+        let mut rng = Rng(47);
+        for bit in 0..32 {
+            let x = 1u32 << bit;
+            for x in [x, x - 1, x | rng.below(x.max(1))] {
+                assert_eq!(leading_zeros(x), x.leading_zeros(), "{x:#x}");
+            }
+        }
+    }
+}
