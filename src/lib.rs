@@ -125,4 +125,6 @@ pub use shade::{
 };
 pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
-pub use visible::{BlockFixDepth, Depth32, DepthAndId, LineDepth, ShadowCell, ShadowDepth32};
+pub use visible::{
+    BlockFixDepth, Depth32, DepthAndId, DepthCell, LineDepth, ShadowCell, ShadowDepth32,
+};

@@ -13,7 +13,7 @@ use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, 
 use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::LineDepth;
+use crate::visible::{DepthCell, LineDepth};
 
 /// The memory of one line renderer, lent by the application.
 ///
@@ -472,10 +472,10 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 continue;
             };
             let cell = self.cells.get_mut(start)?;
-            if P::Depth::number(cell) != 0 {
+            if cell.number() != 0 {
                 return None;
             }
-            P::Depth::set_number(cell, (index as u32) << 16 | end as u32);
+            cell.set_number((index as u32) << 16 | end as u32);
             first = first.min(start);
             count += 1;
         }
@@ -493,8 +493,8 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             let Some(cell) = cells.get_mut(start) else {
                 return false;
             };
-            let mark = P::Depth::number(cell);
-            P::Depth::set_number(cell, 0);
+            let mark = cell.number();
+            cell.set_number(0);
             if mark == 0 {
                 start += 1;
                 continue;

@@ -12,9 +12,9 @@
 use super::lines::LinePass;
 use crate::active::{ActiveList, Slot};
 use crate::geometry::{Drawable, Parameters};
-use crate::pipeline::{DrawableOf, Pipeline};
+use crate::pipeline::{CellOf, DrawableOf, Pipeline};
 use crate::stats::SpanCounter;
-use crate::visible::{Cover, Covered, LineDepth};
+use crate::visible::{Cover, Covered, DepthCell};
 
 /// How many lines to wait before it is tried again to do without depth: lines on which spans
 /// overlap come in rows, and a try costs.
@@ -119,7 +119,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             // Among the same depths what was submitted later comes first.
             let mut at = count;
             while at > 0 {
-                let before = P::Depth::number(keys.get(at - 1)?);
+                let before = keys.get(at - 1)?.number();
                 let other = slots.get((before & 0xFFFF) as usize)?;
                 let stays = match (before >> 16).cmp(&near) {
                     core::cmp::Ordering::Equal => other.object() > slot.object(),
@@ -128,13 +128,13 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 if stays {
                     break;
                 }
-                P::Depth::set_number(keys.get_mut(at)?, before);
+                keys.get_mut(at)?.set_number(before);
                 at -= 1;
             }
-            P::Depth::set_number(keys.get_mut(at)?, near << 16 | index as u32);
+            keys.get_mut(at)?.set_number(near << 16 | index as u32);
             count += 1;
         }
-        let slot = |key| slots.get((P::Depth::number(key) & 0xFFFF) as usize);
+        let slot = |key: &CellOf<P>| slots.get((key.number() & 0xFFFF) as usize);
         let ordered = keys[..count]
             .windows(2)
             .all(|pair| match (slot(&pair[0]), slot(&pair[1])) {
@@ -159,7 +159,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             if cover.is_full() && !P::Counter::COUNTS {
                 break;
             }
-            let index = P::Depth::number(key) & 0xFFFF;
+            let index = key.number() & 0xFFFF;
             let Some(slot) = slots.get(index as usize) else {
                 continue;
             };

@@ -20,7 +20,7 @@ use crate::geometry::{Blend, Finish, Parameters, Role, Shading, at_pixel};
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::Levels;
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, MOST, Rule, ShadowCount, count_span};
+use crate::visible::{DepthCell, Everywhere, LineDepth, MOST, Rule, ShadowCount, count_span};
 
 /// When an object is drawn.
 #[inline]
@@ -310,7 +310,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 continue;
             }
             for cell in self.cells.iter_mut() {
-                P::Depth::set_count(cell, 0);
+                cell.set_count(0);
             }
             if found.volumes >> light & 1 != 0 {
                 self.walk(list, spare, Part::Volumes(light), found);

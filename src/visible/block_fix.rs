@@ -15,7 +15,6 @@ pub struct BlockFixDepth;
 
 impl LineDepth for BlockFixDepth {
     type Cell = u32;
-    const FARTHEST: u32 = 0;
     const TESTS: bool = true;
     // Two ranges of depth that do not meet may lie within one grain.
     const ORDERS: bool = false;
@@ -36,15 +35,5 @@ impl LineDepth for BlockFixDepth {
             *cell = depth;
         }
         seen
-    }
-
-    #[inline(always)]
-    fn number(cell: &u32) -> u32 {
-        *cell
-    }
-
-    #[inline(always)]
-    fn set_number(cell: &mut u32, number: u32) {
-        *cell = number;
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! The bits are kept in the first cells of the depth line, which has no depths then: 10 of 320.
 
-use super::{LineDepth, Visible};
+use super::{DepthCell, LineDepth, Visible};
 use core::marker::PhantomData;
 
 /// How much of a span was covered before it.
@@ -72,7 +72,7 @@ impl<'c, D: LineDepth> Cover<'c, D> {
             let Some(word) = self.words.get(index) else {
                 return Covered::All;
             };
-            let (word, bits) = (D::number(word), bits(index, start, end));
+            let (word, bits) = (word.number(), bits(index, start, end));
             covered |= word & bits;
             free |= !word & bits;
         }
@@ -85,7 +85,7 @@ impl<'c, D: LineDepth> Cover<'c, D> {
         }
         for index in words {
             if let Some(cell) = self.words.get_mut(index) {
-                D::set_number(cell, D::number(cell) | bits(index, start, end));
+                cell.set_number(cell.number() | bits(index, start, end));
             }
         }
         self.free -= end - start;
@@ -129,9 +129,9 @@ impl<D: LineDepth> Masked<'_, '_, D> {
         let bit = 1 << (self.at % 32);
         let mut shown = false;
         if let Some(cell) = self.cover.words.get_mut(self.at / 32) {
-            let word = D::number(cell);
+            let word = cell.number();
             shown = word & bit == 0;
-            D::set_number(cell, word | bit);
+            cell.set_number(word | bit);
         }
         self.seen += u32::from(shown);
         self.cover.free -= usize::from(shown);

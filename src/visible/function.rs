@@ -4,7 +4,7 @@
 //! colours. Here the answer is a word of bits, so that pixels which are all seen can be blended
 //! several at a time.
 
-use super::LineDepth;
+use super::{DepthCell, LineDepth};
 use crate::geometry::DepthFunction;
 
 /// Most pixels that are asked for in one go.
@@ -51,18 +51,18 @@ impl Rule {
         for (i, cell) in cells.iter_mut().take(MOST).enumerate() {
             let here = match self.count {
                 ShadowCount::Any => true,
-                ShadowCount::Lit => D::count(cell) == 0,
-                ShadowCount::Shadowed => D::count(cell) != 0,
+                ShadowCount::Lit => cell.count() == 0,
+                ShadowCount::Shadowed => cell.count() != 0,
             };
             if here && keep >> i & 1 != 0 {
                 let order = D::compare(cell, depth);
                 let passes = self.colour_if.passes(order);
                 seen |= u32::from(passes) << i;
                 if passes && self.count == ShadowCount::Lit {
-                    D::set_count(cell, DONE);
+                    cell.set_count(DONE);
                 }
                 if self.depth_if.passes(order) {
-                    D::set_number(cell, depth);
+                    cell.set_number(depth);
                 }
             }
             depth = depth.wrapping_add(step);
@@ -106,7 +106,7 @@ mod tests {
                     let mut cells: Vec<ShadowCell> = (0..count)
                         .map(|_| ShadowCell::new(4 * below(6), below(3) as i32 - 1))
                         .collect();
-                    let mut plain: Vec<u32> = cells.iter().map(ShadowDepth32::number).collect();
+                    let mut plain: Vec<u32> = cells.iter().map(DepthCell::number).collect();
                     let before = cells.clone();
                     let (depth, step) = (
                         4 * below(6),
@@ -127,8 +127,8 @@ mod tests {
                     let seen = rule(which).apply::<ShadowDepth32>(&mut cells, (depth, step), keep);
                     for i in 0..count {
                         let new = depth.wrapping_add(step.wrapping_mul(i as u32));
-                        let old = ShadowDepth32::number(&before[i]);
-                        let count = ShadowDepth32::count(&before[i]);
+                        let old = before[i].number();
+                        let count = before[i].count();
                         let here = keep >> i & 1 == 1
                             && match which {
                                 ShadowCount::Any => true,
@@ -137,10 +137,10 @@ mod tests {
                             };
                         assert_eq!(seen >> i & 1 == 1, here && colours(new, old));
                         let expected = if here && writes(new, old) { new } else { old };
-                        assert_eq!(ShadowDepth32::number(&cells[i]), expected);
+                        assert_eq!(cells[i].number(), expected);
                         let lit = which == ShadowCount::Lit && seen >> i & 1 == 1;
                         let expected = if lit { DONE } else { count };
-                        assert_eq!(ShadowDepth32::count(&cells[i]), expected);
+                        assert_eq!(cells[i].count(), expected);
                         passed[usize::from(seen >> i & 1 == 1)] += 1;
                     }
                     assert_eq!(seen.checked_shr(count as u32).unwrap_or(0), 0);

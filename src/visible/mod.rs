@@ -4,6 +4,7 @@
 //! Where objects can be ordered from front to back, `cover` does without depth.
 
 mod block_fix;
+mod cell;
 mod cover;
 mod function;
 mod named;
@@ -11,6 +12,7 @@ mod placed;
 mod shadow;
 
 pub use block_fix::BlockFixDepth;
+pub use cell::DepthCell;
 pub use cover::{Cover, Covered, Masked};
 pub use function::{MOST, Rule, ShadowCount};
 pub use named::{DepthAndId, MOST_NAMES, Named, name};
@@ -24,9 +26,9 @@ use core::marker::PhantomData;
 /// A way to find hidden surfaces along one line.
 pub trait LineDepth {
     /// What is kept for each pixel of the line.
-    type Cell: Copy + Send + Sync + 'static;
+    type Cell: DepthCell;
     /// The farthest value, to which a line is cleared.
-    const FARTHEST: Self::Cell;
+    const FARTHEST: Self::Cell = <Self::Cell as DepthCell>::FARTHEST;
     /// Whether pixels are tested at all.
     const TESTS: bool;
     /// Whether of two objects whose ranges of depth do not meet, the nearer one always wins.
@@ -43,36 +45,16 @@ pub trait LineDepth {
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32, grain: Self::Grain) -> bool;
 
-    /// The number that is kept in a cell, 0 where that is at its farthest.
-    fn number(cell: &Self::Cell) -> u32;
-
-    /// Keeps a number in a cell instead of a depth, where pixels are tested at all; 0 makes it
-    /// farthest.
-    fn set_number(cell: &mut Self::Cell, number: u32);
-
     /// How `depth` compares with that of a cell: greater is nearer, and equal is all there is
     /// without depth.
     #[inline(always)]
     fn compare(cell: &Self::Cell, depth: u32) -> Ordering {
         if Self::TESTS {
-            depth.cmp(&Self::number(cell))
+            depth.cmp(&cell.number())
         } else {
             Ordering::Equal
         }
     }
-
-    /// Whether shadow polygons can be counted (K9).
-    const COUNTS: bool = false;
-
-    /// Shadow polygons in front of what is seen, backs less fronts.
-    #[inline(always)]
-    fn count(_: &Self::Cell) -> i32 {
-        0
-    }
-
-    /// Keeps a count of shadow polygons, where they can be counted.
-    #[inline(always)]
-    fn set_count(_: &mut Self::Cell, _count: i32) {}
 }
 
 /// 32 bits of 1/w: nearer or equal wins.
@@ -81,7 +63,6 @@ pub struct Depth32;
 
 impl LineDepth for Depth32 {
     type Cell = u32;
-    const FARTHEST: u32 = 0;
     const TESTS: bool = true;
     type Grain = ();
 
@@ -96,21 +77,10 @@ impl LineDepth for Depth32 {
         }
         seen
     }
-
-    #[inline(always)]
-    fn number(cell: &u32) -> u32 {
-        *cell
-    }
-
-    #[inline(always)]
-    fn set_number(cell: &mut u32, number: u32) {
-        *cell = number;
-    }
 }
 
 impl LineDepth for () {
     type Cell = ();
-    const FARTHEST: () = ();
     const TESTS: bool = false;
     type Grain = ();
 
@@ -121,12 +91,6 @@ impl LineDepth for () {
     fn test((): &mut (), _: u32, (): ()) -> bool {
         true
     }
-
-    fn number((): &()) -> u32 {
-        0
-    }
-
-    fn set_number((): &mut (), _: u32) {}
 }
 
 /// Tells of each pixel of a span in turn whether it is seen.

@@ -4,7 +4,7 @@
 //! the 22 bits are the same, the depth that stands there is taken again, whole, from the plane of
 //! the slot it names: so every pixel is that which 32 bits give.
 
-use super::{Depth32, LineDepth, Visible};
+use super::{Depth32, DepthCell, LineDepth, Visible};
 
 /// Bits of a word that name who is there, 0 for nobody.
 const NAMES: u32 = (1 << 10) - 1;
@@ -21,7 +21,6 @@ pub struct DepthAndId;
 
 impl LineDepth for DepthAndId {
     type Cell = u32;
-    const FARTHEST: u32 = Depth32::FARTHEST;
     const TESTS: bool = true;
     const DEFERS: bool = true;
     type Grain = ();
@@ -32,16 +31,6 @@ impl LineDepth for DepthAndId {
     #[inline(always)]
     fn test(cell: &mut u32, depth: u32, (): ()) -> bool {
         Depth32::test(cell, depth, ())
-    }
-
-    #[inline(always)]
-    fn number(cell: &u32) -> u32 {
-        *cell
-    }
-
-    #[inline(always)]
-    fn set_number(cell: &mut u32, number: u32) {
-        *cell = number;
     }
 }
 
@@ -56,12 +45,12 @@ pub fn name<D: LineDepth>(
     mut whole: impl FnMut(usize, u32) -> u32,
 ) {
     for (i, cell) in cells.iter_mut().enumerate() {
-        let there = D::number(cell);
+        let there = cell.number();
         let wins = depth > there | NAMES
             || (depth >= there & !NAMES
                 && (there & NAMES == 0 || depth >= whole(i, there & NAMES)));
         if wins {
-            D::set_number(cell, depth & !NAMES | name);
+            cell.set_number(depth & !NAMES | name);
         }
         depth = depth.wrapping_add(step);
     }
@@ -86,7 +75,7 @@ impl<'c, D: LineDepth> Named<'c, D> {
 
     /// Who has a cell, 0 for nobody.
     pub fn of(cell: &D::Cell) -> u32 {
-        D::number(cell) & NAMES
+        cell.number() & NAMES
     }
 
     /// How many pixels were seen.

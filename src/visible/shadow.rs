@@ -4,7 +4,7 @@
 //! through the back of another, so where fronts (-1) and backs (+1) do not balance the pixel is in
 //! shadow. The counts of one line are all that is kept: they lie beside its depths.
 
-use super::LineDepth;
+use super::{DepthCell, LineDepth};
 use crate::geometry::DepthFunction;
 
 /// The depth of a pixel, and how many shadow polygons are in front of it.
@@ -22,6 +22,30 @@ impl ShadowCell {
     }
 }
 
+impl DepthCell for ShadowCell {
+    const FARTHEST: Self = Self::new(0, 0);
+
+    #[inline(always)]
+    fn number(&self) -> u32 {
+        self.depth
+    }
+
+    #[inline(always)]
+    fn set_number(&mut self, number: u32) {
+        self.depth = number;
+    }
+
+    #[inline(always)]
+    fn count(&self) -> i32 {
+        self.count
+    }
+
+    #[inline(always)]
+    fn set_count(&mut self, count: i32) {
+        self.count = count;
+    }
+}
+
 /// 32 bits of 1/w as [`Depth32`](super::Depth32), and a count of shadow polygons: 8 bytes a pixel
 /// of one line.
 #[derive(Clone, Copy, Debug)]
@@ -29,9 +53,7 @@ pub struct ShadowDepth32;
 
 impl LineDepth for ShadowDepth32 {
     type Cell = ShadowCell;
-    const FARTHEST: ShadowCell = ShadowCell::new(0, 0);
     const TESTS: bool = true;
-    const COUNTS: bool = true;
     type Grain = ();
 
     #[inline(always)]
@@ -44,26 +66,6 @@ impl LineDepth for ShadowDepth32 {
             cell.depth = depth;
         }
         seen
-    }
-
-    #[inline(always)]
-    fn number(cell: &ShadowCell) -> u32 {
-        cell.depth
-    }
-
-    #[inline(always)]
-    fn set_number(cell: &mut ShadowCell, number: u32) {
-        cell.depth = number;
-    }
-
-    #[inline(always)]
-    fn count(cell: &ShadowCell) -> i32 {
-        cell.count
-    }
-
-    #[inline(always)]
-    fn set_count(cell: &mut ShadowCell, count: i32) {
-        cell.count = count;
     }
 }
 
@@ -79,7 +81,7 @@ pub fn count_span<D: LineDepth>(
     let change = if away { 1 } else { -1 };
     for cell in cells {
         if passes.passes(D::compare(cell, depth)) {
-            D::set_count(cell, D::count(cell).wrapping_add(change));
+            cell.set_count(cell.count().wrapping_add(change));
         }
         depth = depth.wrapping_add(step);
     }
