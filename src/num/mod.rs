@@ -1,8 +1,9 @@
 //! The one home of fixed point (S4, K3, K4, K5).
 //!
 //! Formats come from the `fixed` crate; hot loops work on their raw bits with wrapping adds and
-//! widening products only, so the same input gives the same bits on every target. Nothing in
-//! here knows what a number means.
+//! widening products only, so the same input gives the same bits on every target. Where a
+//! processor has no widening product, the same bits come in pieces. Nothing in here knows what a
+//! number means.
 //!
 //! | format | type | range | used for |
 //! |---|---|---|---|
