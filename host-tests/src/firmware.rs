@@ -123,10 +123,10 @@ pub enum FirmwareError {
         value: String,
     },
     /// Cargo ran and failed.
-    #[error("the firmware for {target} does not build ({status}):\n{stderr}")]
+    #[error("the firmware for {targets} does not build ({status}):\n{stderr}")]
     Build {
-        /// The target that was built for.
-        target: &'static str,
+        /// The targets that were built for.
+        targets: String,
         /// How cargo ended.
         status: ExitStatus,
         /// What cargo and the compiler said.
@@ -229,17 +229,39 @@ pub fn build(
     program: &str,
     features: &[&str],
 ) -> Result<PathBuf, FirmwareError> {
+    let boards = std::slice::from_ref(board);
+    let directory = build_all(toolchain, boards, profile, &[program], features)?;
+    Ok(directory
+        .join(board.target)
+        .join(profile.name())
+        .join(program))
+}
+
+/// Builds programs for boards, as [`build`] does one for one, in as many threads as cargo takes:
+/// a program is linked by one alone. Gives the folder of what was built.
+///
+/// # Errors
+///
+/// [`FirmwareError::Build`] with what the compiler said.
+pub fn build_all(
+    toolchain: &Toolchain,
+    boards: &[Board],
+    profile: Profile,
+    programs: &[&str],
+    features: &[&str],
+) -> Result<PathBuf, FirmwareError> {
     let mut directory = target_directory(toolchain);
     if !features.is_empty() {
         // Beside the plain one, which somebody may be running.
         directory.push(features.join("+"));
     }
-    let mut cargo = toolchain.cargo(board);
+    let mut cargo = toolchain.cargo(boards);
     cargo
         .current_dir(workspace().join("examples/qemu"))
-        .args(["build", "--bin", program, "--profile", profile.name()])
-        .args(["--target", board.target, "--target-dir"])
-        .arg(&directory);
+        .args(["build", "--profile", profile.name(), "--target-dir"])
+        .arg(&directory)
+        .args(programs.iter().flat_map(|program| ["--bin", program]))
+        .args(boards.iter().flat_map(|board| ["--target", board.target]));
     if toolchain.source == Source::Debian {
         cargo.arg("-Zbuild-std=core");
     }
@@ -252,15 +274,16 @@ pub fn build(
         .map_err(io_error("cargo"))?;
     if !output.status.success() {
         return Err(FirmwareError::Build {
-            target: board.target,
+            targets: boards
+                .iter()
+                .map(|b| b.target)
+                .collect::<Vec<_>>()
+                .join(", "),
             status: output.status,
             stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
         });
     }
-    Ok(directory
-        .join(board.target)
-        .join(profile.name())
-        .join(program))
+    Ok(directory)
 }
 
 /// Runs an ELF to its end and gives the lines that it printed.

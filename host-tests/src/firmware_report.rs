@@ -6,7 +6,7 @@ use crate::effect_frames::effect_frames;
 use crate::figures::gate::{Record, Verdict};
 use crate::figures::{Bench, Figure, Size, growth};
 use crate::firmware::{
-    self, BOARDS, Board, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
+    self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
 use crate::image_out::{Frame, write_atomically, write_image};
 use crate::lent::{LineRooms, SceneRooms};
@@ -106,6 +106,16 @@ fn compared(
 ) -> Result<Vec<Compared>, Box<dyn Error>> {
     let mut boards = Vec::new();
     let spans = growth::spans()?;
+    let programs = if bench {
+        &[COMPARER, SIZES[0], SIZES[1]][..]
+    } else {
+        &[COMPARER]
+    };
+    firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &[])?;
+    if bench {
+        let programs = &[COMPARER];
+        firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &["bench"])?;
+    }
     for board in &BOARDS {
         let measured = firmware::measure(toolchain, board, Profile::Release, &[])?;
         let mut compared = Compared::new(measured, host)?;
@@ -119,6 +129,9 @@ fn compared(
     Ok(boards)
 }
 
+/// The small programs.
+const SIZES: [&str; 2] = ["preset", "presets"];
+
 /// Builds the small programs, and runs them, so that what is measured also draws.
 fn sizes(
     toolchain: &Toolchain,
@@ -131,7 +144,7 @@ fn sizes(
     let painter = draw::<FlatPainter<Rgb565Be>>(Shot::Teapot)?;
     known.insert("teapot_flat_painter", crc32fast::hash(&painter));
     let mut sizes = Vec::new();
-    for program in ["preset", "presets"] {
+    for program in SIZES {
         let elf = firmware::build(toolchain, board, Profile::Release, program, &[])?;
         let pictures = firmware::run(board, &elf, DEFAULT_TIMEOUT)?;
         let drawn = |line: &String| {

@@ -1,9 +1,7 @@
 //! M1: what `render` draws, against the f64 reference of the same conventions. No pixel away
 //! from edges may differ by more than two levels.
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, draw};
 use host_tests::model::{Model, obj_text};

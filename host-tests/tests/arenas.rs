@@ -1,9 +1,7 @@
 //! S3, C5: an arena that is too small is a located error, what fits is drawn, and no length of
 //! any slice makes a panic.
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms, frame};
+use crate::common::{LineRooms, Rng, SceneRooms, frame};
 use scanbeam::{
     Affine, Camera, Cull, DrawError, Faces, FlatPainter, GouraudDepth, Instance, Mesh, MeshError,
     Pipeline, RendererError, Rgb888, Room, Scene, SceneError, Screen, WordOf,

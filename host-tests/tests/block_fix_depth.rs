@@ -1,9 +1,7 @@
 //! Block-fix depth in a renderer (H2): what one code tells apart is told apart, what lies within
 //! it is not, in every range, against codes by `f64`.
 
-mod common;
-
-use common::{LineRooms, SceneRooms};
+use crate::common::{self, LineRooms, SceneRooms};
 use scanbeam::{
     Affine, BlockFixed, Camera, Cull, DepthUse, Faces, FlatDepth, Instance, Mesh, Pipeline,
     QuadSplit, Rgb888, Screen,

@@ -1,9 +1,7 @@
 //! The picture never changes: any cache size, any number of renderers, any interleave, anything
 //! fetched ahead or not, on one thread or on several (C4, C5, K16, X6).
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms};
+use crate::common::{self, LineRooms, Rng, SceneRooms};
 use host_tests::mock::{HostLine, MockFrameBuffer};
 use scanbeam::scan_out::Pump;
 use scanbeam::{

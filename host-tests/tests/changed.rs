@@ -1,50 +1,16 @@
 //! Lines that the display shows already are not sent, and it always shows the right picture (X4, M4).
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms};
-use host_tests::mock::{Fault, HostLine, MockFrameBuffer};
-use scanbeam::scan_out::{Pump, ScanError, ScanStats, ShownLines};
-use scanbeam::{
-    Affine, Camera, FrameError, GouraudDepth, Instance, LineSource, PixelFormat, RendererError,
-    Rgb565Be, Scene, Screen, draw_frame, draw_frame_changed, send_changed,
+use crate::common::changes::{
+    self, Lines, Look, Mock, Picture, begun, buffers, camera, change, recovered, some_fault,
 };
-
-type Look = GouraudDepth<Rgb565Be>;
-type Mock = MockFrameBuffer<u16>;
+use crate::common::{LineRooms, Rng, SceneRooms};
+use scanbeam::scan_out::{Pump, ScanStats, ShownLines};
+use scanbeam::{
+    Affine, Instance, PixelFormat, Rgb565Be, Screen, draw_frame, draw_frame_changed, send_changed,
+};
 
 const WIDTH: u16 = 5;
 const HEIGHT: u16 = 23;
-
-/// Lines out of a picture; fails at one of them, if told to.
-struct Lines<'a> {
-    picture: &'a [[u16; WIDTH as usize]],
-    fails_at: Option<u16>,
-}
-
-impl LineSource<Look> for Lines<'_> {
-    fn line(&mut self, line: u16, pixels: &mut [u16]) -> Result<(), RendererError> {
-        if self.fails_at == Some(line) {
-            return Err(RendererError::Stopped { line });
-        }
-        pixels.copy_from_slice(&self.picture[usize::from(line)]);
-        Ok(())
-    }
-}
-
-fn camera() -> Camera {
-    Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 30.0, 0.1, 100.0).unwrap()
-}
-
-fn begun(rooms: &mut SceneRooms<Look>) -> Scene<'_, Look> {
-    let mut scene = rooms.scene(Screen::new(WIDTH, HEIGHT).unwrap());
-    scene.begin(&camera()).unwrap();
-    scene
-}
-
-fn buffers(words: usize) -> [HostLine<u16>; 2] {
-    [HostLine::new(words), HostLine::new(words)]
-}
 
 /// Random changes of random pictures, through sinks of each sort that fail in each way: whenever
 /// a frame is said to have arrived, the display shows it, every line of it.
@@ -52,7 +18,7 @@ fn buffers(words: usize) -> [HostLine<u16>; 2] {
 fn the_display_is_right_after_any_sequence_of_frames_and_faults() {
     let mut rng = Rng::new(0xC4A6_ED11);
     let mut rooms = SceneRooms::<Look>::new(8, 8, HEIGHT.into());
-    let scene = begun(&mut rooms);
+    let scene = begun(&mut rooms, WIDTH, HEIGHT);
     let (mut arrived, mut failed, mut unsent) = (0, 0, 0);
     for _ in 0..400 {
         let mut sink = Mock::new(WIDTH, HEIGHT).late_by(rng.below(4));
@@ -61,42 +27,21 @@ fn the_display_is_right_after_any_sequence_of_frames_and_faults() {
         }
         let band = 1 + rng.below(HEIGHT.into()) as u16;
         let words = usize::from(WIDTH * band);
-        let mut pump = Pump::new(sink, buffers(words));
-        pump.set_max_polls(Some(9));
+        let mut pump = changes::pump(sink, words);
         let mut hashes = [0; HEIGHT as usize];
         let mut shown = ShownLines::new(&mut hashes);
-        let mut picture = [[0u16; WIDTH as usize]; HEIGHT as usize];
+        let mut picture = vec![vec![0u16; WIDTH.into()]; HEIGHT.into()];
         // What the display shows, if the last frame arrived.
-        let mut last = None;
+        let mut last: Option<Picture> = None;
         for _ in 0..40 {
-            match rng.below(6) {
-                0 => {}
-                1 => picture = core::array::from_fn(|_| [rng.below(3) as u16; WIDTH as usize]),
-                2 => picture.rotate_left(1),
-                _ => {
-                    for _ in 0..1 + rng.below(5) {
-                        let line = rng.below(HEIGHT.into()) as usize;
-                        picture[line][rng.below(WIDTH.into()) as usize] ^= 1 << rng.below(16);
-                    }
-                }
-            }
-            let fault = rng.pick(&[
-                None,
-                None,
-                Some(Fault::Begin),
-                Some(Fault::Start),
-                Some(Fault::Poll),
-                Some(Fault::Hang),
-                Some(Fault::Lose),
-                Some(Fault::End),
-            ]);
+            change(&mut rng, &mut picture);
             let mut source = Lines {
                 picture: &picture,
                 fails_at: None,
             };
             let at = rng.below(HEIGHT.into()) as u16;
             pump.sink_mut().clear_fault();
-            if let Some(fault) = fault {
+            if let Some(fault) = some_fault(&mut rng, 2) {
                 pump.sink_mut().fail_at(at, fault);
             } else if rng.below(6) == 0 {
                 source.fails_at = Some(at);
@@ -104,27 +49,22 @@ fn the_display_is_right_after_any_sequence_of_frames_and_faults() {
             pump.sink_mut().next_frame();
             match send_changed(&scene, &mut source, &mut pump, band, &mut shown) {
                 Ok(stats) => {
-                    let want: Vec<_> = picture.as_flattened().iter().copied().map(Some).collect();
+                    let want: Vec<_> = picture.iter().flatten().copied().map(Some).collect();
                     assert_eq!(pump.sink().shown(), want);
                     let all = 2 * u64::from(WIDTH * HEIGHT);
                     assert_eq!(stats.bytes_sent + stats.bytes_unsent, all);
-                    if let Some(last) = last {
-                        let same = picture.iter().zip(&last).filter(|(a, b)| a == b).count();
+                    if let Some(last) = &last {
+                        let same = picture.iter().zip(last).filter(|(a, b)| a == b).count();
                         assert_eq!(stats.lines_unsent as usize, same);
                     }
-                    last = Some(picture);
+                    last = Some(picture.clone());
                     arrived += 1;
                     unsent += stats.lines_unsent;
                 }
                 Err(error) => {
                     last = None;
                     failed += 1;
-                    if let FrameError::ScanOut(ScanError::BufferLost { .. }) = error {
-                        // The application makes a new buffer; the display is the same.
-                        let (sink, _) = pump.release();
-                        pump = Pump::new(sink, buffers(words));
-                        pump.set_max_polls(Some(9));
-                    }
+                    pump = recovered(pump, &error, words);
                 }
             }
         }
@@ -137,12 +77,12 @@ fn the_display_is_right_after_any_sequence_of_frames_and_faults() {
 #[test]
 fn windows_begin_anew_at_each_run_of_changed_lines() {
     let mut rooms = SceneRooms::<Look>::new(8, 8, HEIGHT.into());
-    let scene = begun(&mut rooms);
+    let scene = begun(&mut rooms, WIDTH, HEIGHT);
     let mut pump = Pump::new(Mock::new(WIDTH, HEIGHT).late_by(2), buffers(4 * 5));
     let mut hashes = [0; HEIGHT as usize];
     let mut shown = ShownLines::new(&mut hashes);
-    let mut picture = [[7u16; WIDTH as usize]; HEIGHT as usize];
-    let mut send = |picture: &[[u16; WIDTH as usize]]| {
+    let mut picture = vec![vec![7u16; WIDTH.into()]; HEIGHT.into()];
+    let mut send = |picture: &Picture| {
         pump.sink_mut().next_frame();
         let before = pump.sink().windows();
         let mut source = Lines {

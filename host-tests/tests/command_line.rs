@@ -1,9 +1,7 @@
 //! The command line tool from outside: bad input gives one line on stderr, exit code 2 and no
 //! file; the smallest, largest and emptiest pictures come out whole.
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
 use host_tests::image_out::{Frame, read_image};
 use host_tests::model::Model;
 use host_tests::reference::{Options, View, compare, render, render_with};

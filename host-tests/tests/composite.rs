@@ -1,9 +1,7 @@
 //! Surfaces with a finish against a naive frame: each object is drawn alone by the plain
 //! pipeline, and its pixels are composited one by one in f64 (K11, H8, H9, P5).
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms, frame, line};
+use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
 use scanbeam::{
     Blend, Camera, Composited, Cull, DepthFunction, DepthUse, Faces, Factor, Finish, FlatPainter,
     GouraudDepth, GouraudPainter, Instance, Mesh, Pipeline, Rgb565Be, Rgb888, Scene, Screen,

@@ -1,9 +1,7 @@
 //! `render --depth`: every method that keeps whole depths shows the same picture of a soup of
 //! triangles, and what each skips is in the figures (X3, M4).
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
 use host_tests::image_out::{Frame, read_image};
 use std::fmt::Write;
 use std::process::{Command, Output};

@@ -1,24 +1,13 @@
 //! What `render` makes of materials, highlights, shadows and light at pixels, against the formulae
 //! in f64; and that neither cache nor renderers change it.
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
+use crate::common::solid::{V, dot, unit};
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, Drawn, Effects, FilterArg, TextureSet, draw, draw_effects};
 use host_tests::model::{Material, Model, ModelVertex};
 use host_tests::reference::{Cull, Shade, View};
 use scanbeam::texture::Quality;
-
-type V = [f64; 3];
-
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: V) -> V {
-    a.map(|c| c / dot(a, a).sqrt())
-}
 
 fn material(ks: f64, ns: f64, d: f64) -> Material {
     Material {

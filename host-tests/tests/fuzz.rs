@@ -1,7 +1,6 @@
 //! The fuzz targets' own functions on random bytes, so that each test run tries them a little,
 //! and on everything that fuzzing has found (X7, M3).
 
-mod common;
 #[path = "../fuzz/src/files.rs"]
 mod files;
 #[path = "../fuzz/src/formats.rs"]
@@ -11,7 +10,7 @@ mod frames;
 #[path = "../fuzz/src/list.rs"]
 mod list;
 
-use common::Rng;
+use crate::common::Rng;
 // `files` finds it here, and in the fuzz package where that has it.
 use host_tests::model;
 

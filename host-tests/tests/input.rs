@@ -1,8 +1,6 @@
 //! The input queues lose nothing, stall, and keep the order of their sources (K17).
 
-mod common;
-
-use common::SceneRooms;
+use crate::common::{self, SceneRooms};
 use scanbeam::{
     Affine, Camera, Command, DrawError, Faces, GouraudDepth, Input, InputError, InputQueue,
     Instance, Mesh, MeshError, Rgb888, Scene, Screen, Stalled,

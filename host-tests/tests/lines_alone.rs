@@ -1,9 +1,7 @@
 //! K5, C5, H18: any line drawn alone, in any order, with any cache and in any band, has the
 //! bits that it has in the whole frame.
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms, frame, line};
+use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
 use scanbeam::{
     Affine, Camera, Counted, Cull, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
     Instance, Interleave, Light, LineMemory, LineRenderer, Mesh, Pipeline, Rgb565Be, Rgb888, Scene,

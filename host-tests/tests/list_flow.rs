@@ -1,10 +1,7 @@
 //! Flow control, events, privilege and rings (H12-H14).
 
-mod common;
-mod listing;
-
-use common::Rng;
-use listing::{HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, triangle};
+use crate::common::Rng;
+use crate::listing::{HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, triangle};
 use scanbeam::list::{
     Budget, Flow, Halt, LightWords, ListCommand, ListControl, ListRing, ListWriter, Material,
     State, Window,

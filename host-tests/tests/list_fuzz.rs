@@ -1,9 +1,7 @@
 //! Any bytes: no panic, no hang, bounded work (X7). What `fuzz/src/list.rs` does for as
 //! long as it is let, done here for a while, on random words and on damaged lists.
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms};
+use crate::common::{self, LineRooms, Rng, SceneRooms};
 use host_tests::lists::print;
 use scanbeam::list::{
     Bounds, Budget, CameraWords, Field, FieldForm, Flow, Form, Halt, Head, Header, Id, LightWords,

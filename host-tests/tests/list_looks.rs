@@ -1,10 +1,9 @@
 //! Lights, highlights and overlays of lists: what the same calls give (K10, K14).
 
-mod common;
-mod listing;
-
-use common::Rng;
-use listing::{Cloud, HEIGHT, PLENTY, Room, Smooth, WIDTH, begin, drawn, rooms, some_instance};
+use crate::common::Rng;
+use crate::listing::{
+    self, Cloud, HEIGHT, PLENTY, Room, Smooth, WIDTH, begin, drawn, rooms, some_instance,
+};
 use scanbeam::list::{
     FieldForm, Flow, Halt, Header, Id, LightWords, ListWriter, Material, Overlay, OverlaySlot,
     Palette, State, TexelForm, TextureSlot,

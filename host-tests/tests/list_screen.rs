@@ -1,13 +1,10 @@
 //! Long vertices, points and bounds: against the rules that define them, and against the same calls
 //! (H11, M4).
 
-mod common;
-mod listing;
-
-use common::Rng;
-use listing::{
-    Cloud, Faceted, HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, listed, some_format, some_instance,
-    unrolled,
+use crate::common::Rng;
+use crate::listing::{
+    Cloud, Faceted, HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, in_blocks, listed, some_format,
+    some_instance, unrolled,
 };
 use scanbeam::list::{Bounds, Halt, Header, Id, ListWriter, Material, Matrix, State};
 use scanbeam::{
@@ -63,11 +60,7 @@ where
             // Longer than the pieces that they are drawn in.
             let order: Vec<u16> = (0..rng.below(90)).map(|_| rng.below(50) as u16).collect();
             faces.extend(unrolled(&order, fan));
-            let mut rest = &order[..];
-            let mut new = true;
-            while new || !rest.is_empty() {
-                let (part, left) = rest.split_at(rng.below(rest.len() as u32 + 1) as usize);
-                rest = left;
+            in_blocks(&mut rng, &order, |part, new| {
                 let header = Header {
                     shade,
                     prsp,
@@ -81,8 +74,7 @@ where
                     .flat_map(|i| long_words(&vertices[usize::from(*i)], header))
                     .collect();
                 writer.vertices(header, &words).unwrap();
-                new = false;
-            }
+            });
         }
         let want = drawn::<P>(|scene| {
             let plain: Vec<ScreenVertex> = vertices

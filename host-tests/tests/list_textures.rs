@@ -1,10 +1,7 @@
 //! Textures of lists, drawn from where they lie, against the same texels lent to calls (H7, H12).
 
-mod common;
-mod listing;
-
-use common::Rng;
-use listing::{PLENTY, Room, drawn, some_instance};
+use crate::common::Rng;
+use crate::listing::{self, PLENTY, Room, drawn, some_instance};
 use scanbeam::list::{
     Field, FieldForm, FieldPacker, Flow, Halt, Header, Id, ListRing, ListWriter, Material, Palette,
     State, TexelForm, Texture, TextureSlot, VertexFormat, parameter,

@@ -1,10 +1,9 @@
 //! Lists draw what the same calls draw, in any memory, in every form of vertices (H11, H16, K2, K15).
 
-mod common;
-mod listing;
-
-use common::Rng;
-use listing::{Cloud, Faceted, Smooth, drawn, listed, some_format, some_instance, unrolled};
+use crate::common::Rng;
+use crate::listing::{
+    Cloud, Faceted, Smooth, drawn, in_blocks, listed, some_format, some_instance, unrolled,
+};
 use scanbeam::list::{FieldForm, Flow, Form, Header, Id, ListWriter, SPLIT, State, VertexFormat};
 use scanbeam::{Faces, Mesh, Pipeline, QuadSplit, Vertices, WordOf};
 
@@ -26,12 +25,7 @@ where
             let fan = rng.below(2) == 1;
             let order: Vec<u16> = (0..rng.below(20)).map(|_| rng.below(40) as u16).collect();
             faces.extend(unrolled(&order, fan));
-            // In blocks of random lengths, each going on with the one before.
-            let mut rest = &order[..];
-            let mut new = true;
-            while new || !rest.is_empty() {
-                let (part, left) = rest.split_at(rng.below(rest.len() as u32 + 1) as usize);
-                rest = left;
+            in_blocks(&mut rng, &order, |part, new| {
                 let header = Header {
                     shade,
                     new,
@@ -40,8 +34,7 @@ where
                 };
                 let words = cloud.vertices(&format, header, part);
                 writer.vertices(header, &words).unwrap();
-                new = false;
-            }
+            });
         }
         if rng.below(2) == 0 {
             writer.flow(Flow::End).unwrap();

@@ -1,9 +1,7 @@
 //! Whole scenes through the model: the pixels of the fast path exactly, its colours nearly
 //! (K4, K5, M1).
 
-mod common;
-
-use common::{LineRooms, SceneRooms};
+use crate::common::{LineRooms, SceneRooms};
 use scanbeam::model::{
     CornerColours, ModelRenderer, PipeCounts, PipeMemory, ProcessingFormat, Token,
 };

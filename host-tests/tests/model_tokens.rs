@@ -1,8 +1,6 @@
 //! Tokens survive the wires, bit by bit, and what is no token is refused (K13).
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
 use scanbeam::model::{
     Argb10, CHARTS, Chart, GlobalMode, ParameterSetup, PixelToken, StartDma, Target, Token,
     TokenBits, TokenError, ZSetup,

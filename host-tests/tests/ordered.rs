@@ -3,9 +3,7 @@
 //! Random layers of triangles and quads: at depths of their own, at the same depth, leaning
 //! towards each other, and through each other, so that some lines can be ordered and some cannot.
 
-mod common;
-
-use common::{Rng, SceneRooms};
+use crate::common::{Rng, SceneRooms};
 use scanbeam::{
     Affine, Camera, Counted, Cull, Deferred, DepthUse, Faces, FlatDepth, GouraudDepth, Instance,
     Interpolated, LineDepth, LineMemory, LineRenderer, Link, Mesh, Pipeline, QuadSplit,

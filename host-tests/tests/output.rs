@@ -1,8 +1,6 @@
 //! What becomes of finished colours: dither on whole frames (H10), and overlays (K14).
 
-mod common;
-
-use common::Rng;
+use crate::common::Rng;
 use embedded_graphics::mono_font::MonoTextStyle;
 use embedded_graphics::mono_font::ascii::FONT_6X10;
 use embedded_graphics::pixelcolor::Rgb888 as Colour;

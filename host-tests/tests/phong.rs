@@ -1,8 +1,7 @@
 //! Light at each pixel against the formulae in f64 on a sphere (K10).
 
-mod common;
-
-use common::{Rng, SceneRooms, frame};
+use crate::common::solid::{V, cross, dot, octahedron, unit};
+use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::{
     Affine, Camera, Composited, Cull, DirectionalLight, Faces, GouraudDepth, Instance, Lamplight,
     Lighting, Material, Mesh, PhongDepth, Pipeline, PixelFormat, PixelLamps, Rgb565, Rgb888,
@@ -13,57 +12,9 @@ const SIDE: u16 = 121;
 const FOCAL: f64 = 170.0;
 const EYE: [f64; 3] = [0.4, 0.3, 3.0];
 
-type V = [f64; 3];
-
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: V) -> V {
-    a.map(|c| c / dot(a, a).sqrt())
-}
-
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// An octahedron divided `n` times, corners and normals of a unit sphere in Q1.14.
+/// Corners and normals of a unit sphere in Q1.14, and its faces.
 fn sphere(n: u32) -> (Vec<[i16; 3]>, Vec<[u16; 3]>) {
-    let mut points: Vec<V> = vec![
-        [1., 0., 0.],
-        [-1., 0., 0.],
-        [0., 1., 0.],
-        [0., -1., 0.],
-        [0., 0., 1.],
-        [0., 0., -1.],
-    ];
-    let mut faces: Vec<[u16; 3]> = vec![
-        [0, 2, 4],
-        [2, 1, 4],
-        [1, 3, 4],
-        [3, 0, 4],
-        [2, 0, 5],
-        [1, 2, 5],
-        [3, 1, 5],
-        [0, 3, 5],
-    ];
-    for _ in 0..n {
-        let mut finer = Vec::new();
-        for [a, b, c] in faces {
-            let mut half = |a: u16, b: u16| {
-                let (p, q) = (points[usize::from(a)], points[usize::from(b)]);
-                points.push(unit([p[0] + q[0], p[1] + q[1], p[2] + q[2]]));
-                points.len() as u16 - 1
-            };
-            let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
-            finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
-        }
-        faces = finer;
-    }
+    let (points, faces) = octahedron(n);
     let q14 = |c: f64| (c * 16_384.0).round() as i16;
     (points.iter().map(|p| p.map(q14)).collect(), faces)
 }

@@ -1,4 +1,5 @@
 //! The table of requirements: every row is there once, and each file and test that it names exists.
+//! And the house of proofs: each file of it is a module, so that none is left out of the program.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -104,4 +105,29 @@ fn what_is_wrong_in_a_table_is_found() {
         1
     );
     assert_eq!(damaged("| M4 |", "| M5 |").len(), 2);
+}
+
+/// Names of files in `tests` of which `main` makes no module.
+fn left_out(main: &str, files: &[&str]) -> Vec<String> {
+    let is_module = |name: &str| main.lines().any(|line| line == format!("mod {name};"));
+    let names = files.iter().filter_map(|file| file.strip_suffix(".rs"));
+    names
+        .filter(|name| *name != "main" && !is_module(name))
+        .map(str::to_owned)
+        .collect()
+}
+
+#[test]
+fn every_file_of_proofs_is_compiled() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
+    let main = fs::read_to_string(folder.join("main.rs")).unwrap();
+    let entries = fs::read_dir(folder).unwrap();
+    let files: Vec<String> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    let mut files: Vec<&str> = files.iter().map(String::as_str).collect();
+    assert!(files.len() > 40, "{files:?}");
+    assert_eq!(left_out(&main, &files), [""; 0]);
+    files.push("cellar.rs");
+    assert_eq!(left_out(&main, &files), ["cellar"]);
 }

@@ -1,9 +1,7 @@
 //! Panels that read by their own clock, simulated to the tick: late lines are counted, and the picture
 //! recovers at the next line (X5).
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms};
+use crate::common::{LineRooms, Rng, SceneRooms};
 use scanbeam::scan_out::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
 use scanbeam::{
     Affine, Camera, GouraudDepth, Instance, PixelFormat, Rgb565, Screen, draw_continuous,

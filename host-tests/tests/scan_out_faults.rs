@@ -1,13 +1,11 @@
 //! Each sink, failing at each of its operations: the error says where, the buffers come home, and the next frame is
 //! whole (SPEC S5, X5). Sinks that hang or are late are the mock's, in `scan_out.rs`.
 
-mod glass;
-
 use std::cell::Cell;
 use std::task::{Context, Poll, Waker};
 
+use crate::glass::{Broken, Bus, Glass, Nothing, Pin, Sent, Shared, Target};
 use embedded_graphics_core::pixelcolor::{Rgb565, raw::RawU16};
-use glass::{Broken, Bus, Glass, Nothing, Pin, Sent, Shared, Target};
 use mipidsi::models::ILI9341Rgb565;
 use mipidsi::options::{Orientation, Rotation};
 use scanbeam::scan_out::{

@@ -1,21 +1,18 @@
 //! Runs within lines that the display shows already are not sent, windows keep to the cells that were
 //! set, and the display always shows the right picture (X4).
 
-mod common;
-
 use std::task::Poll;
 
-use common::{LineRooms, Rng, SceneRooms};
-use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
+use crate::common::changes::{
+    self, Lines, Look, Mock, Picture, begun, buffers, camera, change, recovered, some_fault,
+};
+use crate::common::{LineRooms, Rng, SceneRooms};
+use host_tests::mock::{HostLine, MockError};
 use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
 use scanbeam::{
-    Affine, Camera, FrameError, GouraudDepth, Instance, LineSource, PixelFormat, RendererError,
-    Rgb565Be, Scene, Screen, draw_frame, draw_frame_changed_runs, send_changed_runs,
+    Affine, Instance, PixelFormat, Rgb565Be, Screen, draw_frame, draw_frame_changed_runs,
+    send_changed_runs,
 };
-
-type Look = GouraudDepth<Rgb565Be>;
-type Mock = MockFrameBuffer<u16>;
-type Picture = Vec<Vec<u16>>;
 
 /// The mock, with the windows that were opened.
 struct Recorder {
@@ -50,36 +47,6 @@ impl ScanoutDma for Recorder {
     fn chains(&self) -> bool {
         self.mock.chains()
     }
-}
-
-/// Lines out of a picture; fails at one of them, if told to.
-struct Lines<'a> {
-    picture: &'a Picture,
-    fails_at: Option<u16>,
-}
-
-impl LineSource<Look> for Lines<'_> {
-    fn line(&mut self, line: u16, pixels: &mut [u16]) -> Result<(), RendererError> {
-        if self.fails_at == Some(line) {
-            return Err(RendererError::Stopped { line });
-        }
-        pixels.copy_from_slice(&self.picture[usize::from(line)]);
-        Ok(())
-    }
-}
-
-fn camera() -> Camera {
-    Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 30.0, 0.1, 100.0).unwrap()
-}
-
-fn begun(rooms: &mut SceneRooms<Look>, width: u16, height: u16) -> Scene<'_, Look> {
-    let mut scene = rooms.scene(Screen::new(width, height).unwrap());
-    scene.begin(&camera()).unwrap();
-    scene
-}
-
-fn buffers(words: usize) -> [HostLine<u16>; 2] {
-    [HostLine::new(words), HostLine::new(words)]
 }
 
 /// Pixels of the cells in which two pictures differ, counted from the definition.
@@ -121,45 +88,21 @@ fn the_display_is_right_and_sent_what_changed_alone() {
             mock,
             windows: Vec::new(),
         };
-        let mut pump = Pump::new(sink, buffers(words));
-        pump.set_max_polls(Some(9));
+        let mut pump = changes::pump(sink, words);
         let mut words_shown = vec![3; ShownRuns::words(width, height, columns, lines)];
         let mut shown = ShownRuns::new(&mut words_shown, width, columns, lines);
         let mut picture = vec![vec![0u16; width.into()]; height.into()];
         // What the display shows, if the last frame arrived.
         let mut last: Option<Picture> = None;
         for _ in 0..30 {
-            match rng.below(6) {
-                0 => {}
-                1 => picture
-                    .iter_mut()
-                    .for_each(|line| line.fill(rng.below(3) as u16)),
-                2 => picture.rotate_left(1),
-                _ => {
-                    for _ in 0..1 + rng.below(5) {
-                        let line = rng.below(height.into()) as usize;
-                        picture[line][rng.below(width.into()) as usize] ^= 1 << rng.below(16);
-                    }
-                }
-            }
+            change(&mut rng, &mut picture);
             let mut source = Lines {
                 picture: &picture,
                 fails_at: None,
             };
             let at = rng.below(height.into()) as u16;
             pump.sink_mut().mock.clear_fault();
-            let fault = rng.pick(&[
-                None,
-                None,
-                None,
-                Some(Fault::Begin),
-                Some(Fault::Start),
-                Some(Fault::Poll),
-                Some(Fault::Hang),
-                Some(Fault::Lose),
-                Some(Fault::End),
-            ]);
-            if let Some(fault) = fault {
+            if let Some(fault) = some_fault(&mut rng, 3) {
                 pump.sink_mut().mock.fail_at(at, fault);
             } else if rng.below(6) == 0 {
                 source.fails_at = Some(at);
@@ -195,12 +138,7 @@ fn the_display_is_right_and_sent_what_changed_alone() {
                 Err(error) => {
                     last = None;
                     failed += 1;
-                    if let FrameError::ScanOut(ScanError::BufferLost { .. }) = error {
-                        // The application makes a new buffer; the display is the same.
-                        let (sink, _) = pump.release();
-                        pump = Pump::new(sink, buffers(words));
-                        pump.set_max_polls(Some(9));
-                    }
+                    pump = recovered(pump, &error, words);
                 }
             }
         }

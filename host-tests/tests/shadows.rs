@@ -1,8 +1,7 @@
 //! Shadow volumes of random closed meshes against rays cast in f64 (K9).
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms, frame, line};
+use crate::common::solid::{V, along, cross, dot, octahedron, sub, unit};
+use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
 use scanbeam::{
     Affine, Camera, Counted, Cull, Faces, Finish, GouraudDepth, Instance, Light, Mesh, Pipeline,
     Rgb888, Scene, Screen, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, ShadowRoom,
@@ -17,31 +16,6 @@ const FINE: usize = 2;
 
 type Plain = GouraudDepth<Rgb888>;
 type Shady = Shadowed<Counted<Plain>>;
-type V = [f64; 3];
-
-fn sub(a: V, b: V) -> V {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-fn along(a: V, d: V, t: f64) -> V {
-    [0, 1, 2].map(|i| a[i] + d[i] * t)
-}
-
-fn cross(a: V, b: V) -> V {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn unit(a: V) -> V {
-    a.map(|c| c / dot(a, a).sqrt())
-}
 
 /// A mesh that stands in the world.
 struct Body {
@@ -98,40 +72,7 @@ const WHITE: [[u8; 3]; 128] = [[255; 3]; 128];
 
 /// A ball of 6 to 66 corners whose radii are random: closed, and anything but convex.
 fn ball(rng: &mut Rng, scale: f64, offset: V) -> Body {
-    let mut points: Vec<V> = vec![
-        [1., 0., 0.],
-        [-1., 0., 0.],
-        [0., 1., 0.],
-        [0., -1., 0.],
-        [0., 0., 1.],
-        [0., 0., -1.],
-    ];
-    let mut faces: Vec<[u16; 3]> = vec![
-        [0, 2, 4],
-        [2, 1, 4],
-        [1, 3, 4],
-        [3, 0, 4],
-        [2, 0, 5],
-        [1, 2, 5],
-        [3, 1, 5],
-        [0, 3, 5],
-    ];
-    for _ in 0..rng.below(3) {
-        let mut middle = std::collections::HashMap::new();
-        let mut finer = Vec::new();
-        for [a, b, c] in faces {
-            let mut half = |a: u16, b: u16| {
-                *middle.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                    let (p, q) = (points[usize::from(a)], points[usize::from(b)]);
-                    points.push(unit(along(p, q, 1.0)));
-                    points.len() as u16 - 1
-                })
-            };
-            let [ab, bc, ca] = [half(a, b), half(b, c), half(c, a)];
-            finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
-        }
-        faces = finer;
-    }
+    let (points, faces) = octahedron(rng.below(3));
     let rough = rng.pick(&[0.0, 0.3, 0.6]);
     let positions = points
         .iter()

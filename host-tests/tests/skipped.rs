@@ -1,8 +1,6 @@
 //! What is not done because nobody would see it, and that nobody does (M4, X3).
 
-mod common;
-
-use common::{Rng, SceneRooms, frame};
+use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::{
     Affine, Camera, Cull, Faces, GouraudDepth, Instance, Mesh, PassOne, Rgb888, Scene, Screen,
     Sphere, WordOf,

@@ -2,9 +2,7 @@
 //! in model files and on the command line: refused in one line, or drawn without a panic, a wrap
 //! or an overflow. The bounds are in the table of `stress_shapes.rs`.
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms, frame, line};
+use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
 use scanbeam::{
     Affine, Camera, CameraError, Cull, FlatPainter, GouraudDepth, Instance, Light, Rgb565Be,
     Rgb888, Scene, Screen,

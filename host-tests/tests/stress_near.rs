@@ -12,9 +12,7 @@
 //! - 1/w likewise, with 2^-18 for its plane and `2^-24 s / n` for its corners.
 //! - That an edge stays closed has no tolerance.
 
-mod common;
-
-use common::{LineRooms, Rng, SceneRooms, line};
+use crate::common::{LineRooms, Rng, SceneRooms, line};
 use scanbeam::{Affine, Camera, Cull, Faces, GouraudDepth, Instance, Mesh, Rgb888, Scene, Screen};
 
 type P = GouraudDepth<Rgb888>;

@@ -22,15 +22,10 @@
 //! (`host-tests/fuzz`). `scenes::STRESS` has the same kinds of triangles in frames that QEMU draws
 //! with the same bits.
 
-mod common;
-#[path = "watertight/count.rs"]
-mod count;
-mod stress;
-
-use common::{LineRooms, Rng, line};
-use count::{Place, doubled_area};
+use crate::common::{LineRooms, Rng, line};
+use crate::stress::{self, Corner, Worst, check, colour, depth_bound, distance, with_scene};
+use crate::watertight::count::{self, Place, doubled_area};
 use scanbeam::{GouraudDepth, Rgb888, Screen};
-use stress::{Corner, Worst, check, colour, depth_bound, distance, with_scene};
 
 /// Corners at these places, at distances up to 2^`bits`.
 fn corners(rng: &mut Rng, places: [Place; 3], bits: f64) -> [Corner; 3] {

@@ -1,6 +1,7 @@
 //! Levels of detail in whole pictures (H6), against `f64`: which level a pixel has, and that what
 //! is small keeps its mean.
 
+use crate::common::Rng;
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, FilterArg, TextureSet, draw_textured};
 use host_tests::image_out::Frame;
@@ -8,19 +9,6 @@ use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{NO_OBJECT, Options, View, render_with};
 use host_tests::texture_file::TextureImage;
 use scanbeam::texture::Quality;
-
-struct Rng(u64);
-
-impl Rng {
-    /// 0 to 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f64 / (1u64 << 24) as f64
-    }
-}
 
 /// The eye is at the origin and looks along -z.
 fn view() -> View {
@@ -126,7 +114,7 @@ impl Rgba {
 #[test]
 fn each_pixel_has_the_level_that_its_texels_ask_for() {
     const SIDE: u32 = 128;
-    let mut rng = Rng(5);
+    let mut rng = Rng::new(5);
     let (mut seen, mut all, mut magnified) = ([0u32; 4], 0u32, 0u32);
     for _ in 0..12 {
         let mut model = Model::default();

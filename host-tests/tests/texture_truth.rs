@@ -4,6 +4,7 @@
 //! Corners of the first and the fourth lie on the grid of the screen, so what they cover is known
 //! exactly, and no pixel has to be left out.
 
+use crate::common::Rng;
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, FilterArg, TextureSet, draw_textured};
 use host_tests::image_out::Frame;
@@ -23,23 +24,6 @@ const QUALITIES: [(Quality, f64); 3] = [
     (Quality::Balanced, 0.25),
     (Quality::Fast, 0.5),
 ];
-
-struct Rng(u64);
-
-impl Rng {
-    /// 0 to 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f64 / (1u64 << 24) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.unit()
-    }
-}
 
 /// The eye at (0, 0, 0) looks along -z; a focal length of half the height.
 fn view(width: u32, height: u32) -> View {
@@ -161,7 +145,7 @@ fn crumpled(rng: &mut Rng, n: usize, view: &View) -> Model {
 fn meshes_have_no_crack_and_no_seam() {
     let view = view(128, 128);
     for (quality, most) in QUALITIES {
-        let mut rng = Rng(11);
+        let mut rng = Rng::new(11);
         let (mut pixels, mut beside, mut wrong, mut worst) = (0, 0, 0, [0.0f64; 2]);
         for n in [3, 6, 12, 24] {
             for _ in 0..3 {
@@ -197,6 +181,19 @@ fn meshes_have_no_crack_and_no_seam() {
     }
 }
 
+/// How far the places of pixels are off, in texels, and how many texels lie between them and the
+/// next ones; of those of which an edge is far.
+fn inside(model: &Model, quality: Quality, view: &View, snapped: bool) -> Vec<([f64; 2], f64)> {
+    let reference = truth(model, &white(), view, snapped);
+    let drawn = places(model, SIDE, quality, view).unwrap();
+    let pixel = |(at, shown): (usize, &Shown)| {
+        let edge = reference.near_edge[at] || reference.object[at] == NO_OBJECT;
+        let slope = (!edge).then(|| texels_a_pixel(&reference, at))??;
+        Some((shown.off(reference.place[at]).expect("it is drawn"), slope))
+    };
+    drawn.iter().enumerate().filter_map(pixel).collect()
+}
+
 /// What the grid of the screen may move a corner that is cut, against the reference's: a step.
 const STEP: f64 = 1.0 / 8.0;
 
@@ -207,7 +204,7 @@ fn what_the_near_plane_cuts_keeps_its_places() {
         ..view(128, 128)
     };
     for (quality, most) in QUALITIES {
-        let mut rng = Rng(12);
+        let mut rng = Rng::new(12);
         let (mut pixels, mut worst) = (0, 0.0f64);
         for _ in 0..150 {
             let mut vertices = Vec::new();
@@ -222,22 +219,13 @@ fn what_the_near_plane_cuts_keeps_its_places() {
                 continue;
             }
             let model = model(vertices, vec![[0, 1, 2]]);
-            let reference = truth(&model, &white(), &view, true);
-            let drawn = places(&model, SIDE, quality, &view).unwrap();
-            for (at, shown) in drawn.iter().enumerate() {
-                if reference.near_edge[at] || reference.object[at] == NO_OBJECT {
-                    continue;
-                }
-                let Some(slope) = texels_a_pixel(&reference, at) else {
-                    continue;
-                };
+            for (off, slope) in inside(&model, quality, &view, true) {
                 pixels += 1;
-                let off = shown.off(reference.place[at]).expect("it is drawn");
                 let beyond = farther(off) - STEP * slope;
                 worst = worst.max(beyond);
                 assert!(
                     beyond <= most,
-                    "{quality:?}: {off:?} at {at}, {slope} texels a pixel: {model:?}"
+                    "{quality:?}: {off:?}, {slope} texels a pixel: {model:?}"
                 );
             }
         }
@@ -270,23 +258,14 @@ fn a_ground_plane_does_not_swim_when_the_camera_rolls() {
                 up: [roll.sin(), roll.cos(), 0.0],
                 ..view(160, 120)
             };
-            let reference = truth(&ground, &white(), &view, false);
-            let drawn = places(&ground, SIDE, quality, &view).unwrap();
             let (mut sum, mut near) = ([0.0; 2], 0);
-            for (at, shown) in drawn.iter().enumerate() {
-                if reference.near_edge[at] || reference.object[at] == NO_OBJECT {
-                    continue;
-                }
-                let Some(slope) = texels_a_pixel(&reference, at) else {
-                    continue;
-                };
+            for (off, slope) in inside(&ground, quality, &view, false) {
                 pixels += 1;
-                let off = shown.off(reference.place[at]).expect("it is drawn");
                 let beyond = farther(off) - STEP * slope;
                 worst = worst.max(beyond);
                 assert!(
                     beyond <= most,
-                    "{quality:?}, {step}: {off:?} at {at}, {slope}"
+                    "{quality:?}, {step}: {off:?}, {slope} texels a pixel"
                 );
                 // Where texels are as large as pixels they are seen to move.
                 if slope < 2.0 {
@@ -324,7 +303,7 @@ fn long_spans_at_any_ratio_of_depth_keep_their_texels() {
     };
     for ratio in [10.0, 100.0] {
         for (quality, most) in QUALITIES {
-            let mut rng = Rng(13);
+            let mut rng = Rng::new(13);
             let (mut pixels, mut wrong, mut farthest, mut longest) = (0, 0, 0.0f64, 0);
             for round in 0..60 {
                 // From the left side to the right one, or less.
@@ -395,7 +374,7 @@ fn bilinear_pictures_are_those_of_the_reference() {
     let rgb = map.texels.iter().flat_map(|t| t.map(|l| l.round() as u8));
     let image = TextureImage::new(&Frame::new(64, 64, rgb.collect()).unwrap()).unwrap();
     for (quality, off) in [(Quality::Exact, 1.0 / 16.0), (Quality::Balanced, 0.25)] {
-        let mut rng = Rng(14);
+        let mut rng = Rng::new(14);
         let (mut pixels, mut worst, mut sum) = (0, 0.0f64, 0.0);
         for n in [2, 5, 9] {
             let mut model = crumpled(&mut rng, n, &view);

@@ -1,6 +1,7 @@
 //! Textured pictures against places reckoned in `f64` (H3, X2): the reference draws u/w, v/w and
 //! 1/w as colours, which are linear on the screen, and the quotient is the place.
 
+use crate::common::Rng;
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, Drawn, FilterArg, TextureSet, draw_textured};
 use host_tests::image_out::Frame;
@@ -17,19 +18,6 @@ fn own_places() -> TextureImage {
         .flat_map(|y| (0..SIDE).flat_map(move |x| [x as u8, y as u8, 255]))
         .collect();
     TextureImage::new(&Frame::new(SIDE, SIDE, rgb).unwrap()).unwrap()
-}
-
-struct Rng(u64);
-
-impl Rng {
-    /// 0 to 1.
-    fn unit(&mut self) -> f64 {
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 40) as f64 / (1u64 << 24) as f64
-    }
 }
 
 /// Triangles before the eye at (0, 0, 0), which looks along -z, from 1 to 12 away.
@@ -110,7 +98,7 @@ fn exact_pictures_choose_the_right_texel_and_others_keep_their_budget() {
         (Quality::Balanced, 100.0, 0.25),
         (Quality::Fast, 100.0, 0.5),
     ] {
-        let mut rng = Rng(9);
+        let mut rng = Rng::new(9);
         let (mut all, mut wrong, mut farthest) = (0, 0, 0.0f64);
         for _ in 0..12 {
             let model = soup(&mut rng, 12);
@@ -128,7 +116,7 @@ fn exact_pictures_choose_the_right_texel_and_others_keep_their_budget() {
 
 #[test]
 fn every_crew_draws_the_same() {
-    let model = soup(&mut Rng(4), 40);
+    let model = soup(&mut Rng::new(4), 40);
     let one = drawn(&model, Quality::Balanced, CrewSettings::default());
     assert!(one.stats.spans.texture_fetches > 10_000);
     assert_eq!(

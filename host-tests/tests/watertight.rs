@@ -6,11 +6,9 @@
 //! count that is made here with integers, pixel by pixel, from the fill rule's words alone.
 //! Where the mesh is a plain patch, that count must also be 1 at every pixel inside it.
 
-mod common;
-#[path = "watertight/count.rs"]
-mod count;
+pub mod count;
 
-use common::{LineRooms, Rng, SceneRooms};
+use crate::common::{self, LineRooms, Rng, SceneRooms};
 use count::{Count, Place, doubled_area};
 use scanbeam::{
     Camera, Counted, Cull, Faces, FlatPainter, Instance, Mesh, QuadSplit, Rgb888, Screen,

@@ -1,6 +1,6 @@
 //! Model files: any bytes are a model in which all is in range, or one line that says what is wrong.
 
-use crate::model::Model;
+use super::model::Model;
 use std::path::Path;
 
 /// What parts the OBJ file from its material file; everything after it is the latter.

@@ -89,17 +89,17 @@ impl Toolchain {
         Ok(found)
     }
 
-    /// `cargo`, set up to compile for `board`, without a subcommand yet.
-    pub(super) fn cargo(&self, board: &Board) -> Command {
+    /// `cargo`, set up to compile for these boards, without a subcommand yet.
+    pub(super) fn cargo(&self, boards: &[Board]) -> Command {
         match self.source {
             Source::Rustup => clean_command("cargo"),
             Source::Debian => {
-                let target = board.target.replace('-', "_").to_uppercase();
                 let mut cargo = clean_command(DEBIAN_CARGO);
-                cargo
-                    .env("RUSTC", DEBIAN_RUSTC)
-                    .env("RUSTC_BOOTSTRAP", "1")
-                    .env(format!("CARGO_TARGET_{target}_LINKER"), DEBIAN_LINKER);
+                cargo.env("RUSTC", DEBIAN_RUSTC).env("RUSTC_BOOTSTRAP", "1");
+                for board in boards {
+                    let target = board.target.replace('-', "_").to_uppercase();
+                    cargo.env(format!("CARGO_TARGET_{target}_LINKER"), DEBIAN_LINKER);
+                }
                 cargo
             }
         }

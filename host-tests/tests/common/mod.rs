@@ -1,8 +1,9 @@
-//! What the proofs share: a generator whose failures can be repeated, memory for scenes, and
-//! frames drawn line by line.
-#![allow(dead_code, reason = "each proof uses its own part")]
+//! What the proofs share: a generator whose failures can be repeated, memory for scenes, frames
+//! drawn line by line, vectors and solids in f64, and displays that are sent what changed.
 
-#[allow(unused_imports, reason = "each proof uses its own part")]
+pub mod changes;
+pub mod solid;
+
 pub use host_tests::lent::{LineRooms, SceneRooms};
 use scanbeam::{LineRenderer, Pipeline, Scene, WordOf};
 
@@ -36,6 +37,16 @@ impl Rng {
     /// A number in `-1.0 .. 1.0`.
     pub fn signed(&mut self) -> f64 {
         f64::from(self.below(1 << 30)) / f64::from(1 << 29) - 1.0
+    }
+
+    /// A number from 0, below 1.
+    pub fn unit(&mut self) -> f64 {
+        f64::from(self.below(1 << 30)) / f64::from(1 << 30)
+    }
+
+    /// A number from `low`, below `high`.
+    pub fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.unit()
     }
 
     /// One of the values.

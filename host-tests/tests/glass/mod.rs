@@ -1,6 +1,5 @@
 //! A display told to the byte: what a MIPI panel does with what comes over its bus, what a draw target does with
 //! colours, and each of them failing when told to.
-#![allow(dead_code, reason = "each proof uses its own part")]
 
 use std::cell::RefCell;
 use std::convert::Infallible;

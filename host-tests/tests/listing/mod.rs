@@ -1,5 +1,4 @@
 //! What tests of lists share: clouds of vertices in every form, and rooms to run lists in.
-#![allow(dead_code, reason = "each test binary uses a part of it")]
 
 use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::list::{
@@ -261,6 +260,17 @@ pub fn unrolled(order: &[u16], fan: bool) -> Vec<[u16; 3]> {
             (false, _) => [order[k - 1], order[k - 2], order[k]],
         })
         .collect()
+}
+
+/// A strip or fan in blocks of random lengths, each going on with the one before, of none too: what
+/// is given each, and whether it is the first.
+pub fn in_blocks(rng: &mut Rng, order: &[u16], mut block: impl FnMut(&[u16], bool)) {
+    let (mut rest, mut new) = (order, true);
+    while new || !rest.is_empty() {
+        let (part, left) = rest.split_at(rng.below(rest.len() as u32 + 1) as usize);
+        block(part, new);
+        (rest, new) = (left, false);
+    }
 }
 
 pub fn some_instance(rng: &mut Rng) -> Instance {

@@ -1,9 +1,8 @@
 //! One triangle at a time, put on chosen 1/8-pixel places at chosen distances, and held pixel by
 //! pixel against whole numbers and f64: coverage, depth and colour, in every format.
-#![allow(dead_code, reason = "each proof uses its own part")]
 
 use crate::common::{LineRooms, Rng, SceneRooms, line};
-use crate::count::{Count, Place, doubled_area};
+use crate::watertight::count::{Count, Place, doubled_area};
 use scanbeam::{
     Affine, Camera, Cull, Depth32, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
     Instance, LineDepth, Mesh, Pipeline, PixelFormat, Rgb565, Rgb565Be, Rgb888, Screen, WordOf,

@@ -1,0 +1,103 @@
+//! Displays that are sent what changed alone: pictures that change, lines out of them, sinks that
+//! fail, and what an application does then.
+
+use super::{Rng, SceneRooms};
+use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
+use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanoutDma};
+use scanbeam::{
+    Camera, FrameError, GouraudDepth, LineSource, RendererError, Rgb565Be, Scene, Screen,
+};
+
+pub type Look = GouraudDepth<Rgb565Be>;
+pub type Mock = MockFrameBuffer<u16>;
+/// Lines from the top.
+pub type Picture = Vec<Vec<u16>>;
+
+/// Lines out of a picture; fails at one of them, if told to.
+pub struct Lines<'a> {
+    pub picture: &'a Picture,
+    pub fails_at: Option<u16>,
+}
+
+impl LineSource<Look> for Lines<'_> {
+    fn line(&mut self, line: u16, pixels: &mut [u16]) -> Result<(), RendererError> {
+        if self.fails_at == Some(line) {
+            return Err(RendererError::Stopped { line });
+        }
+        pixels.copy_from_slice(&self.picture[usize::from(line)]);
+        Ok(())
+    }
+}
+
+pub fn camera() -> Camera {
+    Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 30.0, 0.1, 100.0).unwrap()
+}
+
+/// A scene without objects.
+pub fn begun(rooms: &mut SceneRooms<Look>, width: u16, height: u16) -> Scene<'_, Look> {
+    let mut scene = rooms.scene(Screen::new(width, height).unwrap());
+    scene.begin(&camera()).unwrap();
+    scene
+}
+
+pub fn buffers(words: usize) -> [HostLine<u16>; 2] {
+    [HostLine::new(words), HostLine::new(words)]
+}
+
+/// A pump that gives up on sinks that hang.
+pub fn pump<D: ScanoutDma<Buf = HostLine<u16>>>(sink: D, words: usize) -> Pump<D> {
+    let mut pump = Pump::new(sink, buffers(words));
+    pump.set_max_polls(Some(9));
+    pump
+}
+
+/// What an application does after a frame that failed: where a buffer was lost it makes new ones,
+/// for the same display.
+pub fn recovered<D>(
+    pump: Pump<D>,
+    error: &FrameError<<D as ErrorType>::Error>,
+    words: usize,
+) -> Pump<D>
+where
+    D: ScanoutDma<Buf = HostLine<u16>> + ErrorType<Error = MockError>,
+{
+    match error {
+        FrameError::ScanOut(ScanError::BufferLost { .. }) => {
+            let (sink, _) = pump.release();
+            self::pump(sink, words)
+        }
+        _ => pump,
+    }
+}
+
+/// Changes a picture: not at all, everywhere, by scrolling, or at some places.
+pub fn change(rng: &mut Rng, picture: &mut Picture) {
+    match rng.below(6) {
+        0 => {}
+        1 => picture
+            .iter_mut()
+            .for_each(|line| line.fill(rng.below(3) as u16)),
+        2 => picture.rotate_left(1),
+        _ => {
+            for _ in 0..1 + rng.below(5) {
+                let line = rng.below(picture.len() as u32) as usize;
+                let x = rng.below(picture[line].len() as u32) as usize;
+                picture[line][x] ^= 1 << rng.below(16);
+            }
+        }
+    }
+}
+
+/// None, for `sound` of them, or one of the faults.
+pub fn some_fault(rng: &mut Rng, sound: u32) -> Option<Fault> {
+    const FAULTS: [Fault; 6] = [
+        Fault::Begin,
+        Fault::Start,
+        Fault::Poll,
+        Fault::Hang,
+        Fault::Lose,
+        Fault::End,
+    ];
+    let at = rng.below(sound + FAULTS.len() as u32);
+    at.checked_sub(sound).map(|at| FAULTS[at as usize])
+}

@@ -1,0 +1,64 @@
+//! All proofs of the host tools as one program: what they draw with is compiled once and linked
+//! once, and all threads are busy until the last proof. As fifty programs they took nearly twice as
+//! long to build.
+//!
+//! A proof is a file here and its line below; `rows.rs` refuses a file that has none. One of them
+//! alone: `cargo test -p host-tests --test proofs cache::`. None needs a process of its own: none
+//! sets what a process has once (its environment, folder, allocator or hook of panics), and those
+//! that try the command line tool start it.
+
+// What proofs share.
+mod common;
+mod glass;
+mod listing;
+mod stress;
+
+mod accuracy_frontier;
+mod against_reference;
+mod arenas;
+mod block_fix_depth;
+mod cache;
+mod changed;
+mod command_line;
+mod composite;
+mod defmt_log;
+mod demo;
+mod depth_methods;
+mod effects;
+mod formats;
+mod fuzz;
+mod input;
+mod lines_alone;
+mod list_bake;
+mod list_bake_textures;
+mod list_flow;
+mod list_fuzz;
+mod list_looks;
+mod list_screen;
+mod list_textures;
+mod lists;
+mod model_pipe;
+mod model_scenes;
+mod model_tokens;
+mod model_trace;
+mod one_way;
+mod ordered;
+mod output;
+mod phong;
+mod rows;
+mod scan_out;
+mod scan_out_continuous;
+mod scan_out_faults;
+mod scan_out_runs;
+mod scan_out_spi;
+mod shadows;
+mod skipped;
+mod stress_input;
+mod stress_near;
+mod stress_shapes;
+mod texture_cli;
+mod texture_levels;
+mod texture_truth;
+mod textures;
+mod view;
+mod watertight;
