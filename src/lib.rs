@@ -85,28 +85,30 @@ mod visible;
 
 pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{
-    Blender, Blending, Compositing, Cut, CutOff, DetailedTextures, Dithered, Grey8, Ink,
-    LineOverlay, ListOverlays, ListTexel, ListTextures, Mix, Ordered, Overlay, PixelAlpha,
-    PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf,
-    TextureSource, Textures, Threshold, UnsortedSprites, Xrgb8888, mono_page, mono_row,
+    Blender, Blending, Compositing, Cut, CutOff, DetailedTextures, Dithered, Grey8, Index4, Index8,
+    Indexed, Ink, LineOverlay, LinePalettes, ListOverlays, ListTexel, ListTextures, Mix, Ordered,
+    Overlay, PaletteTable, PixelAlpha, PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be, Rgb565Bytes,
+    Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures, Threshold, UnsortedSprites,
+    Xrgb8888, expand_indices, mono_page, mono_row,
 };
 #[cfg(feature = "embedded-graphics")]
 pub use composite::{Canvas, DrawnLines};
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
-    Affine, Assembled, Blend, Blended, Camera, CameraError, Colour, Coordinate, Cull,
-    DepthFunction, DirectionalLight, Dropped, Faces, Factor, Finish, Flat, Gouraud, Light,
-    Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Material, MatrixRange, Mesh,
-    MeshError, Object, Phong, PixelLamps, QuadSplit, Room, Scale, SceneVertex, Screen, ScreenError,
-    ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom, Sphere,
-    Surface,
+    Affine, Assembled, Blend, Blended, Camera, CameraError, Clip, Colour, Coordinate, Cull,
+    DepthFunction, DirectionalLight, Dropped, Faces, Factor, Finish, Flat, Gouraud, Kept, Light,
+    Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Mark, Marked, Material, MatrixRange,
+    Mesh, MeshError, Object, Phong, PixelLamps, Priority, QuadSplit, Room, Scale, SceneVertex,
+    Screen, ScreenError, ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight, ShadowMemory,
+    ShadowRoom, Sphere, Surface,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
     BlockFixed, CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth,
     FlatPainter, GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts,
-    PhongDepth, Pipeline, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, WithDepth, WordOf,
+    PhongDepth, Pipeline, Prioritised, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, Windowed,
+    WithDepth, WithShading, WordOf,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,
@@ -114,8 +116,8 @@ pub use renderer::{
     ListCoordinate, ListLights, ListMemory, ListRunner, ListSettings, OnViolation, OneLight,
     Overlaid, PassOne, Prefetched, Relay, RendererError, RunCounts, Scene, SceneError, SceneMemory,
     ShadowError, Source, Stalled, Stream, Vertices, draw_continuous, draw_frame,
-    draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid, draw_frame_overlaid_changed,
-    send_changed, send_changed_runs, send_frame,
+    draw_frame_changed, draw_frame_changed_runs, draw_frame_indexed, draw_frame_overlaid,
+    draw_frame_overlaid_changed, send_changed, send_changed_runs, send_frame, send_frame_indexed,
 };
 #[cfg(feature = "async")]
 pub use renderer::{draw_frame_async, send_frame_async};

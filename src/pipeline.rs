@@ -12,6 +12,8 @@
 //! | [`PhongDepth`] | [`Gouraud`], lit at each pixel | [`Depth32`] | any | pixel by pixel |
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
 //! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
+//! | [`Windowed`] | as the preset it wraps | | any | surfaces are cut to windows |
+//! | [`Prioritised`] | as the preset it wraps | none: surfaces have priorities | any | |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
 //! | [`BlockFixed`] | as the preset it wraps | [`BlockFixDepth`]: 16 bits | | |
 //! | [`Deferred`] | as the preset it wraps | [`DepthAndId`]: the same picture, each pixel shaded once | | |
@@ -21,7 +23,7 @@ use crate::composite::{
     Blending, Compositing, DetailedTextures, ListTextures, PixelFormat, TextureSource, Textures,
 };
 use crate::geometry::texturing::{LevelEnds, Textured};
-use crate::geometry::{Blended, Flat, Gouraud, Phong, Shading};
+use crate::geometry::{Blended, Flat, Gouraud, Kept, Marked, Phong, Priority, Shading};
 use crate::shade::{Interpolation, Lamplight, Levels, Packed8, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::{BlockFixDepth, Depth32, DepthAndId, LineDepth, ShadowDepth32};
@@ -121,6 +123,23 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Compositing,
     <P as Pipeline>::Lights,
 >;
+/// The pipeline `P`, and surfaces can be cut to the inside or outside of a window (H15); see
+/// [`Scene::set_clip`](crate::Scene::set_clip).
+pub type Windowed<P> = WithShading<P, Marked<<P as Pipeline>::Shading, Kept>>;
+/// The pipeline `P` without depth: the surface of the highest priority is seen (P1); see
+/// [`Scene::set_priority`](crate::Scene::set_priority).
+pub type Prioritised<P> = WithDepth<WithShading<P, Marked<<P as Pipeline>::Shading, Priority>>, ()>;
+/// The pipeline `P`, with the shading `S`.
+pub type WithShading<P, S> = Parts<
+    S,
+    <P as Pipeline>::Depth,
+    <P as Pipeline>::Pixel,
+    <P as Pipeline>::Counter,
+    <P as Pipeline>::Interpolation,
+    <P as Pipeline>::Textures,
+    <P as Pipeline>::Compositing,
+    <P as Pipeline>::Lights,
+>;
 /// The pipeline `P`, with 16 bits of block-fix depth (H2).
 pub type BlockFixed<P> = WithDepth<P, BlockFixDepth>;
 /// The pipeline `P`, which shades no pixel before it is known whose it is (X3).
@@ -157,7 +176,9 @@ pub type ObjectOf<P> = crate::geometry::Object<<<P as Pipeline>::Shading as Shad
 /// The cache slot of a pipeline.
 pub type SlotOf<P> = crate::active::Slot<DrawableOf<P>>;
 /// An object of a pipeline, set up for drawing.
-pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>>;
+pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>, MarkOf<P>>;
+/// What an object of a pipeline carries beside its colours.
+pub type MarkOf<P> = <<P as Pipeline>::Shading as Shading>::Mark;
 /// What a mesh of a pipeline brings beside its colours.
 pub type SkinOf<'a, P> = <<P as Pipeline>::Shading as Shading>::Skin<'a>;
 /// What an object of a pipeline is coloured by.

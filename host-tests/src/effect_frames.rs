@@ -4,10 +4,10 @@ use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::MethodFrame;
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::scan_out::Pump;
-use scanbeam::{Lamplight, Pipeline, Scene, WordOf, draw_frame};
+use scanbeam::{Lamplight, Pipeline, Scene, WordOf, draw_frame, draw_frame_indexed};
 use scenes::{
-    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit, Shady, ShotError,
-    Transparent, by_effect, method_screen,
+    Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
+    Numbered, Ranked, Shady, ShotError, Transparent, by_effect, method_screen,
 };
 use std::error::Error;
 
@@ -52,6 +52,22 @@ impl DrawsEffect for Words {
     fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
         self.draw((), build);
     }
+
+    fn numbered(
+        &mut self,
+        palettes: Dusk,
+        build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
+    ) {
+        self.drawn = Some(expanded(self.slots, palettes, build));
+    }
+
+    fn cropped(&mut self, build: impl Fn(&mut Scene<'_, Cropped>) -> Result<(), ShotError>) {
+        self.draw((), build);
+    }
+
+    fn ranked(&mut self, build: impl Fn(&mut Scene<'_, Ranked>) -> Result<(), ShotError>) {
+        self.draw((), build);
+    }
 }
 
 fn words<P: Pipeline>(
@@ -74,6 +90,26 @@ where
     let background = WordOf::<P>::default();
     draw_frame(&scene, &mut renderer, &mut pump, background, 1)?;
     Ok(pump.sink().frame()?.into_iter().map(Into::into).collect())
+}
+
+/// Words of the palette of each line.
+fn expanded(
+    slots: usize,
+    palettes: Dusk,
+    build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
+) -> Result<Vec<u16>, Box<dyn Error>> {
+    let mut lent = SceneRooms::<Numbered>::new(EFFECT_ROOM, EFFECT_ROOM, EFFECT_HEIGHT.into());
+    let mut scene = lent.scene(method_screen());
+    build(&mut scene).map_err(|error| format!("{error:?}"))?;
+    let mut rooms = LineRooms::<Numbered>::fitting(slots, &scene);
+    let mut renderer = rooms.renderer();
+    let mut indices = [0; EFFECT_WIDTH as usize];
+    let sink = MockFrameBuffer::new(EFFECT_WIDTH, EFFECT_HEIGHT);
+    let words = indices.len();
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    let by = (&mut indices[..], palettes);
+    draw_frame_indexed(&scene, &mut renderer, &mut pump, 0, 1, by)?;
+    Ok(pump.sink().frame()?)
 }
 
 /// The words of all frames, by name, drawn with so many slots.

@@ -12,6 +12,7 @@
 //! | `listed.rs` | textures of an instruction list |
 //! | `dither.rs` | ordered dither, and cutting instead of rounding |
 //! | `grey.rs` | 8-bit grey, and 1 bit a pixel made of it |
+//! | `indexed.rs` | numbers of a palette, which may differ from line to line |
 //! | `overlay.rs` | runs and sprites over a finished line |
 //! | `canvas.rs` | drawables of `embedded-graphics` into such |
 //! | `xrgb.rs` | 8 bits a channel in a 32-bit word |
@@ -25,6 +26,7 @@ mod course;
 mod detailed;
 mod dither;
 mod grey;
+mod indexed;
 mod lirp;
 mod listed;
 mod overlay;
@@ -42,6 +44,7 @@ pub use compositing::{Blending, Compositing};
 pub use detailed::DetailedTextures;
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
+pub use indexed::{Index4, Index8, Indexed, LinePalettes, PaletteTable, expand_indices};
 pub use listed::{ListOverlays, ListTexel, ListTextures};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;

@@ -5,6 +5,7 @@ use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
 use super::colour::{Colour, Scale, Tint};
 use super::light::{LightingModel, ModelLight};
+use super::marks::Mark;
 use super::mesh::{Coordinate, Faces, Mesh, QuadSplit};
 use super::object::{OUTSIDE, Object, SceneVertex};
 use super::project::Projection;
@@ -141,8 +142,8 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         }
     }
 
-    /// Takes a mesh; `file` keeps an object that is first seen on a line of guard space, or says
-    /// that it has no room for it. Indices that are known to be below a number are not looked at
+    /// Takes a mesh; `file` keeps an object that is first seen on a line of guard space, with its
+    /// vertices, and says as how many objects, or that it has no room for it. Indices that are known to be below a number are not looked at
     /// where there are as many vertices.
     ///
     /// # Errors
@@ -150,7 +151,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     pub(crate) fn mesh<C: Coordinate>(
         mut self,
         (mesh, below): (&Mesh<'_, C>, usize),
-        mut file: impl FnMut(Object<S::Face>, i32) -> bool,
+        mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) -> Result<Assembled, MeshError> {
         check(mesh, below)?;
         if !S::fits(&self.skin, mesh.positions.len()) {
@@ -253,7 +254,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         mesh: &Mesh<'_, C>,
         (face, corners, provoking): (u32, [u16; 3], u16),
         (base, shared): (usize, bool),
-        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         let look = if shared {
             self.look(base, corners)
@@ -265,8 +266,13 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             Look::Seen(first) => {
                 let index = corners.map(|c| base as u16 + c);
                 let face_colour = self.face_colour(mesh, corners, provoking);
+                let kept = self.done.kept;
                 self.keep(Object::new(index, face_colour), first, face, file);
-                self.count_lost();
+                let lost = self.count_lost();
+                // It may be outside of its window.
+                if S::Mark::CUTS && !lost && self.done.kept == kept {
+                    self.done.culled += 1;
+                }
             }
             Look::Outside => {
                 let kept = self.done.kept;
@@ -324,7 +330,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         &mut self,
         mesh: &Mesh<'_, C>,
         (face, corners, provoking): (u32, [u16; 3], u16),
-        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         let corner = corners.map(|i| {
             let i = usize::from(i);
@@ -367,7 +373,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         corner: [Corner<S::Vertex>; 3],
         face_colour: S::Face,
         face: u32,
-        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         let place = corner.map(|c| self.projection.project(c.point));
         let Some(first) = self.first_line(place.map(|p| (p.x, p.y))) else {
@@ -400,12 +406,11 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         object: Object<S::Face>,
         first: i32,
         face: u32,
-        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
-        if file(object, first) {
-            self.done.kept += 1;
-        } else {
-            self.dropped(Room::Objects, face);
+        match file(object, first, self.vertices.as_slice()) {
+            Some(objects) => self.done.kept += objects,
+            None => self.dropped(Room::Objects, face),
         }
     }
 

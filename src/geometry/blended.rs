@@ -199,6 +199,18 @@ impl<S: Shading> Shading for Blended<S> {
         S::set_normal(&mut vertex.inner, turn, normal);
     }
 
+    type Mark = S::Mark;
+
+    #[inline(always)]
+    fn mark(face: &Self::Face) -> S::Mark {
+        S::mark(&face.inner)
+    }
+
+    #[inline(always)]
+    fn set_mark(face: &mut Self::Face, mark: S::Mark) {
+        S::set_mark(&mut face.inner, mark);
+    }
+
     const COMPOSITED: bool = true;
 
     fn finished<'a>(surface: Self::Skin<'a>, finish: Finish) -> Self::Skin<'a> {

@@ -2,7 +2,8 @@
 //!
 //! `mesh` is what the application hands in; `transform`, `camera` and `light` are where it
 //! stands and how it is lit; `project` takes one vertex to the screen; `clip` mends triangles
-//! that cross the near, far or guard planes; `bounds` asks whether a mesh is outside; `assemble` runs them and culls; `setup` makes of an
+//! that cross the near, far or guard planes; `bounds` asks whether a mesh is outside; `assemble` runs them and culls;
+//! `marks` cut surfaces to windows and rank them; `setup` makes of an
 //! object's corners what drawing needs, once it is reached.
 
 mod assemble;
@@ -15,6 +16,7 @@ mod finish;
 mod light;
 mod lighting;
 mod listed;
+mod marks;
 mod mesh;
 mod object;
 mod phong;
@@ -35,6 +37,7 @@ pub use finish::{Blend, DepthFunction, Factor, Finish, Role, Shadow};
 pub use light::{Light, LightingModel};
 pub use lighting::{DirectionalLight, Lighting, Material};
 pub use listed::{ListLamps, ListLighting, MatrixRange};
+pub use marks::{Clip, Kept, Mark, Marked, Part, Priority};
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
 pub use object::{Object, SceneVertex};
 pub use phong::{LitSkin, Phong, PhongLevels, PixelLamps};

@@ -179,6 +179,18 @@ impl<S: Shading> Shading for Phong<S> {
         vertex.normal = turned.map(|c| ((c.to_bits() + 4) >> 3).clamp(-MOST, MOST));
     }
 
+    type Mark = S::Mark;
+
+    #[inline(always)]
+    fn mark(face: &Self::Face) -> S::Mark {
+        S::mark(&face.inner)
+    }
+
+    #[inline(always)]
+    fn set_mark(face: &mut Self::Face, mark: S::Mark) {
+        S::set_mark(&mut face.inner, mark);
+    }
+
     const COMPOSITED: bool = S::COMPOSITED;
 
     #[inline]

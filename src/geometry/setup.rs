@@ -4,6 +4,7 @@
 //! cache: the same function of the same corners, so the same bits.
 
 use super::colour::Scale;
+use super::marks::Mark;
 use super::object::{Object, SceneVertex};
 use super::shading::Shading;
 use crate::num::{Edge, GUARD_CENTRE, InverseArea, Plane, SmallArea, column_exact, first_at};
@@ -20,7 +21,7 @@ pub enum Parameters<L> {
 
 /// A triangle, ready to be drawn on any of its lines from the one it was set up for on.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawable<L> {
+pub struct Drawable<L, M = ()> {
     /// The edge from the top to the bottom corner.
     long: Edge,
     /// The edges above and below the middle corner.
@@ -32,6 +33,8 @@ pub struct Drawable<L> {
     sides: Sides,
     /// See [`Drawable::range`].
     range: (u16, u16),
+    /// What it carries beside its colours.
+    pub(crate) mark: M,
     /// Depth and colour.
     pub parameters: Parameters<L>,
 }
@@ -48,7 +51,7 @@ enum Sides {
     Divided,
 }
 
-impl<L> Drawable<L> {
+impl<L, M: Mark> Drawable<L, M> {
     /// What an empty slot holds.
     pub const EMPTY: Self = Self {
         long: Edge::NONE,
@@ -57,6 +60,7 @@ impl<L> Drawable<L> {
         end: 0,
         sides: Sides::Inside,
         range: (0, 0),
+        mark: M::NONE,
         parameters: Parameters::Corners,
     };
 
@@ -151,7 +155,7 @@ impl<F: Copy> Object<F> {
         vertices: &[SceneVertex<S::Vertex>],
         scale: &Scale,
         (line, picture): (i32, &Range<i32>),
-        out: &mut Drawable<S::Levels>,
+        out: &mut Drawable<S::Levels, S::Mark>,
     ) -> bool {
         let Some(corners) = self.corners(vertices) else {
             return false;
@@ -160,6 +164,13 @@ impl<F: Copy> Object<F> {
         let area = SmallArea::new(place);
         if !edges(place, area.is_some(), line, picture, out) {
             return false;
+        }
+        out.mark = S::mark(&self.face);
+        if S::Mark::CUTS {
+            out.end = out.end.min(out.mark.kept().bottom);
+            if line >= i32::from(out.end) {
+                return false;
+            }
         }
         let [a, b, c] = corners.map(|c| c.depth);
         out.range = (
@@ -197,7 +208,7 @@ fn large<S: Shading>(
     corners: [&SceneVertex<S::Vertex>; 3],
     face: S::Face,
     (scale, kept): (&Scale, Option<Plane>),
-    out: &mut Drawable<S::Levels>,
+    out: &mut Drawable<S::Levels, S::Mark>,
 ) {
     let planes = || {
         let area = InverseArea::new(corners.map(|c| (c.x, c.y)))?;
@@ -237,12 +248,12 @@ fn sorted(p: [(u16, u16); 3]) -> [(u16, u16); 3] {
 ///
 /// `small` says that no side is longer than 512 units.
 #[inline(always)]
-fn edges<L>(
+fn edges<L, M>(
     p: [(u16, u16); 3],
     small: bool,
     line: i32,
     picture: &Range<i32>,
-    out: &mut Drawable<L>,
+    out: &mut Drawable<L, M>,
 ) -> bool {
     let [top, middle, bottom] = sorted(p);
     let turn = first_at(middle.1);
@@ -278,11 +289,11 @@ fn edges<L>(
 /// The edges of a triangle that is large or may reach beside the picture.
 #[cold]
 #[inline(never)]
-fn wide_edges<L>(
+fn wide_edges<L, M>(
     [top, middle, bottom]: [(u16, u16); 3],
     inside: bool,
     left: i32,
-    out: &mut Drawable<L>,
+    out: &mut Drawable<L, M>,
 ) -> bool {
     const LOW: u16 = 8 * (GUARD_CENTRE - 511) as u16;
     const SPAN: u16 = 8 * 1022;

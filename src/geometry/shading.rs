@@ -4,6 +4,7 @@
 
 use super::colour::{Colour, Scale};
 use super::finish::Finish;
+use super::marks::Mark;
 use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 
@@ -72,6 +73,19 @@ pub trait Shading {
     fn finish(_: &Self::Face) -> Option<&Finish> {
         None
     }
+
+    /// What an object carries beside its colours: `()` where there is nothing.
+    type Mark: Mark;
+
+    /// The mark of a face.
+    #[inline(always)]
+    fn mark(_: &Self::Face) -> Self::Mark {
+        Self::Mark::NONE
+    }
+
+    /// Gives a face its mark.
+    #[inline(always)]
+    fn set_mark(_: &mut Self::Face, _: Self::Mark) {}
 
     /// Sets up an object of at most 64 x 64 pixels; `None` when it is too thin.
     fn set_up_small(
@@ -149,6 +163,8 @@ impl Shading for Flat {
 
     type Skin<'a> = ();
 
+    type Mark = ();
+
     type Turn = ();
 
     fn turn(_: &Affine, _: &Affine) {}
@@ -204,6 +220,8 @@ impl Shading for Gouraud {
     }
 
     type Skin<'a> = ();
+
+    type Mark = ();
 
     type Turn = ();
 

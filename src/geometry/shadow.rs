@@ -16,6 +16,7 @@ use super::assemble::{Assembled, Assembler, each_triangle};
 use super::clip::{Corner, guard, near_ends};
 use super::light::ModelLight;
 use super::mesh::{Coordinate, Mesh};
+use super::object::SceneVertex;
 use super::project::ClipPoint;
 use super::shading::Shading;
 use super::transform::Affine;
@@ -261,7 +262,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
         extrusion: &Extrusion,
         mesh: &Mesh<'_, C>,
         sides: &Sides<'_>,
-        mut file: impl FnMut(super::Object<S::Face>, i32) -> bool,
+        mut file: impl FnMut(super::Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) -> Assembled {
         let mut hub = None;
         extrusion.each_lit(mesh, |_, corners| {
@@ -283,7 +284,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
         &mut self,
         hub: &mut Option<ClipPoint>,
         corners: [[i32; 3]; 3],
-        file: &mut impl FnMut(super::Object<S::Face>, i32) -> bool,
+        file: &mut impl FnMut(super::Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         let corner = |point| Corner {
             point,

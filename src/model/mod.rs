@@ -18,6 +18,8 @@
 //! | `buffers` | double buffers and their DMA | K12 |
 //! | `interpreter` | the pipeline, a token a clock | K12-K14 |
 //! | `render` | whole scenes through it | S4, M1 |
+//! | `cusp` | clipped triangles as a left and a right chain | P2 |
+//! | `priority` | the contest of priorities, bit by bit | P6 |
 //! | `edge_function` | inside or outside by linear functions | B4 |
 //! | `traverse` | a triangle by blocks, clusters and several renderers | B2, B3, B6 |
 //!
@@ -26,11 +28,13 @@
 //! they grow by repeating their top bits, so full is full everywhere.
 
 mod buffers;
+mod cusp;
 mod edge_function;
 mod format;
 mod interpreter;
 mod layout;
 mod lirp;
+mod priority;
 mod render;
 mod stage;
 #[cfg(test)]
@@ -42,11 +46,13 @@ mod walker;
 mod weight;
 
 pub use buffers::{LineBuffers, Word40};
+pub use cusp::{Cusp, CuspPolygon, CuspSide};
 pub use edge_function::{EdgeFunction, EdgeFunctions};
 pub use format::{InputFormat, ProcessingFormat, WORD_BITS, Word36, round_to_8, widen};
 pub use interpreter::{Output, Pipe, PipeCounts, PipeMemory};
 pub use layout::{CHARTS, CONTROL, Chart, Field, TOKEN_BITS, TokenBits};
 pub use lirp::{EDGE_BITS, SPAN_BITS, lirp, lirp_by_selectors};
+pub use priority::{Decision, Wins, priority_contest, priority_stage};
 pub use render::{
     CornerColours, ModelFrameError, ModelRenderer, SCENE_VERTEX, SEGMENT, draw_model_frame,
 };

@@ -7,9 +7,9 @@ use super::spans::Brush;
 use super::transparent::{is_dormant, is_special};
 use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
 use crate::composite::Compositing;
-use crate::geometry::Drawable;
+use crate::geometry::{Drawable, Mark};
 use crate::link::Link;
-use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
+use crate::pipeline::{CellOf, DrawableOf, MarkOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
 use crate::stats::{SpanCounter, SpanCounts};
@@ -149,7 +149,7 @@ pub struct LineRenderer<'m, P: Pipeline> {
     interpolation: P::Interpolation,
 }
 
-impl<L> Member for Drawable<L> {
+impl<L, M: Mark> Member for Drawable<L, M> {
     #[inline(always)]
     fn end(&self) -> i32 {
         i32::from(Drawable::end(self))
@@ -306,6 +306,11 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         if self.list.is_empty() {
             return Ok(false);
         }
+        if MarkOf::<P>::RANKS {
+            pass.draw_ranked(&mut self.list, next, &mut self.spare);
+            self.list.counts.set_ups += pass.brush.thin;
+            return Ok(true);
+        }
         if P::Compositing::BLENDS && (now < *pass.special_end || self.list.has_spilled()) {
             pass.draw_composited(&mut self.list, next, &mut self.spare);
             self.list.counts.set_ups += pass.brush.thin;
@@ -429,11 +434,21 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     /// The same, whatever the object's finish says.
     #[inline(always)]
     pub(super) fn columns(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
+        if MarkOf::<P>::CUTS {
+            return self.cut(body);
+        }
         if body.is_inside() {
             let (start, end) = body.inside(self.line);
             return (start < end).then_some((start as usize, end as usize));
         }
         self.clipped(body)
+    }
+
+    /// The same within the part of the picture that the object keeps.
+    fn cut(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
+        let ((from, to), kept) = (body.columns(self.line, self.left), body.mark.kept());
+        let columns = (from.max(kept.left.into()), to.min(kept.right.into()));
+        Span::clipped(self.line, columns, self.left, self.pixels.len()).map(|s| (s.start, s.end))
     }
 
     #[cold]

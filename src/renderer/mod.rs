@@ -2,12 +2,14 @@
 //!
 //! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
 //! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
-//! `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9); `frame` sends what one
-//! renderer draws, `overlay` with what is painted over it (K14), `relay` what several do on
-//! their own cores (K16, X6).
+//! `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9), `priority` what has
+//! priorities (P1); `frame` sends what one renderer draws, `overlay` with what is painted over it
+//! (K14), `palette` by way of a palette for each line (H18), `relay` what several do on their own
+//! cores (K16, X6).
 
 mod batch;
 mod deferred;
+mod filing;
 mod fill;
 mod frame;
 #[cfg(feature = "async")]
@@ -18,7 +20,9 @@ mod lights;
 mod lines;
 mod order;
 mod overlay;
+mod palette;
 mod place;
+mod priority;
 mod relay;
 mod run;
 mod scene;
@@ -38,6 +42,7 @@ pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream}
 pub use lights::{EightLights, ListLights, OneLight};
 pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
 pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};
+pub use palette::{draw_frame_indexed, send_frame_indexed};
 pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};

@@ -10,7 +10,7 @@
 //! say. What this pipeline does not have is an event as well, and the rest is drawn: textures where
 //! the shading has none, opacity where it is not [`Composited`](crate::Composited), several lights
 //! and highlights without [`EightLights`](crate::EightLights), overlays without slots, and windows that
-//! are not the whole picture. Of levels of detail the first is drawn.
+//! are not the whole picture where surfaces are not [`Windowed`](crate::Windowed). Of levels of detail the first is drawn.
 
 use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
 use super::frame::FrameStats;
@@ -18,13 +18,13 @@ use super::lights::{ListLights, OneLight};
 use super::scene::{Instance, Scene};
 use crate::event::{Event, EventSet, EventSink, Notice};
 use crate::geometry::texturing::Quality;
-use crate::geometry::{Affine, Camera, Cull, Shading, Sphere};
+use crate::geometry::{Affine, Camera, Clip, Cull, Mark, Shading, Sphere};
 use crate::list::{
     Bound, Bounds, Budget, Flow, Halt, Id, Instruction, ListCommand, ListControl, ListError,
     Material, Matrix, NoTexture, Overlay, Reason, State, Step, Texture, TextureSlots, Walker,
     Window, Words, read_block,
 };
-use crate::pipeline::Pipeline;
+use crate::pipeline::{MarkOf, Pipeline};
 
 /// What becomes of a list that reaches for what is not its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -44,8 +44,9 @@ pub struct ListSettings<'c> {
     pub instance: Instance,
     /// Whether its cameras count; else they are access violations.
     pub camera: bool,
-    /// The part of the picture that it may ask for as its window; `None`: all. What it draws is not
-    /// cut to a part: bands confine it to lines, as they do all that is drawn.
+    /// The part of the picture that it may ask for as its window; `None`: all. In pipelines such as
+    /// [`Windowed`](crate::Windowed) what it draws is cut to it; in others it is not, and bands confine
+    /// it to lines, as they do all that is drawn.
     pub window: Option<Window>,
     /// How far texture places may be off where a block has PRSP; elsewhere [`Quality::Fast`].
     pub quality: Quality,
@@ -90,6 +91,8 @@ pub struct ListRunner<'m, 'c, C = i16, L = OneLight> {
     lights: L,
     material: Material,
     point_size: u8,
+    /// The window that it has asked for.
+    window: Option<Window>,
     /// The texture that the material names.
     texture: Option<Bound>,
     /// What was drawn has been shown: textures that it needed are no longer.
@@ -120,6 +123,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
             lights: L::default(),
             material: Material::default(),
             point_size: 1,
+            window: None,
             texture: None,
             shown: false,
             instance: settings.instance,
@@ -182,7 +186,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
             ..Material::default()
         };
         self.point_size = 1;
-        (self.texture, self.shown) = (None, false);
+        (self.texture, self.shown, self.window) = (None, false, None);
         TextureSlots(self.batch.textures()).clear();
         self.batch.overlays().clear();
         self.stale = true;
@@ -223,9 +227,33 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
     ///
     /// What an error stops at is named; what stands before it is drawn.
     ///
+    /// Where pipelines cut to windows, what it draws is cut to the window it asked for, or else to the
+    /// one that it was granted.
+    ///
     /// # Errors
     /// When a block is malformed. The list has stopped; a start begins it again.
+    #[inline]
     pub fn run<'w, P: Pipeline>(
+        &mut self,
+        words: impl Words<'w>,
+        scene: &mut Scene<'_, P>,
+        budget: &mut Budget,
+        events: &mut impl EventSink,
+    ) -> Result<Halt, ListError> {
+        let clip = scene.clip();
+        if MarkOf::<P>::CUTS {
+            let window = self.window.or(self.settings.window);
+            scene.set_clip(window.map_or(clip, Clip::Inside));
+        }
+        let done = self.run_blocks(words, scene, budget, events);
+        if MarkOf::<P>::CUTS {
+            scene.set_clip(clip);
+        }
+        done
+    }
+
+    /// The same, cut as the scene says.
+    fn run_blocks<'w, P: Pipeline>(
         &mut self,
         words: impl Words<'w>,
         scene: &mut Scene<'_, P>,
@@ -496,7 +524,10 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
                 {
                     return Ok(Step::Violation);
                 }
-                if window != all {
+                if MarkOf::<P>::CUTS {
+                    self.window = Some(window);
+                    scene.set_clip(Clip::Inside(window));
+                } else if window != all {
                     self.unimplemented(events);
                 }
             }
@@ -534,7 +565,10 @@ impl FrameStats {
         let spans = &self.spans;
         let seen = [
             (Event::PixelRendered, spans.pixels_shaded > 0),
-            (Event::Clipped, self.pass_one.clipped > 0),
+            (
+                Event::Clipped,
+                self.pass_one.clipped + self.pass_one.outside_window > 0,
+            ),
             (
                 Event::DepthPassed,
                 spans.depth_tests > 0 && spans.pixels_shaded > 0,

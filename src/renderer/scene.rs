@@ -1,14 +1,16 @@
 //! Pass one: meshes into the slow arena, each object under the first line it is on (K1, S3).
 
+use super::filing::Filing;
 use super::spans::scale;
 use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Coordinate, Cull, Dropped, Light, LightingModel, Mesh,
-    MeshError, Room, Screen, ScreenVertex, Sphere, Store, on_screen, triangles,
+    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Light, LightingModel,
+    Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Sphere, Store, on_screen,
+    triangles,
 };
 use crate::link::Link;
-use crate::pipeline::{DrawableOf, ObjectOf, Pipeline, SkinOf, VertexOf};
+use crate::pipeline::{DrawableOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
@@ -174,6 +176,9 @@ pub struct PassOne {
     pub triangles_skipped: u32,
     /// Vertices of these meshes: neither transformed nor lit.
     pub vertices_skipped: u32,
+    /// Triangles, or pieces of clipped ones, that have nothing in what a window keeps (H15). The
+    /// triangles are among the culled.
+    pub outside_window: u32,
 }
 
 /// A scene in memory: shared by any number of line renderers, read-only while they draw.
@@ -188,30 +193,11 @@ pub struct Scene<'m, P: Pipeline> {
     pass_one: PassOne,
     textures: P::Textures,
     lights: P::Lights,
+    /// The marks of what is drawn next.
+    clip: Clip,
+    priority: u8,
     /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
-}
-
-/// Where objects go.
-pub(super) struct Filing<'a, 'm, P: Pipeline> {
-    objects: &'a mut Arena<'m, ObjectOf<P>>,
-    buckets: &'a mut Buckets<'m>,
-}
-
-impl<P: Pipeline> Filing<'_, '_, P> {
-    /// Keeps an object under the line of guard space on which it is first seen; `false`: there is
-    /// no room.
-    #[inline(always)]
-    pub(super) fn file(&mut self, mut object: ObjectOf<P>, first: i32) -> bool {
-        if self.objects.free_below(usize::from(Link::CACHED)) == 0 {
-            return false;
-        }
-        let Some(chain) = self.buckets.file(self.objects.len() as u16, first) else {
-            return false;
-        };
-        object.chain(chain);
-        self.objects.push(object).is_some()
-    }
 }
 
 impl<'m, P: Pipeline> Scene<'m, P> {
@@ -231,6 +217,8 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             pass_one: PassOne::default(),
             textures: P::Textures::default(),
             lights: P::Lights::default(),
+            clip: Clip::Picture,
+            priority: 0,
             generation: 0,
         }
     }
@@ -274,6 +262,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.lines = lines;
         self.camera = Some(*camera);
         self.pass_one = PassOne::default();
+        (self.clip, self.priority) = (Clip::Picture, 0);
         self.generation = self.generation.wrapping_add(1);
         Ok(())
     }
@@ -288,6 +277,45 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// They stay until others are lent.
     pub fn set_lights(&mut self, lights: P::Lights) {
         self.lights = lights;
+    }
+
+    /// Cuts what is drawn from now on to the inside or the outside of a window (H15), in pipelines
+    /// that do so, such as [`Windowed`](crate::Windowed); others do not look at it.
+    /// [`begin`](Scene::begin) sets it back to the whole picture.
+    ///
+    /// Spans are cut, and what has nothing in the part that is kept is skipped, and counted in
+    /// [`PassOne::outside_window`]. What is cut to the outside may take up to four objects for a
+    /// triangle. Depth and colour are those of the whole triangle: the pixels that are kept have the same bits with
+    /// flat colours and by [`Forward`](crate::Forward). Methods that go along a span from where it
+    /// begins, such as packed ramps, keep their own bound: at most a step of a channel.
+    pub fn set_clip(&mut self, clip: Clip) {
+        self.clip = clip;
+    }
+
+    /// What is drawn now is cut to this.
+    #[must_use]
+    pub fn clip(&self) -> Clip {
+        self.clip
+    }
+
+    /// Gives what is drawn from now on a priority (P1), in pipelines that have them, such as
+    /// [`Prioritised`](crate::Prioritised); others do not look at it. [`begin`](Scene::begin) sets
+    /// it back to 0.
+    pub fn set_priority(&mut self, priority: Priority) {
+        self.priority = priority.0;
+    }
+
+    /// What is kept of the lines that were begun.
+    #[inline(always)]
+    fn parts(&self) -> <MarkOf<P> as Mark>::Parts {
+        let (left, top) = (self.screen.left(), self.screen.top());
+        let picture = Part {
+            left,
+            top: top + i32::from(self.lines.start),
+            right: left + i32::from(self.screen.width()),
+            bottom: top + i32::from(self.lines.end),
+        };
+        MarkOf::<P>::parts(self.clip, picture, (left, top))
     }
 
     /// What is lent.
@@ -350,7 +378,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
         self.assemble(instance, skin, |assembler, mut filing| {
-            assembler.mesh(mesh, |object, first| filing.file(object, first))
+            assembler.mesh(mesh, |object, first, all| filing.file(object, first, all))
         })
     }
 
@@ -370,7 +398,9 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
         self.assemble(instance, skin, |assembler, mut filing| {
-            assembler.points(mesh, size, |object, first| filing.file(object, first))
+            assembler.points(mesh, size, |object, first, all| {
+                filing.file(object, first, all)
+            })
         })
     }
 
@@ -389,9 +419,13 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         if self.camera.is_none() {
             return Ok(Assembled::default());
         }
+        let parts = self.parts();
         let mut filing = Filing::<P> {
             objects: &mut self.objects,
             buckets: &mut self.buckets,
+            parts,
+            priority: self.priority,
+            outside: &mut self.pass_one.outside_window,
         };
         let done = on_screen(
             &mut self.store,
@@ -399,7 +433,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             cull,
             (scale::<P>(), skin),
             (vertices, triangles),
-            |object, first| filing.file(object, first),
+            |object, first, all| filing.file(object, first, all),
         );
         self.count(done)
     }
@@ -415,6 +449,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             Filing<'_, 'm, P>,
         ) -> Result<Assembled, MeshError>,
     ) -> Result<Assembled, DrawError> {
+        let parts = self.parts();
         let Some(camera) = &self.camera else {
             return Ok(Assembled::default());
         };
@@ -430,6 +465,9 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         let filing = Filing {
             objects: &mut self.objects,
             buckets: &mut self.buckets,
+            parts,
+            priority: self.priority,
+            outside: &mut self.pass_one.outside_window,
         };
         let done = run(assembler, filing);
         self.count(done)

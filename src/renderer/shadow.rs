@@ -89,8 +89,8 @@ where
                     return Ok(Assembled::default());
                 }
                 Ok(
-                    assembler.near_cap(&extrusion, mesh, &sides, |object, first| {
-                        filing.file(object, first)
+                    assembler.near_cap(&extrusion, mesh, &sides, |object, first, vertices| {
+                        filing.file(object, first, vertices)
                     }),
                 )
             })

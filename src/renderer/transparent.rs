@@ -241,7 +241,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for Walk<'_, '_, '_, P> {
 }
 
 /// Sets slow objects up, so that those leave the list that end before the next line.
-struct Leave<'w, 'a, 's, P: Pipeline>(&'w mut LinePass<'a, 's, P>);
+pub(super) struct Leave<'w, 'a, 's, P: Pipeline>(pub(super) &'w mut LinePass<'a, 's, P>);
 
 impl<P: Pipeline> Visitor<DrawableOf<P>> for Leave<'_, '_, '_, P> {
     fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
@@ -386,7 +386,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
 
     /// Draws a span of an object by the rules of its finish.
     #[inline(never)]
-    fn draw_ruled(
+    pub(super) fn draw_ruled(
         &mut self,
         object: u16,
         body: &DrawableOf<P>,

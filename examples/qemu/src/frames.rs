@@ -9,12 +9,12 @@ use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
     Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, Lamplight, LineMemory,
     LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory,
-    draw_frame, send_frame,
+    draw_frame, draw_frame_indexed, send_frame,
 };
 use scenes::{
-    CRATE_TEXTURES, DrawsEffect, DrawsMethod, EFFECTS, Grainy, Lit, METHODS, SHOTS, STACKS, STRESS,
-    Shady, Shot, ShotError, Transparent, VARIANTS, Variant, build_crate, build_listed,
-    build_method, by_effect, by_method, method_screen,
+    CRATE_TEXTURES, Cropped, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, Lit, METHODS,
+    Numbered, Ranked, SHOTS, STACKS, STRESS, Shady, Shot, ShotError, Transparent, VARIANTS,
+    Variant, build_crate, build_listed, build_method, by_effect, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -254,6 +254,39 @@ impl DrawsEffect for SmallEffect<'_, '_> {
 
     fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
         draw_effect::<Grainy>(&mut self.rooms.grainy, (), self.pump, build);
+    }
+
+    fn numbered(
+        &mut self,
+        palettes: Dusk,
+        build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
+    ) {
+        let rooms = &mut self.rooms.numbered;
+        let mut scene = Scene::<Numbered>::new(
+            method_screen(),
+            SceneMemory {
+                vertices: rooms.vertices,
+                objects: rooms.objects,
+                buckets: rooms.buckets,
+            },
+        );
+        build(&mut scene).expect("the rooms are large enough");
+        let mut renderer = LineRenderer::<Numbered>::new(LineMemory {
+            slots: rooms.slots,
+            links: rooms.links,
+            depth: rooms.depth,
+        });
+        let by = (&mut self.rooms.indices[..], palettes);
+        draw_frame_indexed(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER, by)
+            .expect("the sink cannot fail and the rooms are large enough");
+    }
+
+    fn cropped(&mut self, build: impl Fn(&mut Scene<'_, Cropped>) -> Result<(), ShotError>) {
+        draw_effect::<Cropped>(&mut self.rooms.cropped, (), self.pump, build);
+    }
+
+    fn ranked(&mut self, build: impl Fn(&mut Scene<'_, Ranked>) -> Result<(), ShotError>) {
+        draw_effect::<Ranked>(&mut self.rooms.ranked, (), self.pump, build);
     }
 }
 

@@ -8,9 +8,9 @@ use scanbeam::{
     SceneMemory, SceneVertex, ShadowCell, SlotOf, VertexOf,
 };
 use scenes::{
-    CRATE_TABLE, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy, HEIGHT, LIST_INDICES,
-    LIST_TABLE, Lit, MOST_SLOTS, OBJECTS, SHEET_TRIANGLES, Shady, Sheet, SheetPipeline, Shot,
-    Transparent, VERTICES, WIDTH,
+    CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy, HEIGHT, LIST_INDICES,
+    LIST_TABLE, Lit, MOST_SLOTS, Numbered, OBJECTS, Ranked, SHEET_TRIANGLES, Shady, Sheet,
+    SheetPipeline, Shot, Transparent, VERTICES, WIDTH,
 };
 
 /// Slots of the object cache.
@@ -98,6 +98,11 @@ pub(crate) struct EffectRooms {
     pub(crate) shady: RoomsOf<Shady>,
     pub(crate) lit: RoomsOf<Lit<'static>>,
     pub(crate) grainy: RoomsOf<Grainy>,
+    pub(crate) numbered: RoomsOf<Numbered>,
+    /// A line of numbers.
+    pub(crate) indices: &'static mut [u8],
+    pub(crate) cropped: RoomsOf<Cropped>,
+    pub(crate) ranked: RoomsOf<Ranked>,
 }
 
 macro_rules! small_rooms_of {
@@ -183,6 +188,10 @@ impl Rooms {
                 shady: small_rooms_of!(Shady, ShadowCell::default()),
                 lit: small_rooms_of!(Lit<'static>, 0),
                 grainy: small_rooms_of!(Grainy, 0),
+                numbered: small_rooms_of!(Numbered, 0),
+                indices: lend!(".slow", u8, EFFECT_WIDTH as usize, 0),
+                cropped: small_rooms_of!(Cropped, 0),
+                ranked: small_rooms_of!(Ranked, ()),
             },
             second: RoomsOf {
                 vertices: &mut [],

@@ -1,14 +1,16 @@
 //! A small frame for each thing that goes beyond opaque matt surfaces, which must have the same
-//! bits everywhere: transparency, shadows, light at each pixel, dither.
+//! bits everywhere: transparency, shadows, light at each pixel, dither, palettes of lines, windows,
+//! priorities.
 
 use crate::{
     CUBE, METHOD_HEIGHT, METHOD_WIDTH, RIBBON, SPHERE, ShotError, build_method, method_screen,
 };
+use scanbeam::list::Window;
 use scanbeam::{
-    Affine, Blend, Camera, Composited, Cull, DirectionalLight, Dithered, Factor, Finish,
-    GouraudDepth, I2F14, Instance, Lamplight, Light, Lighting, Material, Mesh, PhongDepth,
-    Pipeline, PixelLamps, Rgb565, Rgb565Be, Scene, ShadowEdge, ShadowLight, ShadowMemory, Shadowed,
-    Surface, U1F15,
+    Affine, Blend, Camera, Clip, Composited, Cull, DirectionalLight, Dithered, Factor, Finish,
+    FlatDepth, GouraudDepth, I2F14, Index8, Instance, Lamplight, Light, Lighting, LinePalettes,
+    Material, Mesh, PhongDepth, Pipeline, PixelFormat, PixelLamps, Prioritised, Priority, Rgb565,
+    Rgb565Be, Scene, ShadowEdge, ShadowLight, ShadowMemory, Shadowed, Surface, U1F15, Windowed,
 };
 
 /// Pixels a line of such a frame.
@@ -19,11 +21,14 @@ pub const EFFECT_HEIGHT: u16 = METHOD_HEIGHT;
 pub const EFFECT_ROOM: usize = 2200;
 
 /// The frames by name, in the order of [`by_effect`].
-pub const EFFECTS: [&str; 4] = [
+pub const EFFECTS: [&str; 7] = [
     "effect_transparency",
     "effect_shadows",
     "effect_phong",
     "effect_dither",
+    "effect_palette",
+    "effect_window",
+    "effect_priority",
 ];
 
 /// Surfaces with a finish.
@@ -34,6 +39,13 @@ pub type Shady = Shadowed<GouraudDepth<Rgb565Be>>;
 pub type Lit<'l> = PhongDepth<'l, Rgb565Be>;
 /// Dithered colours.
 pub type Grainy = GouraudDepth<Dithered<Rgb565>>;
+
+/// Numbers of a palette.
+pub type Numbered = FlatDepth<Index8>;
+/// Surfaces that are cut to windows.
+pub type Cropped = Windowed<GouraudDepth<Rgb565Be>>;
+/// The same without depth, by priority.
+pub type Ranked = Prioritised<Cropped>;
 
 /// What draws a frame with any of these pipelines.
 pub trait DrawsEffect {
@@ -49,6 +61,16 @@ pub trait DrawsEffect {
     );
     /// Dither.
     fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>);
+    /// Numbers, by these palettes; all is 0 where nothing is.
+    fn numbered(
+        &mut self,
+        palettes: Dusk,
+        build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
+    );
+    /// Windows.
+    fn cropped(&mut self, build: impl Fn(&mut Scene<'_, Cropped>) -> Result<(), ShotError>);
+    /// Priorities.
+    fn ranked(&mut self, build: impl Fn(&mut Scene<'_, Ranked>) -> Result<(), ShotError>);
 }
 
 /// Has the frame of [`EFFECTS`] at `index` drawn; the last one for any index above.
@@ -73,7 +95,10 @@ pub fn by_effect(index: usize, to: &mut impl DrawsEffect) -> Result<(), ShotErro
             let lamps = lighting.map(|l| PixelLamps::new(&l, &camera, method_screen()));
             to.lit(Lamplight(lamps.as_slice()), phong);
         }
-        _ => to.grainy(build_method),
+        3 => to.grainy(build_method),
+        4 => to.numbered(Dusk::new(), palette),
+        5 => to.cropped(windows),
+        _ => to.ranked(priorities),
     }
     Ok(())
 }
@@ -224,5 +249,123 @@ fn phong<P: Pipeline>(scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
         ..Instance::default()
     };
     scene.draw(&RIBBON, &ribbon)?;
+    Ok(())
+}
+
+/// A ramp above the water and one below it, and a sky that changes from line to line.
+pub struct Dusk([[u16; 256]; 2]);
+
+impl Dusk {
+    fn new() -> Self {
+        let ramp = |[r, g, b]: [u16; 3]| {
+            core::array::from_fn(|i| {
+                let level = |full: u16| (i as u16 * full / 255) as u8;
+                Rgb565Be::from_rgb8([level(r), level(g), level(b)])
+            })
+        };
+        Self([ramp([255, 190, 110]), ramp([40, 150, 210])])
+    }
+}
+
+impl LinePalettes<u16, 256> for Dusk {
+    fn palette(&mut self, line: u16) -> &[u16; 256] {
+        let high = (4 * (EFFECT_HEIGHT - line.min(EFFECT_HEIGHT))) as u8;
+        let water = usize::from(line >= EFFECT_HEIGHT / 2);
+        let palette = &mut self.0[water];
+        palette[0] = match water {
+            0 => Rgb565Be::from_rgb8([240 - high / 2, 120, high]),
+            _ => Rgb565Be::from_rgb8([0, high / 2, 40 + high]),
+        };
+        palette
+    }
+}
+
+/// A ball and a cube of flat faces, whose light is a place on a ramp.
+fn palette(scene: &mut Scene<'_, Numbered>) -> Result<(), ShotError> {
+    scene.begin(&camera()?)?;
+    let lit = Instance {
+        model: at(0.7, [-0.5, 0.1, 0.0]),
+        light: Light::new([0.3, 0.8, 0.6], 0.3),
+        colour: Index8::colour(255),
+        ..Instance::default()
+    };
+    scene.draw(&SPHERE, &lit)?;
+    let cube = Mesh {
+        colours: &[],
+        ..CUBE
+    };
+    let turned = Instance {
+        model: Affine::rotation_y(0.6).then(&at(0.45, [0.9, -0.2, 0.3])),
+        ..lit
+    };
+    scene.draw(&cube, &turned)?;
+    Ok(())
+}
+
+const fn window(left: u16, top: u16, right: u16, bottom: u16) -> Window {
+    Window {
+        left,
+        top,
+        right,
+        bottom,
+    }
+}
+
+/// A ball with a hole, a ribbon in the hole and beyond, and a cube in a corner.
+fn windows(scene: &mut Scene<'_, Cropped>) -> Result<(), ShotError> {
+    scene.begin(&camera()?)?;
+    let lit = Instance {
+        light: Light::new([0.3, 0.8, 0.6], 0.3),
+        colour: [210, 120, 90],
+        ..Instance::default()
+    };
+    scene.set_clip(Clip::Outside(window(25, 14, 51, 37)));
+    scene.draw(&SPHERE, &lit)?;
+    scene.set_clip(Clip::Inside(window(17, 0, 73, 33)));
+    let open = Instance {
+        cull: Cull::None,
+        ..lit
+    };
+    scene.draw(&RIBBON, &open)?;
+    scene.set_clip(Clip::Inside(window(50, 31, 100, 100)));
+    let front = Instance {
+        model: Affine::rotation_y(0.6).then(&at(0.5, [0.6, -0.4, 0.9])),
+        ..lit
+    };
+    scene.draw(&CUBE, &front)?;
+    Ok(())
+}
+
+/// Four cubes and a ball, each drawn before what is behind it, partly in windows.
+fn priorities(scene: &mut Scene<'_, Ranked>) -> Result<(), ShotError> {
+    scene.begin(&camera()?)?;
+    let lit = Instance {
+        light: Light::new([0.3, 0.8, 0.6], 0.3),
+        colour: [90, 160, 220],
+        ..Instance::default()
+    };
+    for i in 0u8..4 {
+        let near = f32::from(3 - i);
+        scene.set_priority(Priority(200 - 7 * i));
+        scene.set_clip(match i {
+            1 => Clip::Inside(window(11, 7, 60, 44)),
+            2 => Clip::Outside(window(30, 20, 46, 39)),
+            _ => Clip::Picture,
+        });
+        let model = Affine::rotation_x(0.3 * near)
+            .then(&Affine::rotation_y(0.5 + near))
+            .then(&at(
+                0.35,
+                [0.45 * near - 0.8, 0.2 - 0.1 * near, 0.5 * near - 0.6],
+            ));
+        scene.draw(&CUBE, &Instance { model, ..lit })?;
+    }
+    scene.set_priority(Priority(3));
+    scene.set_clip(Clip::Picture);
+    let ball = Instance {
+        model: at(0.9, [0.0, 0.2, -1.5]),
+        ..lit
+    };
+    scene.draw(&SPHERE, &ball)?;
     Ok(())
 }

@@ -29,8 +29,8 @@ mod texels;
 mod textured;
 
 pub use effects::{
-    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit, Shady,
-    Transparent, by_effect,
+    Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
+    Numbered, Ranked, Shady, Transparent, by_effect,
 };
 pub use listed::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, LIST_INDICES, LIST_TABLE, ListedError, build_crate,

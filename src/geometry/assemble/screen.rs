@@ -8,6 +8,7 @@
 use super::super::camera::Screen;
 use super::super::colour::{Colour, Scale};
 use super::super::light::ModelLight;
+use super::super::marks::Mark;
 use super::super::mesh::{Coordinate, Faces, Mesh};
 use super::super::object::{Object, SceneVertex};
 use super::super::project::{DEPTH_MAX, DEPTH_MIN};
@@ -48,7 +49,7 @@ pub(crate) fn on_screen<S: Shading>(
     cull: Cull,
     (scale, skin): (&Scale, S::Skin<'_>),
     (vertices, faces): (&[ScreenVertex], &[[u16; 3]]),
-    mut file: impl FnMut(Object<S::Face>, i32) -> bool,
+    mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
 ) -> Result<Assembled, MeshError> {
     if !S::fits(&skin, vertices.len()) {
         return Err(MeshError::AttributeLength);
@@ -123,8 +124,14 @@ pub(crate) fn on_screen<S: Shading>(
             face = S::face(Colour::from_rgb8(v.colour, scale));
         }
         S::dress_face(&mut face, &skin);
-        if fits && file(Object::new(index, face), first) {
-            done.kept += 1;
+        let object = Object::new(index, face);
+        let filed = fits.then(|| file(object, first, arena.as_slice()));
+        if let Some(objects) = filed.flatten() {
+            done.kept += objects;
+            if objects == 0 {
+                done.culled += 1;
+                arena.truncate(before);
+            }
             continue;
         }
         arena.truncate(before);
@@ -150,7 +157,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
         mut self,
         mesh: &Mesh<'_, C>,
         size: u8,
-        mut file: impl FnMut(Object<S::Face>, i32) -> bool,
+        mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) -> Result<Assembled, MeshError> {
         let mesh = &Mesh {
             faces: Faces::Triangles(&[]),
@@ -213,7 +220,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
         (number, faces): (u32, &[[usize; 3]]),
         place: [(u16, u16); 4],
         (depth, attribute, face_colour): (u32, S::Vertex, S::Face),
-        file: &mut impl FnMut(Object<S::Face>, i32) -> bool,
+        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         let (before, kept) = (self.vertices.len(), self.done.kept);
         let mut index = [0; 4];
@@ -239,8 +246,12 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
             match self.first_line([place[a], place[b], place[c]]) {
                 Some(first) => {
                     let object = Object::new([index[a], index[b], index[c]], face_colour);
+                    let kept = self.done.kept;
                     self.keep(object, first, number, file);
-                    self.count_lost();
+                    let lost = self.count_lost();
+                    if S::Mark::CUTS && !lost && self.done.kept == kept {
+                        self.done.culled += 1;
+                    }
                 }
                 None => self.done.culled += 1,
             }

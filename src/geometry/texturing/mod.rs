@@ -280,6 +280,18 @@ impl<S: Shading, D: Detail> Shading for Textured<S, D> {
         face.texture = FaceTexture::new(skin);
     }
 
+    type Mark = S::Mark;
+
+    #[inline(always)]
+    fn mark(face: &Self::Face) -> S::Mark {
+        S::mark(&face.colour)
+    }
+
+    #[inline(always)]
+    fn set_mark(face: &mut Self::Face, mark: S::Mark) {
+        S::set_mark(&mut face.colour, mark);
+    }
+
     type Turn = S::Turn;
     const NORMALS: bool = S::NORMALS;
 
