@@ -2,6 +2,8 @@
 //!
 //! Each scene is drawn with every size of cache, with all accesses to slow memory counted; the
 //! memory model makes times of the counts. The pictures must be the same, or there is no report.
+//!
+//! Texture memory follows, for people: what a texture in blocks saves against one in rows (B5).
 
 use crate::args::CacheArgs;
 use crate::image_out::{write_atomically, write_image};
@@ -11,6 +13,7 @@ use crate::memory_model::{
 };
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::plot::{Chart, Marks, Series};
+use crate::texture_report::texture_table;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::scan_out::Pump;
 use scanbeam::{Counted, FrameStats, GouraudDepth, PixelFormat, Rgb565Be, SlotOf, draw_frame};
@@ -60,6 +63,10 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
         for memory in [DRAM_80, SRAM_12, QSPI_PSRAM, SDRAM, DTCM] {
             println!("{}: {}", memory.name, memory.source);
         }
+        println!(
+            "a texture of 256 x 256 x 16 bits, pages of 1 KB, a cache of 32 lines of 32 bytes:"
+        );
+        println!("{}", texture_table());
     }
     if let Some(folder) = &args.output {
         std::fs::create_dir_all(folder)

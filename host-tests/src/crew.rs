@@ -44,7 +44,7 @@ pub fn draw_frame<P, D>(
     lines_per_transfer: u16,
 ) -> Result<FrameStats, FrameError<<D as ErrorType>::Error>>
 where
-    P: Pipeline,
+    P: Pipeline<Textures: Sync>,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
 {
     if let [renderer] = renderers {

@@ -204,7 +204,7 @@ pub fn draw_model(
 ///
 /// # Errors
 /// See [`DrawFailure`].
-pub fn draw_as<P: Pipeline>(
+pub fn draw_as<P: Pipeline<Textures: Sync>>(
     prepared: &Prepared,
     view: &View,
     crew: CrewSettings,
@@ -213,7 +213,7 @@ pub fn draw_as<P: Pipeline>(
 }
 
 /// Draws a prepared model with the pipeline `P` and its textures.
-fn draw_with<P: Pipeline>(
+fn draw_with<P: Pipeline<Textures: Sync>>(
     prepared: &Prepared,
     view: &View,
     crew: CrewSettings,
@@ -232,7 +232,7 @@ fn draw_with<P: Pipeline>(
 }
 
 /// Draws the scenes that `build` makes, step by step, of a prepared model.
-fn draw_scenes<P: Pipeline>(
+fn draw_scenes<P: Pipeline<Textures: Sync>>(
     (prepared, setting, mut rooms): (&Prepared, &Setting, SceneRooms<P>),
     (view, crew): (&View, CrewSettings),
     (steps, build): (

@@ -15,13 +15,17 @@ use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
+use scanbeam::texture::{Size as TextureSize, Texture, Textured, Words, Wrap};
 use scanbeam::{
-    Counted, FlatDepth, FlatPainter, FrameStats, GouraudDepth, GouraudPainter, ListMemory,
-    ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene, draw_frame,
+    BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FlatPainter, FrameStats, Gouraud,
+    GouraudDepth, GouraudPainter, ListMemory, ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene,
+    TexturedDepth, Textures, draw_frame,
 };
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, HEIGHT, LIST_INDICES, LIST_TABLE, OBJECTS, SHOTS,
-    STACKS, STRESS, SWATCHES, Shot, VARIANTS, VERTICES, WIDTH, build_crate, build_listed,
+    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LIST_INDICES,
+    LIST_TABLE, LookB, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SWATCHES, SceneB,
+    Shot, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, VARIANTS, VERTICES, WIDTH, build_crate,
+    build_listed,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -218,6 +222,16 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     let build = |scene: &mut Scene<'_, _>| build_crate_list(scene, &slots);
     let (listed, _) = shown(Shot::Teapot, build, by_lines)?;
     frames.insert("crate_list", crc32fast::hash(&listed));
+    for (name, shot, keeps) in DEPTHS {
+        frames.insert(name, crc32fast::hash(&draw_keeping(shot, keeps)?));
+    }
+    for scene in SCENES_B {
+        frames.insert(scene.name, crc32fast::hash(&drawn_b::<LookB>(scene)?.0));
+    }
+    frames.insert(
+        SCENE_B_BLOCKS.name,
+        crc32fast::hash(&draw_rows_b(SCENE_B_BLOCKS)?),
+    );
     for variant in VARIANTS {
         // However it is drawn there, it is the shot that one renderer draws here.
         let plain = draw::<GouraudDepth<Rgb565Be>>(variant.shot)?;
@@ -248,6 +262,9 @@ pub fn host_counts() -> Result<BTreeMap<&'static str, FrameStats>, Box<dyn Error
         let drawn = drawn::<Counted<GouraudDepth<Rgb565Be>>>(shot)?;
         counts.insert(shot.name(), drawn.1);
     }
+    for scene in SCENES_B {
+        counts.insert(scene.name, drawn_b::<Counted<LookB>>(scene)?.1);
+    }
     Ok(counts)
 }
 
@@ -275,6 +292,72 @@ fn drawn<P: Pipeline<Pixel = Rgb565Be>>(
     shot: Shot,
 ) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>> {
     shown::<P, _>(shot, |scene| build(shot, scene), by_lines)
+}
+
+/// The bytes of a shot in scan-out order, with depth kept in another way on every line.
+///
+/// # Errors
+/// When a shot does not fit the arenas that it asks for.
+pub fn draw_keeping(shot: Shot, keeps: KeepsDepth) -> Result<Vec<u8>, Box<dyn Error>> {
+    match keeps {
+        KeepsDepth::BlockFix => draw_tested::<BlockFixed<GouraudDepth<Rgb565Be>>>(shot),
+        KeepsDepth::Deferred => draw_tested::<Deferred<GouraudDepth<Rgb565Be>>>(shot),
+    }
+}
+
+/// The bytes of a shot in scan-out order, with depth tested on every line.
+fn draw_tested<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+    let by_depth = |scene: &Scene<'_, P>, pump: &mut Display, background| {
+        let mut rooms = LineRooms::<P>::new(64, OBJECTS, WIDTH.into());
+        let mut renderer = rooms.renderer();
+        renderer.set_depth_use(DepthUse::Always);
+        draw_frame(scene, &mut renderer, pump, background, LINES)?;
+        Ok(())
+    };
+    Ok(shown::<P, _>(shot, |scene| build(shot, scene), by_depth)?.0)
+}
+
+/// The bytes of scene B in scan-out order, and what the frame had.
+///
+/// # Errors
+/// When it does not fit the arenas that it asks for.
+pub fn drawn_b<P>(how: SceneB) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>>
+where
+    P: Pipeline<
+            Pixel = Rgb565Be,
+            Shading = Textured<Gouraud>,
+            Textures = <LookB as Pipeline>::Textures,
+        >,
+{
+    textured_b::<P>(how, Textures(&TEXTURES_B))
+}
+
+/// Scene B with these textures, as [`drawn_b`] has it.
+///
+/// # Errors
+/// When it does not fit the arenas that it asks for.
+pub fn textured_b<P>(
+    how: SceneB,
+    textures: P::Textures,
+) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>>
+where
+    P: Pipeline<Pixel = Rgb565Be, Shading = Textured<Gouraud>>,
+{
+    let build = |scene: &mut Scene<'_, P>| {
+        scene.set_textures(textures);
+        how.build(scene)
+            .map_err(|error| format!("{}: {error:?}", how.name))?;
+        Ok(())
+    };
+    shown::<P, _>(Shot::Sphere, build, by_lines)
+}
+
+/// Scene B from a texture in rows, as it has to be from one in blocks, whatever its cache.
+fn draw_rows_b(how: SceneB) -> Result<Vec<u8>, Box<dyn Error>> {
+    type Rows<'t> = TexturedDepth<'t, Rgb565Be, Texture<Words<'t, u16>, Wrap>>;
+    let size = TextureSize::new(TEXEL_SIDE, TEXEL_SIDE)?;
+    let rows = [Texture::<_, Wrap>::new(Words(&TEXELS_PANEL[..]), size)?];
+    Ok(textured_b::<Rows<'_>>(how, Textures(&rows))?.0)
 }
 
 /// Draws all lines with one renderer.

@@ -326,7 +326,7 @@ fn renderers_and_scenes_may_cross_threads() {
 }
 
 /// A frame by `count` renderers on threads of their own and perhaps one on this.
-fn threaded<P: Pipeline>(
+fn threaded<P: Pipeline<Textures: Sync>>(
     scene: &Scene<'_, P>,
     (count, here): (u16, bool),
     (slots, budget, band): (usize, u32, u16),

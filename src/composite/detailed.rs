@@ -35,7 +35,7 @@ impl<T> Default for DetailedTextures<'_, T> {
 impl<F, T> TextureSource<F> for DetailedTextures<'_, T>
 where
     F: PixelFormat,
-    T: Texels<Texel: TexelOf<F>> + Sync,
+    T: Texels<Texel: TexelOf<F>>,
 {
     #[inline]
     fn fetches(&self, index: u16) -> u32 {

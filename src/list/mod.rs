@@ -103,7 +103,9 @@ pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
 pub use overlays::{OverlayRow, OverlaySlot, OverlaySlots};
 pub use reader::{Parsed, long_words, read_block};
 pub use strip::Strip;
-pub use texels::{Bound, NoTexture, Picture, Texels, TextureSlot, TextureSlots};
+pub use texels::{
+    Bound, Codes, Direct, Fields, NoTexture, Picture, Reading, Texels, TextureSlot, TextureSlots,
+};
 pub use vertex::{Layout, Place, Slot, colour, normal};
 pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};
 pub use writer::{FieldPacker, Form, ListWriter, WriteError, words_of_column};

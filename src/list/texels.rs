@@ -31,42 +31,101 @@ impl<'w> Texels<'w> {
     #[inline(always)]
     #[must_use]
     pub fn rgba(&self, index: u32) -> [u8; 4] {
-        let word = |n: u32| self.words.get(n as usize).map_or(0, |w| u32::from_le(*w));
-        let indexed = |log_bits: u32, mask: u32| {
-            let bit = index << log_bits;
-            let code = word(bit >> 5) >> (bit & 31) & mask;
-            let colour = self.colours.get(code as usize);
-            colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
-        };
-        // A field of some bits grows by repeating its top bits.
-        let grown = |v: u32, bits: u32| {
-            let v = (v & ((1 << bits) - 1)) << (8 - bits);
-            (v | v >> bits) as u8
-        };
-        match self.form {
-            TexelForm::Index1 => indexed(0, 1),
-            TexelForm::Index2 => indexed(1, 3),
-            TexelForm::Index4 => indexed(2, 15),
-            TexelForm::Index6 => indexed(3, 63),
-            TexelForm::Index8 => indexed(3, 255),
-            TexelForm::Rgb565 => {
-                let v = word(index >> 1) >> (16 * (index & 1));
-                [grown(v >> 11, 5), grown(v >> 5, 6), grown(v, 5), 255]
-            }
-            TexelForm::Rgb888 => {
-                let byte = index.wrapping_mul(3);
-                let shift = 8 * (byte & 3);
-                let low = word(byte >> 2) >> shift;
-                // The upper bytes of the next word, if they are needed; none by a shift of 32.
-                let high = u64::from(word((byte >> 2) + 1)) << (32 - shift);
-                let [r, g, b, _] = (low | high as u32).to_le_bytes();
-                [r, g, b, 255]
-            }
-            TexelForm::Rgba => {
-                let [r, g, b, a] = word(index).to_le_bytes();
-                [r, g, b, grown(u32::from(a), 7)]
-            }
+        match Codes::of(self.form) {
+            Some(codes) => codes.rgba(self, index),
+            None => match self.form {
+                TexelForm::Rgb565 => Fields.rgba(self, index),
+                form => Direct(form).rgba(self, index),
+            },
         }
+    }
+
+    #[inline(always)]
+    fn word(&self, n: u32) -> u32 {
+        self.words.get(n as usize).map_or(0, |w| u32::from_le(*w))
+    }
+}
+
+/// A field of some bits grows to 8 by repeating its top bits.
+#[inline(always)]
+fn grown(v: u32, bits: u32) -> u8 {
+    let v = (v & ((1 << bits) - 1)) << (8 - bits);
+    (v | v >> bits) as u8
+}
+
+/// How texels are read that have a form, so that it is asked for once and not at each texel.
+pub trait Reading: Copy {
+    /// As [`Texels::rgba`], of texels that have the form.
+    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4];
+}
+
+/// Texels of any indexed form.
+#[derive(Clone, Copy, Debug)]
+pub struct Codes {
+    log_bits: u32,
+    mask: u32,
+}
+
+impl Codes {
+    /// Of a form; `None` where it has no palette.
+    #[inline(always)]
+    #[must_use]
+    pub const fn of(form: TexelForm) -> Option<Self> {
+        let (log_bits, mask) = match form {
+            TexelForm::Index1 => (0, 1),
+            TexelForm::Index2 => (1, 3),
+            TexelForm::Index4 => (2, 15),
+            TexelForm::Index6 => (3, 63),
+            TexelForm::Index8 => (3, 255),
+            _ => return None,
+        };
+        Some(Self { log_bits, mask })
+    }
+}
+
+impl Reading for Codes {
+    #[inline(always)]
+    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4] {
+        let bit = index << self.log_bits;
+        let code = texels.word(bit >> 5) >> (bit & 31) & self.mask;
+        let colour = texels.colours.get(code as usize);
+        colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
+    }
+}
+
+/// Texels of [`TexelForm::Rgb565`].
+#[derive(Clone, Copy, Debug)]
+pub struct Fields;
+
+impl Reading for Fields {
+    #[inline(always)]
+    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4] {
+        let v = texels.word(index >> 1) >> (16 * (index & 1));
+        [grown(v >> 11, 5), grown(v >> 5, 6), grown(v, 5), 255]
+    }
+}
+
+/// Texels of 24 bits where it has [`TexelForm::Rgb888`], and of 32 bits otherwise.
+#[derive(Clone, Copy, Debug)]
+pub struct Direct(
+    /// The form.
+    pub TexelForm,
+);
+
+impl Reading for Direct {
+    #[inline(always)]
+    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4] {
+        if self.0 != TexelForm::Rgb888 {
+            let [r, g, b, a] = texels.word(index).to_le_bytes();
+            return [r, g, b, grown(u32::from(a), 7)];
+        }
+        let byte = index.wrapping_mul(3);
+        let shift = 8 * (byte & 3);
+        let low = texels.word(byte >> 2) >> shift;
+        // The upper bytes of the next word, if they are needed; none by a shift of 32.
+        let high = u64::from(texels.word((byte >> 2) + 1)) << (32 - shift);
+        let [r, g, b, _] = (low | high as u32).to_le_bytes();
+        [r, g, b, 255]
     }
 }
 
@@ -80,10 +139,18 @@ pub struct Picture<'w> {
 }
 
 impl Picture<'_> {
-    /// The texel at a column and row, which go on beyond the sides as the texture says.
+    /// The form of its texels.
     #[inline(always)]
     #[must_use]
-    pub fn at(&self, (column, row): (i32, i32)) -> [u8; 4] {
+    pub fn form(&self) -> TexelForm {
+        self.texels.form
+    }
+
+    /// The texel at a column and row, which go on beyond the sides as the texture says, read as its
+    /// form is.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, (column, row): (i32, i32), reading: impl Reading) -> [u8; 4] {
         let side = |v: i32, log: u32| {
             let last = (1 << log) - 1;
             if self.clamped {
@@ -93,7 +160,7 @@ impl Picture<'_> {
             }
         };
         let (x, y) = (side(column, self.log_width), side(row, self.log_height));
-        self.texels.rgba(y << self.log_width | x)
+        reading.rgba(&self.texels, y << self.log_width | x)
     }
 }
 

@@ -1,5 +1,6 @@
 //! The frames that this firmware draws, by name.
 
+use crate::choices::{draw_b, draw_b_cached, draw_seen};
 use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
@@ -7,14 +8,15 @@ use scanbeam::list::TextureSlot;
 use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
-    Crew, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation, Lamplight, LineMemory,
-    LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be, Scene, SceneMemory,
-    draw_frame, draw_frame_indexed, send_frame,
+    BlockFixed, Crew, Deferred, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation,
+    Lamplight, LineMemory, LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be,
+    Scene, SceneMemory, Textures, draw_frame, draw_frame_indexed, send_frame,
 };
 use scenes::{
-    CRATE_TEXTURES, Cropped, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, Lit, METHODS,
-    Numbered, Ranked, SHOTS, STACKS, STRESS, Shady, Shot, ShotError, Transparent, VARIANTS,
-    Variant, build_crate, build_listed, build_method, by_effect, by_method, method_screen,
+    CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
+    Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SceneB,
+    Shady, Shot, ShotError, TEXTURES_B, Transparent, VARIANTS, Variant, build_crate, build_listed,
+    build_method, by_effect, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -42,6 +44,12 @@ enum Way {
     Method(usize),
     /// A small frame of this effect of the scenes' table.
     Effect(usize),
+    /// With depth kept in another way.
+    Depth(KeepsDepth),
+    /// A way to draw scene B.
+    B(SceneB),
+    /// Scene B from blocks through a cache.
+    BlocksB,
 }
 
 /// One frame: how a shot is drawn.
@@ -54,7 +62,7 @@ pub(crate) struct Frame {
 
 /// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
 /// faces, one by the hardware model and two from baked lists, then what the cache and its
-/// renderers must not change, then the interpolation methods and effects.
+/// renderers must not change, then the interpolation methods and effects, other depths, and scene B.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
         name,
@@ -93,6 +101,9 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
                 .zip(EFFECTS)
                 .map(move |(index, name)| plain(name, Shot::Quads, Way::Effect(index))),
         )
+        .chain(DEPTHS.map(|(name, shot, keeps)| plain(name, shot, Way::Depth(keeps))))
+        .chain(SCENES_B.map(|scene| plain(scene.name, Shot::Sphere, Way::B(scene))))
+        .chain([plain(SCENE_B_BLOCKS.name, Shot::Sphere, Way::BlocksB)])
 }
 
 impl Frame {
@@ -123,6 +134,19 @@ impl Frame {
                 };
                 by_effect(index, &mut small).expect("cameras and lights can be made");
             }
+            Way::Depth(KeepsDepth::BlockFix) => {
+                let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.block_fix);
+                draw_seen::<BlockFixed<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
+            }
+            Way::Depth(KeepsDepth::Deferred) => {
+                let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.named);
+                draw_seen::<Deferred<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
+            }
+            Way::B(scene) => {
+                let (textures, rooms) = (Textures(&TEXTURES_B), &mut rooms.textured);
+                draw_b::<LookB, _>(scene, textures, rooms, &mut pump, LINES_PER_TRANSFER);
+            }
+            Way::BlocksB => draw_b_cached(rooms, &mut pump),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 let rooms = &mut rooms.smooth;
                 draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);

@@ -26,6 +26,7 @@ mod bench;
 mod bench_depth;
 #[cfg(feature = "bench")]
 mod bench_texture;
+mod choices;
 mod console;
 mod count;
 mod frames;

@@ -4,13 +4,14 @@ use crate::frames::{Faceted, LINES_PER_TRANSFER, Listed, Smooth};
 use crate::lend::lend;
 use crate::listed::Unpacked;
 use scanbeam::{
-    CellOf, LineMemory, LineRenderer, Link, ListMemory, Object, ObjectOf, Pipeline, Scene,
-    SceneMemory, SceneVertex, ShadowCell, SlotOf, VertexOf,
+    BlockFixed, CellOf, Deferred, LineDepth, LineMemory, LineRenderer, Link, ListMemory, Object,
+    ObjectOf, Pipeline, Scene, SceneMemory, SceneVertex, ShadowCell, SlotOf, VertexOf,
 };
 use scenes::{
-    CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy, HEIGHT, LIST_INDICES,
-    LIST_TABLE, Lit, MOST_SLOTS, Numbered, OBJECTS, Ranked, SHEET_TRIANGLES, Shady, Sheet,
-    SheetPipeline, Shot, Transparent, VERTICES, WIDTH,
+    BLOCK_TEXELS_B, CACHE_SLOTS_B, CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
+    Grainy, HEIGHT, LIST_INDICES, LIST_TABLE, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,
+    Ranked, SHEET_TRIANGLES, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL, Transparent,
+    VERTICES, VERTICES_B, WIDTH,
 };
 
 /// Slots of the object cache.
@@ -59,6 +60,16 @@ pub(crate) struct Rooms {
     pub(crate) faceted: RoomsOf<Faceted>,
     /// For a textured list; all in external RAM.
     pub(crate) listed: RoomsOf<Listed>,
+    /// For scene B; all in external RAM.
+    pub(crate) textured: RoomsOf<LookB>,
+    /// For scene B in blocks: its texels, in external RAM, and the cache through which they are
+    /// read, tags and texels.
+    pub(crate) blocks: &'static mut [u16],
+    pub(crate) tags: &'static mut [u32],
+    pub(crate) cached: &'static mut [u16],
+    /// Depth of a line in 16 bits, and with names: external RAM.
+    pub(crate) block_fix: &'static mut [CellOf<BlockFixed<Smooth>>],
+    pub(crate) named: &'static mut [CellOf<Deferred<Smooth>>],
     /// Depth and colour of two lines each, for the hardware model: external RAM.
     pub(crate) model: [&'static mut [u64]; 4],
     /// What comparisons take beyond what one renderer needs: a cache for everything and a second
@@ -148,6 +159,34 @@ impl Rooms {
                 ),
                 depth: lend!(".slow", CellOf<Listed>, WIDTH as usize, 0),
             },
+            textured: RoomsOf {
+                vertices: lend!(".slow", VertexOf<LookB>, VERTICES_B, SceneVertex::empty()),
+                objects: lend!(".slow", ObjectOf<LookB>, OBJECTS_B, Object::default()),
+                buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
+                links: lend!(".slow", Link, OBJECTS_B, Link::NONE),
+                slots: lend!(
+                    ".slow",
+                    SlotOf<LookB>,
+                    SLOTS,
+                    LineRenderer::<LookB>::empty_slot()
+                ),
+                depth: lend!(".slow", CellOf<LookB>, WIDTH as usize, 0),
+            },
+            blocks: lend!(".slow", u16, TEXELS_PANEL.len(), 0),
+            tags: lend!(".fast", u32, CACHE_SLOTS_B, 0),
+            cached: lend!(".fast", u16, CACHE_SLOTS_B * BLOCK_TEXELS_B, 0),
+            block_fix: lend!(
+                ".slow",
+                CellOf<BlockFixed<Smooth>>,
+                WIDTH as usize,
+                <BlockFixed<Smooth> as Pipeline>::Depth::FARTHEST
+            ),
+            named: lend!(
+                ".slow",
+                CellOf<Deferred<Smooth>>,
+                WIDTH as usize,
+                <Deferred<Smooth> as Pipeline>::Depth::FARTHEST
+            ),
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),

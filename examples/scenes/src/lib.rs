@@ -22,6 +22,7 @@ mod effects;
 mod listed;
 mod methods;
 mod octasphere;
+mod scene_b;
 mod sheet;
 mod shots;
 mod stress;
@@ -40,10 +41,14 @@ pub use methods::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };
 pub use octasphere::{OCTASPHERES, Octasphere};
+pub use scene_b::{
+    BLOCK_TEXELS_B, BLOCKS_B, CACHE_SLOTS_B, CachedB, CachedLookB, LookB, OBJECTS_B,
+    SCENE_B_BLOCKS, SCENES_B, SceneB, TEXELS_PANEL, TEXTURES_B, VERTICES_B,
+};
 pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
 pub use shots::{
-    HEIGHT, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS, Shot, ShotError,
-    VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
+    DEPTHS, HEIGHT, KeepsDepth, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS,
+    Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
 };
 pub use stress::STRESS;
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};

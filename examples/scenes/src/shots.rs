@@ -128,6 +128,24 @@ pub const SHOTS: [Shot; 5] = [
     Shot::Inside,
 ];
 
+/// How depth is kept where it is not 32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeepsDepth {
+    /// In 16 bits of block-fix (H2).
+    BlockFix,
+    /// With the name of the object, whose pixels are shaded when all are known (X3).
+    Deferred,
+}
+
+/// Shots that are drawn with other depths, on every line, by the name that reports use.
+pub const DEPTHS: [(&str, Shot, KeepsDepth); 4] = [
+    ("quads_block_fix", Shot::Quads, KeepsDepth::BlockFix),
+    // Its layers lie in two ranges.
+    ("c_block_fix", Shot::FarToNear, KeepsDepth::BlockFix),
+    ("teapot_deferred", Shot::Teapot, KeepsDepth::Deferred),
+    ("c_deferred", Shot::FarToNear, KeepsDepth::Deferred),
+];
+
 /// Why a shot could not be built; none of them fails where the arenas are as large as said here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShotError {
@@ -195,6 +213,13 @@ impl Shot {
         }
     }
 
+    /// The camera and the light of scene A, which scene B has too.
+    pub(crate) fn sphere_camera() -> Result<(Camera, Option<Light>), ShotError> {
+        let (eye, up) = ([0.0, 0.0, 3.94], [0.0, 1.0, 0.0]);
+        let camera = Camera::look_at(eye, [0.0; 3], up, 320.0, 0.1, 100.0)?;
+        Ok((camera, Light::new([0.5, 0.7, 0.8], 0.15)))
+    }
+
     /// Draws the shot into `scene`, whose screen must be [`screen`](Shot::screen).
     ///
     /// # Errors
@@ -215,9 +240,10 @@ impl Shot {
                 scene.draw(&CUBE, &lit(Affine::rotation_y(0.3)))?;
             }
             Self::Sphere => {
-                scene.begin(&looking([0.0, 0.0, 3.94], 320.0, 0.1)?)?;
+                let (camera, light) = Self::sphere_camera()?;
+                scene.begin(&camera)?;
                 let instance = Instance {
-                    light: Light::new([0.5, 0.7, 0.8], 0.15),
+                    light,
                     ..Instance::default()
                 };
                 scene.draw(&SPHERE, &instance)?;

@@ -359,7 +359,7 @@ impl Task<'_> {
     ) -> Result<Drawn, DrawFailure>
     where
         S: Shading,
-        P: Pipeline<Shading = Blended<S>>,
+        P: Pipeline<Shading = Blended<S>, Textures: Sync>,
         D: Dress<P>,
     {
         let setting = Setting::new(self.prepared, self.view)?;

@@ -197,7 +197,7 @@ fn by<D, X>(
 ) -> Result<Drawn, DrawFailure>
 where
     D: Detail,
-    X: TextureSource<Rgb888> + TextureSource<Rgb565Be>,
+    X: TextureSource<Rgb888> + TextureSource<Rgb565Be> + Sync,
 {
     match (view.shade, format) {
         (Shade::Flat, PixelFormatArg::Rgb888) => {
@@ -225,7 +225,7 @@ fn by_shading<S, F, X>(
 where
     S: Shading<Levels: scanbeam::Levels>,
     F: PixelFormat,
-    X: TextureSource<F>,
+    X: TextureSource<F> + Sync,
 {
     draw_with::<Counted<Parts<S, Depth32, F, (), Packed8, X>>>(prepared, view, crew, textures)
 }

@@ -2,7 +2,43 @@
 //!
 //! One slot for each residue of a block's number, so a hit test is one comparison. Texels of a
 //! blocked layout are read through it as from any [`Store`]; what it costs is counted, and the
-//! picture does not depend on it.
+//! picture does not depend on it. Neighbours mostly lie in one block: a run keeps the slot of the
+//! last texel at hand, and adds up its reads at its end.
+//!
+//! Scene B of the firmware without light takes 4.92 million instructions on a Cortex-M4 through 32
+//! blocks of 32 bytes, 3.48 from a square of 128 texels a side in one piece.
+//!
+//! A pipeline reads its textures through a cache where their store is one:
+//!
+//! ```
+//! use scanbeam::texture::{BlockCache, Blocked, CacheReads, Size, Texture, Words, Wrap};
+//! use scanbeam::{Pipeline, Rgb565Be, Textures, TexturedDepth};
+//!
+//! type Cached<'t> = Texture<BlockCache<'t, Words<'t, u16>>, Wrap, Blocked>;
+//! type Look<'t> = TexturedDepth<'t, Rgb565Be, Cached<'t>>;
+//!
+//! // 64 x 64 texels in slow memory, in blocks of 32 bytes; 8 of them fit the cache.
+//! let size = Size::new(64, 64).unwrap();
+//! let layout = Blocked::of_page(32, 16);
+//! let slow = [0u16; 64 * 64];
+//! let (mut tags, mut texels) = ([0; 8], [0; 8 * 16]);
+//! let mut reads = CacheReads::default();
+//! let cache = BlockCache::new(Words(&slow[..]), 16, &mut tags, &mut texels, &mut reads).unwrap();
+//! let textures = [Cached::arranged(cache, size, layout).unwrap()];
+//! // For `Scene::<Look>::set_textures`; `cache.reads()` tells what was read.
+//! let lent: <Look<'_> as Pipeline>::Textures = Textures(&textures);
+//! ```
+//!
+//! One core alone may read through a cache, so a scene of such textures cannot be shared:
+//!
+//! ```compile_fail,E0277
+//! use scanbeam::texture::{BlockCache, Blocked, Texture, Words, Wrap};
+//! use scanbeam::{Rgb565Be, Scene, TexturedDepth};
+//!
+//! type Cached<'t> = Texture<BlockCache<'t, Words<'t, u16>>, Wrap, Blocked>;
+//! fn shared<T: Sync>() {}
+//! shared::<Scene<'static, TexturedDepth<'static, Rgb565Be, Cached<'static>>>>();
+//! ```
 
 use super::tlut::Store;
 use core::cell::Cell;
@@ -44,14 +80,19 @@ impl core::fmt::Display for CacheError {
 
 impl core::error::Error for CacheError {}
 
-/// What a cache has done.
+/// What a cache has done; each count goes on from 0 after 2^32.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CacheReads {
     /// Texels asked for.
     pub reads: u32,
+    /// Texels asked for of another block than the one before them. Where a block is a page of
+    /// memory, so often the page would change without a cache.
+    pub page_changes: u32,
     /// Blocks that were copied from slow memory.
     pub misses: u32,
+    /// The block that was read last, and 1; 0 before the first.
+    last: u32,
 }
 
 /// No block.
@@ -116,20 +157,112 @@ impl<'m, S: Store> BlockCache<'m, S> {
         self.reads.get()
     }
 
-    #[cold]
+    /// The number of the block that holds a texel, below [`NONE`].
+    #[inline(always)]
+    fn block(&self, index: usize) -> u32 {
+        (index >> self.log_block) as u32
+    }
+
+    /// The slot of a block.
+    #[inline(always)]
+    fn slot(&self, block: u32) -> usize {
+        block as usize & (self.tags.len() - 1)
+    }
+
+    /// The index of a texel within its block.
+    #[inline(always)]
+    fn inside(&self, index: usize) -> usize {
+        index & ((1 << self.log_block) - 1)
+    }
+
+    /// The index of a texel. A store of 2^n texels wraps; block numbers must not differ for the
+    /// same texel.
+    #[inline(always)]
+    fn wrapped(&self, index: usize) -> usize {
+        index & self.slow.count().wrapping_sub(1)
+    }
+
+    /// Tag and texels of the slot that a block belongs to.
+    #[inline(always)]
+    fn at(&self, block: u32) -> (&'m Cell<u32>, &'m [Cell<S::Texel>]) {
+        let slot = self.slot(block);
+        let from = slot << self.log_block;
+        let texels = self.texels.get(from..from + (1 << self.log_block));
+        (&self.tags[slot], texels.unwrap_or_default())
+    }
+
+    /// Goes on to another block than that of the read before, copied if it is not here; its tag
+    /// and texels.
     #[inline(never)]
-    fn load(&self, block: usize, slot: usize) {
-        let (from, to) = (block << self.log_block, slot << self.log_block);
-        for i in 0..1 << self.log_block {
-            if let Some(texel) = self.texels.get(to + i) {
-                texel.set(self.slow.fetch(from + i));
+    fn turn(&self, block: u32) -> (&'m Cell<u32>, &'m [Cell<S::Texel>]) {
+        let (tag, texels) = self.at(block);
+        let mut reads = self.reads.get();
+        reads.page_changes = reads.page_changes.wrapping_add(1);
+        reads.last = block.wrapping_add(1);
+        if tag.get() != block {
+            reads.misses = reads.misses.wrapping_add(1);
+            tag.set(block);
+            let from = (block as usize) << self.log_block;
+            for (index, texel) in (from..).zip(texels) {
+                texel.set(self.slow.fetch(index));
             }
         }
+        self.reads.set(reads);
+        (tag, texels)
+    }
+}
+
+/// The reads of a run: the slot of the last one is at hand.
+struct Run<'c, 'm, S: Store> {
+    cache: &'c BlockCache<'m, S>,
+    tag: &'m Cell<u32>,
+    /// The block of the tag.
+    texels: &'m [Cell<S::Texel>],
+    reads: u32,
+}
+
+impl<'c, 'm, S: Store> Run<'c, 'm, S> {
+    #[inline(always)]
+    fn new(cache: &'c BlockCache<'m, S>) -> Self {
+        // Before the first read all slots are empty, and none is taken for that of a block.
+        let (tag, texels) = cache.at(cache.reads.get().last.wrapping_sub(1));
+        Self {
+            cache,
+            tag,
+            texels,
+            reads: 0,
+        }
+    }
+
+    /// The texel at an index. The tag is looked at each time, as somebody else may have read through
+    /// the same cache meanwhile.
+    #[inline(always)]
+    fn read(&mut self, index: usize) -> S::Texel {
+        let index = self.cache.wrapped(index);
+        let block = self.cache.block(index);
+        if self.tag.get() != block {
+            (self.tag, self.texels) = self.cache.turn(block);
+        }
+        self.reads = self.reads.wrapping_add(1);
+        match self.texels.get(self.cache.inside(index)) {
+            Some(texel) => texel.get(),
+            None => self.cache.slow.fetch(index),
+        }
+    }
+}
+
+impl<S: Store> Drop for Run<'_, '_, S> {
+    #[inline(always)]
+    fn drop(&mut self) {
+        let mut reads = self.cache.reads.get();
+        reads.reads = reads.reads.wrapping_add(self.reads);
+        self.cache.reads.set(reads);
     }
 }
 
 impl<S: Store> Store for BlockCache<'_, S> {
     type Texel = S::Texel;
+    const LONG: bool = true;
 
     fn count(&self) -> usize {
         self.slow.count()
@@ -137,23 +270,26 @@ impl<S: Store> Store for BlockCache<'_, S> {
 
     #[inline(always)]
     fn fetch(&self, index: usize) -> S::Texel {
-        // A store of 2^n texels wraps; block numbers must not differ for the same texel.
-        let index = index & self.slow.count().wrapping_sub(1);
-        let block = index >> self.log_block;
-        let slot = block & (self.tags.len() - 1);
-        let mut reads = self.reads.get();
-        reads.reads += 1;
-        if let Some(tag) = self.tags.get(slot).filter(|tag| tag.get() != block as u32) {
-            reads.misses += 1;
-            tag.set(block as u32);
-            self.load(block, slot);
+        let index = self.wrapped(index);
+        let block = self.block(index);
+        // The block that was read last is in its slot.
+        if self.reads.get().last != block.wrapping_add(1) {
+            self.turn(block);
         }
+        let mut reads = self.reads.get();
+        reads.reads = reads.reads.wrapping_add(1);
         self.reads.set(reads);
-        let inside = index & ((1 << self.log_block) - 1);
-        match self.texels.get(slot << self.log_block | inside) {
+        let at = self.slot(block) << self.log_block | self.inside(index);
+        match self.texels.get(at) {
             Some(texel) => texel.get(),
             None => self.slow.fetch(index),
         }
+    }
+
+    #[inline(always)]
+    fn reader(&self) -> impl FnMut(usize) -> S::Texel {
+        let mut run = Run::new(self);
+        move |index| run.read(index)
     }
 
     fn fetch_in<const N: usize>(&self) -> Option<impl Fn(usize) -> S::Texel + Copy> {
@@ -192,6 +328,8 @@ mod tests {
             }
             let done = cache.reads();
             assert_eq!(done.reads, 5_000);
+            // 128 blocks, at random: some 127 of 128 reads go to another one.
+            assert!((4_900..5_000).contains(&done.page_changes), "{done:?}");
             if slots == 128 {
                 assert_eq!(done.misses, 128, "each block once");
             } else {

@@ -59,6 +59,10 @@ pub trait Texels {
     /// What is found at a place: a word of the display, an expanded [`Texel`], a level.
     type Texel: Copy;
 
+    /// Whether a texel takes so long that the loop along a run is there once, for all ways along a
+    /// span.
+    const LONG: bool = false;
+
     /// The colour at a place.
     fn at(&self, place: Uv) -> Self::Texel;
 
@@ -75,6 +79,24 @@ pub trait Texels {
     /// texel, and the places are the same whatever is seen.
     #[inline(always)]
     fn along<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        mut each: impl FnMut(&mut W, Option<Self::Texel>),
+    ) {
+        let mut place = from;
+        visible.each(pixels, |pixel, shown| {
+            each(pixel, shown.then(|| self.at(place)));
+            place = place.plus(step);
+        });
+    }
+
+    /// [`along`](Self::along) for an `each` that takes long: with one loop, in which that is there
+    /// once.
+    #[inline(always)]
+    fn singly<W>(
         &self,
         pixels: &mut [W],
         from: Uv,
@@ -108,6 +130,7 @@ pub trait Texels {
 
 impl<T: Texels + ?Sized> Texels for &T {
     type Texel = T::Texel;
+    const LONG: bool = T::LONG;
 
     #[inline(always)]
     fn at(&self, place: Uv) -> T::Texel {
@@ -129,5 +152,17 @@ impl<T: Texels + ?Sized> Texels for &T {
         each: impl FnMut(&mut W, Option<T::Texel>),
     ) {
         (**self).along(pixels, from, step, visible, each);
+    }
+
+    #[inline(always)]
+    fn singly<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        each: impl FnMut(&mut W, Option<T::Texel>),
+    ) {
+        (**self).singly(pixels, from, step, visible, each);
     }
 }

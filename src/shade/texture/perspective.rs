@@ -136,7 +136,7 @@ impl PerspectiveSpan {
     pub fn exact<W>(self, pixels: &mut [W], paint: &mut impl PaintRun<W>) {
         let mut at = self.at;
         for pixel in pixels {
-            paint.run(core::slice::from_mut(pixel), at.place(), Uv::default());
+            paint.one(pixel, at.place());
             at = at.plus(self.step);
         }
     }
@@ -194,6 +194,12 @@ impl PerspectiveSpan {
 pub trait PaintRun<W> {
     /// The next pixels of the span: the first at `from` on the texture, the next a `step` further.
     fn run(&mut self, pixels: &mut [W], from: Uv, step: Uv);
+
+    /// The next pixel of the span alone.
+    #[inline(always)]
+    fn one(&mut self, pixel: &mut W, at: Uv) {
+        self.run(core::slice::from_mut(pixel), at, Uv::default());
+    }
 }
 
 /// Every pixel gets its texel.

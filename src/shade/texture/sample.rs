@@ -247,6 +247,7 @@ impl<S: Store> Texture<S> {
 
 impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
     type Texel = S::Texel;
+    const LONG: bool = S::LONG;
 
     #[inline(always)]
     fn at(&self, place: Uv) -> S::Texel {
@@ -264,11 +265,24 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
     ) {
         // A copy that nothing else can see stays in registers whatever is written meanwhile.
         let texture = *self;
+        let mut fetch = texture.store.reader();
         let mut place = from;
         visible.each(pixels, |pixel, shown| {
-            each(pixel, shown.then(|| texture.at(place)));
+            each(pixel, shown.then(|| fetch(texture.index(place.texel()))));
             place = place.plus(step);
         });
+    }
+
+    #[inline(always)]
+    fn singly<W>(
+        &self,
+        pixels: &mut [W],
+        from: Uv,
+        step: Uv,
+        visible: &mut impl Visible,
+        each: impl FnMut(&mut W, Option<S::Texel>),
+    ) {
+        self.along(pixels, from, step, visible, each);
     }
 }
 

@@ -11,12 +11,23 @@ pub trait Store: Copy {
     /// A texel as it is stored, or as its table has it.
     type Texel: Copy;
 
+    /// Whether a texel takes long: see [`Texels::LONG`](super::Texels::LONG).
+    const LONG: bool = false;
+
     /// How many texels there are.
     fn count(&self) -> usize;
 
     /// The texel at an index below [`count`](Store::count), which is a power of two; at other
     /// indices, any texel.
     fn fetch(&self, index: usize) -> Self::Texel;
+
+    /// [`fetch`](Store::fetch) for the texels of a run, one after the other: a store that keeps
+    /// something may remember where it found the last one.
+    #[inline(always)]
+    fn reader(&self) -> impl FnMut(usize) -> Self::Texel {
+        let store = *self;
+        move |index| store.fetch(index)
+    }
 
     /// [`fetch`](Store::fetch) for a store of exactly `N` texels, a power of two, which needs no
     /// length at run time; `None` where there are not as many, or the form has no such way.

@@ -4,6 +4,7 @@
 //! that [`draw_frame`](scanbeam::draw_frame) does for it: clear, draw, hand on. Frames are drawn
 //! again from other places of a tick, so that a line is exact to about 5 instructions, not to 40.
 
+use crate::choices::draw_b;
 use crate::console::Console;
 use crate::count::{Counter, INSTRUCTIONS_PER_TICK, PHASES};
 use crate::frames::{Smooth, draw_as};
@@ -11,8 +12,9 @@ use crate::rooms::{Rooms, SLOTS};
 use core::convert::Infallible;
 use core::fmt;
 use core::task::Poll;
+use scanbeam::Textures;
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
-use scenes::{HEIGHT, STACKS, Shot, Variant};
+use scenes::{HEIGHT, LookB, SCENES_B, STACKS, Shot, TEXTURES_B, Variant};
 
 /// Lines of a row that is printed.
 const ROW: usize = 16;
@@ -21,42 +23,55 @@ const ROW: usize = 16;
 pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     let shots = [Shot::Sphere, Shot::Teapot, Shot::Cube];
     for shot in shots.into_iter().chain(STACKS) {
-        let mut sink = Clocked::new(counter);
-        for phase in 0..PHASES {
-            sink = frame(sink, phase, shot, rooms);
-        }
-        let scale = |ticks: u32| u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES);
-        let pass_one = scale(sink.pass_one);
-        for (row, costs) in sink.lines.chunks(ROW).enumerate() {
-            console.line(format_args!(
-                "lines scene={} pass_one={pass_one} first={} costs={}",
-                shot.name(),
-                row * ROW,
-                Listed(costs, scale)
-            ));
-        }
+        let how = Variant {
+            name: shot.name(),
+            shot,
+            slots: SLOTS,
+            renderers: 1,
+            prefetch: 0,
+        };
+        measure(shot.name(), counter, console, rooms, |rooms, pump| {
+            draw_as::<Smooth, _>(&how, &mut rooms.smooth, pump, 1);
+        });
+    }
+    for scene in SCENES_B {
+        measure(scene.name, counter, console, rooms, |rooms, pump| {
+            let textures = Textures(&TEXTURES_B[..]);
+            draw_b::<LookB, _>(scene, textures, &mut rooms.textured, pump, 1);
+        });
     }
 }
 
-/// Draws a frame of the shot into the sink.
-fn frame<'c>(mut sink: Clocked<'c>, phase: u32, shot: Shot, rooms: &mut Rooms) -> Clocked<'c> {
-    let how = Variant {
-        name: shot.name(),
-        shot,
-        slots: SLOTS,
-        renderers: 1,
-        prefetch: 0,
-    };
-    let buffers = rooms.lines.take().expect("the last frame gave them back");
-    sink.counter.wait(phase);
-    sink.last = sink.counter.ticks();
-    let mut pump = Pump::new(sink, buffers);
-    draw_as::<Smooth, _>(&how, &mut rooms.smooth, &mut pump, 1);
-    let (sink, lines) = pump.release();
-    if let [Some(a), Some(b)] = lines {
-        rooms.lines = Some([a, b]);
+/// Measures a scene that `draw` draws, and prints it.
+fn measure<'c>(
+    name: &str,
+    counter: &'c Counter,
+    console: &mut Console,
+    rooms: &mut Rooms,
+    draw: impl Fn(&mut Rooms, &mut Pump<Clocked<'c>>),
+) {
+    let mut sink = Clocked::new(counter);
+    for phase in 0..PHASES {
+        let buffers = rooms.lines.take().expect("the last frame gave them back");
+        counter.wait(phase);
+        sink.last = counter.ticks();
+        let mut pump = Pump::new(sink, buffers);
+        draw(rooms, &mut pump);
+        let lines;
+        (sink, lines) = pump.release();
+        if let [Some(a), Some(b)] = lines {
+            rooms.lines = Some([a, b]);
+        }
     }
-    sink
+    let scale = |ticks: u32| u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES);
+    let pass_one = scale(sink.pass_one);
+    for (row, costs) in sink.lines.chunks(ROW).enumerate() {
+        console.line(format_args!(
+            "lines scene={name} pass_one={pass_one} first={} costs={}",
+            row * ROW,
+            Listed(costs, scale)
+        ));
+    }
 }
 
 /// Numbers with commas between them.
