@@ -2,7 +2,6 @@
 //! picture is that of the same texture in rows, and the counts are those of a model that follows
 //! every read.
 
-
 use host_tests::firmware_report::textured_b;
 use scanbeam::texture::{BlockCache, Blocked, CacheReads, Size, Store, Texture, Words, Wrap};
 use scanbeam::{Counted, Rgb565Be, TexturedDepth, Textures};
