@@ -1,20 +1,26 @@
 //! The small frame of each effect, as this machine draws it.
 
+use crate::image_out::Frame;
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::MethodFrame;
 use crate::mock::{HostLine, MockFrameBuffer};
 use scanbeam::scan_out::Pump;
-use scanbeam::{Lamplight, Pipeline, Scene, WordOf, draw_frame, draw_frame_indexed};
+use scanbeam::{
+    Lamplight, Pipeline, PixelFormat, Rgb565Be, Scene, WordOf, draw_frame, draw_frame_indexed,
+};
 use scenes::{
     Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
     Numbered, Ranked, Shady, ShotError, Transparent, by_effect, method_screen,
 };
 use std::error::Error;
 
-/// A frame's words, once it is drawn with so many slots.
+/// The words of a frame, and its colours in rows, 3 bytes a pixel.
+type Picture = (Vec<u16>, Vec<u8>);
+
+/// A frame, once it is drawn with so many slots.
 struct Words {
     slots: usize,
-    drawn: Option<Result<Vec<u16>, Box<dyn Error>>>,
+    drawn: Option<Result<Picture, Box<dyn Error>>>,
 }
 
 impl Words {
@@ -74,7 +80,7 @@ fn words<P: Pipeline>(
     slots: usize,
     lights: P::Lights,
     build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
-) -> Result<Vec<u16>, Box<dyn Error>>
+) -> Result<Picture, Box<dyn Error>>
 where
     WordOf<P>: Into<u16>,
 {
@@ -89,7 +95,12 @@ where
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = WordOf::<P>::default();
     draw_frame(&scene, &mut renderer, &mut pump, background, 1)?;
-    Ok(pump.sink().frame()?.into_iter().map(Into::into).collect())
+    let words = pump.sink().frame()?;
+    let rgb = words.iter().flat_map(|&word| P::Pixel::to_rgb8(word));
+    Ok((
+        words.iter().map(|&word| word.into()).collect(),
+        rgb.collect(),
+    ))
 }
 
 /// Words of the palette of each line.
@@ -97,7 +108,7 @@ fn expanded(
     slots: usize,
     palettes: Dusk,
     build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
-) -> Result<Vec<u16>, Box<dyn Error>> {
+) -> Result<Picture, Box<dyn Error>> {
     let mut lent = SceneRooms::<Numbered>::new(EFFECT_ROOM, EFFECT_ROOM, EFFECT_HEIGHT.into());
     let mut scene = lent.scene(method_screen());
     build(&mut scene).map_err(|error| format!("{error:?}"))?;
@@ -109,7 +120,22 @@ fn expanded(
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let by = (&mut indices[..], palettes);
     draw_frame_indexed(&scene, &mut renderer, &mut pump, 0, 1, by)?;
-    Ok(pump.sink().frame()?)
+    let words = pump.sink().frame()?;
+    let rgb = words
+        .iter()
+        .flat_map(|&word| Rgb565Be::to_rgb8(word))
+        .collect();
+    Ok((words, rgb))
+}
+
+/// All of them, by name.
+fn all(slots: usize) -> Result<Vec<(&'static str, Picture)>, Box<dyn Error>> {
+    let drawn = EFFECTS.into_iter().enumerate().map(|(index, name)| {
+        let mut words = Words { slots, drawn: None };
+        by_effect(index, &mut words).map_err(|error| format!("{error:?}"))?;
+        Ok((name, words.drawn.ok_or("nothing was drawn")??))
+    });
+    drawn.collect()
 }
 
 /// The words of all frames, by name, drawn with so many slots.
@@ -117,12 +143,20 @@ fn expanded(
 /// # Errors
 /// When a frame does not fit the memory that it is lent.
 pub fn effect_frames(slots: usize) -> Result<Vec<MethodFrame>, Box<dyn Error>> {
-    let drawn = EFFECTS.into_iter().enumerate().map(|(index, name)| {
-        let mut words = Words { slots, drawn: None };
-        by_effect(index, &mut words).map_err(|error| format!("{error:?}"))?;
-        Ok((name, words.drawn.ok_or("nothing was drawn")??))
+    let words = |(name, (words, _)): (_, Picture)| (name, words);
+    Ok(all(slots)?.into_iter().map(words).collect())
+}
+
+/// The same as pictures.
+///
+/// # Errors
+/// As [`effect_frames`].
+pub fn effect_pictures() -> Result<Vec<(&'static str, Frame)>, Box<dyn Error>> {
+    let frames = all(64)?.into_iter().map(|(name, (_, rgb))| {
+        let frame = Frame::new(EFFECT_WIDTH.into(), EFFECT_HEIGHT.into(), rgb);
+        Ok((name, frame.ok_or("a frame of another size")?))
     });
-    drawn.collect()
+    frames.collect()
 }
 
 #[cfg(test)]

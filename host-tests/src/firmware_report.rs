@@ -274,12 +274,25 @@ pub fn host_counts() -> Result<BTreeMap<&'static str, FrameStats>, Box<dyn Error
 /// When a shot does not fit the arenas that it asks for.
 pub fn picture(shot: Shot) -> Result<(Frame, FrameStats), Box<dyn Error>> {
     let (bytes, stats) = drawn::<Counted<GouraudDepth<Rgb565Be>>>(shot)?;
+    Ok((framed(&bytes)?, stats))
+}
+
+/// A scene B as a picture, and what its frame had.
+///
+/// # Errors
+/// As [`picture`].
+pub fn picture_b(scene: SceneB) -> Result<(Frame, FrameStats), Box<dyn Error>> {
+    let (bytes, stats) = drawn_b::<Counted<LookB>>(scene)?;
+    Ok((framed(&bytes)?, stats))
+}
+
+/// A picture of the bytes of a shot in scan-out order.
+fn framed(bytes: &[u8]) -> Result<Frame, Box<dyn Error>> {
     let words = bytes
         .chunks_exact(2)
         .map(|b| u16::from_ne_bytes([b[0], b[1]]));
     let rgb = words.flat_map(Rgb565Be::to_rgb8).collect();
-    let frame = Frame::new(WIDTH.into(), HEIGHT.into(), rgb).ok_or("a frame of another size")?;
-    Ok((frame, stats))
+    Ok(Frame::new(WIDTH.into(), HEIGHT.into(), rgb).ok_or("a frame of another size")?)
 }
 
 /// The bytes of a shot in scan-out order.

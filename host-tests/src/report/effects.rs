@@ -3,6 +3,7 @@
 use super::Page;
 use crate::args::PixelFormatArg;
 use crate::draw::{CrewSettings, Effects, FilterArg, TextureSet, draw_effects};
+use crate::effect_frames::effect_pictures;
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
 use scanbeam::texture::Quality;
@@ -65,6 +66,13 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         let drawn = draw_effects(&model, &set, how, (&view, format), crew, effects)?;
         let caption = format!("{name}: {} pixels written", drawn.stats.spans.pixels_shaded);
         page.pictures(&[&drawn.frame], &caption)?;
+    }
+    page.paragraph(
+        "Small frames that the firmware draws with the same bits: what is clear, shadows, light at \
+         pixels, dither, a palette for each line, windows, priority without depth.",
+    );
+    for (name, frame) in effect_pictures()? {
+        page.pictures(&[&frame], name)?;
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ mod tests;
 use crate::args::{PixelFormatArg, ReportArgs};
 use crate::draw::{CrewSettings, Drawn, draw, draw_model};
 use crate::figures::gate::Record;
+use crate::firmware_report::{picture, picture_b};
 use crate::image_out::{Frame, write_atomically};
 use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};
@@ -19,7 +20,7 @@ use page::Page;
 use scanbeam::{
     CellOf, FlatDepth, GouraudDepth, GouraudPainter, ObjectOf, Pipeline, Rgb565Be, SlotOf, VertexOf,
 };
-use scenes::{HEIGHT, SHOTS, STACKS, Shot, WIDTH};
+use scenes::{HEIGHT, SCENES_B, SHOTS, STACKS, Shot, WIDTH};
 use std::error::Error;
 use std::path::Path;
 
@@ -57,11 +58,15 @@ fn shots(page: &mut Page) -> Result<(), Box<dyn Error>> {
     page.paragraph(
         "320 by 240 pixels of RGB565. The firmware draws the same frames with the same bits.",
     );
-    for shot in SHOTS.into_iter().chain([Shot::Crowd]).chain(STACKS) {
-        let (frame, stats) = crate::firmware_report::picture(shot)?;
+    let shots = SHOTS.into_iter().chain([Shot::Crowd]).chain(STACKS);
+    let shots = shots.map(|shot| (shot.name(), picture(shot)));
+    let textured = SCENES_B
+        .into_iter()
+        .map(|scene| (scene.name, picture_b(scene)));
+    for (name, drawn) in shots.chain(textured) {
+        let (frame, stats) = drawn?;
         let caption = format!(
-            "{}: {} triangles, {} objects kept, {} spans, {} pixels written",
-            shot.name(),
+            "{name}: {} triangles, {} objects kept, {} spans, {} pixels written",
             stats.pass_one.triangles,
             stats.pass_one.objects,
             stats.spans.spans,
