@@ -9,8 +9,8 @@ use std::path::Path;
 const STYLE: &str = "body{font:16px/1.5 system-ui,sans-serif;max-width:1100px;margin:2em auto;\
 padding:0 1em;color:#222;background:#fff}h1,h2{line-height:1.2}h2{margin-top:2em;border-bottom:1px \
 solid #ccc}figure{display:inline-block;margin:0 1em 1.5em 0;vertical-align:top;max-width:320px}\
-figure.plot{max-width:100%}figure.pair{max-width:660px}img{max-width:100%;image-rendering:pixelated;\
-background:#000}svg{max-width:100%;height:auto}figcaption{font-size:14px;color:#555}table{border-\
+figure.plot{width:800px;max-width:100%}figure.pair{max-width:660px}img{max-width:100%;image-rendering:pixelated;\
+background:#000}svg{width:100%;height:auto}figcaption{font-size:14px;color:#555}table{border-\
 collapse:collapse;font-variant-numeric:tabular-nums}td,th{border-bottom:1px solid #ddd;padding:.2em \
 .8em;text-align:right}td:first-child,th:first-child{text-align:left}nav a{margin-right:1em}";
 
@@ -36,13 +36,18 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
+/// How often the pixels of a picture are repeated each way, so that small ones can be looked at.
+fn times(frame: &Frame) -> u32 {
+    (200 / frame.width()).max(1)
+}
+
 /// A picture as an element.
 fn image(frame: &Frame, name: &str) -> Result<String, ImageError> {
     let png = encode_image(Path::new("picture.png"), frame)?;
     Ok(format!(
         "<img width=\"{}\" height=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\">",
-        frame.width(),
-        frame.height(),
+        frame.width() * times(frame),
+        frame.height() * times(frame),
         escaped(name),
         STANDARD.encode(png)
     ))

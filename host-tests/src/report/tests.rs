@@ -42,6 +42,8 @@ fn no_picture_is_missing() {
             "a picture of one colour"
         );
     }
+    // A plot without a size of its own has none in a box that is as wide as what is in it.
+    assert!(page.contains("figure.plot{width:"));
     assert_eq!(page.matches("<svg").count(), 3);
     assert_eq!(page.matches("</svg>").count(), 3);
     for link in values(&page, "href") {
