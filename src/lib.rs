@@ -86,10 +86,10 @@ mod visible;
 pub use active::{CacheCounts, Interleave, Slot};
 pub use composite::{
     Blender, Blending, Compositing, Cut, CutOff, DetailedTextures, Dithered, Grey8, Index4, Index8,
-    Indexed, Ink, LineOverlay, LinePalettes, ListOverlays, ListTexel, ListTextures, Mix, Ordered,
-    Overlay, PaletteTable, PixelAlpha, PixelFormat, Pixels, Ranks, Rgb565, Rgb565Be, Rgb565Bytes,
-    Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures, Threshold, UnsortedSprites,
-    Xrgb8888, expand_indices, mono_page, mono_row,
+    Indexed, Ink, LineOverlay, LinePalettes, ListOverlays, ListTexel, ListTextures, Mix, OneWord,
+    Ordered, Overlay, PaletteTable, PixelAlpha, PixelFormat, Pixels, Ramp, Ranks, Rgb565, Rgb565Be,
+    Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures, Threshold, TwoWords,
+    UnsortedSprites, Xrgb8888, expand_indices, mono_page, mono_row,
 };
 #[cfg(feature = "embedded-graphics")]
 pub use composite::{Canvas, DrawnLines};

@@ -8,7 +8,9 @@ use crate::model::Model;
 use crate::reference::View;
 use crate::texture_file::TextureImage;
 use scanbeam::texture::{FRACTION, Quality, Texels, Textured, Uv};
-use scanbeam::{Depth32, Flat, Packed8, Parts, PixelFormat, Precision, TexelOf, Textures};
+use scanbeam::{
+    Depth32, Flat, Packed8, Parts, PixelFormat, Precision, TexelOf, Textures, TwoWords,
+};
 
 /// What a pixel shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -64,15 +66,7 @@ impl PixelFormat for PlaceFormat {
         Shown::Untextured
     }
 
-    type Ramp = ();
-
-    fn ramp(_: i32, _: i32, _: (i32, i32), _: i32) {}
-
-    fn ramp_pixel((): &()) -> Shown {
-        Shown::Untextured
-    }
-
-    fn ramp_step((): &mut ()) {}
+    type Ramp = TwoWords;
 
     fn to_rgb8(_: Shown) -> [u8; 3] {
         [0; 3]

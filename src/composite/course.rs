@@ -1,6 +1,6 @@
 //! Where the colours of a span come from: the values of an object's planes, and their steps.
 
-use super::PixelFormat;
+use super::{PixelFormat, Ramp};
 use crate::visible::Visible;
 
 /// Bits that a channel has beyond a field of a vertex's colour, of 16 (see `GouraudLevels`).
@@ -106,7 +106,7 @@ impl Course for Words {
 
     #[inline(always)]
     fn ramp<F: PixelFormat>(&self) -> F::Ramp {
-        F::ramp(self.red_blue, self.green, self.steps, self.field_step)
+        F::Ramp::new(self.red_blue, self.green, self.steps, self.field_step)
     }
 
     #[inline(always)]
@@ -189,7 +189,7 @@ impl Course for Wide {
         let [r, g, b] =
             [0, 1, 2].map(|i| self.step[i].wrapping_add(1 << self.bits[i] >> 1) >> self.bits[i]);
         let more = [0, 1, 2].map(|i| self.bits[i] + BELOW_FIELD[i]);
-        F::ramp(
+        F::Ramp::new(
             red_blue as i32,
             green as i32,
             (pair(r, b), g << 16),

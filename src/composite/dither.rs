@@ -162,22 +162,6 @@ impl<F: PixelFormat, R: Ranks> PixelFormat for Dithered<F, R> {
     type Ramp = TwoWords;
 
     #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), _: i32) -> TwoWords {
-        TwoWords::new(red_blue, green, steps)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &TwoWords) -> F::Word {
-        let (red_blue, green) = ramp.words();
-        Self::pack_words(red_blue, green)
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut TwoWords) {
-        ramp.step();
-    }
-
-    #[inline(always)]
     fn fill(pixels: &mut [F::Word], word: F::Word) {
         F::fill(pixels, word);
     }

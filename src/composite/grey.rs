@@ -43,22 +43,6 @@ impl PixelFormat for Grey8 {
     type Ramp = TwoWords;
 
     #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), _: i32) -> TwoWords {
-        TwoWords::new(red_blue, green, steps)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &TwoWords) -> u8 {
-        let (red_blue, green) = ramp.words();
-        Self::pack_words(red_blue, green)
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut TwoWords) {
-        ramp.step();
-    }
-
-    #[inline(always)]
     fn add(a: u8, b: u8) -> u8 {
         a.saturating_add(b)
     }

@@ -61,22 +61,6 @@ impl<const N: usize> PixelFormat for Indexed<N> {
 
     type Ramp = TwoWords;
 
-    #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), _: i32) -> TwoWords {
-        TwoWords::new(red_blue, green, steps)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &TwoWords) -> u8 {
-        let (red_blue, green) = ramp.words();
-        Self::pack_words(red_blue, green)
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut TwoWords) {
-        ramp.step();
-    }
-
     /// The sum of the indices, at most the last.
     #[inline(always)]
     fn add(a: u8, b: u8) -> u8 {

@@ -14,7 +14,7 @@ use crate::list::{
     TextureSlots,
 };
 use crate::shade::Stretch;
-use crate::shade::texture::{Texels, Uv};
+use crate::shade::texture::{Texels, Uv, place_by_place};
 use crate::visible::Visible;
 
 /// The textures of a list, for [`Scene::set_textures`](crate::Scene::set_textures).
@@ -66,24 +66,6 @@ impl<R: Reading> Texels for Listed<'_, R> {
     }
 
     #[inline(always)]
-    fn along<W>(
-        &self,
-        pixels: &mut [W],
-        from: Uv,
-        step: Uv,
-        visible: &mut impl Visible,
-        mut each: impl FnMut(&mut W, Option<ListTexel>),
-    ) {
-        // A copy that nothing else can see stays in registers whatever is written meanwhile.
-        let texture = *self;
-        let mut place = from;
-        visible.each(pixels, |pixel, shown| {
-            each(pixel, shown.then(|| texture.at(place)));
-            place = place.plus(step);
-        });
-    }
-
-    #[inline(always)]
     fn singly<W>(
         &self,
         pixels: &mut [W],
@@ -92,7 +74,10 @@ impl<R: Reading> Texels for Listed<'_, R> {
         visible: &mut impl Visible,
         each: impl FnMut(&mut W, Option<ListTexel>),
     ) {
-        self.along(pixels, from, step, visible, each);
+        // A copy that nothing else can see stays in registers whatever is written meanwhile.
+        let texture = *self;
+        let at = |place: Uv| texture.at(place);
+        place_by_place(pixels, (from, step), visible, at, each);
     }
 }
 

@@ -48,7 +48,7 @@ pub use indexed::{Index4, Index8, Indexed, LinePalettes, PaletteTable, expand_in
 pub use listed::{ListOverlays, ListTexel, ListTextures};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
-pub use ramp::{OneWord, TwoWords};
+pub use ramp::{OneWord, Ramp, TwoWords};
 pub use texels::{TexelOf, TextureSource, Textures};
 pub use xrgb::Xrgb8888;
 
@@ -105,17 +105,7 @@ pub trait PixelFormat {
     }
 
     /// Three channels that step from pixel to pixel in as few registers as the format needs.
-    type Ramp;
-
-    /// A ramp from two words with 16 bits a channel (red and blue, green in the upper half),
-    /// their steps, and the packed step in the fields of a vertex's colour.
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), field_step: i32) -> Self::Ramp;
-
-    /// The pixel at which a ramp stands.
-    fn ramp_pixel(ramp: &Self::Ramp) -> Self::Word;
-
-    /// Goes to the next pixel.
-    fn ramp_step(ramp: &mut Self::Ramp);
+    type Ramp: Ramp<Self>;
 
     /// Sets all of `pixels` to `word`.
     #[inline]
@@ -201,22 +191,6 @@ impl PixelFormat for Rgb888 {
 
     type Ramp = TwoWords;
 
-    #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), _: i32) -> TwoWords {
-        TwoWords::new(red_blue, green, steps)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &TwoWords) -> [u8; 3] {
-        let (red_blue, green) = ramp.words();
-        Self::pack_words(red_blue, green)
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut TwoWords) {
-        ramp.step();
-    }
-
     fn mix(old: &mut [[u8; 3]], new: &[[u8; 3]], mix: Mix) {
         blend::mix_bytes(old.as_flattened_mut(), new.as_flattened(), mix);
     }
@@ -247,21 +221,6 @@ impl PixelFormat for Rgb565 {
     }
 
     type Ramp = OneWord;
-
-    #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, _: (i32, i32), field_step: i32) -> OneWord {
-        OneWord::new(red_blue, green, field_step)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &OneWord) -> u16 {
-        ramp.rgb565()
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut OneWord) {
-        ramp.step();
-    }
 
     /// Sixteen pixels a step: 0.4 instructions a pixel on a Cortex-M4, where one a store takes
     /// 1.8.
@@ -323,25 +282,6 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     }
 
     type Ramp = OneWord;
-
-    #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), field_step: i32) -> OneWord {
-        Rgb565::ramp(red_blue, green, steps, field_step)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &OneWord) -> u16 {
-        if Self::in_memory(1) == 1 {
-            ramp.rgb565()
-        } else {
-            ramp.rgb565_swapped()
-        }
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut OneWord) {
-        Rgb565::ramp_step(ramp);
-    }
 
     #[inline(always)]
     fn fill(pixels: &mut [u16], word: u16) {

@@ -1,9 +1,9 @@
 //! Colours into pixels, span by span, by the method of the pipeline.
 
-use super::PixelFormat;
 use super::course::{Course, Wide, Words};
 use super::dither;
 use super::lirp::{blend, blend_packed};
+use super::{PixelFormat, Ramp};
 use crate::shade::{Interpolation, Method, Stretch};
 use crate::visible::Visible;
 
@@ -155,8 +155,8 @@ const SHORT: usize = 8;
 #[inline(always)]
 fn short<F: PixelFormat>(run: &mut [F::Word], mut ramp: F::Ramp) {
     let mut next = || {
-        let word = F::ramp_pixel(&ramp);
-        F::ramp_step(&mut ramp);
+        let word = ramp.pixel();
+        ramp.step();
         word
     };
     match run {
@@ -183,9 +183,9 @@ fn part<F: PixelFormat>(pixels: &mut [F::Word], mut ramp: F::Ramp, visible: &mut
     }
     visible.each(pixels, |pixel, shown| {
         if shown {
-            *pixel = F::ramp_pixel(&ramp);
+            *pixel = ramp.pixel();
         }
-        F::ramp_step(&mut ramp);
+        ramp.step();
     });
 }
 
@@ -202,9 +202,9 @@ fn runs<F: PixelFormat, C: Course, const RUN: usize>(
         let mut ramp = course.ramp::<F>();
         visible.block(run, |pixel, shown| {
             if shown {
-                *pixel = F::ramp_pixel(&ramp);
+                *pixel = ramp.pixel();
             }
-            F::ramp_step(&mut ramp);
+            ramp.step();
         });
         course.advance(RUN as u32);
     }
@@ -254,12 +254,12 @@ fn groups<F: PixelFormat, const N: usize>(
     visible: &mut impl Visible,
 ) {
     for group in pixels.chunks_exact_mut(N).filter_map(array::<_, N>) {
-        let word = F::ramp_pixel(&ramp);
+        let word = ramp.pixel();
         visible.block(group, |pixel, shown| {
             if shown {
                 *pixel = word;
             }
         });
-        F::ramp_step(&mut ramp);
+        ramp.step();
     }
 }

@@ -6,6 +6,21 @@
 //! with 16 bits a channel: a field of 5 + 6 (blue 5 + 5) bits whose step is rounded drifts by 2^-7
 //! (2^-6) steps a pixel, 1/8 of a step over 8 pixels of blue.
 
+use super::{PixelFormat, Rgb565, Rgb565Bytes};
+
+/// Three channels that step from pixel to pixel, for the format `F`.
+pub trait Ramp<F: PixelFormat + ?Sized> {
+    /// From two words with 16 bits a channel (red and blue, green in the upper half), their steps,
+    /// and the packed step in the fields of a vertex's colour.
+    fn new(red_blue: i32, green: i32, steps: (i32, i32), field_step: i32) -> Self;
+
+    /// The pixel at which it stands.
+    fn pixel(&self) -> F::Word;
+
+    /// Goes to the next pixel.
+    fn step(&mut self);
+}
+
 /// Two words and their steps, 16 bits a channel: for formats of 8 bits a channel.
 #[derive(Clone, Copy, Debug)]
 pub struct TwoWords {
@@ -14,9 +29,9 @@ pub struct TwoWords {
     steps: (i32, i32),
 }
 
-impl TwoWords {
+impl<F: PixelFormat + ?Sized> Ramp<F> for TwoWords {
     #[inline(always)]
-    pub(super) fn new(red_blue: i32, green: i32, steps: (i32, i32)) -> Self {
+    fn new(red_blue: i32, green: i32, steps: (i32, i32), _: i32) -> Self {
         Self {
             red_blue,
             green,
@@ -24,14 +39,13 @@ impl TwoWords {
         }
     }
 
-    /// The words.
     #[inline(always)]
-    pub(super) fn words(&self) -> (u32, u32) {
-        (self.red_blue as u32, self.green as u32)
+    fn pixel(&self) -> F::Word {
+        F::pack_words(self.red_blue as u32, self.green as u32)
     }
 
     #[inline(always)]
-    pub(super) fn step(&mut self) {
+    fn step(&mut self) {
         self.red_blue = self.red_blue.wrapping_add(self.steps.0);
         self.green = self.green.wrapping_add(self.steps.1);
     }
@@ -45,9 +59,9 @@ pub struct OneWord {
     step: u32,
 }
 
-impl OneWord {
+impl Ramp<Rgb565> for OneWord {
     #[inline(always)]
-    pub(super) fn new(red_blue: i32, green: i32, field_step: i32) -> Self {
+    fn new(red_blue: i32, green: i32, _: (i32, i32), field_step: i32) -> Self {
         let (rb, g) = (red_blue as u32, green as u32);
         Self {
             word: (rb & 0xFFE0_0000) | (rb & 0xFFC0) << 5 | g >> 21,
@@ -55,22 +69,36 @@ impl OneWord {
         }
     }
 
-    /// The pixel, 5, 6 and 5 bits.
     #[inline(always)]
-    pub(super) fn rgb565(&self) -> u16 {
+    fn pixel(&self) -> u16 {
         let whole = self.word & 0xF81F_07E0;
         (whole | whole >> 16) as u16
     }
 
-    /// The same with its bytes swapped, at the cost of one instruction.
     #[inline(always)]
-    pub(super) fn rgb565_swapped(&self) -> u16 {
+    fn step(&mut self) {
+        self.word = self.word.wrapping_add(self.step);
+    }
+}
+
+impl<const BIG: bool> Ramp<Rgb565Bytes<BIG>> for OneWord {
+    #[inline(always)]
+    fn new(red_blue: i32, green: i32, steps: (i32, i32), field_step: i32) -> Self {
+        <Self as Ramp<Rgb565>>::new(red_blue, green, steps, field_step)
+    }
+
+    /// Swapping costs one instruction.
+    #[inline(always)]
+    fn pixel(&self) -> u16 {
+        if Rgb565Bytes::<BIG>::in_memory(1) == 1 {
+            return <Self as Ramp<Rgb565>>::pixel(self);
+        }
         let whole = (self.word & 0xF81F_07E0).swap_bytes();
         (whole | whole >> 16) as u16
     }
 
     #[inline(always)]
-    pub(super) fn step(&mut self) {
-        self.word = self.word.wrapping_add(self.step);
+    fn step(&mut self) {
+        <Self as Ramp<Rgb565>>::step(self);
     }
 }

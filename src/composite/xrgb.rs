@@ -26,22 +26,6 @@ impl PixelFormat for Xrgb8888 {
 
     type Ramp = TwoWords;
 
-    #[inline(always)]
-    fn ramp(red_blue: i32, green: i32, steps: (i32, i32), _: i32) -> TwoWords {
-        TwoWords::new(red_blue, green, steps)
-    }
-
-    #[inline(always)]
-    fn ramp_pixel(ramp: &TwoWords) -> u32 {
-        let (red_blue, green) = ramp.words();
-        Self::pack_words(red_blue, green)
-    }
-
-    #[inline(always)]
-    fn ramp_step(ramp: &mut TwoWords) {
-        ramp.step();
-    }
-
     fn to_rgb8(word: u32) -> [u8; 3] {
         let [_, r, g, b] = word.to_be_bytes();
         [r, g, b]

@@ -5,7 +5,6 @@ use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
 use super::colour::{Colour, Scale, Tint};
 use super::light::{LightingModel, ModelLight};
-use super::marks::Mark;
 use super::mesh::{Coordinate, Faces, Mesh, QuadSplit};
 use super::object::{OUTSIDE, Object, SceneVertex};
 use super::project::Projection;
@@ -268,11 +267,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
                 let face_colour = self.face_colour(mesh, corners, provoking);
                 let kept = self.done.kept;
                 self.keep(Object::new(index, face_colour), first, face, file);
-                let lost = self.count_lost();
-                // It may be outside of its window.
-                if S::Mark::CUTS && !lost && self.done.kept == kept {
-                    self.done.culled += 1;
-                }
+                self.settle(kept);
             }
             Look::Outside => {
                 let kept = self.done.kept;
@@ -281,10 +276,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
                 if self.done.kept == kept {
                     self.vertices.truncate(before);
                 }
-                // A triangle that was cut into pieces counts once.
-                if !self.count_lost() && self.done.kept == kept {
-                    self.done.culled += 1;
-                }
+                self.settle(kept);
             }
         }
     }
@@ -297,6 +289,15 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             dropped.triangles += 1;
         }
         lost
+    }
+
+    /// Counts the current triangle once, whatever pieces it was cut into: among the dropped if one
+    /// of them was, or among the culled if there are still as many objects as were `kept` before.
+    #[inline(always)]
+    pub(super) fn settle(&mut self, kept: u32) {
+        if !self.count_lost() && self.done.kept == kept {
+            self.done.culled += 1;
+        }
     }
 
     /// What is known of a triangle whose vertices lie in the arena from `base` on.

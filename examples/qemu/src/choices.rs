@@ -54,21 +54,9 @@ pub(crate) fn draw_b<P, D>(
     P: Pipeline<Pixel = Rgb565Be, Shading = Textured<Gouraud>, Depth = Depth32>,
     D: ScanoutDma<Buf = &'static mut [u16]>,
 {
-    let mut scene = Scene::<P>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: rooms.vertices,
-            objects: rooms.objects,
-            buckets: rooms.buckets,
-        },
-    );
+    let (mut scene, mut renderer) = rooms.lend::<P>(Shot::screen(), SLOTS);
     scene.set_textures(textures);
     how.build(&mut scene).expect("the rooms are large enough");
-    let mut renderer = LineRenderer::<P>::new(LineMemory {
-        slots: rooms.slots,
-        links: rooms.links,
-        depth: rooms.depth,
-    });
     let background = Rgb565Be::from_rgb8(Shot::Sphere.background());
     draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
         .expect("the sink cannot fail and the rooms are large enough");

@@ -179,22 +179,10 @@ pub(crate) fn draw_as<P, D>(
     P: Pipeline<Pixel = Rgb565Be>,
     D: ScanoutDma<Buf = &'static mut [u16]>,
 {
-    let mut scene = Scene::<P>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: rooms.vertices,
-            objects: rooms.objects,
-            buckets: rooms.buckets,
-        },
-    );
+    let (mut scene, mut renderer) = rooms.lend::<P>(Shot::screen(), how.slots);
     how.shot
         .build(&mut scene)
         .expect("the rooms are large enough");
-    let mut renderer = LineRenderer::new(LineMemory {
-        slots: &mut rooms.slots[..how.slots],
-        links: rooms.links,
-        depth: rooms.depth,
-    });
     renderer.set_prefetch(how.prefetch);
     let background = Rgb565Be::from_rgb8(how.shot.background());
     draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
@@ -212,20 +200,8 @@ impl DrawsMethod for SmallFrame<'_, '_> {
         // Records are those of any method.
         type By<I> = Interpolated<Smooth, I>;
         let rooms = &mut *self.rooms;
-        let mut scene = Scene::<By<I>>::new(
-            method_screen(),
-            SceneMemory {
-                vertices: rooms.vertices,
-                objects: rooms.objects,
-                buckets: rooms.buckets,
-            },
-        );
+        let (mut scene, mut renderer) = rooms.lend::<By<I>>(method_screen(), SLOTS);
         build_method(&mut scene).expect("the rooms are large enough");
-        let mut renderer = LineRenderer::<By<I>>::new(LineMemory {
-            slots: rooms.slots,
-            links: rooms.links,
-            depth: rooms.depth,
-        });
         renderer.set_quality(quality);
         draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
             .expect("the sink cannot fail and the rooms are large enough");
@@ -257,21 +233,9 @@ impl DrawsEffect for SmallEffect<'_, '_> {
     ) {
         // Records are those of lights that live for any time.
         let rooms = &mut self.rooms.lit;
-        let mut scene = Scene::<Lit<'l>>::new(
-            method_screen(),
-            SceneMemory {
-                vertices: rooms.vertices,
-                objects: rooms.objects,
-                buckets: rooms.buckets,
-            },
-        );
+        let (mut scene, mut renderer) = rooms.lend::<Lit<'l>>(method_screen(), SLOTS);
         scene.set_lights(lights);
         build(&mut scene).expect("the rooms are large enough");
-        let mut renderer = LineRenderer::<Lit<'l>>::new(LineMemory {
-            slots: rooms.slots,
-            links: rooms.links,
-            depth: rooms.depth,
-        });
         draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
             .expect("the sink cannot fail and the rooms are large enough");
     }
@@ -286,20 +250,8 @@ impl DrawsEffect for SmallEffect<'_, '_> {
         build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
     ) {
         let rooms = &mut self.rooms.numbered;
-        let mut scene = Scene::<Numbered>::new(
-            method_screen(),
-            SceneMemory {
-                vertices: rooms.vertices,
-                objects: rooms.objects,
-                buckets: rooms.buckets,
-            },
-        );
+        let (mut scene, mut renderer) = rooms.lend::<Numbered>(method_screen(), SLOTS);
         build(&mut scene).expect("the rooms are large enough");
-        let mut renderer = LineRenderer::<Numbered>::new(LineMemory {
-            slots: rooms.slots,
-            links: rooms.links,
-            depth: rooms.depth,
-        });
         let by = (&mut self.rooms.indices[..], palettes);
         draw_frame_indexed(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER, by)
             .expect("the sink cannot fail and the rooms are large enough");
@@ -320,21 +272,9 @@ fn draw_effect<P: Pipeline<Pixel: PixelFormat<Word = u16>>>(
     pump: &mut Pump<Emit<'_>>,
     build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
 ) {
-    let mut scene = Scene::<P>::new(
-        method_screen(),
-        SceneMemory {
-            vertices: rooms.vertices,
-            objects: rooms.objects,
-            buckets: rooms.buckets,
-        },
-    );
+    let (mut scene, mut renderer) = rooms.lend::<P>(method_screen(), SLOTS);
     scene.set_lights(lights);
     build(&mut scene).expect("the rooms are large enough");
-    let mut renderer = LineRenderer::<P>::new(LineMemory {
-        slots: rooms.slots,
-        links: rooms.links,
-        depth: rooms.depth,
-    });
     draw_frame(&scene, &mut renderer, pump, 0, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
@@ -362,20 +302,8 @@ fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
 /// The baked teapot, from flash.
 fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     let smooth = &mut rooms.smooth;
-    let mut scene = Scene::<Smooth>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: smooth.vertices,
-            objects: smooth.objects,
-            buckets: smooth.buckets,
-        },
-    );
+    let (mut scene, mut renderer) = smooth.lend::<Smooth>(Shot::screen(), SLOTS);
     build_listed(&mut scene, rooms.list.memory()).expect("the rooms are large enough");
-    let mut renderer = LineRenderer::new(LineMemory {
-        slots: &mut smooth.slots[..SLOTS],
-        links: smooth.links,
-        depth: smooth.depth,
-    });
     let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
@@ -386,20 +314,8 @@ fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
 fn draw_crate(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     static TEXTURES: [TextureSlot; CRATE_TEXTURES] = [const { TextureSlot::new() }; CRATE_TEXTURES];
     let listed = &mut rooms.listed;
-    let mut scene = Scene::<Listed>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: listed.vertices,
-            objects: listed.objects,
-            buckets: listed.buckets,
-        },
-    );
+    let (mut scene, mut renderer) = listed.lend::<Listed>(Shot::screen(), SLOTS);
     build_crate(&mut scene, rooms.list.memory(), &TEXTURES).expect("the rooms are large enough");
-    let mut renderer = LineRenderer::new(LineMemory {
-        slots: listed.slots,
-        links: listed.links,
-        depth: listed.depth,
-    });
     let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
     draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");

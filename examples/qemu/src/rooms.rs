@@ -5,7 +5,7 @@ use crate::lend::lend;
 use crate::listed::Unpacked;
 use scanbeam::{
     BlockFixed, CellOf, Deferred, LineDepth, LineMemory, LineRenderer, Link, ListMemory, Object,
-    ObjectOf, Pipeline, Scene, SceneMemory, SceneVertex, ShadowCell, SlotOf, VertexOf,
+    ObjectOf, Pipeline, Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf,
 };
 use scenes::{
     BLOCK_TEXELS_B, CACHE_SLOTS_B, CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
@@ -30,6 +30,33 @@ pub(crate) struct RoomsOf<P: Pipeline> {
     /// Tightly coupled RAM, `.fast`.
     pub(crate) slots: &'static mut [SlotOf<P>],
     pub(crate) depth: &'static mut [CellOf<P>],
+}
+
+impl<P: Pipeline> RoomsOf<P> {
+    /// An empty scene and a renderer with so many slots, of a pipeline with records like these.
+    pub(crate) fn lend<Q>(
+        &mut self,
+        screen: Screen,
+        slots: usize,
+    ) -> (Scene<'_, Q>, LineRenderer<'_, Q>)
+    where
+        Q: Pipeline<Shading = P::Shading, Depth = P::Depth>,
+    {
+        let scene = Scene::new(
+            screen,
+            SceneMemory {
+                vertices: self.vertices,
+                objects: self.objects,
+                buckets: self.buckets,
+            },
+        );
+        let renderer = LineRenderer::new(LineMemory {
+            slots: &mut self.slots[..slots],
+            links: self.links,
+            depth: self.depth,
+        });
+        (scene, renderer)
+    }
 }
 
 /// Normals and indices of a list, and for a small one with textures places in space and on them;
@@ -85,21 +112,52 @@ pub(crate) struct Rooms {
     pub(crate) lines: Option<[&'static mut [u16]; 2]>,
 }
 
+/// The rooms of a pipeline, its slots and the depth of a line in the section `$near`: so many
+/// vertices and objects, and lines and columns.
 macro_rules! rooms_of {
-    ($pipeline:ty) => {
+    ($pipeline:ty, $near:literal, ($vertices:expr, $objects:expr), ($lines:expr, $columns:expr)) => {
         RoomsOf::<$pipeline> {
-            vertices: lend!(".slow", VertexOf<$pipeline>, VERTICES, SceneVertex::empty()),
-            objects: lend!(".slow", ObjectOf<$pipeline>, OBJECTS, Object::default()),
-            buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
-            links: lend!(".slow", Link, OBJECTS, Link::NONE),
+            vertices: lend!(
+                ".slow",
+                VertexOf<$pipeline>,
+                $vertices,
+                SceneVertex::empty()
+            ),
+            objects: lend!(".slow", ObjectOf<$pipeline>, $objects, Object::default()),
+            buckets: lend!(".slow", Link, $lines as usize, Link::NONE),
+            links: lend!(".slow", Link, $objects, Link::NONE),
             slots: lend!(
-                ".fast",
+                $near,
                 SlotOf<$pipeline>,
                 SLOTS,
                 LineRenderer::<$pipeline>::empty_slot()
             ),
-            depth: lend!(".fast", CellOf<$pipeline>, WIDTH as usize, 0),
+            depth: depth_of!($pipeline, $near, $columns),
         }
+    };
+}
+
+/// The depth of a line in the section `$near`.
+macro_rules! depth_of {
+    ($pipeline:ty, $near:literal, $columns:expr) => {
+        lend!(
+            $near,
+            CellOf<$pipeline>,
+            $columns as usize,
+            <$pipeline as Pipeline>::Depth::FARTHEST
+        )
+    };
+}
+
+/// Rooms for small frames of effects.
+macro_rules! small_rooms_of {
+    ($pipeline:ty) => {
+        rooms_of!(
+            $pipeline,
+            ".slow",
+            (EFFECT_ROOM, EFFECT_ROOM),
+            (EFFECT_HEIGHT, EFFECT_WIDTH)
+        )
     };
 }
 
@@ -116,77 +174,20 @@ pub(crate) struct EffectRooms {
     pub(crate) ranked: RoomsOf<Ranked>,
 }
 
-macro_rules! small_rooms_of {
-    ($pipeline:ty, $cell:expr) => {
-        RoomsOf::<$pipeline> {
-            vertices: lend!(
-                ".slow",
-                VertexOf<$pipeline>,
-                EFFECT_ROOM,
-                SceneVertex::empty()
-            ),
-            objects: lend!(".slow", ObjectOf<$pipeline>, EFFECT_ROOM, Object::default()),
-            buckets: lend!(".slow", Link, EFFECT_HEIGHT as usize, Link::NONE),
-            links: lend!(".slow", Link, EFFECT_ROOM, Link::NONE),
-            slots: lend!(
-                ".slow",
-                SlotOf<$pipeline>,
-                SLOTS,
-                LineRenderer::<$pipeline>::empty_slot()
-            ),
-            depth: lend!(".slow", CellOf<$pipeline>, EFFECT_WIDTH as usize, $cell),
-        }
-    };
-}
-
 impl Rooms {
     /// Takes all of them, once.
     pub(crate) fn take() -> Self {
         const WORDS: usize = WIDTH as usize * LINES_PER_TRANSFER as usize;
         Self {
-            smooth: rooms_of!(Smooth),
-            faceted: rooms_of!(Faceted),
-            listed: RoomsOf {
-                vertices: lend!(".slow", VertexOf<Listed>, FEW, SceneVertex::empty()),
-                objects: lend!(".slow", ObjectOf<Listed>, FEW, Object::default()),
-                buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
-                links: lend!(".slow", Link, FEW, Link::NONE),
-                slots: lend!(
-                    ".slow",
-                    SlotOf<Listed>,
-                    SLOTS,
-                    LineRenderer::<Listed>::empty_slot()
-                ),
-                depth: lend!(".slow", CellOf<Listed>, WIDTH as usize, 0),
-            },
-            textured: RoomsOf {
-                vertices: lend!(".slow", VertexOf<LookB>, VERTICES_B, SceneVertex::empty()),
-                objects: lend!(".slow", ObjectOf<LookB>, OBJECTS_B, Object::default()),
-                buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
-                links: lend!(".slow", Link, OBJECTS_B, Link::NONE),
-                slots: lend!(
-                    ".slow",
-                    SlotOf<LookB>,
-                    SLOTS,
-                    LineRenderer::<LookB>::empty_slot()
-                ),
-                depth: lend!(".slow", CellOf<LookB>, WIDTH as usize, 0),
-            },
+            smooth: rooms_of!(Smooth, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
+            faceted: rooms_of!(Faceted, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
+            listed: rooms_of!(Listed, ".slow", (FEW, FEW), (HEIGHT, WIDTH)),
+            textured: rooms_of!(LookB, ".slow", (VERTICES_B, OBJECTS_B), (HEIGHT, WIDTH)),
             blocks: lend!(".slow", u16, TEXELS_PANEL.len(), 0),
             tags: lend!(".fast", u32, CACHE_SLOTS_B, 0),
             cached: lend!(".fast", u16, CACHE_SLOTS_B * BLOCK_TEXELS_B, 0),
-            block_fix: lend!(
-                ".slow",
-                CellOf<BlockFixed<Smooth>>,
-                WIDTH as usize,
-                <BlockFixed<Smooth> as Pipeline>::Depth::FARTHEST
-            ),
-            named: lend!(
-                ".slow",
-                CellOf<Deferred<Smooth>>,
-                WIDTH as usize,
-                <Deferred<Smooth> as Pipeline>::Depth::FARTHEST
-            ),
+            block_fix: depth_of!(BlockFixed<Smooth>, ".slow", WIDTH),
+            named: depth_of!(Deferred<Smooth>, ".slow", WIDTH),
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
@@ -199,38 +200,21 @@ impl Rooms {
                 normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
                 indices: lend!(".slow", u16, LIST_INDICES, 0),
             },
-            sheet: RoomsOf {
-                vertices: lend!(
-                    ".slow",
-                    VertexOf<SheetPipeline>,
-                    SHEET_TRIANGLES,
-                    SceneVertex::empty()
-                ),
-                objects: lend!(
-                    ".slow",
-                    ObjectOf<SheetPipeline>,
-                    SHEET_TRIANGLES,
-                    Object::default()
-                ),
-                buckets: lend!(".slow", Link, HEIGHT as usize, Link::NONE),
-                links: lend!(".slow", Link, SHEET_TRIANGLES, Link::NONE),
-                slots: lend!(
-                    ".slow",
-                    SlotOf<SheetPipeline>,
-                    SLOTS,
-                    LineRenderer::<SheetPipeline>::empty_slot()
-                ),
-                depth: lend!(".slow", CellOf<SheetPipeline>, WIDTH as usize, ()),
-            },
+            sheet: rooms_of!(
+                SheetPipeline,
+                ".slow",
+                (SHEET_TRIANGLES, SHEET_TRIANGLES),
+                (HEIGHT, WIDTH)
+            ),
             effects: EffectRooms {
-                transparent: small_rooms_of!(Transparent, 0),
-                shady: small_rooms_of!(Shady, ShadowCell::default()),
-                lit: small_rooms_of!(Lit<'static>, 0),
-                grainy: small_rooms_of!(Grainy, 0),
-                numbered: small_rooms_of!(Numbered, 0),
+                transparent: small_rooms_of!(Transparent),
+                shady: small_rooms_of!(Shady),
+                lit: small_rooms_of!(Lit<'static>),
+                grainy: small_rooms_of!(Grainy),
+                numbered: small_rooms_of!(Numbered),
                 indices: lend!(".slow", u8, EFFECT_WIDTH as usize, 0),
-                cropped: small_rooms_of!(Cropped, 0),
-                ranked: small_rooms_of!(Ranked, ()),
+                cropped: small_rooms_of!(Cropped),
+                ranked: small_rooms_of!(Ranked),
             },
             second: RoomsOf {
                 vertices: &mut [],
@@ -243,7 +227,7 @@ impl Rooms {
                     MOST_SLOTS,
                     LineRenderer::<Smooth>::empty_slot()
                 ),
-                depth: lend!(".slow", CellOf<Smooth>, WIDTH as usize, 0),
+                depth: depth_of!(Smooth, ".slow", WIDTH),
             },
             lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
@@ -253,20 +237,7 @@ impl Rooms {
 impl Rooms {
     /// Draws the sheet of a seed: pixels drawn, hits counted, and pixels left out.
     pub(crate) fn sheet_hits(&mut self, seed: u32) -> (u32, u32) {
-        let rooms = &mut self.sheet;
-        let mut scene = Scene::new(
-            Shot::screen(),
-            SceneMemory {
-                vertices: rooms.vertices,
-                objects: rooms.objects,
-                buckets: rooms.buckets,
-            },
-        );
-        let mut renderer = LineRenderer::new(LineMemory {
-            slots: rooms.slots,
-            links: rooms.links,
-            depth: rooms.depth,
-        });
+        let (mut scene, mut renderer) = self.sheet.lend::<SheetPipeline>(Shot::screen(), SLOTS);
         Sheet::new(seed)
             .hits(&mut scene, &mut renderer)
             .expect("the rooms are large enough")

@@ -8,7 +8,6 @@
 use super::super::camera::Screen;
 use super::super::colour::{Colour, Scale};
 use super::super::light::ModelLight;
-use super::super::marks::Mark;
 use super::super::mesh::{Coordinate, Faces, Mesh};
 use super::super::object::{Object, SceneVertex};
 use super::super::project::{DEPTH_MAX, DEPTH_MIN};
@@ -248,10 +247,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
                     let object = Object::new([index[a], index[b], index[c]], face_colour);
                     let kept = self.done.kept;
                     self.keep(object, first, number, file);
-                    let lost = self.count_lost();
-                    if S::Mark::CUTS && !lost && self.done.kept == kept {
-                        self.done.culled += 1;
-                    }
+                    self.settle(kept);
                 }
                 None => self.done.culled += 1,
             }

@@ -84,13 +84,9 @@ pub trait Texels {
         from: Uv,
         step: Uv,
         visible: &mut impl Visible,
-        mut each: impl FnMut(&mut W, Option<Self::Texel>),
+        each: impl FnMut(&mut W, Option<Self::Texel>),
     ) {
-        let mut place = from;
-        visible.each(pixels, |pixel, shown| {
-            each(pixel, shown.then(|| self.at(place)));
-            place = place.plus(step);
-        });
+        self.singly(pixels, from, step, visible, each);
     }
 
     /// [`along`](Self::along) for an `each` that takes long: with one loop, in which that is there
@@ -102,13 +98,9 @@ pub trait Texels {
         from: Uv,
         step: Uv,
         visible: &mut impl Visible,
-        mut each: impl FnMut(&mut W, Option<Self::Texel>),
+        each: impl FnMut(&mut W, Option<Self::Texel>),
     ) {
-        let mut place = from;
-        visible.each(pixels, |pixel, shown| {
-            each(pixel, shown.then(|| self.at(place)));
-            place = place.plus(step);
-        });
+        place_by_place(pixels, (from, step), visible, |place| self.at(place), each);
     }
 
     /// [`along`](Self::along) with all pixels seen.
@@ -126,6 +118,23 @@ pub trait Texels {
             }
         });
     }
+}
+
+/// Gives `each` the pixels in turn, each with what is `at` its place where it is seen: the first at
+/// `from`, the next a `step` further on.
+#[inline(always)]
+pub(crate) fn place_by_place<W, T>(
+    pixels: &mut [W],
+    (from, step): (Uv, Uv),
+    visible: &mut impl Visible,
+    mut at: impl FnMut(Uv) -> T,
+    mut each: impl FnMut(&mut W, Option<T>),
+) {
+    let mut place = from;
+    visible.each(pixels, |pixel, shown| {
+        each(pixel, shown.then(|| at(place)));
+        place = place.plus(step);
+    });
 }
 
 impl<T: Texels + ?Sized> Texels for &T {

@@ -7,7 +7,7 @@
 use super::block::{Layout, Linear};
 use super::format::{Texel, TexelFormat};
 use super::tlut::Store;
-use super::{FRACTION, Texels, Uv};
+use super::{FRACTION, Texels, Uv, place_by_place};
 use crate::visible::Visible;
 use core::marker::PhantomData;
 
@@ -255,25 +255,6 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
     }
 
     #[inline(always)]
-    fn along<W>(
-        &self,
-        pixels: &mut [W],
-        from: Uv,
-        step: Uv,
-        visible: &mut impl Visible,
-        mut each: impl FnMut(&mut W, Option<S::Texel>),
-    ) {
-        // A copy that nothing else can see stays in registers whatever is written meanwhile.
-        let texture = *self;
-        let mut fetch = texture.store.reader();
-        let mut place = from;
-        visible.each(pixels, |pixel, shown| {
-            each(pixel, shown.then(|| fetch(texture.index(place.texel()))));
-            place = place.plus(step);
-        });
-    }
-
-    #[inline(always)]
     fn singly<W>(
         &self,
         pixels: &mut [W],
@@ -282,7 +263,11 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
         visible: &mut impl Visible,
         each: impl FnMut(&mut W, Option<S::Texel>),
     ) {
-        self.along(pixels, from, step, visible, each);
+        // A copy that nothing else can see stays in registers whatever is written meanwhile.
+        let texture = *self;
+        let mut fetch = texture.store.reader();
+        let at = |place: Uv| fetch(texture.index(place.texel()));
+        place_by_place(pixels, (from, step), visible, at, each);
     }
 }
 
@@ -401,11 +386,7 @@ impl<F: Fetch, const LOG: u32> Square<F, LOG> {
     ) {
         // Packing pays from the third pair on.
         if pixels.len() <= 4 {
-            let mut place = from;
-            visible.each(pixels, |pixel, shown| {
-                each(pixel, shown.then(|| self.at(place)));
-                place = place.plus(step);
-            });
+            self.singly(pixels, from, step, visible, each);
             return;
         }
         // 16 bits hold a whole side, 16 - LOG of them fractions.
