@@ -16,7 +16,8 @@ pub struct CacheCounts {
     /// Objects that found the cache full when they became active.
     pub spills: u32,
     /// Times a cached object's record was read again: on its way past a corner that its edges
-    /// do not reach, or on each line of a triangle too thin for planes.
+    /// do not reach, when a line first needs its depth, or on each line of a triangle too thin for
+    /// planes.
     pub set_ups: u32,
     /// Objects fetched into slots ahead of their line (C4).
     pub fetched: u32,

@@ -157,6 +157,20 @@ impl<'m, T: Member> ActiveList<'m, T> {
         }
     }
 
+    /// Gives `change` all members that are in slots, with their objects.
+    pub(crate) fn change_members(&mut self, mut change: impl FnMut(u16, &mut T)) {
+        let mut current = self.head;
+        while current.is_some() {
+            current = match self.slots.get_mut(current.slot()) {
+                Some(slot) => {
+                    change(slot.object, &mut slot.body);
+                    slot.next
+                }
+                None => self.next(current),
+            };
+        }
+    }
+
     /// Whether a slot is free.
     pub(crate) fn has_free(&self) -> bool {
         self.free.is_some()

@@ -176,38 +176,41 @@ impl Projection {
     ///
     /// Coordinates are rounded to 1/8 pixel and err by 2^-26 of the distance from the middle
     /// before that; depth is `near / z` in 1/2^31, 2^-27 of itself off.
-    #[inline]
     pub(super) fn project(&self, p: ClipPoint) -> ScreenPoint {
-        let z = p.z.max(1) as u32;
+        self.project_within(ClipPoint { z: p.z.max(1), ..p })
+    }
+
+    /// The same of a point whose z is positive.
+    #[inline(always)]
+    pub(super) fn project_within(&self, p: ClipPoint) -> ScreenPoint {
+        let z = p.z as u32;
         // z 2^up in 2^30 ..< 2^31
         let up = leading_zeros(z) as i32 - 1;
         let inverse = recip(z << (up + 1));
+        // near / z is at most 1, so `up` is at most `near_down`, but for rounding when clipped.
         let depth = mul_high_unsigned(self.near_mantissa, inverse);
-        // depth < 2^30, and near / z = depth 2^(up + 2 - near_down)
-        let down = self.near_down - up - 2;
-        let depth = if down >= 0 {
-            depth >> down.min(31)
-        } else {
-            depth << (-down).min(2)
-        };
+        // depth < 2^30, and near / z = 4 depth 2^(up - near_down)
+        let depth = (depth << 2) >> (self.near_down - up).clamp(0, 31);
         // x 2^(up + power - 15) is below z 2^up in magnitude, that is, within 31 bits.
         let shift = up + self.power - 15;
-        let scaled = |v: i32| {
-            if shift >= 0 {
-                v.wrapping_shl(shift as u32)
-            } else {
-                v >> (-shift).min(31)
-            }
+        let (x, y) = if shift >= 0 {
+            (
+                p.x.wrapping_shl(shift as u32),
+                p.y.wrapping_shl(shift as u32),
+            )
+        } else {
+            let down = (-shift).min(31);
+            (p.x >> down, p.y >> down)
         };
         // 2^31 itself, for a power of two, is a unit less: so a signed product will do.
-        let inverse = inverse.min(i32::MAX as u32) as i32;
+        let inverse = (inverse - (inverse >> 31)) as i32;
         let place = |v: i32, centre: i32| {
-            let q = mul_high(scaled(v), inverse);
+            let q = mul_high(v, inverse);
             (((q + (1 << 13)) >> 14) + centre).clamp(0, 0xFFFF) as u16
         };
         ScreenPoint {
-            x: place(p.x, self.centre[0]),
-            y: place(p.y, self.centre[1]),
+            x: place(x, self.centre[0]),
+            y: place(y, self.centre[1]),
             depth: depth.clamp(DEPTH_MIN, DEPTH_MAX),
         }
     }

@@ -31,6 +31,8 @@ pub struct Drawable<L, M = ()> {
     /// First line below the triangle.
     end: u16,
     sides: Sides,
+    /// Depth and its range are still to be made: see [`Object::deepen`].
+    shallow: bool,
     /// See [`Drawable::range`].
     range: (u16, u16),
     /// What it carries beside its colours.
@@ -59,6 +61,7 @@ impl<L, M: Mark> Drawable<L, M> {
         turn: 0,
         end: 0,
         sides: Sides::Inside,
+        shallow: false,
         range: (0, 0),
         mark: M::NONE,
         parameters: Parameters::Corners,
@@ -80,6 +83,12 @@ impl<L, M: Mark> Drawable<L, M> {
     #[must_use]
     pub const fn range(&self) -> (u16, u16) {
         self.range
+    }
+
+    /// Whether its depth is still to be made, by [`Object::deepen`].
+    #[inline(always)]
+    pub(crate) const fn is_shallow(&self) -> bool {
+        self.shallow
     }
 
     /// Whether all of it is on the picture, so that [`inside`](Drawable::inside) has its columns.
@@ -149,72 +158,141 @@ impl<F: Copy> Object<F> {
 
     /// Sets the object up in `out` for `line` and all below, and for a picture of these columns
     /// of guard space; `false` when the object does not exist in this arena or ends above.
+    ///
+    /// Where it may be `shallow`, depth is left to [`deepen`](Object::deepen) if that surely finds
+    /// a plane: most lines of most scenes never ask for it.
     #[inline(never)]
     pub(crate) fn set_up<S: Shading<Face = F>>(
         &self,
         vertices: &[SceneVertex<S::Vertex>],
         scale: &Scale,
-        (line, picture): (i32, &Range<i32>),
+        (line, picture, shallow): (i32, &Range<i32>, bool),
         out: &mut Drawable<S::Levels, S::Mark>,
     ) -> bool {
         let Some(corners) = self.corners(vertices) else {
             return false;
         };
         let place = corners.map(|c| (c.x, c.y));
-        let area = SmallArea::new(place);
-        if !edges(place, area.is_some(), line, picture, out) {
+        let Some(area) = SmallArea::new(place) else {
+            return self.set_up_large::<S>(corners, scale, (line, picture), out);
+        };
+        if !edges(place, true, line, picture, out) || !out.keep::<S>(&self.face, line) {
             return false;
         }
-        out.mark = S::mark(&self.face);
-        if S::Mark::CUTS {
-            out.end = out.end.min(out.mark.kept().bottom);
-            if line >= i32::from(out.end) {
-                return false;
-            }
+        let (attributes, depths) = (corners.map(|c| c.attribute), corners.map(|c| c.depth));
+        let Some(levels) = S::set_up_small(&area, attributes, depths, self.face, scale) else {
+            out.parameters = large::<S>(corners, self.face, scale);
+            out.range = range(depths);
+            out.shallow = false;
+            return true;
+        };
+        let depths = depths.map(|d| d as i32);
+        out.shallow = shallow && area.is_gentle(depths);
+        if out.shallow {
+            out.parameters = Parameters::Planes(Plane::ZERO, levels);
+            return true;
         }
-        let [a, b, c] = corners.map(|c| c.depth);
-        out.range = (
-            ((a.max(b).max(c) >> 15) as u16).saturating_add(1),
-            (a.min(b).min(c) >> 15) as u16,
-        );
-        let mut kept = None;
-        if let Some(area) = area {
-            let depth = area.wide_plane(corners.map(|c| c.depth as i32));
-            let levels = S::set_up_small(
-                &area,
-                corners.map(|c| c.attribute),
-                corners.map(|c| c.depth),
-                self.face,
-                scale,
-            );
-            if let (Some(depth), Some(levels)) = (depth, levels) {
-                out.parameters = Parameters::Planes(depth, levels);
-                return true;
-            }
-            if S::COMPOSITED {
-                kept = depth;
-            }
-        }
-        large::<S>(corners, self.face, (scale, kept), out);
+        out.range = range(depths.map(|d| d as u32));
+        let depth = match area.wide_plane(depths) {
+            Some(depth) => Some(depth),
+            None => exact_plane(place, depths),
+        };
+        out.parameters = match depth {
+            Some(depth) => Parameters::Planes(depth, levels),
+            None => Parameters::Corners,
+        };
         true
+    }
+
+    /// The same for one that is larger than 64 pixels or has next to no area.
+    #[cold]
+    #[inline(never)]
+    fn set_up_large<S: Shading<Face = F>>(
+        &self,
+        corners: [&SceneVertex<S::Vertex>; 3],
+        scale: &Scale,
+        (line, picture): (i32, &Range<i32>),
+        out: &mut Drawable<S::Levels, S::Mark>,
+    ) -> bool {
+        let place = corners.map(|c| (c.x, c.y));
+        if !edges(place, false, line, picture, out) || !out.keep::<S>(&self.face, line) {
+            return false;
+        }
+        out.parameters = large::<S>(corners, self.face, scale);
+        out.range = range(corners.map(|c| c.depth));
+        out.shallow = false;
+        true
+    }
+
+    /// Makes the depth of `out`, in which this object was set up without it.
+    #[cold]
+    #[inline(never)]
+    pub(crate) fn deepen<A, L, M: Mark>(
+        &self,
+        vertices: &[SceneVertex<A>],
+        out: &mut Drawable<L, M>,
+    ) {
+        let Some(corners) = self.corners(vertices) else {
+            return;
+        };
+        let (place, depths) = (corners.map(|c| (c.x, c.y)), corners.map(|c| c.depth));
+        out.shallow = false;
+        out.range = range(depths);
+        let depths = depths.map(|d| d as i32);
+        let plane = SmallArea::new(place).and_then(|area| area.wide_plane(depths));
+        if let Parameters::Planes(depth, _) = &mut out.parameters {
+            *depth = match plane {
+                Some(plane) => plane,
+                None => exact_plane(place, depths).unwrap_or_default(),
+            };
+        }
     }
 }
 
-/// Parameters of a triangle that is large or thin; of its depth, where it is `kept`, that of a
-/// small one.
+impl<L, M: Mark> Drawable<L, M> {
+    /// Takes over what a face carries beside its colours; `false` when that ends it above `line`.
+    #[inline(always)]
+    fn keep<S: Shading<Mark = M>>(&mut self, face: &S::Face, line: i32) -> bool {
+        self.mark = S::mark(face);
+        if M::CUTS {
+            self.end = self.end.min(self.mark.kept().bottom);
+        }
+        !M::CUTS || line < i32::from(self.end)
+    }
+}
+
+/// The plane of a triangle that may be large or thin; `None`: it is too thin for one.
+#[cold]
+#[inline(never)]
+fn exact_plane(place: [(u16, u16); 3], value: [i32; 3]) -> Option<Plane> {
+    InverseArea::new(place)?.plane(value)
+}
+
+/// See [`Drawable::range`].
+#[inline(always)]
+fn range([a, b, c]: [u32; 3]) -> (u16, u16) {
+    (
+        ((a.max(b).max(c) >> 15) as u16).saturating_add(1),
+        (a.min(b).min(c) >> 15) as u16,
+    )
+}
+
+/// Parameters of a triangle that is large or thin; of its depth, where it has one, that by its
+/// small area.
 #[cold]
 #[inline(never)]
 fn large<S: Shading>(
     corners: [&SceneVertex<S::Vertex>; 3],
     face: S::Face,
-    (scale, kept): (&Scale, Option<Plane>),
-    out: &mut Drawable<S::Levels, S::Mark>,
-) {
+    scale: &Scale,
+) -> Parameters<S::Levels> {
+    let place = corners.map(|c| (c.x, c.y));
     let planes = || {
-        let area = InverseArea::new(corners.map(|c| (c.x, c.y)))?;
-        let depth = match kept {
+        let area = InverseArea::new(place)?;
+        let depths = corners.map(|c| c.depth as i32);
+        let depth = match SmallArea::new(place).and_then(|small| small.wide_plane(depths)) {
             Some(depth) => depth,
-            None => area.plane(corners.map(|c| c.depth as i32))?,
+            None => area.plane(depths)?,
         };
         let levels = S::set_up(
             &area,
@@ -225,7 +303,7 @@ fn large<S: Shading>(
         )?;
         Some(Parameters::Planes(depth, levels))
     };
-    out.parameters = planes().unwrap_or(Parameters::Corners);
+    planes().unwrap_or(Parameters::Corners)
 }
 
 /// The corners from top to bottom; equal heights keep their order.

@@ -53,7 +53,7 @@ fn spans_are_those_of_the_fast_path() {
                 && object.set_up::<Gouraud>(
                     &vertices,
                     &Scale::new([255; 3]),
-                    (line, &picture),
+                    (line, &picture, false),
                     &mut drawable,
                 );
             let fast = here

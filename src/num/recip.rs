@@ -3,6 +3,7 @@
 //! 64-bit division is a library call of some hundred instructions on every Cortex-M; this is
 //! one `UDIV` and two widening products, and only 32-bit results are kept.
 
+use super::product::mul_high;
 use super::short::{self, SHORT};
 
 /// `2^62 / a` for a normalised `a` (top bit set), in `2^30 ..= 2^31`.
@@ -18,11 +19,11 @@ pub const fn recip(a: u32) -> u32 {
     }
     // 2^48 / a to 16 bits: relative error within -2^-16 and +2^-15.
     let seed = 0xFFFF_FFFF / (a >> 16);
+    // Within 2^33, so that an eighth of it has 32 bits.
     let miss = (1i64 << 48) - (a as u64 * seed as u64) as i64;
     // One Newton step: seed (1 + miss / 2^48), in 2^62 / a; the neglected square is 2^-30.
-    let step = (seed as i64 * (miss >> 3)) >> 31;
-    let value = ((seed as i64) << 14) + step;
-    value as u32
+    let step = mul_high((seed << 1) as i32, (miss >> 3) as i32);
+    (seed << 14).wrapping_add(step as u32)
 }
 
 #[cfg(test)]

@@ -168,6 +168,20 @@ impl SmallArea {
         let g = self.gradient((d1 + half) >> down, (d2 + half) >> down);
         (self.rise_bits([g], down) <= 26).then(|| self.plane(value[0], g, down))
     }
+
+    /// Whether [`InverseArea::plane`](super::InverseArea::plane) surely has a plane of this
+    /// quantity of up to 31 bits: it rises by less than 2^29 a pixel.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_gentle(&self, value: [i32; 3]) -> bool {
+        let d1 = value[1] - value[0];
+        let d2 = value[2] - value[0];
+        let size = (d1 ^ (d1 >> 31)) | (d2 ^ (d2 >> 31));
+        let bits = 32 - leading_zeros(size as u32) as i32;
+        // The numerator has at most `bits + extent_bits + 3`, the area at least `shift + 4` behind
+        // its first, and a pixel is 8 units.
+        bits + self.extent_bits as i32 <= self.shift + 27
+    }
 }
 
 /// `value 2^-down`, rounded to nearest where it shifts right.
@@ -225,6 +239,34 @@ mod tests {
             }
         }
         assert!(made > 200_000, "{made} made, {refused} refused");
+    }
+
+    #[test]
+    fn what_is_gentle_has_a_plane() {
+        use crate::num::InverseArea;
+        let mut rng = Rng(8);
+        let (mut gentle, mut steep, mut refused) = (0, 0, 0);
+        for i in 0..480_000 {
+            let size = [8, 20, 60, 511][i % 4];
+            let range = [1 << 12, 1 << 20, 1 << 27, i32::MAX as u32][i / 4 % 4];
+            let p = [(); 3].map(|()| (rng.below(size) as u16, rng.below(size) as u16));
+            let v = [(); 3].map(|()| rng.below(range) as i32);
+            let Some(area) = SmallArea::new(p) else {
+                continue;
+            };
+            let plane = InverseArea::new(p).and_then(|area| area.plane(v));
+            if area.is_gentle(v) {
+                gentle += 1;
+                assert!(plane.is_some(), "{p:?} {v:?}");
+            } else {
+                steep += 1;
+                refused += u32::from(plane.is_none());
+            }
+        }
+        assert!(
+            gentle > 200_000 && steep > 10_000 && refused > 1_000,
+            "{gentle} {steep} {refused}"
+        );
     }
 
     #[test]

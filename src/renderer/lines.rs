@@ -135,6 +135,8 @@ pub struct LineRenderer<'m, P: Pipeline> {
     depth_use: DepthUse,
     /// Of lines on which no spans overlap.
     apart: Doubt,
+    /// Whether slots may hold objects without their depth.
+    shallow: bool,
     order: Order,
     /// Where an object is set up that has no slot.
     spare: DrawableOf<P>,
@@ -166,6 +168,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             dirty: true,
             depth_use: DepthUse::WhereNeeded,
             apart: Doubt::default(),
+            shallow: false,
             order: Order::default(),
             spare: Drawable::EMPTY,
             special_end: 0,
@@ -282,13 +285,14 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         (place.last, place.next, place.admitted) = (now, next, now);
         self.place = Some(place);
+        let shallow = self.leaves_depth();
         let Some(cells) = self.depth.get_mut(..width) else {
             return Ok(false);
         };
         let mut pass = LinePass {
             brush: Brush {
                 scene,
-                thin: 0,
+                reads: 0,
                 counter: &mut self.counter,
                 interpolation: self.interpolation,
             },
@@ -297,6 +301,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             dirty: &mut self.dirty,
             order: &mut self.order,
             special_end: &mut self.special_end,
+            shallow,
             line: now,
             left,
         };
@@ -308,12 +313,12 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         if MarkOf::<P>::RANKS {
             pass.draw_ranked(&mut self.list, next, &mut self.spare);
-            self.list.counts.set_ups += pass.brush.thin;
+            self.list.counts.set_ups += pass.brush.reads;
             return Ok(true);
         }
         if P::Compositing::BLENDS && (now < *pass.special_end || self.list.has_spilled()) {
             pass.draw_composited(&mut self.list, next, &mut self.spare);
-            self.list.counts.set_ups += pass.brush.thin;
+            self.list.counts.set_ups += pass.brush.reads;
             return Ok(true);
         }
         let whole =
@@ -326,6 +331,17 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             drawn = pass.draw_apart(&self.list);
             self.apart.learn(drawn);
         }
+        if P::Depth::TESTS && !drawn {
+            pass.shallow = false;
+            if self.shallow {
+                let reads = &mut pass.brush.reads;
+                self.list.change_members(|object, body| {
+                    *reads += u32::from(scene.deepen(object, body));
+                });
+                // What was fetched ahead is not yet among them.
+                self.shallow = self.prefetch > 0;
+            }
+        }
         if P::Depth::ORDERS && whole && !drawn && pass.find_order(&self.list) {
             pass.draw_ordered(self.list.slots());
             drawn = true;
@@ -337,8 +353,18 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
             pass.begin_together();
             self.list.visit_all(next, &mut self.spare, &mut pass);
         }
-        self.list.counts.set_ups += pass.brush.thin;
+        self.list.counts.set_ups += pass.brush.reads;
         Ok(true)
+    }
+
+    /// Whether what is set up now is left without its depth, since lines do well without.
+    #[inline(always)]
+    pub(super) fn leaves_depth(&mut self) -> bool {
+        let apart = self.depth_use == DepthUse::WhereNeeded && self.apart.is_calm();
+        let apart = apart && !MarkOf::<P>::RANKS;
+        let leaves = !P::Compositing::BLENDS && (apart || !P::Depth::TESTS);
+        self.shallow |= leaves;
+        leaves
     }
 
     /// Bytes of an object and its corners in slow memory.
@@ -371,6 +397,8 @@ pub(super) struct LinePass<'a, 's, P: Pipeline> {
     pub(super) order: &'a mut Order,
     /// See [`LineRenderer::special_end`].
     pub(super) special_end: &'a mut i32,
+    /// Whether objects may be set up without their depth.
+    shallow: bool,
     pub(super) line: i32,
     pub(super) left: i32,
 }
@@ -378,7 +406,8 @@ pub(super) struct LinePass<'a, 's, P: Pipeline> {
 impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
     #[inline(always)]
     fn set_up(&mut self, object: u16, body: &mut DrawableOf<P>) -> bool {
-        let there = self.brush.scene.set_up(object, self.line, body);
+        let how = (self.line, self.shallow);
+        let there = self.brush.scene.set_up(object, how, body);
         if P::Compositing::BLENDS && there && is_special(self.brush.scene, object, body) {
             *self.special_end = (*self.special_end).max(i32::from(body.end()));
         }
@@ -463,14 +492,14 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     #[inline]
     fn draw_apart(&mut self, list: &ActiveList<'_, DrawableOf<P>>) -> bool {
         self.clear();
-        let (thin, counter) = (self.brush.thin, *self.brush.counter);
+        let (reads, counter) = (self.brush.reads, *self.brush.counter);
         let apart = match self.mark(list) {
             Some((first, count)) => self.draw_marked(list.slots(), first, count),
             None => false,
         };
         if !apart {
             *self.dirty = true;
-            (self.brush.thin, *self.brush.counter) = (thin, counter);
+            (self.brush.reads, *self.brush.counter) = (reads, counter);
         }
         apart
     }

@@ -34,6 +34,12 @@ impl Doubt {
         tries
     }
 
+    /// Whether it went well the last time, or was never tried.
+    #[inline]
+    pub(super) fn is_calm(self) -> bool {
+        self.last == 0
+    }
+
     /// Learns how it went: after each failure twice as many lines are waited for, up to 15.
     #[inline]
     pub(super) fn learn(&mut self, apart: bool) {

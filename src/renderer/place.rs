@@ -125,6 +125,7 @@ impl<P: Pipeline> LineRenderer<'_, P> {
         left: &mut u32,
     ) -> bool {
         let record = Self::RECORD_BYTES as u32;
+        let shallow = self.leaves_depth();
         while place.admitted < line {
             let mut rest = match place.rest {
                 Some(rest) => rest,
@@ -149,7 +150,7 @@ impl<P: Pipeline> LineRenderer<'_, P> {
                 // It may end before this renderer's next line, and then is none of its own.
                 let special_end = &mut self.special_end;
                 self.list.admit_fetched(object, |body| {
-                    let there = scene.set_up(object, line, body);
+                    let there = scene.set_up(object, (line, shallow), body);
                     if P::Compositing::BLENDS && there && is_special(scene, object, body) {
                         *special_end = (*special_end).max(i32::from(body.end()));
                     }

@@ -107,7 +107,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 let object = key as u16;
                 if let Some(slot) = list.slots().get(usize::from(slot)) {
                     self.draw_next(object, slot.body());
-                } else if self.brush.scene.set_up(object, line, spare) {
+                } else if self.brush.scene.set_up(object, (line, false), spare) {
                     list.counts.misses += 1;
                     self.draw_next(object, spare);
                 }

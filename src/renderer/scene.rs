@@ -606,13 +606,28 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.store.vertices.as_slice()
     }
 
-    /// Sets up the object at `index` in `out` for `line` of guard space and all below.
+    /// Sets up the object at `index` in `out` for `line` of guard space and all below; without
+    /// its depth where it may be `shallow`.
     #[inline(always)]
-    pub(crate) fn set_up(&self, index: u16, line: i32, out: &mut DrawableOf<P>) -> bool {
+    pub(crate) fn set_up(
+        &self,
+        index: u16,
+        (line, shallow): (i32, bool),
+        out: &mut DrawableOf<P>,
+    ) -> bool {
         let left = self.screen.left();
         let picture = left..left + i32::from(self.screen.width());
-        self.object(index).is_some_and(|o| {
-            o.set_up::<P::Shading>(self.vertices(), scale::<P>(), (line, &picture), out)
-        })
+        let how = (line, &picture, shallow);
+        self.object(index)
+            .is_some_and(|o| o.set_up::<P::Shading>(self.vertices(), scale::<P>(), how, out))
+    }
+
+    /// Makes the depth of what was set up without it; whether it was.
+    pub(crate) fn deepen(&self, index: u16, out: &mut DrawableOf<P>) -> bool {
+        let shallow = out.is_shallow();
+        if let Some(object) = self.object(index).filter(|_| shallow) {
+            object.deepen(self.vertices(), out);
+        }
+        shallow
     }
 }

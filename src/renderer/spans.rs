@@ -20,8 +20,8 @@ pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
 /// What draws the objects of a line: from their planes, or from their corners.
 pub(super) struct Brush<'a, 's, P: Pipeline> {
     pub(super) scene: &'a Scene<'s, P>,
-    /// Triangles drawn from their corners in slow memory.
-    pub(super) thin: u32,
+    /// Records read once more: of triangles drawn from their corners, and for depth.
+    pub(super) reads: u32,
     pub(super) counter: &'a mut P::Counter,
     pub(super) interpolation: P::Interpolation,
 }
@@ -44,7 +44,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
                 draw_span::<P>((plane, grain, levels), at, (pixels, cells), how);
             }
             Parameters::Corners => {
-                self.thin += 1;
+                self.reads += 1;
                 let (count, tested) = (pixels.len() as u32, cells.is_some());
                 let cells = cells.unwrap_or_default();
                 let grain = P::Depth::grain(body.range().0);
@@ -94,7 +94,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
                 draw_masked::<P>(levels, at, (pixels, &mut masked), how);
             }
             Parameters::Corners => {
-                self.thin += 1;
+                self.reads += 1;
                 let shown = &mut |_, _| masked.next();
                 draw_thin(self.scene, object, at, pixels, self.counter, shown);
             }

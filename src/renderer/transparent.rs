@@ -345,7 +345,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                     let span = (usize::from(start), usize::from(end));
                     if let Some(slot) = list.slots().get(usize::from(pane.slot)) {
                         self.draw_ruled(pane.object, slot.body(), span, ShadowCount::Any);
-                    } else if self.brush.scene.set_up(pane.object, line, spare) {
+                    } else if self.brush.scene.set_up(pane.object, (line, false), spare) {
                         list.counts.misses += 1;
                         self.draw_ruled(pane.object, spare, span, ShadowCount::Any);
                     }
@@ -411,7 +411,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 }
             }
             Parameters::Corners => {
-                self.brush.thin += 1;
+                self.brush.reads += 1;
                 let parts = pixels.chunks_mut(1).zip(cells.chunks_mut(1));
                 for (part, column) in parts.zip(column..) {
                     let at = (column, line);
@@ -440,7 +440,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 }
             }
             Parameters::Corners => {
-                self.brush.thin += 1;
+                self.brush.reads += 1;
                 let scene = self.brush.scene;
                 let corners = scene
                     .object(object)
