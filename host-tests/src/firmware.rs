@@ -250,40 +250,67 @@ pub fn build_all(
     programs: &[&str],
     features: &[&str],
 ) -> Result<PathBuf, FirmwareError> {
-    let mut directory = target_directory(toolchain);
+    let mut target = target_directory(toolchain);
     if !features.is_empty() {
         // Beside the plain one, which somebody may be running.
-        directory.push(features.join("+"));
+        target.push(features.join("+"));
     }
-    let mut cargo = toolchain.cargo(boards);
-    cargo
-        .current_dir(workspace().join("examples/qemu"))
-        .args(["build", "--profile", profile.name(), "--target-dir"])
-        .arg(&directory)
-        .args(programs.iter().flat_map(|program| ["--bin", program]))
-        .args(boards.iter().flat_map(|board| ["--target", board.target]));
-    if toolchain.source == Source::Debian {
-        cargo.arg("-Zbuild-std=core");
-    }
+    let mut words = vec!["--profile", profile.name()];
+    words.extend(programs.iter().flat_map(|program| ["--bin", program]));
+    let features = features.join(",");
     if !features.is_empty() {
-        cargo.args(["--features", &features.join(",")]);
+        words.extend(["--features", &features]);
     }
-    let output = cargo
-        .stdin(Stdio::null())
-        .output()
-        .map_err(io_error("cargo"))?;
-    if !output.status.success() {
-        return Err(FirmwareError::Build {
-            targets: boards
-                .iter()
-                .map(|b| b.target)
-                .collect::<Vec<_>>()
-                .join(", "),
-            status: output.status,
-            stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
-        });
+    let package = Package {
+        folder: workspace().join("examples/qemu"),
+        target,
+        crates: "core",
+    };
+    package.build(toolchain, boards, &words)
+}
+
+/// A package of firmware.
+pub(crate) struct Package {
+    /// Where its manifest is.
+    pub(crate) folder: PathBuf,
+    /// Its target directory.
+    pub(crate) target: PathBuf,
+    /// What it takes of Rust's own crates, where they are built from their sources.
+    pub(crate) crates: &'static str,
+}
+
+impl Package {
+    /// Builds it for boards, with more words for cargo, and gives its target directory.
+    pub(crate) fn build(
+        self,
+        toolchain: &Toolchain,
+        boards: &[Board],
+        words: &[&str],
+    ) -> Result<PathBuf, FirmwareError> {
+        let mut cargo = toolchain.cargo(boards);
+        cargo
+            .current_dir(&self.folder)
+            .args(["build", "--target-dir"])
+            .arg(&self.target)
+            .args(words)
+            .args(boards.iter().flat_map(|board| ["--target", board.target]));
+        if toolchain.source == Source::Debian {
+            cargo.arg(format!("-Zbuild-std={}", self.crates));
+        }
+        let output = cargo
+            .stdin(Stdio::null())
+            .output()
+            .map_err(io_error("cargo"))?;
+        if !output.status.success() {
+            let targets: Vec<&str> = boards.iter().map(|board| board.target).collect();
+            return Err(FirmwareError::Build {
+                targets: targets.join(", "),
+                status: output.status,
+                stderr: String::from_utf8_lossy(&output.stderr).into_owned(),
+            });
+        }
+        Ok(self.target)
     }
-    Ok(directory)
 }
 
 /// Runs an ELF to its end and gives the lines that it printed.
@@ -295,7 +322,23 @@ pub fn build_all(
 ///
 /// [`FirmwareError::NoQemu`], [`FirmwareError::Timeout`] and [`FirmwareError::Failed`].
 pub fn run(board: &Board, elf: &Path, timeout: Duration) -> Result<Vec<String>, FirmwareError> {
-    run_in(QEMU, board, elf, timeout)
+    run_words(board, elf, timeout, &[], Path::new("."))
+}
+
+/// As [`run`], with words for a program that asks for them, the first its own name, and the folder
+/// in which it finds its files. No word may hold a space or a comma.
+///
+/// # Errors
+///
+/// As [`run`].
+pub(crate) fn run_words(
+    board: &Board,
+    elf: &Path,
+    timeout: Duration,
+    words: &[&str],
+    folder: &Path,
+) -> Result<Vec<String>, FirmwareError> {
+    run_in(QEMU, board, elf, timeout, words, folder)
 }
 
 fn run_in(
@@ -303,13 +346,18 @@ fn run_in(
     board: &Board,
     elf: &Path,
     timeout: Duration,
+    words: &[&str],
+    folder: &Path,
 ) -> Result<Vec<String>, FirmwareError> {
     let started = Instant::now();
+    let mut semihosting = String::from("enable=on,target=native");
+    semihosting.extend(words.iter().map(|word| format!(",arg={word}")));
     let mut child = Command::new(qemu)
+        .current_dir(folder)
         .args(["-machine", board.machine, "-cpu", board.cpu])
         .args(["-icount", "shift=0"])
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
-        .args(["-semihosting-config", "enable=on,target=native", "-kernel"])
+        .args(["-semihosting-config", &semihosting, "-kernel"])
         .arg(elf)
         .stdin(Stdio::null())
         .stdout(Stdio::piped())

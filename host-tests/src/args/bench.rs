@@ -26,7 +26,7 @@ pub struct BenchArgs {
     /// Print the figures as JSON
     #[arg(long)]
     pub json: bool,
-    /// Also build and measure other renderers of the registry
+    /// Also build and measure other renderers of the registry, here and on Cortex-M in QEMU
     #[arg(long)]
     pub peers: bool,
     /// Write the tables into README.md, between their markers

@@ -1,31 +1,40 @@
-//! `bench`: frames on this machine, by counted instructions and by the clock, beside other renderers.
+//! `bench`: frames on this machine, by counted instructions and by the clock, beside other renderers;
+//! with those also on Cortex-M in QEMU.
 //!
 //! | file | there |
 //! |---|---|
+//! | `boards.rs` | the same programs on Cortex-M |
 //! | `scene.rs` | the scenes as numbers, for renderers that take any mesh |
 //! | `table.rs` | the tables of the README |
 //!
 //! The programs that are measured are crates of their own, `host-tests/bench/ours` and
-//! `host-tests/bench/peers`, built here with the profile of the firmware. Instructions are those
+//! `host-tests/bench/peers`, built here with the profile of the firmware, for this machine and for
+//! each board. Instructions are those
 //! that callgrind counts for three frames less those for one, halved; without valgrind there are
 //! none, and that is said. The clock is read in turns, and the fastest frame of each counts, since
 //! whatever else the machine does only adds to it. Before anything is measured, pictures are compared: a renderer that does not draw
 //! the same scene is refused.
 
+mod boards;
 mod scene;
 mod table;
+
+pub use boards::{Counted, OnBoard};
 
 use crate::args::BenchArgs;
 use crate::firmware::{clean_command, usual_target, workspace};
 use scenes::{HEIGHT, Shot, WIDTH};
 use serde_json::{Value, json};
+use std::collections::BTreeMap;
 use std::error::Error;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 use tempfile::TempDir;
 
 /// The name of ours.
 pub const OURS: &str = "scanbeam";
+/// The packages of `host-tests/bench`: ours, and the one of all peers.
+const PACKAGES: [&str; 2] = ["ours", "peers"];
 /// Renderers of the registry: name of the package, as reports have it, and as its program does.
 const PEERS: [(&str, &str); 3] = [
     ("euc 0.5", "euc"),
@@ -60,6 +69,8 @@ pub struct Row {
     pub ratio: f64,
     /// The same by instructions.
     pub instructions_ratio: Option<f64>,
+    /// On each board, where other renderers are measured too.
+    pub boards: Vec<OnBoard>,
 }
 
 impl Row {
@@ -68,6 +79,10 @@ impl Row {
     }
 
     fn to_json(&self) -> Value {
+        let boards = self.boards.iter();
+        let boards: serde_json::Map<String, Value> = boards
+            .map(|on| (on.board.name.to_owned(), on.to_json()))
+            .collect();
         json!({
             "scene": self.scene,
             "renderer": self.renderer,
@@ -77,6 +92,7 @@ impl Row {
             "wall_ms": self.wall_ms,
             "ratio_to_us": self.ratio,
             "instructions_ratio_to_us": self.instructions_ratio,
+            "boards": boards,
         })
     }
 }
@@ -105,26 +121,42 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     if !bench.valgrind {
         eprintln!("note: no instructions were counted: valgrind is not installed");
     }
+    for reason in missing(&rows) {
+        eprintln!("note: not measured: {reason}");
+    }
     if args.markdown {
         table::write(&workspace().join("README.md"), &rows)?;
     }
     Ok(())
 }
 
-/// The programs, and what they are handed.
+/// Why figures of boards are missing, each reason once.
+pub fn missing(rows: &[Row]) -> Vec<&str> {
+    let mut reasons: Vec<&str> = Vec::new();
+    for on in rows.iter().flat_map(|row| &row.boards) {
+        if let Err(reason) = &on.counted
+            && !reasons.contains(&reason.as_str())
+        {
+            reasons.push(reason);
+        }
+    }
+    reasons
+}
+
+/// The programs, which are built, and what they are handed.
 struct Bench {
-    ours: PathBuf,
-    peers: Option<PathBuf>,
+    peers: bool,
     /// Scenes and pictures.
     folder: TempDir,
     valgrind: bool,
 }
 
 /// A renderer on a scene, and how to run it: all words but the number of frames and the picture.
-struct Entry<'b> {
+/// Files are named as seen from the folder of scenes and pictures.
+struct Entry {
     scene: Shot,
     renderer: &'static str,
-    program: &'b Path,
+    package: &'static str,
     words: Vec<String>,
 }
 
@@ -141,37 +173,37 @@ impl Bench {
             .stdout(Stdio::null())
             .stderr(Stdio::null())
             .status();
+        for package in PACKAGES.iter().take(1 + usize::from(peers)) {
+            build(package)?;
+        }
         Ok(Self {
-            ours: build("ours")?,
-            peers: if peers { Some(build("peers")?) } else { None },
+            peers,
             folder,
             valgrind: valgrind.is_ok_and(|status| status.success()),
         })
     }
 
     /// Everything that is to be measured, ours first on each scene.
-    fn entries(&self) -> Vec<Entry<'_>> {
+    fn entries(&self) -> Vec<Entry> {
+        let [ours, others] = PACKAGES;
         let mut entries = Vec::new();
         for scene in scene::SHARED.into_iter().chain(ALONE) {
             entries.push(Entry {
                 scene,
                 renderer: OURS,
-                program: &self.ours,
+                package: ours,
                 words: vec![scene.name().to_owned()],
             });
-            let Some(program) = self.peers.as_deref() else {
-                continue;
-            };
-            if !scene::SHARED.contains(&scene) {
+            if !self.peers || !scene::SHARED.contains(&scene) {
                 continue;
             }
             for (renderer, word) in PEERS {
-                let file = self.folder.path().join(format!("{}.json", scene.name()));
+                let file = format!("{}.json", scene.name());
                 entries.push(Entry {
                     scene,
                     renderer,
-                    program,
-                    words: vec![word.to_owned(), file.display().to_string()],
+                    package: others,
+                    words: vec![word.to_owned(), file],
                 });
             }
         }
@@ -181,15 +213,13 @@ impl Bench {
     fn rows(&self) -> Result<Vec<Row>, Box<dyn Error>> {
         let entries = self.entries();
         let mut rows: Vec<Row> = Vec::new();
-        let mut ours: Vec<u16> = Vec::new();
+        let mut ours = Pictures::new();
         for entry in &entries {
             let picture = self.picture(entry)?;
+            let shown = Compared::new(entry, &picture, &ours)?.shown;
             if entry.renderer == OURS {
-                ours.clone_from(&picture);
+                ours.insert(entry.scene.name(), picture);
             }
-            let background = scene::background(entry.scene);
-            let compared = Compared::new(&picture, &ours, background);
-            compared.check(entry)?;
             let counted = |frames| self.counted(entry, frames);
             let instructions = if self.valgrind {
                 Some((counted(3)? - counted(1)?) / 2.0)
@@ -200,15 +230,16 @@ impl Bench {
                 scene: entry.scene.name(),
                 renderer: entry.renderer,
                 instructions,
-                pixels: compared.shown,
+                pixels: shown,
                 wall_ms: f64::INFINITY,
                 ratio: 0.0,
                 instructions_ratio: None,
+                boards: Vec::new(),
             });
         }
         for _ in 0..TURNS {
             for (entry, row) in entries.iter().zip(&mut rows) {
-                let said = entry.run(&[&FRAMES.to_string()])?;
+                let said = self.run(entry, &[&FRAMES.to_string()])?;
                 row.wall_ms = row.wall_ms.min(said.trim().parse()?);
             }
         }
@@ -224,32 +255,47 @@ impl Bench {
                     row.instructions.zip(ours.instructions).map(|(a, b)| a / b);
             }
         }
+        if self.peers {
+            let boards = boards::measure(&entries, &ours, self.folder.path())?;
+            for (row, boards) in rows.iter_mut().zip(boards) {
+                row.boards = boards;
+            }
+        }
         Ok(rows)
     }
 
     /// The picture in RGB565.
-    fn picture(&self, entry: &Entry<'_>) -> Result<Vec<u16>, Box<dyn Error>> {
-        let file = self.folder.path().join("picture");
-        entry.run(&["0", &file.display().to_string()])?;
-        let bytes = std::fs::read(&file)?;
-        Ok(bytes
-            .chunks_exact(2)
-            .map(|b| u16::from_le_bytes([b[0], b[1]]))
-            .collect())
+    fn picture(&self, entry: &Entry) -> Result<Vec<u16>, Box<dyn Error>> {
+        let file = "picture";
+        self.run(entry, &["0", file])?;
+        Ok(pixels(&std::fs::read(self.folder.path().join(file))?))
     }
 
     /// Instructions of a run of so many frames.
-    fn counted(&self, entry: &Entry<'_>, frames: u32) -> Result<f64, Box<dyn Error>> {
-        let out = self.folder.path().join("callgrind.out");
+    fn counted(&self, entry: &Entry, frames: u32) -> Result<f64, Box<dyn Error>> {
         let output = Command::new("valgrind")
-            .arg("--tool=callgrind")
-            .arg(format!("--callgrind-out-file={}", out.display()))
-            .arg(entry.program)
+            .current_dir(&self.folder)
+            .args(["--tool=callgrind", "--callgrind-out-file=callgrind.out"])
+            .arg(program(entry.package))
             .args(&entry.words)
             .arg(frames.to_string())
             .output()?;
         let said = String::from_utf8_lossy(&output.stderr);
         collected(&said).ok_or_else(|| format!("valgrind counted nothing: {said}").into())
+    }
+
+    /// Runs a program and gives what it prints.
+    fn run(&self, entry: &Entry, words: &[&str]) -> Result<String, Box<dyn Error>> {
+        let output = Command::new(program(entry.package))
+            .current_dir(&self.folder)
+            .args(&entry.words)
+            .args(words)
+            .output()?;
+        if !output.status.success() {
+            let said = String::from_utf8_lossy(&output.stderr);
+            return Err(format!("{} on {}: {said}", entry.renderer, entry.scene.name()).into());
+        }
+        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
     }
 }
 
@@ -259,19 +305,14 @@ fn collected(said: &str) -> Option<f64> {
     line.rsplit(':').next()?.trim().parse().ok()
 }
 
-impl Entry<'_> {
-    fn run(&self, words: &[&str]) -> Result<String, Box<dyn Error>> {
-        let output = Command::new(self.program)
-            .args(&self.words)
-            .args(words)
-            .output()?;
-        if !output.status.success() {
-            let said = String::from_utf8_lossy(&output.stderr);
-            return Err(format!("{} on {}: {said}", self.renderer, self.scene.name()).into());
-        }
-        Ok(String::from_utf8_lossy(&output.stdout).into_owned())
-    }
+/// A picture as programs write it.
+fn pixels(bytes: &[u8]) -> Vec<u16> {
+    let pixels = bytes.chunks_exact(2);
+    pixels.map(|b| u16::from_le_bytes([b[0], b[1]])).collect()
 }
+
+/// Our pictures, by the scene's name.
+type Pictures = BTreeMap<&'static str, Vec<u16>>;
 
 /// A picture beside ours.
 #[derive(Debug, PartialEq)]
@@ -285,7 +326,20 @@ struct Compared {
 }
 
 impl Compared {
-    fn new(picture: &[u16], ours: &[u16], background: u16) -> Self {
+    /// Refuses what is another picture than ours; what is ours has none to be held against.
+    fn new(entry: &Entry, picture: &[u16], ours: &Pictures) -> Result<Self, String> {
+        let ours = ours.get(entry.scene.name()).map_or(picture, Vec::as_slice);
+        let compared = Self::beside(picture, ours, scene::background(entry.scene));
+        if compared.is_the_same() {
+            return Ok(compared);
+        }
+        let (renderer, scene) = (entry.renderer, entry.scene.name());
+        Err(format!(
+            "{renderer} draws something else on {scene}: {compared:?}"
+        ))
+    }
+
+    fn beside(picture: &[u16], ours: &[u16], background: u16) -> Self {
         let pairs = || picture.iter().copied().zip(ours.iter().copied());
         let seen = |pixel: u16| pixel != background;
         let both: Vec<u32> = pairs()
@@ -303,16 +357,8 @@ impl Compared {
         }
     }
 
-    /// Refuses what is another picture.
-    fn check(&self, entry: &Entry<'_>) -> Result<(), String> {
-        if self.shown == 0 || self.other * OTHER_PIXELS > self.shown || self.levels > OTHER_LEVELS {
-            return Err(format!(
-                "{} draws something else on {}: {self:?}",
-                entry.renderer,
-                entry.scene.name()
-            ));
-        }
-        Ok(())
+    fn is_the_same(&self) -> bool {
+        self.shown > 0 && self.other * OTHER_PIXELS <= self.shown && self.levels <= OTHER_LEVELS
     }
 }
 
@@ -323,20 +369,34 @@ fn distance(a: u16, b: u16) -> u32 {
     (0..3).map(|i| u32::from(a[i].abs_diff(b[i]))).sum()
 }
 
-/// Builds a crate of `host-tests/bench` and gives the path of its program.
-fn build(name: &str) -> Result<PathBuf, Box<dyn Error>> {
-    let directory = usual_target().join("bench");
+/// Where the packages of `host-tests/bench` are built.
+fn target() -> PathBuf {
+    usual_target().join("bench")
+}
+
+/// Where a package is.
+fn package(name: &str) -> PathBuf {
+    workspace().join("host-tests/bench").join(name)
+}
+
+/// A package's program for this machine.
+fn program(name: &str) -> PathBuf {
+    target().join("release").join(name)
+}
+
+/// Builds a package for this machine.
+fn build(name: &str) -> Result<(), Box<dyn Error>> {
     let output = clean_command("cargo")
-        .current_dir(workspace().join("host-tests/bench").join(name))
+        .current_dir(package(name))
         .args(["build", "--release", "--locked", "--target-dir"])
-        .arg(&directory)
+        .arg(target())
         .output()
         .map_err(|error| format!("cargo: {error}"))?;
     if !output.status.success() {
         let said = String::from_utf8_lossy(&output.stderr);
         return Err(format!("host-tests/bench/{name} does not build:\n{said}").into());
     }
-    Ok(directory.join("release").join(name))
+    Ok(())
 }
 
 #[cfg(test)]
@@ -355,15 +415,15 @@ mod tests {
         let size = usize::from(WIDTH) * usize::from(HEIGHT);
         let mut ours = vec![0; size];
         ours[..1000].fill(0x8410);
-        let program = PathBuf::new();
         let entry = Entry {
             scene: Shot::Sphere,
             renderer: "x",
-            program: &program,
+            package: PACKAGES[1],
             words: Vec::new(),
         };
-        let check = |picture: &[u16]| Compared::new(picture, &ours, 0).check(&entry);
-        assert_eq!(check(&ours), Ok(()));
+        let pictures = Pictures::from([(Shot::Sphere.name(), ours.clone())]);
+        let check = |picture: &[u16]| Compared::new(&entry, picture, &pictures);
+        assert_eq!(check(&ours).map(|compared| compared.shown), Ok(1000));
         assert!(check(&ours[..size - 100]).is_err());
         assert!(check(&vec![0; size]).is_err());
         let mut moved = ours.clone();
@@ -372,6 +432,35 @@ mod tests {
         let mut darker = ours.clone();
         darker[..1000].fill(0x4208);
         assert!(check(&darker).is_err());
+    }
+
+    #[test]
+    fn bytes_of_a_picture_come_low_first() {
+        assert_eq!(pixels(&[0x34, 0x12, 0xff, 0]), [0x1234, 0xff]);
+    }
+
+    /// One reason for all that it keeps from being measured.
+    #[test]
+    fn reasons_are_told_once() {
+        let row = |reasons: [&str; 2]| Row {
+            scene: "sphere",
+            renderer: OURS,
+            instructions: None,
+            pixels: 1,
+            wall_ms: 1.0,
+            ratio: 1.0,
+            instructions_ratio: None,
+            boards: reasons
+                .map(|reason| OnBoard {
+                    board: crate::firmware::M4,
+                    counted: Err(reason.to_owned()),
+                })
+                .to_vec(),
+        };
+        let rows = [row(["no QEMU", "no QEMU"]), row(["no QEMU", "no core"])];
+        assert_eq!(missing(&rows), ["no QEMU", "no core"]);
+        let json = rows[0].to_json();
+        assert_eq!(json["boards"]["m4"]["missing"], "no QEMU");
     }
 
     #[test]

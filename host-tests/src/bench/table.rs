@@ -1,6 +1,6 @@
 //! The figures as a table for people, and as tables of the README between two markers.
 
-use super::Row;
+use super::{OnBoard, Row, missing};
 use crate::figures::gate::Record;
 use crate::firmware::BOARDS;
 use crate::image_out::write_atomically;
@@ -46,7 +46,31 @@ pub(super) fn text(rows: &[Row]) -> String {
             some(row.instructions_ratio, 2)
         );
     }
-    out
+    out + &boards_text(rows)
+}
+
+/// Millions of instructions and times ours, a column for each board; nothing where none was run.
+fn boards_text(rows: &[Row]) -> String {
+    let mut out = String::new();
+    let Some(first) = rows.first().filter(|row| !row.boards.is_empty()) else {
+        return out;
+    };
+    let _ = write!(out, "\n{:8} {:20}", "scene", "renderer");
+    for on in &first.boards {
+        let _ = write!(
+            out,
+            " {:>12} {:>8}",
+            format!("{}, M", on.board.name),
+            "by instr"
+        );
+    }
+    for row in rows {
+        let _ = write!(out, "\n{:8} {:20}", row.scene, row.renderer);
+        for [count, ratio] in row.boards.iter().map(OnBoard::cells) {
+            let _ = write!(out, " {count:>12} {ratio:>7}x");
+        }
+    }
+    out + "\n"
 }
 
 /// Rewrites what stands between the markers of a file.
@@ -79,15 +103,33 @@ fn markdown(rows: &[Row], record: &Record) -> String {
         let cells: Vec<String> = BOARDS.iter().map(|board| of(board.name)).collect();
         let _ = writeln!(out, "| {title} | {} |", cells.join(" | "));
     }
-    out += "\nBeside other renderers in Rust, million instructions a frame on x86-64, and how many times as many instructions and as long as ours they take:\n\n";
-    out += "| scene | renderer | instructions | times ours | time, times ours |\n| --- | --- | ---: | ---: | ---: |\n";
-    for row in rows {
-        let Some((_, title)) = FRAMES.iter().find(|(frame, _)| *frame == row.scene) else {
-            continue;
-        };
-        if rows.iter().filter(|other| other.scene == row.scene).count() < 2 {
-            continue;
+    let shared: Vec<(&Row, &str)> = rows
+        .iter()
+        .filter(|row| rows.iter().filter(|other| other.scene == row.scene).count() > 1)
+        .filter_map(|row| {
+            let (_, title) = FRAMES.iter().find(|(frame, _)| *frame == row.scene)?;
+            Some((row, *title))
+        })
+        .collect();
+    if shared.iter().any(|(row, _)| !row.boards.is_empty()) {
+        out += "\nBeside other renderers in Rust on the same boards, million instructions a frame, and how many times as many as ours they take. Ours sends one line a transfer here. A Cortex-M3 and an M0+ have no floating point unit, which the others are made for. euc takes depth by fused multiply-adds, which without `std` are made of many instructions each.\n\n";
+        out += "| scene | renderer | Cortex-M4 | times ours | Cortex-M3 | times ours | M0+ code | times ours |\n| --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n";
+        for (row, title) in &shared {
+            let cells: Vec<String> = row.boards.iter().flat_map(OnBoard::cells).collect();
+            let _ = writeln!(
+                out,
+                "| {title} | {} | {} |",
+                row.renderer,
+                cells.join(" | ")
+            );
         }
+        for reason in missing(rows) {
+            let _ = writeln!(out, "\nNot measured: {reason}.");
+        }
+    }
+    out += "\nThe same on x86-64, with the time that they take:\n\n";
+    out += "| scene | renderer | instructions | times ours | time, times ours |\n| --- | --- | ---: | ---: | ---: |\n";
+    for (row, title) in shared {
         let _ = writeln!(
             out,
             "| {title} | {} | {} | {} | {:.1} |",
@@ -104,6 +146,7 @@ fn markdown(rows: &[Row], record: &Record) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::Counted;
 
     fn row(renderer: &'static str, instructions: f64) -> Row {
         Row {
@@ -114,7 +157,47 @@ mod tests {
             wall_ms: 1.0,
             ratio: 2.5,
             instructions_ratio: Some(2.0),
+            boards: Vec::new(),
         }
+    }
+
+    /// On the first board counted, on the others not.
+    fn on_boards(row: Row, instructions: f64, ratio: f64) -> Row {
+        let counted = |first: bool| {
+            let counted = Counted {
+                instructions,
+                pixels: 100,
+                ratio: Some(ratio),
+            };
+            first.then_some(counted).ok_or("no QEMU".to_owned())
+        };
+        let boards = BOARDS.map(|board| OnBoard {
+            board,
+            counted: counted(board == BOARDS[0]),
+        });
+        Row {
+            boards: boards.to_vec(),
+            ..row
+        }
+    }
+
+    #[test]
+    fn boards_stand_beside_the_host() {
+        let rows = [
+            on_boards(row("scanbeam", 1.5e6), 2e6, 1.0),
+            on_boards(row("other", 3e6), 9e6, 4.5),
+        ];
+        let text = text(&rows);
+        assert!(text.contains("m4, M") && text.contains("4.5x"), "{text}");
+        let inner = markdown(&rows, &Record::default());
+        let line = "| A: sphere of 2,048 triangles | other | 9.00 | 4.5 | - | - | - | - |";
+        assert!(inner.contains(line), "{inner}");
+        assert_eq!(
+            inner.matches("Not measured: no QEMU.").count(),
+            1,
+            "{inner}"
+        );
+        assert!(inner.contains("| other | 3.00 | 2.0 | 2.5 |"), "{inner}");
     }
 
     #[test]

@@ -34,8 +34,15 @@ fn outer_build_does_not_leak_into_the_inner_one() {
 
 #[test]
 fn missing_qemu_is_named() {
-    let error = run_in("no-such-qemu", &M4, Path::new("none"), Duration::ZERO)
-        .expect_err("there is no such program");
+    let error = run_in(
+        "no-such-qemu",
+        &M4,
+        Path::new("none"),
+        Duration::ZERO,
+        &[],
+        Path::new("."),
+    )
+    .expect_err("there is no such program");
     assert!(matches!(error, FirmwareError::NoQemu));
     assert!(
         error

@@ -9,8 +9,10 @@ mod page;
 mod tests;
 
 use crate::args::{PixelFormatArg, ReportArgs};
+use crate::bench::OnBoard;
 use crate::draw::{CrewSettings, Drawn, draw, draw_model};
 use crate::figures::gate::Record;
+use crate::firmware::BOARDS;
 use crate::firmware_report::{picture, picture_b};
 use crate::image_out::{Frame, write_atomically};
 use crate::model::{Model, obj_text};
@@ -231,7 +233,8 @@ fn peers(page: &mut Page) -> Result<(), Box<dyn Error>> {
         "ratio of time",
     ];
     let mut rows = vec![head.map(str::to_owned).to_vec()];
-    for row in bench::rows(true)? {
+    let measured = bench::rows(true)?;
+    for row in &measured {
         let some = |value: Option<f64>, digits: usize| {
             value.map_or_else(|| "-".to_owned(), |v| format!("{v:.digits$}"))
         };
@@ -244,6 +247,22 @@ fn peers(page: &mut Page) -> Result<(), Box<dyn Error>> {
         ]);
     }
     page.table(&rows);
+    page.paragraph(
+        "On Cortex-M in QEMU, million instructions a frame, each with its ratio to scanbeam.",
+    );
+    let mut rows = vec![vec!["scene".to_owned(), "renderer".to_owned()]];
+    for board in BOARDS {
+        rows[0].extend([board.name.to_owned(), format!("{}, ratio", board.name)]);
+    }
+    for row in &measured {
+        let mut cells = vec![row.scene.to_owned(), row.renderer.to_owned()];
+        cells.extend(row.boards.iter().flat_map(OnBoard::cells));
+        rows.push(cells);
+    }
+    page.table(&rows);
+    for reason in bench::missing(&measured) {
+        page.paragraph(&format!("Not measured: {reason}."));
+    }
     Ok(())
 }
 

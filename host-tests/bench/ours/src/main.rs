@@ -2,20 +2,21 @@
 //!
 //! Lines go to a display, not into a picture; only [`Renderer::picture`] keeps them.
 
-#[path = "../../measured.rs"]
-mod measured;
+#![cfg_attr(target_os = "none", no_std, no_main)]
 
-use measured::Renderer;
+extern crate alloc;
 
+use alloc::{boxed::Box, format, string::String, vec, vec::Vec};
+use core::convert::Infallible;
+use core::hint::black_box;
+use core::task::Poll;
+use measured::{Failure, Renderer};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
 use scanbeam::{
     GouraudDepth, LineMemory, LineRenderer, Link, ObjectOf, PixelFormat, Rgb565, Scene,
     SceneMemory, SlotOf, VertexOf, draw_frame,
 };
 use scenes::{HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VERTICES, WIDTH};
-use std::convert::Infallible;
-use std::hint::black_box;
-use std::task::Poll;
 
 type Look = GouraudDepth<Rgb565>;
 
@@ -33,19 +34,14 @@ struct Ours {
     pump: Pump<Display>,
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let [scene, frames, file @ ..] = words.as_slice() else {
-        return Err("ours SCENE FRAMES [PICTURE]".into());
-    };
+measured::program!(ready);
+
+fn ready(words: &mut dyn Iterator<Item = String>) -> Result<Box<dyn Renderer>, Failure> {
+    let scene = words.next().ok_or("which scene?")?;
     let mut shots = SHOTS.into_iter().chain(STACKS);
     let shot = shots.find(|shot| shot.name() == scene);
     let shot = shot.ok_or(format!("there is no scene {scene}"))?;
-    measured::run(
-        Box::new(Ours::new(shot)),
-        frames,
-        file.first().map(String::as_str),
-    )
+    Ok(Box::new(Ours::new(shot)))
 }
 
 impl Ours {

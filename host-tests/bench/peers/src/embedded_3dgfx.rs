@@ -3,8 +3,9 @@
 //!
 //! The engine gives up on corners outside the picture: those of scene C are projected here.
 
-use crate::measured::Renderer;
 use crate::scene::{Data, NEAR_FAR, SIZE};
+use alloc::{vec, vec::Vec};
+use core::convert::Infallible;
 use embedded_3dgfx::Z_MAX_VALUE;
 use embedded_3dgfx::engine::K3dengine;
 use embedded_3dgfx::pipeline::assemble::primitive::DrawPrimitive;
@@ -12,8 +13,8 @@ use embedded_3dgfx::pipeline::rasterize::draw::draw_zbuffered;
 use embedded_graphics_core::pixelcolor::Rgb565;
 use embedded_graphics_core::pixelcolor::raw::RawU16;
 use embedded_graphics_core::prelude::*;
-use nalgebra::{Matrix4, Point3, Vector3, Vector4};
-use std::convert::Infallible;
+use measured::Renderer;
+use nalgebra::{ComplexField, Matrix4, Point3, Vector3, Vector4};
 
 pub(crate) struct Embedded {
     data: Data,
@@ -31,7 +32,8 @@ impl Embedded {
         engine.camera.set_position(Point3::new(x, y, z));
         engine.camera.set_target(Point3::new(x, y, z - 1.0));
         // 240 lines at a focal length of 320 pixels.
-        engine.camera.set_fovy(2.0 * (120.0f32 / 320.0).atan());
+        let half = ComplexField::atan(120.0f32 / 320.0);
+        engine.camera.set_fovy(2.0 * half);
         engine.camera.set_near_far(NEAR_FAR[0], NEAR_FAR[1]);
         let raw = RawU16::new(data.background);
         Self {

@@ -1,8 +1,13 @@
 //! euc: a vertex shader for each corner of each face, floats, one depth buffer.
+//!
+//! Its own interpolation of colours asks for fused multiply-adds. Where no instruction is known for
+//! them, as on a Cortex-M by `libm`, each takes hundreds of others, so colours bring their own here;
+//! that of depth is left, and cannot be chosen.
 
-use crate::measured::Renderer;
 use crate::scene::{Data, FOCAL, NEAR_FAR, SIZE};
-use euc::{Pipeline, Target, buffer::Buffer2d, rasterizer};
+use alloc::vec::Vec;
+use euc::{Interpolate, Pipeline, Target, buffer::Buffer2d, rasterizer};
+use measured::Renderer;
 use vek::{Mat4, Rgb, Vec3, Vec4};
 
 pub(crate) struct Euc {
@@ -63,6 +68,21 @@ impl Renderer for Euc {
     }
 }
 
+#[derive(Clone)]
+struct Colour(Rgb<f32>);
+
+impl Interpolate for Colour {
+    #[inline(always)]
+    fn lerp2(a: Self, b: Self, x: f32, y: f32) -> Self {
+        Self(a.0 * x + b.0 * y)
+    }
+
+    #[inline(always)]
+    fn lerp3(a: Self, b: Self, c: Self, x: f32, y: f32, z: f32) -> Self {
+        Self(a.0 * x + b.0 * y + c.0 * z)
+    }
+}
+
 struct Shader<'a> {
     data: &'a Data,
     project: Mat4<f32>,
@@ -70,20 +90,20 @@ struct Shader<'a> {
 
 impl Pipeline for Shader<'_> {
     type Vertex = usize;
-    type VsOut = Rgb<f32>;
+    type VsOut = Colour;
     type Pixel = u16;
 
     #[inline(always)]
-    fn vert(&self, vertex: &usize) -> ([f32; 4], Rgb<f32>) {
+    fn vert(&self, vertex: &usize) -> ([f32; 4], Colour) {
         let position = Vec4::from_point(Vec3::from(self.data.positions[*vertex]));
         (
             (self.project * position).into_array(),
-            Rgb::from(self.data.colour(*vertex)),
+            Colour(Rgb::from(self.data.colour(*vertex))),
         )
     }
 
     #[inline(always)]
-    fn frag(&self, colour: &Rgb<f32>) -> u16 {
+    fn frag(&self, Colour(colour): &Colour) -> u16 {
         let steps = |level: f32, most: f32| (level * most + 0.5) as u16;
         steps(colour.r, 31.0) << 11 | steps(colour.g, 63.0) << 5 | steps(colour.b, 31.0)
     }

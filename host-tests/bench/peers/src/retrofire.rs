@@ -1,7 +1,8 @@
 //! retrofire-core: shaders, floats, a heap, one depth buffer.
 
-use crate::measured::Renderer;
 use crate::scene::{Data, FOCAL, NEAR_FAR, SIZE};
+use alloc::vec::Vec;
+use measured::Renderer;
 use retrofire_core::geom::{Tri, Vertex, vertex};
 use retrofire_core::mat;
 use retrofire_core::math::{Color3f, Mat4, ProjMat3, perspective, pt2, pt3, rgb, viewport};

@@ -1,5 +1,6 @@
 //! A scene as plain numbers, as `scanbeam bench` writes it.
 
+use alloc::vec::Vec;
 use serde::Deserialize;
 
 /// Pixels of a line, and lines.
