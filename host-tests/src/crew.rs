@@ -56,7 +56,7 @@ where
         .collect();
     // Whether the workers may go on: not when the sink has failed.
     let go_on = AtomicBool::new(true);
-    let (go_on, mut skipped) = (&go_on, 0);
+    let go_on = &go_on;
     let sent = std::thread::scope(|threads| {
         let mut desks = Vec::new();
         for (renderer, relay) in renderers.iter_mut().zip(&mut relays) {
@@ -81,16 +81,10 @@ where
             skipped: 0,
         };
         let sent = send_frame(scene, &mut crew, pump, lines_per_transfer);
-        skipped = crew.skipped;
         go_on.store(false, Ordering::Relaxed);
-        sent
+        sent.map(|sent| crew.stats(sent))
     });
-    let mut stats = FrameStats {
-        pass_one: scene.pass_one(),
-        scanlines_skipped: skipped,
-        scan_out: sent?,
-        ..FrameStats::default()
-    };
+    let mut stats = sent?;
     for renderer in renderers {
         stats.add_renderer(renderer);
     }

@@ -251,9 +251,10 @@ pub fn build_all(
     features: &[&str],
 ) -> Result<PathBuf, FirmwareError> {
     let mut target = target_directory(toolchain);
-    if !features.is_empty() {
-        // Beside the plain one, which somebody may be running.
-        target.push(features.join("+"));
+    if let Some(first) = features.first() {
+        // Beside the plain one, which somebody may be running. Those that share the first feature
+        // share what they depend on.
+        target.push(first);
     }
     let mut words = vec!["--profile", profile.name()];
     words.extend(programs.iter().flat_map(|program| ["--bin", program]));

@@ -12,6 +12,7 @@ use crate::image_out::{Frame, write_atomically, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
+use crate::preset_sizes;
 use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
@@ -38,6 +39,9 @@ use std::path::Path;
 /// # Errors
 /// When the firmware cannot be built or run, or did not say what it should.
 pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
+    if args.sizes {
+        return preset_sizes::run(args.json, args.markdown).map(|()| true);
+    }
     let host = host_frames()?;
     if args.bless {
         return bless(&host);
@@ -296,7 +300,7 @@ fn framed(bytes: &[u8]) -> Result<Frame, Box<dyn Error>> {
 }
 
 /// The bytes of a shot in scan-out order.
-fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+pub(crate) fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
     drawn::<P>(shot).map(|(bytes, _)| bytes)
 }
 

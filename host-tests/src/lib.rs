@@ -20,6 +20,7 @@ pub mod mock;
 pub mod model;
 pub mod places;
 pub mod plot;
+pub mod preset_sizes;
 pub mod reference;
 pub mod report;
 pub mod texture_file;

@@ -15,6 +15,8 @@ const AREA: [i32; 4] = [70, 40, 780, 420];
 const COLOURS: [[u8; 3]; 4] = [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167]];
 const INK: [u8; 3] = [40, 40, 40];
 const GRID: [u8; 3] = [224, 224, 224];
+/// From a point to its name, where that is not beside it.
+const FAINT: [u8; 3] = [150, 150, 150];
 
 /// Values at each of the chart's places.
 #[derive(Debug, Clone, PartialEq)]
@@ -163,7 +165,7 @@ impl Scatter {
         canvas.text((left, top - 8), 0, &self.y_name);
         canvas.text((WIDTH / 2, 18), 1, &self.title);
         let mut stairs = Vec::new();
-        for (n, group) in self.groups.iter().enumerate() {
+        for n in 0..self.groups.len() {
             let colour = COLOURS[n % COLOURS.len()];
             let mut marked: Vec<&Dot> = self
                 .dots
@@ -186,14 +188,6 @@ impl Scatter {
                     ]));
                 }
             }
-            // One alone is named by the title.
-            if self.groups.len() > 1 {
-                let at = top + 18 + 18 * n as i32;
-                let longest = self.groups.iter().map(|g| g.chars().count()).max();
-                let x = right - 8 * longest.unwrap_or(0) as i32;
-                canvas.line((x - 16, at - 4), (x - 8, at - 4), colour, 8);
-                canvas.text((x, at), 0, group);
-            }
         }
         // Where names should not be: frames of points, names before, and, if there is room
         // elsewhere, the stairs.
@@ -202,6 +196,10 @@ impl Scatter {
             let (px, py) = (x(dot.x), y(dot.y));
             let half = if dot.marked { 8 } else { 4 };
             taken.push(Room([px - half, py - half, px + half, py + half]));
+        }
+        // One group alone is named by the title.
+        if self.groups.len() > 1 {
+            taken.push(self.legend(canvas, &taken, &stairs));
         }
         for dot in &self.dots {
             let colour = COLOURS[dot.group % COLOURS.len()];
@@ -225,8 +223,52 @@ impl Scatter {
             let wide = 8 * dot.name.chars().count() as i32;
             let name = Room::beside((px, py), wide, &taken, &stairs);
             taken.push(name);
-            canvas.text((name.0[0], name.0[3] - 2), 0, &dot.name);
+            let [l, t, r, b] = name.0;
+            // Text is narrower in one of the canvases: it begins, or ends, beside the point.
+            let (end, anchor) = if l > px { (l, 0) } else { (r, 2) };
+            if py < t || py > b {
+                canvas.line(
+                    (px, py),
+                    (end - (end - px).signum() * 3, (t + b) / 2),
+                    FAINT,
+                    1,
+                );
+            }
+            canvas.text((end, b - 2), anchor, &dot.name);
         }
+    }
+
+    /// Names the groups at a side, in a corner or between two, where it keeps the clearest of what is
+    /// there, and says where.
+    fn legend(&self, canvas: &mut impl Canvas, taken: &[Room], stairs: &[Room]) -> Room {
+        let [left, top, right, bottom] = AREA;
+        let longest = self.groups.iter().map(|g| g.chars().count()).max();
+        let wide = 8 * longest.unwrap_or(0) as i32 + 20;
+        let high = 18 * self.groups.len() as i32 + 4;
+        let (x, y) = (right - 4 - wide, bottom - 4 - high);
+        let heights = [top + 4, y, (top + bottom - high) / 2];
+        let places = [x, left + 4].into_iter();
+        let places = places.flat_map(|x| heights.map(|y| Room([x, y, x + wide, y + high])));
+        // A point takes the room of its name too, on either side.
+        let meets = |room: &Room| {
+            let points = taken.iter().zip(&self.dots).map(|(point, dot)| {
+                let [l, t, r, b] = point.0;
+                let name = 8 * dot.name.chars().count() as i32 + 8;
+                Room([l - name, t, r + name, b])
+            });
+            points
+                .chain(stairs.iter().copied())
+                .filter(|one| room.meets(one))
+                .count()
+        };
+        let room = places.min_by_key(meets).unwrap_or(Room([x, top, right, y]));
+        for (n, group) in self.groups.iter().enumerate() {
+            let colour = COLOURS[n % COLOURS.len()];
+            let (x, at) = (room.0[0], room.0[1] + 14 + 18 * n as i32);
+            canvas.line((x + 2, at - 4), (x + 10, at - 4), colour, 8);
+            canvas.text((x + 18, at), 0, group);
+        }
+        room
     }
 }
 

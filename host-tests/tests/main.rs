@@ -66,4 +66,6 @@ mod texture_levels;
 mod texture_truth;
 mod textures;
 mod view;
+#[cfg(target_os = "linux")]
+mod view_terminal;
 mod watertight;

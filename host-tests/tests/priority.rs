@@ -159,12 +159,16 @@ fn bodies_with_backs_culled_need_no_depth() {
             })
             .collect();
         rng.shuffle(&mut bodies);
-        fn draw<P: Pipeline>(bodies: &[(Affine, u8)], cull: Cull) -> Vec<WordOf<P>> {
+        fn draw<P: Pipeline>(
+            bodies: &[(Affine, u8)],
+            cull: Cull,
+            rank: fn(&mut Scene<'_, P>, Priority),
+        ) -> Vec<WordOf<P>> {
             let mut rooms = rooms::<P>();
             let mut scene = rooms.scene(screen());
             scene.begin(&camera()).unwrap();
             for &(model, priority) in bodies {
-                scene.set_priority(Priority(priority));
+                rank(&mut scene, Priority(priority));
                 let instance = Instance {
                     model,
                     cull,
@@ -174,12 +178,20 @@ fn bodies_with_backs_culled_need_no_depth() {
             }
             frame(&scene, 40, 1)
         }
-        let by_depth = draw::<FlatDepth<Rgb565Be>>(&bodies, Cull::Back);
-        assert!(draw::<Prioritised<FlatDepth<Rgb565Be>>>(&bodies, Cull::Back) == by_depth);
-        let smooth = draw::<GouraudDepth<Rgb888>>(&bodies, Cull::Back);
-        assert!(draw::<Prioritised<GouraudDepth<Rgb888>>>(&bodies, Cull::Back) == smooth);
+        type Faces = FlatDepth<Rgb565Be>;
+        type Smooth = GouraudDepth<Rgb888>;
+        let ranked = |cull| {
+            draw::<Prioritised<Faces>>(&bodies, cull, |scene, rank| scene.set_priority(rank))
+        };
+        let by_depth = draw::<Faces>(&bodies, Cull::Back, |_, _| ());
+        assert!(ranked(Cull::Back) == by_depth);
+        let smooth = draw::<Smooth>(&bodies, Cull::Back, |_, _| ());
+        let by_rank = draw::<Prioritised<Smooth>>(&bodies, Cull::Back, |scene, rank| {
+            scene.set_priority(rank)
+        });
+        assert!(by_rank == smooth);
         // Backs have the same priority: without culling they would be seen.
-        assert!(draw::<Prioritised<FlatDepth<Rgb565Be>>>(&bodies, Cull::None) != by_depth);
+        assert!(ranked(Cull::None) != by_depth);
     }
 }
 
@@ -251,17 +263,17 @@ where
             right,
             bottom,
         };
-        fn draw<P: Pipeline>(face: &Face, clip: Clip) -> Vec<WordOf<P>> {
+        fn draw<P: Pipeline>(face: &Face, cut: impl Fn(&mut Scene<'_, P>)) -> Vec<WordOf<P>> {
             let mut rooms = rooms::<P>();
             let mut scene = rooms.scene(screen());
             scene.begin(&camera()).unwrap();
-            scene.set_clip(clip);
+            cut(&mut scene);
             face.draw(&mut scene, Finish::OPAQUE);
             assert_eq!(scene.pass_one().clipped, 0, "within the guard band");
             frame(&scene, 9, 1)
         }
-        let whole = draw::<P>(&face, Clip::Picture);
-        let cut = draw::<Cut<P>>(&face, Clip::Inside(window));
+        let whole = draw::<P>(&face, |_| ());
+        let cut = draw::<Cut<P>>(&face, |scene| scene.set_clip(Clip::Inside(window)));
         let [x0, y0] = [SIZE.0, SIZE.1].map(|side| 4096 - i32::from(side) / 2);
         let from = |low: u16, high: u16, at: i32| i32::from(low) + at..i32::from(high) + at;
         let polygon = CuspPolygon::clipped(

@@ -5,7 +5,7 @@ use host_tests::args::{self, Command, PixelFormatArg, QualityArg, ViewArgs};
 use host_tests::image_out::Frame;
 use host_tests::model::Model;
 use host_tests::reference::Shade;
-use host_tests::view::{KEYS, Scenery, State, Step, half_blocks};
+use host_tests::view::{Colours, KEYS, Scenery, State, Step, half_blocks, nearest};
 use std::path::Path;
 use std::process;
 
@@ -66,13 +66,32 @@ fn blocks_are_the_pixels_of_any_picture() {
             pixel.fill((seed >> 30) as u8 * 85);
         }
         let frame = Frame::new(width as u32, height as u32, rgb.clone()).unwrap();
-        let (cells, mut pixels) = pixels_of(&half_blocks(&frame, "\n"));
+        let (cells, mut pixels) = pixels_of(&half_blocks(&frame, Colours::True).join("\n"));
         assert_eq!(cells, width);
         if height % 2 == 1 {
             let last = pixels.split_off(width * height);
             assert_eq!(last, vec![[0; 3]; width]);
         }
         assert_eq!(pixels.concat(), rgb, "{width}x{height}");
+    }
+}
+
+/// Of the 240 colours that are the same everywhere, the one that is said is the nearest.
+#[test]
+fn the_nearest_of_256_colours_is_taken() {
+    let level = |i: u32| if i == 0 { 0 } else { 55 + 40 * i };
+    let cube = (0..216).map(|i| [i / 36, i / 6 % 6, i % 6].map(level));
+    let greys = (0..24).map(|i| [8 + 10 * i; 3]);
+    let palette: Vec<[u32; 3]> = cube.chain(greys).collect();
+    let mut seed = 1u32;
+    for _ in 0..20_000 {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let colour = [seed >> 24, seed >> 16 & 255, seed >> 8 & 255];
+        let off =
+            |other: [u32; 3]| -> u32 { (0..3).map(|i| colour[i].abs_diff(other[i]).pow(2)).sum() };
+        let least = palette.iter().map(|&other| off(other)).min();
+        let said = usize::from(nearest(colour.map(|level| level as u8)) - 16);
+        assert_eq!(Some(off(palette[said])), least, "{colour:?}");
     }
 }
 
@@ -203,11 +222,17 @@ fn frames_are_printed_and_nothing_live_without_a_terminal() {
         state.spin(std::f64::consts::TAU / 64.0);
     }
 
+    // Without a model it is the teapot.
+    let output = run(folder.path(), "view --frames 1 --size 8x4 --colours 256");
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("of 2256 triangles") && text.contains("\x1b[38;5;"));
+
     for (line, said) in [
         ("view m.obj", "--frames"),
         ("view none.obj", "none.obj"),
         ("view m.obj --frames 0", "0"),
-        ("view m.obj --size 2000x10", "1024"),
+        ("view --size 2000x10", "1024"),
+        ("view --colours 8", "256"),
         ("view m.obj --renderers 17", "17"),
     ] {
         let output = run(folder.path(), line);

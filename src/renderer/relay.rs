@@ -6,13 +6,13 @@
 //! is faster, and a worker is at most as many lines ahead as it has buffers. Nobody shares
 //! anything else but the scene, read-only.
 
-use super::frame::LineSource;
+use super::frame::{FrameStats, LineSource};
 use super::lines::{LineRenderer, RendererError};
 use super::scene::Scene;
 use crate::active::Interleave;
 use crate::composite::PixelFormat;
 use crate::pipeline::{Pipeline, WordOf};
-use crate::scan_out::LineBuf;
+use crate::scan_out::{LineBuf, ScanStats};
 use core::task::Poll;
 use heapless::spsc::{Consumer, Producer, Queue};
 
@@ -101,7 +101,8 @@ impl<B: LineBuf> LineWorker<'_, B> {
     /// ahead what [`set_prefetch`](LineRenderer::set_prefetch) allows, then calls `wait`, which
     /// may sleep until the other core stirs, and gives up when that says `false`.
     ///
-    /// Whether every line was handed on.
+    /// Whether every line was handed on. The log then gets, at trace level, how the renderer's cache
+    /// has done.
     pub fn frame<P>(
         &mut self,
         scene: &Scene<'_, P>,
@@ -124,6 +125,8 @@ impl<B: LineBuf> LineWorker<'_, B> {
                 }
             }
         }
+        #[cfg(feature = "defmt")]
+        defmt::trace!("lines of a worker: {}", renderer.cache_counts());
         true
     }
 }
@@ -181,6 +184,27 @@ pub struct Crew<'a, 'm, 'r, 'q, P: Pipeline, B, W> {
     pub wait: W,
     /// Lines on which nothing is active.
     pub skipped: u32,
+}
+
+impl<P: Pipeline, B, W> Crew<'_, '_, '_, '_, P, B, W> {
+    /// What a frame took that was sent as `scan_out` says, with what the renderers of this core have
+    /// done since their restart; the log gets it at trace level. Lines without anything active are
+    /// counted anew from here on. Workers elsewhere log what theirs have done;
+    /// [`FrameStats::add_renderer`] adds it where they can be reached.
+    pub fn stats(&mut self, scan_out: ScanStats) -> FrameStats {
+        let mut stats = FrameStats {
+            pass_one: self.scene.pass_one(),
+            scanlines_skipped: core::mem::take(&mut self.skipped),
+            scan_out,
+            ..FrameStats::default()
+        };
+        for renderer in self.here.iter_mut() {
+            stats.add_renderer(renderer);
+        }
+        #[cfg(feature = "defmt")]
+        defmt::trace!("frame: {}", stats);
+        stats
+    }
 }
 
 impl<P, B, W> LineSource<P> for Crew<'_, '_, '_, '_, P, B, W>

@@ -243,11 +243,11 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
         let clip = scene.clip();
         if MarkOf::<P>::CUTS {
             let window = self.window.or(self.settings.window);
-            scene.set_clip(window.map_or(clip, Clip::Inside));
+            scene.cut_to(window.map_or(clip, Clip::Inside));
         }
         let done = self.run_blocks(words, scene, budget, events);
         if MarkOf::<P>::CUTS {
-            scene.set_clip(clip);
+            scene.cut_to(clip);
         }
         done
     }
@@ -526,7 +526,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
                 }
                 if MarkOf::<P>::CUTS {
                     self.window = Some(window);
-                    scene.set_clip(Clip::Inside(window));
+                    scene.cut_to(Clip::Inside(window));
                 } else if window != all {
                     self.unimplemented(events);
                 }

@@ -279,8 +279,8 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.lights = lights;
     }
 
-    /// Cuts what is drawn from now on to the inside or the outside of a window (H15), in pipelines
-    /// that do so, such as [`Windowed`](crate::Windowed); others do not look at it.
+    /// Cuts what is drawn from now on to the inside or the outside of a window (H15). Pipelines that
+    /// do so, such as [`Windowed`](crate::Windowed), have this; for others it does not compile.
     /// [`begin`](Scene::begin) sets it back to the whole picture.
     ///
     /// Spans are cut, and what has nothing in the part that is kept is skipped, and counted in
@@ -288,7 +288,28 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// triangle. Depth and colour are those of the whole triangle: the pixels that are kept have the same bits with
     /// flat colours and by [`Forward`](crate::Forward). Methods that go along a span from where it
     /// begins, such as packed ramps, keep their own bound: at most a step of a channel.
+    ///
+    /// ```compile_fail
+    /// use scanbeam::{Clip, GouraudDepth, Rgb565, Scene};
+    ///
+    /// fn cut(scene: &mut Scene<'_, GouraudDepth<Rgb565>>) {
+    ///     scene.set_clip(Clip::Picture);
+    /// }
+    /// # fn main() { cut as fn(&mut Scene<'_, GouraudDepth<Rgb565>>); }
+    /// ```
     pub fn set_clip(&mut self, clip: Clip) {
+        const {
+            let cuts = <MarkOf<P> as Mark>::CUTS;
+            assert!(
+                cuts,
+                "this pipeline cuts nothing to windows: use `Windowed`"
+            );
+        }
+        self.cut_to(clip);
+    }
+
+    /// The same for callers that have looked at the pipeline.
+    pub(super) fn cut_to(&mut self, clip: Clip) {
         self.clip = clip;
     }
 
@@ -298,10 +319,23 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.clip
     }
 
-    /// Gives what is drawn from now on a priority (P1), in pipelines that have them, such as
-    /// [`Prioritised`](crate::Prioritised); others do not look at it. [`begin`](Scene::begin) sets
-    /// it back to 0.
+    /// Gives what is drawn from now on a priority (P1). Pipelines with priorities, such as
+    /// [`Prioritised`](crate::Prioritised), have this; for others it does not compile.
+    /// [`begin`](Scene::begin) sets it back to 0.
+    ///
+    /// ```compile_fail
+    /// use scanbeam::{GouraudPainter, Priority, Rgb565, Scene};
+    ///
+    /// fn rank(scene: &mut Scene<'_, GouraudPainter<Rgb565>>) {
+    ///     scene.set_priority(Priority(1));
+    /// }
+    /// # fn main() { rank as fn(&mut Scene<'_, GouraudPainter<Rgb565>>); }
+    /// ```
     pub fn set_priority(&mut self, priority: Priority) {
+        const {
+            let ranks = <MarkOf<P> as Mark>::RANKS;
+            assert!(ranks, "this pipeline has no priorities: use `Prioritised`");
+        }
         self.priority = priority.0;
     }
 

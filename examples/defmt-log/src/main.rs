@@ -1,5 +1,6 @@
 //! Logs by defmt what the crate says: each frame at trace level, then its outcome. The second of
-//! three frames meets a display that fails at line 80, the third is whole again.
+//! four frames meets a display that fails at line 80, the third is whole again. The last is drawn by
+//! a crew of two renderers.
 #![no_std]
 #![no_main]
 
@@ -45,6 +46,10 @@ fn main() -> ! {
             Ok(stats) => defmt::info!("sent {} bytes", stats.scan_out.bytes_sent),
             Err(error) => defmt::error!("{}", error),
         }
+    }
+    match spinner.frame_by_crew(&mut pump) {
+        Ok(stats) => defmt::info!("sent {} bytes", stats.scan_out.bytes_sent),
+        Err(error) => defmt::error!("{}", error),
     }
     semihosting::process::exit(0)
 }

@@ -1,7 +1,8 @@
 //! A small firmware: the teapot by one preset, smooth with 32-bit depth, sent line by line.
 //!
 //! It is there to be measured: `.text` is at most 16 KB, fast RAM with both line buffers at most
-//! 8,192 bytes. It prints `picture teapot` and the picture's CRC-32.
+//! 8,192 bytes. It prints `picture teapot` and the picture's CRC-32. With a feature it is the same
+//! firmware by another preset, so that `firmware --sizes` can compare them.
 #![no_std]
 #![no_main]
 
@@ -9,13 +10,26 @@ mod lend;
 mod small;
 
 use cortex_m_rt::entry;
-use scanbeam::{GouraudDepth, Rgb565Be};
+use scanbeam::{CellOf, DepthCell};
 use small::{buffers, display, exit, room, say, teapot};
+
+#[cfg(not(feature = "sized"))]
+type Look = scanbeam::GouraudDepth<scanbeam::Rgb565Be>;
+
+macro_rules! looks {
+    ($($feature:literal, $name:literal, $look:ty;)*) => {
+        $(
+            #[cfg(feature = $feature)]
+            type Look = $look;
+        )*
+    };
+}
+scenes::sized!(looks);
 
 #[entry]
 fn main() -> ! {
     let mut display = display(buffers!());
-    teapot(room!(GouraudDepth<Rgb565Be>, 0), &mut display);
+    teapot(room!(Look, <CellOf<Look>>::FARTHEST), &mut display);
     say("teapot", &mut display);
     exit(true)
 }

@@ -77,7 +77,7 @@ fn main() -> ! {
         let (here, desks, background) = (&mut here, &mut desks, background());
         let mut crew = Crew { scene: &scene, here, desks, background, wait: || true, skipped: 0 };
         let sent = send_frame(&scene, &mut crew, &mut pump, LINES as u16);
-        sent.expect("the buses of the RP2040 cannot fail");
+        crew.stats(sent.expect("the buses of the RP2040 cannot fail")); // and logs it, by defmt
     }
     unreachable!("it turns for ever")
 }

@@ -25,6 +25,7 @@ mod octasphere;
 mod scene_b;
 mod sheet;
 mod shots;
+mod sized;
 mod stress;
 mod texels;
 mod textured;

@@ -12,9 +12,9 @@ pub mod panel;
 
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::{
-    Affine, Camera, CellOf, FrameError, FrameStats, GouraudDepth, Instance, Light, LineMemory,
-    LineRenderer, Link, Object, ObjectOf, PixelFormat, Rgb565Be, Scene, SceneMemory, SceneVertex,
-    Screen, SlotOf, VertexOf, draw_frame,
+    Affine, Camera, CellOf, Crew, FrameError, FrameStats, GouraudDepth, Instance, Interleave,
+    Light, LineDesk, LineMemory, LineRenderer, Link, Object, ObjectOf, PixelFormat, Rgb565Be,
+    Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame, send_frame,
 };
 
 /// Smooth colours, 32-bit depth, pixels in the order of the wire.
@@ -120,6 +120,48 @@ impl Spinner {
         self.turn = (self.turn + 1) % 126;
         let (scene, renderer) = (&self.scene, &mut self.renderer);
         draw_frame(scene, renderer, pump, background(), LINES as u16)
+    }
+
+    /// The same, once, by a crew of two renderers on this core, which take lines in turn.
+    ///
+    /// # Errors
+    /// When the sink fails.
+    ///
+    /// # Panics
+    /// The second time: the second renderer's memory is lent here.
+    pub fn frame_by_crew<D>(
+        &mut self,
+        pump: &mut Pump<D>,
+    ) -> Result<FrameStats, FrameError<D::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let _ = build(&mut self.scene, self.turn);
+        let mut here = [
+            LineRenderer::new(LineMemory {
+                slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
+                links: lend!(Link, OBJECTS, Link::NONE),
+                depth: lend!(CellOf<Look>, WIDTH, 0),
+            }),
+            LineRenderer::new(LineMemory {
+                slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
+                links: lend!(Link, OBJECTS, Link::NONE),
+                depth: lend!(CellOf<Look>, WIDTH, 0),
+            }),
+        ];
+        for (offset, renderer) in (0..).zip(&mut here) {
+            renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
+        }
+        let mut crew = Crew {
+            scene: &self.scene,
+            here: &mut here,
+            desks: &mut [] as &mut [(Interleave, LineDesk<'_, D::Buf>)],
+            background: background(),
+            wait: || false,
+            skipped: 0,
+        };
+        let sent = send_frame(&self.scene, &mut crew, pump, LINES as u16)?;
+        Ok(crew.stats(sent))
     }
 }
 

@@ -15,6 +15,12 @@ pub struct FirmwareArgs {
     /// Record what is measured, for every compiler that is complete here, and fail this once
     #[arg(long, requires = "bench")]
     pub bless: bool,
+    /// Instead: build each preset for each core, draw the teapot by it, and print what it takes
+    #[arg(long, conflicts_with_all = ["bench", "output"])]
+    pub sizes: bool,
+    /// Write the table of sizes into README.md, between its markers
+    #[arg(long, requires = "sizes")]
+    pub markdown: bool,
     /// Folder for the plot of growth, made when it is not there
     #[arg(short = 'o', long = "output", value_name = "DIR", requires = "bench")]
     pub output: Option<PathBuf>,
@@ -29,7 +35,7 @@ pub struct BenchArgs {
     /// Also build and measure other renderers of the registry, here and on Cortex-M in QEMU
     #[arg(long)]
     pub peers: bool,
-    /// Write the tables into README.md, between their markers
+    /// Write the tables into README.md, between their markers; also that of `firmware --sizes`
     #[arg(long)]
     pub markdown: bool,
 }

@@ -3,6 +3,7 @@
 use super::picture::{PixelFormatArg, Size, parse_size};
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS, QualityArg};
 use crate::reference::Shade;
+use crate::view::Colours;
 use clap::Args;
 use std::path::PathBuf;
 
@@ -14,16 +15,19 @@ const MAX_VIEW_SIDE: u32 = 1024;
 /// Flags of `view`.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct ViewArgs {
-    /// Model to show
+    /// Model to show; the teapot when there is none
     #[arg(value_name = "MODEL.obj")]
-    pub model: PathBuf,
+    pub model: Option<PathBuf>,
     /// Print so many frames and stop, without a terminal
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MAX_FRAMES))]
     pub frames: Option<u32>,
-    /// Size of the picture in pixels, up to 1024x1024; when not said, what the terminal holds, and
-    /// 80x48 or, in a window, 480x360
+    /// Size of the picture in pixels, up to 1024x1024: at most, and when not said, what the terminal
+    /// holds; for --frames 80x48, in a window 480x360
     #[arg(long, value_name = "WxH", value_parser = parse_size, allow_hyphen_values = true)]
     pub size: Option<Size>,
+    /// How colours are told to the terminal
+    #[arg(long, value_enum, value_name = "COLOURS", default_value_t = Colours::Auto)]
+    pub colours: Colours,
     /// How light is applied
     #[arg(long, value_enum, default_value_t = Shade::Gouraud)]
     pub shade: Shade,
@@ -41,7 +45,7 @@ pub struct ViewArgs {
     #[arg(long, value_name = "N", default_value_t = 1,
         value_parser = clap::value_parser!(u16).range(1..=i64::from(MAX_RENDERERS)))]
     pub renderers: u16,
-    /// Show it in a window of its own
+    /// Show it in a window of its own, with the figures in its title and the same keys
     #[cfg(feature = "window")]
     #[arg(long, conflicts_with = "frames")]
     pub window: bool,

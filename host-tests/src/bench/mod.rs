@@ -17,12 +17,13 @@
 
 mod boards;
 mod scene;
-mod table;
+pub(crate) mod table;
 
 pub use boards::{Counted, OnBoard};
 
 use crate::args::BenchArgs;
 use crate::firmware::{clean_command, usual_target, workspace};
+use crate::preset_sizes;
 use scenes::{HEIGHT, Shot, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -125,7 +126,9 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
         eprintln!("note: not measured: {reason}");
     }
     if args.markdown {
-        table::write(&workspace().join("README.md"), &rows)?;
+        let readme = workspace().join("README.md");
+        table::write(&readme, &rows)?;
+        preset_sizes::write(&readme, &preset_sizes::measure()?)?;
     }
     Ok(())
 }

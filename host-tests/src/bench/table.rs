@@ -77,14 +77,13 @@ fn boards_text(rows: &[Row]) -> String {
 pub(super) fn write(path: &Path, rows: &[Row]) -> Result<(), Box<dyn Error>> {
     let text = std::fs::read_to_string(path)?;
     let record = Record::read(&Record::path())?;
-    let new = between(&text, &markdown(rows, &record))?;
+    let new = between(&text, MARKERS, &markdown(rows, &record))?;
     write_atomically(path, new.as_bytes())?;
     Ok(())
 }
 
 /// The text with something else between its markers.
-fn between(text: &str, inner: &str) -> Result<String, String> {
-    let [open, close] = MARKERS;
+pub(crate) fn between(text: &str, [open, close]: [&str; 2], inner: &str) -> Result<String, String> {
     let missing = || format!("there is no `{open}` followed by `{close}`");
     let (before, rest) = text.split_once(open).ok_or_else(missing)?;
     let (_, after) = rest.split_once(close).ok_or_else(missing)?;
@@ -206,13 +205,13 @@ mod tests {
         let rows = [row("scanbeam", 1.5e6), row("other", 3e6)];
         let inner = markdown(&rows, &Record::default());
         let text = format!("a\n{open}\nold\n{close}\nb\n");
-        let new = between(&text, &inner).unwrap();
+        let new = between(&text, MARKERS, &inner).unwrap();
         assert!(new.starts_with("a\n") && new.ends_with("\nb\n") && !new.contains("old"));
         assert!(new.contains("| other | 3.00 | 2.0 | 2.5 |"), "{new}");
-        assert_eq!(between(&new, &inner).unwrap(), new);
-        assert!(between("nothing", &inner).is_err());
+        assert_eq!(between(&new, MARKERS, &inner).unwrap(), new);
+        assert!(between("nothing", MARKERS, &inner).is_err());
         let readme = include_str!("../../../README.md");
-        assert!(between(readme, &inner).is_ok());
+        assert!(between(readme, MARKERS, &inner).is_ok());
     }
 
     #[test]

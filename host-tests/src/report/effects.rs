@@ -64,7 +64,10 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         let how = (FilterArg::Nearest, Quality::Balanced);
         let crew = CrewSettings::default();
         let drawn = draw_effects(&model, &set, how, (&view, format), crew, effects)?;
-        let caption = format!("{name}: {} pixels written", drawn.stats.spans.pixels_shaded);
+        let caption = format!(
+            "`{name}`: {} pixels written",
+            drawn.stats.spans.pixels_shaded
+        );
         page.pictures(&[&drawn.frame], &caption)?;
     }
     page.paragraph(
@@ -72,7 +75,10 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
          pixels, dither, a palette for each line, windows, priority without depth.",
     );
     for (name, frame) in effect_pictures()? {
-        page.pictures(&[&frame], name)?;
+        page.pictures(
+            &[&frame],
+            &name.trim_start_matches("effect_").replace('_', " "),
+        )?;
     }
     Ok(())
 }

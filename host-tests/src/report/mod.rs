@@ -19,9 +19,7 @@ use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};
 use crate::{accuracy, bench, cache_report};
 use page::Page;
-use scanbeam::{
-    CellOf, FlatDepth, GouraudDepth, GouraudPainter, ObjectOf, Pipeline, Rgb565Be, SlotOf, VertexOf,
-};
+use scanbeam::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
 use scenes::{HEIGHT, SCENES_B, SHOTS, STACKS, Shot, WIDTH};
 use std::error::Error;
 use std::path::Path;
@@ -301,10 +299,12 @@ fn memory(page: &mut Page) {
         "cache and depth line",
         "two line buffers",
     ];
-    page.table(&[
-        head.map(str::to_owned).to_vec(),
-        sizes::<GouraudDepth<Rgb565Be>>("GouraudDepth"),
-        sizes::<FlatDepth<Rgb565Be>>("FlatDepth"),
-        sizes::<GouraudPainter<Rgb565Be>>("GouraudPainter"),
-    ]);
+    macro_rules! all {
+        ($($feature:literal, $name:literal, $look:ty;)*) => {
+            vec![$(sizes::<$look>($name)),*]
+        };
+    }
+    let mut rows = scenes::sized!(all);
+    rows.insert(0, head.map(str::to_owned).to_vec());
+    page.table(&rows);
 }

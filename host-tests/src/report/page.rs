@@ -36,6 +36,22 @@ pub(super) fn escaped(text: &str) -> String {
     out
 }
 
+/// The same, and what stands between two backticks as code.
+pub(super) fn marked_up(text: &str) -> String {
+    let mut parts = text.split('`').map(escaped).peekable();
+    let mut out = parts.next().unwrap_or_default();
+    while let Some(part) = parts.next() {
+        if parts.peek().is_some() {
+            let _ = write!(out, "<code>{part}</code>");
+            out.push_str(&parts.next().unwrap_or_default());
+        } else {
+            out.push('`');
+            out.push_str(&part);
+        }
+    }
+    out
+}
+
 /// How often the pixels of a picture are repeated each way, so that small ones can be looked at.
 fn times(frame: &Frame) -> u32 {
     (200 / frame.width()).max(1)
@@ -70,7 +86,7 @@ impl Page {
     }
 
     pub(super) fn paragraph(&mut self, text: &str) {
-        let _ = writeln!(self.body, "<p>{}</p>", escaped(text));
+        let _ = writeln!(self.body, "<p>{}</p>", marked_up(text));
     }
 
     /// Pictures side by side over one caption.
@@ -84,7 +100,7 @@ impl Page {
         for frame in frames {
             self.body.push_str(&image(frame, caption)?);
         }
-        let caption = escaped(caption);
+        let caption = marked_up(caption);
         let _ = writeln!(self.body, "<figcaption>{caption}</figcaption></figure>");
         Ok(())
     }

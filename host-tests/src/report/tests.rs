@@ -1,5 +1,5 @@
 use super::effects::effects;
-use super::page::{Page, escaped};
+use super::page::{Page, escaped, marked_up};
 use super::{cache, errors, memory, shots};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -14,6 +14,9 @@ fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {
 #[test]
 fn text_is_escaped() {
     assert_eq!(escaped("a < b & \"c\""), "a &lt; b &amp; &quot;c&quot;");
+    let code = "a `b < c` d `e`";
+    assert_eq!(marked_up(code), "a <code>b &lt; c</code> d <code>e</code>");
+    assert_eq!(marked_up("a ` b"), "a ` b");
 }
 
 /// Every picture is in the page and can be decoded; nothing is asked of another file.

@@ -7,38 +7,57 @@
 //! |---|---|
 //! | `state.rs` | what keys change, and the view that follows; knows no terminal |
 //! | `blocks.rs` | a picture as text |
+//! | `screen.rs` | what stands on the terminal, and which of its lines change |
 //! | `terminal.rs` | the live loop, and `--frames` |
 //! | `window.rs` | the same in a window, with the feature `window` |
 
 mod blocks;
+mod screen;
 mod show;
 mod state;
 mod terminal;
 #[cfg(feature = "window")]
 mod window;
 
-pub use blocks::half_blocks;
+pub use blocks::{Colours, half_blocks, nearest};
 pub use show::{Scenery, Shown};
 pub use state::{KEYS, State, Step};
 
 use crate::args::ViewArgs;
-use crate::model::Model;
+use crate::model::{Model, obj_text};
 use std::error::Error;
+use std::path::Path;
 
-/// Shows a model.
+/// Shows a model, or the teapot where none is named.
 ///
 /// # Errors
 /// A model that cannot be read or drawn; no terminal to show it on, unless `--frames` is given.
 pub fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
-    let model = Model::load(&args.model)?;
+    let model = match &args.model {
+        Some(file) => Model::load(file)?,
+        None => {
+            let text = obj_text(&scenes::TEAPOT).ok_or("a mesh of triangles")?;
+            Model::from_obj_text(&text, Path::new("teapot.obj"))?
+        }
+    };
     let scenery = Scenery::new(&model)?;
     let state = State::new(args);
+    show(args, &scenery, state)?;
+    // Last: a terminal shows its own screen until then.
+    model.print_warnings();
+    for note in scenery.notes() {
+        eprintln!("note: {note}");
+    }
+    Ok(())
+}
+
+fn show(args: &ViewArgs, scenery: &Scenery<'_>, state: State) -> Result<(), Box<dyn Error>> {
     #[cfg(feature = "window")]
     if args.window {
-        return window::run(&scenery, state, args.size);
+        return window::run(scenery, state, args.size);
     }
     match args.frames {
-        Some(frames) => terminal::print(&scenery, state, args.size, frames),
-        None => terminal::live(&scenery, state, args.size),
+        Some(frames) => terminal::print(scenery, state, args.size, args.colours, frames),
+        None => terminal::live(scenery, state, args.size, args.colours),
     }
 }

@@ -17,7 +17,7 @@ pub struct Scenery<'m> {
     textures: TextureSet,
     /// The middle of the model's box.
     pub(super) centre: [f64; 3],
-    /// From there to its farthest corner; 1 for a model without any size.
+    /// From there to the farthest vertex; 1 for a model without any size.
     pub(super) radius: f64,
 }
 
@@ -28,15 +28,23 @@ impl<'m> Scenery<'m> {
     /// A texture that cannot be read.
     pub fn new(model: &'m Model) -> Result<Self, TextureSetError> {
         let (low, high) = model.bounds().unwrap_or_default();
-        let half: [f64; 3] = std::array::from_fn(|i| high[i] / 2.0 - low[i] / 2.0);
-        let radius = half.iter().fold(0.0, |sum: f64, side| sum.hypot(*side));
+        let centre: [f64; 3] = std::array::from_fn(|i| low[i] / 2.0 + high[i] / 2.0);
+        let radius = model.vertices.iter().fold(0.0, |most: f64, vertex| {
+            let off = vertex.position.iter().zip(centre);
+            most.max(off.fold(0.0, |sum: f64, (at, centre)| sum.hypot(at - centre)))
+        });
         Ok(Self {
             model,
             prepared: Prepared::new(model),
             textures: TextureSet::load(model, None)?.with_levels(true),
-            centre: std::array::from_fn(|i| low[i] + half[i]),
+            centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
         })
+    }
+
+    /// What of the textures is not drawn as it is in the files, a line each.
+    pub fn notes(&self) -> impl Iterator<Item = &str> {
+        self.textures.notes()
     }
 
     /// Draws a frame of so many pixels.

@@ -7,8 +7,8 @@ use crossterm::event::KeyCode;
 use std::f64::consts::TAU;
 
 /// What keys do, for the last line of the screen.
-pub const KEYS: &str = "arrows orbit  +- nearer, farther  space stop  q quality  s shading  \
-                        c cache  r renderers  f format  Esc end";
+pub const KEYS: &str = "Esc end  arrows orbit  +- nearer, farther  space stop  q quality  \
+                        s shading  c cache  r renderers  f format";
 
 /// Vertical field of view in degrees.
 const FOV: f64 = 45.0;
@@ -81,6 +81,10 @@ impl State {
 
     /// Does what a key says; other keys do nothing.
     pub fn key(&mut self, key: KeyCode) -> Step {
+        let key = match key {
+            KeyCode::Char(letter) => KeyCode::Char(letter.to_ascii_lowercase()),
+            other => other,
+        };
         match key {
             KeyCode::Esc | KeyCode::Char('x') => return Step::End,
             KeyCode::Left => self.yaw = (self.yaw - ARROW).rem_euclid(TAU),
@@ -88,7 +92,7 @@ impl State {
             KeyCode::Up => self.pitch = (self.pitch + ARROW).min(STEEPEST),
             KeyCode::Down => self.pitch = (self.pitch - ARROW).max(-STEEPEST),
             KeyCode::Char('+' | '=') => self.go_to(self.distance / 1.1),
-            KeyCode::Char('-') => self.go_to(self.distance * 1.1),
+            KeyCode::Char('-' | '_') => self.go_to(self.distance * 1.1),
             KeyCode::Char(' ') => self.spins = !self.spins,
             KeyCode::Char('q') => {
                 self.quality = match self.quality {
