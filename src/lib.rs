@@ -108,7 +108,7 @@ pub use pipeline::{
     BlockFixed, CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth,
     FlatPainter, GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts,
     PhongDepth, Pipeline, Prioritised, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, Windowed,
-    WithDepth, WithShading, WordOf,
+    WithDepth, WithShading, WordOf, Worded,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,
@@ -128,5 +128,6 @@ pub use shade::{
 pub use shade::{Levels, texture};
 pub use stats::{SpanCounter, SpanCounts};
 pub use visible::{
-    BlockFixDepth, Depth32, DepthAndId, DepthCell, LineDepth, ShadowCell, ShadowDepth32,
+    BlockFixDepth, Depth32, DepthAndColour, DepthAndId, DepthCell, LineDepth, ShadowCell,
+    ShadowDepth32,
 };

@@ -16,6 +16,7 @@
 //! | [`Prioritised`] | as the preset it wraps | none: surfaces have priorities | any | |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
 //! | [`BlockFixed`] | as the preset it wraps | [`BlockFixDepth`]: 16 bits | | |
+//! | [`Worded`] | as the preset it wraps | [`DepthAndColour`]: 16 bits, in one word with the pixel | | |
 //! | [`Deferred`] | as the preset it wraps | [`DepthAndId`]: the same picture, each pixel shaded once | | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
@@ -26,7 +27,9 @@ use crate::geometry::texturing::{LevelEnds, Textured};
 use crate::geometry::{Blended, Flat, Gouraud, Kept, Marked, Phong, Priority, Shading};
 use crate::shade::{Interpolation, Lamplight, Levels, Packed8, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::{BlockFixDepth, Depth32, DepthAndId, LineDepth, ShadowDepth32};
+use crate::visible::{
+    BlockFixDepth, Depth32, DepthAndColour, DepthAndId, LineDepth, ShadowDepth32,
+};
 use core::marker::PhantomData;
 
 /// The choices of a renderer, made at compile time: what is not chosen has no code and no bytes.
@@ -142,6 +145,8 @@ pub type WithShading<P, S> = Parts<
 >;
 /// The pipeline `P`, with 16 bits of block-fix depth (H2).
 pub type BlockFixed<P> = WithDepth<P, BlockFixDepth>;
+/// The pipeline `P`, with 16 bits of depth in one word with the pixel (K8).
+pub type Worded<P> = WithDepth<P, DepthAndColour>;
 /// The pipeline `P`, which shades no pixel before it is known whose it is (X3).
 pub type Deferred<P> = WithDepth<P, DepthAndId>;
 /// The pipeline `P`, with the depth `D`.

@@ -20,7 +20,7 @@ use scanbeam::texture::{Size as TextureSize, Texture, Textured, Words, Wrap};
 use scanbeam::{
     BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FlatPainter, FrameStats, Gouraud,
     GouraudDepth, GouraudPainter, ListMemory, ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene,
-    TexturedDepth, Textures, draw_frame,
+    TexturedDepth, Textures, Worded, draw_frame,
 };
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LIST_INDICES,
@@ -318,6 +318,7 @@ fn drawn<P: Pipeline<Pixel = Rgb565Be>>(
 pub fn draw_keeping(shot: Shot, keeps: KeepsDepth) -> Result<Vec<u8>, Box<dyn Error>> {
     match keeps {
         KeepsDepth::BlockFix => draw_tested::<BlockFixed<GouraudDepth<Rgb565Be>>>(shot),
+        KeepsDepth::Word => draw_tested::<Worded<GouraudDepth<Rgb565Be>>>(shot),
         KeepsDepth::Deferred => draw_tested::<Deferred<GouraudDepth<Rgb565Be>>>(shot),
     }
 }

@@ -69,3 +69,4 @@ mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;
 mod watertight;
+mod worded;

@@ -161,6 +161,18 @@ impl<F: PixelFormat, R: Ranks> PixelFormat for Dithered<F, R> {
 
     type Ramp = TwoWords;
 
+    const HALVES: bool = F::HALVES;
+
+    #[inline(always)]
+    fn to_half(word: F::Word) -> u16 {
+        F::to_half(word)
+    }
+
+    #[inline(always)]
+    fn from_half(half: u16) -> F::Word {
+        F::from_half(half)
+    }
+
     #[inline(always)]
     fn fill(pixels: &mut [F::Word], word: F::Word) {
         F::fill(pixels, word);

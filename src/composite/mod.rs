@@ -35,6 +35,7 @@ mod ramp;
 #[cfg(test)]
 mod tests;
 mod texels;
+mod words;
 mod xrgb;
 
 pub use blend::{Blender, Mix, PixelAlpha};
@@ -50,6 +51,7 @@ pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, Ramp, TwoWords};
 pub use texels::{TexelOf, TextureSource, Textures};
+pub(crate) use words::paint_words;
 pub use xrgb::Xrgb8888;
 
 use crate::shade::Precision;
@@ -106,6 +108,24 @@ pub trait PixelFormat {
 
     /// Three channels that step from pixel to pixel in as few registers as the format needs.
     type Ramp: Ramp<Self>;
+
+    /// Whether a pixel has at most 16 bits, so that a word has room for its depth too (see
+    /// [`DepthAndColour`](crate::DepthAndColour)).
+    const HALVES: bool = false;
+
+    /// A pixel in 16 bits, where it has no more.
+    #[inline(always)]
+    fn to_half(word: Self::Word) -> u16 {
+        let _ = word;
+        0
+    }
+
+    /// The pixel that [`to_half`](PixelFormat::to_half) has put into 16 bits.
+    #[inline(always)]
+    fn from_half(half: u16) -> Self::Word {
+        let _ = half;
+        Self::Word::default()
+    }
 
     /// Sets all of `pixels` to `word`.
     #[inline]
@@ -222,6 +242,18 @@ impl PixelFormat for Rgb565 {
 
     type Ramp = OneWord;
 
+    const HALVES: bool = true;
+
+    #[inline(always)]
+    fn to_half(word: u16) -> u16 {
+        word
+    }
+
+    #[inline(always)]
+    fn from_half(half: u16) -> u16 {
+        half
+    }
+
     /// Sixteen pixels a step: 0.4 instructions a pixel on a Cortex-M4, where one a store takes
     /// 1.8.
     #[inline]
@@ -282,6 +314,18 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     }
 
     type Ramp = OneWord;
+
+    const HALVES: bool = true;
+
+    #[inline(always)]
+    fn to_half(word: u16) -> u16 {
+        word
+    }
+
+    #[inline(always)]
+    fn from_half(half: u16) -> u16 {
+        half
+    }
 
     #[inline(always)]
     fn fill(pixels: &mut [u16], word: u16) {

@@ -6,7 +6,7 @@ use super::scene::Scene;
 use super::spans::Brush;
 use super::transparent::{is_dormant, is_special};
 use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
-use crate::composite::Compositing;
+use crate::composite::{Compositing, PixelFormat};
 use crate::geometry::{Drawable, Mark};
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, MarkOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
@@ -348,6 +348,10 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         }
         if P::Depth::DEFERS && !drawn && !self.list.has_spilled() {
             drawn = pass.draw_deferred(&self.list);
+        }
+        if P::Depth::WORDS && P::Pixel::HALVES && !drawn {
+            pass.draw_words(&mut self.list, next, &mut self.spare);
+            drawn = true;
         }
         if !drawn {
             pass.begin_together();

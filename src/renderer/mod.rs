@@ -2,7 +2,7 @@
 //!
 //! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
 //! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
-//! `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9), `priority` what has
+//! `words` draws depth and colour in one word (K8), `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9), `priority` what has
 //! priorities (P1); `frame` sends what one renderer draws, `overlay` with what is painted over it
 //! (K14), `palette` by way of a palette for each line (H18), `relay` what several do on their own
 //! cores (K16, X6).
@@ -29,6 +29,7 @@ mod scene;
 mod shadow;
 mod spans;
 mod transparent;
+mod words;
 
 pub use batch::{ListCoordinate, ListMemory};
 pub use frame::{

@@ -239,7 +239,7 @@ fn draw_masked<P: Pipeline>(
 /// it is `shown`, which gets the index of each pixel and its depth; how many were.
 #[cold]
 #[inline(never)]
-fn draw_thin<P: Pipeline>(
+pub(super) fn draw_thin<P: Pipeline>(
     scene: &Scene<'_, P>,
     object: u16,
     (column, line): (i32, i32),

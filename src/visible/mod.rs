@@ -10,6 +10,7 @@ mod function;
 mod named;
 mod placed;
 mod shadow;
+mod word;
 
 pub use block_fix::BlockFixDepth;
 pub use cell::DepthCell;
@@ -18,6 +19,7 @@ pub use function::{MOST, Rule, ShadowCount};
 pub use named::{DepthAndId, MOST_NAMES, Named, name};
 pub use placed::Placed;
 pub use shadow::{ShadowCell, ShadowDepth32, count_span};
+pub use word::{DepthAndColour, WordCourse, resolve};
 
 use crate::stats::SpanCounter;
 use core::cmp::Ordering;
@@ -37,6 +39,8 @@ pub trait LineDepth {
     type Grain: Copy;
     /// Whether pixels are shaded only when it is known whose they are.
     const DEFERS: bool = false;
+    /// Whether a cell has the depth of a pixel and its colour, where pixels have at most 16 bits.
+    const WORDS: bool = false;
 
     /// What the depths of an object are rounded to whose nearest corner is in unit `nearest` of
     /// 2^15.

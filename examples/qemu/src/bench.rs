@@ -28,7 +28,7 @@ use scanbeam::model::{
 use scanbeam::{
     Camera, Counted, Cull, DepthUse, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
     Instance, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888,
-    Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf,
+    Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf, Worded,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.
@@ -73,12 +73,21 @@ fn kernels(counter: &Counter, console: &mut Console) {
                 name("packed_565_depth", "packed_565_large_depth"),
                 planes::<GouraudDepth<Rgb565>>(at, counter),
             );
+            // What it takes to read the line out of the words is in it.
+            print(
+                name("word_565", "word_565_large"),
+                planes::<Worded<GouraudDepth<Rgb565>>>(at, counter),
+            );
             print(
                 name("flat_565_small", "flat_565"),
                 planes::<FlatPainter<Rgb565>>(at, counter),
             );
             if !small {
                 print("flat_565_depth", planes::<FlatDepth<Rgb565>>(at, counter));
+                print(
+                    "word_flat_565",
+                    planes::<Worded<FlatDepth<Rgb565>>>(at, counter),
+                );
                 print("model_565", model(at, counter));
             }
         }

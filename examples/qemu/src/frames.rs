@@ -10,7 +10,7 @@ use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
     BlockFixed, Crew, Deferred, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation,
     Lamplight, LineMemory, LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be,
-    Scene, SceneMemory, Textures, draw_frame, draw_frame_indexed, send_frame,
+    Scene, SceneMemory, Textures, Worded, draw_frame, draw_frame_indexed, send_frame,
 };
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
@@ -137,6 +137,11 @@ impl Frame {
             Way::Depth(KeepsDepth::BlockFix) => {
                 let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.block_fix);
                 draw_seen::<BlockFixed<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
+            }
+            Way::Depth(KeepsDepth::Word) => {
+                // Names are words too.
+                let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.named);
+                draw_seen::<Worded<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
             }
             Way::Depth(KeepsDepth::Deferred) => {
                 let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.named);

@@ -133,17 +133,21 @@ pub const SHOTS: [Shot; 5] = [
 pub enum KeepsDepth {
     /// In 16 bits of block-fix (H2).
     BlockFix,
+    /// In 16 bits, in one word with the pixel (K8).
+    Word,
     /// With the name of the object, whose pixels are shaded when all are known (X3).
     Deferred,
 }
 
 /// Shots that are drawn with other depths, on every line, by the name that reports use.
-pub const DEPTHS: [(&str, Shot, KeepsDepth); 4] = [
+pub const DEPTHS: [(&str, Shot, KeepsDepth); 6] = [
     ("quads_block_fix", Shot::Quads, KeepsDepth::BlockFix),
     // Its layers lie in two ranges.
     ("c_block_fix", Shot::FarToNear, KeepsDepth::BlockFix),
     ("teapot_deferred", Shot::Teapot, KeepsDepth::Deferred),
     ("c_deferred", Shot::FarToNear, KeepsDepth::Deferred),
+    ("quads_word", Shot::Quads, KeepsDepth::Word),
+    ("c_word", Shot::FarToNear, KeepsDepth::Word),
 ];
 
 /// Why a shot could not be built; none of them fails where the arenas are as large as said here.

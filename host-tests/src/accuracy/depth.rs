@@ -4,10 +4,12 @@ use super::coverage::rates;
 use super::stage::{Place, Rng, Setting, Stage, at_place, covers, doubled_area, plane};
 use super::{Errors, Row};
 use scanbeam::model::{ModelRenderer, PipeMemory};
-use scanbeam::{BlockFix16, GouraudDepth, Rgb565, Rgb888};
+use scanbeam::{BlockFix16, GouraudDepth, PixelFormat, Rgb565, Rgb888, Worded};
 use std::error::Error;
 
 type P = GouraudDepth<Rgb888>;
+/// Depth and colour in one word.
+type W = Worded<GouraudDepth<Rgb565>>;
 
 /// Wrong pixels and all pixels of each batch.
 type Batches = Vec<(u32, u32)>;
@@ -118,12 +120,14 @@ fn triangle(rng: &mut Rng, (smallest, largest): (i32, i32)) -> ([Place; 3], [f64
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for (case, apart) in APART {
-        let [small, mut model] = orders(apart, SMALL)?;
-        let [large, model_large] = orders(apart, LARGE)?;
+        let [small, mut model, mut word] = orders(apart, SMALL)?;
+        let [large, model_large, word_large] = orders(apart, LARGE)?;
         model.extend(model_large);
+        word.extend(word_large);
         for (method, kernel, batches) in [
             ("32-bit 1/w, small planes", "packed_565_depth", small),
             ("32-bit 1/w, large planes", "packed_565_large_depth", large),
+            ("16-bit 1/w and colour, one word", "word_565", word),
             ("hardware model, 32-bit z, 10-bit W", "model_565", model),
         ] {
             let name = ("depth", case, method, "% wrong order", Some(kernel));
@@ -176,14 +180,16 @@ fn behind(
 }
 
 /// Pixels where the farther of two triangles is seen, which is drawn last, and all pixels.
-fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 2], Box<dyn Error>> {
+fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 3], Box<dyn Error>> {
     const FRONT: [u8; 3] = [255, 0, 0];
     const BEHIND: [u8; 3] = [0, 0, 255];
-    let mut counts = [(); 2].map(|()| vec![(0, 0); BATCHES]);
+    let mut counts = [(); 3].map(|()| vec![(0, 0); BATCHES]);
     let mut rng = Rng::new(4);
     let setting = setting()?;
     let mut stage = Stage::<P>::new(setting.screen);
+    let mut words = Stage::<W>::new(setting.screen);
     let mut pixels = [[0; 3]; SIDE as usize];
+    let mut halves = [0; SIDE as usize];
     let mut memory = [[0; SIDE as usize]; 4];
     for batch in 0..BATCHES {
         for _ in 0..TRIANGLES {
@@ -197,6 +203,8 @@ fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 2], Box<dyn Error>>
                 .collect();
             let colours = [FRONT, FRONT, FRONT, BEHIND, BEHIND, BEHIND];
             let (scene, mut lines) = stage.scene(&setting, &positions, &colours)?;
+            let (word_scene, mut word_lines) = words.scene(&setting, &positions, &colours)?;
+            let mut worded = word_lines.renderer();
             let [z0, z1, c0, c1] = &mut memory;
             let mut model = ModelRenderer::new(PipeMemory {
                 z: [z0, z1],
@@ -208,8 +216,12 @@ fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 2], Box<dyn Error>>
                     if method == 0 {
                         pixels.fill([0; 3]);
                         renderer.draw_line(&scene, line, &mut pixels)?;
-                    } else {
+                    } else if method == 1 {
                         model.draw_line(&scene, line, [0; 3], &mut pixels)?;
+                    } else {
+                        halves.fill(0);
+                        worded.draw_line(&word_scene, line, &mut halves)?;
+                        pixels = halves.map(Rgb565::to_rgb8);
                     }
                     for (column, pixel) in (0..).zip(&pixels) {
                         let covers = |places| covers(places, column, line.into());

@@ -47,6 +47,8 @@ pub enum DepthArg {
     Z32,
     /// 16 bits of block-fix 1/w
     BlockFix,
+    /// 16 bits of 1/w, in RGB565 in one word with the pixel
+    Word,
     /// First whose each pixel is, then colours: the same picture, no pixel shaded twice
     Id,
     /// None: what comes later in the model is in front

@@ -5,8 +5,8 @@ use crate::args::{DepthArg, PixelFormatArg};
 use crate::model::Model;
 use crate::reference::{Shade, View};
 use scanbeam::{
-    BlockFixDepth, Counted, DepthAndId, DepthUse, FlatDepth, GouraudDepth, LineDepth, PixelFormat,
-    Rgb565Be, Rgb888, WithDepth,
+    BlockFixDepth, Counted, DepthAndColour, DepthAndId, DepthUse, FlatDepth, GouraudDepth,
+    LineDepth, PixelFormat, Rgb565Be, Rgb888, WithDepth,
 };
 
 /// Draws a model as [`draw`](super::draw) does, and finds what is seen by a method.
@@ -27,6 +27,7 @@ pub fn draw_by_depth(
     match depth {
         DepthArg::Auto | DepthArg::Z32 => super::draw(model, view, format, crew),
         DepthArg::BlockFix => seen_by::<BlockFixDepth>(model, view, format, crew),
+        DepthArg::Word => seen_by::<DepthAndColour>(model, view, format, crew),
         DepthArg::Id => seen_by::<DepthAndId>(model, view, format, crew),
         DepthArg::Priority => seen_by::<()>(model, view, format, crew),
     }
