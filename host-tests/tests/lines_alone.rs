@@ -321,7 +321,9 @@ fn cache_counts_add_up() {
     });
     for pair in counts.windows(2) {
         assert!(pair[1].hits >= pair[0].hits && pair[1].misses <= pair[0].misses);
-        assert!(pair[1].spills <= pair[0].spills && pair[1].set_ups <= pair[0].set_ups);
+        assert!(pair[1].spills <= pair[0].spills);
+        // Records may be read once more for their depth, where more objects wait for that in slots.
+        assert!(pair[1].records_read() <= pair[0].records_read());
         let object_lines = |i: usize| pair[i].hits + pair[i].misses;
         assert_eq!(object_lines(0), object_lines(1));
     }

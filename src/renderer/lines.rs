@@ -364,8 +364,10 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     /// Whether what is set up now is left without its depth, since lines do well without.
     #[inline(always)]
     pub(super) fn leaves_depth(&mut self) -> bool {
-        let apart = self.depth_use == DepthUse::WhereNeeded && self.apart.is_calm();
-        let apart = apart && !MarkOf::<P>::RANKS;
+        let apart = self.depth_use == DepthUse::WhereNeeded
+            && self.apart.is_calm()
+            && !MarkOf::<P>::RANKS
+            && !self.list.has_spilled();
         let leaves = !P::Compositing::BLENDS && (apart || !P::Depth::TESTS);
         self.shallow |= leaves;
         leaves

@@ -98,7 +98,7 @@ fn two_equations_tell_pixels_from_spans() {
 /// Block-fix cannot tell two surfaces apart in `1 - d s` of the cases, where they are `d` apart and the
 /// significand is `s` of its 2^14 steps: 2^11 and more at a triangle's nearest corner, less at others.
 /// Over triangles like these that is 54 % at 0.01 %, and from 48 to 61 % in batches.
-const BOUNDS: [(&str, &str, &str, f64); 47] = [
+const BOUNDS: [(&str, &str, &str, f64); 50] = [
     ("interpolation", "", "circuit: LIRP, 10-bit", 0.6),
     ("interpolation", "", "circuit: LIRP, 12-bit", 0.4),
     ("interpolation", "", "circuit: LIRP, 16-bit", 0.3),
@@ -126,6 +126,10 @@ const BOUNDS: [(&str, &str, &str, f64); 47] = [
     ("coverage", "corners on the 1/8 grid", "", 0.0),
     ("coverage", "corners anywhere", "", 120.0),
     ("depth", "order", "32-bit 1/w", 0.0),
+    // Ties go to the later: within a step of 16 bits that is the farther here.
+    ("depth", "order, 1 % apart", "16-bit 1/w and", 0.0),
+    ("depth", "order, 0.1 % apart", "16-bit 1/w and", 10.0),
+    ("depth", "order, 0.01 % apart", "16-bit 1/w and", 90.0),
     ("depth", "order, 1 % apart", "hardware model", 1.0),
     ("depth", "order, 0.1 % apart", "hardware model", 50.0),
     ("depth", "order, 0.01 % apart", "hardware model", 80.0),
