@@ -10,7 +10,7 @@ mod lend;
 mod small;
 
 use cortex_m_rt::entry;
-use scanbeam::{CellOf, DepthCell};
+use scanbeam::DepthCell;
 use small::{buffers, display, exit, room, say, teapot};
 
 #[cfg(not(feature = "sized"))]
