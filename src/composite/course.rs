@@ -37,6 +37,15 @@ pub(super) trait Course: Copy {
     /// All pixels by the steps as they are.
     fn forward<F: PixelFormat>(&self, pixels: &mut [F::Word], visible: &mut impl Visible);
 
+    /// Whether a packed ramp over so many pixels is left to [`forward`](Course::forward).
+    ///
+    /// A ramp that has all bits of its two words is these words. Three channels are packed where
+    /// a span is longer than those of small triangles, tested or not: the bits are the same.
+    #[inline(always)]
+    fn is_its_ramp<F: PixelFormat>(count: usize) -> bool {
+        if Self::WORDS { !F::CUTS } else { count <= 64 }
+    }
+
     /// The largest step of a channel, units of 2^-16 of its range, rounded up; on a span of at
     /// least 3 pixels.
     fn slope(&self) -> u32;

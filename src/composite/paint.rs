@@ -52,13 +52,7 @@ fn by_choice<F: PixelFormat, I: Interpolation, C: Course>(
     // One or two pixels need no method, and steps of two fields cannot be told apart there.
     let short = pixels.len() < 3;
     let slope = || course.slope();
-    // A ramp that has all bits of its two words is these words. Three channels are packed
-    // where a span is longer than those of small triangles, tested or not: the bits are the same.
-    let same = if C::WORDS {
-        !F::CUTS
-    } else {
-        pixels.len() <= 64
-    };
+    let same = C::is_its_ramp::<F>(pixels.len());
     match interpolation.method(pixels.len() as u32, slope, F::PRECISION) {
         Method::Packed8 | Method::Packed16 if same => course.forward::<F>(pixels, visible),
         Method::Forward => course.forward::<F>(pixels, visible),

@@ -61,12 +61,7 @@ fn packed<F: PixelFormat, I: Interpolation, K: SpanCounter, C: DepthCell, R: Cou
     course: &R,
     interpolation: I,
 ) -> Option<u32> {
-    // Where the course itself is the ramp.
-    let same = if R::WORDS {
-        !F::CUTS
-    } else {
-        cells.len() <= 64
-    };
+    let same = R::is_its_ramp::<F>(cells.len());
     let slope = || course.slope();
     let method = interpolation.method(cells.len() as u32, slope, F::PRECISION);
     let ramps = !same && matches!(method, Method::Packed8);
