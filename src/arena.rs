@@ -55,6 +55,18 @@ impl<'m, T> Arena<'m, T> {
         Some(new)
     }
 
+    /// The places after the last value, to be written and then [taken](Arena::take); `None` where the arena
+    /// is as long as indices reach.
+    pub(crate) fn rest(&mut self) -> Option<core::slice::IterMut<'_, T>> {
+        let end = self.items.len().min(Self::LIMIT);
+        self.items.get_mut(self.len..end).map(<[T]>::iter_mut)
+    }
+
+    /// Keeps the next `count` places, which [`rest`](Arena::rest) has given.
+    pub(crate) fn take(&mut self, count: usize) {
+        self.len = (self.len + count).min(self.items.len());
+    }
+
     /// The values so far.
     #[inline]
     pub(crate) fn as_slice(&self) -> &[T] {

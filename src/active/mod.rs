@@ -5,11 +5,14 @@
 //! how the cache has done; `interleave` says which lines are a renderer's own.
 
 mod bucket;
+mod cache;
 mod counts;
 mod interleave;
 mod list;
 
 pub use bucket::Buckets;
+pub(crate) use cache::next;
+pub use cache::{Cache, CacheUse};
 pub use counts::CacheCounts;
 pub use interleave::Interleave;
 pub use list::{ActiveList, Member, Slot, Visitor};

@@ -16,8 +16,7 @@ use core::ops::Range;
 mod faces;
 mod screen;
 
-pub(super) use faces::each_triangle;
-pub(crate) use faces::triangles;
+pub(crate) use faces::{check as check_mesh, each_triangle, triangles};
 use faces::{check, first_line, first_of, is_seen, leading};
 pub use screen::ScreenVertex;
 pub(crate) use screen::on_screen;

@@ -126,6 +126,11 @@ impl core::fmt::Display for CameraError {
 impl core::error::Error for CameraError {}
 
 impl Camera {
+    /// World to camera.
+    pub(crate) fn view(&self) -> &Affine {
+        &self.view
+    }
+
     /// A camera at `eye` that looks at `at` with `up` upwards, right-handed, world units.
     ///
     /// `focal` is the focal length in pixels: half the picture's height divided by the tangent

@@ -64,7 +64,7 @@ pub struct Tint {
 
 impl Tint {
     /// From 8-bit levels.
-    pub(super) const fn new(rgb: [u8; 3], scale: &Scale) -> Self {
+    pub(crate) const fn new(rgb: [u8; 3], scale: &Scale) -> Self {
         let mut tint = Self {
             field: [0; 3],
             half: [0; 3],
@@ -80,7 +80,7 @@ impl Tint {
 
     /// In `light`, 1 being 2^15; within 1/8 of a field's unit before rounding.
     #[inline]
-    pub(super) const fn lit(&self, light: u16) -> Colour {
+    pub(crate) const fn lit(&self, light: u16) -> Colour {
         let mut field = [0; 3];
         let mut i = 0;
         while i < 3 {
@@ -111,6 +111,18 @@ impl Colour {
     #[must_use]
     pub const fn from_rgb8(rgb: [u8; 3], scale: &Scale) -> Self {
         Tint::new(rgb, scale).lit(1 << 15)
+    }
+
+    /// The three fields in one word: red in bits 31..21, blue in 20..11, green in 10..0.
+    #[inline]
+    #[must_use]
+    pub const fn word(self) -> u32 {
+        self.0
+    }
+
+    /// From [`word`](Colour::word).
+    pub(crate) const fn from_word(word: u32) -> Self {
+        Self(word)
     }
 
     /// From fields of red, green and blue.

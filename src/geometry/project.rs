@@ -45,7 +45,7 @@ pub(super) mod outcode {
 
 /// Model space to screen, for one draw call.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Projection {
+pub(crate) struct Projection {
     rows: [[i32; 3]; 3],
     offset: [i32; 3],
     /// `X = x 2^power / z` in units of 1/8 pixel from the principal point.
@@ -62,7 +62,7 @@ pub(super) struct Projection {
 
 impl Projection {
     #[inline(never)]
-    pub(super) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
+    pub(crate) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
         let map = model.then(&camera.view);
         // A vertex is within 2 each way, so a row reaches at most twice the sum of its entries.
         let mut row_bits = -200;
@@ -216,17 +216,27 @@ impl Projection {
     }
 
     /// The focal length's power of two, for clipping at the guard band.
-    pub(super) fn power(&self) -> i32 {
+    pub(crate) fn power(&self) -> i32 {
         self.power
     }
 
     /// The rows that coordinates are multiplied by.
-    pub(super) fn rows(&self) -> &[[i32; 3]; 3] {
+    pub(crate) fn rows(&self) -> &[[i32; 3]; 3] {
         &self.rows
     }
 
+    /// What is added to the rows' products.
+    pub(crate) fn offset(&self) -> [i32; 3] {
+        self.offset
+    }
+
+    /// Near and far plane in clip coordinates, and the shift from there to the near plane's mantissa.
+    pub(crate) fn range(&self) -> (i32, i32, i32) {
+        (self.near, self.far, self.near_down)
+    }
+
     /// The principal point in units of 1/8 pixel of guard space.
-    pub(super) fn centre(&self, axis: usize) -> i64 {
+    pub(crate) fn centre(&self, axis: usize) -> i64 {
         i64::from(self.centre[axis])
     }
 

@@ -141,6 +141,12 @@ impl Edge {
         }
     }
 
+    /// The line's value on line 0 and its step, for those who count lines from elsewhere.
+    #[must_use]
+    pub const fn at_and_slope(self) -> (i32, i32) {
+        (self.at, self.slope)
+    }
+
     /// A corner kept in place of an edge, for triangles that are divided out.
     #[must_use]
     pub fn from_corner((x, y): (u16, u16)) -> Self {

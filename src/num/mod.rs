@@ -16,6 +16,7 @@
 //! | 2 + 14 | [`BlockFix16`] | 0 ..< 1 | depth in 16 bits |
 //! | 13.19 signed | `i32` | modulo 8192 | texels along a span |
 
+mod bits;
 mod block;
 mod block_fix;
 mod edge;
@@ -25,10 +26,12 @@ mod product;
 #[cfg(test)]
 pub(crate) mod random;
 mod recip;
+mod recip16;
 mod recip_table;
 mod short;
 mod small;
 
+pub use bits::{bit, take_first};
 pub(crate) use block::shift_round_inline;
 pub use block::{Block, shift_round};
 pub use block_fix::BlockFix16;
@@ -39,6 +42,8 @@ pub use plane::{InverseArea, Plane};
 pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned, turn};
 pub use recip::recip;
 pub use recip_table::Reciprocal;
+pub use recip16::{mul_16_unsigned, of_height, recip_16, slope_of};
+pub use short::SHORT;
 pub use small::SmallArea;
 
 /// The pixel column and line that lies at the middle of guard space.

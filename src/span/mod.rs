@@ -1,4 +1,19 @@
-//! From columns of guard space to pixels of the line buffer.
+//! From triangles to spans: sides, planes, columns (K4, K5, B).
+//!
+//! | file | there |
+//! |---|---|
+//! | `edge` | the sides of a triangle on a line |
+//! | `plane` | planes of small triangles |
+//! | `triangle` | how large a triangle is, and what follows from it |
+
+mod edge;
+mod plane;
+mod triangle;
+
+pub(crate) use edge::first_line;
+pub use edge::{Edge, Frame, Kind};
+pub use plane::{Rise, Shares};
+pub use triangle::{Sides, Size, Triangle};
 
 /// The pixels of one object on one line, clipped to the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,7 +17,7 @@ pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
 
 /// Whether all slices agree and all indices exist, which those do that are known to be below a
 /// number of vertices that are there.
-pub(super) fn check<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
+pub(crate) fn check<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
     let count = mesh.positions.len();
     let fits = |len: usize| len == 0 || len == count;
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
@@ -68,7 +68,7 @@ fn all_below(faces: Faces<'_>, count: usize) -> bool {
 
 /// Calls `f` with face, corners and provoking vertex of each triangle.
 #[inline]
-pub(in super::super) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
+pub(crate) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
     let mut quad = |face: u32, q: [u16; 4], split| {
         let [a, b, c, d] = q;
         match split {

@@ -1,0 +1,18 @@
+//! Pass two: lines, and whole frames of them (K1, K5, K12, K16).
+//!
+//! | file | there |
+//! |---|---|
+//! | `renderer` | what draws lines: its memory, its errors |
+//! | `advance` | from line to line: which triangles begin, turn and end |
+//! | `line` | one line: who is seen, and its pixels |
+//! | `scene` | a scene made for a look |
+//! | `send` | all lines of a frame through a pump |
+
+mod advance;
+mod line;
+mod renderer;
+mod scene;
+mod send;
+
+pub use renderer::{FastMemory, LineError, Memory, Renderer};
+pub use send::{FrameError, FrameUse, draw_frame};

@@ -1,0 +1,225 @@
+//! What draws lines of a scene, and what it has to be lent.
+
+use crate::active::{Cache, CacheUse};
+use crate::link::Link;
+use crate::look::{Fill, Look};
+use crate::scene::{DrawState, Scene, Vertex};
+use crate::span::{Edge, Frame, Kind, Sides, Triangle};
+use crate::visible::Mask;
+use core::fmt;
+
+/// A triangle in a slot.
+#[derive(Clone, Copy, Debug)]
+pub struct Active<P> {
+    pub(super) sides: Sides,
+    pub(super) fill: Fill,
+    pub(super) planes: P,
+    /// Depth at the picture's first pixel, its steps across and down.
+    pub(super) depth: Option<[u32; 3]>,
+}
+
+/// The object cache of a renderer: `32 WORDS` slots, best in the fastest memory there is, as a static.
+///
+/// About the most triangles that are on one line is what a scene wants: 64 for a model of some 2,000. With fewer
+/// the picture is the same, and each triangle without a slot is read and set up again on each of its lines.
+#[derive(Debug)]
+pub struct FastMemory<L: Look, const WORDS: usize = 2>(pub(super) Cache<Active<L::Planes>, WORDS>);
+
+impl<L: Look, const WORDS: usize> FastMemory<L, WORDS> {
+    /// Empty slots.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(Cache::with(Active {
+            sides: Sides {
+                left: Edge::NONE,
+                right: Edge::NONE,
+                kind: Kind::Short,
+                crosses: false,
+            },
+            fill: Fill::Plain,
+            planes: L::EMPTY,
+            depth: None,
+        }))
+    }
+
+    /// Uses no more than so many slots. The picture is the same.
+    pub fn set_limit(&mut self, slots: u16) {
+        self.0.set_limit(slots);
+    }
+}
+
+impl<L: Look, const WORDS: usize> Default for FastMemory<L, WORDS> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+/// The memory of a renderer, lent by the application.
+#[derive(Debug)]
+pub struct Memory<'m, L: Look, const WORDS: usize = 2> {
+    /// The object cache.
+    pub cache: &'m mut FastMemory<L, WORDS>,
+    /// This renderer's column of links, one for each triangle of the scene; in slow memory.
+    pub links: &'m mut [Link],
+    /// The depth of one line, a cell a pixel, in fast memory. Empty: no depth is compared, and of triangles over
+    /// each other the one drawn last is seen.
+    pub depth: &'m mut [u32],
+}
+
+/// Why a line was not drawn. Nothing was written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum LineError {
+    /// Fewer links than the scene has triangles.
+    Links {
+        /// Triangles of the scene.
+        needed: usize,
+        /// Links of the renderer.
+        have: usize,
+    },
+    /// Fewer depth cells than a line has pixels, but some.
+    Depth {
+        /// Pixels a line.
+        needed: usize,
+        /// Depth cells of the renderer.
+        have: usize,
+    },
+    /// The pixels lent for a line are not as many as a line has.
+    Pixels {
+        /// Pixels a line.
+        needed: usize,
+        /// Pixels lent.
+        have: usize,
+    },
+    /// The line is not among those the scene was begun with.
+    Line {
+        /// The line.
+        line: u16,
+    },
+}
+
+impl fmt::Display for LineError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Links { needed, have } => write!(
+                f,
+                "renderer: {needed} triangles need as many links, there are {have}"
+            ),
+            Self::Depth { needed, have } => write!(
+                f,
+                "renderer: a line of {needed} pixels has {have} depth cells"
+            ),
+            Self::Pixels { needed, have } => {
+                write!(f, "renderer: a line of {needed} pixels was lent {have}")
+            }
+            Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+        }
+    }
+}
+
+impl core::error::Error for LineError {}
+
+/// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the scene with any
+/// number of others (K16, X6).
+///
+/// Any line can be drawn alone, in any order, with the same bits (K5); going down is fast, going back starts
+/// anew from the top.
+#[derive(Debug)]
+pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
+    pub(super) cache: &'m mut Cache<Active<L::Planes>, WORDS>,
+    pub(super) links: &'m mut [Link],
+    pub(super) depth: &'m mut [u32],
+    /// The scene's generation, and the first line whose triangles have not begun; `None` at first.
+    pub(super) place: Option<(u32, u16)>,
+    pub(super) covered: Mask,
+    /// Whether spans met on the last line.
+    pub(super) met: bool,
+    pub(super) counts: CacheUse,
+}
+
+impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
+    /// A renderer that has drawn nothing.
+    #[must_use]
+    pub fn new(memory: Memory<'m, L, WORDS>) -> Self {
+        Self {
+            cache: &mut memory.cache.0,
+            links: memory.links,
+            depth: memory.depth,
+            place: None,
+            covered: Mask::EMPTY,
+            met: false,
+            counts: CacheUse::default(),
+        }
+    }
+
+    /// Forgets the lines drawn so far and starts counting anew.
+    pub fn restart(&mut self) {
+        self.place = None;
+        self.counts = CacheUse::default();
+    }
+
+    /// What the cache has done since the renderer was made or restarted (C8).
+    #[must_use]
+    pub fn counts(&self) -> CacheUse {
+        self.counts
+    }
+
+    /// Whether the memory suffices for `scene`.
+    ///
+    /// # Errors
+    /// What is too short.
+    pub fn check(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
+        let (needed, have) = (scene.objects(), self.links.len());
+        if have < needed {
+            return Err(LineError::Links { needed, have });
+        }
+        let (needed, have) = (usize::from(scene.screen().width()), self.depth.len());
+        if have != 0 && have < needed {
+            return Err(LineError::Depth { needed, have });
+        }
+        Ok(())
+    }
+}
+
+/// A scene as pass two reads it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct View<'a> {
+    pub(super) vertices: &'a [Vertex],
+    pub(super) places: &'a [crate::scene::TexturePlace],
+    pub(super) objects: &'a [crate::scene::Object],
+    pub(super) draws: &'a [DrawState<'a>],
+    pub(super) frame: Frame,
+}
+
+impl<'a> View<'a> {
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub(super) fn triangle(&self, object: u16) -> Option<Triangle<'a>> {
+        let [a, b, c] = self.objects.get(usize::from(object))?.corner;
+        let at = |i: u16| self.vertices.get(usize::from(i));
+        let texture = |i: u16| self.places.get(usize::from(i)).copied().unwrap_or_default();
+        Some(Triangle {
+            vertex: [at(a)?, at(b)?, at(c)?],
+            texture: [texture(a), texture(b), texture(c)],
+            frame: self.frame,
+        })
+    }
+
+    /// A draw state by its number.
+    #[inline(always)]
+    pub(super) fn draw(&self, draw: u16) -> &'a DrawState<'a> {
+        const NONE: &DrawState<'_> = &DrawState::EMPTY;
+        self.draws.get(usize::from(draw)).unwrap_or(NONE)
+    }
+
+    /// The number of the draw state of an object.
+    #[inline(always)]
+    pub(super) fn draw_of(&self, object: u16) -> u16 {
+        if self.draws.len() < 2 {
+            return 0;
+        }
+        let after = self.draws.partition_point(|draw| draw.first <= object);
+        after.saturating_sub(1) as u16
+    }
+}

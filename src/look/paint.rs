@@ -1,0 +1,116 @@
+//! What a look does, and what it is told.
+
+use crate::pixel::Pixel;
+use crate::scene::DrawState;
+use crate::span::{Size, Triangle};
+
+/// How the planes of a triangle are evaluated; each look says what is where in its planes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fill {
+    /// The cheapest way; most triangles have it.
+    Plain,
+    /// Small triangles that need more bits.
+    Small,
+    /// Any triangle that has planes.
+    Wide,
+    /// None: planes are made for each line, from both ends of the span.
+    Thin,
+}
+
+/// A way from corners to pixels.
+pub trait Paint: Sized {
+    /// The pixels of the line.
+    type Pixel: Pixel;
+    /// What a triangle keeps of its colours.
+    type Planes: Copy + core::fmt::Debug;
+    /// The planes of no triangle.
+    const EMPTY: Self::Planes;
+
+    /// The planes of a triangle; `area` and `size` are its own.
+    fn set_up(
+        triangle: &Triangle<'_>,
+        size: Size,
+        area: u32,
+        draw: &DrawState<'_>,
+        planes: &mut Self::Planes,
+    ) -> Fill;
+
+    /// The planes of a thin triangle on one line, of the kind [`Fill::Wide`].
+    fn set_up_thin(span: &ThinSpan<'_>, draw: &DrawState<'_>, planes: &mut Self::Planes);
+
+    /// Colours a run of pixels; `at` is its first.
+    fn fill(
+        fill: Fill,
+        planes: &Self::Planes,
+        at: Place,
+        draw: &DrawState<'_>,
+        run: &mut [WordOf<Self>],
+    );
+
+    /// [`fill`](Paint::fill) of [`Fill::Plain`].
+    fn fill_plain(planes: &Self::Planes, at: Place, draw: &DrawState<'_>, run: &mut [WordOf<Self>]);
+
+    /// Colours the pixels that are at least as near as what `cells` have, and keeps their depth.
+    fn fill_nearer(
+        fill: Fill,
+        planes: &Self::Planes,
+        at: Place,
+        draw: &DrawState<'_>,
+        run: &mut [WordOf<Self>],
+        depth: Depths<'_>,
+    );
+}
+
+/// A pixel of a line buffer.
+pub type WordOf<L> = <<L as Paint>::Pixel as crate::composite::PixelFormat>::Word;
+
+/// A pixel of the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    pub column: u32,
+    pub line: u32,
+}
+
+/// The depth of a run of pixels: its cells, its value at the first pixel, and its step.
+#[derive(Debug)]
+pub struct Depths<'a> {
+    pub cells: &'a mut [u32],
+    pub at: u32,
+    pub step: u32,
+}
+
+/// A span of a thin triangle: where its ends lie on the triangle's sides.
+#[derive(Debug)]
+pub struct ThinSpan<'a> {
+    pub triangle: &'a Triangle<'a>,
+    pub ends: [End; 2],
+    pub start: u32,
+    pub pixels: u32,
+}
+
+/// A place on a side: from one corner to another, so many 2^-16 of the way.
+#[derive(Clone, Copy, Debug)]
+pub struct End {
+    pub from: usize,
+    pub to: usize,
+    pub way: u32,
+}
+
+impl ThinSpan<'_> {
+    /// The value at column 0 and the step of what has these values, below 2^31, at the corners: exact at the
+    /// span's ends, linear between them.
+    pub fn line(&self, value: [u32; 3]) -> [u32; 2] {
+        let at = |end: End| {
+            let (a, b) = (i64::from(value[end.from % 3]), i64::from(value[end.to % 3]));
+            a + (((b - a) * i64::from(end.way)) >> 16)
+        };
+        let (left, right) = (at(self.ends[0]), at(self.ends[1]));
+        let step = (right - left) / i64::from(self.pixels.max(1));
+        let first = left + (step >> 1);
+        let step = step as u32;
+        [
+            (first as u32).wrapping_sub(step.wrapping_mul(self.start)),
+            step,
+        ]
+    }
+}

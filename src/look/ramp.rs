@@ -1,0 +1,207 @@
+//! The loops over pixels: colour alone, colour and depth (B, K8).
+//!
+//! Runs of up to 12 pixels are straight code behind a jump by length: 4 instructions a pixel on a
+//! Cortex-M4, 5 on a Cortex-M0+; longer ones go in chunks of 8 without an end test, 4.7 a pixel. The loop
+//! with depth keeps its two steps from being multiplied out by `black_box`, once a chunk: 12 a pixel.
+
+use super::Depths;
+use crate::pixel::Pixel;
+use core::hint::black_box;
+
+/// A colour in one word that steps.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Packed {
+    pub(super) word: u32,
+    pub(super) step: u32,
+}
+
+/// A colour with 16 bits a channel: red above blue, and green above nothing.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) red_blue: u32,
+    pub(super) green: u32,
+}
+
+impl Pair {
+    #[inline(always)]
+    pub(super) fn plus(self, step: Self) -> Self {
+        Self {
+            red_blue: self.red_blue.wrapping_add(step.red_blue),
+            green: self.green.wrapping_add(step.green),
+        }
+    }
+
+    /// The upper bits in one word.
+    #[inline(always)]
+    pub(super) fn packed(self) -> u32 {
+        self.red_blue & 0xFFE0_0000 | (self.red_blue & 0xFFC0) << 5 | self.green >> 21
+    }
+}
+
+/// A pixel, and one step on.
+#[inline(always)]
+fn next<F: Pixel>(ramp: &mut Packed) -> F::Word {
+    let pixel = F::of_word(ramp.word);
+    ramp.word = ramp.word.wrapping_add(ramp.step);
+    pixel
+}
+
+/// Straight code for so many pixels.
+macro_rules! straight {
+    ($run:ident, $next:expr, $other:expr, $([$($p:ident),+])+) => {
+        match $run {
+            $([$($p),+] => { $(*$p = $next;)+ })+
+            run => $other(run),
+        }
+    };
+}
+
+/// Colours a run, short ones in straight code.
+#[inline(always)]
+pub(super) fn fill<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
+    let start = ramp;
+    let long = |run: &mut [F::Word]| fill_long::<F>(run, start);
+    straight!(run, next::<F>(&mut ramp), long,
+        [a] [a, b] [a, b, c] [a, b, c, d] [a, b, c, d, e] [a, b, c, d, e, f] [a, b, c, d, e, f, g]
+        [a, b, c, d, e, f, g, h] [a, b, c, d, e, f, g, h, i] [a, b, c, d, e, f, g, h, i, j]
+        [a, b, c, d, e, f, g, h, i, j, k] [a, b, c, d, e, f, g, h, i, j, k, l]
+    );
+}
+
+/// Colours a run of any length.
+#[inline(never)]
+pub(super) fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
+    let mut chunks = run.chunks_exact_mut(8);
+    for chunk in chunks.by_ref() {
+        if let Ok(chunk) = <&mut [F::Word; 8]>::try_from(chunk) {
+            for pixel in chunk {
+                *pixel = next::<F>(&mut ramp);
+            }
+        }
+    }
+    for pixel in chunks.into_remainder() {
+        *pixel = next::<F>(&mut ramp);
+    }
+}
+
+/// Colours a run by a pair: packed anew every 16 pixels where the format allows, else pixel by pixel.
+#[inline(never)]
+pub(super) fn fill_pair<F: Pixel>(run: &mut [F::Word], mut at: Pair, step: Pair, packed: u32) {
+    if F::PACKED {
+        for run in run.chunks_mut(16) {
+            fill_long::<F>(
+                run,
+                Packed {
+                    word: at.packed(),
+                    step: packed,
+                },
+            );
+            at = at.plus(Pair {
+                red_blue: step.red_blue << 4,
+                green: step.green << 4,
+            });
+        }
+        return;
+    }
+    for pixel in run {
+        *pixel = F::pack_words(at.red_blue, at.green);
+        at = at.plus(step);
+    }
+}
+
+/// Depth of a run where nobody has drawn before: it is written and not compared.
+#[inline(always)]
+pub(crate) fn write_depth(depth: &mut Depths<'_>) {
+    let (mut at, step) = (depth.at, depth.step);
+    let mut chunks = depth.cells.chunks_exact_mut(8);
+    for chunk in chunks.by_ref() {
+        let step = black_box(step);
+        if let Ok(chunk) = <&mut [u32; 8]>::try_from(chunk) {
+            for cell in chunk {
+                *cell = at;
+                at = at.wrapping_add(step);
+            }
+        }
+    }
+    for cell in chunks.into_remainder() {
+        *cell = at;
+        at = at.wrapping_add(step);
+    }
+}
+
+/// Colours what is at least as near as its cell, by a word that steps.
+#[inline(never)]
+pub(super) fn fill_nearer<F: Pixel>(run: &mut [F::Word], mut ramp: Packed, depth: Depths<'_>) {
+    let Depths {
+        cells,
+        mut at,
+        step,
+    } = depth;
+    let mut runs = run.chunks_exact_mut(8);
+    let mut cells = cells.chunks_exact_mut(8);
+    for (pixels, cells) in runs.by_ref().zip(cells.by_ref()) {
+        let (step, colour) = (black_box(step), black_box(ramp.step));
+        if let (Ok(pixels), Ok(cells)) = (
+            <&mut [F::Word; 8]>::try_from(pixels),
+            <&mut [u32; 8]>::try_from(cells),
+        ) {
+            for i in 0..8 {
+                if at >= cells[i] {
+                    cells[i] = at;
+                    pixels[i] = F::of_word(ramp.word);
+                }
+                at = at.wrapping_add(step);
+                ramp.word = ramp.word.wrapping_add(colour);
+            }
+        }
+    }
+    let rest = cells.into_remainder();
+    for (pixel, cell) in runs.into_remainder().iter_mut().zip(rest) {
+        if at >= *cell {
+            *cell = at;
+            *pixel = F::of_word(ramp.word);
+        }
+        at = at.wrapping_add(step);
+        ramp.word = ramp.word.wrapping_add(ramp.step);
+    }
+}
+
+/// The same by a pair.
+#[inline(never)]
+pub(super) fn fill_pair_nearer<F: Pixel>(
+    run: &mut [F::Word],
+    mut at: Pair,
+    step: Pair,
+    packed: u32,
+    depth: Depths<'_>,
+) {
+    let mut z = depth.at;
+    if F::PACKED {
+        for (run, cells) in run.chunks_mut(16).zip(depth.cells.chunks_mut(16)) {
+            let ramp = Packed {
+                word: at.packed(),
+                step: packed,
+            };
+            let part = Depths {
+                cells,
+                at: z,
+                step: depth.step,
+            };
+            fill_nearer::<F>(run, ramp, part);
+            at = at.plus(Pair {
+                red_blue: step.red_blue << 4,
+                green: step.green << 4,
+            });
+            z = z.wrapping_add(depth.step << 4);
+        }
+        return;
+    }
+    for (pixel, cell) in run.iter_mut().zip(depth.cells) {
+        if z >= *cell {
+            *cell = z;
+            *pixel = F::pack_words(at.red_blue, at.green);
+        }
+        z = z.wrapping_add(depth.step);
+        at = at.plus(step);
+    }
+}

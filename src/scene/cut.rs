@@ -1,0 +1,102 @@
+//! Triangles that cross the near, far or guard planes, cut plane by plane (K1).
+//!
+//! Near and far cut in space, so colours and texture places follow the edge linearly. The guard band cuts
+//! on the screen, where colour is linear, so there colours follow the projected edge, and cutting leaves the
+//! shading as if nothing had been cut; texture places are linear in space in either case. Each cut is
+//! reckoned from the inner to the outer end, so two triangles that share an edge get the same new vertex.
+
+use super::project::{Point, View, beyond};
+use crate::geometry::Colour;
+use heapless::Vec;
+
+/// A corner on its way through the planes.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Corner {
+    pub(super) point: Point,
+    pub(super) colour: u32,
+    /// Texels with 8 fraction bits.
+    pub(super) texel: [i32; 2],
+}
+
+/// A convex polygon: a triangle gains at most one corner a plane.
+pub(super) type Polygon = Vec<Corner, 9, u8>;
+
+/// What lies within all planes of `beyond`, as a convex polygon in the order of the corners.
+#[inline(never)]
+pub(super) fn cut_all(corners: [Corner; 3], view: &View, beyond: u32) -> Polygon {
+    let mut polygon = Polygon::new();
+    // Three of nine places: it cannot be full.
+    let _ = polygon.extend_from_slice(&corners);
+    for plane in [
+        beyond::NEAR,
+        beyond::FAR,
+        beyond::RIGHT,
+        beyond::LEFT,
+        beyond::BOTTOM,
+        beyond::TOP,
+    ] {
+        // A cut at the near plane may reach beyond the guard band where no corner does.
+        let is_guard = plane > beyond::FAR;
+        if beyond & plane != 0 || is_guard {
+            polygon = cut(&polygon, view, plane);
+        }
+    }
+    polygon
+}
+
+/// Keeps what lies within one plane. The result begins with the first corner within, or the new one
+/// before it.
+fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
+    let mut kept = Polygon::new();
+    for (i, this) in polygon.iter().enumerate() {
+        let next = polygon.get(i + 1).or(polygon.first()).unwrap_or(this);
+        let (within, next_within) = (
+            view.within(plane, this.point),
+            view.within(plane, next.point),
+        );
+        if within >= 0 {
+            // A convex polygon crosses a plane twice and loses a corner for the two that it gains.
+            let _ = kept.push(*this);
+        }
+        if (within < 0) != (next_within < 0) {
+            let guard = plane > beyond::FAR;
+            let new = if within < 0 {
+                between(next, this, [next_within, within], guard)
+            } else {
+                between(this, next, [within, next_within], guard)
+            };
+            let _ = kept.push(new);
+        }
+    }
+    kept
+}
+
+/// The point where the edge from `inner` to `outer` meets the plane that they lie so far within.
+fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: bool) -> Corner {
+    // t = near / (near - far) in 2^-30; both are below 2^35.
+    let whole = near.unsigned_abs() + far.unsigned_abs();
+    let down = 31u32.saturating_sub(whole.leading_zeros());
+    let t = ((near.unsigned_abs() >> down) << 30) / (whole >> down).max(1);
+    let t = (t as i64).min(1 << 30);
+    let mix = |a: i32, b: i32| {
+        (i64::from(a) + (((i64::from(b) - i64::from(a)) * t + (1 << 29)) >> 30)) as i32
+    };
+    let (a, b) = (inner.point, outer.point);
+    let point = Point {
+        x: mix(a.x, b.x),
+        y: mix(a.y, b.y),
+        z: mix(a.z, b.z),
+    };
+    // On the screen the same point is at t zb / z of the projected edge.
+    let along = if on_screen && point.z > 0 {
+        ((((t >> 1) * i64::from(b.z)) / i64::from(point.z)) << 1).clamp(0, 1 << 30)
+    } else {
+        t
+    };
+    let colour = Colour::from_word(inner.colour).lerp(Colour::from_word(outer.colour), along);
+    Corner {
+        point,
+        colour: colour.word(),
+        texel: [0, 1].map(|i| mix(inner.texel[i], outer.texel[i])),
+    }
+}

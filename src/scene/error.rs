@@ -1,0 +1,125 @@
+//! What can go wrong while a scene is made.
+
+use super::LARGEST;
+use crate::geometry::MeshError;
+use core::fmt;
+
+/// Why a scene cannot be begun. It is as it was.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum BeginError {
+    /// The picture has more columns or lines than [`LARGEST`].
+    Size {
+        /// Columns.
+        width: u16,
+        /// Lines.
+        height: u16,
+    },
+    /// The lines are not within the picture, or there are none.
+    Lines {
+        /// The first line.
+        start: u16,
+        /// The line after the last.
+        end: u16,
+        /// The picture's height.
+        height: u16,
+    },
+    /// There are fewer bins than lines.
+    Bins {
+        /// How many lines were to be begun.
+        needed: u16,
+        /// How many bins there are.
+        have: usize,
+    },
+}
+
+impl fmt::Display for BeginError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { width, height } => write!(
+                f,
+                "scene: a picture of {width} x {height} pixels: at most {LARGEST} each way"
+            ),
+            Self::Lines { start, end, height } => write!(
+                f,
+                "scene: lines {start}..{end} of a picture of {height} lines"
+            ),
+            Self::Bins { needed, have } => {
+                write!(
+                    f,
+                    "scene: {needed} lines need as many bins, there are {have}"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for BeginError {}
+
+/// Which memory is full.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Full {
+    /// That of the vertices.
+    Vertices,
+    /// That of the triangles.
+    Objects,
+    /// That of the draw calls.
+    Draws,
+}
+
+/// Why a mesh was not drawn, or not all of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum DrawError {
+    /// The scene was not begun; nothing is drawn.
+    NotBegun,
+    /// The mesh contradicts itself; nothing of it is drawn.
+    Mesh(MeshError),
+    /// Memory is full; what was kept is drawn.
+    Full {
+        /// Which memory.
+        memory: Full,
+        /// How many triangles were dropped, or lost a piece.
+        triangles: u32,
+        /// The first of them, as the face of the mesh that it comes from.
+        first_face: u32,
+    },
+}
+
+impl fmt::Display for DrawError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotBegun => f.write_str("scene: drawn before it was begun"),
+            Self::Mesh(MeshError::AttributeLength) => {
+                f.write_str("mesh: an attribute has not as many values as there are positions")
+            }
+            Self::Mesh(MeshError::Index { face }) => {
+                write!(f, "mesh: face {face} names a vertex that does not exist")
+            }
+            Self::Mesh(MeshError::StripLength) => {
+                f.write_str("mesh: a quad strip needs an even number of indices, and not two")
+            }
+            Self::Full {
+                memory,
+                triangles,
+                first_face,
+            } => {
+                let memory = match memory {
+                    Full::Vertices => "vertices",
+                    Full::Objects => "objects",
+                    Full::Draws => "draws",
+                };
+                write!(
+                    f,
+                    "scene: the memory of {memory} is full: {triangles} triangles dropped, from face {first_face} on"
+                )
+            }
+        }
+    }
+}
+
+impl core::error::Error for DrawError {}

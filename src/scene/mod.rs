@@ -1,0 +1,180 @@
+//! A frame's scene: what pass one leaves for pass two (K1, S3).
+//!
+//! | file | there |
+//! |---|---|
+//! | `record` | vertices and triangles as they lie in slow memory |
+//! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
+//! | `project` | vertices to the screen |
+//! | `assemble` | meshes into triangles under their first lines |
+//! | `cut` | triangles that cross a plane |
+//! | `error` | what can go wrong |
+//!
+//! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
+
+mod assemble;
+mod cut;
+mod draw;
+mod error;
+mod project;
+mod record;
+
+pub use draw::{Draw, DrawState};
+pub use error::{BeginError, DrawError, Full};
+pub(crate) use record::NONE;
+pub use record::{Object, TexturePlace, Vertex};
+
+use crate::arena::Arena;
+use crate::geometry::{Camera, Scale, Screen};
+use crate::link::Link;
+use core::marker::PhantomData;
+use core::ops::Range;
+
+/// The memory of a scene, lent by the application; best in large, slow RAM.
+///
+/// All records have a `const EMPTY`, so that statics in a linker section can be lent.
+#[derive(Debug)]
+pub struct Memory<'m, 't> {
+    /// Vertices on the screen, 12 bytes each; at most 65,536 are used.
+    pub vertices: &'m mut [Vertex],
+    /// Texture places of vertices, as many as there are vertices; empty for looks without textures.
+    pub places: &'m mut [TexturePlace],
+    /// Triangles, 8 bytes each; at most 61,440 are used.
+    pub objects: &'m mut [Object],
+    /// One for each line of the picture.
+    pub bins: &'m mut [u16],
+    /// One for each draw call.
+    pub draws: &'m mut [DrawState<'t>],
+}
+
+/// What pass one has done since the scene was begun (M4).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Assembled {
+    /// Triangles submitted.
+    pub triangles: u32,
+    /// Triangles that cannot be seen, and never cost anything again.
+    pub culled: u32,
+    /// Triangles that crossed a near, far or guard plane.
+    pub clipped: u32,
+    /// Triangles that found no room.
+    pub dropped: u32,
+}
+
+/// As many objects as links can lead to.
+fn first_of(objects: &mut [Object]) -> &mut [Object] {
+    let most = objects.len().min(usize::from(Link::CACHED));
+    objects.get_mut(..most).unwrap_or_default()
+}
+
+/// The widest and the highest picture, in pixels.
+pub const LARGEST: u16 = 1016;
+
+/// A scene in memory: shared by any number of renderers, read-only while they draw.
+///
+/// `L` is the look of all that is in it.
+#[derive(Debug)]
+pub struct Scene<'m, 't, L> {
+    pub(crate) screen: Screen,
+    pub(crate) camera: Option<Camera>,
+    pub(crate) vertices: Arena<'m, Vertex>,
+    pub(crate) places: &'m mut [TexturePlace],
+    pub(crate) objects: Arena<'m, Object>,
+    pub(crate) bins: &'m mut [u16],
+    pub(crate) draws: Arena<'m, DrawState<'t>>,
+    pub(crate) lines: Range<u16>,
+    pub(crate) scale: Scale,
+    pub(crate) assembled: Assembled,
+    /// Counts changes, so that a renderer notices them.
+    pub(crate) generation: u32,
+    look: PhantomData<L>,
+}
+
+impl<'m, 't, L> Scene<'m, 't, L> {
+    /// [`new`](Scene::new), for pixels of these steps.
+    pub(crate) fn with_scale(screen: Screen, memory: Memory<'m, 't>, scale: Scale) -> Self {
+        Self {
+            screen,
+            camera: None,
+            vertices: Arena::new(memory.vertices),
+            places: memory.places,
+            objects: Arena::new(first_of(memory.objects)),
+            bins: memory.bins,
+            draws: Arena::new(memory.draws),
+            lines: 0..0,
+            scale,
+            assembled: Assembled::default(),
+            generation: 0,
+            look: PhantomData,
+        }
+    }
+
+    /// Forgets what was drawn, and draws all lines from now on as `camera` sees them.
+    ///
+    /// # Errors
+    /// When the picture has more than [`LARGEST`] columns or lines, or more lines than there are bins.
+    pub fn begin(&mut self, camera: &Camera) -> Result<(), BeginError> {
+        self.begin_lines(camera, 0..self.screen.height())
+    }
+
+    /// The same for a band of lines alone (H18).
+    ///
+    /// # Errors
+    /// As [`begin`](Scene::begin), and when the lines are not of the picture.
+    pub fn begin_lines(&mut self, camera: &Camera, lines: Range<u16>) -> Result<(), BeginError> {
+        let (width, height) = (self.screen.width(), self.screen.height());
+        if width > LARGEST || height > LARGEST {
+            return Err(BeginError::Size { width, height });
+        }
+        if lines.is_empty() || lines.end > height {
+            return Err(BeginError::Lines {
+                start: lines.start,
+                end: lines.end,
+                height,
+            });
+        }
+        let have = self.bins.len();
+        let Some(bins) = self.bins.get_mut(..lines.len()) else {
+            let needed = lines.len() as u16;
+            return Err(BeginError::Bins { needed, have });
+        };
+        bins.fill(NONE);
+        self.vertices.clear();
+        self.objects.clear();
+        self.draws.clear();
+        self.camera = Some(*camera);
+        self.lines = lines;
+        self.assembled = Assembled::default();
+        self.generation = self.generation.wrapping_add(1);
+        Ok(())
+    }
+
+    /// The picture's size.
+    #[must_use]
+    pub fn screen(&self) -> Screen {
+        self.screen
+    }
+
+    /// The lines that are drawn.
+    #[must_use]
+    pub fn lines(&self) -> Range<u16> {
+        self.lines.clone()
+    }
+
+    /// What pass one has done.
+    #[must_use]
+    pub fn assembled(&self) -> Assembled {
+        self.assembled
+    }
+
+    /// How many triangles are in memory.
+    #[must_use]
+    pub fn objects(&self) -> usize {
+        self.objects.len()
+    }
+
+    /// How many vertices are in memory.
+    #[must_use]
+    pub fn vertices(&self) -> usize {
+        self.vertices.len()
+    }
+}

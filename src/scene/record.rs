@@ -1,0 +1,97 @@
+//! The records that pass one leaves in slow memory (S3, C1).
+
+/// A vertex on the screen, shared by the triangles around it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
+pub struct Vertex {
+    /// Line above column, 13.3 each, of guard space; [`Vertex::OUTSIDE`] where the vertex has to be
+    /// clipped.
+    pub(crate) place: u32,
+    /// 1/w in units of 2^-31, a power of two below the near plane's at most; where the vertex has to be
+    /// clipped, the planes that it lies beyond.
+    pub(crate) depth: u32,
+    /// The colour: 11, 10 and 11 bits of red, blue and green.
+    pub(crate) colour: u32,
+}
+
+impl Vertex {
+    /// What fresh memory is filled with.
+    pub const EMPTY: Self = Self {
+        place: Self::OUTSIDE,
+        depth: 0,
+        colour: 0,
+    };
+
+    /// The place of a vertex that has to be clipped. No place on the screen is as far down.
+    pub(crate) const OUTSIDE: u32 = u32::MAX;
+}
+
+/// Where a vertex lies on its texture, and the fraction of its place that coverage does not use (X13).
+///
+/// Upper 29 bits: texels with 8 fraction bits, modulo 2^29. Lower 3 bits: units of 1/64 pixel beyond
+/// the vertex's place, -4 to 3.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[repr(transparent)]
+pub struct TexturePlace(pub(crate) [u32; 2]);
+
+impl TexturePlace {
+    /// What fresh memory is filled with.
+    pub const EMPTY: Self = Self([0; 2]);
+
+    /// From texels with 8 fraction bits, and units of 1/64 pixel.
+    #[inline(always)]
+    pub(crate) fn new(texel: [i32; 2], fine: [i32; 2]) -> Self {
+        Self([0, 1].map(|i| (texel[i] << 3) as u32 | (fine[i] & 7) as u32))
+    }
+
+    /// Texels with 8 fraction bits: across and down.
+    #[inline(always)]
+    pub(crate) fn texel(self) -> [i32; 2] {
+        self.0.map(|w| w as i32 >> 3)
+    }
+
+    /// Units of 1/64 pixel beyond the vertex's place: across and down.
+    #[inline(always)]
+    pub(crate) fn fine(self) -> [i32; 2] {
+        self.0.map(|w| (w << 29) as i32 >> 29)
+    }
+}
+
+/// A triangle in slow memory, and the next one that begins on the same line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(C)]
+pub struct Object {
+    /// Vertices, the topmost first (of two the left one), clockwise on the screen.
+    pub(crate) corner: [u16; 3],
+    /// The triangle that was filed under the same line before this one, or [`NONE`].
+    pub(crate) next: u16,
+}
+
+impl Object {
+    /// What fresh memory is filled with.
+    pub const EMPTY: Self = Self {
+        corner: [0; 3],
+        next: NONE,
+    };
+}
+
+/// The end of a chain of objects.
+pub(crate) const NONE: u16 = 0xFFFF;
+
+const _: () = assert!(size_of::<Vertex>() == 12 && size_of::<Object>() == 8);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_texture_place_keeps_texels_and_fractions() {
+        for texel in [0, 1, -1, 1 << 27, -(1 << 27), 123_456_789] {
+            for fine in -4..4 {
+                let place = TexturePlace::new([texel, -texel], [fine, -1 - fine]);
+                assert_eq!(place.texel(), [texel, -texel]);
+                assert_eq!(place.fine(), [fine, -1 - fine]);
+            }
+        }
+    }
+}

@@ -1,0 +1,115 @@
+//! Planes of a small triangle in 32-bit products, the same bits with and without long ones (B).
+//!
+//! A gradient is `8 (e1 dy2 - e2 dy1) / area` a pixel. What all planes of a triangle share is each
+//! side times the reciprocal of the area, cut to what leaves room for rises of 11 bits.
+
+use super::edge::{Frame, across, down};
+use crate::num::{leading_zeros, mul_high, recip_16};
+
+/// Sides times the reciprocal of the doubled area, `r 2^(up - 47)`, and the first corner's place.
+#[derive(Clone, Copy, Debug)]
+pub struct Shares {
+    x1: i32,
+    x2: i32,
+    y1: i32,
+    y2: i32,
+    /// Zeros above the area's first bit.
+    up: u32,
+    /// Units of 1/8 pixel from the centre of the picture's first pixel to the first corner.
+    x: i32,
+    y: i32,
+}
+
+/// A plane: its value at the picture's first pixel less that at the first corner, and its steps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rise {
+    pub(crate) at: i32,
+    pub(crate) dx: i32,
+    pub(crate) dy: i32,
+}
+
+impl Shares {
+    /// For corners that go clockwise; `area` is the doubled area in units of 1/64 pixel, at least 1.
+    #[inline(always)]
+    pub(crate) fn new(area: u32, place: [u32; 3], frame: Frame) -> Self {
+        let (d1, d2) = (
+            place[1].wrapping_sub(place[0]),
+            place[2].wrapping_sub(place[0]),
+        );
+        let up = leading_zeros(area);
+        let r = recip_16((area << (up & 31)) >> 16) as i32;
+        Self {
+            x1: down(d2).wrapping_mul(r),
+            x2: down(d1).wrapping_mul(-r),
+            y1: across(d1).wrapping_mul(r),
+            y2: across(d2).wrapping_mul(-r),
+            up,
+            x: (place[0] & 0xFFFF) as i32 - (8 * frame.left + 4),
+            y: (place[0] >> 16) as i32 - (8 * frame.top + 4),
+        }
+    }
+
+    /// The same with `BITS` bits less.
+    #[inline(always)]
+    pub(crate) fn cut<const BITS: u32>(self) -> Self {
+        Self {
+            x1: self.x1 >> BITS,
+            x2: self.x2 >> BITS,
+            y1: self.y1 >> BITS,
+            y2: self.y2 >> BITS,
+            ..self
+        }
+    }
+
+    /// A plane with `FRACTION` bits below its rises from the first corner to the others, of shares that
+    /// were [cut](Shares::cut) by `CUT`; the sums must fit, see there.
+    #[inline(always)]
+    pub(crate) fn rise<const CUT: u32, const FRACTION: u32>(&self, e1: i32, e2: i32) -> Rise {
+        let shift = (44 - CUT - FRACTION).wrapping_sub(self.up) & 31;
+        let half = 1i32 << ((43 - CUT - FRACTION).wrapping_sub(self.up) & 31);
+        let step = |a: i32, b: i32, c: i32, d: i32| {
+            half.wrapping_add(a.wrapping_mul(b))
+                .wrapping_add(c.wrapping_mul(d))
+                >> shift
+        };
+        let dx = step(e1, self.x1, e2, self.x2);
+        let dy = step(e2, self.y1, e1, self.y2);
+        self.placed(dx, dy)
+    }
+
+    /// The plane with these steps.
+    #[inline(always)]
+    pub(crate) fn placed(&self, dx: i32, dy: i32) -> Rise {
+        // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+        let rest = 4i32
+            .wrapping_sub(dx.wrapping_mul(self.x & 7))
+            .wrapping_sub(dy.wrapping_mul(self.y & 7));
+        let at = (rest >> 3)
+            .wrapping_sub(dx.wrapping_mul(self.x >> 3))
+            .wrapping_sub(dy.wrapping_mul(self.y >> 3));
+        Rise { at, dx, dy }
+    }
+
+    /// A plane of rises of 31 bits and a sign, with three fraction bits kept in the steps; `None` where it is
+    /// too steep for 32 bits. Of whole shares, of sides below 256 units.
+    #[inline(always)]
+    pub(crate) fn steep(&self, e1: i32, e2: i32) -> Option<[u32; 3]> {
+        let product = |e: i32, share: i32| mul_high(e, share << 6);
+        let gx = product(e1, self.x1) + product(e2, self.x2);
+        let gy = product(e2, self.y1) + product(e1, self.y2);
+        let left = self.up.wrapping_sub(15) & 31;
+        if leading_zeros(((gx ^ gx >> 31) | (gy ^ gy >> 31)) as u32) < left + 2 {
+            return None;
+        }
+        // Steps a unit of 1/8 pixel, so that nothing is shifted right after a product has wrapped.
+        let (gx, gy) = ((gx << left) >> 6, (gy << left) >> 6);
+        let way = gx
+            .wrapping_mul(self.x)
+            .wrapping_add(gy.wrapping_mul(self.y));
+        Some([
+            way.wrapping_neg() as u32,
+            (gx << 3) as u32,
+            (gy << 3) as u32,
+        ])
+    }
+}

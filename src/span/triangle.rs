@@ -1,0 +1,222 @@
+//! A triangle on its way into a slot: how large it is decides how it is set up (B).
+
+use super::edge::{Edge, Frame, Kind, across, down, first_line};
+use super::plane::Shares;
+use crate::num::{InverseArea, Plane};
+use crate::scene::{TexturePlace, Vertex};
+
+/// Corners of a triangle, the topmost first, clockwise, with a doubled area above 0.
+#[derive(Clone, Copy, Debug)]
+pub struct Triangle<'a> {
+    pub(crate) vertex: [&'a Vertex; 3],
+    /// Empty where the look has no textures.
+    pub(crate) texture: [TexturePlace; 3],
+    pub(crate) frame: Frame,
+}
+
+/// The way of evaluating planes, from the cheapest on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Size {
+    /// Within 25 pixels of the top corner, and an area of a pixel at least.
+    Tiny,
+    /// Within 64 pixels, and an area of 8 pixels at least.
+    Small,
+    /// Too thin for the size that its box has, but small.
+    Thin,
+    /// All others.
+    Large,
+}
+
+/// The lines that a triangle is on and turns on, counted from the picture's first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Lines {
+    /// That of the corner where a side gives way to the third one.
+    pub(crate) turn: i32,
+    /// The one after its last.
+    pub(crate) end: i32,
+}
+
+/// The sides on a line, and how later ones are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Sides {
+    pub(crate) left: Edge,
+    pub(crate) right: Edge,
+    pub(crate) kind: Kind,
+    /// Whether columns may lie beside the picture.
+    pub(crate) crosses: bool,
+}
+
+impl Triangle<'_> {
+    #[inline(always)]
+    pub(crate) fn place(&self, corner: usize) -> u32 {
+        self.vertex[corner].place
+    }
+
+    #[inline(always)]
+    fn places(&self) -> [u32; 3] {
+        self.vertex.map(|v| v.place)
+    }
+
+    /// The doubled area, units of 1/64 pixel; sides are below 2^15 units.
+    #[inline(always)]
+    pub(crate) fn area(&self) -> u32 {
+        let [a, b, c] = self.places();
+        let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
+        let plus = across(d1).wrapping_mul(down(d2));
+        plus.wrapping_sub(across(d2).wrapping_mul(down(d1))) as u32
+    }
+
+    /// How planes are made; `area` is the triangle's.
+    #[inline(always)]
+    pub(crate) fn size(&self, area: u32) -> Size {
+        let [a, b, c] = self.places();
+        let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
+        let magnitude = |d: i32| d ^ (d >> 31);
+        let way = |d: u32| magnitude(across(d)) + down(d);
+        if way(d1).max(way(d2)) < 200 {
+            return if area >= 128 { Size::Tiny } else { Size::Thin };
+        }
+        if self.kind() != Kind::Short {
+            return Size::Large;
+        }
+        if area >= 1024 {
+            Size::Small
+        } else {
+            Size::Thin
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn shares(&self, area: u32) -> Shares {
+        Shares::new(area, self.places(), self.frame)
+    }
+
+    /// The turn and the end.
+    #[inline(always)]
+    pub(crate) fn lines(&self) -> Lines {
+        let (b, c) = (first_line(self.place(1)), first_line(self.place(2)));
+        Lines {
+            turn: b.min(c) - self.frame.top,
+            end: b.max(c) - self.frame.top,
+        }
+    }
+
+    #[inline(always)]
+    fn kind(&self) -> Kind {
+        let [a, b, c] = self.places();
+        let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
+        let d3 = c.wrapping_sub(b);
+        let magnitude = |d: i32| d ^ (d >> 31);
+        let size = |d: u32| magnitude(across(d)) | magnitude(down(d));
+        if size(d1) | size(d2) | size(d3) < 512 {
+            return Kind::Short;
+        }
+        let holds = |d: u32| down(d) < 1024 || across(d) == 0;
+        if holds(d1) && holds(d2) && magnitude(down(d3)) < 1024 {
+            Kind::Tall
+        } else {
+            Kind::Divided
+        }
+    }
+
+    /// The sides on `line` and below, up to the turn or the end.
+    #[inline(always)]
+    pub(crate) fn sides(&self, line: i32, turn: i32) -> Sides {
+        let [a, b, c] = self.places();
+        let (kind, crosses) = self.way();
+        let (origin, top) = (self.origin(crosses), self.frame.top);
+        let make = |p: u32, q: u32| {
+            if kind == Kind::Short {
+                let d = q.wrapping_sub(p);
+                Edge::short(p, across(d), down(d), origin, top)
+            } else {
+                Edge::of_kind(kind, p, q, origin, top)
+            }
+        };
+        let mut sides = Sides {
+            left: make(a, c),
+            right: make(a, b),
+            kind,
+            crosses,
+        };
+        if line >= turn {
+            sides.turn(self);
+        }
+        sides
+    }
+
+    /// How the sides are evaluated, and whether columns may lie beside the picture.
+    #[inline(always)]
+    fn way(&self) -> (Kind, bool) {
+        let frame = self.frame;
+        let x = self.places().map(|p| (p & 0xFFFF) as i32);
+        let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
+        let kind = self.kind();
+        if low >= 8 * frame.left && high <= 8 * (frame.left + frame.width) {
+            return (kind, false);
+        }
+        let wide = 8 * frame.wide_left();
+        if low >= wide && high < wide + 8 * 1023 {
+            (kind, true)
+        } else {
+            (Kind::Divided, true)
+        }
+    }
+
+    #[inline(always)]
+    fn origin(&self, crosses: bool) -> i32 {
+        if crosses {
+            self.frame.wide_left()
+        } else {
+            self.frame.left
+        }
+    }
+
+    /// Planes of any triangle that is not too thin; on values below 2^31.
+    #[inline(never)]
+    pub(crate) fn wide_area(&self) -> Option<InverseArea> {
+        InverseArea::new(self.places().map(super::edge::parts))
+    }
+
+    /// A plane of guard space, counted from the picture's first pixel.
+    pub(crate) fn in_picture(&self, plane: Plane) -> [u32; 3] {
+        let at = plane.at(self.frame.left, self.frame.top);
+        [at, plane.dx, plane.dy].map(|v| v as u32)
+    }
+}
+
+impl Sides {
+    /// The third side, in place of the one that ends at the middle corner.
+    #[inline(never)]
+    pub(crate) fn turn(&mut self, triangle: &Triangle<'_>) {
+        let [_, b, c] = triangle.places();
+        let (origin, top) = (triangle.origin(self.crosses), triangle.frame.top);
+        if down(c.wrapping_sub(b)) > 0 {
+            self.right = Edge::of_kind(self.kind, b, c, origin, top);
+        } else {
+            self.left = Edge::of_kind(self.kind, c, b, origin, top);
+        }
+    }
+
+    /// The columns of the picture on a line of it: from the first to before the second.
+    #[inline(always)]
+    pub(crate) fn columns(&self, line: u32, frame: Frame) -> (u32, u32) {
+        if !self.crosses && self.kind != Kind::Divided {
+            return (self.left.column(line), self.right.column(line));
+        }
+        self.clipped(line, frame)
+    }
+
+    #[inline(never)]
+    fn clipped(&self, line: u32, frame: Frame) -> (u32, u32) {
+        let of = |edge: Edge| {
+            let column = if self.kind == Kind::Divided {
+                edge.divided(line as i32 + frame.top) - frame.left
+            } else {
+                edge.column(line) as i32 + frame.wide_left() - frame.left
+            };
+            column.clamp(0, frame.width) as u32
+        };
+        (of(self.left), of(self.right))
+    }
+}
