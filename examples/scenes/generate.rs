@@ -20,6 +20,8 @@ pub(crate) const TEAPOT_STEPS: usize = 6;
 pub(crate) const SPHERE_STACKS: usize = 32;
 /// Steps of the sphere around its axis.
 pub(crate) const SPHERE_SLICES: usize = 32;
+/// Rings of the fine sphere, and steps around its axis.
+pub(crate) const FINE_STEPS: usize = 64;
 /// Quads of the ribbon.
 pub(crate) const RIBBON_STEPS: usize = 32;
 
@@ -65,6 +67,15 @@ pub(crate) fn source() -> String {
         triple,
     );
     table(&mut out, "SPHERE_FACES", "[u16; 3]", &sphere.faces, triple);
+    let fine = self::sphere(FINE_STEPS, FINE_STEPS);
+    table(
+        &mut out,
+        "FINE_POSITIONS",
+        "[i16; 3]",
+        &fine.positions,
+        triple,
+    );
+    table(&mut out, "FINE_FACES", "[u16; 3]", &fine.faces, triple);
 
     let cube = cube();
     table(

@@ -16,7 +16,7 @@ use crate::preset_sizes;
 use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
-use scanbeam::texture::{Size as TextureSize, Texture, Textured, Words, Wrap};
+use scanbeam::texture::{Quality, Size as TextureSize, Texture, Textured, Words, Wrap};
 use scanbeam::{
     BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FlatPainter, FrameStats, Gouraud,
     GouraudDepth, GouraudPainter, ListMemory, ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene,
@@ -24,9 +24,9 @@ use scanbeam::{
 };
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LIST_INDICES,
-    LIST_TABLE, LookB, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SWATCHES, SceneB,
-    Shot, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, VARIANTS, VERTICES, WIDTH, build_crate,
-    build_listed,
+    LIST_TABLE, LookB, LookF, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SUITE,
+    SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VARIANTS,
+    VERTICES, WIDTH, build_crate, build_listed,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -208,6 +208,10 @@ fn plot(folder: &Path, boards: &[Compared]) -> Result<(), Box<dyn Error>> {
 /// When a shot does not fit the arenas that it asks for.
 pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     let mut frames = BTreeMap::new();
+    for suite in SUITE {
+        let bytes = drawn_suite::<GouraudDepth<Rgb565Be>, LookB, LookF>(suite)?.0;
+        frames.insert(suite.name(), crc32fast::hash(&bytes));
+    }
     for shot in SHOTS.into_iter().chain(STACKS).chain(STRESS) {
         frames.insert(
             shot.name(),
@@ -268,6 +272,10 @@ pub fn host_counts() -> Result<BTreeMap<&'static str, FrameStats>, Box<dyn Error
     }
     for scene in SCENES_B {
         counts.insert(scene.name, drawn_b::<Counted<LookB>>(scene)?.1);
+    }
+    for suite in SUITE {
+        let (_, stats) = counted_suite(suite)?;
+        counts.insert(suite.name(), stats);
     }
     Ok(counts)
 }
@@ -333,6 +341,67 @@ fn draw_tested<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box
         Ok(())
     };
     Ok(shown::<P, _>(shot, |scene| build(shot, scene), by_depth)?.0)
+}
+
+/// A scene of the suite as a picture, and what its frame had.
+///
+/// # Errors
+/// As [`picture`].
+pub fn picture_suite(suite: Suite) -> Result<(Frame, FrameStats), Box<dyn Error>> {
+    let (bytes, stats) = counted_suite(suite)?;
+    Ok((framed(&bytes)?, stats))
+}
+
+fn counted_suite(suite: Suite) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>> {
+    drawn_suite::<Counted<GouraudDepth<Rgb565Be>>, Counted<LookB>, Counted<LookF>>(suite)
+}
+
+/// The bytes of a scene of the suite in scan-out order, and what the frame had: by `P`, or where it
+/// has a texture by `B` or `F`, whichever takes it.
+fn drawn_suite<P, B, F>(suite: Suite) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>>
+where
+    P: Pipeline<Pixel = Rgb565Be>,
+    B: Pipeline<
+            Pixel = Rgb565Be,
+            Shading = Textured<Gouraud>,
+            Textures = <LookB as Pipeline>::Textures,
+        >,
+    F: Pipeline<
+            Pixel = Rgb565Be,
+            Shading = Textured<Gouraud>,
+            Textures = <LookF as Pipeline>::Textures,
+        >,
+{
+    match suite {
+        Suite::B | Suite::BUnlit => textured_suite::<B>(suite, Textures(&TEXTURES_B)),
+        Suite::F => textured_suite::<F>(suite, Textures(&TEXTURES_F)),
+        _ => {
+            let build = |scene: &mut Scene<'_, P>| {
+                suite
+                    .build(scene)
+                    .map_err(|error| format!("{}: {error:?}", suite.name()))?;
+                Ok(())
+            };
+            shown_over::<P, _>(suite.background(), build, by_lines)
+        }
+    }
+}
+
+fn textured_suite<P>(
+    suite: Suite,
+    textures: P::Textures,
+) -> Result<(Vec<u8>, FrameStats), Box<dyn Error>>
+where
+    P: Pipeline<Pixel = Rgb565Be, Shading = Textured<Gouraud>>,
+{
+    let build = |scene: &mut Scene<'_, P>| {
+        scene.set_textures(textures);
+        suite
+            .build_textured(Quality::Balanced, scene)
+            .map_err(|error| format!("{}: {error:?}", suite.name()))?;
+        Ok(())
+    };
+    shown_over::<P, _>(suite.background(), build, by_lines)
 }
 
 /// The bytes of scene B in scan-out order, and what the frame had.
@@ -457,13 +526,22 @@ fn shown<P: Pipeline<Pixel = Rgb565Be>, T>(
     build: impl FnOnce(&mut Scene<'_, P>) -> Result<(), Box<dyn Error>>,
     draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<T, Box<dyn Error>>,
 ) -> Result<(Vec<u8>, T), Box<dyn Error>> {
+    shown_over(shot.background(), build, draw)
+}
+
+/// As [`shown`], over a background of 8-bit levels.
+fn shown_over<P: Pipeline<Pixel = Rgb565Be>, T>(
+    background: [u8; 3],
+    build: impl FnOnce(&mut Scene<'_, P>) -> Result<(), Box<dyn Error>>,
+    draw: impl FnOnce(&Scene<'_, P>, &mut Display, u16) -> Result<T, Box<dyn Error>>,
+) -> Result<(Vec<u8>, T), Box<dyn Error>> {
     let mut lent = SceneRooms::<P>::new(VERTICES, OBJECTS, HEIGHT.into());
     let mut scene = lent.scene(Shot::screen());
     build(&mut scene)?;
     let words = usize::from(WIDTH) * usize::from(LINES);
     let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
-    let background = Rgb565Be::from_rgb8(shot.background());
+    let background = Rgb565Be::from_rgb8(background);
     let drawn = draw(&scene, &mut pump, background)?;
     let words = pump.sink().frame()?;
     let bytes = words.into_iter().flat_map(u16::to_ne_bytes).collect();

@@ -98,7 +98,10 @@ fn every_pixel_of_scene_a_has_a_texel() {
 #[test]
 fn texels_are_those_of_real_numbers() {
     let reference = reference(Shade::None);
-    for (name, budget, most) in [("b_unlit_exact", 0.02, 0.003), ("b_unlit", 0.27, 0.25)] {
+    for (name, budget, most) in [
+        ("b_upright_unlit_exact", 0.02, 0.003),
+        ("b_upright_unlit", 0.27, 0.25),
+    ] {
         let words = words(name);
         let (mut pixels, mut other) = (0, 0);
         for i in seen(&reference) {
@@ -127,8 +130,8 @@ fn texels_are_those_of_real_numbers() {
 /// Lit, a pixel is its texel times the light of scene A, within one step of the display.
 #[test]
 fn light_multiplies_texels() {
-    let (lit, unlit) = (reference(Shade::Gouraud), words("b_unlit_exact"));
-    let shown = words("b_exact");
+    let (lit, unlit) = (reference(Shade::Gouraud), words("b_upright_unlit_exact"));
+    let shown = words("b_upright_exact");
     let (mut worst, mut darker) = ([0.0f64; 3], 0);
     for i in seen(&lit) {
         if unlit[i] != texel(lit.place[i]) {

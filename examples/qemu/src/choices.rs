@@ -3,14 +3,14 @@
 use crate::frames::{LINES_PER_TRANSFER, Smooth};
 use crate::rooms::{Rooms, RoomsOf, SLOTS};
 use scanbeam::scan_out::{Pump, ScanoutDma};
-use scanbeam::texture::{BlockCache, CacheReads, Size, Textured, Words};
+use scanbeam::texture::{BlockCache, CacheReads, Quality, Size, Textured, Words};
 use scanbeam::{
     CellOf, Depth32, DepthUse, Gouraud, LineMemory, LineRenderer, Pipeline, PixelFormat, Rgb565Be,
     Scene, SceneMemory, Textures, draw_frame,
 };
 use scenes::{
-    BLOCK_TEXELS_B, BLOCKS_B, CachedB, CachedLookB, LookB, SCENE_B_BLOCKS, SceneB, Shot,
-    TEXEL_SIDE, TEXELS_PANEL,
+    BLOCK_TEXELS_B, BLOCKS_B, CachedB, CachedLookB, LookB, LookF, SCENE_B_BLOCKS, SUITE_LINES,
+    SUITE_SLOTS, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F,
 };
 
 /// Draws a shot with another depth than 32 bits, on every line.
@@ -84,4 +84,51 @@ where
     let textures = [CachedB::arranged(cache, size, BLOCKS_B).expect("it has its texels")];
     let (how, textured) = (SCENE_B_BLOCKS, &mut rooms.textured);
     draw_b::<CachedLookB<'_>, _>(how, Textures(&textures), textured, pump, LINES_PER_TRANSFER);
+}
+
+/// Draws a scene of the suite: 64 slots, one line a transfer.
+#[inline(never)]
+pub(crate) fn draw_suite<D>(suite: Suite, rooms: &mut Rooms, pump: &mut Pump<D>)
+where
+    D: ScanoutDma<Buf = &'static mut [u16]>,
+{
+    match suite {
+        Suite::B | Suite::BUnlit => {
+            let textures = Textures(&TEXTURES_B);
+            draw_suite_textured::<LookB, _>(suite, textures, &mut rooms.textured, pump);
+        }
+        Suite::F => {
+            let textures = Textures(&TEXTURES_F);
+            draw_suite_textured::<LookF, _>(suite, textures, &mut rooms.textured, pump);
+        }
+        _ => {
+            let (small, large) = (&mut rooms.smooth, &mut rooms.second);
+            core::mem::swap(&mut small.slots, &mut large.slots);
+            let (mut scene, mut renderer) = small.lend::<Smooth>(Shot::screen(), SUITE_SLOTS);
+            suite.build(&mut scene).expect("the rooms are large enough");
+            let background = Rgb565Be::from_rgb8(suite.background());
+            draw_frame(&scene, &mut renderer, pump, background, SUITE_LINES)
+                .expect("the sink cannot fail and the rooms are large enough");
+            core::mem::swap(&mut small.slots, &mut large.slots);
+        }
+    }
+}
+
+fn draw_suite_textured<P, D>(
+    suite: Suite,
+    textures: P::Textures,
+    rooms: &mut RoomsOf<LookB>,
+    pump: &mut Pump<D>,
+) where
+    P: Pipeline<Pixel = Rgb565Be, Shading = Textured<Gouraud>, Depth = Depth32>,
+    D: ScanoutDma<Buf = &'static mut [u16]>,
+{
+    let (mut scene, mut renderer) = rooms.lend::<P>(Shot::screen(), SUITE_SLOTS);
+    scene.set_textures(textures);
+    suite
+        .build_textured(Quality::Balanced, &mut scene)
+        .expect("the rooms are large enough");
+    let background = Rgb565Be::from_rgb8(suite.background());
+    draw_frame(&scene, &mut renderer, pump, background, SUITE_LINES)
+        .expect("the sink cannot fail and the rooms are large enough");
 }

@@ -1,6 +1,6 @@
 //! The frames that this firmware draws, by name.
 
-use crate::choices::{draw_b, draw_b_cached, draw_seen};
+use crate::choices::{draw_b, draw_b_cached, draw_seen, draw_suite};
 use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
@@ -14,9 +14,9 @@ use scanbeam::{
 };
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
-    Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SceneB,
-    Shady, Shot, ShotError, TEXTURES_B, Transparent, VARIANTS, Variant, build_crate, build_listed,
-    build_method, by_effect, by_method, method_screen,
+    Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE, SceneB,
+    Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VARIANTS, Variant, build_crate,
+    build_listed, build_method, by_effect, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -50,6 +50,8 @@ enum Way {
     B(SceneB),
     /// Scene B from blocks through a cache.
     BlocksB,
+    /// A scene of the suite, as it is measured.
+    Suite(Suite),
 }
 
 /// One frame: how a shot is drawn.
@@ -60,8 +62,8 @@ pub(crate) struct Frame {
     way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: all shots, those of stress too, then flat
-/// faces, one by the hardware model and two from baked lists, then what the cache and its
+/// Every frame, in the order in which they are drawn: the suite, all other shots, those of stress
+/// too, then flat faces, one by the hardware model and two from baked lists, then what the cache and its
 /// renderers must not change, then the interpolation methods and effects, other depths, and scene B.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
@@ -75,14 +77,18 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         },
         way,
     };
-    let shots = SHOTS.into_iter().chain(STACKS).chain(STRESS);
+    let suite = SUITE.map(|suite| plain(suite.name(), Shot::Sphere, Way::Suite(suite)));
+    let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
+    let shots = SHOTS.into_iter().filter(move |shot| !measured(shot));
+    let shots = shots.chain(STRESS);
     let variants = VARIANTS.into_iter().map(|how| Frame {
         name: how.name,
         how,
         way: Way::Smooth,
     });
-    shots
-        .map(move |shot| plain(shot.name(), shot, Way::Smooth))
+    suite
+        .into_iter()
+        .chain(shots.map(move |shot| plain(shot.name(), shot, Way::Smooth)))
         .chain([
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
             plain("teapot_model", Shot::Teapot, Way::Model),
@@ -152,6 +158,7 @@ impl Frame {
                 draw_b::<LookB, _>(scene, textures, rooms, &mut pump, LINES_PER_TRANSFER);
             }
             Way::BlocksB => draw_b_cached(rooms, &mut pump),
+            Way::Suite(suite) => draw_suite(suite, rooms, &mut pump),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 let rooms = &mut rooms.smooth;
                 draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);

@@ -10,8 +10,8 @@ use scanbeam::{
 use scenes::{
     BLOCK_TEXELS_B, CACHE_SLOTS_B, CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
     Grainy, HEIGHT, LIST_INDICES, LIST_TABLE, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,
-    Ranked, SHEET_TRIANGLES, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL, Transparent,
-    VERTICES, VERTICES_B, WIDTH,
+    Ranked, SHEET_TRIANGLES, SUITE_SLOTS, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL,
+    Transparent, VERTICES, VERTICES_B, WIDTH,
 };
 
 /// Slots of the object cache.
@@ -87,7 +87,7 @@ pub(crate) struct Rooms {
     pub(crate) faceted: RoomsOf<Faceted>,
     /// For a textured list; all in external RAM.
     pub(crate) listed: RoomsOf<Listed>,
-    /// For scene B; all in external RAM.
+    /// For scenes B and F; all in external RAM.
     pub(crate) textured: RoomsOf<LookB>,
     /// For scene B in blocks: its texels, in external RAM, and the cache through which they are
     /// read, tags and texels.
@@ -113,9 +113,21 @@ pub(crate) struct Rooms {
 }
 
 /// The rooms of a pipeline, its slots and the depth of a line in the section `$near`: so many
-/// vertices and objects, and lines and columns.
+/// vertices and objects, and lines and columns, and [`SLOTS`] where it is not said how many.
 macro_rules! rooms_of {
     ($pipeline:ty, $near:literal, ($vertices:expr, $objects:expr), ($lines:expr, $columns:expr)) => {
+        rooms_of!(
+            $pipeline,
+            $near,
+            ($vertices, $objects),
+            ($lines, $columns),
+            SLOTS
+        )
+    };
+    (
+        $pipeline:ty, $near:literal, ($vertices:expr, $objects:expr), ($lines:expr, $columns:expr),
+        $slots:expr
+    ) => {
         RoomsOf::<$pipeline> {
             vertices: lend!(
                 ".slow",
@@ -129,7 +141,7 @@ macro_rules! rooms_of {
             slots: lend!(
                 $near,
                 SlotOf<$pipeline>,
-                SLOTS,
+                $slots,
                 LineRenderer::<$pipeline>::empty_slot()
             ),
             depth: depth_of!($pipeline, $near, $columns),
@@ -182,7 +194,13 @@ impl Rooms {
             smooth: rooms_of!(Smooth, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
             faceted: rooms_of!(Faceted, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
             listed: rooms_of!(Listed, ".slow", (FEW, FEW), (HEIGHT, WIDTH)),
-            textured: rooms_of!(LookB, ".slow", (VERTICES_B, OBJECTS_B), (HEIGHT, WIDTH)),
+            textured: rooms_of!(
+                LookB,
+                ".slow",
+                (VERTICES_B, OBJECTS_B),
+                (HEIGHT, WIDTH),
+                SUITE_SLOTS
+            ),
             blocks: lend!(".slow", u16, TEXELS_PANEL.len(), 0),
             tags: lend!(".fast", u32, CACHE_SLOTS_B, 0),
             cached: lend!(".fast", u16, CACHE_SLOTS_B * BLOCK_TEXELS_B, 0),

@@ -7,6 +7,7 @@
 //! | --- | --- | --- | --- | --- | --- |
 //! | [`TEAPOT`] | 1,178 | triangles | 2,256 | normals | 27,672 |
 //! | [`SPHERE`] | 1,089 | triangles | 2,048 | normals | 18,822 |
+//! | [`FINE_SPHERE`] | 4,225 | triangles | 8,192 | normals | 74,502 |
 //! | [`CUBE`] | 24 | triangles | 12 | normals, colours | 432 |
 //! | [`CUBE_QUADS`] | 24 | 6 quads | 12 | normals, colours | 408 |
 //! | [`RIBBON`] | 66 | strip of 32 quads | 64 | normals, colours | 1,122 |
@@ -27,6 +28,7 @@ mod sheet;
 mod shots;
 mod sized;
 mod stress;
+mod suite;
 mod texels;
 mod textured;
 
@@ -52,6 +54,12 @@ pub use shots::{
     Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
 };
 pub use stress::STRESS;
+pub use suite::{
+    CUBE_HALF, CUBE_PITCH, CUBES, LookF, Looking, PLACES_F, Part, SUITE, SUITE_LINES,
+    SUITE_OBJECTS, SUITE_SLOTS, SUITE_VERTICES, Suite, TEXEL_SIDE_F, TEXELS_F, TEXELS_F_PANEL,
+    TEXTURES_F, cube, cube_model, inside, layer, room_light, sphere_light, teapot_part, tilt,
+    tilted, tilted_textured,
+};
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
 pub use textured::textured;
 
@@ -81,6 +89,15 @@ pub static SPHERE: Mesh<'static> = Mesh {
     normals: &SPHERE_POSITIONS,
     colours: &[],
     faces: Faces::Triangles(&SPHERE_FACES),
+};
+
+/// The same sphere of 64 by 64 quads: 65 by 65 vertices and 8,192 triangles, of
+/// which the 128 at the poles have no area (scene G).
+pub static FINE_SPHERE: Mesh<'static> = Mesh {
+    positions: &FINE_POSITIONS,
+    normals: &FINE_POSITIONS,
+    colours: &[],
+    faces: Faces::Triangles(&FINE_FACES),
 };
 
 /// A cube from -1.0 to 1.0 on each axis: 24 vertices, 12 triangles, each side in its own colour.

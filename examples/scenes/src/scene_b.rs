@@ -1,4 +1,4 @@
-//! Scene B: the sphere of scene A with a texture of 128 x 128 once around it, the nearest texel,
+//! Scene B on the upright sphere: [`SPHERE`] with a texture of 128 x 128 once around it, the nearest texel,
 //! in perspective.
 //!
 //! Each is there with the light of scene A and without any, and with places that keep 1/4 texel as
@@ -22,12 +22,12 @@ pub struct SceneB {
     pub quality: Quality,
 }
 
-/// All of them: `b` is the scene that peers draw.
+/// All of them.
 pub const SCENES_B: [SceneB; 4] = [
-    scene("b", true, Quality::Balanced),
-    scene("b_exact", true, Quality::Exact),
-    scene("b_unlit", false, Quality::Balanced),
-    scene("b_unlit_exact", false, Quality::Exact),
+    scene("b_upright", true, Quality::Balanced),
+    scene("b_upright_exact", true, Quality::Exact),
+    scene("b_upright_unlit", false, Quality::Balanced),
+    scene("b_upright_unlit_exact", false, Quality::Exact),
 ];
 
 const fn scene(name: &'static str, lit: bool, quality: Quality) -> SceneB {
@@ -63,7 +63,7 @@ pub const BLOCK_TEXELS_B: usize = 16;
 /// Blocks that the cache holds where the firmware draws: 1 KB of texels.
 pub const CACHE_SLOTS_B: usize = 32;
 
-/// How it is drawn so: without light, as `b_unlit`.
+/// How it is drawn so: without light, as `b_upright_unlit`.
 pub const SCENE_B_BLOCKS: SceneB = scene("b_blocks", false, Quality::Balanced);
 
 /// Vertices that suffice for scene B: those of the mesh.
@@ -72,7 +72,7 @@ pub const VERTICES_B: usize = 33 * 33;
 pub const OBJECTS_B: usize = 1024 + 64;
 
 /// Where the vertices of [`SPHERE`] lie on the texture, once around it and once from pole to pole.
-static PLACES: [[i32; 2]; VERTICES_B] = {
+pub(crate) static PLACES: [[i32; 2]; VERTICES_B] = {
     const STEP: i32 = TEXEL_SIDE as i32 * 256 / 32;
     let mut places = [[0; 2]; VERTICES_B];
     let mut i = 0;

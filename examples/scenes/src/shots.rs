@@ -1,10 +1,10 @@
 //! The frames that are drawn on the host and on every target, and compared bit for bit.
 
-use crate::stress;
-use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, TEAPOT};
+use crate::suite::{self, Suite};
+use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, stress};
 use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Faces, Instance, Light, Mesh, Pipeline,
-    QuadSplit, Scene, SceneError, Screen,
+    Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Pipeline, Scene, SceneError,
+    Screen,
 };
 
 /// Pixels a line of every shot.
@@ -66,11 +66,28 @@ pub const LAYER: [[i16; 3]; 4] = {
 /// The colours of a quad of scene C, corner by corner; `order` counts from the nearest, below
 /// [`LAYERS`].
 #[must_use]
-pub fn layer_colours(order: u8) -> [[u8; 3]; 4] {
-    let mut colours = [[230, 40, 60], [40, 220, 80], [50, 70, 240], [240, 230, 200]];
-    colours.rotate_left(usize::from(order % 4));
-    colours.map(|colour: [u8; 3]| colour.map(|level| level.saturating_sub(2 * order)))
+pub const fn layer_colours(order: u8) -> [[u8; 3]; 4] {
+    const CORNERS: [[u8; 3]; 4] = [[230, 40, 60], [40, 220, 80], [50, 70, 240], [240, 230, 200]];
+    let mut colours = [[0; 3]; 4];
+    let mut i = 0;
+    while i < 12 {
+        let level = CORNERS[(i / 3 + order as usize) % 4][i % 3];
+        colours[i / 3][i % 3] = level.saturating_sub(2 * order);
+        i += 1;
+    }
+    colours
 }
+
+/// [`layer_colours`] of all quads.
+pub(crate) static LAYER_COLOURS: [[[u8; 3]; 4]; LAYERS as usize] = {
+    let mut colours = [[[0; 3]; 4]; LAYERS as usize];
+    let mut order = 0;
+    while order < LAYERS {
+        colours[order as usize] = layer_colours(order);
+        order += 1;
+    }
+    colours
+};
 
 /// A shot that is drawn again in another way, with the same bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -219,9 +236,7 @@ impl Shot {
 
     /// The camera and the light of scene A, which scene B has too.
     pub(crate) fn sphere_camera() -> Result<(Camera, Option<Light>), ShotError> {
-        let (eye, up) = ([0.0, 0.0, 3.94], [0.0, 1.0, 0.0]);
-        let camera = Camera::look_at(eye, [0.0; 3], up, 320.0, 0.1, 100.0)?;
-        Ok((camera, Light::new([0.5, 0.7, 0.8], 0.15)))
+        Ok((Suite::A.view().camera()?, suite::sphere_light()))
     }
 
     /// Draws the shot into `scene`, whose screen must be [`screen`](Shot::screen).
@@ -229,7 +244,7 @@ impl Shot {
     /// # Errors
     /// When the scene's arenas are smaller than [`VERTICES`] and [`OBJECTS`].
     pub fn build<P: Pipeline>(self, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
-        let light = Light::new([0.3, 0.8, 0.6], 0.2);
+        let light = suite::room_light();
         let looking =
             |eye, focal, near| Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], focal, near, 100.0);
         let lit = |model| Instance {
@@ -262,38 +277,9 @@ impl Shot {
                 let small = Affine::placed(0.45, [0.1, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
                 scene.draw(&CUBE_QUADS, &open(Affine::rotation_x(0.5).then(&small)))?;
             }
-            Self::Inside => {
-                scene.begin(&looking([0.35, 0.3, 0.55], 150.0, 0.3)?)?;
-                let open = |model| Instance {
-                    cull: Cull::None,
-                    ..lit(model)
-                };
-                let room = Affine::placed(9.0, [0.0, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
-                scene.draw(&CUBE, &open(Affine::rotation_y(0.2).then(&room)))?;
-                scene.draw(&TEAPOT, &open(Affine::rotation_y(2.0)))?;
-            }
-            Self::FarToNear | Self::NearToFar => {
-                let (eye, at, up) = ([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
-                scene.begin(&Camera::look_at(eye, at, up, 320.0, 0.1, 100.0)?)?;
-                for i in 0..LAYERS {
-                    let order = match self {
-                        Self::FarToNear => LAYERS - 1 - i,
-                        _ => i,
-                    };
-                    let mesh = Mesh {
-                        positions: &LAYER,
-                        normals: &[],
-                        colours: &layer_colours(order),
-                        faces: Faces::Quads(&[[0, 1, 2, 3]], QuadSplit::Corner0To2),
-                    };
-                    let depth = f32::from(NEAREST_LAYER + order);
-                    let instance = Instance {
-                        model: Affine::placed(depth, [0.0; 3]).unwrap_or(Affine::IDENTITY),
-                        ..Instance::default()
-                    };
-                    scene.draw(&mesh, &instance)?;
-                }
-            }
+            Self::Inside => Suite::Inside.build(scene)?,
+            Self::FarToNear => Suite::FarToNear.build(scene)?,
+            Self::NearToFar => Suite::NearToFar.build(scene)?,
             Self::Crowd => {
                 scene.begin(&looking([0.0, 0.4, 5.0], 300.0, 0.1)?)?;
                 let mut seed = 1u32;
@@ -324,14 +310,8 @@ impl Shot {
 /// # Errors
 /// As [`Shot::build`].
 pub fn teapot<P: Pipeline>(scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
-    let (eye, up) = ([0.0, 1.2, 2.6], [0.0, 1.0, 0.0]);
-    scene.begin(&Camera::look_at(eye, [0.0; 3], up, 300.0, 0.1, 100.0)?)?;
-    let instance = Instance {
-        model: Affine::rotation_y(0.6),
-        light: Light::new([0.3, 0.8, 0.6], 0.2),
-        colour: [236, 196, 112],
-        ..Instance::default()
-    };
-    scene.draw(&TEAPOT, &instance)?;
+    scene.begin(&Suite::Teapot.view().camera()?)?;
+    let part = suite::teapot_part();
+    scene.draw(&part.mesh, &part.instance)?;
     Ok(())
 }
