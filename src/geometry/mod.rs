@@ -28,7 +28,7 @@ pub mod texturing;
 mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room, ScreenVertex};
-pub(crate) use assemble::{Assembler, Store, on_screen, triangles};
+pub(crate) use assemble::{Assembler, Store, check, on_screen, triangles};
 pub use blended::{Blended, BlendedLevels, ObjectFinish, Surface};
 pub use bounds::Sphere;
 pub use camera::{Camera, CameraError, Screen, ScreenError};
