@@ -43,7 +43,7 @@ pub use object::{Object, SceneVertex};
 pub use phong::{LitSkin, Phong, PhongLevels, PixelLamps};
 pub(crate) use setup::at_pixel;
 pub use setup::{Drawable, Parameters};
-pub use shading::{Flat, FlatLevels, Gouraud, GouraudLevels, Shading};
+pub use shading::{Empty, Flat, FlatLevels, Gouraud, GouraudLevels, Shading};
 pub(crate) use shadow::Extrusion;
 pub use shadow::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use transform::Affine;
