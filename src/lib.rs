@@ -100,11 +100,11 @@ pub use composite::{Canvas, DrawnLines};
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
     Affine, Assembled, Blend, Blended, Camera, CameraError, Clip, Colour, Coordinate, Cull,
-    DepthFunction, DirectionalLight, Dropped, Faces, Factor, Finish, Flat, Gouraud, Kept, Light,
-    Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Mark, Marked, Material, MatrixRange,
-    Mesh, MeshError, Object, Phong, PixelLamps, Priority, QuadSplit, Room, Scale, SceneVertex,
-    Screen, ScreenError, ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight, ShadowMemory,
-    ShadowRoom, Sphere, Surface,
+    DepthFunction, DirectionalLight, Dropped, Empty, Faces, Factor, Finish, Flat, Gouraud, Kept,
+    Light, Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Mark, Marked, Material,
+    MatrixRange, Mesh, MeshError, Object, Phong, PixelLamps, Priority, QuadSplit, Room, Scale,
+    SceneVertex, Screen, ScreenError, ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight,
+    ShadowMemory, ShadowRoom, Sphere, Surface,
 };
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};

@@ -17,7 +17,7 @@ pub trait SpanCounter: Copy + Default + Send {
     const COUNTS: bool;
 }
 
-/// What happened along the spans of a frame.
+/// What happened along the spans of a frame. A counter stays at its maximum when it gets there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpanCounts {
@@ -44,25 +44,25 @@ impl SpanCounter for SpanCounts {
 
     #[inline]
     fn span(&mut self, seen: u32, hidden: u32, tested: bool) {
-        self.spans += 1;
-        self.spans_hidden += u32::from(seen == 0);
-        self.pixels_shaded += seen;
-        self.pixels_hidden += hidden;
+        raise(&mut self.spans, 1);
+        raise(&mut self.spans_hidden, u32::from(seen == 0));
+        raise(&mut self.pixels_shaded, seen);
+        raise(&mut self.pixels_hidden, hidden);
         if tested {
-            self.depth_tests += seen + hidden;
+            raise(&mut self.depth_tests, seen.saturating_add(hidden));
         } else {
-            self.spans_untested += 1;
+            raise(&mut self.spans_untested, 1);
         }
     }
 
     #[inline]
     fn flat(&mut self) {
-        self.spans_flat += 1;
+        raise(&mut self.spans_flat, 1);
     }
 
     #[inline]
     fn fetched(&mut self, texels: u32) {
-        self.texture_fetches += texels;
+        raise(&mut self.texture_fetches, texels);
     }
 
     fn counts(&self) -> SpanCounts {
@@ -89,13 +89,58 @@ impl SpanCounter for () {
 
 impl core::ops::AddAssign for SpanCounts {
     fn add_assign(&mut self, other: Self) {
-        self.spans += other.spans;
-        self.spans_hidden += other.spans_hidden;
-        self.spans_untested += other.spans_untested;
-        self.spans_flat += other.spans_flat;
-        self.pixels_shaded += other.pixels_shaded;
-        self.pixels_hidden += other.pixels_hidden;
-        self.depth_tests += other.depth_tests;
-        self.texture_fetches += other.texture_fetches;
+        raise(&mut self.spans, other.spans);
+        raise(&mut self.spans_hidden, other.spans_hidden);
+        raise(&mut self.spans_untested, other.spans_untested);
+        raise(&mut self.spans_flat, other.spans_flat);
+        raise(&mut self.pixels_shaded, other.pixels_shaded);
+        raise(&mut self.pixels_hidden, other.pixels_hidden);
+        raise(&mut self.depth_tests, other.depth_tests);
+        raise(&mut self.texture_fetches, other.texture_fetches);
+    }
+}
+
+/// Adds, up to the maximum.
+#[inline(always)]
+fn raise(counter: &mut u32, by: u32) {
+    *counter = counter.saturating_add(by);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counters_stay_at_their_maximum() {
+        let full = SpanCounts {
+            spans: u32::MAX,
+            spans_hidden: u32::MAX,
+            spans_untested: u32::MAX,
+            spans_flat: u32::MAX,
+            pixels_shaded: u32::MAX,
+            pixels_hidden: u32::MAX,
+            depth_tests: u32::MAX,
+            texture_fetches: u32::MAX,
+        };
+        let mut counts = full;
+        counts.span(8192, u32::MAX, true);
+        counts.span(0, 1, false);
+        counts.flat();
+        counts.fetched(9);
+        assert_eq!(counts, full);
+        counts += full;
+        assert_eq!(counts, full);
+        let mut few = SpanCounts::default();
+        few.span(3, 4, true);
+        few.span(0, 5, false);
+        few += few;
+        assert_eq!(
+            (few.spans, few.pixels_shaded, few.pixels_hidden),
+            (4, 6, 18)
+        );
+        assert_eq!(
+            (few.depth_tests, few.spans_untested, few.spans_hidden),
+            (14, 2, 2)
+        );
     }
 }

@@ -26,6 +26,7 @@ mod defmt_log;
 mod demo;
 mod depth_methods;
 mod effects;
+mod findings;
 mod formats;
 mod fuzz;
 mod input;

@@ -27,12 +27,13 @@ struct Corner {
     colour: [f64; 3],
 }
 
-/// The part of a convex polygon that is at least `near` ahead, cut corner by corner in order.
-fn clip(polygon: &[Corner], near: f64) -> Vec<Corner> {
+/// The part of a convex polygon that lies where `beyond` is not negative, cut corner by corner in
+/// order.
+fn clip(polygon: &[Corner], beyond: impl Fn(&Corner) -> f64) -> Vec<Corner> {
     let mut kept = Vec::new();
     for (i, a) in polygon.iter().enumerate() {
         let b = &polygon[(i + 1) % polygon.len()];
-        let (da, db) = (a.place[2] - near, b.place[2] - near);
+        let (da, db) = (beyond(a), beyond(b));
         if da >= 0.0 {
             kept.push(*a);
         }
@@ -120,6 +121,7 @@ struct Stage {
     rooms: SceneRooms<P>,
     camera: Camera,
     near: f64,
+    far: f64,
     focal: f64,
     scale: f64,
 }
@@ -130,10 +132,13 @@ impl Stage {
         let focal = rng.pick(&[20.0f32, 60.0, 300.0]);
         let scale = rng.pick(&[1.0, 1.0, 8.0, 32.0, 4_096.0, 65_536.0]);
         let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+        // As far as there is depth; the largest models reach beyond.
+        let far = Camera::MOST_FAR * near;
         Self {
             rooms: SceneRooms::new(96, 96, usize::from(HEIGHT)),
-            camera: Camera::look_at([0.0; 3], ahead, up, focal, near, 1e6).unwrap(),
+            camera: Camera::look_at([0.0; 3], ahead, up, focal, near, far).unwrap(),
             near: f64::from(near),
+            far: f64::from(far),
             focal: f64::from(focal),
             scale,
         }
@@ -188,7 +193,8 @@ impl Stage {
     }
 
     fn polygon(&self, corners: &[Corner]) -> Vec<Seen> {
-        let cut = clip(corners, self.near);
+        let cut = clip(corners, |c| c.place[2] - self.near);
+        let cut = clip(&cut, |c| self.far - c.place[2]);
         let seen = cut.iter().map(|c| project(c, self.focal, self.near));
         seen.collect()
     }

@@ -456,7 +456,7 @@ fn cut_edges_stay_shut() {
         // A floor of jittered cells with a straight rim, around the eye and partly behind it,
         // and low enough that the cut at the near plane itself is often seen.
         let size = rng.pick(&[0.4, 1.0, 1.9]);
-        let near: f64 = rng.pick(&[1e-5, 1e-4, 0.003, 0.05]);
+        let near: f64 = rng.pick(&[5e-5, 1e-4, 0.003, 0.05]);
         let height = rng.pick(&[0.02, 0.3 * near, 0.02 * near]);
         let mut places = Vec::new();
         for z in 0..=N {
@@ -488,7 +488,8 @@ fn cut_edges_stay_shut() {
             [0.0, 1.0, 0.0],
             focal as f32,
             near as f32,
-            100.0,
+            // Beyond the floor.
+            3.2,
         )
         .unwrap();
         // Lines of the picture at which corners of the rim are seen: rounded to 1/8 pixel, a

@@ -130,9 +130,17 @@ impl<W, const N: usize> LinePalettes<W, N> for PaletteTable<'_, W, N> {
     }
 }
 
-/// Indices into colours, as many as both slices have; an index wraps at `N`.
+/// Indices into colours, as many as both slices have; an index wraps at `N`. A palette of no colours
+/// does not compile.
+///
+/// ```compile_fail
+/// scanbeam::expand_indices::<u16, 0>(&[1], &[], &mut [0]);
+/// ```
 #[inline]
 pub fn expand_indices<W: Copy, const N: usize>(indices: &[u8], palette: &[W; N], out: &mut [W]) {
+    const {
+        assert!(N > 0, "a palette has colours");
+    }
     for (pixel, index) in out.iter_mut().zip(indices) {
         // Of 256 entries, or a power of two, no check is left.
         *pixel = palette[usize::from(*index) % N];

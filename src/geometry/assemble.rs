@@ -16,8 +16,8 @@ use core::ops::Range;
 mod faces;
 mod screen;
 
-pub(crate) use faces::{check as check_mesh, each_triangle, triangles};
-use faces::{check, first_line, first_of, is_seen, leading};
+pub(crate) use faces::{check, check_known as check_mesh, each_triangle, triangles};
+use faces::{check_known, first_line, first_of, is_seen, leading};
 pub use screen::ScreenVertex;
 pub(crate) use screen::on_screen;
 
@@ -154,7 +154,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         (mesh, below): (&Mesh<'_, C>, usize),
         mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) -> Result<Assembled, MeshError> {
-        check(mesh, below)?;
+        check_known(mesh, below)?;
         if !S::fits(&self.skin, mesh.positions.len()) {
             return Err(MeshError::AttributeLength);
         }
@@ -360,11 +360,11 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         };
         // Depths on the screen are below 2^31.
         if (a.depth | b.depth | c.depth) >> 31 != 0 {
-            let all = a.outcode() & b.outcode() & c.outcode();
-            return if all == 0 {
-                Look::Outside
-            } else {
+            let codes = [a.outcode(), b.outcode(), c.outcode()];
+            return if self.projection.hides(codes) {
                 Look::Culled
+            } else {
+                Look::Outside
             };
         }
         match self.first_line([(a.x, a.y), (b.x, b.y), (c.x, c.y)]) {
@@ -399,7 +399,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             }
         });
         let codes = corner.map(|c| self.projection.outcode(c.point));
-        if codes[0] & codes[1] & codes[2] != 0 {
+        if self.projection.hides(codes) {
             return;
         }
         let face_colour = self.face_colour(mesh, corners, provoking);

@@ -6,7 +6,7 @@
 
 use super::colour::{Colour, Scale};
 use super::finish::{Finish, Role};
-use super::shading::Shading;
+use super::shading::{Empty, Shading};
 use super::texturing;
 use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
@@ -62,6 +62,21 @@ pub struct BlendedFace<F> {
     finish: Finish,
     /// Whether vertices have alphas.
     varies: bool,
+}
+
+impl<V: Empty> Empty for BlendedVertex<V> {
+    const EMPTY: Self = Self {
+        inner: V::EMPTY,
+        alpha: 0,
+    };
+}
+
+impl<F: Empty> Empty for BlendedFace<F> {
+    const EMPTY: Self = Self {
+        inner: F::EMPTY,
+        finish: Finish::OPAQUE,
+        varies: false,
+    };
 }
 
 /// What an object is coloured by, and how it is composited.

@@ -107,8 +107,10 @@ pub enum CameraError {
     NoUp,
     /// The focal length is not within 2^-10 to 2^20 pixels.
     Focal,
-    /// Not 0 < near < far, or near below 2^-60.
+    /// Not near < far, or near below 2^-60, or far not below 2^90.
     Range,
+    /// The far plane is more than [`Camera::MOST_FAR`] times as far as the near plane.
+    Ratio,
 }
 
 impl core::fmt::Display for CameraError {
@@ -118,7 +120,8 @@ impl core::fmt::Display for CameraError {
             Self::NoDirection => "camera: the eye is at the point it looks at",
             Self::NoUp => "camera: the up vector is zero or along the view",
             Self::Focal => "camera: the focal length is not within 2^-10 to 2^20 pixels",
-            Self::Range => "camera: near and far must satisfy 0 < near < far",
+            Self::Range => "camera: near and far must satisfy 2^-60 <= near < far < 2^90",
+            Self::Ratio => "camera: far is more than 65536 times near: depth has no bits for that",
         })
     }
 }
@@ -126,6 +129,13 @@ impl core::fmt::Display for CameraError {
 impl core::error::Error for CameraError {}
 
 impl Camera {
+    /// How many times the near plane's distance the far plane's may be.
+    ///
+    /// Depth is 1/w in 31 bits with the near plane at 1. At this ratio the far plane is at 2^15, so
+    /// of surfaces that are a thousandth of their distance apart the nearer one is still 32 units
+    /// ahead, and places on textures keep their budget.
+    pub const MOST_FAR: f32 = 65_536.0;
+
     /// World to camera.
     pub(crate) fn view(&self) -> &Affine {
         &self.view
@@ -135,7 +145,8 @@ impl Camera {
     ///
     /// `focal` is the focal length in pixels: half the picture's height divided by the tangent
     /// of half the vertical field of view. What is nearer than `near` or farther than `far`,
-    /// measured along the view, is not seen.
+    /// measured along the view, is not seen; `far` may be up to [`MOST_FAR`](Camera::MOST_FAR) times
+    /// `near`.
     ///
     /// Float is used here alone, with IEEE basic operations, so every target gets the same bits.
     ///
@@ -159,6 +170,10 @@ impl Camera {
         }
         if !(near >= 1.0 / (1u64 << 60) as f32 && near < far && far < LIMIT) {
             return Err(CameraError::Range);
+        }
+        // A power of two times what is below 2^90: exact.
+        if far > Self::MOST_FAR * near {
+            return Err(CameraError::Ratio);
         }
         let ahead = normalised(sub(at, eye)).ok_or(CameraError::NoDirection)?;
         let up = normalised(up).ok_or(CameraError::NoUp)?;
@@ -236,6 +251,15 @@ mod tests {
         assert_eq!(make(z, o, y, f32::NAN, 0.1, 10.0), Some(CameraError::Focal));
         assert_eq!(make(z, o, y, 100.0, 0.0, 10.0), Some(CameraError::Range));
         assert_eq!(make(z, o, y, 100.0, 2.0, 1.0), Some(CameraError::Range));
+        assert_eq!(make(z, o, y, 100.0, 1e-30, 10.0), Some(CameraError::Range));
+        assert_eq!(make(z, o, y, 100.0, 1.0, 1e30), Some(CameraError::Range));
+        assert_eq!(make(z, o, y, 100.0, 0.5, 32_768.0), None);
+        let beyond = 32_768.0f32.next_up();
+        assert_eq!(make(z, o, y, 100.0, 0.5, beyond), Some(CameraError::Ratio));
+        let text = std::format!("{}", CameraError::Range);
+        assert!(text.contains("2^-60") && text.contains("2^90"), "{text}");
+        let text = std::format!("{}", CameraError::Ratio);
+        assert!(text.contains("65536"), "{text}");
     }
 
     #[test]

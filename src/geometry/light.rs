@@ -35,7 +35,7 @@ pub trait ModelLight: Copy {
 pub struct Light {
     /// Unit vector towards the light, world space.
     pub direction: [I2F14; 3],
-    /// Level where the light does not reach, 0 to 1.
+    /// Level where the light does not reach, 0 to 1; above 1 counts as 1.
     pub ambient: U1F15,
 }
 
@@ -53,21 +53,41 @@ impl Light {
         })
     }
 
-    /// The light level for a normal, both in the space of [`direction`](Light::direction); 0 to 1.
-    #[inline]
+    /// The light level for a normal, both in the space of [`direction`](Light::direction); 0 to 1,
+    /// whatever the lengths of the two and the ambient level are.
     #[must_use]
     pub fn level(&self, normal: [i16; 3]) -> U1F15 {
+        let dot: i64 = [0, 1, 2]
+            .iter()
+            .map(|&i| i64::from(normal[i]) * i64::from(self.direction[i].to_bits()))
+            .sum();
+        // Beyond 1 all levels are alike.
+        let dot = dot.clamp(-1 << 28, 1 << 28) as i32;
+        level(dot, self.ambient.min(U1F15::ONE))
+    }
+
+    /// The same where the direction is a unit vector and the ambient level at most 1, as those of
+    /// a light in model space are.
+    #[inline]
+    fn level_of_unit(&self, normal: [i16; 3]) -> U1F15 {
         let l = self.direction;
         let mut dot = 0i32;
         for i in 0..3 {
             dot += i32::from(normal[i]) * i32::from(l[i].to_bits());
         }
-        // Q28 to Q15; a normal a little longer than 1 must not lift the level above 1.
-        let lambert = ((dot + (1 << 12)) >> 13).clamp(0, 1 << 15) as u32;
-        let ambient = u32::from(self.ambient.to_bits());
-        let level = ambient + ((((1 << 15) - ambient) * lambert + (1 << 14)) >> 15);
-        U1F15::from_bits(level as u16)
+        level(dot, self.ambient)
     }
+}
+
+/// The level of a surface whose normal has this product with the light's direction, in Q28; the
+/// ambient level is at most 1.
+#[inline(always)]
+fn level(dot: i32, ambient: U1F15) -> U1F15 {
+    // Q28 to Q15; a normal a little longer than 1 must not lift the level above 1.
+    let lambert = ((dot + (1 << 12)) >> 13).clamp(0, 1 << 15) as u32;
+    let ambient = u32::from(ambient.to_bits());
+    let level = ambient + ((((1 << 15) - ambient) * lambert + (1 << 14)) >> 15);
+    U1F15::from_bits(level as u16)
 }
 
 /// A direction of any length as a unit vector; `None` when it is zero or not finite.
@@ -88,7 +108,7 @@ impl LightingModel for Light {
     fn in_model(&self, model: &Affine, _: &Affine) -> Self {
         Self {
             direction: model.direction_to_model(self.direction),
-            ..*self
+            ambient: self.ambient.min(U1F15::ONE),
         }
     }
 }
@@ -102,7 +122,7 @@ impl ModelLight for Light {
         normal: [i16; 3],
         _: impl FnOnce() -> [C; 3],
     ) -> Colour {
-        tint.lit(self.level(normal).to_bits())
+        tint.lit(self.level_of_unit(normal).to_bits())
     }
 }
 
@@ -124,5 +144,33 @@ mod tests {
         let tiny = Light::new([1e-30, 0.0, 0.0], 2.0).unwrap();
         assert_eq!(tiny.direction[0], I2F14::ONE);
         assert_eq!(tiny.ambient, U1F15::ONE);
+    }
+
+    /// Fields are public: whatever they hold, a level stays within 0 and 1, and that of a unit
+    /// vector is the one that vertices get.
+    #[test]
+    fn levels_stay_within_1_whatever_the_fields_hold() {
+        for bits in [0, 1, 0x7FFF, 0x8000, 0x8001, 0xFFFF] {
+            let ambient = U1F15::from_bits(bits);
+            let wide = Light {
+                direction: [I2F14::MIN; 3],
+                ambient,
+            };
+            assert_eq!(wide.level([i16::MIN; 3]), U1F15::ONE);
+            assert_eq!(wide.level([i16::MAX; 3]), ambient.min(U1F15::ONE));
+            let unit = Light::new([0.6, 0.0, 0.8], 0.0).unwrap();
+            let light = Light { ambient, ..unit };
+            let model = light.in_model(&Affine::IDENTITY, &Affine::IDENTITY);
+            for normal in [
+                [0, 0, 16_384],
+                [0, 0, -16_384],
+                [8_192, 0, 0],
+                [i16::MIN; 3],
+            ] {
+                assert_eq!(model.level_of_unit(normal), light.level(normal));
+                assert!(light.level(normal) <= U1F15::ONE);
+                assert!(light.level(normal) >= ambient.min(U1F15::ONE));
+            }
+        }
     }
 }

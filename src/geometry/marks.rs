@@ -10,7 +10,7 @@
 use super::colour::{Colour, Scale};
 use super::finish::Finish;
 use super::object::SceneVertex;
-use super::shading::Shading;
+use super::shading::{Empty, Shading};
 use super::transform::Affine;
 use crate::list::Window;
 use crate::num::{InverseArea, SmallArea, first_at};
@@ -283,6 +283,13 @@ pub struct Marked<S, M>(PhantomData<(S, M)>);
 pub struct MarkedFace<F, M> {
     inner: F,
     mark: M,
+}
+
+impl<F: Empty, M: Mark> Empty for MarkedFace<F, M> {
+    const EMPTY: Self = Self {
+        inner: F::EMPTY,
+        mark: M::NONE,
+    };
 }
 
 impl<S: Shading, M: Mark> Shading for Marked<S, M> {

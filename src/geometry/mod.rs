@@ -28,7 +28,9 @@ pub mod texturing;
 mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room, ScreenVertex};
-pub(crate) use assemble::{Assembler, Store, check_mesh, each_triangle, on_screen, triangles};
+pub(crate) use assemble::{
+    Assembler, Store, check, check_mesh, each_triangle, on_screen, triangles,
+};
 pub use blended::{Blended, BlendedLevels, ObjectFinish, Surface};
 pub use bounds::Sphere;
 pub use camera::{Camera, CameraError, Screen, ScreenError};
@@ -46,7 +48,7 @@ pub use phong::{LitSkin, Phong, PhongLevels, PixelLamps};
 pub(crate) use project::Projection;
 pub(crate) use setup::at_pixel;
 pub use setup::{Drawable, Parameters};
-pub use shading::{Flat, FlatLevels, Gouraud, GouraudLevels, Shading};
+pub use shading::{Empty, Flat, FlatLevels, Gouraud, GouraudLevels, Shading};
 pub(crate) use shadow::Extrusion;
 pub use shadow::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use transform::Affine;

@@ -1,5 +1,6 @@
 //! The records of the slow arena: shared vertices and the objects that index them (S3, C1).
 
+use super::shading::Empty;
 use crate::link::Link;
 
 /// A vertex on the screen, shared by the objects around it.
@@ -18,15 +19,15 @@ pub struct SceneVertex<A> {
     pub(crate) attribute: A,
 }
 
-impl<A: Default> SceneVertex<A> {
-    /// What fresh memory is filled with.
+impl<A: Empty> SceneVertex<A> {
+    /// What fresh memory is filled with, also that of a static.
     #[must_use]
-    pub fn empty() -> Self {
+    pub const fn empty() -> Self {
         Self {
             x: 0,
             y: 0,
-            depth: OUTSIDE,
-            attribute: A::default(),
+            depth: 0,
+            attribute: A::EMPTY,
         }
     }
 }
@@ -54,6 +55,19 @@ pub struct Object<F> {
     chain: Link,
     /// What the shading keeps.
     pub(crate) face: F,
+}
+
+impl<F: Empty> Object<F> {
+    /// What fresh memory is filled with, also that of a static.
+    #[must_use]
+    pub const fn empty() -> Self {
+        Self {
+            corner: [0; 3],
+            // All zeros.
+            chain: Link::slow(0),
+            face: F::EMPTY,
+        }
+    }
 }
 
 impl<F> Object<F> {

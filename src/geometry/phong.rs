@@ -9,7 +9,7 @@ use super::camera::{Camera, Screen};
 use super::colour::{Colour, Scale};
 use super::finish::Finish;
 use super::lighting::{Lamps, Lighting, fifteen_bits};
-use super::shading::Shading;
+use super::shading::{Empty, Shading};
 use super::texturing;
 use super::transform::{Affine, unit};
 use crate::num::{Block, I2F14, InverseArea, Plane, SmallArea, inverse_root, shift_round};
@@ -70,6 +70,20 @@ const FRACTION: u32 = 27;
 pub struct PhongFace<F> {
     inner: F,
     lamps: u16,
+}
+
+impl<V: Empty> Empty for PhongVertex<V> {
+    const EMPTY: Self = Self {
+        inner: V::EMPTY,
+        normal: [0; 3],
+    };
+}
+
+impl<F: Empty> Empty for PhongFace<F> {
+    const EMPTY: Self = Self {
+        inner: F::EMPTY,
+        lamps: 0,
+    };
 }
 
 /// What an object is coloured by, and its normals.

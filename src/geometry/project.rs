@@ -58,6 +58,8 @@ pub(crate) struct Projection {
     near_mantissa: u32,
     near_down: i32,
     centre: [i32; 2],
+    /// Of what lies beyond one of these planes with all corners, nothing is seen.
+    hiding: u16,
 }
 
 impl Projection {
@@ -102,6 +104,7 @@ impl Projection {
             near_mantissa: (camera.near.mantissa[0] as u32) << 1,
             near_down: 31 - camera.near.exponent - scale,
             centre: screen.centre(),
+            hiding: hiding(screen),
         }
     }
 
@@ -170,6 +173,13 @@ impl Projection {
         // -limit < v < limit; a limit below 1 admits nothing, and is behind the near plane.
         let between = |v: i32| (((v >> down) + limit - 1) as u32) < (2 * limit - 1) as u32;
         p.z >= self.near && p.z <= self.far && between(p.x) && between(p.y)
+    }
+
+    /// Whether of a triangle whose corners have these outcodes nothing is seen, as all of it lies
+    /// beyond one plane.
+    #[inline]
+    pub(super) fn hides(&self, codes: [u16; 3]) -> bool {
+        codes[0] & codes[1] & codes[2] & self.hiding != 0
     }
 
     /// Clip coordinates to the screen; `p` must have outcode 0, or have been clipped.
@@ -244,6 +254,21 @@ impl Projection {
     pub(super) fn guard(&self, axis: usize) -> i64 {
         i64::from(0xFFFF - self.centre[axis])
     }
+}
+
+/// The planes beyond which nothing is seen: not the sides of the guard band where these, with the
+/// 256th that they have to spare, lie within the picture.
+const fn hiding(screen: Screen) -> u16 {
+    /// Twice 255/256 of the 4,096 pixels from the middle of guard space to its rim.
+    const WITHIN: u16 = 8160;
+    let mut planes = outcode::NEAR | outcode::FAR;
+    if screen.width() <= WITHIN {
+        planes |= outcode::LEFT | outcode::RIGHT;
+    }
+    if screen.height() <= WITHIN {
+        planes |= outcode::UP | outcode::DOWN;
+    }
+    planes
 }
 
 #[cfg(test)]

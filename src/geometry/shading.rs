@@ -8,12 +8,24 @@ use super::marks::Mark;
 use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 
+/// A record that fresh memory can be filled with at compile time, so that arenas can be statics.
+///
+/// Nothing is drawn of it. Where it can be it is all zeros, so that such a static takes no flash.
+pub trait Empty {
+    /// The record.
+    const EMPTY: Self;
+}
+
+impl Empty for () {
+    const EMPTY: Self = ();
+}
+
 /// Which colours an object carries, from vertex to plane.
 pub trait Shading {
     /// Kept at each vertex of the slow arena.
-    type Vertex: Copy + Send + Sync + Default + 'static;
+    type Vertex: Copy + Send + Sync + Default + Empty + 'static;
     /// Kept at each object of the slow arena.
-    type Face: Copy + Send + Sync + Default + 'static;
+    type Face: Copy + Send + Sync + Default + Empty + 'static;
     /// Set up when an object becomes active.
     type Levels: Copy + Send + Sync + 'static;
     /// What a slot holds before anything is set up.

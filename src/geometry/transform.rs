@@ -45,21 +45,24 @@ impl Affine {
         )
     }
 
-    /// A rotation about the x axis by `angle` radians, counter-clockwise seen from its tip.
+    /// A rotation about the x axis by `angle` radians, counter-clockwise seen from its tip: any
+    /// finite angle, to 0.0017 rad of its remainder. By what is not finite, the identity.
     #[must_use]
     pub fn rotation_x(angle: f32) -> Self {
         let (s, c) = sin_cos(angle);
         Self::rotation([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
     }
 
-    /// A rotation about the y axis by `angle` radians, counter-clockwise seen from its tip.
+    /// A rotation about the y axis by `angle` radians, counter-clockwise seen from its tip: any
+    /// finite angle, to 0.0017 rad of its remainder. By what is not finite, the identity.
     #[must_use]
     pub fn rotation_y(angle: f32) -> Self {
         let (s, c) = sin_cos(angle);
         Self::rotation([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
     }
 
-    /// A rotation about the z axis by `angle` radians, counter-clockwise seen from its tip.
+    /// A rotation about the z axis by `angle` radians, counter-clockwise seen from its tip: any
+    /// finite angle, to 0.0017 rad of its remainder. By what is not finite, the identity.
     #[must_use]
     pub fn rotation_z(angle: f32) -> Self {
         let (s, c) = sin_cos(angle);
@@ -255,14 +258,64 @@ fn add(a: Block<3>, b: Block<3>) -> Block<3> {
     Block::new(sum, exponent - 2)
 }
 
-/// Sine and cosine on the unit circle to 1e-7 (the angle itself is 0.0012 rad off at most).
+/// Sine and cosine on the unit circle to 1e-7 (the angle itself is 0.0017 rad off at most); those
+/// of 0 where the angle is not finite.
 ///
 /// micromath's polynomials give the point; a Newton step each puts it on the circle, so that a
 /// rotation does not scale. Only IEEE basic operations, hence the same bits everywhere.
 fn sin_cos(angle: f32) -> (f32, f32) {
+    if !angle.is_finite() {
+        return (0.0, 1.0);
+    }
+    let angle = if angle.abs() < WHOLE_TURNS {
+        angle
+    } else {
+        remainder(angle)
+    };
     let (s, c) = (F32Ext::sin(angle), F32Ext::cos(angle));
     let scale = inverse_sqrt(s * s + c * c);
     (s * scale, c * scale)
+}
+
+/// Angles from here on lose their whole turns before micromath sees them, which takes them off in
+/// floats itself.
+const WHOLE_TURNS: f32 = 64.0;
+
+/// `1 / 2 pi` as a fraction of binary digits, behind 32 zeros.
+const TURNS: [u32; 7] = [
+    0,
+    0x28BE_60DB,
+    0x9391_054A,
+    0x7F09_D5F4,
+    0x7D4D_3770,
+    0x36D8_A566,
+    0x4F10_E410,
+];
+
+/// A finite angle of at least [`WHOLE_TURNS`] without its whole turns, -pi to pi, to 2^-23 of that.
+///
+/// The 24 bits of the angle are multiplied by those 64 digits of `1 / 2 pi` that lie below a whole
+/// turn and above 2^-40 of one; what is above makes whole turns, and wraps.
+fn remainder(angle: f32) -> f32 {
+    let bits = angle.to_bits();
+    // The angle is `mantissa 2^exponent`, the exponent -17 to 104.
+    let mantissa = u64::from(bits & 0x7F_FFFF | 0x80_0000);
+    let exponent = (bits >> 23 & 0xFF) as i32 - 150;
+    let first = (exponent + 32) as u32;
+    let word = |i: u32| u64::from(TURNS.get((first / 32 + i) as usize).copied().unwrap_or(0));
+    let high = word(0) << 32 | word(1);
+    let digits = match first % 32 {
+        0 => high,
+        up => high << up | word(2) >> (32 - up),
+    };
+    // Turns in 2^-64, modulo one turn; of the 32 bits above, the sign says which half.
+    let turns = (mantissa.wrapping_mul(digits) >> 32) as i32;
+    let turns = if angle < 0.0 {
+        -(turns as f32)
+    } else {
+        turns as f32
+    };
+    turns * (core::f32::consts::TAU / (1u64 << 32) as f32)
 }
 
 /// `1 / sqrt(x)` for a positive normal `x`, to 1e-7: micromath's estimate and three Newton steps.
@@ -319,6 +372,41 @@ mod tests {
                 (c - want.cos()).abs() < 0.003 && (s - want.sin()).abs() < 0.003,
                 "{angle}"
             );
+        }
+    }
+
+    /// Against `f64`, which has the remainder of a turn of such angles from 1,100 bits of pi.
+    #[test]
+    fn rotations_by_any_angle_are_rotations() {
+        let mut rng = Rng(11);
+        let mut worst = 0f64;
+        for i in 0..200_000 {
+            let bits = if i % 2 == 0 {
+                rng.bits()
+            } else {
+                // About 1 to 2^30.
+                (rng.bits() & 0x80FF_FFFF) + ((120 + rng.bits() % 32) << 23)
+            };
+            let angle = f32::from_bits(bits);
+            let turned = Affine::rotation_z(angle);
+            if !angle.is_finite() {
+                assert_eq!(turned, Affine::IDENTITY);
+                continue;
+            }
+            let (c, s) = (value(&turned.linear, 0), value(&turned.linear, 3));
+            assert!((c * c + s * s - 1.0).abs() < 1e-6, "{angle:e}");
+            let (want_s, want_c) = f64::from(angle).sin_cos();
+            let off = (s * want_c - c * want_s)
+                .atan2(c * want_c + s * want_s)
+                .abs();
+            assert!(off < 0.0017, "{angle:e}: {off}");
+            worst = worst.max(off);
+        }
+        std::println!("angles of any size: {worst:.5} rad off at most");
+        for angle in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+            assert_eq!(Affine::rotation_x(angle), Affine::IDENTITY);
+            assert_eq!(Affine::rotation_y(angle), Affine::IDENTITY);
+            assert_eq!(Affine::rotation_z(angle), Affine::IDENTITY);
         }
     }
 

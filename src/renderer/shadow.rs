@@ -9,7 +9,7 @@
 use super::scene::{DrawError, Instance, Scene};
 use crate::geometry::{
     Affine, Assembled, Blended, Coordinate, Cull, DepthFunction, Extrusion, Faces, Finish, Mesh,
-    Shading, ShadowLight, ShadowMemory, ShadowRoom, Surface,
+    Shading, ShadowLight, ShadowMemory, ShadowRoom, Surface, check,
 };
 use crate::pipeline::Pipeline;
 
@@ -51,7 +51,7 @@ where
     ///
     /// # Errors
     /// [`ShadowError::Room`] when memory is too short, and those of [`draw`](Scene::draw): what
-    /// was kept of a volume then is wrong.
+    /// was kept of a volume then is wrong. Of a mesh that contradicts itself nothing is drawn.
     pub fn draw_shadow<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
@@ -59,6 +59,7 @@ where
         light: &ShadowLight,
         mut memory: ShadowMemory<'_>,
     ) -> Result<Assembled, ShadowError> {
+        check(mesh).map_err(|error| ShadowError::Draw(DrawError::Mesh(error)))?;
         let extrusion = Extrusion::new(light, model);
         let sides = extrusion
             .sides(mesh, &mut memory)

@@ -36,9 +36,13 @@ const ONE: i32 = 1 << 30;
 /// The camera is at the origin and looks along -z: 160 pixels of focal length, so the picture is
 /// 2 by 1.5 at distance 1.
 pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
-    let near = if shot == Shot::Crossings { 0.03 } else { 0.5 };
+    let (near, far) = if shot == Shot::Crossings {
+        (0.03, 64.0)
+    } else {
+        (0.5, 4096.0)
+    };
     let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
-    scene.begin(&Camera::look_at([0.0; 3], ahead, up, 160.0, near, 4096.0)?)?;
+    scene.begin(&Camera::look_at([0.0; 3], ahead, up, 160.0, near, far)?)?;
     let mut random = Random(1);
     match shot {
         // From one place of the picture to another, up to half a pixel wide.

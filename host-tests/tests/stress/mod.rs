@@ -116,7 +116,7 @@ pub fn with_scene<P: Pipeline, R>(
         [0.0, 1.0, 0.0],
         4096.0,
         NEAR as f32,
-        2f32.powi(40),
+        Camera::MOST_FAR * NEAR as f32,
     );
     scene.begin(&camera.unwrap()).unwrap();
     for corners in triangles {

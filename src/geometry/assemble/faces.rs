@@ -15,9 +15,14 @@ pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
     }) as u32
 }
 
-/// Whether all slices agree and all indices exist, which those do that are known to be below a
-/// number of vertices that are there.
-pub(crate) fn check<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
+/// Whether all slices agree and all indices exist.
+pub(crate) fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
+    check_known(mesh, usize::MAX)
+}
+
+/// The same where those indices exist that are known to be below a number of vertices that are
+/// there.
+pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
     let count = mesh.positions.len();
     let fits = |len: usize| len == 0 || len == count;
     if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {

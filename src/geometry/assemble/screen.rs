@@ -12,7 +12,7 @@ use super::super::mesh::{Coordinate, Faces, Mesh};
 use super::super::object::{Object, SceneVertex};
 use super::super::project::{DEPTH_MAX, DEPTH_MIN};
 use super::super::shading::Shading;
-use super::{Assembled, Assembler, Cull, Dropped, MeshError, Room, Store, check, first_line};
+use super::{Assembled, Assembler, Cull, Dropped, MeshError, Room, Store, check_known, first_line};
 use core::ops::Range;
 
 /// A vertex that was set up beforehand.
@@ -162,7 +162,7 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
             faces: Faces::Triangles(&[]),
             ..*mesh
         };
-        check(mesh, 0)?;
+        check_known(mesh, 0)?;
         if !S::fits(&self.skin, mesh.positions.len()) {
             return Err(MeshError::AttributeLength);
         }

@@ -125,7 +125,7 @@ fn worst(powers: &[u16], rounds: u32, seed: u64) -> (f64, u32) {
             |v: [f64; 3]| [0, 1, 2].map(|i| times([0, 1, 2].map(|k| entry(&turn, 3 * i + k)), v));
         let eye = [(); 3].map(|()| (rng.about(9.0) * (1.0 + size)) as f32);
         let camera =
-            super::super::Camera::look_at(eye, [0.1, 0.2, 0.3], [0.1, 1.0, 0.2], 100.0, 0.1, 1e4);
+            super::super::Camera::look_at(eye, [0.1, 0.2, 0.3], [0.1, 1.0, 0.2], 100.0, 0.2, 1e4);
         let Ok(camera) = camera else { continue };
         let in_model = lighting.in_model(&model, &camera.view);
         for _ in 0..200 {

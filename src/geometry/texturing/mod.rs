@@ -22,7 +22,7 @@ pub use detail::{Detail, LEVELS, LevelEnds};
 pub use place::{Budget, FRACTION, Homogeneous, Quality, Uv};
 
 use super::colour::{Colour, Scale};
-use super::shading::Shading;
+use super::shading::{Empty, Shading};
 use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 use core::marker::PhantomData;
@@ -110,6 +110,20 @@ pub struct TexturedVertex<V> {
 pub struct TexturedFace<F> {
     colour: F,
     texture: FaceTexture,
+}
+
+impl<V: Empty> Empty for TexturedVertex<V> {
+    const EMPTY: Self = Self {
+        colour: V::EMPTY,
+        place: [0; 2],
+    };
+}
+
+impl<F: Empty> Empty for TexturedFace<F> {
+    const EMPTY: Self = Self {
+        colour: F::EMPTY,
+        texture: FaceTexture(0),
+    };
 }
 
 /// What an object is coloured by, and its places on a texture.

@@ -12,6 +12,7 @@
 //! [`Pump::begin`] starts a whole new frame.
 
 use core::fmt::{self, Display};
+use core::ops::Range;
 use core::task::Poll;
 
 use super::dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
@@ -305,7 +306,8 @@ impl<D: ScanoutDma> Pump<D> {
     /// Waits only when no buffer is home. Gives the same line again until [`line_done`](Self::line_done).
     ///
     /// # Errors
-    /// `OutOfTurn` when no line is due; `Sink`, `Timeout` or `BufferLost`, for an earlier line, when waiting failed.
+    /// `OutOfTurn` when no line is due; `Sink`, `Timeout` or `BufferLost`, for an earlier line, when waiting failed;
+    /// `BufferTooShort` when the sink gave back a shorter buffer than it took.
     pub fn line(&mut self) -> Result<&mut [WordOf<D>], ScanError<D::Error>> {
         let Some(window) = self.window else {
             return Err(ScanError::OutOfTurn { line: 0 });
@@ -320,22 +322,14 @@ impl<D: ScanoutDma> Pump<D> {
             }
             self.filling = self.idle.iter_mut().find_map(Option::take);
         }
-        self.handed = true;
         let width = usize::from(window.width);
         let at = usize::from(self.band_filled) * width; // `begin` saw that this fits
-        let words = match self.filling.as_mut() {
-            Some(buf) => buf.pixels(),
-            None => return Err(ScanError::BufferLost { line }),
-        };
-        let have = words.len();
         // A sink that swaps buffers behind our back can hand back a shorter one: an error, not a panic.
-        words
-            .get_mut(at..)
-            .and_then(|rest| rest.get_mut(..width))
-            .ok_or(ScanError::BufferTooShort {
-                needed: at + width,
-                have,
-            })
+        if let Err(error) = part::<D>(&mut self.filling, at..at + width, line) {
+            return Err(self.fail(error));
+        }
+        self.handed = true;
+        part::<D>(&mut self.filling, at..at + width, line)
     }
 
     /// The line that [`line`](Self::line) gave is complete. Starts the transfer when it fills the band or the window.
@@ -589,4 +583,18 @@ impl<D: ScanoutDma> Pump<D> {
             *slot = Some(buf);
         }
     }
+}
+
+/// A part of a buffer's words. That it is there was seen when the frame began,
+/// unless a sink gives back other buffers than it takes.
+fn part<D: ScanoutDma>(
+    buf: &mut Option<D::Buf>,
+    range: Range<usize>,
+    line: u16,
+) -> Result<&mut [WordOf<D>], ScanError<D::Error>> {
+    let words = buf.as_mut().ok_or(ScanError::BufferLost { line })?.pixels();
+    let (needed, have) = (range.end, words.len());
+    words
+        .get_mut(range)
+        .ok_or(ScanError::BufferTooShort { needed, have })
 }

@@ -8,7 +8,7 @@
 
 use core::ops::Range;
 
-use super::{LineBuf, Pump, ScanError, ScanoutDma, Window, WordOf};
+use super::{LineBuf, Pump, ScanError, ScanoutDma, Window, WordOf, part};
 use crate::scan_out::changed::LineWord;
 use crate::scan_out::shown_runs::ShownRuns;
 
@@ -75,7 +75,8 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
     /// The words of the next line, as from [`Pump::line`].
     ///
     /// # Errors
-    /// `OutOfTurn` when no line is due; `Sink`, `Timeout` or `BufferLost`, for an earlier line, when waiting failed.
+    /// `OutOfTurn` when no line is due; `Sink`, `Timeout` or `BufferLost`, for an earlier line, when waiting failed;
+    /// `BufferTooShort` when the sink gave back a shorter buffer than it took.
     pub fn line(&mut self) -> Result<&mut [WordOf<D>], ScanError<D::Error>> {
         let line = self.first + self.drawn;
         if line >= self.window.height {
@@ -84,10 +85,12 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
         if self.pump.filling.is_none() {
             self.pump.filling = Some(self.spare()?);
         }
+        let range = self.drawn_words();
+        if let Err(error) = part::<D>(&mut self.pump.filling, range.clone(), line) {
+            return Err(self.fail(error));
+        }
         self.handed = true;
-        let width = usize::from(self.window.width);
-        let at = words(self.packed) + usize::from(self.drawn) * width;
-        part::<D>(&mut self.pump.filling, at..at + width, line)
+        part::<D>(&mut self.pump.filling, range, line)
     }
 
     /// The line that [`line`](Self::line) gave is complete. With the last line of a row of cells, what has changed
@@ -101,20 +104,31 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
         if !core::mem::take(&mut self.handed) {
             return Err(ScanError::OutOfTurn { line });
         }
-        let width = usize::from(self.window.width);
-        let at = words(self.packed) + usize::from(self.drawn) * width;
-        let words = part::<D>(&mut self.pump.filling, at..at + width, line)?;
-        self.shown.add_line(self.window.x, words);
+        let range = self.drawn_words();
+        match part::<D>(&mut self.pump.filling, range, line) {
+            Ok(words) => self.shown.add_line(self.window.x, words),
+            Err(error) => return Err(self.fail(error)),
+        }
         self.drawn += 1;
         let (_, lines) = self.shown.cell();
         if self.drawn < lines && line + 1 < self.window.height {
             return Ok(());
         }
-        self.row_done().map_err(|error| {
-            self.first = self.window.height;
-            self.drawn = 0;
-            self.pump.fail(error)
-        })
+        self.row_done().map_err(|error| self.fail(error))
+    }
+
+    /// Where the line that is drawn lies in the buffer.
+    fn drawn_words(&self) -> Range<usize> {
+        let width = usize::from(self.window.width);
+        let at = words(self.packed) + usize::from(self.drawn) * width;
+        at..at + width
+    }
+
+    /// Ends the frame, which gives no line any more, after `error`, which is handed through.
+    fn fail(&mut self, error: ScanError<D::Error>) -> ScanError<D::Error> {
+        self.first = self.window.height;
+        (self.drawn, self.handed) = (0, false);
+        self.pump.fail(error)
     }
 
     /// Ends the frame: sends what is left, waits until both buffers are home, and closes the last rectangle.
@@ -271,9 +285,7 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
     fn spare(&mut self) -> Result<D::Buf, ScanError<D::Error>> {
         if self.pump.idle.iter().all(Option::is_none) && self.pump.in_flight > 0 {
             if let Err(error) = self.pump.wait_home() {
-                self.first = self.window.height;
-                self.drawn = 0;
-                return Err(self.pump.fail(error));
+                return Err(self.fail(error));
             }
         }
         let line = self.first;
@@ -299,17 +311,4 @@ impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
 /// Words of a rectangle.
 fn words(part: Window) -> usize {
     usize::from(part.width) * usize::from(part.height)
-}
-
-/// A part of a buffer's words. That it is there was seen when the frame began.
-fn part<D: ScanoutDma>(
-    buf: &mut Option<D::Buf>,
-    range: Range<usize>,
-    line: u16,
-) -> Result<&mut [WordOf<D>], ScanError<D::Error>> {
-    let words = buf.as_mut().ok_or(ScanError::BufferLost { line })?.pixels();
-    let (needed, have) = (range.end, words.len());
-    words
-        .get_mut(range)
-        .ok_or(ScanError::BufferTooShort { needed, have })
 }
