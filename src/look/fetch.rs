@@ -229,9 +229,15 @@ pub fn copy_wide(run: &mut [u16], texture: &Texture<'_>, way: Way) {
     }
     // Rounded steps stay within 1/32 texel of the way, and carries of u within another one.
     let log = texture.log_width();
+    // u goes the shorter way round, so that v gets a carry from every second pixel at most.
+    let up = 13 - log;
+    let short = Uv {
+        u: (way.step.u << up) >> up,
+        ..way.step
+    };
     let (mut at, length) = (way.repeated(), 16usize << (8 - log));
     for part in run.chunks_mut(length) {
-        copy(part, texture, packed(at, log), packed_step(way.step, log));
+        copy(part, texture, packed(at, log), packed_step(short, log));
         at = at.plus(way.step.times(length));
     }
 }
@@ -243,12 +249,11 @@ pub(super) fn packed(at: Uv, log: u32) -> u32 {
     v & 0xFFFF_0000 | (at.u >> (3 + log)) as u32 & 0xFFFF
 }
 
-/// A step in one word, rounded to nearest. u goes the shorter way round, so that v gets carries from
-/// every second pixel at most.
+/// A step in one word, rounded to nearest.
 #[inline(always)]
 pub(super) fn packed_step(step: Uv, log: u32) -> u32 {
     let half = 4 << log;
-    let u = i32::from((step.u.wrapping_add(half) >> (3 + log)) as i16);
+    let u = step.u.wrapping_add(half) >> (3 + log);
     let v = step.v.wrapping_add(half) >> (3 + log);
     (v << 16).wrapping_add(u) as u32
 }

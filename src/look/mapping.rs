@@ -117,8 +117,8 @@ pub fn word_planes(
     let [a, b, c] = corners;
     let (dx1, dy1) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
     let (dx2, dy2) = (c.x.wrapping_sub(a.x), c.y.wrapping_sub(a.y));
-    let magnitude = |d: i32| d ^ (d >> 31);
-    if magnitude(dx1) | magnitude(dy1) | magnitude(dx2) | magnitude(dy2) >= 25 << 6 {
+    let way = |dx: i32, dy: i32| (dx ^ (dx >> 31)).saturating_add(dy ^ (dy >> 31));
+    if way(dx1, dy1).max(way(dx2, dy2)) >= 25 << 6 {
         return None;
     }
     let area = dx1 * dy2 - dx2 * dy1;
@@ -199,7 +199,7 @@ impl Values {
         let method = if is_affine(width, depth, budget) {
             Method::Wide
         } else {
-            // The largest has 30 bits; a place that has 19 fraction bits loses one, and 12.
+            // The largest has 30 bits. Of the 19 fraction bits of a place 11 are left.
             let up = leading_zeros(most) & 31;
             let q = depth.map(|d| d << (up & 31) >> 2);
             for i in 0..3 {
@@ -221,17 +221,92 @@ impl Values {
             base: self.base,
             planes: [[0; 3]; 3],
         };
-        let area = Area::new(corners)?;
+        let small = Small::new(corners);
+        let large = if small.is_none() {
+            Some(Large::new(corners)?)
+        } else {
+            None
+        };
         let used = if self.method == Method::Wide { 2 } else { 3 };
         for (plane, values) in mapping.planes.iter_mut().zip(self.of).take(used) {
-            *plane = area.plane(values)?;
+            *plane = match (&small, &large) {
+                (Some(area), _) => area.plane(values),
+                (_, Some(area)) => area.plane(values),
+                _ => None,
+            }?;
         }
         Some(mapping)
     }
 }
 
+/// What the planes of a triangle within 64 pixels share.
+///
+/// The reciprocal has 15 bits, but its error is the same in all planes: what they show is displaced
+/// by 2^-15 of the triangle's size, less than 1/500 pixel.
+struct Small {
+    /// Sides times the doubled area's reciprocal, times 2^(47 - up).
+    share: [i32; 4],
+    up: u32,
+    x: i32,
+    y: i32,
+}
+
+impl Small {
+    #[inline(always)]
+    fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
+        let (dx1, dy1) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
+        let (dx2, dy2) = (c.x.wrapping_sub(a.x), c.y.wrapping_sub(a.y));
+        let magnitude = |d: i32| d ^ (d >> 31);
+        if magnitude(dx1) | magnitude(dy1) | magnitude(dx2) | magnitude(dy2) >= 64 << 6 {
+            return None;
+        }
+        let area = dx1 * dy2 - dx2 * dy1;
+        if area < 2 << 12 {
+            return None;
+        }
+        let up = leading_zeros(area as u32);
+        let r = recip_16((area as u32) << up >> 16) as i32;
+        Some(Self {
+            share: [dy2, -dy1, dx1, -dx2].map(|d| d * r),
+            up,
+            x: a.x,
+            y: a.y,
+        })
+    }
+
+    /// `64 (a b + c d) / area`, of a rise and a share each; `None` where 32 bits do not hold it.
+    #[inline(always)]
+    fn step(&self, a: i32, b: i32, c: i32, d: i32) -> Option<i32> {
+        // Products 2^(up - 41), upper words of them with two bits more.
+        let sum = mul_high(a, b << 2) + mul_high(c, d << 2);
+        if self.up <= 11 {
+            return Some(sum >> (11 - self.up));
+        }
+        let left = self.up - 11;
+        (leading_zeros((sum ^ (sum >> 31)) as u32) > left).then(|| sum << (left & 31))
+    }
+
+    /// Of values below 2^30 either way.
+    #[inline(never)]
+    fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
+        let (e1, e2) = (value[1] - value[0], value[2] - value[0]);
+        let [y2, y1, x1, x2] = self.share;
+        let dx = self.step(e1, y2, e2, y1)?;
+        let dy = self.step(e2, x1, e1, x2)?;
+        // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+        let way = |step: i32, by: i32| {
+            let part = (step >> 6) * (by & 63) + (((step & 63) * (by & 63)) >> 6);
+            step.wrapping_mul(by >> 6).wrapping_add(part)
+        };
+        let at = value[0]
+            .wrapping_sub(way(dx, self.x))
+            .wrapping_sub(way(dy, self.y));
+        Some([at, dx, dy].map(|v| v as u32))
+    }
+}
+
 /// What the planes of a triangle of any size share. It takes long products: few triangles have it.
-struct Area {
+struct Large {
     side: [i64; 4],
     /// The doubled area's reciprocal, `mantissa 2^(up - 94)`.
     mantissa: u32,
@@ -240,7 +315,7 @@ struct Area {
     y: i32,
 }
 
-impl Area {
+impl Large {
     fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
         let (dx1, dy1) = (
             i64::from(b.x) - i64::from(a.x),

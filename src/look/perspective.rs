@@ -237,7 +237,8 @@ impl Perspective {
     }
 
     /// Copies the span's texels into `run`, with exact places at every `stride` pixels and at the
-    /// last one.
+    /// last one. What is no square that repeats has one at each pixel where others have one at
+    /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
     pub fn draw(&self, run: &mut [u16], texture: &Texture<'_>, stride: Stride) {
         let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
@@ -247,7 +248,7 @@ impl Perspective {
             (Some(Square::Side128(t)), _) => self.square(run, t, stride),
             (Some(Square::Side256(t)), _) => self.square(run, t, stride),
             (None, Stride::Eight | Stride::Sixteen) => self.any(run, texture, stride),
-            (None, _) => self.few(run, stride, |at| texture.at(self.base, at)),
+            (None, _) => self.singly(run, texture),
         }
     }
 
@@ -256,20 +257,10 @@ impl Perspective {
     fn square<const N: usize>(&self, run: &mut [u16], t: &[[u16; N]; N], stride: Stride) {
         match stride {
             Stride::Sixteen | Stride::Eight => self.eights(run, t, stride),
-            Stride::Four | Stride::Two => self.some(run, t.as_flattened(), N, stride),
+            Stride::Four => self.few::<2, N>(run, t),
+            Stride::Two => self.few::<1, N>(run, t),
             Stride::One => self.exact(run, t),
         }
-    }
-
-    /// [`few`](Self::few) from rows of `side` words, as many as that.
-    #[inline(never)]
-    fn some(&self, run: &mut [u16], texels: &[u16], side: usize, stride: Stride) {
-        let log = side.trailing_zeros();
-        self.few(run, stride, |at| {
-            let row = (at.v >> FRACTION) as usize & (side - 1);
-            let column = (at.u >> FRACTION) as usize & (side - 1);
-            texels.get(row << (log & 15) | column).copied()
-        });
     }
 
     /// Places every 8 or 16 pixels, between them in one word.
@@ -300,34 +291,27 @@ impl Perspective {
         }
     }
 
-    /// Places every 1, 2 or 4 pixels, between them in two words; the last ones each have their own.
-    /// Ends where `texel` gives none.
-    #[inline(always)]
-    fn few(&self, run: &mut [u16], stride: Stride, texel: impl Fn(Uv) -> Option<u16>) {
-        let log = stride.log();
-        let (runs, rest) = whole_runs(run, log);
-        let ahead = self.step.times(stride.pixels());
+    /// Places every `2^LOG` pixels, between them in two words; the last ones each have their own.
+    #[inline(never)]
+    fn few<const LOG: u32, const N: usize>(&self, run: &mut [u16], t: &[[u16; N]; N]) {
+        let (runs, rest) = whole_runs(run, LOG);
+        let ahead = self.step.times(1 << LOG);
         let (mut at, mut from) = (self.at, self.at.place());
-        for run in runs.chunks_exact_mut(stride.pixels()) {
+        for run in runs.chunks_exact_mut(1 << LOG) {
             at = at.plus(ahead);
+            if at.q == 0 {
+                // As in `exact`.
+                return;
+            }
             let to = at.place();
-            let step = to.minus(from).part(log);
+            let step = to.minus(from).part(LOG);
             for pixel in run {
-                let Some(texel) = texel(from) else {
-                    return;
-                };
-                *pixel = texel;
+                *pixel = texel(t, from);
                 from = from.plus(step);
             }
             from = to;
         }
-        for pixel in rest {
-            let Some(texel) = texel(at.place()) else {
-                return;
-            };
-            *pixel = texel;
-            at = at.plus(self.step);
-        }
+        Self { at, ..*self }.exact(rest, t);
     }
 
     /// A place at each pixel.
@@ -344,7 +328,20 @@ impl Perspective {
         }
     }
 
-    /// [`draw`](Self::draw) from any form and size, with any wrap.
+    /// A place at each pixel, from any form and size, with any wrap.
+    #[inline(never)]
+    fn singly(&self, run: &mut [u16], texture: &Texture<'_>) {
+        let mut at = self.at;
+        for pixel in run {
+            let Some(texel) = texture.at(self.base, at.place()) else {
+                return;
+            };
+            *pixel = texel;
+            at = at.plus(self.step);
+        }
+    }
+
+    /// Places every 8 or 16 pixels, from any form and size, with any wrap.
     #[inline(never)]
     fn any(&self, run: &mut [u16], texture: &Texture<'_>, stride: Stride) {
         let ahead = self.step.times(stride.pixels());
