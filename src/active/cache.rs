@@ -10,20 +10,23 @@ use crate::num::{bit, take_first};
 
 /// A slot: what is kept of an object, and when it changes.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Slot<T> {
     pub(crate) item: T,
     /// The object's number.
     pub(crate) object: u16,
     /// The line of the next change.
     pub(crate) event: u16,
+    /// The line after the last.
+    pub(crate) end: u16,
     /// The next slot that changes on a line of the same place in the ring.
-    next: u16,
-    /// The number of the object's draw state.
-    pub(crate) draw: u16,
+    next: u8,
+    /// What the owner of the slots wants to know of an object.
+    pub(crate) flags: u8,
 }
 
 /// No slot.
-const NONE: u16 = 0xFFFF;
+const NONE: u8 = 0xFF;
 /// Lines of the ring. What changes farther down goes around.
 const RING: usize = 64;
 
@@ -41,7 +44,7 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) spans: [[u32; 32]; WORDS],
     /// Slots of spans that overlap, by number of object.
     pub(crate) order: [[u32; 32]; WORDS],
-    ring: [u16; RING],
+    ring: [u8; RING],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
     /// How many slots may be used.
@@ -74,9 +77,11 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             item,
             object: 0,
             event: 0,
+            end: 0,
             next: NONE,
-            draw: 0,
+            flags: 0,
         };
+        const { assert!(32 * WORDS < NONE as usize, "at most 224 slots") };
         Self {
             slots: [[slot; 32]; WORDS],
             used: [0; WORDS],
@@ -157,7 +162,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     /// Chains a slot to those that change on a line.
     #[inline(always)]
     pub(crate) fn await_event(&mut self, slot: usize, event: u16) {
-        let head = core::mem::replace(&mut self.ring[usize::from(event) % RING], slot as u16);
+        let head = core::mem::replace(&mut self.ring[usize::from(event) % RING], slot as u8);
         if let Some(slot) = self.slot(slot) {
             slot.event = event;
             slot.next = head;
@@ -178,13 +183,13 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
 
     /// The slots that change on `line`: the first of them, to go on with [`after`](Cache::after).
     #[inline(always)]
-    pub(crate) fn events(&mut self, line: u16) -> u16 {
+    pub(crate) fn events(&mut self, line: u16) -> u8 {
         core::mem::replace(&mut self.ring[usize::from(line) % RING], NONE)
     }
 
-    /// A slot of a chain of events, and the next one.
+    /// The slot after another in a chain of events; `None` where the chain has ended.
     #[inline(always)]
-    pub(crate) fn after(&self, slot: u16) -> Option<u16> {
+    pub(crate) fn after(&self, slot: u8) -> Option<u8> {
         Some(self.slots.get(usize::from(slot >> 5))?[usize::from(slot & 31)].next)
     }
 

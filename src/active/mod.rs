@@ -11,6 +11,7 @@ mod interleave;
 mod list;
 
 pub use bucket::Buckets;
+pub use cache::Slot as CacheSlot;
 pub(crate) use cache::next;
 pub use cache::{Cache, CacheUse};
 pub use counts::CacheCounts;

@@ -1,11 +1,11 @@
 //! From line to line: triangles begin, turn and end (K1, C1-C5).
 
-use super::renderer::{Active, Renderer, View};
+use super::renderer::{Renderer, View};
+use super::slot::Flags;
 use crate::active::next;
 use crate::link::Link;
-use crate::look::{Fill, Look};
-use crate::scene::{NONE, Scene};
-use crate::span::Kind;
+use crate::look::Look;
+use crate::scene::{NONE, Object, Scene};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Brings the cache to a line of the picture.
@@ -32,34 +32,27 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// What turns or ends on a line.
-    #[inline(always)]
+    #[inline(never)]
     fn change(&mut self, view: &View<'_>, line: u16) {
         let mut at = self.cache.events(line);
         while let Some(after) = self.cache.after(at) {
-            self.change_slot(view, usize::from(at), line);
+            let number = usize::from(at);
             at = after;
-        }
-    }
-
-    #[inline(always)]
-    fn change_slot(&mut self, view: &View<'_>, number: usize, line: u16) {
-        let Some(slot) = self.cache.slot(number) else {
-            return;
-        };
-        if slot.event != line {
-            let event = slot.event;
+            let Some(slot) = self.cache.slot(number) else {
+                continue;
+            };
+            if slot.event == line && slot.end == line {
+                self.cache.free_slot(number);
+                continue;
+            }
+            let mut event = slot.event;
+            if event == line {
+                event = slot.end;
+                if let Some(triangle) = view.triangle_of::<L>(slot.object) {
+                    slot.item.sides.turn(&triangle, Flags(slot.flags).way());
+                }
+            }
             self.cache.await_event(number, event);
-            return;
-        }
-        let Some(triangle) = view.triangle(slot.object) else {
-            return;
-        };
-        let end = triangle.lines().end;
-        if end <= i32::from(line) {
-            self.cache.free_slot(number);
-        } else {
-            slot.item.sides.turn(&triangle);
-            self.cache.await_event(number, end as u16);
         }
     }
 
@@ -70,22 +63,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let Some(slot) = self.cache.free() else {
                 break;
             };
-            let object = self.cache.spilled.object();
+            let number = self.cache.spilled.object();
             self.cache.spilled = next(self.links, self.cache.spilled);
             self.counts.moved_in += 1;
-            self.take_in(view, slot, object, line);
+            if let Some(object) = view.objects.get(usize::from(number)) {
+                self.take_in(view, slot, number, object, line);
+            }
         }
         let mut at = head;
         while let Some(object) = view.objects.get(usize::from(at)) {
-            match self.cache.free() {
-                Some(slot) => {
-                    self.counts.hits += 1;
-                    self.take_in(view, slot, at, line);
-                }
-                None => {
-                    self.counts.spilled += 1;
-                    self.cache.spill(at, self.links);
-                }
+            if let Some(slot) = self.cache.free() {
+                self.counts.hits += 1;
+                self.take_in(view, slot, at, object, line);
+            } else {
+                self.counts.spilled += 1;
+                self.cache.spill(at, self.links);
             }
             at = object.next;
         }
@@ -93,39 +85,37 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// An object into a slot; its link leads there from now on (C3).
-    #[inline(always)]
-    fn take_in(&mut self, view: &View<'_>, slot: usize, object: u16, line: u16) {
-        let Some(triangle) = view.triangle(object) else {
+    #[inline(never)]
+    fn take_in(&mut self, view: &View<'_>, slot: usize, number: u16, object: &Object, line: u16) {
+        let (Some(triangle), Some(kept)) = (view.triangle::<L>(object), self.cache.slot(slot))
+        else {
             return;
         };
         let lines = triangle.lines();
         if lines.end <= i32::from(line) {
             return;
         }
-        let draw = view.draw_of(object);
-        let Some(kept) = self.cache.slot(slot) else {
-            return;
-        };
-        kept.object = object;
-        kept.draw = draw;
-        let item: &mut Active<L::Planes> = &mut kept.item;
         let area = triangle.area();
+        let size = triangle.size(area);
+        let way = triangle.way(size);
+        kept.item.sides = triangle.sides(way, i32::from(line), lines.turn);
         let fill = L::set_up(
             &triangle,
-            triangle.size(area),
+            number,
+            size,
             area,
-            view.draw(draw),
-            &mut item.planes,
+            view.draws,
+            &mut kept.item.planes,
         );
-        item.fill = fill;
-        item.sides = triangle.sides(i32::from(line), lines.turn);
-        let sides = &item.sides;
-        let plain = fill == Fill::Plain && !sides.crosses && sides.kind != Kind::Divided;
+        let flags = Flags::new(fill, way);
+        kept.object = number;
+        kept.flags = flags.0;
+        kept.end = lines.end as u16;
         let turns = lines.turn > i32::from(line);
         let event = if turns { lines.turn } else { lines.end };
-        self.cache.keep(slot, plain, event as u16);
+        self.cache.keep(slot, flags.is_plain(), event as u16);
         self.counts.set_ups += 1;
-        if let Some(link) = self.links.get_mut(usize::from(object)) {
+        if let Some(link) = self.links.get_mut(usize::from(number)) {
             *link = Link::cached(slot);
         }
     }

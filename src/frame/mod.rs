@@ -6,6 +6,8 @@
 //! | `advance` | from line to line: which triangles begin, turn and end |
 //! | `line` | one line: who is seen, and its pixels |
 //! | `scene` | a scene made for a look |
+//! | `slot` | a triangle in a slot of the cache |
+//! | `thin` | planes of depth, and what is too thin for planes |
 //! | `send` | all lines of a frame through a pump |
 
 mod advance;
@@ -13,6 +15,8 @@ mod line;
 mod renderer;
 mod scene;
 mod send;
+mod slot;
+mod thin;
 
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
 pub use send::{FrameError, FrameUse, draw_frame};

@@ -1,22 +1,13 @@
 //! What draws lines of a scene, and what it has to be lent.
 
+use super::slot::Active;
 use crate::active::{Cache, CacheUse};
 use crate::link::Link;
-use crate::look::{Fill, Look};
-use crate::scene::{DrawState, Scene, Vertex};
-use crate::span::{Edge, Frame, Kind, Sides, Triangle};
+use crate::look::Look;
+use crate::scene::{DrawState, Object, Scene, TexturePlace, Vertex};
+use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::visible::Mask;
 use core::fmt;
-
-/// A triangle in a slot.
-#[derive(Clone, Copy, Debug)]
-pub struct Active<P> {
-    pub(super) sides: Sides,
-    pub(super) fill: Fill,
-    pub(super) planes: P,
-    /// Depth at the picture's first pixel, its steps across and down.
-    pub(super) depth: Option<[u32; 3]>,
-}
 
 /// The object cache of a renderer: `32 WORDS` slots, best in the fastest memory there is, as a static.
 ///
@@ -33,12 +24,9 @@ impl<L: Look, const WORDS: usize> FastMemory<L, WORDS> {
             sides: Sides {
                 left: Edge::NONE,
                 right: Edge::NONE,
-                kind: Kind::Short,
-                crosses: false,
             },
-            fill: Fill::Plain,
             planes: L::EMPTY,
-            depth: None,
+            depth: [0; 3],
         }))
     }
 
@@ -132,7 +120,11 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) depth: &'m mut [u32],
     /// The scene's generation, and the first line whose triangles have not begun; `None` at first.
     pub(super) place: Option<(u32, u16)>,
+    /// Columns that are covered on this line, that spans meet on, whose depth is written. All are empty between
+    /// lines.
     pub(super) covered: Mask,
+    pub(super) over: Mask,
+    pub(super) written: Mask,
     /// Whether spans met on the last line.
     pub(super) met: bool,
     pub(super) counts: CacheUse,
@@ -148,6 +140,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             depth: memory.depth,
             place: None,
             covered: Mask::EMPTY,
+            over: Mask::EMPTY,
+            written: Mask::EMPTY,
             met: false,
             counts: CacheUse::default(),
         }
@@ -184,42 +178,52 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
 
 /// A scene as pass two reads it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View<'a> {
+pub struct View<'a> {
     pub(super) vertices: &'a [Vertex],
-    pub(super) places: &'a [crate::scene::TexturePlace],
-    pub(super) objects: &'a [crate::scene::Object],
+    pub(super) places: &'a [TexturePlace],
+    pub(super) objects: &'a [Object],
     pub(super) draws: &'a [DrawState<'a>],
     pub(super) frame: Frame,
 }
 
 impl<'a> View<'a> {
+    #[inline(always)]
+    pub(super) fn of<L>(scene: &'a Scene<'_, '_, L>) -> Self {
+        let screen = scene.screen();
+        Self {
+            vertices: scene.vertices.as_slice(),
+            places: scene.places,
+            objects: scene.objects.as_slice(),
+            draws: scene.draws.as_slice(),
+            frame: Frame {
+                left: screen.left(),
+                top: screen.top(),
+                width: i32::from(screen.width()),
+            },
+        }
+    }
+
     /// The corners of a triangle.
     #[inline(always)]
-    pub(super) fn triangle(&self, object: u16) -> Option<Triangle<'a>> {
-        let [a, b, c] = self.objects.get(usize::from(object))?.corner;
+    pub(super) fn triangle<L: Look>(&self, object: &Object) -> Option<Triangle<'a>> {
+        let [a, b, c] = object.corner;
         let at = |i: u16| self.vertices.get(usize::from(i));
-        let texture = |i: u16| self.places.get(usize::from(i)).copied().unwrap_or_default();
+        let vertex = [at(a)?, at(b)?, at(c)?];
+        let mut texture = [TexturePlace::EMPTY; 3];
+        if L::TEXTURED {
+            let place = |i: u16| self.places.get(usize::from(i)).copied();
+            texture = [place(a)?, place(b)?, place(c)?];
+        }
         Some(Triangle {
-            vertex: [at(a)?, at(b)?, at(c)?],
-            texture: [texture(a), texture(b), texture(c)],
+            vertex,
+            texture,
             frame: self.frame,
         })
     }
 
-    /// A draw state by its number.
+    /// The corners of a triangle by its number.
     #[inline(always)]
-    pub(super) fn draw(&self, draw: u16) -> &'a DrawState<'a> {
-        const NONE: &DrawState<'_> = &DrawState::EMPTY;
-        self.draws.get(usize::from(draw)).unwrap_or(NONE)
-    }
-
-    /// The number of the draw state of an object.
-    #[inline(always)]
-    pub(super) fn draw_of(&self, object: u16) -> u16 {
-        if self.draws.len() < 2 {
-            return 0;
-        }
-        let after = self.draws.partition_point(|draw| draw.first <= object);
-        after.saturating_sub(1) as u16
+    pub(super) fn triangle_of<L: Look>(&self, object: u16) -> Option<Triangle<'a>> {
+        self.triangle::<L>(self.objects.get(usize::from(object))?)
     }
 }

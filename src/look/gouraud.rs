@@ -40,10 +40,10 @@ fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
 
 impl<F: Pixel> Gouraud<F> {
     /// One word of three fields.
-    #[inline(always)]
-    fn packed_planes(shares: &Shares, colour: [u32; 3], planes: &mut Planes) {
-        let shares = shares.cut::<5>();
-        let [a, b, c] = colour;
+    #[inline(never)]
+    fn packed_planes(triangle: &Triangle<'_>, area: u32, planes: &mut Planes) {
+        let shares = triangle.shares(area).cut::<5>();
+        let [a, b, c] = triangle.vertex.map(|v| v.colour);
         let rise = |shift: u32, bits: u32| {
             let field = |w: u32| (w >> shift & bits) as i32;
             shares.rise::<5, 0>(field(b) - field(a), field(c) - field(a))
@@ -190,18 +190,20 @@ impl<F: Pixel> Paint for Gouraud<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = [0; 9];
+    const TEXTURED: bool = false;
 
     #[inline(always)]
     fn set_up(
         triangle: &Triangle<'_>,
+        _: u16,
         size: Size,
         area: u32,
-        _: &DrawState<'_>,
+        _: &[DrawState<'_>],
         planes: &mut Planes,
     ) -> Fill {
         let colour = triangle.vertex.map(|v| v.colour);
         if size == Size::Tiny && F::PACKED {
-            Self::packed_planes(&triangle.shares(area), colour, planes);
+            Self::packed_planes(triangle, area, planes);
             return Fill::Plain;
         }
         if matches!(size, Size::Tiny | Size::Small) {
@@ -220,7 +222,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
         }
     }
 
-    fn set_up_thin(span: &ThinSpan<'_>, _: &DrawState<'_>, planes: &mut Planes) {
+    fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {
         let corners = span.triangle.vertex.map(|v| wide_fields(v.colour));
         for i in 0..3 {
             let [at, step] = span.line(corners.map(|c| c[i]));
@@ -231,12 +233,12 @@ impl<F: Pixel> Paint for Gouraud<F> {
     }
 
     #[inline(always)]
-    fn fill_plain(planes: &Planes, place: Place, _: &DrawState<'_>, run: &mut [F::Word]) {
+    fn fill_plain(planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
         ramp::fill::<F>(run, Self::packed(planes, place));
     }
 
     #[inline(never)]
-    fn fill(fill: Fill, planes: &Planes, place: Place, _: &DrawState<'_>, run: &mut [F::Word]) {
+    fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
         if fill == Fill::Plain {
             return ramp::fill_long::<F>(run, Self::packed(planes, place));
         }
@@ -255,7 +257,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
         fill: Fill,
         planes: &Planes,
         place: Place,
-        _: &DrawState<'_>,
+        _: &[DrawState<'_>],
         run: &mut [F::Word],
         depth: Depths<'_>,
     ) {

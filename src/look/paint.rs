@@ -25,37 +25,50 @@ pub trait Paint: Sized {
     type Planes: Copy + core::fmt::Debug;
     /// The planes of no triangle.
     const EMPTY: Self::Planes;
+    /// Whether vertices have texture places.
+    const TEXTURED: bool;
 
-    /// The planes of a triangle; `area` and `size` are its own.
+    /// The planes of a triangle; `area` and `size` are its own, `object` its number.
     fn set_up(
         triangle: &Triangle<'_>,
+        object: u16,
         size: Size,
         area: u32,
-        draw: &DrawState<'_>,
+        draws: &[DrawState<'_>],
         planes: &mut Self::Planes,
     ) -> Fill;
 
     /// The planes of a thin triangle on one line, of the kind [`Fill::Wide`].
-    fn set_up_thin(span: &ThinSpan<'_>, draw: &DrawState<'_>, planes: &mut Self::Planes);
+    fn set_up_thin(
+        span: &ThinSpan<'_>,
+        object: u16,
+        draws: &[DrawState<'_>],
+        planes: &mut Self::Planes,
+    );
 
     /// Colours a run of pixels; `at` is its first.
     fn fill(
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
-        draw: &DrawState<'_>,
+        draws: &[DrawState<'_>],
         run: &mut [WordOf<Self>],
     );
 
     /// [`fill`](Paint::fill) of [`Fill::Plain`].
-    fn fill_plain(planes: &Self::Planes, at: Place, draw: &DrawState<'_>, run: &mut [WordOf<Self>]);
+    fn fill_plain(
+        planes: &Self::Planes,
+        at: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [WordOf<Self>],
+    );
 
     /// Colours the pixels that are at least as near as what `cells` have, and keeps their depth.
     fn fill_nearer(
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
-        draw: &DrawState<'_>,
+        draws: &[DrawState<'_>],
         run: &mut [WordOf<Self>],
         depth: Depths<'_>,
     );

@@ -160,7 +160,10 @@ impl<L> Scene<'_, '_, L> {
     ) -> Result<(), MeshError> {
         let Faces::Triangles(faces) = mesh.faces else {
             each_triangle(mesh.faces, |face, corners, _| {
-                self.file_one(mesh, face, corners, pass);
+                let filed = pass.shared && self.file_known(corners, pass);
+                if !filed {
+                    self.file_one(mesh, face, corners, pass);
+                }
             });
             return Ok(());
         };
@@ -168,10 +171,7 @@ impl<L> Scene<'_, '_, L> {
         while from < faces.len() {
             if pass.shared {
                 let rest = faces.get(from..).unwrap_or_default();
-                from += match pass.cull {
-                    Cull::Back => self.file_run::<true>(rest, pass),
-                    Cull::None => self.file_run::<false>(rest, pass),
-                };
+                from += self.file_run(rest, pass);
             }
             if let Some(&corners) = faces.get(from) {
                 if corners
@@ -187,11 +187,24 @@ impl<L> Scene<'_, '_, L> {
         Ok(())
     }
 
+    /// Files one triangle, unless it has to be looked at more closely.
+    fn file_known(&mut self, corners: [u16; 3], pass: &mut Pass<'_>) -> bool {
+        self.file_run(&[corners], pass) == 1
+    }
+
     /// Files faces up to the first that has to be looked at more closely; how many it took.
+    fn file_run(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
+        match pass.cull {
+            Cull::Back => self.file_culled::<true>(faces, pass),
+            Cull::None => self.file_culled::<false>(faces, pass),
+        }
+    }
+
+    /// [`file_run`](Scene::file_run), with or without those seen from behind.
     ///
     /// A face that is seen from behind takes 33 instructions on a Cortex-M4, one that is kept about 85.
     #[inline(never)]
-    fn file_run<const CULLS: bool>(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
+    fn file_culled<const CULLS: bool>(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
         let picture = self.picture();
         let base = pass.base;
         let vertices = self.vertices.as_slice().get(base..).unwrap_or_default();

@@ -13,7 +13,7 @@ mod triangle;
 pub(crate) use edge::first_line;
 pub use edge::{Edge, Frame, Kind};
 pub use plane::{Rise, Shares};
-pub use triangle::{Sides, Size, Triangle};
+pub use triangle::{Sides, Size, Triangle, Way};
 
 /// The pixels of one object on one line, clipped to the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -74,19 +74,21 @@ impl Shares {
         };
         let dx = step(e1, self.x1, e2, self.x2);
         let dy = step(e2, self.y1, e1, self.y2);
-        self.placed(dx, dy)
-    }
-
-    /// The plane with these steps.
-    #[inline(always)]
-    pub(crate) fn placed(&self, dx: i32, dy: i32) -> Rise {
-        // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
-        let rest = 4i32
-            .wrapping_sub(dx.wrapping_mul(self.x & 7))
-            .wrapping_sub(dy.wrapping_mul(self.y & 7));
-        let at = (rest >> 3)
-            .wrapping_sub(dx.wrapping_mul(self.x >> 3))
-            .wrapping_sub(dy.wrapping_mul(self.y >> 3));
+        let at = if FRACTION == 0 {
+            // Steps of 16 bits over 13 bits of way.
+            let way = 4i32
+                .wrapping_sub(dx.wrapping_mul(self.x))
+                .wrapping_sub(dy.wrapping_mul(self.y));
+            way >> 3
+        } else {
+            // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+            let rest = 4i32
+                .wrapping_sub(dx.wrapping_mul(self.x & 7))
+                .wrapping_sub(dy.wrapping_mul(self.y & 7));
+            (rest >> 3)
+                .wrapping_sub(dx.wrapping_mul(self.x >> 3))
+                .wrapping_sub(dy.wrapping_mul(self.y >> 3))
+        };
         Rise { at, dx, dy }
     }
 

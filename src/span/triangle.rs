@@ -17,7 +17,7 @@ pub struct Triangle<'a> {
 /// The way of evaluating planes, from the cheapest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
-    /// Within 25 pixels of the top corner, and an area of a pixel at least.
+    /// Within 28 pixels of the top corner and an area of two pixels at least, or 25 pixels and one.
     Tiny,
     /// Within 64 pixels, and an area of 8 pixels at least.
     Small,
@@ -36,14 +36,34 @@ pub struct Lines {
     pub(crate) end: i32,
 }
 
-/// The sides on a line, and how later ones are made.
-#[derive(Clone, Copy, Debug)]
-pub struct Sides {
-    pub(crate) left: Edge,
-    pub(crate) right: Edge,
+/// How sides are evaluated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Way {
     pub(crate) kind: Kind,
     /// Whether columns may lie beside the picture.
     pub(crate) crosses: bool,
+}
+
+impl Way {
+    /// Sides within the picture by one multiply-add.
+    pub(crate) const PLAIN: Self = Self {
+        kind: Kind::Short,
+        crosses: false,
+    };
+
+    /// Whether columns need no look at the picture's border.
+    #[inline(always)]
+    pub(crate) fn is_direct(self) -> bool {
+        !self.crosses && self.kind != Kind::Divided
+    }
+}
+
+/// The sides on a line.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Sides {
+    pub(crate) left: Edge,
+    pub(crate) right: Edge,
 }
 
 impl Triangle<'_> {
@@ -73,8 +93,9 @@ impl Triangle<'_> {
         let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
         let magnitude = |d: i32| d ^ (d >> 31);
         let way = |d: u32| magnitude(across(d)) + down(d);
-        if way(d1).max(way(d2)) < 200 {
-            return if area >= 128 { Size::Tiny } else { Size::Thin };
+        let far = way(d1).max(way(d2));
+        if far < 224 && area >= 256 || far < 200 && area >= 128 {
+            return Size::Tiny;
         }
         if self.kind() != Kind::Short {
             return Size::Large;
@@ -121,51 +142,67 @@ impl Triangle<'_> {
 
     /// The sides on `line` and below, up to the turn or the end.
     #[inline(always)]
-    pub(crate) fn sides(&self, line: i32, turn: i32) -> Sides {
-        let [a, b, c] = self.places();
-        let (kind, crosses) = self.way();
-        let (origin, top) = (self.origin(crosses), self.frame.top);
-        let make = |p: u32, q: u32| {
-            if kind == Kind::Short {
-                let d = q.wrapping_sub(p);
-                Edge::short(p, across(d), down(d), origin, top)
-            } else {
-                Edge::of_kind(kind, p, q, origin, top)
-            }
-        };
-        let mut sides = Sides {
-            left: make(a, c),
-            right: make(a, b),
-            kind,
-            crosses,
-        };
+    pub(crate) fn sides(&self, way: Way, line: i32, turn: i32) -> Sides {
+        let mut sides = self.upper_sides(way);
         if line >= turn {
-            sides.turn(self);
+            sides.turn(self, way);
         }
         sides
     }
 
-    /// How the sides are evaluated, and whether columns may lie beside the picture.
+    /// The sides above the turn.
     #[inline(always)]
-    fn way(&self) -> (Kind, bool) {
+    fn upper_sides(&self, way: Way) -> Sides {
+        let [a, b, c] = self.places();
+        let (origin, top) = (self.origin(way), self.frame.top);
+        if way.kind == Kind::Short {
+            let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
+            return Sides {
+                left: Edge::short(a, across(d2), down(d2), origin, top),
+                right: Edge::short(a, across(d1), down(d1), origin, top),
+            };
+        }
+        Sides {
+            left: Edge::of_kind(way.kind, a, c, origin, top),
+            right: Edge::of_kind(way.kind, a, b, origin, top),
+        }
+    }
+
+    /// How the sides are evaluated.
+    #[inline(always)]
+    pub(crate) fn way(&self, size: Size) -> Way {
+        let (low, high) = (
+            8 * self.frame.left,
+            8 * (self.frame.left + self.frame.width),
+        );
+        let x = self.places().map(|p| (p & 0xFFFF) as i32);
+        let inside = x.map(|x| (x - low) | (high - x));
+        // Tiny and small triangles have short sides.
+        let is_short = matches!(size, Size::Tiny | Size::Small);
+        if is_short && inside[0] | inside[1] | inside[2] >= 0 {
+            return Way::PLAIN;
+        }
+        self.way_of_any()
+    }
+
+    #[inline(never)]
+    fn way_of_any(&self) -> Way {
         let frame = self.frame;
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
         let kind = self.kind();
-        if low >= 8 * frame.left && high <= 8 * (frame.left + frame.width) {
-            return (kind, false);
-        }
+        let crosses = low < 8 * frame.left || high > 8 * (frame.left + frame.width);
         let wide = 8 * frame.wide_left();
-        if low >= wide && high < wide + 8 * 1023 {
-            (kind, true)
-        } else {
-            (Kind::Divided, true)
+        if crosses && (low < wide || high >= wide + 8 * 1023) {
+            let kind = Kind::Divided;
+            return Way { kind, crosses };
         }
+        Way { kind, crosses }
     }
 
     #[inline(always)]
-    fn origin(&self, crosses: bool) -> i32 {
-        if crosses {
+    fn origin(&self, way: Way) -> i32 {
+        if way.crosses {
             self.frame.wide_left()
         } else {
             self.frame.left
@@ -187,30 +224,38 @@ impl Triangle<'_> {
 
 impl Sides {
     /// The third side, in place of the one that ends at the middle corner.
-    #[inline(never)]
-    pub(crate) fn turn(&mut self, triangle: &Triangle<'_>) {
+    #[inline(always)]
+    pub(crate) fn turn(&mut self, triangle: &Triangle<'_>, way: Way) {
         let [_, b, c] = triangle.places();
-        let (origin, top) = (triangle.origin(self.crosses), triangle.frame.top);
-        if down(c.wrapping_sub(b)) > 0 {
-            self.right = Edge::of_kind(self.kind, b, c, origin, top);
+        let (origin, top) = (triangle.origin(way), triangle.frame.top);
+        let d = c.wrapping_sub(b);
+        let to_right = down(d) > 0;
+        let side = match (way.kind, to_right) {
+            (Kind::Short, true) => Edge::short(b, across(d), down(d), origin, top),
+            (Kind::Short, false) => Edge::short(c, -across(d), -down(d), origin, top),
+            (kind, true) => Edge::of_kind(kind, b, c, origin, top),
+            (kind, false) => Edge::of_kind(kind, c, b, origin, top),
+        };
+        if to_right {
+            self.right = side;
         } else {
-            self.left = Edge::of_kind(self.kind, c, b, origin, top);
+            self.left = side;
         }
     }
 
     /// The columns of the picture on a line of it: from the first to before the second.
     #[inline(always)]
-    pub(crate) fn columns(&self, line: u32, frame: Frame) -> (u32, u32) {
-        if !self.crosses && self.kind != Kind::Divided {
+    pub(crate) fn columns(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
+        if way.is_direct() {
             return (self.left.column(line), self.right.column(line));
         }
-        self.clipped(line, frame)
+        self.clipped(way, line, frame)
     }
 
     #[inline(never)]
-    fn clipped(&self, line: u32, frame: Frame) -> (u32, u32) {
+    fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
         let of = |edge: Edge| {
-            let column = if self.kind == Kind::Divided {
+            let column = if way.kind == Kind::Divided {
                 edge.divided(line as i32 + frame.top) - frame.left
             } else {
                 edge.column(line) as i32 + frame.wide_left() - frame.left

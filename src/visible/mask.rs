@@ -162,36 +162,46 @@ impl Mask {
         part
     }
 
-    /// Calls `run` with each run of `start .. end` that is not covered, from left to right, and covers all.
+    /// Calls `run` with each run of the first `width` columns that is not covered, from left to right; then the
+    /// mask is empty.
     #[inline(always)]
-    pub(crate) fn take_free(&mut self, start: u32, end: u32, mut run: impl FnMut(u32, u32)) {
-        let mut open = None;
-        each_word(start, end, |word, bits| {
-            let base = word as u32 * 32;
-            let mut free = bits & !self.0[word];
-            self.0[word] |= bits;
+    pub(crate) fn take_free(&mut self, width: u32, mut run: impl FnMut(u32, u32)) {
+        const OPEN: u32 = u32::MAX;
+        let mut open = OPEN;
+        let mut base = 0;
+        for word in &mut self.0 {
+            if base >= width {
+                break;
+            }
+            let mut free = !core::mem::take(word);
             if free == u32::MAX {
-                open.get_or_insert(base);
-                return;
-            }
-            if let Some(from) = open.take() {
-                let columns = free.leading_ones();
-                run(from, base + columns);
-                free &= u32::MAX >> (columns & 31);
-            }
-            while free != 0 {
-                let first = free.leading_zeros();
-                let last = first + (free << (first & 31)).leading_ones();
-                if last == 32 {
-                    open = Some(base + first);
-                    break;
+                open = open.min(base);
+            } else if open != OPEN || free != 0 {
+                if open != OPEN {
+                    let columns = (!free).leading_zeros();
+                    if base + columns > open {
+                        run(open, (base + columns).min(width));
+                    }
+                    open = OPEN;
+                    free &= u32::MAX >> (columns & 31);
                 }
-                run(base + first, base + last);
-                free &= u32::MAX >> (last & 31);
+                while free != 0 {
+                    let first = free.leading_zeros();
+                    let last = first + (!(free << (first & 31))).leading_zeros();
+                    if last >= 32 {
+                        open = base + first;
+                        break;
+                    }
+                    if base + first < width {
+                        run(base + first, (base + last).min(width));
+                    }
+                    free &= u32::MAX >> (last & 31);
+                }
             }
-        });
-        if let Some(from) = open {
-            run(from, end);
+            base += 32;
+        }
+        if open < width {
+            run(open, width);
         }
     }
 }
@@ -207,8 +217,7 @@ mod tests {
         let mut rng = Rng(3);
         for round in 0..20_000 {
             let mut plain = [false; 1023];
-            let (mut mask, mut over, mut part, mut free) =
-                (Mask::EMPTY, Mask::EMPTY, Mask::EMPTY, Mask::EMPTY);
+            let (mut mask, mut over, mut part) = (Mask::EMPTY, Mask::EMPTY, Mask::EMPTY);
             for _ in 0..1 + round % 12 {
                 let size = [8, 40, 1022][round % 3];
                 let start = rng.below(1022);
@@ -233,21 +242,25 @@ mod tests {
                     assert_eq!(new, old);
                 }
                 assert_eq!(part, mask);
-                let mut runs = Vec::new();
-                free.take_free(start, end, |a, b| {
-                    assert!(a < b && runs.last().is_none_or(|&(_, end)| end < a));
-                    runs.push((a, b));
-                });
-                let taken: Vec<usize> = runs
-                    .iter()
-                    .flat_map(|&(a, b)| a as usize..b as usize)
-                    .collect();
-                assert_eq!(taken, old);
-                assert_eq!(free, mask);
                 plain[columns].fill(true);
             }
             for (c, covered) in plain.iter().enumerate() {
                 assert_eq!(mask.meets(c as u32, c as u32 + 1), *covered);
+            }
+            let width = [320, 1016, 1 + rng.below(1016)][round % 3];
+            let mut free = Vec::new();
+            let mut last = None;
+            mask.take_free(width, |a, b| {
+                assert!(a < b && last.is_none_or(|end| end < a), "{a} {b}");
+                last = Some(b);
+                free.extend(a as usize..b as usize);
+            });
+            let want: Vec<usize> = (0..width as usize).filter(|&c| !plain[c]).collect();
+            assert_eq!(free, want);
+            part.take_free(1023, |_, _| {});
+            assert_eq!(part, Mask::EMPTY);
+            if width > 992 {
+                assert_eq!(mask, Mask::EMPTY);
             }
         }
     }

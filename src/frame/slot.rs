@@ -1,0 +1,71 @@
+//! A triangle in a slot of the cache: 72 bytes with smooth colours.
+
+use crate::look::Fill;
+use crate::span::{Kind, Sides, Way};
+
+/// A triangle, set up.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Active<P> {
+    pub(super) sides: Sides,
+    pub(super) planes: P,
+    /// Depth at the picture's first pixel, its steps across and down.
+    pub(super) depth: [u32; 3],
+}
+
+/// What is known of a triangle in one byte: how it is coloured, how its sides are evaluated, whether it has
+/// no plane of depth.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Flags(pub(super) u8);
+
+impl Flags {
+    const NO_DEPTH: u8 = 1 << 5;
+    const CROSSES: u8 = 1 << 4;
+
+    #[inline(always)]
+    pub(super) fn new(fill: Fill, way: Way) -> Self {
+        let crosses = if way.crosses { Self::CROSSES } else { 0 };
+        Self(fill as u8 | (way.kind as u8) << 2 | crosses)
+    }
+
+    /// Whether the triangle is drawn in the commonest way.
+    #[inline(always)]
+    pub(super) fn is_plain(self) -> bool {
+        self.fill() == Fill::Plain && self.way().is_direct()
+    }
+
+    #[inline(always)]
+    pub(super) fn fill(self) -> Fill {
+        match self.0 & 3 {
+            0 => Fill::Plain,
+            1 => Fill::Small,
+            2 => Fill::Wide,
+            _ => Fill::Thin,
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn way(self) -> Way {
+        let kind = match self.0 >> 2 & 3 {
+            0 => Kind::Short,
+            1 => Kind::Tall,
+            _ => Kind::Divided,
+        };
+        Way {
+            kind,
+            crosses: self.0 & Self::CROSSES != 0,
+        }
+    }
+
+    /// Whether depth has to be found on each line.
+    #[inline(always)]
+    pub(super) fn lacks_depth(self) -> bool {
+        self.0 & Self::NO_DEPTH != 0
+    }
+
+    #[inline(always)]
+    pub(super) fn without_depth(self, lacks: bool) -> Self {
+        let bit = if lacks { Self::NO_DEPTH } else { 0 };
+        Self(self.0 & !Self::NO_DEPTH | bit)
+    }
+}
