@@ -5,6 +5,19 @@
 //! | [`copy`] | one word, v above u, 16 bits of the period each | small boxes on sides up to 256 |
 //! | [`copy_wide`] | two words, texels with 19 fraction bits | all else |
 //! | [`copy_exact`] | likewise | all else, without an error of its own |
+//!
+//! Instructions (rustc 1.95, opt-level 3, counted in QEMU), the same bits on both cores. A call
+//! with nothing to do takes 40 to 60 on the M4 and 50 to 85 on the M0+, arguments included.
+//!
+//! | a texel | Cortex-M4 | Cortex-M0+ | 5 pixels, all in | code, M4 |
+//! |---|---|---|---|---|
+//! | `copy`, squares of 32, 64, 128, 256 words | 6.75 | 9.25 | 87; 137 | 454 bytes each |
+//! | `copy`, words of other sizes | 12.0 | 23 | 139; 225 | 710 bytes, all forms |
+//! | `copy`, indices of 8; 4 to 1 bits | 15; 20 | 25; 30 | 150; 235 | |
+//! | `copy_wide`, squares of words | 8.9 | 12.4 | 165; 242 | 214 bytes |
+//! | `copy_exact`, words; 8 bits | 12.0; 15 | 23; 25 | 147; 239 | 102 bytes |
+//! | the same with a step of 2/3 texel, 128 texels clamped | 14.0 | 26.6 | 294; 494 | 704 bytes |
+//! | and 64 texels mirrored | 17.8 | 33.5 | 283; 446 | |
 
 use super::texture::{Form, Square, Texture, Wrap};
 use core::hint::black_box as unknown;

@@ -6,6 +6,15 @@
 //! | `Wide` | any triangle that is affine within the budget | 2^-15 of its width |
 //! | `Perspective` | all others | see [`Perspective`] |
 //!
+//! Instructions a triangle (rustc 1.95, opt-level 3, counted in QEMU), the same bits on both cores:
+//!
+//! | | Cortex-M4 | Cortex-M0+ |
+//! |---|---|---|
+//! | `Word` | 231 | 526 |
+//! | `Perspective` within 64 pixels | 701 | 1,726 |
+//! | `Wide`, larger | 858 | 2,300 |
+//! | [`shade_planes`], [`Shares`] apart | 140 | 240 |
+//!
 //! A triangle may be 4,096 texels wide, wherever on the texture it lies: places count from a base
 //! near its middle, in whole repeats where the texture repeats.
 
