@@ -7,17 +7,17 @@
 //! | [`copy_exact`] | likewise | all else, without an error of its own |
 //!
 //! Instructions (rustc 1.95, opt-level 3, counted in QEMU), the same bits on both cores. A call
-//! with nothing to do takes 40 to 60 on the M4 and 50 to 85 on the M0+, arguments included.
+//! with nothing to do takes 40 to 90 on the M4 and 45 to 105 on the M0+, arguments included.
 //!
 //! | a texel | Cortex-M4 | Cortex-M0+ | 5 pixels, all in | code, M4 |
 //! |---|---|---|---|---|
-//! | `copy`, squares of 32, 64, 128, 256 words | 6.75 | 9.25 | 87; 137 | 454 bytes each |
-//! | `copy`, words of other sizes | 12.0 | 23 | 139; 225 | 710 bytes, all forms |
-//! | `copy`, indices of 8; 4 to 1 bits | 15; 20 | 25; 30 | 150; 235 | |
-//! | `copy_wide`, squares of words | 8.9 | 12.4 | 165; 242 | 214 bytes |
-//! | `copy_exact`, words; 8 bits | 12.0; 15 | 23; 25 | 147; 239 | 102 bytes |
+//! | `copy`, squares of 32, 64, 128, 256 words | 6.75 | 9.25 | 76; 115 | 462 bytes each |
+//! | `copy`, words of other sizes | 12.0 | 23 | 131; 218 | 710 bytes, all forms |
+//! | `copy`, indices of 8; 4 to 1 bits | 15; 20 | 25; 30 | 142; 228 | |
+//! | `copy_wide`, squares of words | 9.2 | 12.7 | 156; 225 | 446 bytes |
+//! | `copy_exact`, words; 8 bits | 12.0; 15 | 23; 25 | 148; 239 | 102 bytes |
 //! | the same with a step of 2/3 texel, 128 texels clamped | 14.0 | 26.6 | 294; 494 | 704 bytes |
-//! | and 64 texels mirrored | 17.8 | 33.5 | 283; 446 | |
+//! | and 64 texels mirrored | 17.8 | 33.5 | 284; 446 | |
 
 use super::texture::{Form, Square, Texture, Wrap};
 use core::hint::black_box as unknown;
@@ -121,13 +121,23 @@ pub(super) fn straight<const N: usize, const SIDE: usize>(
 }
 
 /// [`copy`] from a square.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn copy_square<const SIDE: usize>(
     run: &mut [u16],
     t: &[[u16; SIDE]; SIDE],
-    mut at: u32,
+    at: u32,
     step: u32,
 ) {
+    if run.len() >= 8 {
+        copy_long(run, t, at, step);
+    } else {
+        copy_short(run, t, at, step);
+    }
+}
+
+/// Of 8 pixels and more.
+#[inline(never)]
+fn copy_long<const SIDE: usize>(run: &mut [u16], t: &[[u16; SIDE]; SIDE], mut at: u32, step: u32) {
     let mut eights = run.chunks_exact_mut(8);
     for eight in eights.by_ref() {
         if let Ok(eight) = <&mut [u16; 8]>::try_from(eight) {
@@ -135,9 +145,13 @@ pub(super) fn copy_square<const SIDE: usize>(
             straight(eight, t, &mut at, unknown(step));
         }
     }
-    // The rest in straight code: 4, 2 and 1.
-    let rest = eights.into_remainder();
-    let (four, rest) = rest.split_at_mut(rest.len() & 4);
+    copy_short(eights.into_remainder(), t, at, step);
+}
+
+/// Up to 7 pixels in straight code: 4, 2 and 1.
+#[inline(never)]
+fn copy_short<const SIDE: usize>(run: &mut [u16], t: &[[u16; SIDE]; SIDE], mut at: u32, step: u32) {
+    let (four, rest) = run.split_at_mut(run.len() & 4);
     if let Ok(four) = <&mut [u16; 4]>::try_from(four) {
         straight(four, t, &mut at, step);
     }
@@ -145,7 +159,7 @@ pub(super) fn copy_square<const SIDE: usize>(
     if let Ok(two) = <&mut [u16; 2]>::try_from(two) {
         straight(two, t, &mut at, step);
     }
-    if let [one] = one {
+    if let [one, ..] = one {
         *one = texel(t, at);
     }
 }
@@ -156,7 +170,9 @@ pub(super) fn copy_square<const SIDE: usize>(
 /// below the texel, so the texture repeats, whatever its wrap. A step is the sum `(v << 16) + u` of
 /// numbers with signs. v is off by one bit for each period of u between a place and the one that
 /// was packed. Sides are at most 256; of others, any texels.
-#[inline(never)]
+///
+/// In place, as it is most of what a short span costs.
+#[inline(always)]
 pub fn copy(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
     match texture.square() {
         Some(Square::Side32(t)) => copy_square(run, t, at, step),
@@ -165,6 +181,12 @@ pub fn copy(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
         Some(Square::Side256(t)) => copy_square(run, t, at, step),
         None => copy_packed(run, texture, at, step),
     }
+}
+
+/// [`copy`], called.
+#[inline(never)]
+fn copy_part(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
+    copy(run, texture, at, step);
 }
 
 /// [`copy`] from any form and size.
@@ -250,7 +272,7 @@ pub fn copy_wide(run: &mut [u16], texture: &Texture<'_>, way: Way) {
     };
     let (mut at, length) = (way.repeated(), 16usize << (8 - log));
     for part in run.chunks_mut(length) {
-        copy(part, texture, packed(at, log), packed_step(short, log));
+        copy_part(part, texture, packed(at, log), packed_step(short, log));
         at = at.plus(way.step.times(length));
     }
 }

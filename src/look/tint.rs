@@ -7,10 +7,10 @@
 //!
 //! | a pixel of long runs (5 pixels, all in) | Cortex-M4 | Cortex-M0+ | code, M4 |
 //! |---|---|---|---|
-//! | [`tint`] | 10.9 (112) | 26.6 (215) | 720 bytes |
-//! | [`tint_swapped`] | 12.7 (125) | 27.6 (228) | 782 |
-//! | [`tint_flat`] | 6.8 (90) | 19.4 (174) | 990 |
-//! | [`tint_flat_swapped`] | 8.9 (105) | 20.4 (174) | 638 |
+//! | [`tint`] | 10.9 (94) | 26.7 (203) | 742 bytes |
+//! | [`tint_swapped`] | 12.1 (104) | 28.4 (206) | 808 |
+//! | [`tint_flat`] | 7.5 (88) | 20.0 (168) | 568 |
+//! | [`tint_flat_swapped`] | 10.0 (100) | 21.0 (181) | 660 |
 //!
 //! # Error
 //! Against `round(texel x shade)` with nothing else rounded: at most one step of red and of blue,
@@ -39,29 +39,32 @@ pub const FULL: u32 = 1 << 15;
 /// [`FULL`] and it.
 pub const MARGIN: u32 = 64;
 
-/// Five bits in each half.
-const FIVE: u32 = 0x001F_001F;
-/// Six bits in each half.
-const SIX: u32 = 0x003F_003F;
-/// Half a step in each half.
-const HALF: u32 = 0x0200_0200;
-
 /// What a [`product`] is made with, in registers: unknown to the compiler, which would else make
 /// others of them.
 #[derive(Clone, Copy)]
 struct Masks {
+    /// Five bits in each half.
     five: u32,
+    /// Six bits in each half.
     six: u32,
+    /// Half a step in each half.
     half: u32,
 }
 
+static MASKS: Masks = Masks {
+    five: 0x001F_001F,
+    six: 0x003F_003F,
+    half: 0x0200_0200,
+};
+
 impl Masks {
+    /// The same in registers.
     #[inline(always)]
-    fn new() -> Self {
+    fn unknown(&self) -> Self {
         Self {
-            five: unknown(FIVE),
-            six: unknown(SIX),
-            half: unknown(HALF),
+            five: unknown(self.five),
+            six: unknown(self.six),
+            half: unknown(self.half),
         }
     }
 }
@@ -121,66 +124,81 @@ fn tinted<const SWAPPED: bool>(pixels: u32, by: [u32; 3], m: Masks) -> u32 {
     swap(product(swap(pixels), by, m))
 }
 
-/// All pixels of `run` in pairs, by what `next` gives for each; a last one alone too. `again` is
-/// called before every 8 pixels.
+/// Two pixels in place.
 #[inline(always)]
-fn each<const SWAPPED: bool, S: Copy>(
-    run: &mut [u16],
-    step: S,
-    again: impl Fn(S) -> S,
-    mut next: impl FnMut(S) -> [u32; 3],
-) {
-    let m = Masks::new();
-    let mut pair = |a: &mut u16, b: &mut u16, step: S| {
-        let w = tinted::<SWAPPED>(u32::from(*a) | u32::from(*b) << 16, next(step), m);
-        (*a, *b) = (w as u16, (w >> 16) as u16);
-    };
-    let mut eights = run.chunks_exact_mut(8);
-    for eight in eights.by_ref() {
-        let step = again(step);
-        if let [a, b, c, d, e, f, g, h] = eight {
-            pair(a, b, step);
-            pair(c, d, step);
-            pair(e, f, step);
-            pair(g, h, step);
-        }
-    }
-    let rest = eights.into_remainder();
-    let (four, rest) = rest.split_at_mut(rest.len() & 4);
+fn pair<const SWAPPED: bool>(a: &mut u16, b: &mut u16, by: [u32; 3], m: Masks) {
+    let w = tinted::<SWAPPED>(u32::from(*a) | u32::from(*b) << 16, by, m);
+    (*a, *b) = (w as u16, (w >> 16) as u16);
+}
+
+/// Up to 7 pixels in straight code, 4, 2 and 1, by what `next` gives for each pair.
+#[inline(always)]
+fn short<const SWAPPED: bool>(run: &mut [u16], m: Masks, mut next: impl FnMut() -> [u32; 3]) {
+    let (four, rest) = run.split_at_mut(run.len() & 4);
     if let [a, b, c, d] = four {
-        pair(a, b, step);
-        pair(c, d, step);
+        pair::<SWAPPED>(a, b, next(), m);
+        pair::<SWAPPED>(c, d, next(), m);
     }
     let (two, one) = rest.split_at_mut(rest.len() & 2);
     if let [a, b] = two {
-        pair(a, b, step);
+        pair::<SWAPPED>(a, b, next(), m);
     }
-    if let [a] = one {
-        *a = tinted::<SWAPPED>(u32::from(*a), next(step), m) as u16;
+    if let [a, ..] = one {
+        *a = tinted::<SWAPPED>(u32::from(*a), next(), m) as u16;
     }
 }
 
 /// Multiplies native 565 pixels by a shade that is `shade` half a pixel beyond the first one's
 /// centre, and gets `step` more each pixel.
-#[inline(never)]
+#[inline(always)]
 pub fn tint(run: &mut [u16], shade: Shade, step: Shade) {
-    gouraud::<false>(run, shade, step);
+    gouraud::<false>(run, shade, step.times(2));
 }
 
 /// [`tint`] of pixels whose bytes are swapped, as panels on a serial bus want them.
-#[inline(never)]
+#[inline(always)]
 pub fn tint_swapped(run: &mut [u16], shade: Shade, step: Shade) {
-    gouraud::<true>(run, shade, step);
+    gouraud::<true>(run, shade, step.times(2));
 }
 
+/// By steps of two pixels.
 #[inline(always)]
-fn gouraud<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Shade) {
-    // Unknown to the compiler, which would keep multiples of it.
-    let again = |step: Shade| Shade {
-        red_blue: unknown(step.red_blue),
-        green: unknown(step.green),
-    };
-    each::<SWAPPED, _>(run, step.times(2), again, |step| {
+fn gouraud<const SWAPPED: bool>(run: &mut [u16], shade: Shade, step: Shade) {
+    if run.len() >= 8 {
+        gouraud_long::<SWAPPED>(run, shade, step);
+    } else {
+        gouraud_short::<SWAPPED>(run, shade, step);
+    }
+}
+
+#[inline(never)]
+fn gouraud_long<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Shade) {
+    let m = MASKS.unknown();
+    let mut eights = run.chunks_exact_mut(8);
+    for eight in eights.by_ref() {
+        // Unknown to the compiler, which would keep multiples of it.
+        let step = Shade {
+            red_blue: unknown(step.red_blue),
+            green: unknown(step.green),
+        };
+        if let [a, b, c, d, e, f, g, h] = eight {
+            pair::<SWAPPED>(a, b, shade.channels(), m);
+            shade = shade.plus(step);
+            pair::<SWAPPED>(c, d, shade.channels(), m);
+            shade = shade.plus(step);
+            pair::<SWAPPED>(e, f, shade.channels(), m);
+            shade = shade.plus(step);
+            pair::<SWAPPED>(g, h, shade.channels(), m);
+            shade = shade.plus(step);
+        }
+    }
+    gouraud_short::<SWAPPED>(eights.into_remainder(), shade, step);
+}
+
+/// Up to 7 pixels.
+#[inline(never)]
+fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Shade) {
+    short::<SWAPPED>(run, *unknown(&MASKS), || {
         let by = shade.channels();
         shade = shade.plus(step);
         by
@@ -190,13 +208,30 @@ fn gouraud<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Shade) 
 /// Multiplies native 565 pixels by one shade.
 #[inline(never)]
 pub fn tint_flat(run: &mut [u16], shade: Shade) {
-    each::<false, _>(run, shade.channels(), |by| by, |by| by);
+    flat::<false>(run, shade);
 }
 
 /// [`tint_flat`] of pixels whose bytes are swapped.
 #[inline(never)]
 pub fn tint_flat_swapped(run: &mut [u16], shade: Shade) {
-    each::<true, _>(run, shade.channels(), |by| by, |by| by);
+    flat::<true>(run, shade);
+}
+
+#[inline(always)]
+fn flat<const SWAPPED: bool>(run: &mut [u16], shade: Shade) {
+    let (m, by) = (*unknown(&MASKS), shade.channels());
+    let mut eights = run.chunks_exact_mut(8);
+    for eight in eights.by_ref() {
+        // One that is unknown anew keeps the compiler from unrolling further.
+        let by = [unknown(by[0]), by[1], by[2]];
+        if let [a, b, c, d, e, f, g, h] = eight {
+            pair::<SWAPPED>(a, b, by, m);
+            pair::<SWAPPED>(c, d, by, m);
+            pair::<SWAPPED>(e, f, by, m);
+            pair::<SWAPPED>(g, h, by, m);
+        }
+    }
+    short::<SWAPPED>(eights.into_remainder(), m, || by);
 }
 
 #[cfg(test)]
