@@ -231,7 +231,7 @@ impl Perspective {
         // max q / min q with 8 fraction bits, rounded up, below 16.
         let r = Reciprocal::of(low);
         let ratio = mul_17(high as i32, r.mantissa) as u32;
-        if r.shift > 22 || ratio >> 4 >> (30 - r.shift) != 0 {
+        if low == 0 || r.shift > 22 || ratio >> 4 >> (30 - r.shift) != 0 {
             return Stride::One;
         }
         let ratio = (ratio >> (22 - r.shift)) + 2;
@@ -241,7 +241,8 @@ impl Perspective {
         let worst = mul_high_unsigned(((furthest >> 11) + 1) << 10, curve << 14) + 1;
         // worst / 4 (m / n)² <= budget
         let steps = steps.min(1023) as u32;
-        let may = budget.for_curves() * steps * steps;
+        // 16 texels are as good as more.
+        let may = budget.for_curves().min(4095) * steps * steps;
         match () {
             () if worst <= may >> 6 && budget.is_coarse() => Stride::Sixteen,
             () if worst <= may >> 4 && budget.is_coarse() => Stride::Eight,

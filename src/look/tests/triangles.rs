@@ -1,6 +1,6 @@
 //! Whole triangles: their texels against exact perspective, and what is refused.
 
-use super::super::mapping::{Corner, Mapping, Values, is_affine};
+use super::super::mapping::{Corner, Mapping, Method, Values, is_affine};
 use super::super::perspective::Budget;
 use super::super::texture::Texture;
 use super::{WRAPS, coordinates, off};
@@ -144,4 +144,34 @@ fn affine_is_what_the_bound_allows() {
         yes += u32::from(got);
     }
     assert!(yes > 20_000 && doubt * 100 < yes, "{yes} {doubt}");
+}
+
+#[test]
+fn any_numbers_are_drawn_without_a_panic() {
+    let words = coordinates();
+    let mut rng = Rng(15);
+    let mut run = [0; 77];
+    for i in 0..60_000 {
+        let few = 1 << rng.below(9);
+        let texture = Texture::words(&words, few, 1 << rng.below(8)).unwrap();
+        let texture = texture.wrapping(WRAPS[i % 3]);
+        let mut bits = || rng.bits() >> (rng.bits() >> 27);
+        let mut corner = || Corner {
+            x: bits() as i32,
+            y: bits() as i32,
+            depth: bits(),
+            texel: [bits() as i32, bits() as i32],
+        };
+        let corners = [corner(), corner(), corner()];
+        let budget = Budget::new(bits() as u16);
+        let mut mapping = Mapping::new(&corners, &texture, budget).unwrap_or_default();
+        let (at, pixels) = ([bits(), bits()], bits() as usize % run.len());
+        mapping.draw(&mut run[..pixels], at, &texture, budget);
+        for method in [Method::Word, Method::Wide, Method::Perspective] {
+            mapping.method = method;
+            mapping.planes = [(); 3].map(|()| [bits(), bits(), bits()]);
+            mapping.base = [bits() as i32, bits() as i32];
+            mapping.draw(&mut run[..pixels], at, &texture, budget);
+        }
+    }
 }
