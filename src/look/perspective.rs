@@ -6,7 +6,7 @@
 //! by 2^-15 of its distance from the base at most; the base is to be near the triangle's middle.
 //!
 //! Instructions a pixel of spans of 320 pixels, all in (rustc 1.95, opt-level 3, counted in QEMU), the
-//! same bits on both cores; the choice of the stride takes 100 a span on the M4 and 350 on the M0+.
+//! same bits on both cores; the choice of the stride takes 115 a span on the M4 and 360 on the M0+.
 //!
 //! | [`Stride`] | squares of words: M4 | M0+ | other words: M4 | M0+ | 8-bit indices: M4 | M0+ |
 //! |---|---|---|---|---|---|---|

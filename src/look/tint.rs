@@ -8,9 +8,9 @@
 //! | a pixel of long runs (5 pixels, all in) | Cortex-M4 | Cortex-M0+ | code, M4 |
 //! |---|---|---|---|
 //! | [`tint`] | 10.9 (94) | 26.7 (203) | 742 bytes |
-//! | [`tint_swapped`] | 12.1 (104) | 28.4 (206) | 808 |
+//! | [`tint_swapped`] | 11.6 (100) | 26.9 (207) | 786 |
 //! | [`tint_flat`] | 7.5 (88) | 20.0 (168) | 568 |
-//! | [`tint_flat_swapped`] | 10.0 (100) | 21.0 (181) | 660 |
+//! | [`tint_flat_swapped`] | 9.0 (94) | 19.2 (175) | 620 |
 //!
 //! # Error
 //! Against `round(texel x shade)` with nothing else rounded: at most one step of red and of blue,
