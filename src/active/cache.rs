@@ -44,6 +44,8 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) spans: [[u32; 32]; WORDS],
     /// Slots of spans that overlap, by number of object.
     pub(crate) order: [[u32; 32]; WORDS],
+    /// Slots from the nearest on, while no object begins or ends.
+    pub(crate) near: [[u32; 32]; WORDS],
     ring: [u8; RING],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
@@ -89,6 +91,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             deep: [0; WORDS],
             spans: [[0; 32]; WORDS],
             order: [[0; 32]; WORDS],
+            near: [[0; 32]; WORDS],
             ring: [NONE; RING],
             spilled: Link::NONE,
             limit: 32 * WORDS as u16,

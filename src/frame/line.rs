@@ -5,6 +5,7 @@
 //! by submission, and only they have their depth compared: where nobody has written before it is written alone.
 //! Without depth they are drawn in that order. The background goes where the mask has nothing.
 
+use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
 use super::thin::{depth_plane, thin_span};
@@ -78,18 +79,51 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
-        let calm = !self.met && !self.cache.spilled.is_some();
-        if !(calm && self.draw_calm(&mut out)) {
+        let spilled = self.cache.spilled.is_some();
+        if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
+            self.draw_near_first(usize::from(slots), &mut out);
+        } else if self.met || spilled || !self.draw_calm(&mut out) {
             self.covered = Mask::EMPTY;
             self.met = self.find_spans(&mut out);
             self.draw_found(&mut out);
             if self.met {
                 self.over = Mask::EMPTY;
                 self.written = Mask::EMPTY;
+                self.find_plan(&view);
             }
         }
         self.fill_rest(out.pixels, background);
         Ok(true)
+    }
+
+    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
+    #[inline(never)]
+    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+        let mut left = out.pixels.len() as u32;
+        for k in 0..slots {
+            let number = self.cache.near.as_flattened().get(k).copied();
+            let number = number.unwrap_or_default() as usize;
+            let Some(slots) = self.cache.slots.get(number >> 5) else {
+                return;
+            };
+            let slot = &slots[number & 31];
+            let way = Flags(slot.flags).way();
+            let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
+            if start >= end {
+                continue;
+            }
+            let drawn = Drawn::of::<L>(slot, out.view);
+            left -= self.covered.cover_free(start, end, |from, to| {
+                let run = Span {
+                    start: from,
+                    end: to,
+                };
+                colour_run::<L>(&drawn, Span { start, end }, run, out);
+            });
+            if left == 0 {
+                return;
+            }
+        }
     }
 
     /// The background, where nothing is.
@@ -145,7 +179,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let Some(run) = out.pixels.get_mut(column as usize..end as usize) else {
                 return false;
             };
-            let at = Place { column, line };
+            let at = Place {
+                span: column,
+                column,
+                line,
+            };
             L::fill_plain(&slot.item.planes, at, out.view.draws, run);
         }
         true
@@ -359,7 +397,11 @@ fn nearer<L: Look>(
         write_depth(&mut depth);
         return colour::<L>(drawn, span, out);
     }
-    let at = Place { column, line };
+    let at = Place {
+        span: column,
+        column,
+        line,
+    };
     let draws = out.view.draws;
     match (drawn.flags.fill(), &drawn.triangle) {
         (Fill::Thin, Some(triangle)) => {
@@ -375,11 +417,23 @@ fn nearer<L: Look>(
 /// Colours a span.
 #[inline(always)]
 fn colour<L: Look>(drawn: &Drawn<'_, L::Planes>, span: Span, out: &mut Line<'_, '_, WordOf<L>>) {
-    let Some(run) = out.pixels.get_mut(span.start as usize..span.end as usize) else {
+    colour_run::<L>(drawn, span, span, out);
+}
+
+/// Colours a run of a span.
+#[inline(always)]
+fn colour_run<L: Look>(
+    drawn: &Drawn<'_, L::Planes>,
+    span: Span,
+    run: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };
     let at = Place {
-        column: span.start,
+        span: span.start,
+        column: run.start,
         line: out.number,
     };
     let draws = out.view.draws;
@@ -388,9 +442,9 @@ fn colour<L: Look>(drawn: &Drawn<'_, L::Planes>, span: Span, out: &mut Line<'_, 
             let mut planes = L::EMPTY;
             let ends = thin_span(triangle, span, out.number);
             L::set_up_thin(&ends, drawn.object, draws, &mut planes);
-            L::fill(Fill::Wide, &planes, at, draws, run);
+            L::fill(Fill::Wide, &planes, at, draws, pixels);
         }
-        (fill, _) => L::fill(fill, &drawn.item.planes, at, draws, run),
+        (fill, _) => L::fill(fill, &drawn.item.planes, at, draws, pixels),
     }
 }
 

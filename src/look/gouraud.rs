@@ -166,6 +166,17 @@ impl<F: Pixel> Gouraud<F> {
     }
 }
 
+/// Whether no field changes by more than a quarter of its range from the first corner on.
+#[inline(always)]
+fn is_flat(colour: [u32; 3]) -> bool {
+    let [a, b, c] = colour.map(fields);
+    let rise = |i: usize| {
+        let (one, other) = (b[i] - a[i], c[i] - a[i]);
+        (one ^ one >> 31) | (other ^ other >> 31)
+    };
+    rise(0) | rise(1) | rise(2) << 1 < 512
+}
+
 /// The fields with 20, 20 and 21 bits more: below 2^31 each.
 #[inline(always)]
 fn wide_fields(word: u32) -> [u32; 3] {
@@ -210,7 +221,11 @@ impl<F: Pixel> Paint for Gouraud<F> {
             Self::pair_planes(&triangle.shares(area), colour, planes);
             return Fill::Small;
         }
-        if size == Size::Thin
+        if size == Size::Sharp && F::PACKED && is_flat(colour) {
+            Self::packed_planes(triangle, area, planes);
+            return Fill::Plain;
+        }
+        if matches!(size, Size::Sharp | Size::Thin)
             && let Some(fill) = Self::even_planes(colour, planes)
         {
             return fill;
@@ -242,13 +257,13 @@ impl<F: Pixel> Paint for Gouraud<F> {
         if fill == Fill::Plain {
             return ramp::fill_long::<F>(run, Self::packed(planes, place));
         }
-        let (at, step, packed) = Self::pair(fill, planes, place);
-        if fill == Fill::Small {
-            return ramp::fill_pair::<F>(run, at, step, packed);
-        }
-        for (run, column) in run.chunks_mut(16).zip((place.column..).step_by(16)) {
-            let (at, step, packed) = Self::pair(fill, planes, Place { column, ..place });
-            ramp::fill_pair::<F>(run, at, step, packed);
+        for (run, chunk) in Chunks::of(run, place) {
+            let (at, step, packed) = Self::pair(fill, planes, chunk.anchor);
+            if F::PACKED {
+                ramp::fill_long::<F>(run, chunk.packed(at, packed));
+            } else {
+                ramp::fill_pair::<F>(run, chunk.pair(at, step), step);
+            }
         }
     }
 
@@ -264,17 +279,88 @@ impl<F: Pixel> Paint for Gouraud<F> {
         if fill == Fill::Plain {
             return ramp::fill_nearer::<F>(run, Self::packed(planes, place), depth);
         }
-        let mut z = depth.at;
-        let chunks = run.chunks_mut(16).zip(depth.cells.chunks_mut(16));
-        for ((run, cells), column) in chunks.zip((place.column..).step_by(16)) {
-            let (at, step, packed) = Self::pair(fill, planes, Place { column, ..place });
+        let (mut z, mut cells) = (depth.at, depth.cells);
+        for (run, chunk) in Chunks::of(run, place) {
+            let (at, step, packed) = Self::pair(fill, planes, chunk.anchor);
+            let Some((now, rest)) = core::mem::take(&mut cells).split_at_mut_checked(run.len())
+            else {
+                return;
+            };
             let part = Depths {
-                cells,
+                cells: now,
                 at: z,
                 step: depth.step,
             };
-            ramp::fill_pair_nearer::<F>(run, at, step, packed, part);
-            z = z.wrapping_add(depth.step << 4);
+            z = z.wrapping_add(depth.step.wrapping_mul(run.len() as u32));
+            cells = rest;
+            if F::PACKED {
+                ramp::fill_nearer::<F>(run, chunk.packed(at, packed), part);
+            } else {
+                ramp::fill_pair_nearer::<F>(run, chunk.pair(at, step), step, part);
+            }
+        }
+    }
+}
+
+/// The parts of a run that are coloured from one anchor: every 16 columns of its span.
+struct Chunks<'a, W> {
+    run: &'a mut [W],
+    place: Place,
+}
+
+/// A part of a run.
+struct Chunk {
+    /// The span's column from which it is coloured.
+    anchor: Place,
+    /// How many columns it begins to the right of that.
+    off: u32,
+}
+
+impl<'a, W> Chunks<'a, W> {
+    fn of(run: &'a mut [W], place: Place) -> Self {
+        Self { run, place }
+    }
+}
+
+impl<'a, W> Iterator for Chunks<'a, W> {
+    type Item = (&'a mut [W], Chunk);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<Self::Item> {
+        if self.run.is_empty() {
+            return None;
+        }
+        let off = self.place.column.wrapping_sub(self.place.span) & 15;
+        let pixels = self.run.len().min(16 - off as usize);
+        let (now, rest) = core::mem::take(&mut self.run).split_at_mut_checked(pixels)?;
+        let anchor = Place {
+            column: self.place.column.wrapping_sub(off),
+            ..self.place
+        };
+        self.run = rest;
+        self.place.column = self.place.column.wrapping_add(pixels as u32);
+        Some((now, Chunk { anchor, off }))
+    }
+}
+
+impl Chunk {
+    /// The first pixel's word of colour, from that of the anchor.
+    #[inline(always)]
+    fn packed(&self, at: Pair, step: u32) -> Packed {
+        Packed {
+            word: at.packed().wrapping_add(step.wrapping_mul(self.off)),
+            step,
+        }
+    }
+
+    /// The first pixel's colour, from that of the anchor.
+    #[inline(always)]
+    fn pair(&self, at: Pair, step: Pair) -> Pair {
+        Pair {
+            red_blue: at
+                .red_blue
+                .wrapping_add(step.red_blue.wrapping_mul(self.off)),
+            green: at.green.wrapping_add(step.green.wrapping_mul(self.off)),
         }
     }
 }
