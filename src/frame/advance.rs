@@ -18,6 +18,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             _ => {
                 self.cache.clear();
                 self.met = false;
+                self.ordered = 0;
                 self.plan = Plan::Changed;
                 first
             }

@@ -49,24 +49,28 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let i = take_first(&mut used) as usize & 31;
                 let span = self.cache.spans[word][i];
                 pixels += (span & 0xFFFF).saturating_sub(span >> 16);
-                let number = (word * 32 + i) as u32;
-                let near = self.range(view, number)?[1];
-                // By insertion; what is nearer comes first.
-                let mut at = count;
-                while at > 0 {
-                    let before = *self.cache.near.as_flattened().get(at - 1)?;
-                    if self.range(view, before)?[1] >= near {
-                        break;
-                    }
-                    *self.cache.near.as_flattened_mut().get_mut(at)? = before;
-                    at -= 1;
-                }
-                *self.cache.near.as_flattened_mut().get_mut(at)? = number;
                 count += 1;
             }
         }
         if pixels < WIDE * count as u32 {
             return None;
+        }
+        count = 0;
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let number = word as u32 * 32 + take_first(&mut used);
+                // What is nearer comes first: keys fall.
+                let key = self.range(view, number)?[1] & !0xFF | number;
+                let mut at = count;
+                let keys = self.cache.near.as_flattened_mut();
+                while at > 0 && *keys.get(at - 1)? < key {
+                    *keys.get_mut(at)? = *keys.get(at - 1)?;
+                    at -= 1;
+                }
+                *keys.get_mut(at)? = key;
+                count += 1;
+            }
         }
         self.is_sorted(view, count).then_some(count as u16)
     }
@@ -74,7 +78,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Whether of the first so many slots in order each lies behind all before it, but for a neighbour just
     /// before it.
     fn is_sorted(&self, view: &View<'_>, count: usize) -> bool {
-        let numbers = self
+        let keys = self
             .cache
             .near
             .as_flattened()
@@ -82,7 +86,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             .unwrap_or_default();
         // The farthest depth of all but the last one.
         let mut farthest = u32::MAX;
-        for pair in numbers.windows(2) {
+        for pair in keys.windows(2) {
+            let pair = [pair[0] & 0xFF, pair[1] & 0xFF];
             let (Some(front), Some(back)) = (self.range(view, pair[0]), self.range(view, pair[1]))
             else {
                 return false;
@@ -104,7 +109,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Whether two triangles share a side and lie on either side of it, so that no pixel has both.
-    fn is_one_surface(&self, view: &View<'_>, pair: &[u32]) -> bool {
+    fn is_one_surface(&self, view: &View<'_>, pair: [u32; 2]) -> bool {
         let object = |number: u32| {
             let slot = &self.cache.slots.get(number as usize >> 5)?[number as usize & 31];
             view.objects.get(usize::from(slot.object))

@@ -128,6 +128,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) written: Mask,
     /// Whether spans met on the last line.
     pub(super) met: bool,
+    /// How many spans met on the last line that was drawn in order.
+    pub(super) ordered: u16,
     /// Whether triangles began or ended on this line.
     pub(super) changed: bool,
     pub(super) plan: Plan,
@@ -147,6 +149,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             over: Mask::EMPTY,
             written: Mask::EMPTY,
             met: false,
+            ordered: 0,
             changed: true,
             plan: Plan::Changed,
             counts: CacheUse::default(),

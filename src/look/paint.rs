@@ -63,7 +63,7 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
     );
 
-    /// Colours the pixels that are at least as near as what `cells` have, and keeps their depth.
+    /// Colours the pixels of a whole span that are at least as near as what is there, and keeps their depth.
     fn fill_nearer(
         fill: Fill,
         planes: &Self::Planes,

@@ -30,12 +30,6 @@ impl Pair {
             green: self.green.wrapping_add(step.green),
         }
     }
-
-    /// The upper bits in one word.
-    #[inline(always)]
-    pub(super) fn packed(self) -> u32 {
-        self.red_blue & 0xFFE0_0000 | (self.red_blue & 0xFFC0) << 5 | self.green >> 21
-    }
 }
 
 /// A pixel, and one step on.
