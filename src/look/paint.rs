@@ -1,5 +1,6 @@
 //! What a look does, and what it is told.
 
+use crate::geometry::Scale;
 use crate::pixel::Pixel;
 use crate::scene::DrawState;
 use crate::span::{Size, Triangle};
@@ -27,6 +28,10 @@ pub trait Paint: Sized {
     const EMPTY: Self::Planes;
     /// Whether vertices have texture places.
     const TEXTURED: bool;
+    /// Whether a pixel has the same bits in whatever runs its span is coloured.
+    const ANY_RUNS: bool;
+    /// How levels of light become colours of vertices.
+    const SCALE: Scale;
 
     /// The planes of a triangle; `area` and `size` are its own, `object` its number.
     fn set_up(
@@ -63,7 +68,7 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
     );
 
-    /// Colours the pixels that are at least as near as what `cells` have, and keeps their depth.
+    /// Colours the pixels of a whole span that are at least as near as what is there, and keeps their depth.
     fn fill_nearer(
         fill: Fill,
         planes: &Self::Planes,
@@ -72,14 +77,25 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
         depth: Depths<'_>,
     );
+
+    /// Whether a triangle was to have a texture, and has none.
+    #[inline(always)]
+    fn lacks_texture(planes: &Self::Planes, draws: &[DrawState<'_>]) -> bool {
+        let _ = (planes, draws);
+        false
+    }
 }
 
 /// A pixel of a line buffer.
 pub type WordOf<L> = <<L as Paint>::Pixel as crate::composite::PixelFormat>::Word;
 
-/// A pixel of the picture.
+/// Where a run of pixels begins: the first column of its span, its own, and the line.
+///
+/// Colours are reckoned from the span's first column on, so that a pixel has the same bits in whatever runs its
+/// span is coloured.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
+    pub span: u32,
     pub column: u32,
     pub line: u32,
 }
@@ -112,9 +128,9 @@ pub struct End {
 impl ThinSpan<'_> {
     /// The value at column 0 and the step of what has these values, below 2^31, at the corners: exact at the
     /// span's ends, linear between them.
-    pub fn line(&self, value: [u32; 3]) -> [u32; 2] {
+    pub fn line(&self, value: [i64; 3]) -> [u32; 2] {
         let at = |end: End| {
-            let (a, b) = (i64::from(value[end.from % 3]), i64::from(value[end.to % 3]));
+            let (a, b) = (value[end.from % 3], value[end.to % 3]);
             a + (((b - a) * i64::from(end.way)) >> 16)
         };
         let (left, right) = (at(self.ends[0]), at(self.ends[1]));
