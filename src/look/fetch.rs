@@ -19,7 +19,7 @@
 //! | the same with a step of 2/3 texel, 128 texels clamped | 14.0 | 26.6 | 294; 494 | 704 bytes |
 //! | and 64 texels mirrored | 17.8 | 33.5 | 284; 446 | |
 
-use super::texture::{Form, Square, Texture, Wrap};
+use crate::scene::{Form, Square, Texture, Wrap};
 use core::hint::black_box as unknown;
 
 /// Fraction bits of a [`Uv`].

@@ -3,9 +3,10 @@
 mod triangles;
 
 use super::fetch::{FRACTION, Uv, Way, copy, copy_exact, copy_wide};
-use super::perspective::{Budget, Homogeneous, Perspective, Stride};
-use super::texture::{Texture, TextureError, Wrap};
+use super::perspective::{Homogeneous, Perspective, Stride};
 use crate::num::random::Rng;
+use crate::scene::Budget;
+use crate::scene::{Texture, TextureError, Wrap};
 use std::vec::Vec;
 
 /// Texels of all forms, the larger ones not to be told from each other by chance alone.

@@ -85,6 +85,19 @@ impl Shade {
         }
     }
 
+    /// A quarter of `step` back.
+    #[inline(always)]
+    const fn minus_quarter(self, step: Self) -> Self {
+        let blue = step.red_blue as i16 as i32;
+        let red = step.red_blue.wrapping_sub(blue as u32) as i32 >> 16;
+        let quarter = ((red >> 2 << 16) as u32).wrapping_add((blue >> 2) as u32);
+        let green = (step.green as i32 >> 18 << 16) as u32;
+        Self {
+            red_blue: self.red_blue.wrapping_sub(quarter),
+            green: self.green.wrapping_sub(green),
+        }
+    }
+
     /// Red, green and blue with 10 bits below full light.
     #[inline(always)]
     const fn channels(self) -> [u32; 3] {
@@ -127,25 +140,9 @@ fn pair<const SWAPPED: bool>(a: &mut u16, b: &mut u16, by: [u32; 3], m: Masks) {
     (*a, *b) = (w as u16, (w >> 16) as u16);
 }
 
-/// Up to 7 pixels in straight code, 4, 2 and 1, by what `next` gives for each pair.
-#[inline(always)]
-fn short<const SWAPPED: bool>(run: &mut [u16], m: Masks, mut next: impl FnMut() -> [u32; 3]) {
-    let (four, rest) = run.split_at_mut(run.len() & 4);
-    if let [a, b, c, d] = four {
-        pair::<SWAPPED>(a, b, next(), m);
-        pair::<SWAPPED>(c, d, next(), m);
-    }
-    let (two, one) = rest.split_at_mut(rest.len() & 2);
-    if let [a, b] = two {
-        pair::<SWAPPED>(a, b, next(), m);
-    }
-    if let [a, ..] = one {
-        *a = tinted::<SWAPPED>(u32::from(*a), next(), m) as u16;
-    }
-}
-
 /// Multiplies native 565 pixels by a shade that is `shade` half a pixel beyond the first one's
-/// centre, and gets `step` more each pixel. Of an odd number, the last one is shaded likewise.
+/// centre, and gets `step` more each pixel. Of an odd number, the last one is shaded by its own place: half a
+/// pixel beyond may lie beyond its triangle.
 #[inline(always)]
 pub fn tint(run: &mut [u16], shade: Shade, step: Shade) {
     gouraud::<false>(run, shade, step.times(2));
@@ -191,14 +188,26 @@ fn gouraud_long<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Sh
     gouraud_short::<SWAPPED>(eights.into_remainder(), shade, step);
 }
 
-/// Up to 7 pixels.
+/// Up to 7 pixels in straight code: 4, 2 and 1.
 #[inline(never)]
 fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Shade) {
-    short::<SWAPPED>(run, *unknown(&MASKS), || {
-        let by = shade.channels();
+    let m = *unknown(&MASKS);
+    let (four, rest) = run.split_at_mut(run.len() & 4);
+    if let [a, b, c, d] = four {
+        pair::<SWAPPED>(a, b, shade.channels(), m);
         shade = shade.plus(step);
-        by
-    });
+        pair::<SWAPPED>(c, d, shade.channels(), m);
+        shade = shade.plus(step);
+    }
+    let (two, one) = rest.split_at_mut(rest.len() & 2);
+    if let [a, b] = two {
+        pair::<SWAPPED>(a, b, shade.channels(), m);
+        shade = shade.plus(step);
+    }
+    if let [a, ..] = one {
+        let by = shade.minus_quarter(step).channels();
+        *a = tinted::<SWAPPED>(u32::from(*a), by, m) as u16;
+    }
 }
 
 #[cfg(test)]

@@ -1,10 +1,9 @@
 //! Whole triangles: their texels against exact perspective, and what is refused.
 
 use super::super::mapping::{Corner, Mapping, Method, Values, is_affine};
-use super::super::perspective::Budget;
-use super::super::texture::Texture;
 use super::{WRAPS, coordinates, off};
 use crate::num::random::Rng;
+use crate::scene::{Budget, Texture};
 use std::vec::Vec;
 
 /// A triangle of so many pixels each way, and so many texels, clockwise, at random.
