@@ -7,7 +7,7 @@
 
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
-use super::thin::{depth_plane, thin_span};
+use super::thin::{MARGIN, depth_plane, thin_span};
 use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
 use crate::link::Link;
@@ -340,7 +340,9 @@ fn nearer<L: Look>(
     {
         let ends = thin_span(triangle, span, line);
         [at, step] = ends.line(triangle.vertex.map(|v| v.depth));
-        at = at.wrapping_add(step.wrapping_mul(column));
+        at = at
+            .wrapping_add(step.wrapping_mul(column))
+            .wrapping_add(MARGIN);
     }
     let part = known.written.cover_part(span.start, span.end, |column| {
         if let Some(cell) = known.cells.get_mut(column) {

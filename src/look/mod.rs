@@ -11,7 +11,7 @@ mod paint;
 mod ramp;
 
 pub use gouraud::Gouraud;
-pub(crate) use paint::{Depths, End, Fill, Paint, Place, ThinSpan, WordOf};
+pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
 pub(crate) use ramp::write_depth;
 
 /// How the triangles of a scene look: [`Gouraud`].
