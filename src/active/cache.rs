@@ -42,8 +42,11 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) deep: [u32; WORDS],
     /// The columns of each slot on this line: the first in the upper half, the one after the last below.
     pub(crate) spans: [[u32; 32]; WORDS],
-    /// Slots of spans that overlap, by number of object.
+    /// Slots of spans that meet others, by number of object; and the same as a set.
+    pub(crate) listed: [u32; WORDS],
     pub(crate) order: [[u32; 32]; WORDS],
+    /// Slots from the nearest on, while no object begins or ends.
+    pub(crate) near: [[u32; 32]; WORDS],
     ring: [u8; RING],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
@@ -88,7 +91,9 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             plain: [0; WORDS],
             deep: [0; WORDS],
             spans: [[0; 32]; WORDS],
+            listed: [0; WORDS],
             order: [[0; 32]; WORDS],
+            near: [[0; 32]; WORDS],
             ring: [NONE; RING],
             spilled: Link::NONE,
             limit: 32 * WORDS as u16,

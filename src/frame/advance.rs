@@ -1,5 +1,6 @@
 //! From line to line: triangles begin, turn and end (K1, C1-C5).
 
+use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::slot::Flags;
 use crate::active::next;
@@ -17,9 +18,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             _ => {
                 self.cache.clear();
                 self.met = false;
+                self.ordered = 0;
+                self.plan = Plan::Changed;
                 first
             }
         };
+        self.changed = false;
         for now in from..=line {
             self.change(view, now);
             let bin = usize::from(now - first);
@@ -27,6 +31,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if head != NONE || self.cache.spilled.is_some() {
                 self.begin(view, head, line);
             }
+        }
+        if self.changed {
+            self.plan = Plan::Changed;
         }
         self.place = Some((scene.generation, line + 1));
     }
@@ -43,6 +50,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             if slot.event == line && slot.end == line {
                 self.cache.free_slot(number);
+                self.changed = true;
                 continue;
             }
             let mut event = slot.event;
@@ -59,6 +67,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What begins, after what found no slot before; what ends before `line` is passed over.
     #[inline(never)]
     fn begin(&mut self, view: &View<'_>, head: u16, line: u16) {
+        self.changed = true;
         while self.cache.spilled.is_some() {
             let Some(slot) = self.cache.free() else {
                 break;

@@ -5,6 +5,7 @@
 //! by submission, and only they have their depth compared: where nobody has written before it is written alone.
 //! Without depth they are drawn in that order. The background goes where the mask has nothing.
 
+use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
 use super::thin::{MARGIN, depth_plane, thin_span};
@@ -14,7 +15,6 @@ use crate::link::Link;
 use crate::look::{Depths, Fill, Look, Place, WordOf, write_depth};
 use crate::num::{bit, take_first};
 use crate::scene::Scene;
-use crate::span::Triangle;
 use crate::visible::{Mask, Part};
 
 /// A line that is drawn.
@@ -38,12 +38,11 @@ struct Known<'a> {
 }
 
 /// A triangle as it is drawn: from a slot, or set up for one line.
+#[derive(Clone, Copy)]
 struct Drawn<'a, P> {
     item: &'a Active<P>,
     flags: Flags,
     object: u16,
-    /// The corners, where they are at hand.
-    triangle: Option<Triangle<'a>>,
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -78,18 +77,51 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
-        let calm = !self.met && !self.cache.spilled.is_some();
-        if !(calm && self.draw_calm(&mut out)) {
+        let spilled = self.cache.spilled.is_some();
+        if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
+            self.draw_near_first(usize::from(slots), &mut out);
+        } else if self.met || spilled || !self.draw_calm(&mut out) {
             self.covered = Mask::EMPTY;
             self.met = self.find_spans(&mut out);
             self.draw_found(&mut out);
             if self.met {
                 self.over = Mask::EMPTY;
                 self.written = Mask::EMPTY;
+                self.find_plan(&view);
             }
         }
         self.fill_rest(out.pixels, background);
         Ok(true)
+    }
+
+    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
+    #[inline(never)]
+    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+        let mut left = out.pixels.len() as u32;
+        for k in 0..slots {
+            let number = self.cache.near.as_flattened().get(k).copied();
+            let number = number.unwrap_or_default() as usize & 0xFF;
+            let Some(slots) = self.cache.slots.get(number >> 5) else {
+                return;
+            };
+            let slot = &slots[number & 31];
+            let way = Flags(slot.flags).way();
+            let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
+            if start >= end {
+                continue;
+            }
+            let drawn = Drawn::of(slot);
+            left -= self.covered.cover_free(start, end, |from, to| {
+                let run = Span {
+                    start: from,
+                    end: to,
+                };
+                colour_run::<L>(drawn, Span { start, end }, run, out);
+            });
+            if left == 0 {
+                return;
+            }
+        }
     }
 
     /// The background, where nothing is.
@@ -120,7 +152,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 if self.covered.cover(start, end) {
                     return false;
                 }
-                colour::<L>(&Drawn::of::<L>(slot, out.view), Span { start, end }, out);
+                colour::<L>(Drawn::of(slot), Span { start, end }, out);
             }
         }
         true
@@ -145,7 +177,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let Some(run) = out.pixels.get_mut(column as usize..end as usize) else {
                 return false;
             };
-            let at = Place { column, line };
+            let at = Place {
+                span: column,
+                column,
+                line,
+            };
             L::fill_plain(&slot.item.planes, at, out.view.draws, run);
         }
         true
@@ -207,9 +243,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// order of submission.
     #[inline(never)]
     fn draw_found(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
-        let mut meeting = 0;
+        let mut meeting = self.keep_order();
         for word in 0..WORDS {
-            let mut used = self.cache.used[word];
+            let mut used = self.cache.used[word] & !self.cache.listed[word];
             while used != 0 {
                 let i = take_first(&mut used) as usize & 31;
                 let (slot, span) = (
@@ -225,9 +261,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     meeting += 1;
                     continue;
                 }
-                colour::<L>(&Drawn::of::<L>(slot, out.view), span, out);
+                colour::<L>(Drawn::of(slot), span, out);
             }
         }
+        self.ordered = meeting as u16;
         let mut slow = self.cache.spilled;
         for k in 0..meeting {
             let key = self.cache.order.as_flattened().get(k).copied();
@@ -243,6 +280,32 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
+    /// Keeps of the last line's order what meets others again; how many spans that are.
+    #[inline(never)]
+    fn keep_order(&mut self) -> usize {
+        self.cache.listed = [0; WORDS];
+        let mut kept = 0;
+        for k in 0..usize::from(self.ordered) {
+            let key = self.cache.order.as_flattened().get(k).copied();
+            let key = key.unwrap_or_default();
+            let (word, i) = ((key & 0xFFFF) as usize >> 5, key as usize & 31);
+            let Some(slots) = self.cache.slots.get(word) else {
+                continue;
+            };
+            let span = Span::of(self.cache.spans[word][i]);
+            let stays = self.cache.used[word] & bit(i as u32) != 0
+                && u32::from(slots[i].object) == key >> 16;
+            if stays && span.start < span.end && self.over.meets(span.start, span.end) {
+                self.cache.listed[word] |= bit(i as u32);
+                if let Some(to) = self.cache.order.as_flattened_mut().get_mut(kept) {
+                    *to = key;
+                }
+                kept += 1;
+            }
+        }
+        kept
+    }
+
     /// A span in a slot that meets others.
     #[inline(never)]
     fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
@@ -256,7 +319,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         if self.depth.is_empty() {
-            return colour::<L>(&Drawn::of::<L>(slot, out.view), span, out);
+            return colour::<L>(Drawn::of(slot), span, out);
         }
         let one = bit(i as u32);
         if *deep & one == 0 {
@@ -266,15 +329,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
             slot.item.depth = plane.unwrap_or_default();
         }
-        let mut drawn = Drawn::of::<L>(slot, out.view);
-        if drawn.flags.lacks_depth() {
-            drawn.triangle = out.view.triangle_of::<L>(slot.object);
-        }
+        let drawn = Drawn::of(slot);
         let known = Known {
             cells: self.depth,
             written: &mut self.written,
         };
-        nearer::<L>(&drawn, span, out, known);
+        nearer::<L>(drawn, span, out, known);
     }
 
     /// A span of what has no slot, set up for this line alone; the next of its kind.
@@ -307,16 +367,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             item: &item,
             flags: Flags::new(fill, way).without_depth(depth.is_none()),
             object,
-            triangle: Some(triangle),
         };
         if meets {
             let known = Known {
                 cells: self.depth,
                 written: &mut self.written,
             };
-            nearer::<L>(&drawn, Span { start, end }, out, known);
+            nearer::<L>(drawn, Span { start, end }, out, known);
         } else {
-            colour::<L>(&drawn, Span { start, end }, out);
+            colour::<L>(drawn, Span { start, end }, out);
         }
         after
     }
@@ -325,7 +384,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 /// Colours those pixels of a span that are at least as near as what is there.
 #[inline(never)]
 fn nearer<L: Look>(
-    drawn: &Drawn<'_, L::Planes>,
+    drawn: Drawn<'_, L::Planes>,
     span: Span,
     out: &mut Line<'_, '_, WordOf<L>>,
     known: Known<'_>,
@@ -335,14 +394,8 @@ fn nearer<L: Look>(
     at = at
         .wrapping_add(step.wrapping_mul(column))
         .wrapping_add(down.wrapping_mul(line));
-    if drawn.flags.lacks_depth()
-        && let Some(triangle) = &drawn.triangle
-    {
-        let ends = thin_span(triangle, span, line);
-        [at, step] = ends.line(triangle.vertex.map(|v| v.depth));
-        at = at
-            .wrapping_add(step.wrapping_mul(column))
-            .wrapping_add(MARGIN);
+    if drawn.flags.lacks_depth() {
+        [at, step] = thin_depth::<L>(drawn.object, span, out);
     }
     let part = known.written.cover_part(span.start, span.end, |column| {
         if let Some(cell) = known.cells.get_mut(column) {
@@ -361,56 +414,84 @@ fn nearer<L: Look>(
         write_depth(&mut depth);
         return colour::<L>(drawn, span, out);
     }
-    let at = Place { column, line };
+    let at = Place {
+        span: column,
+        column,
+        line,
+    };
     let draws = out.view.draws;
-    match (drawn.flags.fill(), &drawn.triangle) {
-        (Fill::Thin, Some(triangle)) => {
-            let mut planes = L::EMPTY;
-            let ends = thin_span(triangle, span, line);
-            L::set_up_thin(&ends, drawn.object, draws, &mut planes);
-            L::fill_nearer(Fill::Wide, &planes, at, draws, run, depth);
-        }
-        (fill, _) => L::fill_nearer(fill, &drawn.item.planes, at, draws, run, depth),
+    let fill = drawn.flags.fill();
+    if fill == Fill::Thin {
+        let planes = thin_planes::<L>(drawn.object, span, line, out.view);
+        return L::fill_nearer(Fill::Wide, &planes, at, draws, run, depth);
     }
+    L::fill_nearer(fill, &drawn.item.planes, at, draws, run, depth);
+}
+
+/// The depth of a thin triangle at a span's first pixel, and its step.
+#[cold]
+#[inline(never)]
+fn thin_depth<L: Look>(object: u16, span: Span, out: &Line<'_, '_, WordOf<L>>) -> [u32; 2] {
+    let Some(triangle) = out.view.triangle_of::<L>(object) else {
+        return [0; 2];
+    };
+    let ends = thin_span(&triangle, span, out.number);
+    let [at, step] = ends.line(triangle.vertex.map(|v| v.depth));
+    let first = at.wrapping_add(step.wrapping_mul(span.start));
+    [first.wrapping_add(MARGIN), step]
+}
+
+/// The planes of a thin triangle on a line.
+#[cold]
+#[inline(never)]
+fn thin_planes<L: Look>(object: u16, span: Span, line: u32, view: &View<'_>) -> L::Planes {
+    let mut planes = L::EMPTY;
+    if let Some(triangle) = view.triangle_of::<L>(object) {
+        let ends = thin_span(&triangle, span, line);
+        L::set_up_thin(&ends, object, view.draws, &mut planes);
+    }
+    planes
 }
 
 /// Colours a span.
 #[inline(always)]
-fn colour<L: Look>(drawn: &Drawn<'_, L::Planes>, span: Span, out: &mut Line<'_, '_, WordOf<L>>) {
-    let Some(run) = out.pixels.get_mut(span.start as usize..span.end as usize) else {
+fn colour<L: Look>(drawn: Drawn<'_, L::Planes>, span: Span, out: &mut Line<'_, '_, WordOf<L>>) {
+    colour_run::<L>(drawn, span, span, out);
+}
+
+/// Colours a run of a span.
+#[inline(always)]
+fn colour_run<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    run: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };
     let at = Place {
-        column: span.start,
+        span: span.start,
+        column: run.start,
         line: out.number,
     };
     let draws = out.view.draws;
-    match (drawn.flags.fill(), &drawn.triangle) {
-        (Fill::Thin, Some(triangle)) => {
-            let mut planes = L::EMPTY;
-            let ends = thin_span(triangle, span, out.number);
-            L::set_up_thin(&ends, drawn.object, draws, &mut planes);
-            L::fill(Fill::Wide, &planes, at, draws, run);
-        }
-        (fill, _) => L::fill(fill, &drawn.item.planes, at, draws, run),
+    let fill = drawn.flags.fill();
+    if fill == Fill::Thin {
+        let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
+        return L::fill(Fill::Wide, &planes, at, draws, pixels);
     }
+    L::fill(fill, &drawn.item.planes, at, draws, pixels);
 }
 
 impl<'a, P> Drawn<'a, P> {
-    /// What is in a slot; with its corners, where pixels cannot be coloured without them.
+    /// What is in a slot.
     #[inline(always)]
-    fn of<L: Look>(slot: &'a CacheSlot<Active<P>>, view: &View<'a>) -> Self {
-        let flags = Flags(slot.flags);
-        let triangle = if flags.fill() == Fill::Thin {
-            view.triangle_of::<L>(slot.object)
-        } else {
-            None
-        };
+    fn of(slot: &'a CacheSlot<Active<P>>) -> Self {
         Self {
             item: &slot.item,
-            flags,
+            flags: Flags(slot.flags),
             object: slot.object,
-            triangle,
         }
     }
 }

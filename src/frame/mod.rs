@@ -8,10 +8,12 @@
 //! | `scene` | a scene made for a look |
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
+//! | `plan` | the order in which a line is drawn |
 //! | `send` | all lines of a frame through a pump |
 
 mod advance;
 mod line;
+mod plan;
 mod renderer;
 mod scene;
 mod send;

@@ -1,5 +1,6 @@
 //! What draws lines of a scene, and what it has to be lent.
 
+use super::plan::Plan;
 use super::slot::Active;
 use crate::active::{Cache, CacheUse};
 use crate::link::Link;
@@ -127,6 +128,11 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) written: Mask,
     /// Whether spans met on the last line.
     pub(super) met: bool,
+    /// How many spans met on the last line that was drawn in order.
+    pub(super) ordered: u16,
+    /// Whether triangles began or ended on this line.
+    pub(super) changed: bool,
+    pub(super) plan: Plan,
     pub(super) counts: CacheUse,
 }
 
@@ -143,6 +149,9 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             over: Mask::EMPTY,
             written: Mask::EMPTY,
             met: false,
+            ordered: 0,
+            changed: true,
+            plan: Plan::Changed,
             counts: CacheUse::default(),
         }
     }

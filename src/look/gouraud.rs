@@ -136,34 +136,93 @@ impl<F: Pixel> Gouraud<F> {
         }
     }
 
-    /// The colour at a place, its step and its packed step.
+    /// The colour at a place of a span, and its steps.
     #[inline(always)]
-    fn pair(fill: Fill, planes: &Planes, place: Place) -> (Pair, Pair, u32) {
+    fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
         if fill == Fill::Small {
-            let pair = Pair {
-                red_blue: at(planes, 0, place),
-                green: at(planes, 3, place),
+            let (red_blue, green) = (at(planes, 0, place), at(planes, 3, place));
+            let blue = i32::from(planes[1] as i16);
+            let red = planes[1].wrapping_sub(blue as u32) as i32 >> 16;
+            let wide = |sixteen: u32| (sixteen & 0xFFFF) << 15;
+            return Course {
+                value: [wide(red_blue >> 16), wide(green >> 16), wide(red_blue)],
+                step: [red << 15, planes[4] as i32 >> 16 << 15, blue << 15],
+                packed: planes[6],
             };
-            let step = Pair {
-                red_blue: planes[1],
-                green: planes[4],
-            };
-            return (pair, step, planes[6]);
         }
-        let value = [0, 3, 6].map(|plane| at(planes, plane, place));
-        let step = [1, 4, 7].map(|plane| planes[plane] as i32);
-        let rounded = step.map(|s| (s + (1 << 14)) >> 15);
+        let step = [planes[1] as i32, planes[4] as i32, planes[7] as i32];
+        Course {
+            value: [
+                at(planes, 0, place),
+                at(planes, 3, place),
+                at(planes, 6, place),
+            ],
+            step,
+            packed: packed_step(step, [20, 20, 21]),
+        }
+    }
+}
+
+/// A colour along a span: red, green and blue with 20, 20 and 21 bits below a field's unit, their steps to the next
+/// pixel, and these in one word.
+#[derive(Clone, Copy)]
+struct Course {
+    value: [u32; 3],
+    step: [i32; 3],
+    packed: u32,
+}
+
+impl Course {
+    /// So many pixels on.
+    #[inline(always)]
+    fn skip(&mut self, pixels: u32) {
+        for (value, step) in self.value.iter_mut().zip(self.step) {
+            *value = value.wrapping_add((step as u32).wrapping_mul(pixels));
+        }
+    }
+
+    /// The word of colour so many pixels on from an anchor.
+    #[inline(always)]
+    fn packed(&self, off: u32) -> Packed {
+        let [red, green, blue] = self.value;
+        let word = red << 1 & 0xFFE0_0000 | blue >> 10 & 0x001F_F800 | green >> 20 & 0x7FF;
+        Packed {
+            word: word.wrapping_add(self.packed.wrapping_mul(off)),
+            step: self.packed,
+        }
+    }
+
+    /// The pair of words so many pixels on from an anchor, and their steps.
+    #[inline(always)]
+    fn pair(&self, off: u32) -> [Pair; 2] {
+        let [red, green, blue] = self.value;
+        let rounded = self.step.map(|s| (s + (1 << 14)) >> 15);
         let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
-        let pair = Pair {
-            red_blue: value[0] << 1 & 0xFFFF_0000 | value[2] >> 15 & 0xFFFF,
-            green: value[1] << 1 & 0xFFFF_0000,
-        };
-        let steps = Pair {
+        let step = Pair {
             red_blue: join(rounded[0], rounded[2]),
             green: (rounded[1] << 16) as u32,
         };
-        (pair, steps, packed_step(step, [20, 20, 21]))
+        let at = Pair {
+            red_blue: red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF,
+            green: green << 1 & 0xFFFF_0000,
+        };
+        let on = Pair {
+            red_blue: step.red_blue.wrapping_mul(off),
+            green: step.green.wrapping_mul(off),
+        };
+        [at.plus(on), step]
     }
+}
+
+/// Whether no field changes by more than a quarter of its range from the first corner on.
+#[inline(always)]
+fn is_flat(colour: [u32; 3]) -> bool {
+    let [a, b, c] = colour.map(fields);
+    let rise = |i: usize| {
+        let (one, other) = (b[i] - a[i], c[i] - a[i]);
+        (one ^ one >> 31) | (other ^ other >> 31)
+    };
+    rise(0) | rise(1) | rise(2) << 1 < 512
 }
 
 /// The fields with 20, 20 and 21 bits more: below 2^31 each.
@@ -210,7 +269,11 @@ impl<F: Pixel> Paint for Gouraud<F> {
             Self::pair_planes(&triangle.shares(area), colour, planes);
             return Fill::Small;
         }
-        if size == Size::Thin
+        if size == Size::Sharp && F::PACKED && is_flat(colour) {
+            Self::packed_planes(triangle, area, planes);
+            return Fill::Plain;
+        }
+        if matches!(size, Size::Sharp | Size::Thin)
             && let Some(fill) = Self::even_planes(colour, planes)
         {
             return fill;
@@ -242,13 +305,22 @@ impl<F: Pixel> Paint for Gouraud<F> {
         if fill == Fill::Plain {
             return ramp::fill_long::<F>(run, Self::packed(planes, place));
         }
-        let (at, step, packed) = Self::pair(fill, planes, place);
-        if fill == Fill::Small {
-            return ramp::fill_pair::<F>(run, at, step, packed);
-        }
-        for (run, column) in run.chunks_mut(16).zip((place.column..).step_by(16)) {
-            let (at, step, packed) = Self::pair(fill, planes, Place { column, ..place });
-            ramp::fill_pair::<F>(run, at, step, packed);
+        let off = place.column.wrapping_sub(place.span) & 15;
+        let column = place.column.wrapping_sub(off);
+        let mut course = Self::course(fill, planes, Place { column, ..place });
+        let mut off = off;
+        let mut rest = run;
+        while !rest.is_empty() {
+            let pixels = rest.len().min(16 - off as usize);
+            let (run, after) = rest.split_at_mut(pixels);
+            if F::PACKED {
+                ramp::fill_long::<F>(run, course.packed(off));
+            } else {
+                let [at, step] = course.pair(off);
+                ramp::fill_pair::<F>(run, at, step);
+            }
+            course.skip(16);
+            (rest, off) = (after, 0);
         }
     }
 
@@ -264,16 +336,21 @@ impl<F: Pixel> Paint for Gouraud<F> {
         if fill == Fill::Plain {
             return ramp::fill_nearer::<F>(run, Self::packed(planes, place), depth);
         }
+        let mut course = Self::course(fill, planes, place);
         let mut z = depth.at;
-        let chunks = run.chunks_mut(16).zip(depth.cells.chunks_mut(16));
-        for ((run, cells), column) in chunks.zip((place.column..).step_by(16)) {
-            let (at, step, packed) = Self::pair(fill, planes, Place { column, ..place });
+        for (run, cells) in run.chunks_mut(16).zip(depth.cells.chunks_mut(16)) {
             let part = Depths {
                 cells,
                 at: z,
                 step: depth.step,
             };
-            ramp::fill_pair_nearer::<F>(run, at, step, packed, part);
+            if F::PACKED {
+                ramp::fill_nearer::<F>(run, course.packed(0), part);
+            } else {
+                let [at, step] = course.pair(0);
+                ramp::fill_pair_nearer::<F>(run, at, step, part);
+            }
+            course.skip(16);
             z = z.wrapping_add(depth.step << 4);
         }
     }

@@ -63,7 +63,7 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
     );
 
-    /// Colours the pixels that are at least as near as what `cells` have, and keeps their depth.
+    /// Colours the pixels of a whole span that are at least as near as what is there, and keeps their depth.
     fn fill_nearer(
         fill: Fill,
         planes: &Self::Planes,
@@ -77,9 +77,13 @@ pub trait Paint: Sized {
 /// A pixel of a line buffer.
 pub type WordOf<L> = <<L as Paint>::Pixel as crate::composite::PixelFormat>::Word;
 
-/// A pixel of the picture.
+/// Where a run of pixels begins: the first column of its span, its own, and the line.
+///
+/// Colours are reckoned from the span's first column on, so that a pixel has the same bits in whatever runs its
+/// span is coloured.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
+    pub span: u32,
     pub column: u32,
     pub line: u32,
 }

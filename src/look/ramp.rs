@@ -30,12 +30,6 @@ impl Pair {
             green: self.green.wrapping_add(step.green),
         }
     }
-
-    /// The upper bits in one word.
-    #[inline(always)]
-    pub(super) fn packed(self) -> u32 {
-        self.red_blue & 0xFFE0_0000 | (self.red_blue & 0xFFC0) << 5 | self.green >> 21
-    }
 }
 
 /// A pixel, and one step on.
@@ -84,25 +78,9 @@ pub(super) fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
     }
 }
 
-/// Colours a run by a pair: packed anew every 16 pixels where the format allows, else pixel by pixel.
+/// Colours a run by a pair, pixel by pixel.
 #[inline(never)]
-pub(super) fn fill_pair<F: Pixel>(run: &mut [F::Word], mut at: Pair, step: Pair, packed: u32) {
-    if F::PACKED {
-        for run in run.chunks_mut(16) {
-            fill_long::<F>(
-                run,
-                Packed {
-                    word: at.packed(),
-                    step: packed,
-                },
-            );
-            at = at.plus(Pair {
-                red_blue: step.red_blue << 4,
-                green: step.green << 4,
-            });
-        }
-        return;
-    }
+pub(super) fn fill_pair<F: Pixel>(run: &mut [F::Word], mut at: Pair, step: Pair) {
     for pixel in run {
         *pixel = F::pack_words(at.red_blue, at.green);
         at = at.plus(step);
@@ -166,36 +144,15 @@ pub(super) fn fill_nearer<F: Pixel>(run: &mut [F::Word], mut ramp: Packed, depth
     }
 }
 
-/// The same by a pair.
+/// The same by a pair, pixel by pixel.
 #[inline(never)]
 pub(super) fn fill_pair_nearer<F: Pixel>(
     run: &mut [F::Word],
     mut at: Pair,
     step: Pair,
-    packed: u32,
     depth: Depths<'_>,
 ) {
     let mut z = depth.at;
-    if F::PACKED {
-        for (run, cells) in run.chunks_mut(16).zip(depth.cells.chunks_mut(16)) {
-            let ramp = Packed {
-                word: at.packed(),
-                step: packed,
-            };
-            let part = Depths {
-                cells,
-                at: z,
-                step: depth.step,
-            };
-            fill_nearer::<F>(run, ramp, part);
-            at = at.plus(Pair {
-                red_blue: step.red_blue << 4,
-                green: step.green << 4,
-            });
-            z = z.wrapping_add(depth.step << 4);
-        }
-        return;
-    }
     for (pixel, cell) in run.iter_mut().zip(depth.cells) {
         if z >= *cell {
             *cell = z;

@@ -5,8 +5,10 @@
 //! | [`recip_16`] | one division | a table of 512 bytes, one Newton step, one correction |
 //! | [`of_height`] | a table of 2 KB | the same |
 //! | [`mul_16_unsigned`] | one long product | two products |
+//! | [`mul_17`] | one long product | two products |
 //! | [`slope_of`] | one long product | two products |
 
+use super::product::mul_high;
 use super::short::SHORT;
 
 /// `2^31 / d` for the middle of each 128 of `d` in 2^15 ..< 2^16, rounded.
@@ -81,6 +83,17 @@ pub const fn mul_16_unsigned(a: i32, b: u32) -> i32 {
     }
 }
 
+/// `floor(a b / 2^17)`, `b` of 16 bits without a sign.
+#[inline(always)]
+#[must_use]
+pub const fn mul_17(a: i32, b: u32) -> i32 {
+    if SHORT {
+        mul_16_unsigned(a, b) >> 1
+    } else {
+        mul_high(a, (b << 15) as i32)
+    }
+}
+
 /// `round(dx r / 2^12)` for `dx` of 10 bits and a sign, and `r` below 2^31.
 #[inline(always)]
 #[must_use]
@@ -116,6 +129,8 @@ mod tests {
             let low = (a as u32 & 0xFFFF).wrapping_mul(b) >> 16;
             let pieces = (a >> 16).wrapping_mul(b as i32).wrapping_add(low as i32);
             assert_eq!(pieces, ((i64::from(a) * i64::from(b)) >> 16) as i32);
+            assert_eq!(pieces >> 1, ((i64::from(a) * i64::from(b)) >> 17) as i32);
+            assert_eq!(mul_17(a, b), pieces >> 1);
             let (dx, r) = (rng.below(1023) as i32 - 511, rng.below(1 << 31));
             let (high, low) = ((r >> 12) as i32, (r & 0xFFF) as i32);
             let pieces = dx * high + ((dx * low + (1 << 11)) >> 12);

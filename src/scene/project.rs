@@ -273,9 +273,9 @@ mod tests {
             // All depths of a camera have the same factor, 1/2 to 1.
             let depth = f64::from(on.depth) / 2f64.powi(31) * z / f64::from(size);
             let near = View::new(&camera, screen, &Affine::placed(size, [0.0; 3]).unwrap());
-            let at_near = near.project(near.point([0i16, 0, -16_384]));
-            let factor = f64::from(at_near.depth) / 2f64.powi(31);
-            assert!(factor > 0.49 && factor <= 1.0, "{factor}");
+            let at_near = near.project(near.point([0i16, 0, -32_768]));
+            let factor = f64::from(at_near.depth) / 2f64.powi(30);
+            assert!(factor > 0.49 && factor < 1.0001, "{factor}");
             worst_depth = worst_depth.max((depth / factor - 1.0).abs());
         }
         std::println!("{worst} {worst_fine} of 1/8 pixel, {worst_depth}");

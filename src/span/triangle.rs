@@ -21,6 +21,8 @@ pub enum Size {
     Tiny,
     /// Within 64 pixels, and an area of 8 pixels at least.
     Small,
+    /// Within 25 pixels, and an area of a quarter of a pixel at least: for values that change little.
+    Sharp,
     /// Too thin for the size that its box has, but small.
     Thin,
     /// All others.
@@ -96,6 +98,9 @@ impl Triangle<'_> {
         let far = way(d1).max(way(d2));
         if far < 224 && area >= 256 || far < 200 && area >= 128 {
             return Size::Tiny;
+        }
+        if far < 200 && area >= 32 {
+            return Size::Sharp;
         }
         if self.kind() != Kind::Short {
             return Size::Large;
@@ -178,7 +183,7 @@ impl Triangle<'_> {
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let inside = x.map(|x| (x - low) | (high - x));
         // Tiny and small triangles have short sides.
-        let is_short = matches!(size, Size::Tiny | Size::Small);
+        let is_short = matches!(size, Size::Tiny | Size::Sharp | Size::Small);
         if is_short && inside[0] | inside[1] | inside[2] >= 0 {
             return Way::PLAIN;
         }

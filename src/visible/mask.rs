@@ -4,6 +4,8 @@
 //! covered, and where the background is. The first column of a word is its top bit: a span within one
 //! word, as 85 % of those of small triangles are, takes 13 instructions on a Cortex-M4.
 
+use crate::num::leading_zeros;
+
 /// Columns of one line, up to 1,024.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Mask([u32; 32]);
@@ -166,43 +168,82 @@ impl Mask {
     /// mask is empty.
     #[inline(always)]
     pub(crate) fn take_free(&mut self, width: u32, mut run: impl FnMut(u32, u32)) {
-        const OPEN: u32 = u32::MAX;
-        let mut open = OPEN;
+        const COVERED: u32 = u32::MAX;
+        // Where the run that is open began, if one is.
+        let mut from = COVERED;
+        let mut before = 1;
         let mut base = 0;
         for word in &mut self.0 {
             if base >= width {
                 break;
             }
-            let mut free = !core::mem::take(word);
-            if free == u32::MAX {
-                open = open.min(base);
-            } else if open != OPEN || free != 0 {
-                if open != OPEN {
-                    let columns = (!free).leading_zeros();
-                    if base + columns > open {
-                        run(open, (base + columns).min(width));
+            let bits = core::mem::take(word);
+            // Columns that differ from the one before them.
+            let mut ends = bits ^ (bits >> 1 | before << 31);
+            before = bits & 1;
+            while ends != 0 {
+                let first = leading_zeros(ends);
+                ends &= !(0x8000_0000 >> (first & 31));
+                let column = (base + first).min(width);
+                if from == COVERED {
+                    from = column;
+                } else {
+                    if from < column {
+                        run(from, column);
                     }
-                    open = OPEN;
-                    free &= u32::MAX >> (columns & 31);
-                }
-                while free != 0 {
-                    let first = free.leading_zeros();
-                    let last = first + (!(free << (first & 31))).leading_zeros();
-                    if last >= 32 {
-                        open = base + first;
-                        break;
-                    }
-                    if base + first < width {
-                        run(base + first, (base + last).min(width));
-                    }
-                    free &= u32::MAX >> (last & 31);
+                    from = COVERED;
                 }
             }
             base += 32;
         }
-        if open < width {
-            run(open, width);
+        if from < width {
+            run(from, width);
         }
+    }
+
+    /// Calls `run` with each run of `start .. end` that is not covered, from left to right, and covers them;
+    /// how many columns that were. `end` is below 1,024.
+    #[inline(always)]
+    pub(crate) fn cover_free(
+        &mut self,
+        start: u32,
+        end: u32,
+        mut run: impl FnMut(u32, u32),
+    ) -> u32 {
+        const COVERED: u32 = u32::MAX;
+        let (mut from, mut count) = (COVERED, 0);
+        each_word(start, end, |word, bits| {
+            let base = word as u32 * 32;
+            let mut free = bits & !self.0[word];
+            self.0[word] |= bits;
+            if free == u32::MAX {
+                from = from.min(base);
+                return;
+            }
+            if from != COVERED {
+                let more = leading_zeros(!free);
+                run(from, base + more);
+                count += base + more - from;
+                from = COVERED;
+                free &= u32::MAX >> (more & 31);
+            }
+            while free != 0 {
+                let first = leading_zeros(free);
+                let columns = leading_zeros(!(free << (first & 31)));
+                if first + columns >= 32 {
+                    from = base + first;
+                    break;
+                }
+                run(base + first, base + first + columns);
+                count += columns;
+                free &= u32::MAX >> ((first + columns) & 31);
+            }
+        });
+        if from != COVERED {
+            run(from, end);
+            count += end - from;
+        }
+        count
     }
 }
 
@@ -217,7 +258,8 @@ mod tests {
         let mut rng = Rng(3);
         for round in 0..20_000 {
             let mut plain = [false; 1023];
-            let (mut mask, mut over, mut part) = (Mask::EMPTY, Mask::EMPTY, Mask::EMPTY);
+            let (mut mask, mut over, mut part, mut free) =
+                (Mask::EMPTY, Mask::EMPTY, Mask::EMPTY, Mask::EMPTY);
             for _ in 0..1 + round % 12 {
                 let size = [8, 40, 1022][round % 3];
                 let start = rng.below(1022);
@@ -242,21 +284,32 @@ mod tests {
                     assert_eq!(new, old);
                 }
                 assert_eq!(part, mask);
+                let mut runs = Vec::new();
+                let count = free.cover_free(start, end, |a, b| {
+                    assert!(a < b && runs.last().is_none_or(|&(_, end)| end < a));
+                    runs.push((a, b));
+                });
+                let taken: Vec<usize> = runs
+                    .iter()
+                    .flat_map(|&(a, b)| a as usize..b as usize)
+                    .collect();
+                assert_eq!((taken, count as usize), (old.clone(), old.len()));
+                assert_eq!(free, mask);
                 plain[columns].fill(true);
             }
             for (c, covered) in plain.iter().enumerate() {
                 assert_eq!(mask.meets(c as u32, c as u32 + 1), *covered);
             }
             let width = [320, 1016, 1 + rng.below(1016)][round % 3];
-            let mut free = Vec::new();
+            let mut open = Vec::new();
             let mut last = None;
             mask.take_free(width, |a, b| {
                 assert!(a < b && last.is_none_or(|end| end < a), "{a} {b}");
                 last = Some(b);
-                free.extend(a as usize..b as usize);
+                open.extend(a as usize..b as usize);
             });
             let want: Vec<usize> = (0..width as usize).filter(|&c| !plain[c]).collect();
-            assert_eq!(free, want);
+            assert_eq!(open, want);
             part.take_free(1023, |_, _| {});
             assert_eq!(part, Mask::EMPTY);
             if width > 992 {

@@ -1,0 +1,472 @@
+//! Set-up of texture coordinates: how a triangle's are found, and its planes.
+//!
+//! | [`Method`] | where | off by at most |
+//! |---|---|---|
+//! | `Word` | within 25 pixels, sides up to 256, less than 128 texels wide, affine | 1/16 texel |
+//! | `Wide` | any triangle that is affine within the budget | 2^-15 of its width |
+//! | `Perspective` | all others | see [`Perspective`] |
+//!
+//! Instructions a triangle (rustc 1.95, opt-level 3, counted in QEMU), the same bits on both cores:
+//!
+//! | | Cortex-M4 | Cortex-M0+ |
+//! |---|---|---|
+//! | `Word` | 231 | 526 |
+//! | `Perspective` within 64 pixels | 701 | 1,726 |
+//! | `Wide`, larger | 858 | 2,300 |
+//! | [`shade_planes`], [`Shares`] apart | 140 | 240 |
+//!
+//! A triangle may be 4,096 texels wide, wherever on the texture it lies: places count from a base
+//! near its middle, in whole repeats where the texture repeats.
+
+use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
+use super::perspective::{Budget, Homogeneous, Perspective};
+use super::texture::{Texture, Wrap};
+use crate::num::{leading_zeros, mul_16, mul_high, mul_high_unsigned, recip, recip_16};
+use crate::span::{Rise, Shares};
+
+/// A corner of a triangle; corners go clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Corner {
+    /// To the right of the centre of the picture's first pixel, 1/64 pixel, below 2^20 either way.
+    pub x: i32,
+    /// Down from there, likewise.
+    pub y: i32,
+    /// 1/w in any unit, 1 ..< 2^31.
+    pub depth: u32,
+    /// Place on the texture, to the right and down: texels with 8 fraction bits, modulo 2^32.
+    pub texel: [i32; 2],
+}
+
+/// How texture coordinates are found along a span.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Method {
+    /// Affine: one plane of one word, for [`copy`].
+    #[default]
+    Word,
+    /// Affine: planes of u and v, for [`copy_wide`].
+    Wide,
+    /// Planes of u/w, v/w and 1/w.
+    Perspective,
+}
+
+/// What a triangle keeps of its texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Mapping {
+    /// What the planes are.
+    pub method: Method,
+    /// Whole texels to the right and down that come on top of what the planes give.
+    pub base: [i32; 2],
+    /// Value at the picture's first pixel, step to the right, step down: u or u/w or both of u and v
+    /// in a word, then v or v/w, then 1/w.
+    pub planes: [[u32; 3]; 3],
+}
+
+/// What planes go through at the corners, for triangles that are too thin for planes too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Values {
+    /// [`Method::Wide`] or [`Method::Perspective`].
+    pub method: Method,
+    /// As in [`Mapping`].
+    pub base: [i32; 2],
+    /// Of each plane, the values at the corners.
+    pub of: [[i32; 3]; 3],
+}
+
+/// Widest triangle, in texels with 8 fraction bits.
+const WIDEST: u32 = 4096 << 8;
+
+/// Least and most of three numbers.
+#[inline(always)]
+fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+/// Places of three corners on one axis of the texture, as ways from the first one's.
+#[inline(always)]
+fn ways(corners: &[Corner; 3], axis: usize) -> [i32; 3] {
+    corners.map(|c| c.texel[axis].wrapping_sub(corners[0].texel[axis]))
+}
+
+/// The longer of a triangle's sides on the texture; `None` where it is not below [`WIDEST`].
+#[inline(always)]
+fn width(corners: &[Corner; 3]) -> Option<u32> {
+    let of = |axis| {
+        let [low, high] = range(ways(corners, axis));
+        high.wrapping_sub(low) as u32
+    };
+    let width = of(0).max(of(1));
+    (width < WIDEST).then_some(width)
+}
+
+/// Whether u and v may be taken as linear on the screen: `width (max - min) <= 4 budget min`, of
+/// the depths, for a triangle of `width` on the texture. See [`perspective`](super::perspective).
+#[inline]
+#[must_use]
+pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
+    let [least, most] = range(depth);
+    let up = leading_zeros(most) & 31;
+    // Both sides by 2^-21, the left one rounded up.
+    let off = mul_high_unsigned(width << 11, (most - least) << up);
+    let may = mul_high_unsigned(budget.for_curves() << 13, least << up);
+    most == least || off < may
+}
+
+/// [`Method::Word`]'s planes, where a triangle may have them.
+#[inline(never)]
+#[must_use]
+pub fn word_planes(
+    corners: &[Corner; 3],
+    texture: &Texture<'_>,
+    budget: Budget,
+) -> Option<Mapping> {
+    let width = width(corners)?;
+    if !texture.is_small() || width >= 128 << 8 || !budget.is_coarse() {
+        return None;
+    }
+    let [a, b, c] = corners;
+    let (dx1, dy1) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
+    let (dx2, dy2) = (c.x.wrapping_sub(a.x), c.y.wrapping_sub(a.y));
+    let way = |dx: i32, dy: i32| (dx ^ (dx >> 31)).saturating_add(dy ^ (dy >> 31));
+    if way(dx1, dy1).max(way(dx2, dy2)) >= 25 << 6 {
+        return None;
+    }
+    let area = dx1 * dy2 - dx2 * dy1;
+    // Two pixels; on thinner ones steps grow.
+    if area < 4 << 12
+        || !is_affine(width, corners.map(|c| c.depth), budget)
+        || texture.wrap() != Wrap::Repeat && !lies_inside(corners, texture)
+    {
+        return None;
+    }
+    let up = leading_zeros(area as u32);
+    let r = recip_16((area as u32) << up >> 16) as i32;
+    // Sides times 64 / area are these times 2^(up - 45).
+    let shares = [dy2, -dy1, dx1, -dx2].map(|d| (d * r) << 4);
+    let plane = |axis: usize, log: u32| {
+        let [_, e1, e2] = ways(corners, axis).map(|e| e as i16);
+        // 16 - log fraction bits, of 8 in e: rounded.
+        let down = (21 + log).wrapping_sub(up) & 31;
+        let half = 1 << down >> 1;
+        let step = |a: i32, b: i32| {
+            let sum = mul_16(shares[a as usize], e1);
+            (half + sum + mul_16(shares[b as usize], e2)) >> down
+        };
+        let (dx, dy) = (step(0, 1), step(3, 2));
+        // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+        let rest = 32 - dx.wrapping_mul(a.x & 63) - dy.wrapping_mul(a.y & 63);
+        let first = (a.texel[axis] << (8 - log)) & 0xFFFF;
+        let at = (first + (rest >> 6))
+            .wrapping_sub(dx.wrapping_mul(a.x >> 6))
+            .wrapping_sub(dy.wrapping_mul(a.y >> 6));
+        [at, dx, dy]
+    };
+    let (u, v) = (
+        plane(0, texture.log_width()),
+        plane(1, texture.log_height()),
+    );
+    let mut mapping = Mapping::default();
+    mapping.planes[0] = [0, 1, 2].map(|i| (v[i] << 16).wrapping_add(u[i]) as u32);
+    Some(mapping)
+}
+
+/// Whether no place of a triangle comes within 1/8 texel of the texture's rim.
+#[inline(never)]
+fn lies_inside(corners: &[Corner; 3], texture: &Texture<'_>) -> bool {
+    let within = |at: i32, side: u32| at >= 32 && at <= (side << 8) as i32 - 32;
+    let sides = [texture.width(), texture.height()];
+    corners
+        .iter()
+        .all(|c| within(c.texel[0], sides[0]) && within(c.texel[1], sides[1]))
+}
+
+impl Values {
+    /// The values of a triangle; `None` where it is 4,096 texels wide or more, or a depth is not in
+    /// 1 ..< 2^31.
+    #[inline(never)]
+    #[must_use]
+    pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
+        let width = width(corners)?;
+        let depth = corners.map(|c| c.depth);
+        let [least, most] = range(depth);
+        if least == 0 || most >> 31 != 0 {
+            return None;
+        }
+        let (mut base, mut of) = ([0; 2], [[0; 3]; 3]);
+        for (axis, log) in [texture.log_width(), texture.log_height()]
+            .into_iter()
+            .enumerate()
+        {
+            let ways = ways(corners, axis);
+            let [low, high] = range(ways);
+            let middle = corners[0].texel[axis].wrapping_add((low + high) >> 1) >> 8;
+            let grain = 1 << log.min(8);
+            base[axis] = middle.wrapping_add(grain >> 1) & -grain;
+            let first = corners[0].texel[axis].wrapping_sub(base[axis] << 8);
+            // Below 2,177 texels, 19 fraction bits.
+            of[axis] = ways.map(|e| first.wrapping_add(e) << 11);
+        }
+        let method = if is_affine(width, depth, budget) {
+            Method::Wide
+        } else {
+            // The largest has 30 bits. Of the 19 fraction bits of a place 11 are left.
+            let up = leading_zeros(most) & 31;
+            let q = depth.map(|d| d << (up & 31) >> 2);
+            for i in 0..3 {
+                let product = |value: i32| mul_high((q[i] << 1) as i32, value) << 1;
+                (of[0][i], of[1][i]) = (product(of[0][i]), product(of[1][i]));
+                of[2][i] = q[i] as i32;
+            }
+            Method::Perspective
+        };
+        Some(Self { method, base, of })
+    }
+
+    /// The planes through the values; `None` where the triangle is too thin.
+    #[inline(never)]
+    #[must_use]
+    pub fn planes(&self, corners: &[Corner; 3]) -> Option<Mapping> {
+        let mut mapping = Mapping {
+            method: self.method,
+            base: self.base,
+            planes: [[0; 3]; 3],
+        };
+        let small = Small::new(corners);
+        let large = if small.is_none() {
+            Some(Large::new(corners)?)
+        } else {
+            None
+        };
+        let used = if self.method == Method::Wide { 2 } else { 3 };
+        for (plane, values) in mapping.planes.iter_mut().zip(self.of).take(used) {
+            *plane = match (&small, &large) {
+                (Some(area), _) => area.plane(values),
+                (_, Some(area)) => area.plane(values),
+                _ => None,
+            }?;
+        }
+        Some(mapping)
+    }
+}
+
+/// What the planes of a triangle within 64 pixels share.
+///
+/// The reciprocal has 15 bits, but its error is the same in all planes: what they show is displaced
+/// by 2^-15 of the triangle's size, less than 1/500 pixel.
+struct Small {
+    /// Sides times the doubled area's reciprocal, times 2^(47 - up).
+    share: [i32; 4],
+    up: u32,
+    x: i32,
+    y: i32,
+}
+
+impl Small {
+    #[inline(always)]
+    fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
+        let (dx1, dy1) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
+        let (dx2, dy2) = (c.x.wrapping_sub(a.x), c.y.wrapping_sub(a.y));
+        let magnitude = |d: i32| d ^ (d >> 31);
+        if magnitude(dx1) | magnitude(dy1) | magnitude(dx2) | magnitude(dy2) >= 64 << 6 {
+            return None;
+        }
+        let area = dx1 * dy2 - dx2 * dy1;
+        if area < 2 << 12 {
+            return None;
+        }
+        let up = leading_zeros(area as u32);
+        let r = recip_16((area as u32) << up >> 16) as i32;
+        Some(Self {
+            share: [dy2, -dy1, dx1, -dx2].map(|d| d * r),
+            up,
+            x: a.x,
+            y: a.y,
+        })
+    }
+
+    /// `64 (a b + c d) / area`, of a rise and a share each; `None` where 32 bits do not hold it.
+    #[inline(always)]
+    fn step(&self, a: i32, b: i32, c: i32, d: i32) -> Option<i32> {
+        // Products 2^(up - 41), upper words of them with two bits more.
+        let sum = mul_high(a, b << 2) + mul_high(c, d << 2);
+        if self.up <= 11 {
+            return Some(sum >> (11 - self.up));
+        }
+        let left = self.up - 11;
+        (leading_zeros((sum ^ (sum >> 31)) as u32) > left).then(|| sum << (left & 31))
+    }
+
+    /// Of values below 2^30 either way.
+    #[inline(never)]
+    fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
+        let (e1, e2) = (value[1] - value[0], value[2] - value[0]);
+        let [y2, y1, x1, x2] = self.share;
+        let dx = self.step(e1, y2, e2, y1)?;
+        let dy = self.step(e2, x1, e1, x2)?;
+        // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+        let way = |step: i32, by: i32| {
+            let part = (step >> 6) * (by & 63) + (((step & 63) * (by & 63)) >> 6);
+            step.wrapping_mul(by >> 6).wrapping_add(part)
+        };
+        let at = value[0]
+            .wrapping_sub(way(dx, self.x))
+            .wrapping_sub(way(dy, self.y));
+        Some([at, dx, dy].map(|v| v as u32))
+    }
+}
+
+/// What the planes of a triangle of any size share. It takes long products: few triangles have it.
+struct Large {
+    side: [i64; 4],
+    /// The doubled area's reciprocal, `mantissa 2^(up - 94)`.
+    mantissa: u32,
+    up: u32,
+    x: i32,
+    y: i32,
+}
+
+impl Large {
+    fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
+        let (dx1, dy1) = (
+            i64::from(b.x) - i64::from(a.x),
+            i64::from(b.y) - i64::from(a.y),
+        );
+        let (dx2, dy2) = (
+            i64::from(c.x) - i64::from(a.x),
+            i64::from(c.y) - i64::from(a.y),
+        );
+        let limit = 1 << 20;
+        if [dx1, dy1, dx2, dy2].iter().any(|d| d.abs() > limit) {
+            return None;
+        }
+        let area = dx1 * dy2 - dx2 * dy1;
+        if area <= 0 {
+            return None;
+        }
+        let up = area.leading_zeros();
+        Some(Self {
+            side: [dy2, -dy1, dx1, -dx2],
+            mantissa: recip((area << up >> 32) as u32),
+            up,
+            x: a.x,
+            y: a.y,
+        })
+    }
+
+    /// `64 (a b + c d) / area`, rounded; `None` where 32 bits do not hold it.
+    fn step(&self, a: i64, b: i64, c: i64, d: i64) -> Option<i32> {
+        let sum = a * b + c * d;
+        let down = 33u32.saturating_sub(sum.unsigned_abs().leading_zeros());
+        let product = (sum >> down) * i64::from(self.mantissa);
+        let shift = (88 - self.up - down).min(63);
+        i32::try_from(((product >> (shift - 1)) + 1) >> 1).ok()
+    }
+
+    fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
+        let e1 = i64::from(value[1]) - i64::from(value[0]);
+        let e2 = i64::from(value[2]) - i64::from(value[0]);
+        let [y2, y1, x1, x2] = self.side;
+        let dx = self.step(e1, y2, e2, y1)?;
+        let dy = self.step(e2, x1, e1, x2)?;
+        let way = i64::from(dx) * i64::from(self.x) + i64::from(dy) * i64::from(self.y);
+        let at = i64::from(value[0]) - ((way + 32) >> 6);
+        Some([at as u32, dx as u32, dy as u32])
+    }
+}
+
+impl Mapping {
+    /// The mapping of a triangle; `None` where [`Values`] has none or planes have none.
+    #[inline]
+    #[must_use]
+    pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
+        word_planes(corners, texture, budget)
+            .or_else(|| Values::new(corners, texture, budget)?.planes(corners))
+    }
+
+    /// Copies texels into `run`, whose first pixel is at `column` and `line` of the picture.
+    #[inline(always)]
+    pub fn draw(
+        &self,
+        run: &mut [u16],
+        [column, line]: [u32; 2],
+        texture: &Texture<'_>,
+        budget: Budget,
+    ) {
+        let [at, dx, dy] = self.planes[0];
+        let first = at
+            .wrapping_add(dx.wrapping_mul(column))
+            .wrapping_add(dy.wrapping_mul(line));
+        if self.method == Method::Word {
+            copy(run, texture, first, dx);
+        } else {
+            self.draw_slowly(run, [column, line], texture, budget);
+        }
+    }
+
+    #[inline(never)]
+    fn draw_slowly(
+        &self,
+        run: &mut [u16],
+        [column, line]: [u32; 2],
+        texture: &Texture<'_>,
+        budget: Budget,
+    ) {
+        let [s, t, q] = self.planes.map(|[at, dx, dy]| {
+            at.wrapping_add(dx.wrapping_mul(column))
+                .wrapping_add(dy.wrapping_mul(line))
+        });
+        let [ds, dt, dq] = self.planes.map(|[_, dx, _]| dx);
+        let uv = |u: u32, v: u32| Uv {
+            u: u as i32,
+            v: v as i32,
+        };
+        let base = self.base;
+        if self.method == Method::Wide {
+            let (at, step) = (uv(s, t), uv(ds, dt));
+            let copy = if budget.is_coarse() {
+                copy_wide
+            } else {
+                copy_exact
+            };
+            return copy(run, texture, Way { base, at, step });
+        }
+        let of = |q, s: u32, t: u32| Homogeneous {
+            q,
+            s: s as i32,
+            t: t as i32,
+        };
+        let (at, step) = (of(q, s, t), of(dq, ds, dt));
+        let span = Perspective { base, at, step };
+        span.draw(run, texture, span.stride(run.len(), budget));
+    }
+}
+
+/// Planes of a shade for [`tint`](super::tint), of triangles within 64 pixels: of red above blue at
+/// the picture's first pixel and its steps, then of green.
+///
+/// Vertices' colours are red, blue and green in 11, 10 and 11 bits, full light 1,026, 513 and 1,026,
+/// and none 2, 1 and 2. Values are those half a pixel further on, as a tint wants them.
+#[inline(never)]
+#[must_use]
+pub fn shade_planes(shares: &Shares, colour: [u32; 3]) -> [u32; 6] {
+    let shares = shares.cut::<6>();
+    let plane = |shift: u32, bits: u32, more: u32| {
+        let [a, b, c] = colour.map(|w| (w >> shift & bits) as i32);
+        let rise = if more == 5 {
+            shares.rise::<6, 5>(b - a, c - a)
+        } else {
+            shares.rise::<6, 6>(b - a, c - a)
+        };
+        let at = rise.at.wrapping_add(a << more).wrapping_add(rise.dx >> 1);
+        Rise { at, ..rise }
+    };
+    let (red, green, blue) = (plane(21, 0x7FF, 5), plane(0, 0x7FF, 5), plane(11, 0x3FF, 6));
+    let join = |high: i32, low: i32| (high << 16).wrapping_add(low) as u32;
+    [
+        join(red.at, blue.at),
+        join(red.dx, blue.dx),
+        join(red.dy, blue.dy),
+        (green.at << 16) as u32,
+        (green.dx << 16) as u32,
+        (green.dy << 16) as u32,
+    ]
+}

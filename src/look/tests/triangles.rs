@@ -1,0 +1,142 @@
+//! Whole triangles: their texels against exact perspective, and what is refused.
+
+use super::super::mapping::{Corner, Mapping, Values, is_affine};
+use super::super::perspective::Budget;
+use super::super::texture::Texture;
+use super::{WRAPS, coordinates, off};
+use crate::num::random::Rng;
+use std::vec::Vec;
+
+/// A triangle of so many pixels each way, and so many texels, clockwise, at random.
+fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[Corner; 3]> {
+    let spread = f64::from(1 << 27) * 0.9 * rng.unit().powi(5);
+    let mut axis = |size: f64, from: f64| (size * f64::from(rng.signed()) + from) as i32;
+    let middle = [axis(200.0, 0.0) * 256, axis(20_000.0, 0.0) * 256];
+    let mut corner = || Corner {
+        x: axis(pixels * 32.0, 64.0 * 150.0),
+        y: axis(pixels * 32.0, 64.0 * 100.0),
+        depth: axis(spread, f64::from(1 << 27)) as u32,
+        texel: middle.map(|m| m + axis(texels * 128.0, 0.0)),
+    };
+    let c = [corner(), corner(), corner()];
+    let d = |i: usize| (i64::from(c[i].x - c[0].x), i64::from(c[i].y - c[0].y));
+    let area = d(1).0 * d(2).1 - d(2).0 * d(1).1;
+    (area > 1 << 14).then_some(c)
+}
+
+/// The place at a pixel in exact perspective, if its centre is inside.
+fn inside(c: &[Corner; 3], column: i32, line: i32) -> Option<[f64; 2]> {
+    let (x, y) = (64 * column, 64 * line);
+    let edge = |a: &Corner, b: &Corner| {
+        i64::from(b.x - a.x) * i64::from(y - a.y) - i64::from(b.y - a.y) * i64::from(x - a.x)
+    };
+    let weights = [edge(&c[1], &c[2]), edge(&c[2], &c[0]), edge(&c[0], &c[1])];
+    if weights.iter().any(|&w| w < 0) {
+        return None;
+    }
+    let w = [0, 1, 2].map(|i| weights[i] as f64 * f64::from(c[i].depth));
+    let sum: f64 = w.iter().sum();
+    let of = |axis: usize| -> f64 {
+        let at = |i: usize| w[i] * f64::from(c[i].texel[axis]) / 256.0;
+        (at(0) + at(1) + at(2)) / sum
+    };
+    Some([of(0), of(1)])
+}
+
+#[test]
+fn triangles_show_the_texels_of_exact_perspective_within_the_budget() {
+    let words = coordinates();
+    let mut rng = Rng(11);
+    let mut methods = [0; 3];
+    let mut worst = 0f64;
+    for i in 0..4000 {
+        let pixels = [12.0, 24.0, 60.0, 300.0][i % 4];
+        let texels = 200.0 * rng.unit() * rng.unit() + 1.0;
+        let Some(corners) = some_triangle(&mut rng, pixels, texels) else {
+            continue;
+        };
+        let (wrap, budget) = (
+            WRAPS[i / 4 % 3],
+            [Budget::FAST, Budget::BALANCED, Budget::EXACT][i % 7 % 3],
+        );
+        let texture = Texture::words(&words, 256, 256).unwrap().wrapping(wrap);
+        let mapping = Mapping::new(&corners, &texture, budget).unwrap();
+        methods[mapping.method as usize] += 1;
+        for line in (0..240).step_by(7) {
+            let columns: Vec<_> = (0..320)
+                .filter(|&x| inside(&corners, x, line).is_some())
+                .collect();
+            let (Some(&first), Some(&last)) = (columns.first(), columns.last()) else {
+                continue;
+            };
+            let mut run = std::vec![0; (last - first) as usize + 1];
+            mapping.draw(&mut run, [first as u32, line as u32], &texture, budget);
+            for (x, &texel) in (first..).zip(&run) {
+                let [u, v] = inside(&corners, x, line).unwrap();
+                let off = off(u, texel, wrap).max(off(v, texel >> 8, wrap));
+                // Planes of a word and those of any size, and the reciprocal.
+                let bound = f64::from(budget.texels()) / 256.0 + 0.012;
+                worst = worst.max(off - bound);
+                assert!(
+                    off <= bound,
+                    "{x} {line}: {off} {budget:?} {wrap:?} {mapping:?} {corners:?}"
+                );
+            }
+        }
+    }
+    assert!(methods.iter().all(|&n| n > 100), "{methods:?}");
+    assert!(worst > -0.02, "the bound is loose: {worst}");
+}
+
+#[test]
+fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
+    let words = coordinates();
+    let texture = Texture::words(&words, 256, 256).unwrap();
+    let corner = |x, y, u: i32| Corner {
+        x,
+        y,
+        depth: 1 << 20,
+        texel: [u, 0],
+    };
+    let far = 1 << 30;
+    let of = |width: i32| {
+        [
+            corner(0, 0, far),
+            corner(6400, 0, far + width),
+            corner(0, 6400, far),
+        ]
+    };
+    let values = |c: &[Corner; 3]| Values::new(c, &texture, Budget::FAST);
+    assert!(values(&of((4096 << 8) - 1)).is_some());
+    assert!(values(&of(4096 << 8)).is_none() && values(&of(-(4096 << 8))).is_none());
+    let mut none = of(256);
+    none[1].depth = 0;
+    assert!(values(&none).is_none());
+    // Thin: values, and no planes.
+    let thin = [corner(0, 0, 0), corner(64, 64, 256), corner(128, 128, 512)];
+    assert!(values(&thin).is_some_and(|v| v.planes(&thin).is_none()));
+}
+
+#[test]
+fn affine_is_what_the_bound_allows() {
+    let mut rng = Rng(12);
+    let (mut yes, mut doubt) = (0, 0);
+    for _ in 0..200_000 {
+        let width = rng.below(1 << 20) >> rng.below(18);
+        let most = 1 + (rng.bits() >> 1 >> rng.below(20));
+        let depth = [
+            most,
+            most,
+            (f64::from(most) * 1.2f64.powf(-rng.unit())) as u32 + 1,
+        ];
+        let least = f64::from(depth[2].min(most));
+        let budget = Budget::new([32, 64, 128, 40_000][(width % 4) as usize]);
+        let is = f64::from(width) * (f64::from(depth[2].max(most)) - least);
+        let may = 4.0 * f64::from(budget.for_curves()) * least;
+        let got = is_affine(width, depth, budget);
+        assert!(is <= may || !got, "{width} {depth:?}");
+        doubt += u32::from(is <= may && !got);
+        yes += u32::from(got);
+    }
+    assert!(yes > 20_000 && doubt * 100 < yes, "{yes} {doubt}");
+}

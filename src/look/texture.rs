@@ -1,0 +1,317 @@
+//! Textures as values: form, sides, palette and what lies beyond the sides, all known at run time.
+//!
+//! Textures of all forms and sizes serve one scene: a span looks once which loop reads its texels
+//! ([`fetch`](super::fetch)). All constructors are `const`, so that a texture can be a static:
+//!
+//! ```ignore
+//! static BRICKS: Texture = match Texture::words(&TEXELS, 64, 64) {
+//!     Ok(texture) => texture,
+//!     Err(_) => panic!("64 x 64 texels"),
+//! };
+//! ```
+//!
+//! Texels are words of the panel, in its byte order, so that a copy is a copy. Levels of detail
+//! would be a slice of textures beside `form`, a filter would be a field beside `wrap`.
+
+use core::fmt;
+
+/// Longest side of a texture, in texels.
+pub const MAX_SIDE: u32 = 1024;
+
+/// A texture cannot be made of what was lent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum TextureError {
+    /// A side is not a power of two from 1 to [`MAX_SIDE`].
+    Side {
+        /// Width asked for.
+        width: u32,
+        /// Height asked for.
+        height: u32,
+    },
+    /// Fewer words than the sides need.
+    Words {
+        /// Words of the sides.
+        needed: usize,
+        /// Words lent.
+        have: usize,
+    },
+    /// Fewer bytes than the sides need.
+    Bytes {
+        /// Bytes of the sides.
+        needed: usize,
+        /// Bytes lent.
+        have: usize,
+    },
+    /// Fewer colours than an index can name.
+    Palette {
+        /// Colours that an index can name.
+        needed: usize,
+        /// Colours lent.
+        have: usize,
+    },
+}
+
+impl fmt::Display for TextureError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (needed, have, what) = match self {
+            Self::Side { width, height } => {
+                return write!(
+                    f,
+                    "texture: {width}x{height}, where sides are powers of two from 1 to {MAX_SIDE}"
+                );
+            }
+            Self::Words { needed, have } => (needed, have, "words"),
+            Self::Bytes { needed, have } => (needed, have, "bytes"),
+            Self::Palette { needed, have } => (needed, have, "colours of the palette"),
+        };
+        write!(f, "texture: {needed} {what} are needed, there are {have}")
+    }
+}
+
+impl core::error::Error for TextureError {}
+
+/// What lies beyond the sides of a texture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum Wrap {
+    /// The texture again.
+    #[default]
+    Repeat,
+    /// The texels at its rim.
+    Clamp,
+    /// Its mirror image, and then the texture again.
+    Mirror,
+}
+
+/// How texels lie in memory: rows from the top. Slices have the exact length of the texture.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Form<'t> {
+    /// A word of the panel each.
+    Words(&'t [u16]),
+    /// An index of 8 bits each.
+    Index8(&'t [u8], &'t [u16; 256]),
+    /// An index of 4 bits each; the first of a byte in its lower bits. Texels follow each other
+    /// without gaps, whatever the width.
+    Index4(&'t [u8], &'t [u16; 16]),
+    /// An index of 2 bits each, likewise.
+    Index2(&'t [u8], &'t [u16; 4]),
+    /// An index of 1 bit each, likewise.
+    Index1(&'t [u8], &'t [u16; 2]),
+}
+
+/// A texture: texels or indices that somebody else keeps, and how they are read.
+#[derive(Clone, Copy, Debug)]
+pub struct Texture<'t> {
+    pub(super) form: Form<'t>,
+    log_width: u8,
+    log_height: u8,
+    /// The power of two of both sides of a [`Square`]; else 0.
+    square: u8,
+    wrap: Wrap,
+}
+
+/// Rows of a square of words, whose side is known to the compiler, so that no index needs a check.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Square<'t> {
+    /// 32 texels a side.
+    Side32(&'t [[u16; 32]; 32]),
+    /// 64 texels a side.
+    Side64(&'t [[u16; 64]; 64]),
+    /// 128 texels a side.
+    Side128(&'t [[u16; 128]; 128]),
+    /// 256 texels a side.
+    Side256(&'t [[u16; 256]; 256]),
+}
+
+/// The powers of two that the sides are.
+#[derive(Clone, Copy)]
+struct Sides {
+    log_width: u8,
+    log_height: u8,
+}
+
+impl Sides {
+    const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
+        if width.is_power_of_two()
+            && height.is_power_of_two()
+            && width <= MAX_SIDE
+            && height <= MAX_SIDE
+        {
+            return Ok(Self {
+                log_width: width.trailing_zeros() as u8,
+                log_height: height.trailing_zeros() as u8,
+            });
+        }
+        Err(TextureError::Side { width, height })
+    }
+
+    const fn texels(self) -> usize {
+        1 << (self.log_width + self.log_height)
+    }
+}
+
+/// A constructor of textures with indices of `$bits` bits.
+macro_rules! indexed {
+    ($name:ident, $form:ident, $bits:literal, $order:literal) => {
+        #[doc = concat!("Indices of ", $bits, " bits into a palette of words of the panel.")]
+        #[doc = $order]
+        /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
+        ///
+        /// # Errors
+        /// When a side is not a power of two up to [`MAX_SIDE`], or too little is lent.
+        pub const fn $name(
+            bytes: &'t [u8],
+            palette: &'t [u16],
+            width: u32,
+            height: u32,
+        ) -> Result<Self, TextureError> {
+            let sides = match Sides::new(width, height) {
+                Ok(sides) => sides,
+                Err(error) => return Err(error),
+            };
+            let (needed, have) = ((sides.texels() * $bits).div_ceil(8), bytes.len());
+            if have < needed {
+                return Err(TextureError::Bytes { needed, have });
+            }
+            let Some(palette) = palette.first_chunk() else {
+                let (needed, have) = (1 << $bits, palette.len());
+                return Err(TextureError::Palette { needed, have });
+            };
+            let bytes = bytes.split_at(needed).0;
+            Ok(Self::new(Form::$form(bytes, palette), sides))
+        }
+    };
+}
+
+impl<'t> Texture<'t> {
+    const fn new(form: Form<'t>, sides: Sides) -> Self {
+        let is_square = matches!(form, Form::Words(_)) && sides.log_width == sides.log_height;
+        let square = match sides.log_width {
+            log @ 5..=8 if is_square => log,
+            _ => 0,
+        };
+        Self {
+            form,
+            log_width: sides.log_width,
+            log_height: sides.log_height,
+            square,
+            wrap: Wrap::Repeat,
+        }
+    }
+
+    /// Words of the panel, in its byte order, in rows from the top.
+    ///
+    /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
+    ///
+    /// # Errors
+    /// When a side is not a power of two up to [`MAX_SIDE`], or too little is lent.
+    pub const fn words(texels: &'t [u16], width: u32, height: u32) -> Result<Self, TextureError> {
+        let sides = match Sides::new(width, height) {
+            Ok(sides) => sides,
+            Err(error) => return Err(error),
+        };
+        let (needed, have) = (sides.texels(), texels.len());
+        if have < needed {
+            return Err(TextureError::Words { needed, have });
+        }
+        let texels = texels.split_at(needed).0;
+        Ok(Self::new(Form::Words(texels), sides))
+    }
+
+    indexed!(index8, Index8, 8, "A byte a texel, in rows from the top.");
+    indexed!(
+        index4,
+        Index4,
+        4,
+        "The left one of two texels is in a byte's lower bits; rows follow without gaps."
+    );
+    indexed!(
+        index2,
+        Index2,
+        2,
+        "The leftmost texel is in a byte's lowest bits; rows follow without gaps."
+    );
+    indexed!(
+        index1,
+        Index1,
+        1,
+        "The leftmost texel is in a byte's lowest bit; rows follow without gaps."
+    );
+
+    /// The same texture with something else beyond its sides.
+    #[must_use]
+    pub const fn wrapping(self, wrap: Wrap) -> Self {
+        Self { wrap, ..self }
+    }
+
+    /// What lies beyond the sides.
+    #[inline(always)]
+    #[must_use]
+    pub const fn wrap(&self) -> Wrap {
+        self.wrap
+    }
+
+    /// Texels a row.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        1 << self.log_width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        1 << self.log_height
+    }
+
+    /// The power of two that the width is: 0 to 10.
+    #[inline(always)]
+    #[must_use]
+    pub const fn log_width(&self) -> u32 {
+        self.log_width as u32
+    }
+
+    /// The power of two that the height is: 0 to 10.
+    #[inline(always)]
+    #[must_use]
+    pub const fn log_height(&self) -> u32 {
+        self.log_height as u32
+    }
+
+    /// Whether places fit into one word: no side is above 256.
+    #[inline(always)]
+    #[must_use]
+    pub const fn is_small(&self) -> bool {
+        self.log_width <= 8 && self.log_height <= 8
+    }
+
+    /// Whether it is a [`Square`].
+    #[inline(always)]
+    pub(super) const fn is_square(&self) -> bool {
+        self.square != 0
+    }
+
+    /// The rows, if it is one of the squares that have loops of their own.
+    #[inline(always)]
+    pub(super) fn square(&self) -> Option<Square<'t>> {
+        let Form::Words(texels) = self.form else {
+            return None;
+        };
+        match self.square {
+            5 => rows(texels).map(Square::Side32),
+            6 => rows(texels).map(Square::Side64),
+            7 => rows(texels).map(Square::Side128),
+            8 => rows(texels).map(Square::Side256),
+            _ => None,
+        }
+    }
+}
+
+/// Words as `N` rows of `N`.
+#[inline(always)]
+fn rows<const N: usize>(texels: &[u16]) -> Option<&[[u16; N]; N]>
+where
+    [u16; N]: bytemuck::Pod,
+{
+    bytemuck::try_cast_slice(texels).ok()?.try_into().ok()
+}
