@@ -60,8 +60,14 @@ fn parts_at(triangle: &Triangle<'_>, column: u32, line: u32) -> Parts {
     let area = triangle.area();
     let part = |doubled: i32| part_of((doubled.max(0) as u32).min(area), area);
     Parts {
-        second: part(x.wrapping_mul(c.1 - a.1).wrapping_sub(y.wrapping_mul(c.0 - a.0))),
-        third: part(y.wrapping_mul(b.0 - a.0).wrapping_sub(x.wrapping_mul(b.1 - a.1))),
+        second: part(
+            x.wrapping_mul(c.1 - a.1)
+                .wrapping_sub(y.wrapping_mul(c.0 - a.0)),
+        ),
+        third: part(
+            y.wrapping_mul(b.0 - a.0)
+                .wrapping_sub(x.wrapping_mul(b.1 - a.1)),
+        ),
     }
 }
 

@@ -80,6 +80,7 @@ impl<L> Scene<'_, '_, L> {
                 first_face: 0,
             });
         }
+        self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
             light: draw.light.map(|l| l.in_model(&draw.model, camera.view())),
