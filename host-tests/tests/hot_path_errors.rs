@@ -62,7 +62,7 @@ impl Random {
     }
 }
 
-fn either_side<C>(mesh: Mesh<'_, C>) -> Draw<'_, C> {
+fn either_side<C>(mesh: Mesh<'_, C>) -> Draw<'_, 'static, C> {
     let mut call = Draw::new(mesh);
     call.cull = Cull::None;
     call

@@ -122,6 +122,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         kept.end = lines.end as u16;
         let turns = lines.turn > i32::from(line);
         let event = if turns { lines.turn } else { lines.end };
+        let lacks = L::lacks_texture(&kept.item.planes, view.draws);
+        self.counts.untextured += u32::from(lacks);
         self.cache.keep(slot, flags.is_plain(), event as u16);
         self.counts.set_ups += 1;
         if let Some(link) = self.links.get_mut(usize::from(number)) {

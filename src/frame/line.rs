@@ -436,7 +436,7 @@ fn thin_depth<L: Look>(object: u16, span: Span, out: &Line<'_, '_, WordOf<L>>) -
         return [0; 2];
     };
     let ends = thin_span(&triangle, span, out.number);
-    let [at, step] = ends.line(triangle.vertex.map(|v| v.depth));
+    let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
     let first = at.wrapping_add(step.wrapping_mul(span.start));
     [first.wrapping_add(MARGIN), step]
 }

@@ -1,7 +1,6 @@
 //! A scene of a look: what its pixels are is what its vertices' colours are steps of.
 
-use crate::composite::PixelFormat;
-use crate::geometry::{Coordinate, Scale, Screen};
+use crate::geometry::{Coordinate, Screen};
 use crate::look::Look;
 use crate::scene::{Draw, DrawError, Memory, Scene};
 
@@ -9,8 +8,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// A scene for pictures of this size. Nothing is drawn before it is [begun](Scene::begin).
     #[must_use]
     pub fn new(screen: Screen, memory: Memory<'m, 't>) -> Self {
-        let scale = const { Scale::new(<L::Pixel as PixelFormat>::STEPS) };
-        Self::with_scale(screen, memory, scale)
+        Self::with_scale(screen, memory, L::SCALE)
     }
 
     /// Draws a mesh: pass one.
@@ -18,7 +16,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// # Errors
     /// What is wrong with the mesh, after which nothing of it is drawn; or which memory is full, after which the rest
     /// is drawn.
-    pub fn draw<C: Coordinate>(&mut self, draw: &Draw<'_, C>) -> Result<(), DrawError> {
-        self.assemble(draw, &[])
+    pub fn draw<C: Coordinate>(&mut self, draw: &Draw<'_, 't, C>) -> Result<(), DrawError> {
+        self.assemble(draw, L::TEXTURED)
     }
 }

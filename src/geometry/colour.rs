@@ -51,6 +51,23 @@ impl Scale {
         scale
     }
 
+    /// For shades of texels: full light is 1,024, 1,024 and 512 of a field, and a margin of 2, 2 and 1 stays to either
+    /// end.
+    pub(crate) const SHADE: Self = Self {
+        factor: [
+            ((1024 << 8) + 127) / 255,
+            ((1024 << 8) + 127) / 255,
+            ((512 << 8) + 127) / 255,
+        ],
+        fraction: [2, 2, 1],
+        full: [1024, 1024, 512],
+    };
+
+    /// The word of white in full light.
+    pub(crate) const fn full_word(&self) -> u32 {
+        Colour::from_rgb8([255; 3], self).word()
+    }
+
     /// Fraction bits of the red, green and blue fields.
     #[must_use]
     pub const fn fraction(&self) -> [u32; 3] {

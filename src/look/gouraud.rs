@@ -11,6 +11,7 @@
 
 use super::ramp::{self, Packed, Pair};
 use super::{Depths, Fill, Paint, Place, ThinSpan};
+use crate::geometry::Scale;
 use crate::pixel::Pixel;
 use crate::scene::DrawState;
 use crate::span::{Rise, Shares, Size, Triangle};
@@ -59,50 +60,6 @@ impl<F: Pixel> Gouraud<F> {
         planes[2] = join(|r| r.dy);
     }
 
-    /// Two words with 16 bits a channel.
-    #[inline(never)]
-    fn pair_planes(shares: &Shares, colour: [u32; 3], planes: &mut Planes) {
-        let shares = shares.cut::<6>();
-        let [a, b, c] = colour.map(fields);
-        let (e1, e2) = (
-            [0, 1, 2].map(|i| b[i] - a[i]),
-            [0, 1, 2].map(|i| c[i] - a[i]),
-        );
-        let red = shares.rise::<6, 5>(e1[0], e2[0]);
-        let green = shares.rise::<6, 5>(e1[1], e2[1]);
-        let blue = shares.rise::<6, 6>(e1[2], e2[2]);
-        let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
-        planes[0] = join(
-            red.at.wrapping_add(a[0] << 5),
-            blue.at.wrapping_add(a[2] << 6),
-        );
-        planes[1] = join(red.dx, blue.dx);
-        planes[2] = join(red.dy, blue.dy);
-        planes[3] = (green.at.wrapping_add(a[1] << 5) << 16) as u32;
-        planes[4] = (green.dx << 16) as u32;
-        planes[5] = (green.dy << 16) as u32;
-        planes[6] = packed_step([red.dx, green.dx, blue.dx], [5, 5, 6]);
-    }
-
-    /// A plane a channel; whether the triangle is not too thin for them.
-    #[inline(never)]
-    fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
-        let Some(area) = triangle.wide_area() else {
-            return false;
-        };
-        let corners = triangle.vertex.map(|v| wide_fields(v.colour));
-        for i in 0..3 {
-            let Some(plane) = area.plane(corners.map(|c| c[i] as i32)) else {
-                return false;
-            };
-            let plane = triangle.in_picture(plane);
-            if let Some(three) = planes.get_mut(3 * i..3 * i + 3) {
-                three.copy_from_slice(&plane);
-            }
-        }
-        true
-    }
-
     /// One colour for a thin triangle whose corners differ by less than a step.
     #[inline(never)]
     fn even_planes(colour: [u32; 3], planes: &mut Planes) -> Option<Fill> {
@@ -135,47 +92,47 @@ impl<F: Pixel> Gouraud<F> {
             step: planes[1],
         }
     }
+}
 
-    /// The colour at a place of a span, and its steps.
-    #[inline(always)]
-    fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
-        if fill == Fill::Small {
-            let (red_blue, green) = (at(planes, 0, place), at(planes, 3, place));
-            let blue = i32::from(planes[1] as i16);
-            let red = planes[1].wrapping_sub(blue as u32) as i32 >> 16;
-            let wide = |sixteen: u32| (sixteen & 0xFFFF) << 15;
-            return Course {
-                value: [wide(red_blue >> 16), wide(green >> 16), wide(red_blue)],
-                step: [red << 15, planes[4] as i32 >> 16 << 15, blue << 15],
-                packed: planes[6],
-            };
-        }
-        let step = [planes[1] as i32, planes[4] as i32, planes[7] as i32];
-        Course {
-            value: [
-                at(planes, 0, place),
-                at(planes, 3, place),
-                at(planes, 6, place),
-            ],
-            step,
-            packed: packed_step(step, [20, 20, 21]),
-        }
+/// The colour at a place of a span, and its steps.
+#[inline(always)]
+pub(super) fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
+    if fill == Fill::Small {
+        let (red_blue, green) = (at(planes, 0, place), at(planes, 3, place));
+        let blue = i32::from(planes[1] as i16);
+        let red = planes[1].wrapping_sub(blue as u32) as i32 >> 16;
+        let wide = |sixteen: u32| (sixteen & 0xFFFF) << 15;
+        return Course {
+            value: [wide(red_blue >> 16), wide(green >> 16), wide(red_blue)],
+            step: [red << 15, planes[4] as i32 >> 16 << 15, blue << 15],
+            packed: planes[6],
+        };
+    }
+    let step = [planes[1] as i32, planes[4] as i32, planes[7] as i32];
+    Course {
+        value: [
+            at(planes, 0, place),
+            at(planes, 3, place),
+            at(planes, 6, place),
+        ],
+        step,
+        packed: packed_step(step, [20, 20, 21]),
     }
 }
 
 /// A colour along a span: red, green and blue with 20, 20 and 21 bits below a field's unit, their steps to the next
 /// pixel, and these in one word.
 #[derive(Clone, Copy)]
-struct Course {
-    value: [u32; 3],
-    step: [i32; 3],
+pub(super) struct Course {
+    pub(super) value: [u32; 3],
+    pub(super) step: [i32; 3],
     packed: u32,
 }
 
 impl Course {
     /// So many pixels on.
     #[inline(always)]
-    fn skip(&mut self, pixels: u32) {
+    pub(super) fn skip(&mut self, pixels: u32) {
         for (value, step) in self.value.iter_mut().zip(self.step) {
             *value = value.wrapping_add((step as u32).wrapping_mul(pixels));
         }
@@ -211,6 +168,80 @@ impl Course {
             green: step.green.wrapping_mul(off),
         };
         [at.plus(on), step]
+    }
+}
+
+/// Two words with 16 bits a channel.
+#[inline(never)]
+fn pair_planes(shares: &Shares, colour: [u32; 3], planes: &mut Planes) {
+    let shares = shares.cut::<6>();
+    let [a, b, c] = colour.map(fields);
+    let (e1, e2) = (
+        [0, 1, 2].map(|i| b[i] - a[i]),
+        [0, 1, 2].map(|i| c[i] - a[i]),
+    );
+    let red = shares.rise::<6, 5>(e1[0], e2[0]);
+    let green = shares.rise::<6, 5>(e1[1], e2[1]);
+    let blue = shares.rise::<6, 6>(e1[2], e2[2]);
+    let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
+    planes[0] = join(
+        red.at.wrapping_add(a[0] << 5),
+        blue.at.wrapping_add(a[2] << 6),
+    );
+    planes[1] = join(red.dx, blue.dx);
+    planes[2] = join(red.dy, blue.dy);
+    planes[3] = (green.at.wrapping_add(a[1] << 5) << 16) as u32;
+    planes[4] = (green.dx << 16) as u32;
+    planes[5] = (green.dy << 16) as u32;
+    planes[6] = packed_step([red.dx, green.dx, blue.dx], [5, 5, 6]);
+}
+
+/// A plane a channel; whether the triangle is not too thin for them.
+#[inline(never)]
+fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
+    let Some(area) = triangle.wide_area() else {
+        return false;
+    };
+    let corners = triangle.vertex.map(|v| wide_fields(v.colour));
+    for i in 0..3 {
+        let Some(plane) = area.plane(corners.map(|c| c[i] as i32)) else {
+            return false;
+        };
+        let plane = triangle.in_picture(plane);
+        if let Some(three) = planes.get_mut(3 * i..3 * i + 3) {
+            three.copy_from_slice(&plane);
+        }
+    }
+    true
+}
+
+/// Planes of the two ways that keep 16 bits a channel or more.
+#[inline(always)]
+pub(super) fn plane_shades(
+    triangle: &Triangle<'_>,
+    size: Size,
+    area: u32,
+    planes: &mut Planes,
+) -> Fill {
+    if matches!(size, Size::Tiny | Size::Small) {
+        let colour = triangle.vertex.map(|v| v.colour);
+        pair_planes(&triangle.shares(area), colour, planes);
+        Fill::Small
+    } else if wide_planes(triangle, planes) {
+        Fill::Wide
+    } else {
+        Fill::Thin
+    }
+}
+
+/// Planes of a thin triangle on one line, for [`Fill::Wide`].
+pub(super) fn thin_shades(span: &ThinSpan<'_>, planes: &mut Planes) {
+    let corners = span.triangle.vertex.map(|v| wide_fields(v.colour));
+    for i in 0..3 {
+        let [at, step] = span.line(corners.map(|c| i64::from(c[i])));
+        if let Some(three) = planes.get_mut(3 * i..3 * i + 3) {
+            three.copy_from_slice(&[at, step, 0]);
+        }
     }
 }
 
@@ -250,6 +281,8 @@ impl<F: Pixel> Paint for Gouraud<F> {
     type Planes = Planes;
     const EMPTY: Planes = [0; 9];
     const TEXTURED: bool = false;
+    const ANY_RUNS: bool = true;
+    const SCALE: Scale = Scale::new(F::STEPS);
 
     #[inline(always)]
     fn set_up(
@@ -265,10 +298,6 @@ impl<F: Pixel> Paint for Gouraud<F> {
             Self::packed_planes(triangle, area, planes);
             return Fill::Plain;
         }
-        if matches!(size, Size::Tiny | Size::Small) {
-            Self::pair_planes(&triangle.shares(area), colour, planes);
-            return Fill::Small;
-        }
         if size == Size::Sharp && F::PACKED && is_flat(colour) {
             Self::packed_planes(triangle, area, planes);
             return Fill::Plain;
@@ -278,21 +307,11 @@ impl<F: Pixel> Paint for Gouraud<F> {
         {
             return fill;
         }
-        if Self::wide_planes(triangle, planes) {
-            Fill::Wide
-        } else {
-            Fill::Thin
-        }
+        plane_shades(triangle, size, area, planes)
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {
-        let corners = span.triangle.vertex.map(|v| wide_fields(v.colour));
-        for i in 0..3 {
-            let [at, step] = span.line(corners.map(|c| c[i]));
-            if let Some(three) = planes.get_mut(3 * i..3 * i + 3) {
-                three.copy_from_slice(&[at, step, 0]);
-            }
-        }
+        thin_shades(span, planes);
     }
 
     #[inline(always)]
@@ -307,7 +326,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
         }
         let off = place.column.wrapping_sub(place.span) & 15;
         let column = place.column.wrapping_sub(off);
-        let mut course = Self::course(fill, planes, Place { column, ..place });
+        let mut course = course(fill, planes, Place { column, ..place });
         let mut off = off;
         let mut rest = run;
         while !rest.is_empty() {
@@ -336,7 +355,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
         if fill == Fill::Plain {
             return ramp::fill_nearer::<F>(run, Self::packed(planes, place), depth);
         }
-        let mut course = Self::course(fill, planes, place);
+        let mut course = course(fill, planes, place);
         let mut z = depth.at;
         for (run, cells) in run.chunks_mut(16).zip(depth.cells.chunks_mut(16)) {
             let part = Depths {

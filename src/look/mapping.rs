@@ -13,7 +13,6 @@
 //! | `Word` | 231 | 526 |
 //! | `Perspective` within 64 pixels | 701 | 1,726 |
 //! | `Wide`, larger | 858 | 2,300 |
-//! | [`shade_planes`], [`Shares`] apart | 140 | 240 |
 //!
 //! A triangle may be 4,096 texels wide, wherever on the texture it lies: places count from a base
 //! near its middle, in whole repeats where the texture repeats.
@@ -22,7 +21,6 @@ use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Budget, Homogeneous, Perspective};
 use super::texture::{Texture, Wrap};
 use crate::num::{leading_zeros, mul_16, mul_high, mul_high_unsigned, recip, recip_16};
-use crate::span::{Rise, Shares};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -374,6 +372,13 @@ impl Large {
 }
 
 impl Mapping {
+    /// That of no triangle.
+    pub const EMPTY: Self = Self {
+        method: Method::Word,
+        base: [0; 2],
+        planes: [[0; 3]; 3],
+    };
+
     /// The mapping of a triangle; `None` where [`Values`] has none or planes have none.
     #[inline]
     #[must_use]
@@ -438,35 +443,4 @@ impl Mapping {
         let span = Perspective { base, at, step };
         span.draw(run, texture, span.stride(run.len(), budget));
     }
-}
-
-/// Planes of a shade for [`tint`](super::tint), of triangles within 64 pixels: of red above blue at
-/// the picture's first pixel and its steps, then of green.
-///
-/// Vertices' colours are red, blue and green in 11, 10 and 11 bits, full light 1,026, 513 and 1,026,
-/// and none 2, 1 and 2. Values are those half a pixel further on, as a tint wants them.
-#[inline(never)]
-#[must_use]
-pub fn shade_planes(shares: &Shares, colour: [u32; 3]) -> [u32; 6] {
-    let shares = shares.cut::<6>();
-    let plane = |shift: u32, bits: u32, more: u32| {
-        let [a, b, c] = colour.map(|w| (w >> shift & bits) as i32);
-        let rise = if more == 5 {
-            shares.rise::<6, 5>(b - a, c - a)
-        } else {
-            shares.rise::<6, 6>(b - a, c - a)
-        };
-        let at = rise.at.wrapping_add(a << more).wrapping_add(rise.dx >> 1);
-        Rise { at, ..rise }
-    };
-    let (red, green, blue) = (plane(21, 0x7FF, 5), plane(0, 0x7FF, 5), plane(11, 0x3FF, 6));
-    let join = |high: i32, low: i32| (high << 16).wrapping_add(low) as u32;
-    [
-        join(red.at, blue.at),
-        join(red.dx, blue.dx),
-        join(red.dy, blue.dy),
-        (green.at << 16) as u32,
-        (green.dx << 16) as u32,
-        (green.dy << 16) as u32,
-    ]
 }

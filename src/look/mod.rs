@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `paint` | what a look does, and what it is told |
 //! | `gouraud` | colours linear between vertices |
+//! | `textured` | texels times such colours |
 //! | `ramp` | the loops over pixels that all looks share, with depth and without |
 //! | `texture` | textures as values: form, sides, palette, wrap |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
@@ -17,36 +18,24 @@
 
 mod fetch;
 mod gouraud;
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "textured looks are not wired yet")
-)]
 mod mapping;
 mod paint;
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "textured looks are not wired yet")
-)]
 mod perspective;
 mod ramp;
 #[cfg(test)]
 mod tests;
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "textured looks are not wired yet")
-)]
 mod texture;
-#[cfg_attr(
-    not(test),
-    expect(dead_code, reason = "textured looks are not wired yet")
-)]
+mod textured;
 mod tint;
 
 pub use gouraud::Gouraud;
 pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
+pub use perspective::Budget;
 pub(crate) use ramp::write_depth;
+pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
+pub use textured::Textured;
 
-/// How the triangles of a scene look: [`Gouraud`].
+/// How the triangles of a scene look: [`Gouraud`] or [`Textured`].
 pub trait Look: Paint {}
 
 impl<T: Paint> Look for T {}

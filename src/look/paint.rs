@@ -1,5 +1,6 @@
 //! What a look does, and what it is told.
 
+use crate::geometry::Scale;
 use crate::pixel::Pixel;
 use crate::scene::DrawState;
 use crate::span::{Size, Triangle};
@@ -27,6 +28,10 @@ pub trait Paint: Sized {
     const EMPTY: Self::Planes;
     /// Whether vertices have texture places.
     const TEXTURED: bool;
+    /// Whether a pixel has the same bits in whatever runs its span is coloured.
+    const ANY_RUNS: bool;
+    /// How levels of light become colours of vertices.
+    const SCALE: Scale;
 
     /// The planes of a triangle; `area` and `size` are its own, `object` its number.
     fn set_up(
@@ -72,6 +77,13 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
         depth: Depths<'_>,
     );
+
+    /// Whether a triangle was to have a texture, and has none.
+    #[inline(always)]
+    fn lacks_texture(planes: &Self::Planes, draws: &[DrawState<'_>]) -> bool {
+        let _ = (planes, draws);
+        false
+    }
 }
 
 /// A pixel of a line buffer.
@@ -113,10 +125,10 @@ pub struct Parts {
 }
 
 impl ThinSpan<'_> {
-    /// The value at column 0 and the step of what has these values, at most 2^31, at the corners: exact in the
+    /// The value at column 0 and the step of what has these values, within 2^32, at the corners: exact in the
     /// span's first pixel and in its last, linear between them.
-    pub fn line(&self, value: [u32; 3]) -> [u32; 2] {
-        let [a, b, c] = value.map(i64::from);
+    pub fn line(&self, value: [i64; 3]) -> [u32; 2] {
+        let [a, b, c] = value;
         let at = |parts: Parts| {
             let rise = (b - a) * i64::from(parts.second) + (c - a) * i64::from(parts.third);
             a + ((rise + (1 << 29)) >> 30)

@@ -108,6 +108,13 @@ impl Homogeneous {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Budget(u16);
 
+impl Default for Budget {
+    /// [`BALANCED`](Budget::BALANCED).
+    fn default() -> Self {
+        Self::BALANCED
+    }
+}
+
 impl Budget {
     /// 1/2 texel.
     pub const FAST: Self = Self(128);
@@ -165,6 +172,7 @@ pub enum Stride {
 
 impl Stride {
     /// All of them, the most exact one first.
+    #[cfg(test)]
     pub const ALL: [Self; 5] = [Self::One, Self::Two, Self::Four, Self::Eight, Self::Sixteen];
 
     /// The power of two that it is.

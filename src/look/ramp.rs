@@ -5,6 +5,7 @@
 //! with depth keeps its two steps from being multiplied out by `black_box`, once a chunk: 12 a pixel.
 
 use super::Depths;
+use crate::num::leading_zeros;
 use crate::pixel::Pixel;
 use core::hint::black_box;
 
@@ -161,4 +162,78 @@ pub(super) fn fill_pair_nearer<F: Pixel>(
         z = z.wrapping_add(depth.step);
         at = at.plus(step);
     }
+}
+
+/// Depth of a run into bits, 32 pixels at a time, and then `fill` for each run of what is at least as near as its
+/// cell: the number of its first pixel, and its pixels.
+#[inline(always)]
+pub(super) fn nearer_bits<W>(
+    run: &mut [W],
+    depth: Depths<'_>,
+    mut fill: impl FnMut(u32, &mut [W]),
+) {
+    let mut at = depth.at;
+    // Runs go on from one word to the next.
+    let mut from = None;
+    let mut base = 0;
+    for cells in depth.cells.chunks_mut(32) {
+        let mut bits = nearer_word(cells, &mut at, depth.step);
+        let pixels = cells.len() as u32;
+        let mut done = 0;
+        while done < pixels {
+            let ahead = if from.is_none() {
+                leading_zeros(bits)
+            } else {
+                leading_zeros(!bits)
+            };
+            if done + ahead >= pixels {
+                break;
+            }
+            done += ahead;
+            bits <<= ahead & 31;
+            match from.take() {
+                None => from = Some(base + done),
+                Some(first) => {
+                    if let Some(run) = run.get_mut(first as usize..(base + done) as usize) {
+                        fill(first, run);
+                    }
+                }
+            }
+        }
+        base += pixels;
+    }
+    if let Some(first) = from
+        && let Some(run) = run.get_mut(first as usize..base as usize)
+    {
+        fill(first, run);
+    }
+}
+
+/// Keeps what is at least as near as its cell, of up to 32; the first is the top bit.
+#[inline(never)]
+fn nearer_word(cells: &mut [u32], at: &mut u32, step: u32) -> u32 {
+    let (mut bits, mut z) = (0u32, *at);
+    let mut one = |cell: &mut u32, step: u32| {
+        let near = z >= *cell;
+        if near {
+            *cell = z;
+        }
+        bits = bits << 1 | u32::from(near);
+        z = z.wrapping_add(step);
+    };
+    let count = cells.len() as u32;
+    let mut chunks = cells.chunks_exact_mut(8);
+    for chunk in chunks.by_ref() {
+        let step = black_box(step);
+        if let Ok(chunk) = <&mut [u32; 8]>::try_from(chunk) {
+            for cell in chunk {
+                one(cell, step);
+            }
+        }
+    }
+    for cell in chunks.into_remainder() {
+        one(cell, step);
+    }
+    *at = z;
+    bits << (32u32.wrapping_sub(count) & 31)
 }

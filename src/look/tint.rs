@@ -9,8 +9,6 @@
 //! |---|---|---|---|
 //! | [`tint`] | 10.9 (94) | 26.7 (203) | 742 bytes |
 //! | [`tint_swapped`] | 12.1 (104) | 28.4 (206) | 808 |
-//! | [`tint_flat`] | 7.5 (88) | 20.0 (168) | 568 |
-//! | [`tint_flat_swapped`] | 10.0 (100) | 21.0 (181) | 660 |
 //!
 //! # Error
 //! Against `round(texel x shade)` with nothing else rounded: at most one step of red and of blue,
@@ -22,8 +20,8 @@ use core::hint::black_box as unknown;
 
 /// Light of a pixel, or its step, in two words: 16 bits a channel, full light is 2^15.
 ///
-/// Where a channel is below 0 or above `FULL + 255`, pixels get any colour: planes are to keep
-/// [`MARGIN`] to both ends.
+/// Full light is 2^15. Where a channel is below 0 or above full light and 255, pixels get any colour: planes keep
+/// a margin of 64 to both ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Shade {
     /// Red above blue. Of a step, the sum `(red << 16) + blue` of numbers with signs.
@@ -33,11 +31,8 @@ pub struct Shade {
 }
 
 /// Full light.
+#[cfg(test)]
 pub const FULL: u32 = 1 << 15;
-
-/// How far planes may err beyond dark and full light: dark vertices are to have it, full ones
-/// [`FULL`] and it.
-pub const MARGIN: u32 = 64;
 
 /// What a [`product`] is made with, in registers: unknown to the compiler, which would else make
 /// others of them.
@@ -149,7 +144,7 @@ fn short<const SWAPPED: bool>(run: &mut [u16], m: Masks, mut next: impl FnMut() 
 }
 
 /// Multiplies native 565 pixels by a shade that is `shade` half a pixel beyond the first one's
-/// centre, and gets `step` more each pixel.
+/// centre, and gets `step` more each pixel. Of an odd number, the last one is shaded likewise.
 #[inline(always)]
 pub fn tint(run: &mut [u16], shade: Shade, step: Shade) {
     gouraud::<false>(run, shade, step.times(2));
@@ -205,42 +200,10 @@ fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: S
     });
 }
 
-/// Multiplies native 565 pixels by one shade.
-#[inline(never)]
-pub fn tint_flat(run: &mut [u16], shade: Shade) {
-    flat::<false>(run, shade);
-}
-
-/// [`tint_flat`] of pixels whose bytes are swapped.
-#[inline(never)]
-pub fn tint_flat_swapped(run: &mut [u16], shade: Shade) {
-    flat::<true>(run, shade);
-}
-
-#[inline(always)]
-fn flat<const SWAPPED: bool>(run: &mut [u16], shade: Shade) {
-    let (m, by) = (*unknown(&MASKS), shade.channels());
-    let mut eights = run.chunks_exact_mut(8);
-    for eight in eights.by_ref() {
-        // One that is unknown anew keeps the compiler from unrolling further.
-        let by = [unknown(by[0]), by[1], by[2]];
-        if let [a, b, c, d, e, f, g, h] = eight {
-            pair::<SWAPPED>(a, b, by, m);
-            pair::<SWAPPED>(c, d, by, m);
-            pair::<SWAPPED>(e, f, by, m);
-            pair::<SWAPPED>(g, h, by, m);
-        }
-    }
-    short::<SWAPPED>(eights.into_remainder(), m, || by);
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::mapping::shade_planes;
     use super::*;
     use crate::num::random::Rng;
-    use crate::scene::Vertex;
-    use crate::span::{Frame, Triangle};
     use std::vec::Vec;
 
     /// Red, green and blue of a pixel, in steps of its own.
@@ -270,7 +233,7 @@ mod tests {
             let level = f64::from(i) / 200.0;
             let by = [level, 1.0 - level, (2.0 * level).min(1.0)];
             run.copy_from_slice(&texels);
-            tint_flat(&mut run, shade(by));
+            tint(&mut run, shade(by), Shade::default());
             for (&got, &texel) in run.iter().zip(&texels) {
                 assert!(
                     off(got, texel, by).iter().all(|&d| d <= 1.0),
@@ -319,92 +282,6 @@ mod tests {
             tint_swapped(&mut swapped, first, step);
             swapped.iter_mut().for_each(|p| *p = p.swap_bytes());
             assert_eq!(swapped, run);
-            let (mut flat, mut other) = (texels.clone(), texels);
-            tint_flat(&mut flat, first);
-            other.iter_mut().for_each(|p| *p = p.swap_bytes());
-            tint_flat_swapped(&mut other, first);
-            other.iter_mut().for_each(|p| *p = p.swap_bytes());
-            assert_eq!(flat, other);
         }
-    }
-
-    #[test]
-    fn planes_of_a_shade_stay_within_the_margin() {
-        let mut rng = Rng(14);
-        let frame = Frame {
-            left: 0,
-            top: 0,
-            width: 320,
-        };
-        let mut seen = 0;
-        for _ in 0..4000 {
-            let mut place = || {
-                let (x, y) = (400 + rng.below(500), 300 + rng.below(500));
-                y << 16 | x
-            };
-            let (places, light) = ([place(), place(), place()], [(); 3].map(|()| rng.bits()));
-            let light = light.map(|l| [l, l >> 10, l >> 20].map(|l| 2 + (l & 1023) + (l & 1)));
-            let vertices = [0, 1, 2].map(|i| {
-                let [r, g, b] = light[i];
-                Vertex {
-                    place: places[i],
-                    depth: 0,
-                    colour: r << 21 | (b / 2) << 11 | g,
-                }
-            });
-            let triangle = Triangle {
-                vertex: vertices.each_ref(),
-                texture: Default::default(),
-                frame,
-            };
-            let area = triangle.area();
-            if !(1024..1 << 30).contains(&area) {
-                continue;
-            }
-            let planes = shade_planes(&triangle.shares(area), vertices.map(|v| v.colour));
-            seen += check(&planes, &places, &vertices.map(|v| v.colour));
-        }
-        assert!(seen > 100_000, "{seen}");
-    }
-
-    /// Checks the pixels of a triangle; how many there are.
-    fn check(planes: &[u32; 6], places: &[u32; 3], colour: &[u32; 3]) -> u32 {
-        let [a, b, c] = places.map(|p| (f64::from(p & 0xFFFF) / 8.0, f64::from(p >> 16) / 8.0));
-        let edge = |p: (f64, f64), q: (f64, f64), x: f64, y: f64| {
-            (q.0 - p.0) * (y - p.1) - (q.1 - p.1) * (x - p.0)
-        };
-        let mut seen = 0;
-        for (line, column) in (36..102).flat_map(|l| (48..114).map(move |c| (l, c))) {
-            let (x, y) = (f64::from(column) + 0.5, f64::from(line) + 0.5);
-            let w = [edge(b, c, x, y), edge(c, a, x, y), edge(a, b, x, y)];
-            if w.iter().any(|&w| w < 0.0) {
-                continue;
-            }
-            seen += 1;
-            // Half a pixel further on.
-            let (x, sum) = (x + 0.5, w[0] + w[1] + w[2]);
-            let w = [edge(b, c, x, y), edge(c, a, x, y), edge(a, b, x, y)];
-            let at = |plane: usize| {
-                planes[plane]
-                    .wrapping_add(planes[plane + 1].wrapping_mul(column))
-                    .wrapping_add(planes[plane + 2].wrapping_mul(line))
-            };
-            let (rb, g) = (at(0), at(3));
-            for (got, shift, bits, more) in [
-                (rb >> 16, 21, 0x7FF, 5),
-                (rb & 0xFFFF, 11, 0x3FF, 6),
-                (g >> 16, 0, 0x7FF, 5),
-            ] {
-                let want: f64 = (0..3)
-                    .map(|i| w[i] / sum * f64::from((colour[i] >> shift & bits) << more))
-                    .sum();
-                let off = (got as u16).wrapping_sub(want as i32 as u16) as i16;
-                assert!(
-                    u32::from(off.unsigned_abs()) <= MARGIN,
-                    "{off} at {column} {line}"
-                );
-            }
-        }
-        seen
     }
 }

@@ -47,15 +47,15 @@ struct Picture {
     right: u32,
 }
 
-impl<L> Scene<'_, '_, L> {
-    /// Draws a mesh; `texels` are the texture places of its vertices, if it has any.
+impl<'t, L> Scene<'_, 't, L> {
+    /// Draws a mesh, with its texture if `textured`.
     ///
     /// # Errors
     /// What is wrong with the mesh, or which memory is full.
     pub(crate) fn assemble<C: Coordinate>(
         &mut self,
-        draw: &Draw<'_, C>,
-        texels: &[[i32; 2]],
+        draw: &Draw<'_, 't, C>,
+        textured: bool,
     ) -> Result<(), DrawError> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
@@ -65,13 +65,16 @@ impl<L> Scene<'_, '_, L> {
         let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
         let below = if is_looked_at { 0 } else { usize::MAX };
         check_mesh(mesh, below).map_err(DrawError::Mesh)?;
-        if !texels.is_empty() && texels.len() != mesh.positions.len() {
+        let skin = draw.texture.filter(|_| textured);
+        let texels = skin.map_or(&[][..], |skin| skin.places);
+        if skin.is_some() && texels.len() != mesh.positions.len() {
             return Err(DrawError::Mesh(MeshError::AttributeLength));
         }
         let submitted = triangles(mesh.faces);
         let state = DrawState {
             first: self.objects.len() as u16,
-            ..DrawState::EMPTY
+            texture: skin.map(|skin| skin.texture),
+            budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {

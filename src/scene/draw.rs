@@ -1,12 +1,13 @@
 //! What a draw call says, and what pass two needs of it.
 
 use crate::geometry::{Affine, Cull, Light, Mesh};
+use crate::look::{Budget, Texture};
 
 /// One draw call: a mesh, where it stands and how it looks.
 ///
 /// `C` is the coordinate type of the mesh, as in [`Mesh`].
 #[derive(Clone, Copy, Debug)]
-pub struct Draw<'a, C = i16> {
+pub struct Draw<'a, 't, C = i16> {
     /// What is drawn.
     pub mesh: Mesh<'a, C>,
     /// Model space to world space.
@@ -17,9 +18,26 @@ pub struct Draw<'a, C = i16> {
     pub light: Option<Light>,
     /// Colour of vertices that have none of their own.
     pub colour: [u8; 3],
+    /// The texture, for looks that have any; colours and light are multiplied with it.
+    pub texture: Option<Skin<'a, 't>>,
 }
 
-impl<'a, C> Draw<'a, C> {
+/// How a texture lies on a mesh.
+#[derive(Clone, Copy, Debug)]
+pub struct Skin<'a, 't> {
+    /// The texture.
+    pub texture: &'t Texture<'t>,
+    /// The place of each vertex on it: to the right and down from its upper left corner, in texels with 8 fraction
+    /// bits, -2^20 to 2^20 texels. As many as there are positions.
+    ///
+    /// A triangle may stretch over less than 4,096 texels; one that stretches farther is drawn without the texture,
+    /// and counted.
+    pub places: &'a [[i32; 2]],
+    /// How far a pixel's texel may be from its place.
+    pub budget: Budget,
+}
+
+impl<'a, C> Draw<'a, '_, C> {
     /// A mesh at the origin, white, not lit, faces seen from behind dropped.
     #[must_use]
     pub const fn new(mesh: Mesh<'a, C>) -> Self {
@@ -29,6 +47,7 @@ impl<'a, C> Draw<'a, C> {
             cull: Cull::Back,
             light: None,
             colour: [255; 3],
+            texture: None,
         }
     }
 }
@@ -38,13 +57,21 @@ impl<'a, C> Draw<'a, C> {
 pub struct DrawState<'t> {
     /// The number of its first triangle.
     pub(crate) first: u16,
-    pub(crate) texture: core::marker::PhantomData<&'t ()>,
+    pub(crate) texture: Option<&'t Texture<'t>>,
+    pub(crate) budget: Budget,
 }
 
-impl DrawState<'_> {
+impl<'t> DrawState<'t> {
     /// What fresh memory is filled with.
     pub const EMPTY: Self = Self {
         first: 0,
-        texture: core::marker::PhantomData,
+        texture: None,
+        budget: Budget::BALANCED,
     };
+
+    /// The texture, if there is one, and how exact it is.
+    #[inline(always)]
+    pub(crate) fn texture(&self) -> Option<(&'t Texture<'t>, Budget)> {
+        Some((self.texture?, self.budget))
+    }
 }

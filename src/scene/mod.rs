@@ -18,7 +18,7 @@ mod error;
 mod project;
 mod record;
 
-pub use draw::{Draw, DrawState};
+pub use draw::{Draw, DrawState, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub(crate) use record::NONE;
 pub use record::{Object, TexturePlace, Vertex};
