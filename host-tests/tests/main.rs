@@ -10,6 +10,7 @@
 // What proofs share.
 mod common;
 mod glass;
+mod hot;
 mod listing;
 mod stress;
 
@@ -29,6 +30,10 @@ mod effects;
 mod findings;
 mod formats;
 mod fuzz;
+mod hot_path_colours;
+mod hot_path_cover;
+mod hot_path_depth;
+mod hot_path_errors;
 mod input;
 mod lines_alone;
 mod list_bake;

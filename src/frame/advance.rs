@@ -14,7 +14,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn advance(&mut self, scene: &Scene<'_, '_, L>, view: &View<'_>, line: u16) {
         let first = scene.lines().start;
         let from = match self.place {
-            Some((generation, next)) if generation == scene.generation && next <= line + 1 => next,
+            Some((content, next)) if content == scene.content() && next <= line + 1 => next,
             _ => {
                 self.cache.clear();
                 self.met = false;
@@ -35,7 +35,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.changed {
             self.plan = Plan::Changed;
         }
-        self.place = Some((scene.generation, line + 1));
+        self.place = Some((scene.content(), line + 1));
     }
 
     /// What turns or ends on a line.

@@ -8,7 +8,7 @@
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
-use super::thin::{depth_plane, thin_span};
+use super::thin::{MARGIN, depth_plane, thin_span};
 use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
 use crate::link::Link;
@@ -437,7 +437,8 @@ fn thin_depth<L: Look>(object: u16, span: Span, out: &Line<'_, '_, WordOf<L>>) -
     };
     let ends = thin_span(&triangle, span, out.number);
     let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
-    [at.wrapping_add(step.wrapping_mul(span.start)), step]
+    let first = at.wrapping_add(step.wrapping_mul(span.start));
+    [first.wrapping_add(MARGIN), step]
 }
 
 /// The planes of a thin triangle on a line.

@@ -5,7 +5,7 @@ use super::slot::Active;
 use crate::active::{Cache, CacheUse};
 use crate::link::Link;
 use crate::look::Look;
-use crate::scene::{DrawState, Object, Scene, TexturePlace, Vertex};
+use crate::scene::{Content, DrawState, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::visible::Mask;
 use core::fmt;
@@ -119,8 +119,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) cache: &'m mut Cache<Active<L::Planes>, WORDS>,
     pub(super) links: &'m mut [Link],
     pub(super) depth: &'m mut [u32],
-    /// The scene's generation, and the first line whose triangles have not begun; `None` at first.
-    pub(super) place: Option<(u32, u16)>,
+    /// What the scene had, and the first line whose triangles have not begun; `None` at first.
+    pub(super) place: Option<(Content, u16)>,
     /// Columns that are covered on this line, that spans meet on, whose depth is written. All are empty between
     /// lines.
     pub(super) covered: Mask,

@@ -1,16 +1,17 @@
 //! What triangles have that a plane serves, and those that are too thin for one (H1, K5).
 
 use super::line::Span;
-use crate::look::{End, ThinSpan};
-use crate::span::{Size, Triangle, first_line};
+use crate::look::{Parts, ThinSpan};
+use crate::span::{Size, Triangle};
+
+/// What all depths are raised by, more than a plane may err.
+pub(super) const MARGIN: u32 = 1 << 14;
 
 /// The plane of 1/w, from the picture's first pixel on; `None` where the triangle is too thin for one.
 ///
 /// What planes may err is kept from 0, the farthest.
 #[inline(never)]
 pub(super) fn depth_plane(triangle: &Triangle<'_>) -> Option<[u32; 3]> {
-    /// More than a plane may err.
-    const MARGIN: u32 = 1 << 14;
     let depth = triangle.vertex.map(|v| v.depth);
     let area = triangle.area();
     let plane = if triangle.size(area) == Size::Tiny {
@@ -31,28 +32,49 @@ pub(super) fn depth_plane(triangle: &Triangle<'_>) -> Option<[u32; 3]> {
     Some([at.wrapping_add(MARGIN), dx, dy])
 }
 
-/// Where the ends of a line lie on a triangle's sides.
+/// What the corners have in the first and in the last pixel of a span.
 #[inline(never)]
 pub(super) fn thin_span<'a>(triangle: &'a Triangle<'a>, span: Span, line: u32) -> ThinSpan<'a> {
-    let y = i64::from(8 * (line as i32 + triangle.frame.top) + 4);
-    let [b, c] = [1, 2].map(|i| first_line(triangle.place(i)) - triangle.frame.top);
-    let end = |from: usize, to: usize| {
-        let [top, bottom] = [from, to].map(|i| i64::from(triangle.place(i) >> 16));
-        let way = ((y - top) << 16) / (bottom - top).max(1);
-        End {
-            from,
-            to,
-            way: way.clamp(0, 1 << 16) as u32,
-        }
+    let first = parts_at(triangle, span.start, line);
+    let last = if span.end - span.start > 1 {
+        parts_at(triangle, span.end - 1, line)
+    } else {
+        first
     };
-    let line = line as i32;
     ThinSpan {
         triangle,
-        ends: [
-            if line < c { end(0, 2) } else { end(2, 1) },
-            if line < b { end(0, 1) } else { end(1, 2) },
-        ],
+        parts: [first, last],
         start: span.start,
         pixels: span.end - span.start,
     }
+}
+
+/// What the corners have in a pixel that the triangle covers: areas across from them.
+fn parts_at(triangle: &Triangle<'_>, column: u32, line: u32) -> Parts {
+    let [a, b, c] = [0, 1, 2].map(|i| {
+        let place = triangle.place(i);
+        ((place & 0xFFFF) as i32, (place >> 16) as i32)
+    });
+    let x = 8 * (column as i32 + triangle.frame.left) + 4 - a.0;
+    let y = 8 * (line as i32 + triangle.frame.top) + 4 - a.1;
+    let area = triangle.area();
+    let part = |doubled: i32| part_of((doubled.max(0) as u32).min(area), area);
+    Parts {
+        second: part(
+            x.wrapping_mul(c.1 - a.1)
+                .wrapping_sub(y.wrapping_mul(c.0 - a.0)),
+        ),
+        third: part(
+            y.wrapping_mul(b.0 - a.0)
+                .wrapping_sub(x.wrapping_mul(b.1 - a.1)),
+        ),
+    }
+}
+
+/// `part / whole` in units of 2^-30, to 21 bits where the whole has 10; a part is at most the whole.
+fn part_of(part: u32, whole: u32) -> u32 {
+    if whole < 1 << 10 {
+        return ((part << 21) / whole.max(1)) << 9;
+    }
+    ((u64::from(part) << 30) / u64::from(whole)) as u32
 }

@@ -27,7 +27,7 @@ mod textured;
 mod tint;
 
 pub use gouraud::Gouraud;
-pub(crate) use paint::{Depths, End, Fill, Paint, Place, ThinSpan, WordOf};
+pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
 pub(crate) use ramp::write_depth;
 pub use textured::Textured;
 

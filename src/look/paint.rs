@@ -108,34 +108,33 @@ pub struct Depths<'a> {
     pub step: u32,
 }
 
-/// A span of a thin triangle: where its ends lie on the triangle's sides.
+/// A span of a thin triangle: the parts that its corners have in its first pixel and in its last.
 #[derive(Debug)]
 pub struct ThinSpan<'a> {
     pub triangle: &'a Triangle<'a>,
-    pub ends: [End; 2],
+    pub parts: [Parts; 2],
     pub start: u32,
     pub pixels: u32,
 }
 
-/// A place on a side: from one corner to another, so many 2^-16 of the way.
-#[derive(Clone, Copy, Debug)]
-pub struct End {
-    pub from: usize,
-    pub to: usize,
-    pub way: u32,
+/// What the second and the third corner have in a place, in units of 2^-30; the first has the rest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Parts {
+    pub second: u32,
+    pub third: u32,
 }
 
 impl ThinSpan<'_> {
-    /// The value at column 0 and the step of what has these values, below 2^31, at the corners: exact at the
-    /// span's ends, linear between them.
+    /// The value at column 0 and the step of what has these values, within 2^32, at the corners: exact in the
+    /// span's first pixel and in its last, linear between them.
     pub fn line(&self, value: [i64; 3]) -> [u32; 2] {
-        let at = |end: End| {
-            let (a, b) = (value[end.from % 3], value[end.to % 3]);
-            a + (((b - a) * i64::from(end.way)) >> 16)
+        let [a, b, c] = value;
+        let at = |parts: Parts| {
+            let rise = (b - a) * i64::from(parts.second) + (c - a) * i64::from(parts.third);
+            a + ((rise + (1 << 29)) >> 30)
         };
-        let (left, right) = (at(self.ends[0]), at(self.ends[1]));
-        let step = (right - left) / i64::from(self.pixels.max(1));
-        let first = left + (step >> 1);
+        let (first, last) = (at(self.parts[0]), at(self.parts[1]));
+        let step = (last - first) / i64::from(self.pixels.saturating_sub(1).max(1));
         let step = step as u32;
         [
             (first as u32).wrapping_sub(step.wrapping_mul(self.start)),

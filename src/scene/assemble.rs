@@ -83,6 +83,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 first_face: 0,
             });
         }
+        self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
             light: draw.light.map(|l| l.in_model(&draw.model, camera.view())),

@@ -73,7 +73,7 @@ fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
 
 /// The point where the edge from `inner` to `outer` meets the plane that they lie so far within.
 fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: bool) -> Corner {
-    // t = near / (near - far) in 2^-30; both are below 2^35.
+    // t = near / (near - far) in 2^-30; both are below 2^33.
     let whole = near.unsigned_abs() + far.unsigned_abs();
     let down = 31u32.saturating_sub(whole.leading_zeros());
     let t = ((near.unsigned_abs() >> down) << 30) / (whole >> down).max(1);

@@ -72,6 +72,13 @@ fn first_of(objects: &mut [Object]) -> &mut [Object] {
     objects.get_mut(..most).unwrap_or_default()
 }
 
+/// What a renderer's cache has to agree with: where triangles lie, and how often they have changed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Content {
+    place: usize,
+    changes: u32,
+}
+
 /// The widest and the highest picture, in pixels.
 pub const LARGEST: u16 = 1016;
 
@@ -170,6 +177,14 @@ impl<'m, 't, L> Scene<'m, 't, L> {
     #[must_use]
     pub fn assembled(&self) -> Assembled {
         self.assembled
+    }
+
+    /// What a renderer that goes on from line to line has to find again.
+    pub(crate) fn content(&self) -> Content {
+        Content {
+            place: self.objects.as_slice().as_ptr().addr(),
+            changes: self.generation,
+        }
     }
 
     /// How many triangles are in memory.

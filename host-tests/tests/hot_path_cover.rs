@@ -1,0 +1,408 @@
+//! K3, K4, K5: which pixels triangles cover, exactly, and the same bits whatever the cache, the order of
+//! lines or the number of renderers is.
+//!
+//! Triangles whose corners lie on chosen 1/8 pixels have a colour each. At every pixel the one that was
+//! drawn last has to be seen, by the words of the fill rule in whole numbers.
+
+use crate::common::Rng;
+use crate::hot::exact::{columns, doubled_area, within};
+use crate::hot::{Corner, LineRooms, Place, SceneRooms, Smooth, WordOf, camera, draw, frame, line};
+use crate::watertight::count::Count;
+use scanbeam::look::Gouraud;
+use scanbeam::scene::Scene;
+use scanbeam::{Cull, Rgb565Be, Rgb888, Screen};
+
+type L = Gouraud<Rgb888>;
+/// As far from the picture's middle as a corner can be without being cut off, in units of 1/8 pixel.
+const GUARD: i32 = (1 << 14) - 3;
+
+/// A triangle's colour, by number from 1; far enough apart to be read back from any pixel.
+fn colour(id: usize) -> [u8; 3] {
+    [0, 4, 8].map(|shift| ((id >> shift & 15) * 17) as u8)
+}
+
+fn id(pixel: [u8; 3]) -> usize {
+    (0..3).fold(0, |id, i| id | (usize::from(pixel[i]) + 8) / 17 << (4 * i))
+}
+
+/// A picture by the fill rule alone: the number of the last triangle at each pixel.
+fn wanted(screen: Screen, triangles: &[[Place; 3]], cull: Cull) -> Vec<Vec<usize>> {
+    let mut lines = vec![vec![0; screen.width().into()]; screen.height().into()];
+    for (id, &triangle) in (1..).zip(triangles) {
+        if cull == Cull::Back && doubled_area(triangle) > 0 {
+            continue;
+        }
+        for (y, line) in (0..).zip(&mut lines) {
+            line[within(triangle, y, screen.width())].fill(id);
+        }
+    }
+    lines
+}
+
+fn corners(triangles: &[[Place; 3]]) -> Vec<[Corner; 3]> {
+    let of = |(id, places): (usize, &[Place; 3])| {
+        places.map(|at| Corner {
+            at,
+            w: 1.0,
+            colour: colour(id),
+        })
+    };
+    (1..).zip(triangles).map(of).collect()
+}
+
+/// Keeps its memory from scene to scene.
+struct Bench {
+    rooms: SceneRooms,
+    triangles: usize,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Self {
+            rooms: SceneRooms::new(16_384, 8_192, 1_016, 8),
+            triangles: 0,
+        }
+    }
+
+    /// Holds a picture against the rule, with depth and without, with so many slots; all triangles are
+    /// equally far, so the last is seen in either case.
+    fn check(&mut self, screen: Screen, triangles: &[[Place; 3]], cull: Cull, slots: &[u16]) {
+        let mut scene = self.rooms.scene::<L>(screen);
+        scene.begin(&camera()).unwrap();
+        draw(&mut scene, &corners(triangles), cull).unwrap();
+        let use_of = scene.assembled();
+        assert_eq!(use_of.clipped, 0, "places lie within the guard band");
+        assert_eq!(use_of.triangles as usize, triangles.len());
+        assert_eq!(
+            use_of.culled as usize + scene.objects(),
+            triangles.len(),
+            "each is culled or kept"
+        );
+        let want = wanted(screen, triangles, cull);
+        for (&slots, depth) in slots.iter().zip([false, true].into_iter().cycle()) {
+            let got = frame(&scene, slots, depth, [0; 3]);
+            for (y, (got, want)) in got.iter().zip(&want).enumerate() {
+                for (x, (&pixel, &want)) in got.iter().zip(want).enumerate() {
+                    assert_eq!(
+                        id(pixel),
+                        want,
+                        "{x}, {y} of {screen:?} {cull:?}, {slots} slots, depth {depth}: {triangles:?}"
+                    );
+                }
+            }
+        }
+        self.triangles += triangles.len();
+    }
+}
+
+fn screens() -> [Screen; 6] {
+    [(1, 1), (32, 24), (33, 25), (320, 240), (1016, 3), (3, 1016)]
+        .map(|(w, h)| Screen::new(w, h).unwrap())
+}
+
+/// A place at most `reach` units beyond the picture.
+fn place(rng: &mut Rng, screen: Screen, reach: i32) -> Place {
+    let (w, h) = (
+        8 * i32::from(screen.width()),
+        8 * i32::from(screen.height()),
+    );
+    let mut along = |size: i32| {
+        let (low, high) = (size / 2 - GUARD + 8, size / 2 + GUARD - 8);
+        rng.within(-reach, size + reach).clamp(low, high)
+    };
+    (along(w), along(h))
+}
+
+/// A triangle of any shape.
+fn shape(rng: &mut Rng, screen: Screen) -> [Place; 3] {
+    let a = place(rng, screen, 40);
+    let near = |rng: &mut Rng, a: Place, size: i32| {
+        (a.0 + rng.within(-size, size), a.1 + rng.within(-size, size))
+    };
+    match rng.below(8) {
+        // Specks, and what is about as large as each way of setting up allows.
+        0 => [a, near(rng, a, 6), near(rng, a, 6)],
+        1 => [a, near(rng, a, 30), near(rng, a, 30)],
+        2 => [a, near(rng, a, 110), near(rng, a, 110)],
+        3 => [a, near(rng, a, 250), near(rng, a, 250)],
+        4 => [a, near(rng, a, 520), near(rng, a, 520)],
+        // Across the picture's borders.
+        5 => [(); 3].map(|()| place(rng, screen, 600)),
+        // Slivers at any slope.
+        6 => {
+            let b = place(rng, screen, 400);
+            let on = rng.within(0, 64);
+            let c = (a.0 + (b.0 - a.0) * on / 64, a.1 + (b.1 - a.1) * on / 64);
+            let c = near(rng, c, 3);
+            [a, b, c]
+        }
+        // To the ends of the guard band.
+        _ => [(); 3].map(|()| place(rng, screen, GUARD)),
+    }
+}
+
+#[test]
+fn spans_by_the_rule_are_pixels_by_the_rule() {
+    let mut rng = Rng::new(301);
+    let screen = Screen::new(33, 25).unwrap();
+    for _ in 0..4_000 {
+        let triangle = shape(&mut rng, screen);
+        let count = Count::new(screen, &[triangle], Cull::None);
+        for y in 0..screen.height() {
+            let columns = columns(triangle, y.into());
+            for (x, &hit) in (0..).zip(&count.hits[count.line(y)]) {
+                assert_eq!(columns.contains(&x), hit == 1, "{x}, {y}: {triangle:?}");
+            }
+        }
+    }
+}
+
+/// All shapes over one another, few enough that each is seen somewhere.
+#[test]
+fn triangles_of_all_shapes_cover_what_the_rule_says() {
+    let mut rng = Rng::new(302);
+    let mut bench = Bench::new();
+    for round in 0..1_500 {
+        let screen = screens()[round % 6];
+        let count = rng.pick(&[1, 2, 7, 40]);
+        let triangles: Vec<_> = (0..count).map(|_| shape(&mut rng, screen)).collect();
+        let cull = rng.pick(&[Cull::None, Cull::Back]);
+        let slots = rng.pick(&[[0, 128, 4], [1, 64, 128], [64, 1, 0], [4, 4, 64]]);
+        bench.check(screen, &triangles, cull, &slots);
+    }
+    assert!(bench.triangles > 10_000, "{}", bench.triangles);
+}
+
+/// One at a time: nothing is hidden.
+#[test]
+fn each_triangle_alone_covers_what_the_rule_says() {
+    let mut rng = Rng::new(303);
+    let mut bench = Bench::new();
+    for round in 0..12_000 {
+        let screen = screens()[[0, 1, 2, 1, 2, 4, 5][round % 7]];
+        let triangle = shape(&mut rng, screen);
+        let slots = rng.pick(&[[4, 4], [0, 4], [64, 0]]);
+        bench.check(screen, &[triangle], Cull::None, &slots);
+    }
+}
+
+/// Corners at the very ends of the guard band, all of them and some.
+#[test]
+fn giants_of_the_whole_guard_band_cover_what_the_rule_says() {
+    let mut rng = Rng::new(304);
+    let mut bench = Bench::new();
+    for round in 0..1_500 {
+        let screen = screens()[1 + round % 5];
+        let middle = (
+            4 * i32::from(screen.width()),
+            4 * i32::from(screen.height()),
+        );
+        let mut along = |middle: i32| {
+            let end = rng.pick(&[GUARD, GUARD, GUARD - 1, GUARD - 8, 9_000, 1_000, 3, 0]);
+            middle + rng.pick(&[-end, end])
+        };
+        let triangles = [(); 2].map(|()| [(); 3].map(|()| (along(middle.0), along(middle.1))));
+        bench.check(screen, &triangles, Cull::None, &[4, 0]);
+    }
+}
+
+/// Beyond the guard band triangles are cut: nothing of the picture changes but by a unit beside edges that were
+/// cut.
+#[test]
+fn triangles_cut_at_the_guard_band_cover_what_they_did() {
+    let mut rng = Rng::new(309);
+    let mut rooms = SceneRooms::new(64, 32, 1_016, 2);
+    let (mut cut, mut decided) = (0, 0);
+    for round in 0..3_000 {
+        let screen = screens()[1 + round % 5];
+        let (w, h) = (screen.width(), screen.height());
+        let middle = (4 * i32::from(w), 4 * i32::from(h));
+        let mut along = |middle: i32| {
+            let far = rng.within(0, 60_000);
+            middle + rng.pick(&[-20_000 - far, far - 30_000, 20_000 + far])
+        };
+        let triangle = [(); 3].map(|()| (along(middle.0), along(middle.1)));
+        if doubled_area(triangle).abs() < 1 << 20 {
+            continue;
+        }
+        let mut scene = rooms.scene::<L>(screen);
+        scene.begin(&camera()).unwrap();
+        draw(&mut scene, &corners(&[triangle]), Cull::None).unwrap();
+        cut += scene.assembled().clipped;
+        for (y, line) in (0..).zip(frame(&scene, rng.pick(&[0, 4]), false, [0; 3])) {
+            for (x, pixel) in (0..).zip(line) {
+                // Doubled areas with the pixel, over the lengths of sides: distances to the sides.
+                let at = (8 * x + 4, 8 * y + 4);
+                let side = if doubled_area(triangle) > 0 {
+                    1.0
+                } else {
+                    -1.0
+                };
+                let distance = [0, 1, 2].map(|k| {
+                    let (a, b) = (triangle[k], triangle[(k + 1) % 3]);
+                    let long = f64::from(b.0 - a.0).hypot(f64::from(b.1 - a.1));
+                    side * doubled_area([a, b, at]) as f64 / long
+                });
+                let least = distance.into_iter().fold(f64::MAX, f64::min);
+                if least.abs() > 2.0 {
+                    decided += 1;
+                    assert_eq!(
+                        id(pixel) == 1,
+                        least > 0.0,
+                        "{x}, {y}: {least}, {triangle:?}"
+                    );
+                }
+            }
+        }
+    }
+    assert!(cut > 1_000 && decided > 1_000_000, "{cut} {decided}");
+}
+
+/// Grids that reach over all borders cover every pixel, once: no edge is wider or narrower than its
+/// neighbour's.
+#[test]
+fn closed_meshes_have_no_holes() {
+    let mut rng = Rng::new(305);
+    let mut bench = Bench::new();
+    for round in 0..600 {
+        let screen = screens()[round % 6];
+        let (snap, offset) = [(1, 0), (8, 4), (8, 0), (4, 0)][round % 4];
+        let cell = rng.pick(&[24, 60, 200, 500, 900]);
+        let jitter = (cell - 2 * snap) / 4;
+        let size = |pixels: u16| (8 * i32::from(pixels) / cell + 5) as usize;
+        let (columns, rows) = (size(screen.width()), size(screen.height()));
+        if columns * rows > 1_000 {
+            continue;
+        }
+        let mut put = |i: usize| {
+            let exact = cell * (i as i32 - 2) + rng.within(-jitter, jitter);
+            exact.div_euclid(snap) * snap + offset
+        };
+        let grid: Vec<Vec<Place>> = (0..=rows)
+            .map(|y| (0..=columns).map(|x| (put(x), put(y))).collect())
+            .collect();
+        let mut triangles = Vec::new();
+        for y in 0..rows {
+            for x in 0..columns {
+                let (a, b) = (grid[y][x], grid[y][x + 1]);
+                let (c, d) = (grid[y + 1][x], grid[y + 1][x + 1]);
+                triangles.extend(if (x ^ y) & 1 == 0 {
+                    [[a, c, b], [b, c, d]]
+                } else {
+                    [[a, c, d], [a, d, b]]
+                });
+            }
+        }
+        assert!(triangles.iter().all(|&t| doubled_area(t) < 0), "not plain");
+        let want = wanted(screen, &triangles, Cull::Back);
+        assert!(
+            want.iter().flatten().all(|&id| id > 0),
+            "a hole in the mesh itself"
+        );
+        bench.check(screen, &triangles, Cull::Back, &[64, 128, 4, 0]);
+    }
+    assert!(bench.triangles > 20_000, "{}", bench.triangles);
+}
+
+/// A scene of triangles of many distances and colours, some through each other.
+fn mixed(rng: &mut Rng, screen: Screen, count: usize) -> Vec<[Corner; 3]> {
+    let mut one = || {
+        let places = shape(rng, screen);
+        places.map(|at| Corner {
+            at,
+            w: rng.between(1.01, 3.0),
+            colour: [(); 3].map(|()| rng.below(256) as u8),
+        })
+    };
+    (0..count).map(|_| one()).collect()
+}
+
+/// Draws `mixed` triangles and hands the scene to `see`.
+fn with_mixed<M: Smooth>(
+    rng: &mut Rng,
+    screen: Screen,
+    see: impl FnOnce(&mut Rng, &Scene<'_, '_, M>),
+) {
+    let count = rng.pick(&[3, 20, 90, 300]);
+    let triangles = mixed(rng, screen, count);
+    let mut rooms = SceneRooms::new(3 * count, count, screen.height().into(), 1);
+    let mut scene = rooms.scene::<M>(screen);
+    scene.begin(&camera()).unwrap();
+    draw(&mut scene, &triangles, Cull::None).unwrap();
+    see(rng, &scene);
+}
+
+fn cache_and_lines<M: Smooth>(seed: u64, background: WordOf<M>)
+where
+    WordOf<M>: std::fmt::Debug,
+{
+    let mut rng = Rng::new(seed);
+    for round in 0..90 {
+        let screen = screens()[round % 6];
+        with_mixed::<M>(&mut rng, screen, |rng, scene| {
+            for depth in [true, false] {
+                let want = frame(scene, 128, depth, background);
+                for slots in [0, 1, 4, 31, 33, 64] {
+                    let got = frame(scene, slots, depth, background);
+                    assert!(got == want, "{slots} slots, depth {depth}, round {round}");
+                }
+                // Alone, in any order, some lines again and again.
+                let slots = rng.pick(&[0, 3, 64, 128]);
+                let mut rooms = LineRooms::fitting(scene, slots, depth);
+                let mut renderer = rooms.renderer();
+                let mut lines: Vec<u16> =
+                    scene.lines().chain(0..scene.lines().end.min(9)).collect();
+                rng.shuffle(&mut lines);
+                lines.truncate(60);
+                for y in lines {
+                    let got = line(&mut renderer, scene, y, background);
+                    assert_eq!(got, want[usize::from(y)], "line {y} alone, {slots} slots");
+                }
+                // By two renderers with unlike caches, every third line for the other.
+                let mut one = LineRooms::fitting(scene, 5, depth);
+                let mut other = LineRooms::fitting(scene, 64, depth);
+                let (mut one, mut other) = (one.renderer(), other.renderer());
+                for y in scene.lines() {
+                    let who = if y % 3 == 1 { &mut other } else { &mut one };
+                    let got = line(who, scene, y, background);
+                    assert_eq!(got, want[usize::from(y)], "line {y} by two");
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn the_cache_and_the_order_of_lines_change_nothing() {
+    cache_and_lines::<Gouraud<Rgb888>>(306, [1, 2, 3]);
+    cache_and_lines::<Gouraud<Rgb565Be>>(307, 0x1234);
+}
+
+#[test]
+fn bands_are_parts_of_the_whole() {
+    let mut rng = Rng::new(308);
+    for round in 0..60 {
+        let screen = screens()[1 + round % 5];
+        let triangles = mixed(&mut rng, screen, 80);
+        let height = screen.height();
+        let mut rooms = SceneRooms::new(240, 80, height.into(), 1);
+        let mut picture = |lines: std::ops::Range<u16>, slots: u16| {
+            let mut scene = rooms.scene::<L>(screen);
+            scene.begin_lines(&camera(), lines.clone()).unwrap();
+            draw(&mut scene, &triangles, Cull::None).unwrap();
+            assert_eq!(scene.lines(), lines);
+            frame(&scene, slots, true, [9; 3])
+        };
+        let whole = picture(0..height, 64);
+        let mut from = 0;
+        while from < height {
+            let to = (from + 1 + rng.below(u32::from(height).div_ceil(3)) as u16).min(height);
+            let got = picture(from..to, rng.pick(&[0, 7, 128]));
+            assert!(
+                got == whole[from.into()..to.into()],
+                "lines {from}..{to}, round {round}"
+            );
+            from = to;
+        }
+    }
+}

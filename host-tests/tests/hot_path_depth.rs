@@ -1,0 +1,322 @@
+//! K8: which of several surfaces is seen, by depth, by order of submission, and the depth itself.
+//!
+//! Depth is 1/w, 2^30 where w is 1, and 2^14 more. Here are its bounds, none set after measuring:
+//!
+//! | what | bound | from |
+//! |---|---|---|
+//! | a plane of any triangle | 2^13 units, and half a unit a pixel each way | 13 spare bits |
+//! | one of a tiny triangle | 2^-16 of how much the corners differ, and 2^13 units | a reciprocal of 16 bits |
+//! | a corner | `2^-15` of it | a reciprocal of 16 bits and its remainder; 26 bits of a model's scale |
+
+use crate::common::Rng;
+use crate::hot::exact::{weights, within};
+use crate::hot::{Corner, LineRooms, Place, frame, line, with_scene};
+use scanbeam::Rgb888;
+use scanbeam::Screen;
+use scanbeam::look::Gouraud;
+
+type L = Gouraud<Rgb888>;
+/// Depth where w is 1.
+const ONE: f64 = (1u32 << 30) as f64;
+/// What all depths are raised by.
+const RAISED: f64 = 16_384.0;
+
+fn distance(rng: &mut Rng, bits: f64) -> f64 {
+    rng.between(0.0, bits).exp2()
+}
+
+/// 1/w at a pixel, as depth.
+fn exact(corners: &[Corner; 3], column: usize, line: u16) -> f64 {
+    let places = corners.map(|c| c.at);
+    let (part, _) = weights(places, column as i32, line.into());
+    (0..3).map(|k| part[k] * ONE / corners[k].w).sum()
+}
+
+/// How far depth may be off at a pixel.
+fn bound(corners: &[Corner; 3]) -> f64 {
+    let depth = corners.map(|c| ONE / c.w);
+    let (low, high) = depth
+        .iter()
+        .fold((f64::MAX, 0.0f64), |(l, h), &d| (l.min(d), h.max(d)));
+    let extent = |c: [i32; 3]| f64::from(c.iter().max().unwrap() - c.iter().min().unwrap());
+    let size = extent(corners.map(|c| c.at.0)) + extent(corners.map(|c| c.at.1));
+    8_192.0 + size / 16.0 + (high - low) * 2f64.powi(-16) + high * 2f64.powi(-15)
+}
+
+/// A triangle of any size, from specks to what is larger than the picture, thin and not.
+fn places(rng: &mut Rng) -> [Place; 3] {
+    let a = (rng.within(-100, 480), rng.within(-100, 420));
+    let size = rng.pick(&[6, 30, 100, 200, 400, 2_000]);
+    let near = |rng: &mut Rng, a: Place, size: i32| {
+        (a.0 + rng.within(-size, size), a.1 + rng.within(-size, size))
+    };
+    let b = near(rng, a, size);
+    let c = if rng.below(3) == 0 {
+        let on = rng.within(0, 64);
+        near(
+            rng,
+            (a.0 + (b.0 - a.0) * on / 64, a.1 + (b.1 - a.1) * on / 64),
+            3,
+        )
+    } else {
+        near(rng, a, size)
+    };
+    [a, b, c]
+}
+
+fn triangle(rng: &mut Rng, bits: f64, away: f64, red: u8) -> [Corner; 3] {
+    places(rng).map(|at| Corner {
+        at,
+        w: distance(rng, bits) * away.exp2(),
+        colour: [red, 0, 0],
+    })
+}
+
+/// A triangle drawn twice meets itself, so all of its depth is kept.
+#[test]
+fn depth_is_within_its_bound_of_1_over_w() {
+    let mut rng = Rng::new(341);
+    let screen = Screen::new(48, 40).unwrap();
+    let (mut worst, mut units, mut pixels) = (0.0f64, 0.0f64, 0u64);
+    for round in 0..20_000 {
+        let (bits, away) = [
+            (0.0, 0.0),
+            (1.0, 0.0),
+            (6.0, 0.0),
+            (5.0, 4.0),
+            (1.0, 9.0),
+            (0.5, 15.0),
+        ][round % 6];
+        let one = triangle(&mut rng, bits, away, 200);
+        let at = one.map(|c| c.at);
+        let bound = bound(&one);
+        with_scene::<L, _>(screen, &[one; 2], |scene| {
+            let slots = rng.pick(&[0, 1, 4]);
+            for y in 0..screen.height() {
+                let columns = within(at, y.into(), screen.width());
+                if columns.is_empty() {
+                    continue;
+                }
+                let mut rooms = LineRooms::fitting(scene, slots, true);
+                line(&mut rooms.renderer(), scene, y, [0; 3]);
+                for x in columns {
+                    let want = exact(&one, x, y) + RAISED;
+                    let off = (f64::from(rooms.depth[x]) - want).abs();
+                    worst = worst.max(off / bound);
+                    units = units.max(off);
+                    pixels += 1;
+                    assert!(
+                        off <= bound,
+                        "{} for {want}, {bound} at {x}, {y}, {slots} slots: {one:?}",
+                        rooms.depth[x]
+                    );
+                }
+            }
+        });
+    }
+    println!("{pixels} pixels, at most {units} units, {worst} of the bound");
+    assert!(pixels > 1_000_000);
+}
+
+/// From the nearest that a camera sees to the farthest within one triangle: no depth leaves its range, so nothing
+/// far is taken for the nearest.
+#[test]
+fn depth_never_wraps() {
+    let mut rng = Rng::new(344);
+    let screen = Screen::new(48, 40).unwrap();
+    let (mut least, mut most, mut pixels) = (u32::MAX, 0, 0u64);
+    for _ in 0..20_000 {
+        let at = places(&mut rng);
+        let one = at.map(|at| Corner {
+            at,
+            w: rng.pick(&[1.0, 1.0, 4_000.0, 65_400.0]),
+            colour: [200, 0, 0],
+        });
+        with_scene::<L, _>(screen, &[one; 2], |scene| {
+            let slots = rng.pick(&[0, 4]);
+            let mut rooms = LineRooms::fitting(scene, slots, true);
+            let mut cells = Vec::new();
+            for y in (0..screen.height()).step_by(3) {
+                rooms.depth.fill(u32::MAX);
+                line(&mut rooms.renderer(), scene, y, [0; 3]);
+                cells.extend(rooms.depth.iter().filter(|&&cell| cell != u32::MAX));
+            }
+            for cell in cells {
+                (least, most, pixels) = (least.min(cell), most.max(cell), pixels + 1);
+                // Corners at 1 are cut to 2^-10 of it where others are so far.
+                let range = 1..(ONE * 1.004) as u32;
+                assert!(range.contains(&cell), "{cell}, {slots} slots: {one:?}");
+            }
+        });
+    }
+    println!("{pixels} pixels, {least} to {most}");
+    assert!(pixels > 400_000);
+}
+
+/// Of many surfaces across each other the nearest is seen wherever it is nearer than all others by more than
+/// the bounds, in whatever order they are drawn and whatever the cache is.
+#[test]
+fn the_nearest_is_seen() {
+    let mut rng = Rng::new(342);
+    let screen = Screen::new(48, 40).unwrap();
+    let (mut decided, mut open) = (0u64, 0u64);
+    for round in 0..2_500 {
+        let (bits, away) = [
+            (1.0, 0.0),
+            (0.2, 0.0),
+            (6.0, 0.0),
+            (1.0, 6.0),
+            (4.0, 4.0),
+            (0.9, 15.0),
+        ][round % 6];
+        let count = rng.pick(&[2, 3, 12, 40]);
+        let triangles: Vec<_> = (0..count)
+            .map(|i| triangle(&mut rng, bits, away, 40 + 5 * i))
+            .collect();
+        let bounds: Vec<_> = triangles.iter().map(bound).collect();
+        let slots = rng.pick(&[0, 1, 8, 64]);
+        let picture = with_scene::<L, _>(screen, &triangles, |scene| {
+            frame(scene, slots, true, [0; 3])
+        });
+        for (y, line) in (0..).zip(&picture) {
+            let mut at = vec![Vec::new(); screen.width().into()];
+            for (k, t) in triangles.iter().enumerate() {
+                for x in within(t.map(|c| c.at), i32::from(y), screen.width()) {
+                    at[x].push((exact(t, x, y), k));
+                }
+            }
+            for (x, mut at) in at.into_iter().enumerate() {
+                at.sort_by(|a, b| b.0.total_cmp(&a.0));
+                let Some(&(depth, first)) = at.first() else {
+                    assert_eq!(line[x], [0; 3]);
+                    continue;
+                };
+                let near = |&(other, k): &(f64, usize)| depth - other <= bounds[first] + bounds[k];
+                if at.iter().skip(1).any(near) {
+                    open += 1;
+                    continue;
+                }
+                decided += 1;
+                let want = 40 + 5 * first as u8;
+                assert_eq!(
+                    line[x][0], want,
+                    "{x}, {y}, {slots} slots: {at:?} of {triangles:?}"
+                );
+            }
+        }
+    }
+    println!("{decided} pixels decided, {open} too near to tell");
+    assert!(decided > 1_000_000, "{decided}");
+}
+
+/// Layers over the whole picture and parts of it, each at a distance of its own or leaning, in any order: lines
+/// that are full before all layers were asked have what the nearest ones have.
+#[test]
+fn layers_hide_what_is_behind_them() {
+    let mut rng = Rng::new(345);
+    let screen = Screen::new(64, 48).unwrap();
+    for round in 0..1_200 {
+        let layers = rng.pick(&[2, 5, 20]);
+        let leaning = round % 3 == 1;
+        let mut triangles = Vec::new();
+        for k in 0..layers {
+            let colour = [40 + 8 * k as u8, 0, 0];
+            let w = 1.01 + 0.15 * f64::from(rng.below(20));
+            let (small, alone) = (rng.pick(&[1, 1, 2, 4]), rng.below(4) == 0);
+            // Some twice at the same distance: there the last is seen.
+            let mut corner = |x: i32, y: i32| Corner {
+                at: (x + rng.within(-90, 90), y + rng.within(-60, 60)),
+                w: if leaning {
+                    w + rng.between(0.0, 0.2)
+                } else {
+                    w
+                },
+                colour,
+            };
+            let (a, b) = (corner(-50, -50), corner(600 / small, -40));
+            let (c, d) = (corner(-60, 450 / small), corner(600 / small, 450 / small));
+            if !alone {
+                triangles.push([a, b, c]);
+            }
+            triangles.push([b, d, c]);
+        }
+        rng.shuffle(&mut triangles);
+        let bounds: Vec<_> = triangles.iter().map(bound).collect();
+        with_scene::<L, _>(screen, &triangles, |scene| {
+            let picture = frame(scene, 64, true, [0; 3]);
+            // Without slots nothing is known of the line before.
+            assert_eq!(picture, frame(scene, 0, true, [0; 3]), "round {round}");
+            for (y, line) in (0..).zip(&picture) {
+                for (x, pixel) in line.iter().enumerate() {
+                    let mut best: Option<(f64, usize)> = None;
+                    let mut open = false;
+                    for (k, t) in triangles.iter().enumerate() {
+                        let at = t.map(|c| c.at);
+                        if !within(at, i32::from(y), screen.width()).contains(&x) {
+                            continue;
+                        }
+                        let depth = exact(t, x, y);
+                        let Some((other, first)) = best else {
+                            best = Some((depth, k));
+                            continue;
+                        };
+                        let near = (depth - other).abs() <= bounds[k] + bounds[first];
+                        open |= near && leaning;
+                        if depth > other || near {
+                            best = Some((depth, k));
+                        }
+                    }
+                    if !open {
+                        let want = best.map_or(0, |(_, k)| triangles[k][0].colour[0]);
+                        assert_eq!(pixel[0], want, "{x}, {y}: {triangles:?}");
+                    }
+                }
+            }
+        });
+    }
+}
+
+/// Of equals the last is seen, and without depth the last of all.
+#[test]
+fn the_last_of_equals_is_seen() {
+    let mut rng = Rng::new(343);
+    let screen = Screen::new(48, 40).unwrap();
+    let mut pixels = 0;
+    for _ in 0..2_000 {
+        let one = triangle(&mut rng, 3.0, 0.0, 0);
+        let copies = rng.pick(&[2, 3, 9]);
+        let mut twins: Vec<_> = (0..copies)
+            .map(|i| {
+                one.map(|c| Corner {
+                    colour: [100 + i, 0, 0],
+                    ..c
+                })
+            })
+            .collect();
+        // One that is nearer, first: with depth it is seen, without it is not.
+        let nearer = one.map(|c| Corner {
+            w: 0.9 * c.w.max(1.2),
+            colour: [10, 0, 0],
+            ..c
+        });
+        let is_nearer = one.iter().all(|c| c.w > 1.2);
+        if is_nearer {
+            twins.insert(0, nearer);
+        }
+        for (depth, slots) in [(true, 64), (true, 0), (false, 64), (false, 3)] {
+            let picture =
+                with_scene::<L, _>(screen, &twins, |scene| frame(scene, slots, depth, [0; 3]));
+            let want = if is_nearer && depth { 10 } else { 99 + copies };
+            for (y, line) in (0..).zip(&picture) {
+                for x in within(one.map(|c| c.at), y, screen.width()) {
+                    assert_eq!(
+                        line[x][0], want,
+                        "{x}, {y}, {slots} slots, depth {depth}: {one:?}"
+                    );
+                    pixels += 1;
+                }
+            }
+        }
+    }
+    assert!(pixels > 100_000, "{pixels}");
+}
