@@ -27,6 +27,7 @@ mod demo;
 mod depth_methods;
 mod effects;
 mod findings;
+mod findings_effects;
 mod findings_textures;
 mod formats;
 mod fuzz;
