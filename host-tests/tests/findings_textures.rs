@@ -2,14 +2,16 @@
 
 use crate::common::{Rng, SceneRooms, frame};
 use crate::listing::{PLENTY, Room};
+use host_tests::places::{PlaceFormat, Places};
 use scanbeam::list::{self, Halt, Header, Id, ListWriter, Material, State, TexelForm, TextureSlot};
 use scanbeam::texture::{
-    Address, Checker, Clamp, Gradient, Mirror, Quality, Size, Skin, Texels, Texture, Words, Wrap,
+    Address, Checker, Clamp, Gradient, Mirror, Quality, Size, Skin, Texels, Texture, Textured,
+    Words, Wrap,
 };
 use scanbeam::{
-    Camera, Composited, Cull, Event, Faces, FrameStats, Instance, ListSettings, ListTextures,
-    ListedDepth, Mesh, Notice, PhongDepth, Pipeline, Rgb888, Screen, ScreenVertex, TexelOf,
-    TexturedDepth, Textures, Windowed,
+    Camera, Composited, Cull, Depth32, Event, Faces, Flat, FrameStats, Instance, ListSettings,
+    ListTextures, ListedDepth, Mesh, Notice, Packed8, Parts, PhongDepth, Pipeline, Rgb888, Screen,
+    ScreenVertex, TexelOf, TexturedDepth, Textures, Windowed,
 };
 
 type Look<'t, T> = TexturedDepth<'t, Rgb888, T>;
@@ -398,5 +400,88 @@ fn pipelines_lit_at_pixels_tell_that_they_have_no_textures() {
         told::<Windowed<Lit<'_>>>(&words, &slots, ()).1,
     ] {
         assert!(events.contains(&(Event::Unimplemented, 0)), "{events:?}");
+    }
+}
+
+/// How far places are off in a picture of random triangles, in texels, beyond what the budget
+/// lets lines be: the corners' 1/w differ by up to a ratio, their places by so many texels.
+fn farthest_off(seed: u64, (ratio, texels): (f64, f64), quality: Quality) -> (f64, u32) {
+    type Look = Parts<Textured<Flat>, Depth32, PlaceFormat, (), Packed8, Textures<'static, Places>>;
+    let mut rng = Rng::new(seed);
+    let (width, height) = (320u16, 240u16);
+    let mut rooms = SceneRooms::<Look>::new(3, 1, 240);
+    rooms.textures = Textures(&[Places]);
+    let (mut worst, mut pixels) = (0f64, 0);
+    for _ in 0..40 {
+        let low = rng.between(1.0, (2f64.powi(30) / ratio / 32_768.0).max(1.01)) * 32_768.0;
+        let ends = [0.0, 1.0, rng.unit()].map(|part| (low * ratio.powf(part)) as u32);
+        let wide = rng.pick(&[2560, 2560, 400]);
+        let (left, top) = (
+            rng.within(0, 2560 - wide),
+            rng.within(0, 1920 - wide.min(1900)),
+        );
+        let vertices = ends.map(|depth| ScreenVertex {
+            x: (left + rng.within(0, wide)) as i16,
+            y: (top + rng.within(0, wide.min(1900))) as i16,
+            depth,
+            colour: [255; 3],
+        });
+        let reach = (texels * 256.0) as i32;
+        let places = [(); 3].map(|()| [rng.within(0, reach), rng.within(0, reach)]);
+        let mut scene = rooms.scene(Screen::new(width, height).unwrap());
+        scene.begin(&camera()).unwrap();
+        let skin = Skin {
+            places: &places,
+            texture: 0,
+            quality,
+        };
+        scene
+            .draw_screen(&vertices, &[[0, 1, 2]], skin, Cull::None)
+            .unwrap();
+        let at = vertices.map(|v| (f64::from(v.x) / 8.0, f64::from(v.y) / 8.0));
+        let cross = |a: (f64, f64), b: (f64, f64), p: (f64, f64)| {
+            (b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0)
+        };
+        for (y, row) in frame(&scene, 1).iter().enumerate() {
+            for (x, shown) in row.iter().enumerate() {
+                let p = (x as f64 + 0.5, y as f64 + 0.5);
+                let weights = [0, 1, 2].map(|i| {
+                    cross(at[(i + 1) % 3], at[(i + 2) % 3], p) * f64::from(vertices[i].depth)
+                });
+                let sum: f64 = weights.iter().sum();
+                let want = [0, 1].map(|axis| {
+                    let part = |i: usize| weights[i] * f64::from(places[i][axis]) / 256.0;
+                    (part(0) + part(1) + part(2)) / sum
+                });
+                if let Some(off) = shown.off(want) {
+                    pixels += 1;
+                    worst = worst.max(off[0].abs()).max(off[1].abs());
+                }
+            }
+        }
+    }
+    (worst, pixels)
+}
+
+/// What [`Quality`] says of how far its budgets reach: to corners of 1:300, a texel more at
+/// 1:12,000, and eight at the farthest that a camera sees.
+#[test]
+fn places_keep_their_budget() {
+    let budgets = [
+        (Quality::Exact, 1.0 / 16.0),
+        (Quality::Balanced, 0.25),
+        (Quality::Fast, 0.5),
+    ];
+    for (quality, budget) in budgets {
+        for (ratio, more) in [(10.0, 0.0), (300.0, 0.0), (12_000.0, 1.0), (65_000.0, 8.0)] {
+            for texels in [64.0, 3000.0] {
+                let (worst, pixels) = farthest_off(7, (ratio, texels), quality);
+                assert!(
+                    worst <= budget + more,
+                    "1:{ratio}, {texels} texels: {worst}"
+                );
+                assert!(pixels > 40_000, "{pixels}");
+            }
+        }
     }
 }
