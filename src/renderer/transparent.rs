@@ -13,6 +13,7 @@
 //! stack, so every shading and texture can be blended.
 
 use super::lines::LinePass;
+use super::pile::{By, PILE, Pane, Pile};
 use super::scene::Scene;
 use super::spans::{Brush, colour, count_fetches, scale};
 use crate::active::{ActiveList, Visitor};
@@ -82,160 +83,8 @@ struct Found {
     unsorted: bool,
 }
 
-/// Most transparent spans that are sorted in one go.
-const PILE: usize = 32;
 /// No slot.
 const SPILLED: usize = usize::MAX;
-
-/// A transparent span.
-#[derive(Clone, Copy, Debug, Default)]
-struct Pane {
-    start: u16,
-    end: u16,
-    object: u16,
-    /// [`SPILLED`] cut off, if it has none.
-    slot: u16,
-    /// Depth of the first pixel, and the step to the next.
-    depth: u32,
-    step: u32,
-}
-
-impl Pane {
-    /// Depth at a pixel.
-    fn at(&self, pixel: u16) -> u32 {
-        let pixels = u32::from(pixel - self.start);
-        self.depth.wrapping_add(self.step.wrapping_mul(pixels))
-    }
-}
-
-/// Which panes a pile takes, and in which order.
-#[derive(Clone, Copy, Debug)]
-enum By {
-    /// Those that reach beyond a pixel, by where they begin from there on.
-    Start(u16),
-    /// Those that cover a stretch, from back to front at its middle; behind those up to a key, which
-    /// have been drawn.
-    Depth(u16, u16, Option<Key>),
-}
-
-/// Where a pane stands in a pile; of equal ones the later object is behind.
-type Key = (u32, u16);
-
-impl By {
-    /// Where a pane stands, if it is taken.
-    fn key(self, pane: &Pane) -> Option<Key> {
-        let (key, taken) = match self {
-            Self::Start(pixel) => (u32::from(pane.start.max(pixel)), pane.end > pixel),
-            Self::Depth(start, end, after) => {
-                if pane.start > start || pane.end < end {
-                    return None;
-                }
-                let depth = pane.at(middle(start, end));
-                (
-                    depth,
-                    after.is_none_or(|after| (depth, pane.object) > after),
-                )
-            }
-        };
-        taken.then_some((key, pane.object))
-    }
-}
-
-/// The pixel in the middle of a stretch, or just before it.
-const fn middle(start: u16, end: u16) -> u16 {
-    start + (end - 1 - start) / 2
-}
-
-/// The first panes of an order.
-#[derive(Debug)]
-struct Pile {
-    panes: [Pane; PILE],
-    count: usize,
-    by: By,
-    /// The key of the first that found no room.
-    left_out: Option<Key>,
-    /// Where the first pane begins or ends behind the pixel from which on they are taken.
-    edge: u16,
-}
-
-impl Pile {
-    /// Empties the pile for panes in an order.
-    fn begin(&mut self, by: By) {
-        self.by = by;
-        (self.count, self.left_out, self.edge) = (0, None, u16::MAX);
-    }
-
-    fn add(&mut self, pane: Pane) {
-        let Some(key) = self.by.key(&pane) else {
-            return;
-        };
-        if let By::Start(pixel) = self.by {
-            let edge = if pane.start > pixel {
-                pane.start
-            } else {
-                pane.end
-            };
-            self.edge = self.edge.min(edge);
-        }
-        let stands = |pane: &Pane| self.by.key(pane).unwrap_or_default();
-        let mut at = self.count;
-        if at == PILE {
-            let out = stands(&self.panes[PILE - 1]).max(key);
-            self.left_out = Some(self.left_out.map_or(out, |first| first.min(out)));
-            if out == key {
-                return;
-            }
-            at -= 1;
-        } else {
-            self.count += 1;
-        }
-        while at > 0 && stands(&self.panes[at - 1]) > key {
-            self.panes[at] = self.panes[at - 1];
-            at -= 1;
-        }
-        self.panes[at] = pane;
-    }
-
-    /// The pixel from which on panes are missing in a pile from the left.
-    fn limit(&self) -> u16 {
-        self.left_out.map_or(u16::MAX, |(start, _)| start as u16)
-    }
-
-    /// The next stretch from `pixel` on that is covered by the same panes throughout, none of them
-    /// missing: from where to where, and how many of `order` these are, from back to front.
-    fn stretch(&self, pixel: u16, order: &mut [u8; PILE]) -> Option<(u16, u16, usize)> {
-        let panes = self.panes.get(..self.count)?;
-        let first = |pane: &Pane| pane.start.max(pixel);
-        let start = panes.iter().filter(|p| p.end > pixel).map(first).min()?;
-        let mut end = self.limit();
-        if start >= end {
-            return None;
-        }
-        let mut count = 0;
-        for (pane, index) in panes.iter().zip(0..) {
-            if pane.start > start {
-                end = end.min(pane.start);
-            } else if pane.end > start {
-                end = end.min(pane.end);
-                order[count] = index;
-                count += 1;
-            }
-        }
-        let middle = middle(start, end);
-        let key = |index: u8| {
-            let pane = &self.panes[usize::from(index)];
-            (pane.at(middle), pane.object)
-        };
-        for i in 1..count {
-            let mut at = i;
-            while at > 0 && key(order[at - 1]) > key(order[at]) {
-                order.swap(at - 1, at);
-                at -= 1;
-            }
-        }
-        Some((start, end, count))
-    }
-}
 
 /// A walk of the list for one part of a line.
 struct Walk<'w, 'a, 's, P: Pipeline> {
@@ -378,13 +227,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
 
     /// Draws what is transparent from back to front.
     fn draw_sorted(&mut self, list: &mut ActiveList<'_, DrawableOf<P>>, spare: &mut DrawableOf<P>) {
-        let mut pile = Pile {
-            panes: [Pane::default(); PILE],
-            count: 0,
-            by: By::Start(0),
-            left_out: None,
-            edge: 0,
-        };
+        let mut pile = Pile::default();
         let mut pixel = 0;
         while pixel < u16::MAX {
             self.gather(list, spare, &mut pile, By::Start(pixel));
