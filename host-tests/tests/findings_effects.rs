@@ -3,7 +3,7 @@
 use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::{
     BlockFixed, Camera, Composited, Cull, DepthFunction, Faces, Finish, FlatDepth, FlatPainter,
-    Instance, Mesh, Pipeline, QuadSplit, Rgb888, Scene, Screen, Worded,
+    Instance, Mesh, Pipeline, QuadSplit, Rgb888, Scene, Screen, Shadowed, Worded,
 };
 
 const WIDTH: u16 = 64;
@@ -176,6 +176,11 @@ where
                 "{function:?}"
             );
         }
+        let second = Pane {
+            colour: [200, 100, 50],
+            ..plain.clone()
+        };
+        assert!(picture::<P>(&[&plain, &second], slope) == full);
         // And the other way round: the last of equals is seen.
         let first = ruled(DepthFunction::DIFFERENT);
         assert!(picture::<P>(&[&first, &plain], slope) == kept);
@@ -190,4 +195,5 @@ fn finishes_see_depth_as_it_is_kept() {
     sees_its_own_depth::<Composited<BlockFixed<Flat>>>(412);
     sees_its_own_depth::<BlockFixed<Composited<Flat>>>(413);
     sees_its_own_depth::<Composited<Worded<Flat>>>(414);
+    sees_its_own_depth::<Shadowed<Flat>>(415);
 }

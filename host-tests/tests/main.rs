@@ -63,6 +63,7 @@ mod skipped;
 mod stress_input;
 mod stress_near;
 mod stress_shapes;
+mod survivors;
 mod texture_cache;
 mod texture_cli;
 mod texture_levels;
