@@ -505,6 +505,7 @@ impl Setting {
         const TRIANGLES: usize = 7000;
         *counts = PassOne {
             dropped: counts.dropped,
+            untextured: counts.untextured,
             ..PassOne::default()
         };
         let mut scene = rooms.scene(self.screen);
@@ -569,6 +570,8 @@ fn add(total: &mut FrameStats, band: &FrameStats) {
     a.objects += b.objects;
     a.vertices += b.vertices;
     a.dropped += b.dropped;
+    // One that is on several bands is told of in each.
+    a.untextured += b.untextured;
     a.meshes_skipped += b.meshes_skipped;
     a.triangles_skipped += b.triangles_skipped;
     a.vertices_skipped += b.vertices_skipped;

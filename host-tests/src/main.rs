@@ -115,5 +115,11 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     for note in textures.notes() {
         eprintln!("note: {note}");
     }
+    let untextured = drawn.stats.pass_one.untextured;
+    if untextured > 0 {
+        eprintln!(
+            "note: {untextured} triangles are drawn untextured, as they stretch over more than 4096 texels"
+        );
+    }
     Ok(())
 }

@@ -7,7 +7,7 @@ use crate::lent::LineRooms;
 use crate::model::Model;
 use crate::reference::View;
 use crate::texture_file::TextureImage;
-use scanbeam::texture::{FRACTION, Quality, Texels, Textured, Uv};
+use scanbeam::texture::{FRACTION, Period, Quality, Texels, Textured, Uv};
 use scanbeam::{
     Depth32, Flat, Packed8, Parts, PixelFormat, Precision, TexelOf, Textures, TwoWords,
 };
@@ -79,6 +79,11 @@ pub struct Places;
 
 impl Texels for Places {
     type Texel = Place;
+
+    /// That of a texture of up to 1,024 texels.
+    fn period(&self) -> Period {
+        Period::Short
+    }
 
     fn at(&self, place: Uv) -> Place {
         Place(place)

@@ -7,8 +7,8 @@ use crate::reference::{Shade, View};
 use crate::texture_file::{TextureFileError, TextureImage, of_materials};
 use clap::ValueEnum;
 use scanbeam::texture::{
-    Bilinear, Detail, LEVELS, LevelEnds, Levels, Quality, Rgba8871, Texel, TexelFormat, Texels,
-    Texture, Textured, Uv, Words,
+    Bilinear, Detail, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871, Texel, TexelFormat,
+    Texels, Texture, Textured, Uv, Words,
 };
 use scanbeam::{
     Counted, Depth32, DetailedTextures, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be,
@@ -133,6 +133,13 @@ impl Texels for HostTexture<'_> {
         match self {
             Self::Nearest(texture) => Rgba8871::expand(texture.at(place)),
             Self::Bilinear(texture) => texture.at(place),
+        }
+    }
+
+    fn period(&self) -> Period {
+        match self {
+            Self::Nearest(texture) => texture.period(),
+            Self::Bilinear(texture) => texture.period(),
         }
     }
 
