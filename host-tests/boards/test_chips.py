@@ -1,0 +1,143 @@
+"""The chips' registers: a transfer as it should be, and with one thing wrong each."""
+
+import contextlib
+import io
+import os
+import struct
+import tempfile
+import unittest
+
+try:
+    import unicorn  # noqa: F401
+except ImportError as error:
+    raise unittest.SkipTest("unicorn is missing") from error
+
+import esp32c3
+import esp32c3_rom
+import rp2350
+import stm32f4
+
+
+def elf(address, data):
+    """A file with one segment."""
+    header = b"\x7fELF\x01\x01\x01" + bytes(9)
+    header += struct.pack("<HHIIIIIHHHHHH", 2, 40, 1, address, 52, 0, 0, 52, 32, 1, 40, 0, 0)
+    return header + struct.pack("<8I", 1, 84, address, address, len(data), len(data), 5, 4) + data
+
+
+def faults_of(module, data, writes):
+    """What a chip complains of when these registers are written."""
+    flash = getattr(module, "FLASH", 0x42000000)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "elf")
+        with open(path, "wb") as file:
+            file.write(elf(flash, data))
+        with contextlib.redirect_stdout(io.StringIO()):
+            chip = module.Chip(path, 1)
+            for address, value in writes.items():
+                chip.write(address, value)
+    return chip.wire.faults
+
+
+STM32F4 = {
+    stm32f4.GPIOA_BSRR: stm32f4.DC,
+    stm32f4.SPI_CR1: 1 << 6,
+    stm32f4.SPI_CR2: 2,
+    stm32f4.S3_NDTR: 64,
+    stm32f4.S3_PAR: stm32f4.SPI_DR,
+    stm32f4.S3_M0AR: stm32f4.RAM,
+    stm32f4.S3_CR: 3 << 25 | 1 << 10 | 1 << 6 | 1,
+}
+RP2350 = {
+    rp2350.RESETS: 0,
+    rp2350.SIO + 0x18: rp2350.DC,
+    rp2350.SPI_CR1: 2,
+    rp2350.SPI_DMACR: 2,
+    rp2350.DMA: rp2350.RAM,
+    rp2350.DMA + 4: rp2350.SPI_DR,
+    rp2350.DMA + 8: 64,
+    rp2350.DMA + 12: rp2350.SPI0_TX << 17 | 1 << 4 | 1,
+}
+ESP32C3 = {
+    esp32c3.GPIO_SET: esp32c3.DC,
+    esp32c3.SPI_USER: 1 << 27,
+    esp32c3.SPI_LENGTH: 8 * 64 - 1,
+    esp32c3.SPI_DMA: 1 << 28,
+    esp32c3.GDMA_PERIPHERAL: esp32c3.GDMA_SPI2,
+    esp32c3.GDMA_LINK: esp32c3.DRAM & 0xFFFFF,
+    esp32c3.SPI_CMD: 1 << 24,
+}
+IMAGE = bytes(16) + rp2350.IMAGE_BLOCK
+
+
+class ChipTest(unittest.TestCase):
+    def test_a_transfer_as_it_should_be(self):
+        self.assertEqual(faults_of(stm32f4, bytes(8), STM32F4), set())
+        self.assertEqual(faults_of(rp2350, IMAGE, RP2350), set())
+
+    def find(self, module, data, good, changes):
+        for address, value, fault in changes:
+            with self.subTest(fault=fault):
+                self.assertEqual(faults_of(module, data, {**good, address: value}), {fault})
+
+    def test_faults_of_the_stm32f4(self):
+        control = STM32F4[stm32f4.S3_CR]
+        changes = (
+            (stm32f4.GPIOA_BSRR, 0, "DMA of pixels with D/C low"),
+            (stm32f4.SPI_CR2, 0, "SPI does not ask for DMA"),
+            (stm32f4.S3_PAR, 0x40013010, "DMA writes to 40013010"),
+            (stm32f4.S3_M0AR, stm32f4.FLASH, "DMA reads from 08000000"),
+            (stm32f4.S3_CR, control ^ 1 << 25, "DMA has channel 2"),
+            (stm32f4.S3_CR, control ^ 1 << 6, "DMA does not go from memory to the SPI"),
+            (stm32f4.S3_CR, control ^ 1 << 10, "DMA does not step through its buffer"),
+            (stm32f4.S3_CR, control ^ 1 << 13, "DMA is not 8 bits wide"),
+        )
+        self.find(stm32f4, bytes(8), STM32F4, changes)
+
+    def test_faults_of_the_rp2350(self):
+        control = RP2350[rp2350.DMA + 12]
+        changes = (
+            (rp2350.SIO + 0x18, 0, "DMA of pixels with D/C low"),
+            (rp2350.SPI_DMACR, 0, "SPI does not ask for DMA"),
+            (rp2350.RESETS, rp2350.DMA_RESET, "DMA is held in reset"),
+            (rp2350.DMA, rp2350.FLASH, "DMA reads from 10000000"),
+            (rp2350.DMA + 4, rp2350.RAM, "DMA writes to 20000000"),
+            (rp2350.DMA + 12, control ^ 1 << 17, "DMA has request line 25"),
+            (rp2350.DMA + 12, control ^ 1 << 2, "DMA is not 8 bits wide"),
+            (rp2350.DMA + 12, control ^ 1 << 4, "DMA does not step through its buffer alone"),
+        )
+        self.find(rp2350, IMAGE, RP2350, changes)
+        no_image = faults_of(rp2350, bytes(8), RP2350)
+        self.assertEqual(no_image, {"no image block for the boot ROM"})
+
+    def test_faults_of_the_esp32c3(self):
+        # Its descriptor is all zeros: not the DMA's, and of no buffer.
+        wanted = {"a descriptor is not the DMA's", "descriptors end 64 bytes early"}
+        found = faults_of(esp32c3, bytes(8), ESP32C3)
+        self.assertLessEqual(wanted, found)
+        other = faults_of(esp32c3, bytes(8), {**ESP32C3, esp32c3.GDMA_PERIPHERAL: 2})
+        self.assertEqual(other - found, {"DMA has peripheral 2"})
+
+    def test_a_byte_for_a_bus_that_is_off(self):
+        fault = {"a byte is written to an SPI that is off"}
+        self.assertEqual(faults_of(stm32f4, bytes(8), {stm32f4.SPI_DR: 1}), fault)
+        self.assertEqual(faults_of(rp2350, IMAGE, {rp2350.SPI_DR: 1}), fault)
+
+
+class RomTest(unittest.TestCase):
+    def test_arithmetic_is_that_of_c(self):
+        def call(name, *words):
+            return esp32c3_rom.call(name, (*words, 0, 0, 0, 0)[:4], None)
+
+        one, third = 0x3F800000, 0x3EAAAAAB
+        self.assertEqual(call("__divsf3", one, 0x40400000), third)
+        self.assertEqual(call("__divsf3", one, 0), 0x7F800000)
+        self.assertEqual(call("__fixsfsi", 0xC0200000), (1 << 64) - 2)  # -2.5, towards zero
+        self.assertEqual(call("__fixunssfsi", 0xBF800000), 0)
+        self.assertEqual(call("__ltsf2", one, 0x7FC00000), 1)
+        self.assertEqual(call("__divdi3", 0xFFFFFFF9, 0xFFFFFFFF, 2, 0), (1 << 64) - 3)
+        self.assertIsNone(call("printf"))
+
+
+if __name__ == "__main__":
+    unittest.main()
