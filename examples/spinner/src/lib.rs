@@ -13,8 +13,8 @@ pub mod panel;
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::{
     Affine, Camera, CellOf, Crew, FrameError, FrameStats, GouraudDepth, Instance, Interleave,
-    Light, LineDesk, LineMemory, LineRenderer, Link, Object, ObjectOf, PixelFormat, Rgb565Be,
-    Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame, send_frame,
+    Light, LineDesk, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, PixelFormat,
+    Rgb565Be, Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame, send_frame,
 };
 use static_cell::ConstStaticCell;
 
@@ -33,9 +33,12 @@ pub const OBJECTS: usize = 1_300;
 pub const SLOTS: usize = 64;
 
 /// What is behind the teapot.
+pub const BACKGROUND: [u8; 3] = [24, 32, 48];
+
+/// The same, as a pixel.
 #[must_use]
 pub fn background() -> u16 {
-    Rgb565Be::from_rgb8([24, 32, 48])
+    Rgb565Be::from_rgb8(BACKGROUND)
 }
 
 /// Static memory for `N` elements, empty until it is lent.
@@ -93,7 +96,7 @@ pub fn scene() -> Scene<'static, Look> {
 ///
 /// # Panics
 /// When a room of `scene` is too small for the teapot: those of [`scene()`] are not.
-pub fn build(scene: &mut Scene<'_, Look>, turn: u16) {
+pub fn build<P: Pipeline>(scene: &mut Scene<'_, P>, turn: u16) {
     let eye = [0.0, 1.2, 2.6];
     let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0)
         .expect("the eye is apart from what it looks at");

@@ -2,8 +2,8 @@
 
 use super::panel::{HEIGHT, WIDTH};
 use crate::lent::{LineRooms, SceneRooms};
-use scanbeam::{PixelFormat, Rgb565Be, Screen};
-use spinner::{Look, OBJECTS, SLOTS, background, build};
+use scanbeam::{GouraudDepth, PixelFormat, Rgb565, Screen};
+use spinner::{BACKGROUND, OBJECTS, SLOTS, build};
 use std::error::Error;
 
 /// Reset, sleep out, 16 bits a pixel, landscape with blue first, display on: what the panel's data
@@ -11,6 +11,9 @@ use std::error::Error;
 const SET_UP: [&[u8]; 5] = [&[0x01], &[0x11], &[0x3A, 0x55], &[0x36, 0x28], &[0x29]];
 /// The whole picture: columns, lines, pixels.
 const FRAME: [&[u8]; 3] = [&[0x2A, 0, 0, 1, 0x3F], &[0x2B, 0, 0, 0, 0xEF], &[0x2C]];
+
+/// In this machine's order, whatever the examples choose: it is put on the wire here.
+type Look = GouraudDepth<Rgb565>;
 
 /// What a run of some frames sends.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -47,13 +50,13 @@ impl Expected {
             renderer.restart();
             let mut sum = crc32fast::Hasher::new();
             for line in 0..HEIGHT {
-                Rgb565Be::fill(&mut pixels, background());
+                Rgb565::fill(&mut pixels, Rgb565::from_rgb8(BACKGROUND));
                 renderer
                     .draw_line(&scene, line, &mut pixels)
                     .map_err(|error| format!("line {line}: {error:?}"))?;
                 pixels
                     .iter()
-                    .for_each(|pixel| sum.update(&pixel.to_ne_bytes()));
+                    .for_each(|pixel| sum.update(&pixel.to_be_bytes()));
             }
             frames.push(sum.finalize());
         }
