@@ -10,7 +10,7 @@ from unicorn.unicorn_const import UC_ERR_INSN_INVALID
 from elf import Elf
 from wire import Wire
 
-SECONDS = 60
+SECONDS = 20
 
 
 def arguments():
@@ -28,6 +28,7 @@ class Machine:
         self.uc = uc
         self.elf = Elf(elf)
         self.wire = Wire(frames)
+        self.seconds = SECONDS + frames
         self.registers = {}
         self.reads = {}
         self.writes = {}
@@ -92,9 +93,9 @@ class Machine:
         says where to go on."""
         while not self.wire.why:
             try:
-                self.uc.emu_start(pc, 0xFFFFFFFF, timeout=SECONDS * 1_000_000)
+                self.uc.emu_start(pc, 0xFFFFFFFF, timeout=self.seconds * 1_000_000)
                 stopped = self.where(self.uc.reg_read(pc_register))
-                self.wire.end(f"nothing more came within {SECONDS} s, in {stopped}")
+                self.wire.end(f"nothing more came within {self.seconds} s, in {stopped}")
             except UcError as error:
                 at = self.uc.reg_read(pc_register)
                 pc = mend(error, at)

@@ -16,6 +16,8 @@ const RAM_END = 0x20042000;
 const PSM = 0x40010;
 const RESETS = 0x4000c;
 const SPI0_DATA = 0x4003c008;
+const SPI_STATE = 0xc;
+const SPI_BUSY = 1 << 4;
 const DREQ_SPI0_TX = 16;
 const DC_PIN = 4;
 const FIFO_DEPTH = 8;
@@ -108,24 +110,33 @@ export class Board {
       const me = this.selected;
       if (offset === 0x050) this.letterErrors[me] = 0;
       else if (offset === 0x054) this.post(me, value >>> 0);
-      else write(offset, value);
+      else this.keepLevel(() => write(offset, value));
     };
   }
 
+  /** What may change the pin. A byte may be out by chance: it counts whether that was asked. */
+  keepLevel(change) {
+    const level = this.level?.();
+    change();
+    if (level !== this.level?.() && this.isSending) {
+      this.wire.fault('D/C changed, and nobody had asked whether the bus is idle');
+    }
+  }
+
   post(from, value) {
-    const spi = this.mcu.spi[0];
-    if (from === 0 && this.sentPixels && (spi.busy || !spi.txFIFO.empty)) {
-      this.wire.fault('a frame begins while bytes of the last are in the bus');
+    if (from === 0 && this.sending && this.isSending) {
+      this.wire.fault('a frame ended, and nobody had asked whether the bus is idle');
     }
     if (this.letters[1 - from].length < FIFO_DEPTH) this.letters[1 - from].push(value);
     else this.letterErrors[from] |= 4;
   }
 
-  /** The MPU's registers, one set a core: rp2040-hal guards a stack's end with a region. */
+  /** Registers of a core that the package lacks: the MPU's, by which rp2040-hal guards a stack's end,
+   * and how it sleeps. */
   guards() {
     const { ppb } = this.mcu;
-    const fields = { 0xd94: 'control', 0xd98: 'number', 0xd9c: 'base', 0xda0: 'size' };
-    this.mpu = [0, 1].map(() => ({ control: 0, number: 0, base: 0, size: 0 }));
+    const fields = { 0xd10: 'sleep', 0xd94: 'control', 0xd98: 'number', 0xd9c: 'base', 0xda0: 'size' };
+    this.mpu = [0, 1].map(() => ({ sleep: 0, control: 0, number: 0, base: 0, size: 0 }));
     const [read, write] = [ppb.readUint32.bind(ppb), ppb.writeUint32.bind(ppb)];
     ppb.readUint32 = (offset) => {
       if (offset === 0xd90) return 8 << 8;
@@ -240,18 +251,25 @@ export class Board {
     return checks.filter(([holds]) => !holds).map(([, text]) => text);
   }
 
-  /** SPI0: a byte takes 8 clocks, and its last bit tells whether it is a command. */
+  /** SPI0: a byte takes 8 clocks, and its last bit tells whether it is a command. `isSending` until
+   * somebody has read that the bus is idle. */
   bus({ GPIOPinState }) {
     const spi = this.mcu.spi[0];
     this.level = () => Number(this.mcu.gpio[DC_PIN].value === GPIOPinState.High);
     let [value, level] = [0, 0];
     const arrived = this.mcu.clock.createAlarm(() => {
       if (this.level() !== level) this.wire.fault('D/C changed while a byte was on the bus');
-      this.sentPixels ||= level && this.sending !== undefined;
       this.wire.byte(value, this.level(), this.mcu.clock.micros);
       spi.completeTransmit(0);
     });
+    const read = spi.readUint32.bind(spi);
+    spi.readUint32 = (offset) => {
+      const state = read(offset);
+      if (offset === SPI_STATE && !(state & SPI_BUSY)) this.isSending = false;
+      return state;
+    };
     spi.onTransmit = (byte) => {
+      this.isSending = true;
       [value, level] = [byte, this.level()];
       const seconds = 8 / spi.clockFrequency;
       this.busCycles += seconds * this.mcu.clkSys;

@@ -89,19 +89,35 @@ test('a transfer with one thing wrong', { skip: !isHere }, async () => {
 });
 
 test('the pin may not change while a byte is on the bus', { skip: !isHere }, async () => {
-  for (const isLate of [false, true]) {
+  const unasked = 'D/C changed, and nobody had asked whether the bus is idle';
+  for (const [waits, asks, wanted] of [
+    [false, false, [unasked, 'D/C changed while a byte was on the bus']],
+    [false, true, [unasked, 'D/C changed while a byte was on the bus']],
+    [true, false, [unasked]],
+    [true, true, []],
+  ]) {
     const { made, faults, set } = await board();
     set(IO + 8 * 4 + 4, 5);
     set(SIO + 0x24, DC);
     set(SPI, 7);
     set(SPI + 0x10, 2);
     set(SPI + 8, 0x2c);
-    if (isLate) made.mcu.clock.tick(1000);
+    if (waits) made.mcu.clock.tick(1000);
+    if (asks) made.mcu.readUint32(SPI + 0xc);
     set(SIO + 0x14, DC);
     made.mcu.clock.tick(1000);
-    const wanted = isLate ? [] : ['D/C changed while a byte was on the bus'];
     assert.deepEqual(faults, wanted);
   }
+});
+
+test('a frame ends when the bus is idle', { skip: !isHere }, async () => {
+  const { made, faults, set } = await board();
+  set(SPI, 7);
+  set(SPI + 0x10, 2);
+  made.sending = {};
+  set(SPI + 8, 0);
+  set(SIO + 0x54, 0); // the mailbox: core 1 may go on
+  assert.deepEqual(faults, ['a frame ended, and nobody had asked whether the bus is idle']);
 });
 
 test('no core may write what is being sent, below its stack, or to odd places', { skip: !isHere }, async () => {
