@@ -14,6 +14,7 @@
 #![no_main]
 
 mod panel;
+mod ram_code;
 
 use panic_halt as _;
 use rp2040_hal::clocks::init_clocks_and_plls as start;
