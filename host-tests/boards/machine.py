@@ -4,7 +4,7 @@ import argparse
 import struct
 import sys
 
-from unicorn import Uc, UcError
+from unicorn import Uc, UcError, arm_const as arm
 from unicorn.unicorn_const import UC_ERR_INSN_INVALID
 
 from elf import Elf
@@ -88,6 +88,9 @@ class Machine:
         names = self.elf.names()
         return names.get(max((at for at in names if at <= pc), default=0), f"{pc:08x}")
 
+    def report(self):
+        """What is left to say at the end."""
+
     def run(self, pc, pc_register, mend):
         """Runs until the wire is over. `mend` handles what the emulator cannot do, if it can, and
         says where to go on."""
@@ -101,25 +104,57 @@ class Machine:
                 pc = mend(error, at)
                 if pc is None:
                     self.wire.end(f"{error} at {at:08x} in {self.where(at)}")
+        self.report()
         self.wire.close()
         sys.exit(self.wire.why != "frames")
 
 
 class CortexM(Machine):
-    """A Cortex-M that starts by its vector table."""
+    """A Cortex-M that starts by its vector table. It takes interrupts when it sleeps, and then
+    alone: what the firmware does about them is the same."""
+
+    NOP, YIELD, WFE = b"\x00\xbf", b"\x10\xbf", b"\x20\xbf"
+    RETURN = 0xFFFFFFF9
+    VECTOR_TABLE = 0xE000ED08
+    FRAME = 0x68  # what an exception may put on the stack
 
     def boot(self, flash):
-        from unicorn import arm_const as arm
-
+        self.flash = flash
+        self.slept = None  # the state of the processor that an interrupt has left
         stack, pc = struct.unpack("<2I", self.uc.mem_read(flash, 8))
         self.uc.reg_write(arm.UC_ARM_REG_SP, stack)
-        self.run(pc | 1, arm.UC_ARM_REG_PC, self.skip_yield)
+        self.run(pc | 1, arm.UC_ARM_REG_PC, self.mend)
 
-    def skip_yield(self, error, pc):
-        """The emulator does not know the hint `yield` (of spin loops): it becomes a `nop`."""
-        hint = error.errno == UC_ERR_INSN_INVALID and bytes(self.uc.mem_read(pc - 2, 2))
-        if hint != b"\x10\xbf":
+    def sleep(self):
+        """The number of the interrupt that ends a sleep, or `None`: an event of the processor's own
+        has ended it, as that of a task that wakes itself."""
+        return None
+
+    def mend(self, error, pc):
+        """What the emulator cannot do: hints, sleep, interrupts."""
+        if self.slept and pc & ~1 == self.RETURN & ~1:
+            state, after = self.slept
+            self.slept = None
+            self.uc.context_restore(state)
+            return after
+        if error.errno != UC_ERR_INSN_INVALID:
             return None
-        self.uc.mem_write(pc - 2, b"\x00\xbf")
-        self.uc.ctl_flush_tb()
-        return pc | 1
+        hint = bytes(self.uc.mem_read(pc - 2, 2))
+        if hint == self.YIELD:
+            self.uc.mem_write(pc - 2, self.NOP)
+            self.uc.ctl_flush_tb()
+            return pc | 1
+        if hint != self.WFE:
+            return None
+        number = self.sleep()
+        return pc | 1 if number is None else self.interrupt(number, pc | 1)
+
+    def interrupt(self, number, after):
+        """Enters the handler of an interrupt; all registers are kept until it returns."""
+        self.slept = self.uc.context_save(), after
+        stack = (self.uc.reg_read(arm.UC_ARM_REG_SP) - self.FRAME) & ~7
+        self.uc.reg_write(arm.UC_ARM_REG_SP, stack)
+        self.uc.reg_write(arm.UC_ARM_REG_LR, self.RETURN)
+        (table,) = struct.unpack("<I", self.uc.mem_read(self.VECTOR_TABLE, 4))
+        vector = (table or self.flash) + 4 * (16 + number)
+        return struct.unpack("<I", self.uc.mem_read(vector, 4))[0]

@@ -145,8 +145,11 @@ class Chip(CortexM):
         self.check(line == SPI0_TX, f"DMA has request line {line}")
         self.check(self.get(SPI_DMACR) & 2, "SPI does not ask for DMA")
         self.check(not self.get(RESETS) & DMA_RESET, "DMA is held in reset")
-        size = self.channel["C"] & 0xFFFFFFF
-        self.bus.start(self.memory(self.channel["R"], size, RAM, RAM + RAM_SIZE))
+        size, source = self.channel["C"] & 0xFFFFFFF, self.channel["R"]
+        if FLASH <= source < FLASH + FLASH_SIZE:  # which this DMA can read, too
+            self.bus.start(self.memory(source, size, FLASH, FLASH + FLASH_SIZE))
+        else:
+            self.bus.start(self.memory(source, size, RAM, RAM + RAM_SIZE))
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ except ImportError as error:
 import esp32c3
 import esp32c3_rom
 import rp2350
+import rp2350_embassy
 import stm32f4
 
 
@@ -25,17 +26,22 @@ def elf(address, data):
     return header + struct.pack("<8I", 1, 84, address, address, len(data), len(data), 5, 4) + data
 
 
-def faults_of(module, data, writes):
-    """What a chip complains of when these registers are written."""
-    flash = getattr(module, "FLASH", 0x42000000)
+def made(chip, flash, data):
+    """A chip with this in its flash."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "elf")
         with open(path, "wb") as file:
             file.write(elf(flash, data))
         with contextlib.redirect_stdout(io.StringIO()):
-            chip = module.Chip(path, 1)
-            for address, value in writes.items():
-                chip.write(address, value)
+            return chip(path, 1)
+
+
+def faults_of(module, data, writes):
+    """What a chip complains of when these registers are written."""
+    chip = made(module.Chip, getattr(module, "FLASH", 0x42000000), data)
+    with contextlib.redirect_stdout(io.StringIO()):
+        for address, value in writes.items():
+            chip.write(address, value)
     return chip.wire.faults
 
 
@@ -100,7 +106,7 @@ class ChipTest(unittest.TestCase):
             (rp2350.SIO + 0x18, 0, "DMA of pixels with D/C low"),
             (rp2350.SPI_DMACR, 0, "SPI does not ask for DMA"),
             (rp2350.RESETS, rp2350.DMA_RESET, "DMA is held in reset"),
-            (rp2350.DMA, rp2350.FLASH, "DMA reads from 10000000"),
+            (rp2350.DMA, 0x14000000, "DMA reads from 14000000"),
             (rp2350.DMA + 4, rp2350.RAM, "DMA writes to 20000000"),
             (rp2350.DMA + 12, control ^ 1 << 17, "DMA has request line 25"),
             (rp2350.DMA + 12, control ^ 1 << 2, "DMA is not 8 bits wide"),
@@ -122,6 +128,35 @@ class ChipTest(unittest.TestCase):
         fault = {"a byte is written to an SPI that is off"}
         self.assertEqual(faults_of(stm32f4, bytes(8), {stm32f4.SPI_DR: 1}), fault)
         self.assertEqual(faults_of(rp2350, IMAGE, {rp2350.SPI_DR: 1}), fault)
+
+
+class EmbassyTest(unittest.TestCase):
+    def sent(self, draw):
+        """What is reported of some bands, with `draw` called while each is sent."""
+        chip = made(rp2350_embassy.EmbassyChip, rp2350.FLASH, IMAGE)
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            for address, value in {**RP2350, rp2350_embassy.ENABLED: 1}.items():
+                if address != rp2350.DMA + 12:
+                    chip.write(address, value)
+            for band in range(8):
+                at = rp2350.RAM + band % 2 * 64
+                chip.write(rp2350.DMA, at)
+                chip.write(rp2350.DMA + 12, RP2350[rp2350.DMA + 12])
+                draw(chip, rp2350.RAM + 64 - band % 2 * 64, band)
+                raised = [chip.sleep() for _ in range(4)]
+                self.assertEqual(raised, [None] * 3 + [rp2350_embassy.DMA_IRQ_0])
+                chip.write(rp2350_embassy.RAISED, 1)
+            chip.report()
+        return out.getvalue().splitlines()[-2:]
+
+    def test_a_band_is_drawn_while_another_is_sent(self):
+        lines = self.sent(lambda chip, at, band: chip.uc.mem_write(at, bytes([band + 1])))
+        self.assertEqual(lines[-1], "note in 7 of 7 transfers the next was drawn")
+
+    def test_nothing_is_drawn_while_a_band_is_sent(self):
+        lines = self.sent(lambda *_: None)
+        self.assertEqual(lines[-1], "fault drawing and sending do not overlap")
 
 
 class RomTest(unittest.TestCase):

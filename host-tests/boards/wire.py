@@ -71,6 +71,7 @@ class Bus:
         self.level = 0
         self.looks = 0
         self.transfer = None
+        self.ended = lambda: None  # called when a transfer ends
 
     def set_level(self, level):
         if level != self.level and (self.queue or self.transfer):
@@ -96,9 +97,10 @@ class Bus:
         """A transfer: `source` reads the bytes that are in its buffer now."""
         if self.transfer:
             self.wire.fault("a transfer starts while one runs")
-        if not self.level:
+        first = bytes(source())
+        if not self.level and len(first) > 1:
             self.wire.fault("DMA of pixels with D/C low")
-        self.transfer = (source, bytes(source()))
+        self.transfer = (source, first)
         self.looks = 0
 
     def look_at_transfer(self):
@@ -115,4 +117,5 @@ class Bus:
         self.wire.bytes(self.queue, self.level)
         self.wire.bytes(first[: -self.depth], self.level)
         self.queue[:] = first[-self.depth :]
+        self.ended()
         return False

@@ -34,65 +34,27 @@ const PACKAGES: &str = "boards-tools";
 /// Where the tests build the examples, in the usual target directory.
 const BUILT: &str = "firmware/boards";
 
-/// Every board.
-pub const CHIPS: [Chip; 7] = [
-    chip(
-        "rp2040-two-cores",
-        "rp2040-two-cores",
-        "thumbv6m-none-eabi",
-        Emulator::Rp2040js,
-    ),
-    chip(
-        "stm32f4",
-        "stm32f4",
-        "thumbv7em-none-eabihf",
-        Emulator::Unicorn("stm32f4.py"),
-    ),
-    chip(
-        "rp2350",
-        "rp2350",
-        "thumbv8m.main-none-eabihf",
-        Emulator::Unicorn("rp2350.py"),
-    ),
-    chip(
-        "esp32c3",
-        "esp32c3",
-        "riscv32imc-unknown-none-elf",
-        Emulator::Unicorn("esp32c3.py"),
-    ),
-    chip(
-        "bare-riscv32imac",
-        "bare",
-        "riscv32imac-unknown-none-elf",
-        RISCV,
-    ),
-    chip(
-        "bare-riscv32imc",
-        "bare",
-        "riscv32imc-unknown-none-elf",
-        RISCV,
-    ),
-    chip(
-        "bare-cortex-m33",
-        "bare",
-        "thumbv8m.main-none-eabihf",
-        CORTEX_M33,
-    ),
-];
+const M0: &str = "thumbv6m-none-eabi";
+const M4: &str = "thumbv7em-none-eabihf";
+const M33: &str = "thumbv8m.main-none-eabihf";
+const RV32IMC: &str = "riscv32imc-unknown-none-elf";
+const RV32IMAC: &str = "riscv32imac-unknown-none-elf";
 
-const fn chip(
-    name: &'static str,
-    program: &'static str,
-    target: &'static str,
-    emulator: Emulator,
-) -> Chip {
-    Chip {
-        name,
-        program,
-        target,
-        emulator,
-    }
-}
+/// Every board.
+pub const CHIPS: [Chip; 8] = [
+    Chip::new("rp2040-two-cores", M0, Emulator::Rp2040js),
+    Chip::new("stm32f4", M4, Emulator::Unicorn("stm32f4.py")),
+    Chip::new("rp2350", M33, Emulator::Unicorn("rp2350.py")),
+    Chip::new(
+        "rp2350-embassy",
+        M33,
+        Emulator::Unicorn("rp2350_embassy.py"),
+    ),
+    Chip::new("esp32c3", RV32IMC, Emulator::Unicorn("esp32c3.py")),
+    Chip::new("bare", RV32IMAC, RISCV).called("bare-riscv32imac"),
+    Chip::new("bare", RV32IMC, RISCV).called("bare-riscv32imc"),
+    Chip::new("bare", M33, CORTEX_M33).called("bare-cortex-m33"),
+];
 
 /// Where things are, and how much is run.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -123,6 +85,20 @@ impl Bench {
 }
 
 impl Chip {
+    const fn new(program: &'static str, target: &'static str, emulator: Emulator) -> Self {
+        Self {
+            name: program,
+            program,
+            target,
+            emulator,
+        }
+    }
+
+    /// For a program that runs on several.
+    const fn called(self, name: &'static str) -> Self {
+        Self { name, ..self }
+    }
+
     /// How to run it, or what is missing.
     ///
     /// # Errors
