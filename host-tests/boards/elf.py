@@ -4,7 +4,6 @@ import struct
 
 PT_LOAD = 1
 SHT_SYMTAB = 2
-STT_FUNC = 2
 
 
 class Elf:
@@ -36,6 +35,16 @@ class Elf:
     def names(self):
         """The names of symbols by address, without the bit that says Thumb."""
         found = {}
+        for address, name in self.symbols():
+            found.setdefault(address & ~1, name)
+        return found
+
+    def address(self, wanted):
+        """Where a symbol is, or `None`."""
+        return next((address for address, name in self.symbols() if name == wanted), None)
+
+    def symbols(self):
+        """Addresses and names."""
         for i in range(self.section_count):
             kind, offset, size, link = self.section(i)
             if kind != SHT_SYMTAB:
@@ -46,5 +55,4 @@ class Elf:
                 end = self.bytes.index(b"\0", strings + name)
                 text = self.bytes[strings + name : end].decode("latin1")
                 if text and not text.startswith("$"):
-                    found.setdefault(value & ~1, text)
-        return found
+                    yield value, text

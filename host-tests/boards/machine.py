@@ -11,6 +11,7 @@ from elf import Elf
 from wire import Wire
 
 SECONDS = 20
+COUNTER = "SCANBEAM_FRAMES"
 
 
 def arguments():
@@ -28,6 +29,7 @@ class Machine:
         self.uc = uc
         self.elf = Elf(elf)
         self.wire = Wire(frames)
+        self.frames = frames
         self.seconds = SECONDS + frames
         self.registers = {}
         self.reads = {}
@@ -89,7 +91,14 @@ class Machine:
         return names.get(max((at for at in names if at <= pc), default=0), f"{pc:08x}")
 
     def report(self):
-        """What is left to say at the end."""
+        """What is left to say at the end: whether the counter that a debug probe reads is right."""
+        address = self.elf.address(COUNTER)
+        if address is None:
+            print("fault there is no counter of frames")
+            return
+        (counted,) = struct.unpack("<I", self.uc.mem_read(address, 4))
+        if self.wire.why == "frames" and counted != self.frames:
+            print(f"fault the counter says {counted} frames")
 
     def run(self, pc, pc_register, mend):
         """Runs until the wire is over. `mend` handles what the emulator cannot do, if it can, and

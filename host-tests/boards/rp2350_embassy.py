@@ -55,6 +55,7 @@ class EmbassyChip(Chip):
         return DMA_IRQ_0 if self.get(RAISED) else None
 
     def report(self):
+        super().report()
         print(f"note in {self.overlaps} of {self.transfers_seen} transfers the next was drawn")
         # Where a band is as it was two bands before, at the top and the bottom, none is seen.
         if 4 * self.overlaps < self.transfers_seen:

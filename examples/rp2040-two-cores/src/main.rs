@@ -116,6 +116,7 @@ fn main() -> ! {
         let mut crew = Waking(crew);
         let sent = send_frame(&scene, &mut crew, &mut pump, LINES as u16);
         crew.0.stats(sent.expect("the buses of the RP2040 cannot fail")); // and logs it, by defmt
+        spinner::count_frame();
     }
     unreachable!("it turns for ever")
 }

@@ -80,5 +80,6 @@ async fn main(_spawner: Spawner) {
         let lines = LINES as u16;
         let sent = draw_frame_async(&scene, &mut renderer, &mut pump, background(), lines).await;
         sent.expect("the bus takes the frame");
+        spinner::count_frame();
     }
 }

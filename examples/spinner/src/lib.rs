@@ -10,6 +10,7 @@
 pub mod dma;
 pub mod panel;
 
+use core::sync::atomic::{AtomicU32, Ordering};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::{
     Affine, Camera, CellOf, Crew, FrameError, FrameStats, GouraudDepth, Instance, Interleave,
@@ -39,6 +40,17 @@ pub const BACKGROUND: [u8; 3] = [24, 32, 48];
 #[must_use]
 pub fn background() -> u16 {
     Rgb565Be::from_rgb8(BACKGROUND)
+}
+
+/// Frames that were sent since the start. By its name a debug probe finds it, and so a person with a
+/// board can measure its frames a second: see README.md of the examples.
+#[unsafe(no_mangle)]
+pub static SCANBEAM_FRAMES: AtomicU32 = AtomicU32::new(0);
+
+/// A frame was sent. One core says so.
+pub fn count_frame() {
+    let frames = SCANBEAM_FRAMES.load(Ordering::Relaxed);
+    SCANBEAM_FRAMES.store(frames.wrapping_add(1), Ordering::Relaxed);
 }
 
 /// Static memory for `N` elements, empty until it is lent.
@@ -221,5 +233,6 @@ where
     let (mut pump, mut spinner) = (Pump::new(sink, buffers), Spinner::new());
     loop {
         spinner.frame(&mut pump).expect("the sink takes the frame");
+        count_frame();
     }
 }
