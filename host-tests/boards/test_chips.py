@@ -17,6 +17,7 @@ import esp32c3_rom
 import rp2350
 import rp2350_embassy
 import stm32f4
+import stm32h7
 
 
 def elf(address, data):
@@ -128,6 +129,72 @@ class ChipTest(unittest.TestCase):
         fault = {"a byte is written to an SPI that is off"}
         self.assertEqual(faults_of(stm32f4, bytes(8), {stm32f4.SPI_DR: 1}), fault)
         self.assertEqual(faults_of(rp2350, IMAGE, {rp2350.SPI_DR: 1}), fault)
+
+
+def ltdc_writes():
+    """The LTDC of the example: 30 + 38 clocks and 3 + 15 lines before the picture."""
+    writes = {
+        stm32h7.BPCR: 67 << 16 | 17,
+        stm32h7.AWCR: 387 << 16 | 257,
+        stm32h7.TWCR: 407 << 16 | 261,
+        stm32h7.GCR: 1,
+        stm32h7.L1CR: 1,
+        stm32h7.L1WHPCR: 387 << 16 | 68,
+        stm32h7.L1WVPCR: 257 << 16 | 18,
+        stm32h7.L1PFCR: 2,
+        stm32h7.L1CFBAR: stm32h7.RAM,
+        stm32h7.L1CFBLR: 640 << 16 | 647,
+        stm32h7.L1CFBLNR: 240,
+    }
+    for port, pin, function in stm32h7.PINS:
+        base = stm32h7.GPIO + stm32h7.GPIO_SIZE * (ord(port) - ord("A"))
+        half = base + 0x20 + 4 * (pin // 8)
+        writes[base] = writes.get(base, 0) | 2 << 2 * pin
+        writes[half] = writes.get(half, 0) | function << 4 * (pin % 8)
+    return writes
+
+
+class LtdcTest(unittest.TestCase):
+    def faults(self, change):
+        writes = {**ltdc_writes(), **change, stm32h7.SRCR: stm32h7.NOW}
+        return faults_of(stm32h7, bytes(8), writes)
+
+    def test_a_panel_as_it_should_be(self):
+        self.assertEqual(self.faults({}), set())
+
+    def test_faults_of_the_ltdc(self):
+        pins = stm32h7.GPIO + 3 * stm32h7.GPIO_SIZE  # port D
+        for address, value, fault in (
+            (stm32h7.GCR, 0, "the LTDC is off"),
+            (stm32h7.L1CR, 0, "the layer is off"),
+            (stm32h7.L1PFCR, 1, "the layer's pixels are not RGB565"),
+            (stm32h7.TWCR, 387 << 16 | 261, "there is no front porch"),
+            (stm32h7.L1WHPCR, 386 << 16 | 68, "the layer is not as wide as the panel"),
+            (stm32h7.L1WVPCR, 257 << 16 | 17, "the layer is not as high as the panel"),
+            (stm32h7.L1CFBLR, 638 << 16 | 647, "lines are 638 bytes apart"),
+            (stm32h7.L1CFBLR, 640 << 16 | 640, "a line has 640 bytes, not 647"),
+            (stm32h7.L1CFBLNR, 239, "the layer has other lines than the panel"),
+            (stm32h7.L1CFBAR, stm32h7.RAM + 1, "the frame is not aligned to pixels"),
+            (stm32h7.L1CFBAR, stm32h7.FLASH, "DMA reads from 08000000"),
+            (pins, 2 << 6, "PD10 is not the LTDC's"),
+        ):
+            with self.subTest(fault=fault):
+                self.assertEqual(self.faults({address: value}), {fault})
+
+    def test_the_frame_that_is_shown_may_not_be_written(self):
+        chip = made(stm32h7.Chip, stm32h7.FLASH, bytes(8))
+        out = io.StringIO()
+        with contextlib.redirect_stdout(out):
+            for address, value in ltdc_writes().items():
+                chip.write(address, value)
+            chip.write(stm32h7.SRCR, stm32h7.NOW)
+            chip.uc.mem_write(stm32h7.RAM + 8, b"\x34\x12")
+            chip.write(stm32h7.SRCR, stm32h7.IN_BLANK)
+            looks = [chip.read(stm32h7.SRCR) for _ in range(4)]
+        self.assertEqual(looks, [stm32h7.IN_BLANK] * 3 + [0])
+        self.assertEqual(chip.wire.faults, {"the frame that is shown was written to"})
+        picture = out.getvalue().splitlines()[-1]
+        self.assertTrue(picture.startswith("picture 320 240 00000000000000001234"))
 
 
 class EmbassyTest(unittest.TestCase):

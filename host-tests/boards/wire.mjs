@@ -2,6 +2,7 @@
 //
 //   time MICROSECONDS      when the command that follows arrived, where the emulator knows
 //   data DC HEX            bytes that arrived with this level of the data/command pin
+//   picture WIDTH HEIGHT HEX   what a memory-mapped panel shows from now on, as on a wire
 //   clock HERTZ            of the processor, which the cycles are of
 //   figures CYCLES BUS WAIT MISSES   so far, when the pixels of a frame are about to come
 //   fault TEXT             something that a chip or a panel would not forgive

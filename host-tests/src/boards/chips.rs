@@ -15,6 +15,8 @@ pub struct Chip {
     pub target: &'static str,
     /// What runs it.
     emulator: Emulator,
+    /// Whether its panel is fed from memory, and gets no commands.
+    pub is_memory_mapped: bool,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,9 +43,10 @@ const RV32IMC: &str = "riscv32imc-unknown-none-elf";
 const RV32IMAC: &str = "riscv32imac-unknown-none-elf";
 
 /// Every board.
-pub const CHIPS: [Chip; 8] = [
+pub const CHIPS: [Chip; 9] = [
     Chip::new("rp2040-two-cores", M0, Emulator::Rp2040js),
     Chip::new("stm32f4", M4, Emulator::Unicorn("stm32f4.py")),
+    Chip::new("stm32h7-ltdc", M4, Emulator::Unicorn("stm32h7.py")).memory_mapped(),
     Chip::new("rp2350", M33, Emulator::Unicorn("rp2350.py")),
     Chip::new(
         "rp2350-embassy",
@@ -91,6 +94,15 @@ impl Chip {
             program,
             target,
             emulator,
+            is_memory_mapped: false,
+        }
+    }
+
+    /// For a panel that is fed from memory.
+    const fn memory_mapped(self) -> Self {
+        Self {
+            is_memory_mapped: true,
+            ..self
         }
     }
 

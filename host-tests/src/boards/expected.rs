@@ -33,6 +33,14 @@ impl Expected {
         Self { frames, commands }
     }
 
+    /// The same frames, for a panel that is fed from memory and gets no commands.
+    pub fn without_commands(&self) -> Self {
+        Self {
+            frames: self.frames.clone(),
+            commands: Vec::new(),
+        }
+    }
+
     /// Draws the frames here.
     ///
     /// # Errors

@@ -45,17 +45,25 @@ pub fn run(args: &BoardsArgs) -> Result<bool, Box<dyn Error>> {
         args.frames,
         args.miss_cycles,
     );
-    let expected = Expected::drawn(bench.frames)?;
+    let drawn = Expected::drawn(bench.frames)?;
+    let shown = drawn.without_commands();
     let asked = |chip: &&Chip| args.board.as_deref().is_none_or(|name| name == chip.name);
-    let chips: Vec<&Chip> = CHIPS.iter().filter(asked).collect();
+    let chips: Vec<&'static Chip> = CHIPS.iter().filter(asked).collect();
     if chips.is_empty() {
         let names = CHIPS.map(|chip| chip.name).join(", ");
         return Err(format!("there is no such board: there are {names}").into());
     }
     // Each waits for an emulator that has one thread.
     let runs = std::thread::scope(|scope| {
-        let (bench, expected) = (&bench, &expected);
-        let run = |chip| scope.spawn(move || run_chip(chip, bench, expected));
+        let run = |chip: &'static Chip| {
+            let expected = if chip.is_memory_mapped {
+                &shown
+            } else {
+                &drawn
+            };
+            let bench = &bench;
+            scope.spawn(move || run_chip(chip, bench, expected))
+        };
         let started: Vec<_> = chips.iter().copied().map(run).collect();
         let ended = started.into_iter().map(|thread| thread.join());
         ended.collect::<Vec<_>>()

@@ -131,6 +131,7 @@ impl Run {
             Event::Time(micros) => self.panel.at(micros),
             Event::Data { is_data, bytes } if is_data => self.panel.data(&bytes),
             Event::Data { bytes, .. } => self.panel.codes(&bytes),
+            Event::Picture { size, bytes } => self.panel.show(size, &bytes),
             Event::Figures(figures) => self.figures.push(figures),
             Event::Clock(hertz) => self.clock = Some(hertz),
             Event::Fault(text) => self.panel.complain(text),

@@ -113,6 +113,19 @@ impl Panel {
         }
     }
 
+    /// A panel that is fed from memory shows this.
+    pub fn show(&mut self, size: [u64; 2], bytes: &[u8]) {
+        let [width, height] = size;
+        let wanted = [WIDTH, HEIGHT].map(u64::from);
+        if size != wanted || bytes.len() as u64 != 2 * width * height {
+            let bytes = bytes.len();
+            self.complain(format!(
+                "a picture of {width} x {height} pixels in {bytes} bytes"
+            ));
+        }
+        self.frames.push(crc32fast::hash(bytes));
+    }
+
     /// No more comes.
     pub fn finish(&mut self) {
         // The window that the emulator stopped at is empty, and no fault.

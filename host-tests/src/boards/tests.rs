@@ -170,6 +170,30 @@ fn pixels_in_another_order_are_not_the_hosts() {
 }
 
 #[test]
+fn a_panel_that_is_fed_from_memory_gets_pictures_alone() {
+    let wanted = expected().without_commands();
+    let lines = |size: &str, first: &[u8]| {
+        let second = hex(&frame(1));
+        format!(
+            "picture {size} {}\npicture 320 240 {second}\nend frames",
+            hex(first)
+        )
+    };
+    let judged = |text: &str| Outcome::of("board", text, &wanted);
+    let good = judged(&lines("320 240", &frame(0)));
+    assert!(good.is_good() && good.frames == 2, "{good:?}");
+    let other = judged(&lines("320 240", &frame(2)));
+    assert!(!other.crc_match && !other.is_good());
+    complains_of(&judged(&lines("240 320", &frame(0))), "240 x 320 pixels");
+    complains_of(
+        &judged(&lines("320 240", &frame(0)[2..])),
+        "in 153598 bytes",
+    );
+    let told = format!("data 0 29\n{}", lines("320 240", &frame(0)));
+    assert!(!judged(&told).commands_match);
+}
+
+#[test]
 fn a_run_that_ends_early_or_says_nonsense_is_not_good() {
     complains_of(&with("end frames", &[]), "cut short");
     complains_of(
@@ -218,6 +242,9 @@ fn lines_are_read_whole_or_refused() {
         "data 1 +1",
         "data",
         "Time 3",
+        "picture 1 1",
+        "picture 1 1 0",
+        "picture 1 x 00",
     ] {
         assert!(wire::parse(line).is_err(), "{line}");
     }

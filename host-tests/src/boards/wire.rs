@@ -12,6 +12,13 @@ pub enum Event {
         /// In the order of the wire.
         bytes: Vec<u8>,
     },
+    /// What a memory-mapped panel shows from now on.
+    Picture {
+        /// Columns and lines.
+        size: [u64; 2],
+        /// As on a wire.
+        bytes: Vec<u8>,
+    },
     /// What was spent until now; the pixels of a frame are about to come.
     Figures(Figures),
     /// The processor's clock, in Hz.
@@ -72,6 +79,16 @@ pub fn parse(line: &str) -> Result<Event, String> {
             }),
             _ => Err(format!("`{line}` has no level of the pin")),
         },
+        "picture" => {
+            let fields: Vec<&str> = rest.split(' ').collect();
+            let [width, height, digits] = fields[..] else {
+                return Err("a picture without size or bytes".into());
+            };
+            Ok(Event::Picture {
+                size: [number(width)?, number(height)?],
+                bytes: from_hex(digits).ok_or("a picture that is not in hex")?,
+            })
+        }
         "fault" => Ok(Event::Fault(rest.to_owned())),
         "note" => Ok(Event::Note(rest.to_owned())),
         "end" => Ok(Event::End(rest.to_owned())),
