@@ -33,6 +33,10 @@ use crate::args::BoardsArgs;
 use crate::firmware::{self, DEFAULT_TIMEOUT};
 use std::error::Error;
 use std::process::Stdio;
+use std::time::Duration;
+
+/// What each frame adds to the time in which an emulator has to end.
+const A_FRAME: Duration = Duration::from_secs(5);
 
 /// Runs the boards and prints what came. Whether all that ran sent what they should.
 ///
@@ -91,7 +95,8 @@ fn run_chip(chip: &Chip, bench: &Bench, expected: &Expected) -> Result<Outcome, 
     let failed = |error| format!("{}: {error}", chip.name);
     command.stdout(Stdio::piped()).stderr(Stdio::piped());
     let child = command.spawn().map_err(failed)?;
-    let ended = firmware::finish(child, DEFAULT_TIMEOUT).map_err(failed)?;
+    let timeout = DEFAULT_TIMEOUT + u32::from(bench.frames) * A_FRAME;
+    let ended = firmware::finish(child, timeout).map_err(failed)?;
     let mut outcome = Outcome::of(chip.name, &ended.printed, expected);
     // An emulator that ended by itself says so in its last line.
     if !ended.status.is_some_and(|status| status.success()) && outcome.is_good() {
