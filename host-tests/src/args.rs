@@ -11,7 +11,7 @@ mod render;
 mod tests;
 mod view;
 
-pub use bench::{BenchArgs, FirmwareArgs};
+pub use bench::{BenchArgs, BoardsArgs, FirmwareArgs};
 pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
 pub use render::{DepthArg, InterpArg, QualityArg, RenderArgs, SwitchArg};
 pub use view::ViewArgs;
@@ -65,6 +65,8 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
+    /// Run the examples for boards in emulators, and judge what arrives at the panel
+    Boards(BoardsArgs),
     /// Count and time frames on this machine, beside other renderers
     Bench(BenchArgs),
     /// Make a page with pictures, their errors and what they cost
@@ -199,6 +201,7 @@ where
         | Command::Cache(_)
         | Command::Accuracy(_)
         | Command::Firmware(_)
+        | Command::Boards(_)
         | Command::Bench(_)
         | Command::Report(_)
         | Command::Disassemble(_) => Ok(()),

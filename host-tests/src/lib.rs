@@ -3,6 +3,7 @@
 pub mod accuracy;
 pub mod args;
 pub mod bench;
+pub mod boards;
 pub mod cache_report;
 pub mod crew;
 pub mod demo;

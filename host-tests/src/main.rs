@@ -7,7 +7,9 @@ use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
-use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, report, trace, view};
+use host_tests::{
+    accuracy, bench, boards, cache_report, demo, draw, firmware_report, report, trace, view,
+};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -37,6 +39,11 @@ fn main() -> ExitCode {
         Command::Disassemble(args) => list_text::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
+            Ok(false) => return ExitCode::FAILURE,
+            Ok(true) => Ok(()),
+            Err(error) => Err(error),
+        },
+        Command::Boards(args) => match boards::run(&args) {
             Ok(false) => return ExitCode::FAILURE,
             Ok(true) => Ok(()),
             Err(error) => Err(error),

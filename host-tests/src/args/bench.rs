@@ -39,3 +39,28 @@ pub struct BenchArgs {
     #[arg(long)]
     pub markdown: bool,
 }
+
+/// Flags of `boards`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct BoardsArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Run this board alone
+    #[arg(value_name = "BOARD")]
+    pub board: Option<String>,
+    /// Frames of a run, 2 to 126
+    #[arg(long, value_name = "N", default_value_t = 2,
+        value_parser = clap::value_parser!(u16).range(2..=126))]
+    pub frames: u16,
+    /// Cycles that a miss of the RP2040's flash cache costs, in the model of it, up to 1000
+    #[arg(long, value_name = "CYCLES", default_value_t = 56,
+        value_parser = clap::value_parser!(u16).range(..=1000))]
+    pub miss_cycles: u16,
+    /// Folder with the built examples, TARGET/release/NAME
+    #[arg(long, value_name = "DIR")]
+    pub built: Option<PathBuf>,
+    /// Folder with the emulators' packages, as .ci/boards installs them
+    #[arg(long, value_name = "DIR")]
+    pub packages: Option<PathBuf>,
+}
