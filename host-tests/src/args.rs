@@ -48,10 +48,16 @@ struct Cli {
     command: Option<Command>,
 }
 
+/// What `render` can hold, for its help.
+const RENDER_LIMITS: &str = "Limits: coordinates below 2^90; on one line of the picture 61,440 \
+    triangles and 65,536 vertices, which some 15,000 triangles fill where all of them cross the \
+    near plane. What finds no room is left out, and stderr tells it.";
+
 /// What is to be done.
 #[derive(Debug, Clone, PartialEq, Subcommand)]
 pub enum Command {
     /// Draw an OBJ model to a picture
+    #[command(after_help = RENDER_LIMITS)]
     Render(RenderArgs),
     /// Show an OBJ model that turns, live in the terminal
     View(ViewArgs),

@@ -1,5 +1,9 @@
 //! Host side of scanbeam.
 
+// First: its macros are everybody's.
+#[macro_use]
+pub mod stdio;
+
 pub mod accuracy;
 pub mod args;
 pub mod bench;

@@ -186,9 +186,9 @@ pub(crate) fn run(as_json: bool, markdown: bool) -> Result<(), Box<dyn Error>> {
     let sizes = measure()?;
     if as_json {
         let list: Vec<Value> = sizes.iter().map(PresetSize::to_json).collect();
-        println!("{}", serde_json::to_string_pretty(&list)?);
+        say!("{}", serde_json::to_string_pretty(&list)?);
     } else {
-        println!("{}", text(&sizes));
+        say!("{}", text(&sizes));
     }
     if markdown {
         write(&workspace().join("README.md"), &sizes)?;

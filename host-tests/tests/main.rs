@@ -65,6 +65,7 @@ mod texture_cli;
 mod texture_levels;
 mod texture_truth;
 mod textures;
+mod told;
 mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;
