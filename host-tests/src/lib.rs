@@ -15,6 +15,7 @@ pub mod effect_frames;
 pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
+pub mod golden;
 pub mod image_out;
 pub mod lent;
 pub mod lists;

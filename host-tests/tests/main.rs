@@ -28,6 +28,7 @@ mod depth_methods;
 mod effects;
 mod formats;
 mod fuzz;
+mod golden;
 mod input;
 mod lines_alone;
 mod list_bake;
