@@ -11,7 +11,7 @@ mod render;
 mod tests;
 mod view;
 
-pub use bench::{BenchArgs, FirmwareArgs};
+pub use bench::{BenchArgs, BudgetsArgs, FirmwareArgs};
 pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
 pub use render::{DepthArg, InterpArg, QualityArg, RenderArgs, SwitchArg};
 pub use view::ViewArgs;
@@ -71,6 +71,8 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
+    /// Hold sizes of code and counts of the source against their limits
+    Budgets(BudgetsArgs),
     /// Count and time frames on this machine, beside other renderers
     Bench(BenchArgs),
     /// Make a page with pictures, their errors and what they cost
@@ -205,6 +207,7 @@ where
         | Command::Cache(_)
         | Command::Accuracy(_)
         | Command::Firmware(_)
+        | Command::Budgets(_)
         | Command::Bench(_)
         | Command::Report(_)
         | Command::Disassemble(_) => Ok(()),

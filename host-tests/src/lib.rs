@@ -7,6 +7,7 @@ pub mod stdio;
 pub mod accuracy;
 pub mod args;
 pub mod bench;
+pub mod budgets;
 pub mod cache_report;
 pub mod crew;
 pub mod demo;

@@ -8,7 +8,8 @@ use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::{
-    accuracy, bench, cache_report, demo, draw, firmware_report, report, stdio, tell, trace, view,
+    accuracy, bench, budgets, cache_report, demo, draw, firmware_report, report, stdio, tell,
+    trace, view,
 };
 use std::error::Error;
 use std::process::ExitCode;
@@ -32,6 +33,12 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Cache(args) => cache_report::run(&args),
         Command::Accuracy(args) => accuracy::run(&args),
+        Command::Budgets(args) => match budgets::run(&args) {
+            // The limits were held against what is, and one is broken.
+            Ok(false) => return ended(Ok(ExitCode::FAILURE)),
+            Ok(true) => Ok(()),
+            Err(error) => Err(error),
+        },
         Command::Bench(args) => bench::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Bake(args) => bake::run(&args),

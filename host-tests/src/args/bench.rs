@@ -26,6 +26,17 @@ pub struct FirmwareArgs {
     pub output: Option<PathBuf>,
 }
 
+/// Flags of `budgets`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
+pub struct BudgetsArgs {
+    /// Count the source alone, and build nothing
+    #[arg(long)]
+    pub source: bool,
+    /// Lower the limits to what is measured
+    #[arg(long)]
+    pub tighten: bool,
+}
+
 /// Flags of `bench`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct BenchArgs {

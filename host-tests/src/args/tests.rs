@@ -237,6 +237,7 @@ fn bad_lines_are_refused_in_one_line() {
         "disassemble",
         "disassemble m.list x",
         "firmware x",
+        "budgets x",
         "--frames 3",
     ] {
         match words(line) {
