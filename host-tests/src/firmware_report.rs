@@ -12,7 +12,7 @@ use crate::image_out::{Frame, write_atomically, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
-use crate::{preset_sizes, stdio};
+use crate::{preset_sizes, profile_report, stdio};
 use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
@@ -40,7 +40,10 @@ use std::path::Path;
 /// When the firmware cannot be built or run, or did not say what it should.
 pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
     if args.sizes {
-        return preset_sizes::run(args.json, args.markdown).map(|()| true);
+        return preset_sizes::run(args).map(|()| true);
+    }
+    if let Some(frame) = &args.profile {
+        return profile_report::run(frame, args).map(|()| true);
     }
     let host = host_frames()?;
     if args.bless {

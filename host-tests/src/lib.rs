@@ -27,6 +27,7 @@ pub mod model;
 pub mod places;
 pub mod plot;
 pub mod preset_sizes;
+pub mod profile_report;
 pub mod reference;
 pub mod report;
 pub mod texture_file;
