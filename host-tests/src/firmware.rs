@@ -14,16 +14,21 @@
 //! |---|---|
 //! | `output.rs` | what the firmware prints, read line by line |
 //! | `sections.rs` | what memory its ELF takes |
+//! | `symbols.rs` | its functions |
+//! | `profile.rs` | where a frame's instructions go |
 //! | `toolchain.rs` | which compiler there is |
 
 mod output;
+pub mod profile;
 mod sections;
+mod symbols;
 #[cfg(test)]
 mod tests;
 mod toolchain;
 
 pub use output::{CountCheck, FrameResult, GrowthRun, KernelRun, LinesRun, Output, UnitRun};
 pub use sections::{Section, Sections};
+pub use symbols::{Symbol, Symbols};
 pub(crate) use toolchain::clean_command;
 pub use toolchain::{Source, Toolchain};
 
@@ -165,6 +170,24 @@ pub enum FirmwareError {
         /// What is wrong with it.
         reason: String,
     },
+    /// There cannot be a frame of that name.
+    #[error("`{name}` is no frame's name: letters, digits and `_`")]
+    NoFrame {
+        /// What was asked for.
+        name: String,
+    },
+    /// No function of that name ran.
+    #[error("no function ran whose name has `{words}` in it")]
+    NoFunction {
+        /// What was asked for.
+        words: String,
+    },
+    /// Nothing here writes machine code as text.
+    #[error(
+        "there is no disassembler: run `apt-get install binutils-arm-none-eabi`, or \
+         `rustup component add llvm-tools`"
+    )]
+    NoDisassembler,
     /// The ELF cannot be read as one.
     #[error("{}: {source}", path.display())]
     Elf {

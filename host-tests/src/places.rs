@@ -135,7 +135,7 @@ pub fn places(
         }
         Ok(())
     })?;
-    if bands > 1 {
+    if bands.count > 1 || bands.overfull.is_some() {
         return Err(failed(&"the model does not fit the arenas as a whole"));
     }
     Ok(pixels)

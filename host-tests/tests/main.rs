@@ -32,6 +32,7 @@ mod findings_effects;
 mod findings_textures;
 mod formats;
 mod fuzz;
+mod golden;
 mod hot_path_colours;
 mod hot_path_cover;
 mod hot_path_depth;
@@ -74,6 +75,7 @@ mod texture_cli;
 mod texture_levels;
 mod texture_truth;
 mod textures;
+mod told;
 mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;

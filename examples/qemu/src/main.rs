@@ -32,6 +32,7 @@ mod count;
 mod frames;
 mod lend;
 mod listed;
+mod profile;
 mod rooms;
 
 use core::hint::black_box;
@@ -53,6 +54,9 @@ static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 #[entry]
 fn main() -> ! {
     let mut console = Console::open();
+    if let Some(success) = profile::asked(&mut console) {
+        console::exit(success);
+    }
     let peripherals = Peripherals::take().expect("main runs once");
     let mut counter = Counter::start(peripherals.SYST);
     let mut all_hold = true;

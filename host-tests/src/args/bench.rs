@@ -21,9 +21,33 @@ pub struct FirmwareArgs {
     /// Write the table of sizes into README.md, between its markers
     #[arg(long, requires = "sizes")]
     pub markdown: bool,
+    /// With the sizes also the largest functions of each preset's firmware
+    #[arg(long, requires = "sizes")]
+    pub symbols: bool,
+    /// Instead: step through one frame and print where its instructions go, by function
+    #[arg(long, value_name = "FRAME", conflicts_with_all = ["bench", "sizes", "output"])]
+    pub profile: Option<String>,
+    /// With a profile also the listing of the functions whose names have this in them, each
+    /// instruction with how often it ran
+    #[arg(long, value_name = "NAME", requires = "profile")]
+    pub function: Option<String>,
+    /// The board of a profile; m4 when nothing is said
+    #[arg(long, value_name = "BOARD", requires = "profile", value_parser = ["m4", "m3", "m0plus"])]
+    pub board: Option<String>,
     /// Folder for the plot of growth, made when it is not there
     #[arg(short = 'o', long = "output", value_name = "DIR", requires = "bench")]
     pub output: Option<PathBuf>,
+}
+
+/// Flags of `budgets`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
+pub struct BudgetsArgs {
+    /// Count the source alone, and build nothing
+    #[arg(long)]
+    pub source: bool,
+    /// Lower the limits to what is measured
+    #[arg(long)]
+    pub tighten: bool,
 }
 
 /// Flags of `bench`.

@@ -269,6 +269,13 @@ fn bad_lines_are_refused_in_one_line() {
         "disassemble",
         "disassemble m.list x",
         "firmware x",
+        "firmware --symbols",
+        "firmware --function a",
+        "firmware --board m4",
+        "firmware --profile",
+        "firmware --profile cube --board m7",
+        "firmware --profile cube --sizes",
+        "budgets x",
         "--frames 3",
     ] {
         match words(line) {

@@ -24,7 +24,8 @@ mod panel;
 mod tests;
 mod wire;
 
-pub use chips::{Bench, CHIPS, Chip};
+pub use crate::say;
+use chips::{Bench, CHIPS, Chip};
 pub use expected::Expected;
 pub use outcome::{Outcome, table};
 pub use panel::Panel;
@@ -77,9 +78,9 @@ pub fn run(args: &BoardsArgs) -> Result<bool, Box<dyn Error>> {
         outcomes.push(run.map_err(|_| "a board's thread ended early")??);
     }
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&outcomes)?);
+        say!("{}", serde_json::to_string_pretty(&outcomes)?);
     } else {
-        println!("{}", table(&outcomes));
+        say!("{}", table(&outcomes));
     }
     for outcome in &outcomes {
         outcome.explain();

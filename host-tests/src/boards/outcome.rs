@@ -103,14 +103,14 @@ impl Outcome {
     /// Says on stderr what the table has no room for.
     pub fn explain(&self) {
         if let Some(missing) = &self.missing {
-            eprintln!("SKIPPED: {}: {missing}", self.board);
+            tell!("SKIPPED: {}: {missing}", self.board);
         }
         for complaint in &self.complaints {
-            eprintln!("{}: {complaint}", self.board);
+            tell!("{}: {complaint}", self.board);
         }
         if !self.is_good() {
             for note in &self.notes {
-                eprintln!("{}: note: {note}", self.board);
+                tell!("{}: note: {note}", self.board);
             }
         }
     }

@@ -14,6 +14,7 @@ use scanbeam::{
     Counted, Depth32, DetailedTextures, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be,
     Rgb888, Shading, TextureSource, Textures,
 };
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// How texels are taken from a texture.
@@ -105,9 +106,10 @@ impl TextureSet {
         self.images.is_empty()
     }
 
-    /// What was done to the pictures, a line each.
+    /// What was done to the pictures, a line each; what is on several materials is told once.
     pub fn notes(&self) -> impl Iterator<Item = &str> {
-        self.images.iter().filter_map(|image| image.note.as_deref())
+        let notes = self.images.iter().filter_map(|image| image.note.as_deref());
+        notes.collect::<BTreeSet<_>>().into_iter()
     }
 
     /// The texture of a triangle.
