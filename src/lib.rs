@@ -50,6 +50,7 @@
 //! | a whole program, memory and all | [`guide::first_triangle`] |
 //! | your display, your memory, two cores | [`guide::own_display`], [`guide::own_memory`], [`guide::two_cores`] |
 //! | speed against error, and what a frame did | [`guide::quality`], [`guide::figures`] |
+//! | smooth or textured meshes in half to two thirds of the instructions | [`guide::fewer_instructions`], [`scene`], [`look`], [`frame`] |
 //! | other choices: flat, no depth, textures, blending | the presets beside [`GouraudDepth`] |
 //! | a scene as data, in flash or in a ring that grows | [`list`], [`ListRunner`] |
 //! | the hardware that the ideas come from, bit for bit | [`model`] |

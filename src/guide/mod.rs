@@ -6,6 +6,7 @@
 //! | [`own_display`] | a sink for your panel, by a ready one, by three functions or by your DMA |
 //! | [`own_memory`] | which memory goes where, and how much of it a scene needs |
 //! | [`textures`] | a textured mesh, the byte order of its texels, and which `Quality` is meant |
+//! | [`fewer_instructions`] | smooth and textured meshes in half to two thirds of the instructions |
 //! | [`two_cores`] | alternate lines on two cores or threads |
 //! | [`quality`] | what is paid for how exact a picture |
 //! | [`figures`] | what a frame did, and what it was spared |
@@ -24,6 +25,9 @@ pub mod own_memory {}
 
 #[doc = include_str!("textures.md")]
 pub mod textures {}
+
+#[doc = include_str!("fewer_instructions.md")]
+pub mod fewer_instructions {}
 
 #[doc = include_str!("two_cores.md")]
 pub mod two_cores {}
