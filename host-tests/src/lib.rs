@@ -12,6 +12,7 @@ pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
 pub mod image_out;
+mod lean_frames;
 pub mod lent;
 pub mod lists;
 pub mod memory_model;
