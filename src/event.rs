@@ -35,11 +35,14 @@ pub enum Event {
     Malformed,
     /// An arena or the list's memory was full; the notice's value is how many faces were lost.
     Full,
+    /// Triangles are drawn without their texture, as they stretch over more of its texels than they
+    /// may; the notice's value is how many.
+    Untextured,
 }
 
 impl Event {
     /// All kinds, in the order of their bits.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::PixelRendered,
         Self::Clipped,
         Self::DepthPassed,
@@ -52,6 +55,7 @@ impl Event {
         Self::AccessViolation,
         Self::Malformed,
         Self::Full,
+        Self::Untextured,
     ];
 }
 

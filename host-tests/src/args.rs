@@ -11,7 +11,7 @@ mod render;
 mod tests;
 mod view;
 
-pub use bench::{BenchArgs, FirmwareArgs};
+pub use bench::{BenchArgs, BoardsArgs, BudgetsArgs, FirmwareArgs};
 pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
 pub use render::{DepthArg, InterpArg, QualityArg, RenderArgs, SwitchArg};
 pub use view::ViewArgs;
@@ -48,10 +48,16 @@ struct Cli {
     command: Option<Command>,
 }
 
+/// What `render` can hold, for its help.
+const RENDER_LIMITS: &str = "Limits: coordinates below 2^90; on one line of the picture 61,440 \
+    triangles and 65,536 vertices, which some 15,000 triangles fill where all of them cross the \
+    near plane. What finds no room is left out, and stderr tells it.";
+
 /// What is to be done.
 #[derive(Debug, Clone, PartialEq, Subcommand)]
 pub enum Command {
     /// Draw an OBJ model to a picture
+    #[command(after_help = RENDER_LIMITS)]
     Render(RenderArgs),
     /// Show an OBJ model that turns, live in the terminal
     View(ViewArgs),
@@ -65,6 +71,10 @@ pub enum Command {
     Accuracy(AccuracyArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
     Firmware(FirmwareArgs),
+    /// Run the examples for boards in emulators, and judge what arrives at the panel
+    Boards(BoardsArgs),
+    /// Hold sizes of code and counts of the source against their limits
+    Budgets(BudgetsArgs),
     /// Count and time frames on this machine, beside other renderers
     Bench(BenchArgs),
     /// Make a page with pictures, their errors and what they cost
@@ -199,6 +209,8 @@ where
         | Command::Cache(_)
         | Command::Accuracy(_)
         | Command::Firmware(_)
+        | Command::Boards(_)
+        | Command::Budgets(_)
         | Command::Bench(_)
         | Command::Report(_)
         | Command::Disassemble(_) => Ok(()),

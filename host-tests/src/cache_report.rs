@@ -13,6 +13,7 @@ use crate::memory_model::{
 };
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::plot::{Chart, Marks, Series};
+use crate::stdio;
 use crate::texture_report::texture_table;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::scan_out::Pump;
@@ -58,19 +59,22 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
         charts.push((shot.name(), chart(shot, &rows)));
     }
     if args.json {
-        println!("{}", serde_json::to_string_pretty(&Value::from(reports))?);
+        say!("{}", serde_json::to_string_pretty(&Value::from(reports))?);
     } else {
         for memory in [DRAM_80, SRAM_12, QSPI_PSRAM, SDRAM, DTCM] {
-            println!("{}: {}", memory.name, memory.source);
+            say!("{}: {}", memory.name, memory.source);
         }
-        println!(
-            "a texture of 256 x 256 x 16 bits, pages of 1 KB, a cache of 32 lines of 32 bytes:"
-        );
-        println!("{}", texture_table());
+        say!("a texture of 256 x 256 x 16 bits, pages of 1 KB, a cache of 32 lines of 32 bytes:");
+        say!("{}", texture_table());
     }
     if let Some(folder) = &args.output {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+        std::fs::create_dir_all(folder).map_err(|error| {
+            format!(
+                "{}: cannot be made: {}",
+                folder.display(),
+                stdio::reason(&error)
+            )
+        })?;
         for (name, chart) in charts {
             let at = |extension| folder.join(format!("cache_{name}.{extension}"));
             write_atomically(&at("svg"), chart.to_svg().as_bytes())?;
@@ -138,7 +142,7 @@ fn saving(row: &Row, without: &Row) -> f64 {
 fn print(shot: Shot, rows: &[Row]) {
     let [without, ..] = rows else { return };
     let pass = without.stats.pass_one;
-    println!(
+    say!(
         "{}: {} triangles in, {} objects, {} vertices kept; a slot is {} bytes",
         shot.name(),
         pass.triangles,
@@ -171,21 +175,21 @@ fn print(shot: Shot, rows: &[Row]) {
     for column in table.column_iter_mut() {
         column.set_cell_alignment(CellAlignment::Right);
     }
-    println!("{table}");
+    say!("{table}");
     for layout in Layout::ALL {
         let scene = layout.scene_bytes(pass.objects.into(), pass.vertices.into());
-        print!("  {}: scene {scene} bytes;", layout.name());
+        let mut line = format!("  {}: scene {scene} bytes;", layout.name());
         for row in rows.iter().filter(|r| matches!(r.slots, 0 | GOAL_SLOTS)) {
             let bytes = row.model.slow_bytes(layout);
             let ms = SYSTEMS.map(|s| format!("{:.2}", row.model.time(layout, s).slow_ms));
             let ahead = if row.prefetch > 0 { " ahead" } else { "" };
-            print!(
+            line.push_str(&format!(
                 " {} slots{ahead} {bytes} bytes, {} ms;",
                 row.slots,
                 ms.join(" / ")
-            );
+            ));
         }
-        println!();
+        say!("{line}");
     }
 }
 

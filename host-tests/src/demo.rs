@@ -69,7 +69,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
     let folder = &args.output;
     std::fs::create_dir_all(folder).map_err(|error| ImageError {
         file: folder.clone(),
-        reason: format!("cannot be made: {}", error.kind()),
+        reason: format!("cannot be made: {}", crate::stdio::reason(&error)),
     })?;
     // Draws nothing when stderr is not a terminal.
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} frames")?;
@@ -80,13 +80,13 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
     bar.finish_and_clear();
     let pictures = turn.write(folder)?;
 
-    println!("The Utah teapot, one turn of {} frames.", args.frames);
-    println!("{WIDTH}x{HEIGHT} pixels of 16 bits, {LINES} lines a transfer.\n");
-    println!("{}\n", turn.figures());
-    println!("{}\n", turn.memory());
-    println!("Pictures:");
+    say!("The Utah teapot, one turn of {} frames.", args.frames);
+    say!("{WIDTH}x{HEIGHT} pixels of 16 bits, {LINES} lines a transfer.\n");
+    say!("{}\n", turn.figures());
+    say!("{}\n", turn.memory());
+    say!("Pictures:");
     for picture in pictures {
-        println!("  {}", picture.display());
+        say!("  {}", picture.display());
     }
     Ok(())
 }

@@ -70,14 +70,6 @@ pub enum DrawFailure {
     /// The size, the camera or the light cannot be had in the crate's ranges.
     #[error("{0}")]
     View(String),
-    /// A single line has more triangles than an arena can hold.
-    #[error("line {line}: {error}")]
-    Full {
-        /// The line.
-        line: u16,
-        /// What did not fit.
-        error: DrawError,
-    },
     /// The mocked display refused something.
     #[error("display: {0}")]
     Display(FrameError<MockError>),
@@ -87,6 +79,43 @@ pub enum DrawFailure {
     /// The frame did not arrive whole.
     #[error("display: {0:?}")]
     Incomplete(MockError),
+}
+
+/// Lines that have more triangles than an arena can hold: they show those that fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Overfull {
+    /// The first such line.
+    pub line: u16,
+    /// How many lines there are.
+    pub lines: u32,
+    /// How many triangles are left out, each on each of the lines.
+    pub triangles: u32,
+    /// What was full on the first line.
+    pub first: DrawError,
+}
+
+impl std::fmt::Display for Overfull {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { line, first, .. } = self;
+        write!(f, "line {line}: {first}; the rest is drawn")?;
+        match self.lines {
+            1 => Ok(()),
+            n => write!(
+                f,
+                " ({n} lines are so, {} triangles in all)",
+                self.triangles
+            ),
+        }
+    }
+}
+
+/// How a picture was put together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Bands {
+    /// Bands of lines that were drawn one after the other.
+    pub(crate) count: u32,
+    /// What fits no band.
+    pub(crate) overfull: Option<Overfull>,
 }
 
 /// A finished picture and what it took.
@@ -99,6 +128,8 @@ pub struct Drawn {
     pub stats: FrameStats,
     /// Bands that the picture was put together from; 1 unless an arena was too small.
     pub bands: u32,
+    /// What is left out.
+    pub overfull: Option<Overfull>,
     /// Most bytes of slow memory in use: the scene and one link column.
     pub slow_bytes: usize,
     /// Bytes of fast memory: cache slots and line depth.
@@ -260,14 +291,15 @@ fn draw_scenes<P: Pipeline<Textures: Sync>>(
         slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
-    if bands > 1 || P::Compositing::BLENDS {
+    if bands.count > 1 || P::Compositing::BLENDS {
         // Volumes, and what is drawn twice, are none of the model's triangles.
         setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
     }
     Ok(Drawn {
         frame: shown::<P>(&pump, view)?,
         stats: total,
-        bands,
+        bands: bands.count,
+        overfull: bands.overfull,
         slow_bytes,
         fast_bytes,
         line_bytes: line_bytes::<P>(width, lines),
@@ -300,7 +332,7 @@ where
         slow_bytes = slow_bytes.max(scene.bytes());
         Ok(())
     })?;
-    if bands > 1 {
+    if bands.count > 1 {
         setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
     }
     let counts = renderer.counts();
@@ -310,7 +342,8 @@ where
     Ok(Drawn {
         frame: shown::<P>(&pump, view)?,
         stats: total,
-        bands,
+        bands: bands.count,
+        overfull: bands.overfull,
         slow_bytes,
         fast_bytes: lines_of_model.bytes(),
         line_bytes: line_bytes::<P>(width, lines),
@@ -379,6 +412,15 @@ impl Setting {
         let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
         let screen = Screen::new(view.width as u16, view.height as u16).map_err(|e| bad(&e))?;
         let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
+        let far = prepared
+            .centre
+            .iter()
+            .fold(0.0f64, |far, c| far.max(c.abs()));
+        if far.max(prepared.scale) > 2f64.powi(90) {
+            return Err(bad(
+                &"the model is too large, or too far away: its coordinates must be below 2^90",
+            ));
+        }
         // The model's middle is the origin, so that floats are spent on distances that matter.
         let from_centre = |p: [f64; 3]| [0, 1, 2].map(|i| (p[i] - prepared.centre[i]) as f32);
         let unit = |v: [f64; 3]| {
@@ -421,7 +463,7 @@ impl Setting {
         rooms: &mut SceneRooms<P>,
         lines: Range<u16>,
         draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
-    ) -> Result<u32, DrawFailure> {
+    ) -> Result<Bands, DrawFailure> {
         let build = |scene: &mut Scene<'_, P>, chunk: usize, alone: bool| {
             let done = prepared.chunks[chunk].draw(scene, (&self.instance, &()), alone);
             done.map_err(ShadowError::Draw)
@@ -430,7 +472,8 @@ impl Setting {
     }
 
     /// Builds the scene of `lines` and hands it to `draw`; in several bands from top to bottom
-    /// where it does not fit the arenas as a whole. How many bands it took.
+    /// where it does not fit the arenas as a whole. A line that does not fit by itself shows what
+    /// does.
     fn bands_of<P: Pipeline>(
         &self,
         (rooms, lines): (&mut SceneRooms<P>, Range<u16>),
@@ -439,9 +482,9 @@ impl Setting {
             impl FnMut(&mut Scene<'_, P>, usize, bool) -> Result<(), ShadowError>,
         ),
         mut draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
-    ) -> Result<u32, DrawFailure> {
+    ) -> Result<Bands, DrawFailure> {
         let mut scene = rooms.scene(self.screen);
-        let mut bands = 0;
+        let mut bands = Bands::default();
         let mut start = lines.start;
         let mut count = lines.len() as u16;
         // Chunks whose triangles bring their own vertices.
@@ -457,9 +500,11 @@ impl Setting {
                 let before = scene.pass_one();
                 match build(&mut scene, step, *alone) {
                     Ok(()) => {}
-                    Err(ShadowError::Draw(error)) => {
-                        full = Some(error);
-                        break;
+                    Err(ShadowError::Draw(error @ DrawError::Full(_))) => {
+                        full.get_or_insert(error);
+                        if count > 1 {
+                            break;
+                        }
                     }
                     Err(error) => return Err(DrawFailure::View(error.to_string())),
                 }
@@ -478,15 +523,22 @@ impl Setting {
                 if changed {
                     continue;
                 }
-                if count == 1 {
-                    return Err(DrawFailure::Full { line: start, error });
+                if count > 1 {
+                    // Fewer lines have fewer triangles.
+                    count = count.div_ceil(2);
+                    continue;
                 }
-                // Fewer lines have fewer triangles.
-                count = count.div_ceil(2);
-                continue;
+                let overfull = bands.overfull.get_or_insert(Overfull {
+                    line: start,
+                    lines: 0,
+                    triangles: 0,
+                    first: error,
+                });
+                overfull.lines += 1;
+                overfull.triangles += scene.pass_one().dropped;
             }
             draw(&scene)?;
-            bands += 1;
+            bands.count += 1;
             start += count;
         }
         Ok(bands)
@@ -505,6 +557,7 @@ impl Setting {
         const TRIANGLES: usize = 7000;
         *counts = PassOne {
             dropped: counts.dropped,
+            untextured: counts.untextured,
             ..PassOne::default()
         };
         let mut scene = rooms.scene(self.screen);
@@ -569,6 +622,8 @@ fn add(total: &mut FrameStats, band: &FrameStats) {
     a.objects += b.objects;
     a.vertices += b.vertices;
     a.dropped += b.dropped;
+    // One that is on several bands is told of in each.
+    a.untextured += b.untextured;
     a.meshes_skipped += b.meshes_skipped;
     a.triangles_skipped += b.triangles_skipped;
     a.vertices_skipped += b.vertices_skipped;

@@ -14,16 +14,21 @@
 //! |---|---|
 //! | `output.rs` | what the firmware prints, read line by line |
 //! | `sections.rs` | what memory its ELF takes |
+//! | `symbols.rs` | its functions |
+//! | `profile.rs` | where a frame's instructions go |
 //! | `toolchain.rs` | which compiler there is |
 
 mod output;
+pub mod profile;
 mod sections;
+mod symbols;
 #[cfg(test)]
 mod tests;
 mod toolchain;
 
 pub use output::{CountCheck, FrameResult, GrowthRun, KernelRun, LinesRun, Output, UnitRun};
 pub use sections::{Section, Sections};
+pub use symbols::{Symbol, Symbols};
 pub(crate) use toolchain::clean_command;
 pub use toolchain::{Source, Toolchain};
 
@@ -31,7 +36,7 @@ use std::{
     env,
     io::{self, Read},
     path::{Path, PathBuf},
-    process::{Command, ExitStatus, Stdio},
+    process::{Child, Command, ExitStatus, Stdio},
     thread,
     time::{Duration, Instant},
 };
@@ -165,6 +170,24 @@ pub enum FirmwareError {
         /// What is wrong with it.
         reason: String,
     },
+    /// There cannot be a frame of that name.
+    #[error("`{name}` is no frame's name: letters, digits and `_`")]
+    NoFrame {
+        /// What was asked for.
+        name: String,
+    },
+    /// No function of that name ran.
+    #[error("no function ran whose name has `{words}` in it")]
+    NoFunction {
+        /// What was asked for.
+        words: String,
+    },
+    /// Nothing here writes machine code as text.
+    #[error(
+        "there is no disassembler: run `apt-get install binutils-arm-none-eabi`, or \
+         `rustup component add llvm-tools`"
+    )]
+    NoDisassembler,
     /// The ELF cannot be read as one.
     #[error("{}: {source}", path.display())]
     Elf {
@@ -350,10 +373,9 @@ fn run_in(
     words: &[&str],
     folder: &Path,
 ) -> Result<Vec<String>, FirmwareError> {
-    let started = Instant::now();
     let mut semihosting = String::from("enable=on,target=native");
     semihosting.extend(words.iter().map(|word| format!(",arg={word}")));
-    let mut child = Command::new(qemu)
+    let child = Command::new(qemu)
         .current_dir(folder)
         .args(["-machine", board.machine, "-cpu", board.cpu])
         .args(["-icount", "shift=0"])
@@ -368,14 +390,47 @@ fn run_in(
             io::ErrorKind::NotFound => FirmwareError::NoQemu,
             _ => io_error(qemu)(error),
         })?;
+    let ended = finish(child, timeout).map_err(io_error(qemu))?;
+    match ended.status {
+        Some(status) if status.success() => Ok(ended.printed.lines().map(str::to_owned).collect()),
+        Some(status) => Err(FirmwareError::Failed {
+            machine: board.machine,
+            status,
+            printed: ended.printed + &ended.said,
+        }),
+        None => Err(FirmwareError::Timeout {
+            machine: board.machine,
+            seconds: timeout.as_secs(),
+            printed: ended.printed + &ended.said,
+        }),
+    }
+}
+
+/// How a child ended.
+pub(crate) struct Ended {
+    /// `None`: it was stopped, because it took too long.
+    pub(crate) status: Option<ExitStatus>,
+    /// What it wrote to stdout.
+    pub(crate) printed: String,
+    /// What it wrote to stderr.
+    pub(crate) said: String,
+}
+
+/// Waits for a child whose output is piped, and stops it when it takes longer than `timeout`.
+///
+/// # Errors
+///
+/// What the system says.
+pub(crate) fn finish(mut child: Child, timeout: Duration) -> io::Result<Ended> {
+    let started = Instant::now();
     let stdout = child.stdout.take().map(collect);
     let stderr = child.stderr.take().map(collect);
     let status = loop {
-        match child.try_wait().map_err(io_error(qemu))? {
+        match child.try_wait()? {
             Some(status) => break Some(status),
             None if started.elapsed() >= timeout => {
-                child.kill().map_err(io_error(qemu))?;
-                child.wait().map_err(io_error(qemu))?;
+                child.kill()?;
+                child.wait()?;
                 break None;
             }
             None => thread::sleep(Duration::from_millis(5)),
@@ -384,20 +439,11 @@ fn run_in(
     let text = |pipe: Option<thread::JoinHandle<String>>| {
         pipe.and_then(|pipe| pipe.join().ok()).unwrap_or_default()
     };
-    let (printed, said) = (text(stdout), text(stderr));
-    match status {
-        Some(status) if status.success() => Ok(printed.lines().map(str::to_owned).collect()),
-        Some(status) => Err(FirmwareError::Failed {
-            machine: board.machine,
-            status,
-            printed: printed + &said,
-        }),
-        None => Err(FirmwareError::Timeout {
-            machine: board.machine,
-            seconds: timeout.as_secs(),
-            printed: printed + &said,
-        }),
-    }
+    Ok(Ended {
+        status,
+        printed: text(stdout),
+        said: text(stderr),
+    })
 }
 
 /// Reads a pipe to its end beside the waiting, so that a full pipe never stops the child.

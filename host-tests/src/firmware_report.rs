@@ -13,7 +13,7 @@ use crate::lean_frames::lean_frame;
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
-use crate::preset_sizes;
+use crate::{preset_sizes, profile_report, stdio};
 use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
@@ -41,7 +41,10 @@ use std::path::Path;
 /// When the firmware cannot be built or run, or did not say what it should.
 pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
     if args.sizes {
-        return preset_sizes::run(args.json, args.markdown).map(|()| true);
+        return preset_sizes::run(args).map(|()| true);
+    }
+    if let Some(frame) = &args.profile {
+        return profile_report::run(frame, args).map(|()| true);
     }
     let host = host_frames()?;
     if args.bless {
@@ -60,9 +63,9 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
         let mut report = reports.first().cloned().unwrap_or_default();
         report["toolchain"] = json!(toolchain.version);
         report["targets"] = json!(reports);
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        say!("{}", serde_json::to_string_pretty(&report)?);
     } else {
-        println!("{}", toolchain.version);
+        say!("{}", toolchain.version);
         for board in &boards {
             board.print();
         }
@@ -71,17 +74,17 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
         plot(folder, &boards)?;
     }
     for refusal in &verdict.refused {
-        eprintln!("slower: {refusal}");
+        tell!("slower: {refusal}");
     }
     if let Some(other) = &verdict.other {
-        eprintln!("note: no figures of this compiler are recorded; those of {other} were used");
+        tell!("note: no figures of this compiler are recorded; those of {other} were used");
     }
     if verdict.better > 0 {
         let better = verdict.better;
-        eprintln!("note: {better} figures are better than recorded: {BLESS} would keep that");
+        tell!("note: {better} figures are better than recorded: {BLESS} would keep that");
     }
     if !verdict.refused.is_empty() {
-        eprintln!("if it has to be so, {BLESS} records it");
+        tell!("if it has to be so, {BLESS} records it");
     }
     Ok(boards.iter().all(Compared::matches) && verdict.refused.is_empty())
 }
@@ -101,9 +104,9 @@ fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
         }
         record.bless(&toolchain.version, &figures(&boards));
         record.write(&path)?;
-        eprintln!("recorded: {}", toolchain.version);
+        tell!("recorded: {}", toolchain.version);
     }
-    eprintln!("{} is new: look at what changed in it", path.display());
+    tell!("{} is new: look at what changed in it", path.display());
     Ok(false)
 }
 
@@ -194,8 +197,13 @@ fn figures(boards: &[Compared]) -> BTreeMap<String, Vec<Figure>> {
 
 /// Writes the growth of the first board.
 fn plot(folder: &Path, boards: &[Compared]) -> Result<(), Box<dyn Error>> {
-    std::fs::create_dir_all(folder)
-        .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+    std::fs::create_dir_all(folder).map_err(|error| {
+        format!(
+            "{}: cannot be made: {}",
+            folder.display(),
+            stdio::reason(&error)
+        )
+    })?;
     let curves = boards.first().and_then(|board| board.bench.as_ref());
     let plot = growth::plot(curves.map_or(&[], |bench| &bench.growth));
     write_atomically(&folder.join("growth.svg"), plot.to_svg().as_bytes())?;
@@ -649,7 +657,7 @@ impl Compared {
 
     fn print(&self) {
         let (board, sections) = (&self.measured.board, &self.measured.sections);
-        println!(
+        say!(
             "{} ({}, {}): code {} bytes, fast RAM {}, line buffers {}, slow RAM {}",
             board.name,
             board.target,
@@ -659,7 +667,7 @@ impl Compared {
             sections.dma.bytes,
             sections.slow_bytes()
         );
-        println!(
+        say!(
             "  pass one of the teapot, from a list and drawn at once: {}",
             self.list()
         );
@@ -669,9 +677,7 @@ impl Compared {
             } else {
                 "DIFFERS"
             };
-            println!(
-                "  {scene:15} {host:08x} {target:08x} {verdict}  {instructions:>10} instructions"
-            );
+            say!("  {scene:15} {host:08x} {target:08x} {verdict}  {instructions:>10} instructions");
         }
         if let Some(bench) = &self.bench {
             bench.print();

@@ -4,6 +4,7 @@
 //! what was there before, and never half a file. The animated picture is an APNG: true colour, and viewers that know
 //! only PNG show its first frame.
 
+use crate::stdio;
 use std::fmt;
 use std::io::{Cursor, Write};
 use std::path::{Path, PathBuf};
@@ -147,20 +148,27 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
 /// come into being together or not at all. Dropping it leaves nothing.
 pub struct Staged<'a> {
     file: tempfile::NamedTempFile,
+    /// As it was named.
     path: &'a Path,
+    /// Where it goes.
+    place: PathBuf,
 }
 
 impl<'a> Staged<'a> {
-    /// Writes the bytes into the folder of `path`.
+    /// Writes the bytes into the folder of `path`, or where `path` is a symbolic link, of what it
+    /// leads to: the link stays, and the file behind it is replaced.
     ///
     /// # Errors
-    /// The folder is missing, `path` is a folder itself, or anything that the file system refuses.
+    /// The folder is missing, there is a folder or a device in the file's place, or anything that
+    /// the file system refuses.
     pub fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, ImageError> {
-        let file = stage(path, bytes)?;
-        if path.is_dir() {
-            return Err(ImageError::new(path, "is a folder"));
+        let place = behind_links(path)?;
+        let file = stage(path, &place, bytes)?;
+        match std::fs::metadata(&place) {
+            Ok(there) if there.is_dir() => Err(ImageError::new(path, "is a folder")),
+            Ok(there) if !there.is_file() => Err(ImageError::new(path, "is no ordinary file")),
+            _ => Ok(Self { file, path, place }),
         }
-        Ok(Self { file, path })
     }
 
     /// Puts the file in its place.
@@ -168,7 +176,7 @@ impl<'a> Staged<'a> {
     /// # Errors
     /// Anything that the file system refuses.
     pub fn commit(self) -> Result<(), ImageError> {
-        let persisted = self.file.persist(self.path);
+        let persisted = self.file.persist(&self.place);
         match persisted {
             Ok(_) => Ok(()),
             Err(error) => Err(ImageError::new(self.path, cannot("written", &error.error))),
@@ -176,10 +184,25 @@ impl<'a> Staged<'a> {
     }
 }
 
-/// A temporary file with the bytes, in the folder of `path`.
-fn stage(path: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile, ImageError> {
+/// Where a file of that name is written: behind all symbolic links, also behind one that leads to
+/// nothing yet.
+fn behind_links(path: &Path) -> Result<PathBuf, ImageError> {
+    /// As many as Linux follows.
+    const LINKS: usize = 40;
+    let mut place = path.to_path_buf();
+    for _ in 0..=LINKS {
+        let Ok(target) = std::fs::read_link(&place) else {
+            return Ok(place);
+        };
+        place = place.parent().unwrap_or(Path::new("")).join(target);
+    }
+    Err(ImageError::new(path, "its symbolic links lead in a circle"))
+}
+
+/// A temporary file with the bytes, in the folder of `place`; errors name `path`.
+fn stage(path: &Path, place: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile, ImageError> {
     let cannot_write = |error: std::io::Error| ImageError::new(path, cannot("written", &error));
-    let folder = match path.parent() {
+    let folder = match place.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
@@ -196,9 +219,9 @@ fn stage(path: &Path, bytes: &[u8]) -> Result<tempfile::NamedTempFile, ImageErro
     Ok(file)
 }
 
-/// The system's own words, without the name of the temporary file that some errors carry.
+/// What could not be done, and why.
 fn cannot(what: &str, error: &std::io::Error) -> String {
-    format!("cannot be {what}: {}", error.kind())
+    format!("cannot be {what}: {}", stdio::reason(error))
 }
 
 /// Writes one picture as PNG or PPM, by the extension.

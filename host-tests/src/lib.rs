@@ -1,8 +1,14 @@
 //! Host side of scanbeam.
 
+// First: its macros are everybody's.
+#[macro_use]
+pub mod stdio;
+
 pub mod accuracy;
 pub mod args;
 pub mod bench;
+pub mod boards;
+pub mod budgets;
 pub mod cache_report;
 pub mod crew;
 pub mod demo;
@@ -11,6 +17,7 @@ pub mod effect_frames;
 pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
+pub mod golden;
 pub mod image_out;
 mod lean_frames;
 pub mod lent;
@@ -22,6 +29,7 @@ pub mod model;
 pub mod places;
 pub mod plot;
 pub mod preset_sizes;
+pub mod profile_report;
 pub mod reference;
 pub mod report;
 pub mod texture_file;

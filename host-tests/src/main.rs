@@ -7,7 +7,10 @@ use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
-use host_tests::{accuracy, bench, cache_report, demo, draw, firmware_report, report, trace, view};
+use host_tests::{
+    accuracy, bench, boards, budgets, cache_report, demo, draw, firmware_report, report, stdio,
+    tell, trace, view,
+};
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -15,11 +18,11 @@ fn main() -> ExitCode {
     let command = match args::parse(std::env::args_os()) {
         Ok(command) => command,
         Err(Stop::Text(text)) => {
-            print!("{text}");
-            return ExitCode::SUCCESS;
+            stdio::out(format_args!("{text}"));
+            return ended(Ok(ExitCode::SUCCESS));
         }
         Err(Stop::Refused(line)) => {
-            eprintln!("{line}");
+            tell!("{line}");
             return ExitCode::from(EXIT_BAD_INPUT);
         }
     };
@@ -30,6 +33,12 @@ fn main() -> ExitCode {
         Command::Demo(args) => demo::run(&args),
         Command::Cache(args) => cache_report::run(&args),
         Command::Accuracy(args) => accuracy::run(&args),
+        Command::Budgets(args) => match budgets::run(&args) {
+            // The limits were held against what is, and one is broken.
+            Ok(false) => return ended(Ok(ExitCode::FAILURE)),
+            Ok(true) => Ok(()),
+            Err(error) => Err(error),
+        },
         Command::Bench(args) => bench::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Bake(args) => bake::run(&args),
@@ -37,18 +46,29 @@ fn main() -> ExitCode {
         Command::Disassemble(args) => list_text::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
-            Ok(false) => return ExitCode::FAILURE,
+            Ok(false) => return ended(Ok(ExitCode::FAILURE)),
+            Ok(true) => Ok(()),
+            Err(error) => Err(error),
+        },
+        Command::Boards(args) => match boards::run(&args) {
+            Ok(false) => return ended(Ok(ExitCode::FAILURE)),
             Ok(true) => Ok(()),
             Err(error) => Err(error),
         },
     };
-    match done {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("error: {error}");
-            ExitCode::from(EXIT_BAD_INPUT)
-        }
-    }
+    ended(done.map(|()| ExitCode::SUCCESS))
+}
+
+/// The exit code of a command, unless what it said is lost.
+fn ended(done: Result<ExitCode, Box<dyn Error>>) -> ExitCode {
+    let done = done.and_then(|code| match stdio::lost() {
+        Some(reason) => Err(reason.into()),
+        None => Ok(code),
+    });
+    done.unwrap_or_else(|error| {
+        tell!("error: {error}");
+        ExitCode::from(EXIT_BAD_INPUT)
+    })
 }
 
 /// Draws a model to a picture.
@@ -80,8 +100,9 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         )
         .into());
     }
+    let file = args.model.display();
     let drawn = if args.depth.is_a_pipeline() {
-        draw::draw_by_depth(&model, &view, format, crew, args.depth)?
+        draw::draw_by_depth(&model, &view, format, crew, args.depth)
     } else if !is_plain && (seen || is_dithered && !textures.is_empty()) {
         if !textures.is_empty() && !textures.has_levels() {
             return Err(
@@ -90,13 +111,14 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
             );
         }
         let how = (args.filter, args.texture_quality());
-        draw::draw_effects(&model, &textures, how, (&view, format), crew, effects)?
+        draw::draw_effects(&model, &textures, how, (&view, format), crew, effects)
     } else if textures.is_empty() {
-        draw::draw_by(&model, &view, format, crew, args.method())?
+        draw::draw_by(&model, &view, format, crew, args.method())
     } else {
         let how = (args.filter, args.texture_quality());
-        draw::draw_textured(&model, &textures, how, &view, format, crew)?
+        draw::draw_textured(&model, &textures, how, &view, format, crew)
     };
+    let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
         let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
@@ -107,13 +129,22 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     picture.commit()?;
     // Last, so that a refusal is one line alone.
     model.print_warnings();
+    if let Some(overfull) = &drawn.overfull {
+        tell!("warning: {file}: {overfull}");
+    }
     if seen && is_plain {
-        eprintln!(
+        tell!(
             "note: with --interp, and with formats other than rgb888 and rgb565, highlights and transparency of materials are left out"
         );
     }
     for note in textures.notes() {
-        eprintln!("note: {note}");
+        tell!("note: {note}");
+    }
+    let untextured = drawn.stats.pass_one.untextured;
+    if untextured > 0 {
+        tell!(
+            "note: {untextured} triangles are drawn untextured, as they stretch over more than 4096 texels"
+        );
     }
     Ok(())
 }

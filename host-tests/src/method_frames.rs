@@ -96,7 +96,7 @@ mod tests {
                     worst = worst.max((steps_off - 1.0) * 255.0 / steps);
                 }
             }
-            println!("{name}: {differ} pixels differ, by {worst:.2} levels beyond rounding");
+            say!("{name}: {differ} pixels differ, by {worst:.2} levels beyond rounding");
             let budget: f64 = quality.levels.to_num();
             assert!(differ > 0 && worst <= budget, "{name}: {worst}");
         }

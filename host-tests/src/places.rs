@@ -7,7 +7,7 @@ use crate::lent::LineRooms;
 use crate::model::Model;
 use crate::reference::View;
 use crate::texture_file::TextureImage;
-use scanbeam::texture::{FRACTION, Quality, Texels, Textured, Uv};
+use scanbeam::texture::{FRACTION, Period, Quality, Texels, Textured, Uv};
 use scanbeam::{
     Depth32, Flat, Packed8, Parts, PixelFormat, Precision, TexelOf, Textures, TwoWords,
 };
@@ -80,6 +80,11 @@ pub struct Places;
 impl Texels for Places {
     type Texel = Place;
 
+    /// That of a texture of up to 1,024 texels.
+    fn period(&self) -> Period {
+        Period::Short
+    }
+
     fn at(&self, place: Uv) -> Place {
         Place(place)
     }
@@ -130,7 +135,7 @@ pub fn places(
         }
         Ok(())
     })?;
-    if bands > 1 {
+    if bands.count > 1 || bands.overfull.is_some() {
         return Err(failed(&"the model does not fit the arenas as a whole"));
     }
     Ok(pixels)

@@ -5,9 +5,10 @@
 //! preset and run, and refused where its picture is not the one that this machine draws by the
 //! same preset. Records are what the types take; they are the same on all cores.
 
+use crate::args::FirmwareArgs;
 use crate::bench::table::between;
 use crate::firmware::{
-    self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Toolchain, workspace,
+    self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain, workspace,
 };
 use crate::firmware_report::draw;
 use crate::image_out::write_atomically;
@@ -68,7 +69,12 @@ pub struct PresetSize {
     records: Records,
     /// Of each of [`BOARDS`].
     boards: Vec<Sections>,
+    /// Its functions, on each of them.
+    symbols: Vec<Symbols>,
 }
+
+/// Functions that are named for each preset and core.
+const NAMED: usize = 20;
 
 impl PresetSize {
     /// Cache, depth line and line buffers, bytes: the same on all cores.
@@ -77,14 +83,24 @@ impl PresetSize {
         first.fast.bytes + first.dma.bytes
     }
 
-    fn to_json(&self) -> Value {
-        let boards = BOARDS.iter().zip(&self.boards).map(|(board, sections)| {
-            json!({
-                "board": board.name,
-                "text_bytes": sections.text_bytes(),
-                "rodata_bytes": sections.rodata.bytes,
-            })
-        });
+    fn to_json(&self, with_symbols: bool) -> Value {
+        let measured = self.boards.iter().zip(&self.symbols);
+        let boards = BOARDS
+            .iter()
+            .zip(measured)
+            .map(|(board, (sections, symbols))| {
+                let mut one = json!({
+                    "board": board.name,
+                    "text_bytes": sections.text_bytes(),
+                    "rodata_bytes": sections.rodata.bytes,
+                });
+                if with_symbols {
+                    let each =
+                        |symbol: &Symbol| json!({"name": symbol.name, "bytes": symbol.bytes});
+                    one["symbols"] = symbols.by_size().into_iter().map(each).collect();
+                }
+                one
+            });
         json!({
             "preset": self.name,
             "vertex_bytes": self.records.vertex,
@@ -94,6 +110,25 @@ impl PresetSize {
             "fast_bytes": self.fast(),
             "boards": boards.collect::<Vec<_>>(),
         })
+    }
+
+    /// The largest functions on each core, a line each, and how many bytes the others have.
+    fn largest(&self) -> String {
+        let mut text = String::new();
+        for ((board, sections), symbols) in BOARDS.iter().zip(&self.boards).zip(&self.symbols) {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{} on {}:", self.name, board.name);
+            let by_size = symbols.by_size();
+            let named = &by_size[..by_size.len().min(NAMED)];
+            for symbol in named {
+                let _ = writeln!(text, "{:>8}  {}", thousands(symbol.bytes), symbol.name);
+            }
+            let known: u64 = named.iter().map(|symbol| symbol.bytes).sum();
+            let rest = sections.text_bytes().saturating_sub(known);
+            let others = by_size.len() - named.len();
+            let _ = writeln!(text, "{:>8}  {others} others", thousands(rest));
+        }
+        text
     }
 
     /// The cells of its row: name, code of each core, constants of all, fast RAM, records.
@@ -156,7 +191,7 @@ pub fn measure() -> Result<Vec<PresetSize>, Box<dyn Error>> {
         let features = ["sized", preset.feature];
         let folder =
             firmware::build_all(&toolchain, &BOARDS, Profile::Release, &[PROGRAM], &features)?;
-        let mut boards = Vec::new();
+        let (mut boards, mut symbols) = (Vec::new(), Vec::new());
         for board in &BOARDS {
             let elf = folder
                 .join(board.target)
@@ -168,11 +203,13 @@ pub fn measure() -> Result<Vec<PresetSize>, Box<dyn Error>> {
                 return Err(format!("{board}: {name} draws something else: {said:?}").into());
             }
             boards.push(Sections::read(&elf)?);
+            symbols.push(Symbols::read(&elf)?);
         }
         Ok(PresetSize {
             name: preset.name,
             records: preset.records,
             boards,
+            symbols,
         })
     });
     measured.collect()
@@ -182,15 +219,21 @@ pub fn measure() -> Result<Vec<PresetSize>, Box<dyn Error>> {
 ///
 /// # Errors
 /// As [`measure`], and where the README cannot be written.
-pub(crate) fn run(as_json: bool, markdown: bool) -> Result<(), Box<dyn Error>> {
+pub(crate) fn run(args: &FirmwareArgs) -> Result<(), Box<dyn Error>> {
     let sizes = measure()?;
-    if as_json {
-        let list: Vec<Value> = sizes.iter().map(PresetSize::to_json).collect();
-        println!("{}", serde_json::to_string_pretty(&list)?);
+    if args.json {
+        let list: Vec<Value> = sizes
+            .iter()
+            .map(|size| size.to_json(args.symbols))
+            .collect();
+        say!("{}", serde_json::to_string_pretty(&list)?);
     } else {
-        println!("{}", text(&sizes));
+        say!("{}", text(&sizes));
+        for size in sizes.iter().filter(|_| args.symbols) {
+            say!("{}", size.largest().trim_end());
+        }
     }
-    if markdown {
+    if args.markdown {
         write(&workspace().join("README.md"), &sizes)?;
     }
     Ok(())
@@ -254,13 +297,19 @@ mod tests {
             name: "GouraudDepth",
             records: Records::of::<scanbeam::GouraudDepth<Rgb565Be>>(),
             boards: vec![sections; BOARDS.len()],
+            symbols: vec![Symbols::default(); BOARDS.len()],
         };
+        assert!(
+            size.largest().contains("  50,123  0 others"),
+            "{}",
+            size.largest()
+        );
         let cells = size.cells();
         assert_eq!(cells.len(), head().len());
         assert_eq!(cells[1], "50,123");
         assert_eq!(cells[1 + BOARDS.len()], "1,500 / 1,500 / 1,500");
         assert_eq!(cells[2 + BOARDS.len()], "6,516");
-        assert_eq!(size.to_json()["fast_bytes"], 6_516);
+        assert_eq!(size.to_json(true)["fast_bytes"], 6_516);
         let written = markdown(std::slice::from_ref(&size));
         assert!(written.contains("| `GouraudDepth` | 50,123 |"), "{written}");
         let readme = include_str!("../../README.md");

@@ -425,7 +425,7 @@ mod tests {
 
     #[test]
     fn blocks_change_pages_less() {
-        println!("{}", texture_table());
+        say!("{}", texture_table());
         for (name, view) in VIEWS {
             let [rows, blocks] = compare(view);
             assert_eq!(rows.fetches, blocks.fetches);
@@ -468,10 +468,14 @@ mod tests {
                 }
             }
             let mean = sums.map(|sum| sum as f64 / f64::from(count));
-            println!(
+            say!(
                 "triangles in boxes of {size} pixels, pages of {}x{}: {:.2} page changes by strips, \
                  {:.2} by lines, {:.2} by lines into rows",
-                block.0, block.1, mean[0], mean[1], mean[2]
+                block.0,
+                block.1,
+                mean[0],
+                mean[1],
+                mean[2]
             );
             assert!(sums[0] < sums[1] && sums[0] < sums[2], "{mean:?}");
         }

@@ -4,9 +4,10 @@
 //! is on the wires, not what the program meant.
 
 use crate::args::TraceArgs;
-use crate::draw::{ModelLines, Prepared, Setting, rooms_for};
+use crate::draw::{ModelLines, Overfull, Prepared, Setting, rooms_for};
 use crate::model::Model;
 use crate::reference::{Shade, View};
+use crate::stdio;
 use scanbeam::model::{Chart, CornerColours, PipeCounts, Token, TokenBits};
 use scanbeam::{FlatDepth, GouraudDepth, Pipeline, PixelFormat, Rgb888};
 use std::error::Error;
@@ -18,12 +19,14 @@ use std::io::{self, Write};
 /// When the model cannot be read or drawn. A closed pipe is none.
 pub fn run(args: &TraceArgs) -> Result<(), Box<dyn Error>> {
     let model = Model::load(&args.model)?;
-    let traced = trace(&model, &args.picture.view(), args.line)?;
+    let traced = trace(&model, &args.picture.view(), args.line)
+        .map_err(|error| format!("{}: {error}", args.model.display()))?;
     model.print_warnings();
-    match traced.write(&mut io::stdout().lock()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(error.into()),
-        _ => Ok(()),
+    if let Some(overfull) = &traced.overfull {
+        tell!("warning: {}: {overfull}", args.model.display());
     }
+    stdio::note(traced.write(&mut io::stdout().lock()));
+    Ok(())
 }
 
 /// What a line was drawn with.
@@ -37,6 +40,8 @@ pub struct Traced {
     pub tokens: Vec<TokenBits>,
     /// What the pipeline did with them.
     pub counts: PipeCounts,
+    /// What is left out of the line.
+    pub overfull: Option<Overfull>,
 }
 
 /// Draws one line of a view with the hardware model and keeps its tokens.
@@ -64,7 +69,7 @@ where
     let mut pixels = vec![background; usize::from(width)];
     let mut tokens = Vec::new();
     let mut failure = None;
-    setting.bands(prepared, &mut rooms, line..line + 1, |scene| {
+    let bands = setting.bands(prepared, &mut rooms, line..line + 1, |scene| {
         let mut keep = |token: &Token| tokens.push(token.encode());
         failure = renderer
             .trace_line(scene, line, background, &mut pixels, &mut keep)
@@ -78,6 +83,7 @@ where
             width,
             tokens,
             counts: renderer.counts(),
+            overfull: bands.overfull,
         }),
     }
 }

@@ -14,20 +14,20 @@ use tempfile::TempDir;
 const TRIANGLE: &str = "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n";
 
 /// A folder with a model in it, and the tool run there.
-struct Desk(TempDir);
+pub(crate) struct Desk(TempDir);
 
 impl Desk {
-    fn new(obj: impl AsRef<[u8]>) -> Self {
+    pub(crate) fn new(obj: impl AsRef<[u8]>) -> Self {
         let desk = Self(tempfile::tempdir().unwrap());
         fs::write(desk.path("m.obj"), obj).unwrap();
         desk
     }
 
-    fn path(&self, name: &str) -> std::path::PathBuf {
+    pub(crate) fn path(&self, name: &str) -> std::path::PathBuf {
         self.0.path().join(name)
     }
 
-    fn run(&self, line: &str) -> Output {
+    pub(crate) fn run(&self, line: &str) -> Output {
         Command::new(env!("CARGO_BIN_EXE_scanbeam"))
             .args(line.split_whitespace())
             .current_dir(self.0.path())
@@ -35,7 +35,7 @@ impl Desk {
             .unwrap()
     }
 
-    fn files(&self) -> Vec<String> {
+    pub(crate) fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).unwrap();
         let mut names: Vec<_> = entries
             .map(|e| e.unwrap().file_name().into_string().unwrap())
@@ -45,7 +45,7 @@ impl Desk {
     }
 
     /// Runs a line that must be refused; hands out what it says.
-    fn refused(&self, line: &str) -> String {
+    pub(crate) fn refused(&self, line: &str) -> String {
         let before = self.files();
         let output = self.run(line);
         let text = String::from_utf8(output.stderr).unwrap();
@@ -59,12 +59,18 @@ impl Desk {
     }
 
     /// Runs a line that must draw `o.png`; hands out the picture.
-    fn drawn(&self, line: &str) -> Frame {
+    pub(crate) fn drawn(&self, line: &str) -> Frame {
+        let (frame, text) = self.told(line);
+        assert_eq!(text, "", "{line}");
+        frame
+    }
+
+    /// Runs a line that must draw `o.png`; hands out the picture, and what is told beside it.
+    pub(crate) fn told(&self, line: &str) -> (Frame, String) {
         let output = self.run(line);
         let text = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{line}: {text}");
-        assert_eq!(text, "", "{line}");
-        read_image(&self.path("o.png")).unwrap()
+        (read_image(&self.path("o.png")).unwrap(), text)
     }
 }
 
@@ -163,17 +169,19 @@ fn what_cannot_be_written_leaves_nothing() {
 
 #[test]
 fn empty_models_give_the_background() {
-    for obj in [
-        "",
-        "# nothing\n",
-        "v 0 0 0\nv 1 0 0\nv 0 1 0\n",
+    let nothing = "warning: m.obj: it has no faces, so nothing is drawn\n";
+    for (obj, said) in [
+        ("", nothing),
+        ("# nothing\n", nothing),
+        ("v 0 0 0\nv 1 0 0\nv 0 1 0\n", nothing),
         // No area.
-        "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 1\n",
+        ("v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\nf 1 1 1\n", ""),
         // Behind the eye.
-        "v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n",
+        ("v 0 0 9\nv 1 0 9\nv 0 1 9\nf 1 2 3\n", ""),
     ] {
         let desk = Desk::new(obj);
-        let frame = desk.drawn("render m.obj -o o.png --size 17x9 --background 9,8,7");
+        let (frame, told) = desk.told("render m.obj -o o.png --size 17x9 --background 9,8,7");
+        assert_eq!(told, said, "{obj:?}");
         assert_eq!((frame.width(), frame.height()), (17, 9));
         assert!(frame.rgb().chunks(3).all(|p| p == [9, 8, 7]), "{obj:?}");
         assert_eq!(desk.files(), ["m.obj", "o.png"]);
@@ -342,15 +350,31 @@ fn a_hundred_thousand_triangles_at_random_are_drawn() {
     );
 }
 
-/// More triangles on one line than an arena can hold: either all are drawn or the line is named.
+/// More triangles on one line than an arena can hold: those that fit are drawn, and what does not
+/// is told in one line.
 #[test]
-fn too_many_triangles_on_one_line_are_a_clear_error() {
+fn of_too_many_triangles_on_one_line_the_rest_is_drawn_and_told() {
     let mut text = String::from("v -1 -1 0\nv 1 -1 0\nv 0 1 0\n");
     for _ in 0..70_000 {
         text.push_str("f 1 2 3\n");
     }
-    let said = Desk::new(&text).refused("render m.obj -o o.png --size 64x64");
-    assert!(said.contains("line ") && said.contains("full"), "{said}");
+    let line = "render m.obj -o o.png --size 64x64";
+    let (frame, said) = Desk::new(&text).told(line);
+    assert_eq!(said.lines().count(), 1, "{said}");
+    assert!(said.starts_with("warning: m.obj: line "), "{said}");
+    assert!(
+        said.contains("full") && said.contains("the rest is drawn"),
+        "{said}"
+    );
+    // They are all the same.
+    let one = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+    assert_eq!(frame, Desk::new(one).drawn(line));
+    let help = Desk::new(one).run("render --help");
+    let help = String::from_utf8(help.stdout).unwrap();
+    assert!(
+        help.contains("61,440 triangles and 65,536 vertices"),
+        "{help}"
+    );
 }
 
 #[test]

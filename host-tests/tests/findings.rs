@@ -366,7 +366,6 @@ fn a_buffer_that_comes_back_short_ends_a_frame_of_runs() {
     );
     assert_eq!(frame.line_done(), Err(ScanError::OutOfTurn { line: 12 }));
     assert_eq!(frame.line().err(), Some(ScanError::OutOfTurn { line: 12 }));
-    drop(frame);
     assert!(!pump.sink().open, "the rectangle is closed");
     let narrow = Window { width: 5, ..window };
     pump.begin(narrow, 1).unwrap();

@@ -133,6 +133,13 @@ impl TexelOf<Rgb888> for Rgb {
 impl texture::Texels for Plain<'_> {
     type Texel = Rgb;
 
+    fn period(&self) -> texture::Period {
+        match self {
+            Self::Wrap(t) => t.period(),
+            Self::Clamp(t) => t.period(),
+        }
+    }
+
     fn at(&self, place: texture::Uv) -> Rgb {
         Rgb(match self {
             Self::Wrap(t) => t.at(place),

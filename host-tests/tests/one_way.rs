@@ -8,18 +8,21 @@ use std::path::{Path, PathBuf};
 /// What everything stands on, in order: a room of the ground floor imports those before it.
 const GROUND: [&str; 5] = ["num", "arena", "link", "stats", "event"];
 /// The rooms in the order in which data walks.
-const ROOMS: [&str; 8] = [
+const ROOMS: [&str; 11] = [
     "list",
     "geometry",
+    "scene",
     "active",
     "span",
     "visible",
     "shade",
     "composite",
+    "pixel",
+    "look",
     "scan_out",
 ];
 /// The conductor, the bundle of choices and the front door: they see everything.
-const ABOVE: [&str; 4] = ["renderer", "pipeline", "model", "lib"];
+const ABOVE: [&str; 5] = ["renderer", "frame", "pipeline", "model", "lib"];
 /// Pairs beyond the order, from the last column of DESIGN's table of rooms: the first must never
 /// know the second.
 const NEVER: [(&str, &str); 4] = [

@@ -5,7 +5,7 @@
 
 use super::texels::{Light, TexelOf, TextureSource, alphas_part, paint_part};
 use super::{PixelAlpha, PixelFormat};
-use crate::geometry::texturing::{LevelEnds, SpanPlace};
+use crate::geometry::texturing::{LevelEnds, Period, SpanPlace};
 use crate::shade::Stretch;
 use crate::shade::texture::{Levels, Texels};
 use crate::visible::Visible;
@@ -37,6 +37,11 @@ where
     F: PixelFormat,
     T: Texels<Texel: TexelOf<F>>,
 {
+    fn period(&self, index: u16) -> Period {
+        let levels = self.0.get(usize::from(index));
+        levels.map_or(Period::Long, |levels| levels.levels[0].period())
+    }
+
     #[inline]
     fn fetches(&self, index: u16) -> u32 {
         let levels = self.0.get(usize::from(index));

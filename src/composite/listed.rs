@@ -8,7 +8,7 @@
 
 use super::texels::{TexelOf, TextureSource, Textures};
 use super::{LineOverlay, PixelFormat};
-use crate::geometry::texturing::{LevelEnds, SpanPlace};
+use crate::geometry::texturing::{LevelEnds, Period, SpanPlace};
 use crate::list::{
     Codes, Direct, Fields, OverlaySlot, OverlaySlots, Picture, Reading, TexelForm, TextureSlot,
     TextureSlots,
@@ -82,6 +82,15 @@ impl<R: Reading> Texels for Listed<'_, R> {
 }
 
 impl<F: PixelFormat> TextureSource<F> for ListTextures<'_> {
+    fn period(&self, index: u16) -> Period {
+        // Sides are up to 1,024 texels.
+        match TextureSlots(self.slots).is_clamped(index) {
+            Some(true) => Period::Never,
+            Some(false) => Period::Short,
+            None => Period::Long,
+        }
+    }
+
     #[inline]
     fn fetches(&self, index: u16) -> u32 {
         let picture = TextureSlots(self.slots).picture(index, self.words);

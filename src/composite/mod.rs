@@ -2,21 +2,22 @@
 //!
 //! | file | there |
 //! |---|---|
-//! | `blend/` | a new pixel and the one that is there become one |
-//! | `compositing.rs` | whether surfaces have a finish |
 //! | `paint.rs` | the pixels of a span, by the method that the pipeline chose |
-//! | `course.rs` | where a span's colours come from: two words, or three channels |
+//! | `course.rs` | where a span's colours come from: planes in two words, or in three channels |
 //! | `ramp.rs` | packed channels in one or two registers |
 //! | `lirp.rs` | LIRP between a span's ends |
+//! | `words.rs` | colours straight into words of depth and colour |
 //! | `texels.rs` | texels times the shaded colour |
-//! | `listed.rs` | textures of an instruction list |
+//! | `detailed.rs` | texels in levels of detail |
+//! | `listed.rs` | textures and overlays of an instruction list |
+//! | `blend/` | a new pixel and the one that is there become one |
+//! | `compositing.rs` | whether surfaces have a finish |
 //! | `dither.rs` | ordered dither, and cutting instead of rounding |
 //! | `grey.rs` | 8-bit grey, and 1 bit a pixel made of it |
 //! | `indexed.rs` | numbers of a palette, which may differ from line to line |
+//! | `xrgb.rs` | 8 bits a channel in a 32-bit word |
 //! | `overlay.rs` | runs and sprites over a finished line |
 //! | `canvas.rs` | drawables of `embedded-graphics` into such |
-//! | `xrgb.rs` | 8 bits a channel in a 32-bit word |
-//! | `detailed.rs` | the same in levels of detail |
 
 mod blend;
 #[cfg(feature = "embedded-graphics")]

@@ -7,7 +7,7 @@
 
 use super::course::apart;
 use super::{PixelAlpha, PixelFormat, Threshold};
-use crate::geometry::texturing::{LevelEnds, SpanPlace};
+use crate::geometry::texturing::{LevelEnds, Period, SpanPlace};
 use crate::shade::Stretch;
 use crate::shade::texture::{PaintRun, PerspectiveSpan, Texel, Texels, Uv};
 use crate::visible::Visible;
@@ -99,6 +99,11 @@ impl<F: PixelFormat<Word = [u8; 3]>> TexelOf<F> for [u8; 3] {
 /// Where they can be shared between cores (`Sync`), the scene can; those that are read through a
 /// [`BlockCache`](crate::texture::BlockCache) cannot, as one core alone may use a cache.
 pub trait TextureSource<F: PixelFormat>: Copy + Default {
+    /// How texture `index` goes on beyond its sides.
+    fn period(&self, _index: u16) -> Period {
+        Period::Long
+    }
+
     /// Texels that one pixel of texture `index` fetches; 0 where there is no such texture.
     fn fetches(&self, index: u16) -> u32;
 
@@ -163,6 +168,11 @@ where
     F: PixelFormat,
     T: Texels<Texel: TexelOf<F>>,
 {
+    fn period(&self, index: u16) -> Period {
+        let texels = self.0.get(usize::from(index));
+        texels.map_or(Period::Long, Texels::period)
+    }
+
     #[inline]
     fn fetches(&self, index: u16) -> u32 {
         self.0.get(usize::from(index)).map_or(0, Texels::fetches)

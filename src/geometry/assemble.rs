@@ -80,6 +80,9 @@ pub struct Assembled {
     pub clipped: u32,
     /// Objects kept, pieces of clipped triangles included.
     pub kept: u32,
+    /// Of the triangles kept, those that are drawn without their texture, as they stretch over too
+    /// many of its texels.
+    pub untextured: u32,
     /// What found no room.
     pub dropped: Option<Dropped>,
 }
@@ -101,6 +104,10 @@ pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     turn: S::Turn,
     /// A piece of the current triangle found no room.
     lost: bool,
+    /// Triangles have to be asked whether they can have their texture.
+    wide: bool,
+    /// A piece of the current triangle cannot.
+    plain: bool,
     /// How levels become steps of the output.
     scale: &'a Scale,
     /// What the mesh brings beside its colours.
@@ -137,6 +144,8 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             tint: Tint::new(colour, scale),
             turn: S::turn(model, &camera.view),
             lost: false,
+            wide: S::may_be_plain(&skin),
+            plain: false,
             scale,
             skin,
             done: Assembled::default(),
@@ -176,7 +185,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         }
         self.done.triangles = triangles(mesh.faces);
         match mesh.faces {
-            Faces::Triangles(faces) if shared => {
+            Faces::Triangles(faces) if shared && !self.wide => {
                 let mut face = 0;
                 while face < faces.len() {
                     face = self.on_screen_faces(mesh, (faces, face), base, &mut file);
@@ -344,6 +353,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     /// of them was, or among the culled if there are still as many objects as were `kept` before.
     #[inline(always)]
     pub(super) fn settle(&mut self, kept: u32) {
+        self.done.untextured += u32::from(core::mem::take(&mut self.plain));
         if !self.count_lost() && self.done.kept == kept {
             self.done.culled += 1;
         }
@@ -459,7 +469,14 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         match file(object, first, self.vertices.as_slice()) {
-            Some(objects) => self.done.kept += objects,
+            Some(objects) => {
+                self.done.kept += objects;
+                if self.wide && objects > 0 {
+                    let corners = object.corners(self.vertices.as_slice());
+                    let corners = corners.map(|c| c.map(|vertex| &vertex.attribute));
+                    self.plain |= corners.is_some_and(|c| S::is_plain(&self.skin, c));
+                }
+            }
             None => self.dropped(Room::Objects, face),
         }
     }

@@ -189,6 +189,24 @@ impl<S: Shading> Shading for Blended<S> {
             && (surface.alphas.is_empty() || surface.alphas.len() == vertices)
     }
 
+    fn known<'a>(
+        skin: Self::Skin<'a>,
+        period: impl FnOnce(u16) -> texturing::Period,
+    ) -> Self::Skin<'a> {
+        Surface {
+            skin: S::known(skin.skin, period),
+            ..skin
+        }
+    }
+
+    fn may_be_plain(skin: &Self::Skin<'_>) -> bool {
+        S::may_be_plain(&skin.skin)
+    }
+
+    fn is_plain(skin: &Self::Skin<'_>, corners: [&Self::Vertex; 3]) -> bool {
+        S::is_plain(&skin.skin, corners.map(|c| &c.inner))
+    }
+
     #[inline]
     fn dress(vertex: &mut Self::Vertex, surface: &Self::Skin<'_>, index: usize) {
         S::dress(&mut vertex.inner, &surface.skin, index);

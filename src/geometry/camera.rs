@@ -132,8 +132,8 @@ impl Camera {
     /// How many times the near plane's distance the far plane's may be.
     ///
     /// Depth is 1/w in 31 bits with the near plane at 1. At this ratio the far plane is at 2^15, so
-    /// of surfaces that are a thousandth of their distance apart the nearer one is still 32 units
-    /// ahead, and places on textures keep their budget.
+    /// of surfaces that face the eye, a thousandth of their distance apart, the nearer one is still 32
+    /// units ahead. Those that lean are planes, which err by up to half a unit a pixel.
     pub const MOST_FAR: f32 = 65_536.0;
 
     /// World to camera.

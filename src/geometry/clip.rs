@@ -150,3 +150,55 @@ fn between<S: Shading>(
         attribute: S::lerp(inner.attribute, outer.attribute, t, space),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::camera::{Camera, Screen};
+    use super::super::shading::Flat;
+    use super::super::transform::Affine;
+    use super::*;
+    use crate::num::random::Rng;
+
+    /// Two triangles on either side of an edge get the same points where planes cut it, whichever
+    /// way either goes along it.
+    #[test]
+    fn neighbours_are_cut_at_the_same_points() {
+        let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+        let camera = Camera::look_at([0.0; 3], ahead, up, 2000.0, 0.1, 1.0).unwrap();
+        let screen = Screen::new(320, 240).unwrap();
+        let projection = Projection::new(&camera, screen, &Affine::IDENTITY);
+        let mut rng = Rng(23);
+        let mut compared = 0;
+        for _ in 0..40_000 {
+            let mut corner = || Corner {
+                point: projection.transform([(); 3].map(|()| rng.bits() as i32)),
+                attribute: (),
+            };
+            let (p, q, r, s) = (corner(), corner(), corner(), corner());
+            let on_edge = |polygon: &[Corner<()>], own: ClipPoint, sides: [i64; 2]| {
+                let [near, far] = sides;
+                let at = |c: &&Corner<()>| {
+                    let z = i64::from(c.point.z);
+                    c.point != own && (z == near || z == far)
+                };
+                let mut points: std::vec::Vec<_> =
+                    polygon.iter().filter(at).map(|c| c.point).collect();
+                points.sort_by_key(|p| (p.z, p.x, p.y));
+                points
+            };
+            let sides = [i64::from(projection.near), i64::from(projection.far)];
+            let [a, b] = [[p, q, r], [q, p, s]].map(|t| near_far::<Flat>(t, &projection));
+            let (a, b) = (on_edge(&a, r.point, sides), on_edge(&b, s.point, sides));
+            // One end within and one beyond a plane: of that edge there is one point in both.
+            let within = |c: &Corner<()>| (sides[0]..=sides[1]).contains(&i64::from(c.point.z));
+            if within(&p) != within(&q) {
+                assert!(
+                    a.iter().any(|point| b.contains(point)),
+                    "{p:?} {q:?}: {a:?} {b:?}"
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 5_000, "{compared}");
+    }
+}

@@ -11,6 +11,7 @@ use super::colour::{Colour, Scale};
 use super::finish::Finish;
 use super::object::SceneVertex;
 use super::shading::{Empty, Shading};
+use super::texturing;
 use super::transform::Affine;
 use crate::list::Window;
 use crate::num::{InverseArea, SmallArea, first_at};
@@ -321,6 +322,18 @@ impl<S: Shading, M: Mark> Shading for Marked<S, M> {
 
     fn fits(skin: &S::Skin<'_>, vertices: usize) -> bool {
         S::fits(skin, vertices)
+    }
+
+    fn known<'a>(skin: S::Skin<'a>, period: impl FnOnce(u16) -> texturing::Period) -> S::Skin<'a> {
+        S::known(skin, period)
+    }
+
+    fn may_be_plain(skin: &S::Skin<'_>) -> bool {
+        S::may_be_plain(skin)
+    }
+
+    fn is_plain(skin: &S::Skin<'_>, corners: [&Self::Vertex; 3]) -> bool {
+        S::is_plain(skin, corners)
     }
 
     #[inline]

@@ -164,9 +164,28 @@ impl<S: Shading> Shading for Phong<S> {
 
     type Skin<'a> = LitSkin<S::Skin<'a>>;
     const SKINNED: bool = true;
+    const TEXTURED: bool = S::TEXTURED;
 
     fn fits(skin: &Self::Skin<'_>, vertices: usize) -> bool {
         S::fits(&skin.skin, vertices)
+    }
+
+    fn known<'a>(
+        skin: Self::Skin<'a>,
+        period: impl FnOnce(u16) -> texturing::Period,
+    ) -> Self::Skin<'a> {
+        LitSkin {
+            skin: S::known(skin.skin, period),
+            ..skin
+        }
+    }
+
+    fn may_be_plain(skin: &Self::Skin<'_>) -> bool {
+        S::may_be_plain(&skin.skin)
+    }
+
+    fn is_plain(skin: &Self::Skin<'_>, corners: [&Self::Vertex; 3]) -> bool {
+        S::is_plain(&skin.skin, corners.map(|c| &c.inner))
     }
 
     #[inline]

@@ -55,6 +55,25 @@ pub trait Shading {
         true
     }
 
+    /// The skin with what is known of its texture, of which `period` says how it repeats.
+    fn known<'a>(
+        skin: Self::Skin<'a>,
+        _: impl FnOnce(u16) -> super::texturing::Period,
+    ) -> Self::Skin<'a> {
+        skin
+    }
+
+    /// Whether some triangle of a mesh with this skin, which is known, may have to be drawn without
+    /// its texture, as it is too wide for places on it.
+    fn may_be_plain(_: &Self::Skin<'_>) -> bool {
+        false
+    }
+
+    /// Whether a triangle has to be.
+    fn is_plain(_: &Self::Skin<'_>, _corners: [&Self::Vertex; 3]) -> bool {
+        false
+    }
+
     /// Gives vertex `index` of a mesh its part of the skin.
     fn dress(_: &mut Self::Vertex, _: &Self::Skin<'_>, _index: usize) {}
 

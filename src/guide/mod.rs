@@ -5,6 +5,7 @@
 //! | [`first_triangle`] | a picture without a display, and what each piece of memory is for |
 //! | [`own_display`] | a sink for your panel, by a ready one, by three functions or by your DMA |
 //! | [`own_memory`] | which memory goes where, and how much of it a scene needs |
+//! | [`textures`] | a textured mesh, the byte order of its texels, and which `Quality` is meant |
 //! | [`two_cores`] | alternate lines on two cores or threads |
 //! | [`quality`] | what is paid for how exact a picture |
 //! | [`figures`] | what a frame did, and what it was spared |
@@ -20,6 +21,9 @@ pub mod own_display {}
 
 #[doc = include_str!("own_memory.md")]
 pub mod own_memory {}
+
+#[doc = include_str!("textures.md")]
+pub mod textures {}
 
 #[doc = include_str!("two_cores.md")]
 pub mod two_cores {}

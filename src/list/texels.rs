@@ -213,6 +213,8 @@ const TEXTURE: u32 = 1 << 30;
 const PALETTE: u32 = 2 << 30;
 /// A pair: bits 7..0 colours less one, 8..20 as those of the texture.
 const PAIR: u32 = 3 << 30;
+/// The bit of what is clamped.
+const CLAMPED: u32 = 1 << 20;
 /// Bits that say what a slot is.
 const KIND: u32 = 3 << 30;
 
@@ -225,6 +227,9 @@ pub struct TextureSlots<'m>(
 );
 
 impl<'m> TextureSlots<'m> {
+    /// Slots that can be drawn with: as many as faces can name.
+    pub const MOST: u16 = 0xFFF;
+
     /// Forgets everything.
     pub fn clear(self) {
         self.0
@@ -328,9 +333,20 @@ impl<'m> TextureSlots<'m> {
             }
         };
         Ok(Bound {
-            index: u16::try_from(index).map_err(|_| NoTexture::Full)?,
+            index: u16::try_from(index)
+                .ok()
+                .filter(|index| *index < Self::MOST)
+                .ok_or(NoTexture::Full)?,
             log_sides: [(pair >> 8) as u8 & 15, (pair >> 12) as u8 & 15],
         })
+    }
+
+    /// Whether the texture of the pair in a slot goes on with the texels at its rim, and does not
+    /// repeat; `None` where there is none.
+    #[must_use]
+    pub fn is_clamped(self, index: u16) -> Option<bool> {
+        let name = self.0.get(usize::from(index))?.name.load(Ordering::Relaxed);
+        (name & KIND == PAIR).then_some(name & CLAMPED != 0)
     }
 
     /// The picture of the pair in a slot, out of the words of its list; `None` where there is none.
@@ -353,7 +369,7 @@ impl<'m> TextureSlots<'m> {
             texels: Texels::new(from(slot.at.load(Ordering::Relaxed))?, form, colours),
             log_width: name >> 8 & 15,
             log_height: name >> 12 & 15,
-            clamped: name >> 20 & 1 != 0,
+            clamped: name & CLAMPED != 0,
         })
     }
 }

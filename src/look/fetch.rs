@@ -19,7 +19,7 @@
 //! | the same with a step of 2/3 texel, 128 texels clamped | 14.0 | 26.6 | 294; 494 | 704 bytes |
 //! | and 64 texels mirrored | 17.8 | 33.5 | 284; 446 | |
 
-use super::texture::{Form, Square, Texture, Wrap};
+use crate::scene::{Form, Square, Texture, Wrap};
 use core::hint::black_box as unknown;
 
 /// Fraction bits of a [`Uv`].
@@ -255,7 +255,7 @@ pub fn copy_exact(run: &mut [u16], texture: &Texture<'_>, way: Way) {
 }
 
 /// [`copy_exact`], faster on squares of 32 to 256 words that repeat: there places may be off by 1/24
-/// texel; by 1/14 where steps are longer than a quarter of the side.
+/// texel; by 1/10 where steps are longer than a quarter of the side.
 #[inline(never)]
 pub fn copy_wide(run: &mut [u16], texture: &Texture<'_>, way: Way) {
     if texture.wrap() != Wrap::Repeat || !texture.is_square() {
@@ -264,15 +264,9 @@ pub fn copy_wide(run: &mut [u16], texture: &Texture<'_>, way: Way) {
     }
     // Rounded steps stay within 1/32 texel of the way, and carries of u within another one.
     let log = texture.log_width();
-    // u goes the shorter way round, so that v gets a carry from every second pixel at most.
-    let up = 13 - log;
-    let short = Uv {
-        u: (way.step.u << up) >> up,
-        ..way.step
-    };
     let (mut at, length) = (way.repeated(), 16usize << (8 - log));
     for part in run.chunks_mut(length) {
-        copy_part(part, texture, packed(at, log), packed_step(short, log));
+        copy_part(part, texture, packed(at, log), packed_step(way.step, log));
         at = at.plus(way.step.times(length));
     }
 }

@@ -132,7 +132,7 @@ pub(super) struct Course {
 impl Course {
     /// So many pixels on.
     #[inline(always)]
-    pub(super) fn skip(&mut self, pixels: u32) {
+    fn skip(&mut self, pixels: u32) {
         for (value, step) in self.value.iter_mut().zip(self.step) {
             *value = value.wrapping_add((step as u32).wrapping_mul(pixels));
         }

@@ -18,9 +18,10 @@
 //! near its middle, in whole repeats where the texture repeats.
 
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
-use super::perspective::{Budget, Homogeneous, Perspective};
-use super::texture::{Texture, Wrap};
+use super::perspective::{Homogeneous, Perspective};
 use crate::num::{leading_zeros, mul_16, mul_high, mul_high_unsigned, recip, recip_16};
+use crate::scene::Budget;
+use crate::scene::{Texture, Wrap};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]

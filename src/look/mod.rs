@@ -6,7 +6,6 @@
 //! | `gouraud` | colours linear between vertices |
 //! | `textured` | texels times such colours |
 //! | `ramp` | the loops over pixels that all looks share, with depth and without |
-//! | `texture` | textures as values: form, sides, palette, wrap |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
 //! | `fetch` | texels along a way that is linear on the texture |
 //! | `perspective` | a span in perspective: exact places every 16 to 1 pixels, fetched between |
@@ -24,15 +23,12 @@ mod perspective;
 mod ramp;
 #[cfg(test)]
 mod tests;
-mod texture;
 mod textured;
 mod tint;
 
 pub use gouraud::Gouraud;
 pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
-pub use perspective::Budget;
 pub(crate) use ramp::write_depth;
-pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 pub use textured::Textured;
 
 /// How the triangles of a scene look: [`Gouraud`] or [`Textured`].

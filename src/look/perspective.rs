@@ -6,7 +6,7 @@
 //! by 2^-15 of its distance from the base at most; the base is to be near the triangle's middle.
 //!
 //! Instructions a pixel of spans of 320 pixels, all in (rustc 1.95, opt-level 3, counted in QEMU), the
-//! same bits on both cores; the choice of the stride takes 100 a span on the M4 and 350 on the M0+.
+//! same bits on both cores; the choice of the stride takes 115 a span on the M4 and 360 on the M0+.
 //!
 //! | [`Stride`] | squares of words: M4 | M0+ | other words: M4 | M0+ | 8-bit indices: M4 | M0+ |
 //! |---|---|---|---|---|---|---|
@@ -27,8 +27,8 @@
 //! at most `e (m / n)² max q / min q`.
 
 use super::fetch::{FRACTION, Uv, Way, copy_exact, copy_square, packed, packed_step, straight};
-use super::texture::{Square, Texture, Wrap};
 use crate::num::{leading_zeros, mul_17, mul_high, mul_high_unsigned, recip_16};
+use crate::scene::{Budget, Square, Texture, Wrap};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
 ///
@@ -104,56 +104,6 @@ impl Homogeneous {
     }
 }
 
-/// How far a texel may be from its place, in texels with 8 fraction bits: 0 to 256 texels.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Budget(u16);
-
-impl Default for Budget {
-    /// [`BALANCED`](Budget::BALANCED).
-    fn default() -> Self {
-        Self::BALANCED
-    }
-}
-
-impl Budget {
-    /// 1/2 texel.
-    pub const FAST: Self = Self(128);
-    /// 1/4 texel.
-    pub const BALANCED: Self = Self(64);
-    /// 1/100 texel.
-    pub const EXACT: Self = Self(2);
-
-    /// In texels with 8 fraction bits.
-    #[must_use]
-    pub const fn new(texels: u16) -> Self {
-        Self(texels)
-    }
-
-    /// In texels with 8 fraction bits.
-    #[inline(always)]
-    #[must_use]
-    pub const fn texels(self) -> u32 {
-        self.0 as u32
-    }
-
-    /// Whether it leaves room for places in one word, which are off by up to 1/16 texel.
-    #[inline(always)]
-    #[must_use]
-    pub(super) const fn is_coarse(self) -> bool {
-        self.texels() >= 2 * RESERVE
-    }
-
-    /// What is left for taking a curve as straight.
-    #[inline(always)]
-    pub(super) const fn for_curves(self) -> u32 {
-        if self.is_coarse() {
-            self.texels() - RESERVE
-        } else {
-            self.texels()
-        }
-    }
-}
-
 /// Pixels from one exact place to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
@@ -223,9 +173,6 @@ fn nth(way: Uv, steps: usize) -> Uv {
     }
 }
 
-/// What fixed point may add between exact places, in texels with 8 fraction bits: 1/16 texel.
-const RESERVE: u32 = 16;
-
 impl Perspective {
     /// The longest stride that keeps `budget` along `pixels` pixels, 2 ..= 1024 of them; of more,
     /// one that keeps it too.
@@ -239,7 +186,7 @@ impl Perspective {
         // max q / min q with 8 fraction bits, rounded up, below 16.
         let r = Reciprocal::of(low);
         let ratio = mul_17(high as i32, r.mantissa) as u32;
-        if r.shift > 22 || ratio >> 4 >> (30 - r.shift) != 0 {
+        if low == 0 || r.shift > 22 || ratio >> 4 >> (30 - r.shift) != 0 {
             return Stride::One;
         }
         let ratio = (ratio >> (22 - r.shift)) + 2;
@@ -249,7 +196,8 @@ impl Perspective {
         let worst = mul_high_unsigned(((furthest >> 11) + 1) << 10, curve << 14) + 1;
         // worst / 4 (m / n)² <= budget
         let steps = steps.min(1023) as u32;
-        let may = budget.for_curves() * steps * steps;
+        // 16 texels are as good as more.
+        let may = budget.for_curves().min(4095) * steps * steps;
         match () {
             () if worst <= may >> 6 && budget.is_coarse() => Stride::Sixteen,
             () if worst <= may >> 4 && budget.is_coarse() => Stride::Eight,

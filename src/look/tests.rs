@@ -3,9 +3,10 @@
 mod triangles;
 
 use super::fetch::{FRACTION, Uv, Way, copy, copy_exact, copy_wide};
-use super::perspective::{Budget, Homogeneous, Perspective, Stride};
-use super::texture::{Texture, TextureError, Wrap};
+use super::perspective::{Homogeneous, Perspective, Stride};
 use crate::num::random::Rng;
+use crate::scene::Budget;
+use crate::scene::{Texture, TextureError, Wrap};
 use std::vec::Vec;
 
 /// Texels of all forms, the larger ones not to be told from each other by chance alone.
@@ -152,9 +153,9 @@ fn some_way(rng: &mut Rng, pixels: usize) -> Way {
     }
 }
 
-/// Whether a texel is right, 1/14 texel off at most where that is allowed.
+/// Whether a texel is right, 1/10 texel off at most where that is allowed.
 fn shows(got: u16, place: [i64; 2], may_be_off: bool, want: impl Fn([i64; 2]) -> u16) -> bool {
-    let off = if may_be_off { (1 << FRACTION) / 14 } else { 0 };
+    let off = if may_be_off { (1 << FRACTION) / 10 } else { 0 };
     let texel = |d: [i64; 2]| [0, 1].map(|i| (place[i] + d[i]) >> FRACTION);
     [[0, 0], [-off, 0], [off, 0], [0, -off], [0, off]]
         .into_iter()

@@ -81,7 +81,7 @@ impl<F: Texel> Textured<F> {
     #[inline(always)]
     fn corners(triangle: &Triangle<'_>) -> [Corner; 3] {
         let origin = [triangle.frame.left, triangle.frame.top].map(|o| 64 * o + 32);
-        [0, 1, 2].map(|i| {
+        let corner = |i: usize| {
             let (vertex, texture) = (triangle.vertex[i], triangle.texture[i]);
             let fine = texture.fine();
             Corner {
@@ -90,7 +90,8 @@ impl<F: Texel> Textured<F> {
                 depth: vertex.depth.clamp(1, i32::MAX as u32),
                 texel: texture.texel(),
             }
-        })
+        };
+        [corner(0), corner(1), corner(2)]
     }
 
     /// Whether all corners are in full light.
@@ -104,50 +105,36 @@ impl<F: Texel> Textured<F> {
     #[inline(always)]
     fn shade(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
         if fill == Fill::Small && run.len() <= SHADE_RUN {
-            return Self::shade_run(course(fill, planes, place), run);
+            let [shade, step] = shade_at(&course(fill, planes, place));
+            return F::tint(run, shade, step);
         }
         Self::shade_long(fill, planes, place, run);
-    }
-
-    /// Pairs by the shade between their pixels; a last one alone by its own, as half a pixel beyond it may lie
-    /// beyond the triangle, and its shade beyond dark and full light.
-    #[inline(always)]
-    fn shade_run(mut course: Course, run: &mut [u16]) {
-        let (pairs, last) = run.split_at_mut(run.len() & !1);
-        let [_, shade, step] = shade_at(&course);
-        if !pairs.is_empty() {
-            F::tint(pairs, shade, step);
-        }
-        if !last.is_empty() {
-            course.skip(pairs.len() as u32);
-            let [at, ..] = shade_at(&course);
-            F::tint(last, at, Shade::default());
-        }
     }
 
     #[inline(never)]
     fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
         let columns = (place.column..).step_by(SHADE_RUN);
         for (run, column) in run.chunks_mut(SHADE_RUN).zip(columns) {
-            Self::shade_run(course(fill, planes, Place { column, ..place }), run);
+            let [shade, step] = shade_at(&course(fill, planes, Place { column, ..place }));
+            F::tint(run, shade, step);
         }
     }
 }
 
-/// The shade at a place, half a pixel beyond it, and its step.
+/// The shade half a pixel beyond a place, and its step.
 #[inline(always)]
-fn shade_at(course: &Course) -> [Shade; 3] {
-    let pack = |[red, green, blue]: [u32; 3]| Shade {
-        red_blue: red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF,
-        green: green << 1 & 0xFFFF_0000,
+fn shade_at(course: &Course) -> [Shade; 2] {
+    let half = |i: usize| course.value[i].wrapping_add((course.step[i] >> 1) as u32);
+    let rounded = |i: usize| (course.step[i] + (1 << 14)) >> 15;
+    let shade = Shade {
+        red_blue: half(0) << 1 & 0xFFFF_0000 | half(2) >> 15 & 0xFFFF,
+        green: half(1) << 1 & 0xFFFF_0000,
     };
-    let half = [0, 1, 2].map(|i| course.value[i].wrapping_add((course.step[i] >> 1) as u32));
-    let rounded = course.step.map(|s| (s + (1 << 14)) >> 15);
     let step = Shade {
-        red_blue: ((rounded[0] << 16) as u32).wrapping_add(rounded[2] as u32),
-        green: (rounded[1] << 16) as u32,
+        red_blue: ((rounded(0) << 16) as u32).wrapping_add(rounded(2) as u32),
+        green: (rounded(1) << 16) as u32,
     };
-    [pack(course.value), pack(half), step]
+    [shade, step]
 }
 
 impl<F: Texel> Paint for Textured<F> {

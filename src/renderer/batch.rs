@@ -253,6 +253,7 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         };
         let skin = target.skin(places, prsp);
         let vertices = mesh.positions.len() as u32;
+        let before = target.scene.pass_one().untextured;
         let done = match points {
             Some(size) if vertices > 0 => Some(target.scene.draw_points(
                 &mesh,
@@ -273,6 +274,7 @@ impl<'m, C: ListCoordinate> Batch<'m, C> {
         };
         if let Some(done) = done {
             self.counts.take(vertices, done, target);
+            target.tell_untextured(before);
         }
         self.indices = 0;
         if let Kind::Run { has, .. } = self.kind {
@@ -373,6 +375,14 @@ impl<P: Pipeline, E: EventSink, M: LightingModel> Target<'_, '_, P, E, M> {
             return P::Shading::finished(skin, Finish::filtered(self.opacity));
         }
         skin
+    }
+
+    /// Tells of triangles that have no texture since there were so many.
+    pub(super) fn tell_untextured(&mut self, before: u32) {
+        let more = self.scene.pass_one().untextured - before;
+        if more > 0 {
+            self.notice(Event::Untextured, more);
+        }
     }
 
     #[cold]

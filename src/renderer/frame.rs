@@ -85,6 +85,11 @@ impl FrameStats {
 /// [`set_prefetch`](LineRenderer::set_prefetch) allows. Its interleave becomes
 /// [`ALL`](Interleave::ALL).
 ///
+/// Returns what the frame took: [`FrameStats`] has the counts of pass one, the hits, misses and
+/// spills of the object cache and the most slots that were in use at once, bytes to and from slow
+/// memory, and what was sent. Spans and pixels are in it where the pipeline is
+/// [`Counted`](crate::Counted); to count costs instructions.
+///
 /// # Errors
 /// When the sink fails, naming the line, or the renderer has too little memory.
 pub fn draw_frame<P, D>(

@@ -21,6 +21,7 @@ mod lines;
 mod order;
 mod overlay;
 mod palette;
+mod pile;
 mod place;
 mod priority;
 mod relay;

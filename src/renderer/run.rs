@@ -575,6 +575,7 @@ impl FrameStats {
             ),
             (Event::DepthFailed, spans.pixels_hidden > 0),
             (Event::Full, self.pass_one.dropped > 0),
+            (Event::Untextured, self.pass_one.untextured > 0),
         ];
         let mut set = EventSet::NONE;
         for (event, _) in seen.into_iter().filter(|(_, seen)| *seen) {

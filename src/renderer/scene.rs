@@ -4,10 +4,11 @@ use super::filing::Filing;
 use super::spans::scale;
 use crate::active::Buckets;
 use crate::arena::Arena;
+use crate::composite::TextureSource;
 use crate::geometry::{
     Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Light, LightingModel,
-    Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Sphere, Store, on_screen,
-    triangles,
+    Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Shading, Sphere, Store,
+    on_screen, triangles,
 };
 use crate::link::Link;
 use crate::pipeline::{DrawableOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
@@ -169,6 +170,9 @@ pub struct PassOne {
     pub vertices: u32,
     /// Triangles that found no room.
     pub dropped: u32,
+    /// Triangles that are drawn without their texture, as they stretch over more of its texels than
+    /// a [`Skin`](crate::texture::Skin) may say.
+    pub untextured: u32,
     /// Meshes wholly outside the view, which were not looked at (M4). Their triangles are among
     /// the culled.
     pub meshes_skipped: u32,
@@ -269,6 +273,9 @@ impl<'m, P: Pipeline> Scene<'m, P> {
 
     /// Lends the textures that [`draw_skinned`](Scene::draw_skinned) names by number; at first
     /// there are none. They stay until others are lent.
+    ///
+    /// Lend them before what they are on is drawn: pass one asks how a texture goes on beyond its
+    /// sides. One that is not there yet is taken to repeat every 8,192 texels.
     pub fn set_textures(&mut self, textures: P::Textures) {
         self.textures = textures;
     }
@@ -454,6 +461,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             return Ok(Assembled::default());
         }
         let parts = self.parts();
+        let skin = self.known(skin);
         let mut filing = Filing::<P> {
             objects: &mut self.objects,
             buckets: &mut self.buckets,
@@ -484,6 +492,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         ) -> Result<Assembled, MeshError>,
     ) -> Result<Assembled, DrawError> {
         let parts = self.parts();
+        let skin = self.known(skin);
         let Some(camera) = &self.camera else {
             return Ok(Assembled::default());
         };
@@ -507,6 +516,15 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.count(done)
     }
 
+    /// The skin with what the textures lent say of its own.
+    #[inline(always)]
+    fn known<'k>(&self, skin: SkinOf<'k, P>) -> SkinOf<'k, P> {
+        let textures = &self.textures;
+        P::Shading::known(skin, |number| {
+            TextureSource::<P::Pixel>::period(textures, number)
+        })
+    }
+
     /// Counts what an assembler has done.
     #[inline(always)]
     fn count(&mut self, done: Result<Assembled, MeshError>) -> Result<Assembled, DrawError> {
@@ -515,6 +533,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.pass_one.triangles += done.triangles;
         self.pass_one.culled += done.culled;
         self.pass_one.clipped += done.clipped;
+        self.pass_one.untextured += done.untextured;
         self.pass_one.objects = self.objects.len() as u32;
         self.pass_one.vertices = self.store.vertices.len() as u32;
         match done.dropped {

@@ -6,12 +6,14 @@
 //! transparent, tested but not kept in depth. Where spans overlap that do not just add, the line is
 //! cut into stretches on which the same spans overlap, and each is drawn from back to front: that
 //! is exact for surfaces that do not cross on the stretch. No memory is lent for it: so many spans
-//! as fit on the stack are taken at a time, the farthest first.
+//! as fit on the stack are taken at a time, from the left, up to where the next one begins. Where
+//! more than these lie one over the other, a stretch is drawn by itself, the farthest first.
 //!
 //! A line without such surfaces goes the usual way. Colours are found as always, into words on the
 //! stack, so every shading and texture can be blended.
 
 use super::lines::LinePass;
+use super::pile::{By, PILE, Pane, Pile};
 use super::scene::Scene;
 use super::spans::{Brush, colour, count_fetches, scale};
 use crate::active::{ActiveList, Visitor};
@@ -68,8 +70,8 @@ enum Part {
     Receivers(u8),
     /// What is transparent, in order of submission.
     Unsorted,
-    /// The farthest of what is transparent.
-    Farthest,
+    /// Some of what is transparent.
+    Pile,
 }
 
 /// What there is on a line beside plain objects; a bit for each light.
@@ -81,104 +83,8 @@ struct Found {
     unsorted: bool,
 }
 
-/// Most transparent spans that are sorted in one go.
-const PILE: usize = 32;
 /// No slot.
 const SPILLED: usize = usize::MAX;
-
-/// A transparent span.
-#[derive(Clone, Copy, Debug, Default)]
-struct Pane {
-    start: u16,
-    end: u16,
-    object: u16,
-    /// [`SPILLED`] cut off, if it has none.
-    slot: u16,
-    /// Depth of the first pixel, and the step to the next.
-    depth: u32,
-    step: u32,
-}
-
-impl Pane {
-    /// Depth at a pixel.
-    fn at(&self, pixel: u16) -> u32 {
-        let pixels = u32::from(pixel - self.start);
-        self.depth.wrapping_add(self.step.wrapping_mul(pixels))
-    }
-
-    /// From back to front, and in order of submission.
-    fn key(&self) -> (u32, u16) {
-        let middle = self.start + (self.end - 1 - self.start) / 2;
-        (self.at(middle), self.object)
-    }
-}
-
-/// The farthest panes beyond a key, in order.
-#[derive(Debug)]
-struct Pile {
-    panes: [Pane; PILE],
-    count: usize,
-    /// Those up to here have been drawn.
-    after: Option<(u32, u16)>,
-    /// There are nearer ones.
-    more: bool,
-}
-
-impl Pile {
-    fn add(&mut self, pane: Pane) {
-        let key = pane.key();
-        if self.after.is_some_and(|after| key <= after) {
-            return;
-        }
-        let mut at = self.count;
-        if at == PILE {
-            self.more = true;
-            if self.panes[PILE - 1].key() < key {
-                return;
-            }
-            at -= 1;
-        } else {
-            self.count += 1;
-        }
-        while at > 0 && self.panes[at - 1].key() > key {
-            self.panes[at] = self.panes[at - 1];
-            at -= 1;
-        }
-        self.panes[at] = pane;
-    }
-
-    /// The next stretch from `pixel` on that is covered by the same panes throughout: from where
-    /// to where, and how many of `order` these are, from back to front.
-    fn stretch(&self, pixel: u16, order: &mut [u8; PILE]) -> Option<(u16, u16, usize)> {
-        let panes = self.panes.get(..self.count)?;
-        let first = |pane: &Pane| pane.start.max(pixel);
-        let start = panes.iter().filter(|p| p.end > pixel).map(first).min()?;
-        let mut end = u16::MAX;
-        let mut count = 0;
-        for (pane, index) in panes.iter().zip(0..) {
-            if pane.start > start {
-                end = end.min(pane.start);
-            } else if pane.end > start {
-                end = end.min(pane.end);
-                order[count] = index;
-                count += 1;
-            }
-        }
-        let middle = start + (end - 1 - start) / 2;
-        let key = |index: u8| {
-            let pane = &self.panes[usize::from(index)];
-            (pane.at(middle), pane.object)
-        };
-        for i in 1..count {
-            let mut at = i;
-            while at > 0 && key(order[at - 1]) > key(order[at]) {
-                order.swap(at - 1, at);
-                at -= 1;
-            }
-        }
-        Some((start, end, count))
-    }
-}
 
 /// A walk of the list for one part of a line.
 struct Walk<'w, 'a, 's, P: Pipeline> {
@@ -230,7 +136,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for Walk<'_, '_, '_, P> {
                 self.pass
                     .draw_ruled(object, body, span, ShadowCount::Shadowed);
             }
-            (Part::Farthest, Role::Sorted | Role::Unsorted) => {
+            (Part::Pile, Role::Sorted | Role::Unsorted) => {
                 if let Some(pile) = &mut self.pile {
                     pile.add(self.pass.pane((slot, object), body, span));
                 }
@@ -321,40 +227,95 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
 
     /// Draws what is transparent from back to front.
     fn draw_sorted(&mut self, list: &mut ActiveList<'_, DrawableOf<P>>, spare: &mut DrawableOf<P>) {
-        let line = self.line;
-        let mut pile = Pile {
-            panes: [Pane::default(); PILE],
-            count: 0,
-            after: None,
-            more: true,
-        };
-        while pile.more {
-            (pile.count, pile.more) = (0, false);
-            let mut walk = Walk {
-                pass: self,
-                part: Part::Farthest,
-                found: Found::default(),
-                pile: Some(&mut pile),
+        let mut pile = Pile::default();
+        let mut pixel = 0;
+        while pixel < u16::MAX {
+            self.gather(list, spare, &mut pile, By::Start(pixel));
+            let Some(first) = pile.panes[..pile.count].first() else {
+                break;
             };
-            list.visit_all(line, spare, &mut walk);
-            let mut order = [0; PILE];
-            let mut pixel = 0;
-            while let Some((start, end, count)) = pile.stretch(pixel, &mut order) {
-                for &index in &order[..count] {
-                    let pane = pile.panes[usize::from(index)];
-                    let span = (usize::from(start), usize::from(end));
-                    if let Some(slot) = list.slots().get(usize::from(pane.slot)) {
-                        self.draw_ruled(pane.object, slot.body(), span, ShadowCount::Any);
-                    } else if self.brush.scene.set_up(pane.object, (line, false), spare) {
-                        list.counts.misses += 1;
-                        self.draw_ruled(pane.object, spare, span, ShadowCount::Any);
+            let first = first.start.max(pixel);
+            let limit = pile.limit();
+            if first < limit {
+                let mut order = [0; PILE];
+                while let Some((start, end, count)) = pile.stretch(pixel, &mut order) {
+                    for &index in &order[..count] {
+                        let pane = pile.panes[usize::from(index)];
+                        self.draw_pane(list, spare, pane, (start, end));
                     }
+                    pixel = end;
                 }
+                pixel = limit;
+            } else if first > pixel {
+                pixel = first;
+            } else {
+                let end = pile.edge;
+                self.draw_deep(list, spare, &mut pile, (pixel, end));
                 pixel = end;
             }
-            if let Some(last) = pile.count.checked_sub(1) {
-                pile.after = Some(pile.panes[last].key());
+        }
+    }
+
+    /// Fills a pile.
+    fn gather(
+        &mut self,
+        list: &mut ActiveList<'_, DrawableOf<P>>,
+        spare: &mut DrawableOf<P>,
+        pile: &mut Pile,
+        by: By,
+    ) {
+        pile.begin(by);
+        let line = self.line;
+        let mut walk = Walk {
+            pass: self,
+            part: Part::Pile,
+            found: Found::default(),
+            pile: Some(pile),
+        };
+        list.visit_all(line, spare, &mut walk);
+    }
+
+    /// Draws a stretch that more panes cover than a pile holds: the farthest first.
+    #[cold]
+    fn draw_deep(
+        &mut self,
+        list: &mut ActiveList<'_, DrawableOf<P>>,
+        spare: &mut DrawableOf<P>,
+        pile: &mut Pile,
+        (start, end): (u16, u16),
+    ) {
+        let mut after = None;
+        loop {
+            self.gather(list, spare, pile, By::Depth(start, end, after));
+            for i in 0..pile.count {
+                self.draw_pane(list, spare, pile.panes[i], (start, end));
             }
+            let last = pile.panes[..pile.count].last();
+            after = last.and_then(|pane| pile.by.key(pane));
+            if pile.left_out.is_none() || after.is_none() {
+                return;
+            }
+        }
+    }
+
+    /// Draws a stretch of a pane.
+    fn draw_pane(
+        &mut self,
+        list: &mut ActiveList<'_, DrawableOf<P>>,
+        spare: &mut DrawableOf<P>,
+        pane: Pane,
+        (start, end): (u16, u16),
+    ) {
+        let span = (usize::from(start), usize::from(end));
+        if let Some(slot) = list.slots().get(usize::from(pane.slot)) {
+            self.draw_ruled(pane.object, slot.body(), span, ShadowCount::Any);
+        } else if self
+            .brush
+            .scene
+            .set_up(pane.object, (self.line, false), spare)
+        {
+            list.counts.misses += 1;
+            self.draw_ruled(pane.object, spare, span, ShadowCount::Any);
         }
     }
 
@@ -402,12 +363,13 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         let (column, line) = (self.left + start as i32, self.line);
         let all = pixels.len() as u32;
         let mut seen = 0;
+        let how = (count, P::Depth::grain(body.range().0));
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
                 let parts = pixels.chunks_mut(MOST).zip(cells.chunks_mut(MOST));
                 for (part, column) in parts.zip((column..).step_by(MOST)) {
                     let depth = (plane.at(column, line) as u32, plane.dx as u32);
-                    seen += self.brush.blend(levels, (column, line), part, depth, count);
+                    seen += self.brush.blend(levels, (column, line), part, depth, how);
                 }
             }
             Parameters::Corners => {
@@ -416,7 +378,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                 for (part, column) in parts.zip(column..) {
                     let at = (column, line);
                     if let Some((depth, levels)) = thin::<P>(self.brush.scene, object, at) {
-                        seen += self.brush.blend(&levels, at, part, (depth, 0), count);
+                        seen += self.brush.blend(&levels, at, part, (depth, 0), how);
                     }
                 }
             }
@@ -494,7 +456,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         (column, line): (i32, i32),
         (pixels, cells): (&mut [WordOf<P>], &mut [CellOf<P>]),
         depth: (u32, u32),
-        count: ShadowCount,
+        (count, grain): (ShadowCount, <P::Depth as LineDepth>::Grain),
     ) -> u32 {
         let Some(finish) = levels.finish() else {
             return 0;
@@ -527,7 +489,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
             depth_if: rules.depth_if,
             count,
         };
-        let seen = rule.apply::<P::Depth>(cells, depth, keep);
+        let seen = rule.apply::<P::Depth>(cells, depth, grain, keep);
         if seen == 0 {
             return 0;
         }

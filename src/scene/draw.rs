@@ -1,7 +1,7 @@
 //! What a draw call says, and what pass two needs of it.
 
+use super::{Budget, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh};
-use crate::look::{Budget, Texture};
 
 /// One draw call: a mesh, where it stands and how it looks.
 ///

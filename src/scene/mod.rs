@@ -7,21 +7,27 @@
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `cut` | triangles that cross a plane |
+//! | `texture`, `budget` | textures as values, and how exact they are drawn |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
 mod assemble;
+mod budget;
 mod cut;
 mod draw;
 mod error;
 mod project;
 mod record;
+mod texture;
 
+pub use budget::Budget;
 pub use draw::{Draw, DrawState, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub(crate) use record::NONE;
 pub use record::{Object, TexturePlace, Vertex};
+pub(crate) use texture::{Form, Square};
+pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
 use crate::arena::Arena;
 use crate::geometry::{Camera, Scale, Screen};

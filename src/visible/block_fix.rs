@@ -29,11 +29,16 @@ impl LineDepth for BlockFixDepth {
 
     #[inline(always)]
     fn test(cell: &mut u32, depth: u32, range: u32) -> bool {
-        let depth = BlockFix16::new(depth, range).to_depth();
+        let depth = Self::rounded(depth, range);
         let seen = depth >= *cell;
         if seen {
             *cell = depth;
         }
         seen
+    }
+
+    #[inline(always)]
+    fn rounded(depth: u32, range: u32) -> u32 {
+        BlockFix16::new(depth, range).to_depth()
     }
 }

@@ -39,12 +39,14 @@ pub struct Rule {
 impl Rule {
     /// A bit for each of at most [`MOST`] pixels whose colour is to be written, the first the
     /// lowest; their cells get the depths that are to be written. Depths go from `depth` on by
-    /// `step`, and pixels that `keep` has no bit of are as if they were not there.
+    /// `step`, each rounded to the object's grain as where it is [tested](LineDepth::test); pixels
+    /// that `keep` has no bit of are as if they were not there.
     #[inline(never)]
     pub fn apply<D: LineDepth>(
         &self,
         cells: &mut [D::Cell],
-        (mut depth, step): (u32, u32),
+        (mut next, step): (u32, u32),
+        grain: D::Grain,
         keep: u32,
     ) -> u32 {
         let mut seen = 0;
@@ -55,6 +57,7 @@ impl Rule {
                 ShadowCount::Shadowed => cell.count() != 0,
             };
             if here && keep >> i & 1 != 0 {
+                let depth = D::rounded(next, grain);
                 let order = D::compare(cell, depth);
                 let passes = self.colour_if.passes(order);
                 seen |= u32::from(passes) << i;
@@ -65,7 +68,7 @@ impl Rule {
                     cell.set_number(depth);
                 }
             }
-            depth = depth.wrapping_add(step);
+            next = next.wrapping_add(step);
         }
         seen
     }
@@ -124,7 +127,8 @@ mod tests {
                     };
                     let which = [ShadowCount::Any, ShadowCount::Lit, ShadowCount::Shadowed]
                         [below(3) as usize];
-                    let seen = rule(which).apply::<ShadowDepth32>(&mut cells, (depth, step), keep);
+                    let seen =
+                        rule(which).apply::<ShadowDepth32>(&mut cells, (depth, step), (), keep);
                     for i in 0..count {
                         let new = depth.wrapping_add(step.wrapping_mul(i as u32));
                         let old = before[i].number();
@@ -148,8 +152,8 @@ mod tests {
                     let any = rule(ShadowCount::Any);
                     let mut same = before.clone();
                     assert_eq!(
-                        any.apply::<Depth32>(&mut plain, (depth, step), keep),
-                        any.apply::<ShadowDepth32>(&mut same, (depth, step), keep)
+                        any.apply::<Depth32>(&mut plain, (depth, step), (), keep),
+                        any.apply::<ShadowDepth32>(&mut same, (depth, step), (), keep)
                     );
                 }
             }

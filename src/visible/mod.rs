@@ -51,7 +51,13 @@ pub trait LineDepth {
     /// Whether a pixel at `depth` (larger is nearer) is seen; if so the cell takes its depth.
     fn test(cell: &mut Self::Cell, depth: u32, grain: Self::Grain) -> bool;
 
-    /// How `depth` compares with that of a cell: greater is nearer, and equal is all there is
+    /// What a cell keeps of a depth.
+    #[inline(always)]
+    fn rounded(depth: u32, _: Self::Grain) -> u32 {
+        depth
+    }
+
+    /// How `depth`, which is [rounded](LineDepth::rounded), compares with that of a cell: greater is nearer, and equal is all there is
     /// without depth.
     #[inline(always)]
     fn compare(cell: &Self::Cell, depth: u32) -> Ordering {

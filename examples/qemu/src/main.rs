@@ -33,6 +33,7 @@ mod frames;
 mod lean;
 mod lend;
 mod listed;
+mod profile;
 mod rooms;
 
 use core::hint::black_box;
@@ -54,6 +55,9 @@ static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 #[entry]
 fn main() -> ! {
     let mut console = Console::open();
+    if let Some(success) = profile::asked(&mut console) {
+        console::exit(success);
+    }
     let peripherals = Peripherals::take().expect("main runs once");
     let mut counter = Counter::start(peripherals.SYST);
     let mut all_hold = true;

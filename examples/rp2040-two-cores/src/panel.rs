@@ -1,10 +1,10 @@
 //! An ILI9341 on SPI0, written to by a DMA channel. Commands are a few bytes, and block.
 
 use core::task::Poll;
-use embedded_hal::spi::SpiBus;
+use embedded_hal::{delay::DelayNs, spi::SpiBus};
 use rp2040_hal::dma::{CH0, Channel, single_buffer};
 use rp2040_hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown, bank0};
-use rp2040_hal::{pac, spi};
+use rp2040_hal::{Timer, pac, spi};
 use scanbeam::scan_out::{ErrorKind, ErrorType, ScanoutDma, Window};
 use spinner::dma::Line;
 
@@ -24,12 +24,19 @@ pub struct Panel {
 
 impl Panel {
     /// Set up in landscape with 16 bits a pixel.
-    pub fn new(channel: Channel<CH0>, bus: Bus, dc: DataCommand) -> Self {
+    ///
+    /// # Errors
+    /// When the bus or the pin fails.
+    pub fn new(
+        channel: Channel<CH0>,
+        bus: Bus,
+        dc: DataCommand,
+        mut timer: Timer,
+    ) -> Result<Self, ErrorKind> {
         let mut panel = Self { dc, idle: Some((channel, bus)), sending: None };
-        // Without a panel the bus says nothing: there is no answer to miss.
-        let wait = |ms| cortex_m::asm::delay(125_000 * ms);
-        let _ = spinner::panel::set_up(|command| panel.command(command), wait);
-        panel
+        let wait = |ms| timer.delay_ms(ms);
+        spinner::panel::set_up(|command| panel.command(command), wait)?;
+        Ok(panel)
     }
 
     fn command(&mut self, command: (u8, &[u8])) -> Result<(), ErrorKind> {

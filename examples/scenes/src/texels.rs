@@ -10,7 +10,7 @@ use crate::{HEIGHT, WIDTH};
 use scanbeam::BlockFix16;
 use scanbeam::texture::{
     Bilinear, BlockCache, Blocked, CacheReads, Checker, Clamp, Corner, Corners, Gradient,
-    Homogeneous, Indexed, LevelEnds, Levels, Mirror, PaintRun, PerspectiveSpan, Quality,
+    Homogeneous, Indexed, LevelEnds, Levels, Mirror, PaintRun, Period, PerspectiveSpan, Quality,
     Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Size, Stride, Texel, TexelFormat,
     Texels, Texture, Uv, Words, Wrap, build_level,
 };
@@ -275,7 +275,7 @@ fn details(emit: &mut dyn FnMut(&[u16])) {
             corner(239, 9_000, 400),
             corner(120, 2_000, 90_000),
         ],
-        32,
+        Period::Short,
     )
     .map_or(LevelEnds::FULL, |corners| corners.levels(64 * 320 * 240));
     let mut pixels = [0u16; WIDTH as usize];

@@ -10,12 +10,14 @@
 pub mod dma;
 pub mod panel;
 
+use core::sync::atomic::{AtomicU32, Ordering};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::{
     Affine, Camera, CellOf, Crew, FrameError, FrameStats, GouraudDepth, Instance, Interleave,
-    Light, LineDesk, LineMemory, LineRenderer, Link, Object, ObjectOf, PixelFormat, Rgb565Be,
-    Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame, send_frame,
+    Light, LineDesk, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, PixelFormat,
+    Rgb565Be, Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame, send_frame,
 };
+use static_cell::ConstStaticCell;
 
 /// Smooth colours, 32-bit depth, pixels in the order of the wire.
 pub type Look = GouraudDepth<Rgb565Be>;
@@ -32,22 +34,56 @@ pub const OBJECTS: usize = 1_300;
 pub const SLOTS: usize = 64;
 
 /// What is behind the teapot.
+pub const BACKGROUND: [u8; 3] = [24, 32, 48];
+
+/// The same, as a pixel.
 #[must_use]
 pub fn background() -> u16 {
-    Rgb565Be::from_rgb8([24, 32, 48])
+    Rgb565Be::from_rgb8(BACKGROUND)
 }
+
+/// Frames that were sent since the start. By its name a debug probe finds it, and so a person with a
+/// board can measure its frames a second: see README.md of the examples.
+#[unsafe(no_mangle)]
+pub static SCANBEAM_FRAMES: AtomicU32 = AtomicU32::new(0);
+
+/// A frame was sent. One core says so.
+pub fn count_frame() {
+    let frames = SCANBEAM_FRAMES.load(Ordering::Relaxed);
+    SCANBEAM_FRAMES.store(frames.wrapping_add(1), Ordering::Relaxed);
+}
+
+/// Static memory for `N` elements, empty until it is lent.
+pub type Room<T, const N: usize> = ConstStaticCell<heapless::Vec<T, N>>;
 
 /// Lends an array for ever; a second time at the same place is a panic.
 #[macro_export]
 macro_rules! lend {
     ($element:ty, $len:expr, $value:expr) => {{
-        static ROOM: $crate::_StaticCell<[$element; $len]> = $crate::_StaticCell::new();
-        ROOM.init_with(|| core::array::from_fn(|_| $value))
-            .as_mut_slice()
+        static ROOM: $crate::Room<$element, { $len }> = $crate::Room::new($crate::empty_room());
+        $crate::fill(&ROOM, || $value)
     }};
 }
-#[doc(hidden)]
-pub use static_cell::StaticCell as _StaticCell;
+
+/// What a [`Room`] holds before it is lent.
+#[must_use]
+pub const fn empty_room<T, const N: usize>() -> heapless::Vec<T, N> {
+    heapless::Vec::new()
+}
+
+/// Fills a room element by element, in its place: an array that is made first and then moved there
+/// would pass over the stack, and these are larger than many a stack.
+///
+/// # Panics
+/// The second time.
+pub fn fill<T, const N: usize>(
+    room: &'static Room<T, N>,
+    mut value: impl FnMut() -> T,
+) -> &'static mut [T] {
+    let room = room.take();
+    while room.push(value()).is_ok() {}
+    room.as_mut_slice()
+}
 
 /// The scene of one teapot, in memory lent for ever.
 ///
@@ -68,18 +104,23 @@ pub fn scene() -> Scene<'static, Look> {
     )
 }
 
-/// Pass one: the teapot, turned. `None` when the camera or a room is too small for it.
-pub fn build(scene: &mut Scene<'_, Look>, turn: u16) -> Option<()> {
+/// Pass one: the teapot, turned.
+///
+/// # Panics
+/// When a room of `scene` is too small for the teapot: those of [`scene()`] are not.
+pub fn build<P: Pipeline>(scene: &mut Scene<'_, P>, turn: u16) {
     let eye = [0.0, 1.2, 2.6];
-    let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0).ok()?;
-    scene.begin(&camera).ok()?;
+    let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0)
+        .expect("the eye is apart from what it looks at");
+    scene.begin(&camera).expect("the scene has a bucket a line");
     let instance = Instance {
         model: Affine::rotation_y(f32::from(turn % 126) * (core::f32::consts::TAU / 126.0)),
         light: Light::new([0.3, 0.8, 0.6], 0.2),
         colour: [236, 196, 112],
         ..Instance::default()
     };
-    scene.draw(&scenes::TEAPOT, &instance).ok().map(|_| ())
+    let drawn = scene.draw(&scenes::TEAPOT, &instance);
+    drawn.expect("the rooms hold the teapot");
 }
 
 /// The teapot and who draws it.
@@ -115,8 +156,7 @@ impl Spinner {
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
-        // The arenas hold the whole teapot; what would not fit is left out, and the rest is drawn.
-        let _ = build(&mut self.scene, self.turn);
+        build(&mut self.scene, self.turn);
         self.turn = (self.turn + 1) % 126;
         let (scene, renderer) = (&self.scene, &mut self.renderer);
         draw_frame(scene, renderer, pump, background(), LINES as u16)
@@ -136,7 +176,7 @@ impl Spinner {
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
-        let _ = build(&mut self.scene, self.turn);
+        build(&mut self.scene, self.turn);
         let mut here = [
             LineRenderer::new(LineMemory {
                 slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
@@ -175,7 +215,10 @@ impl Default for Spinner {
 pub type SendCommand<D> = fn(&mut D, (u8, &[u8])) -> Result<(), <D as ErrorType>::Error>;
 
 /// Wakes the panel up, then draws and sends frames for ever. `command` has the sink send a command
-/// by [`panel::command`], `wait` waits so many milliseconds.
+/// by [`panel::command`], `wait` waits at least so many milliseconds.
+///
+/// # Panics
+/// When the sink fails: the panel itself never answers, so this is all that tells of a dark one.
 pub fn run<D>(
     mut sink: D,
     buffers: [D::Buf; 2],
@@ -185,10 +228,11 @@ pub fn run<D>(
 where
     D: ScanoutDma<Buf: LineBuf<Word = u16>>,
 {
-    // Without a panel the bus says nothing: there is no answer to miss.
-    let _ = panel::set_up(|code| command(&mut sink, code), wait);
+    let set_up = panel::set_up(|code| command(&mut sink, code), wait);
+    set_up.expect("the sink sends the panel's commands");
     let (mut pump, mut spinner) = (Pump::new(sink, buffers), Spinner::new());
     loop {
-        let _ = spinner.frame(&mut pump); // after an error the next frame is whole
+        spinner.frame(&mut pump).expect("the sink takes the frame");
+        count_frame();
     }
 }

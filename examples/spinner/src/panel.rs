@@ -1,12 +1,21 @@
 //! An ILI9341 in landscape, 320x240, 16 bits a pixel. Its kin differ in [`set_up`] alone.
 //!
-//! The boards' DMAs send lines; commands are a few bytes, and block.
+//! The boards' DMAs send lines; commands are a few bytes, and block. What [`set_up`]
+//! sends lies in flash, which not every DMA reaches: a board sends it by the processor or copies it.
 
 use embedded_hal::digital::OutputPin;
 use scanbeam::scan_out::Window;
 
-/// Sleep out, 16 bits a pixel, landscape with blue first, display on.
-const SET_UP: [(u8, &[u8]); 4] = [(0x11, &[]), (0x3A, &[0x55]), (0x36, &[0x28]), (0x29, &[])];
+/// A command, its data, and how many milliseconds the panel wants after it.
+const SET_UP: [(u8, &[u8], u32); 5] = [
+    (0x01, &[], 120), // software reset: the panel may have been awake before the board was
+    (0x11, &[], 120), // sleep out
+    (0x3A, &[0x55], 1), // 16 bits a pixel
+    (0x36, &[0x28], 1), // landscape, blue first
+    (0x29, &[], 1),   // display on
+];
+/// Milliseconds from the panel's power-on until it listens.
+const POWER_ON: u32 = 10;
 
 /// Sends a command: the pin low for its byte, high for its data and for pixels. `send` returns when
 /// the bus is idle, because the pin counts when the last bit of a byte arrives.
@@ -29,7 +38,7 @@ pub fn command<E>(
     if data.is_empty() { Ok(()) } else { send(data) }
 }
 
-/// Wakes the panel up. `each` sends a command; `wait` waits so many milliseconds.
+/// Wakes the panel up. `each` sends a command; `wait` waits at least so many milliseconds.
 ///
 /// # Errors
 /// Those of `each`.
@@ -37,9 +46,10 @@ pub fn set_up<E>(
     mut each: impl FnMut((u8, &[u8])) -> Result<(), E>,
     mut wait: impl FnMut(u32),
 ) -> Result<(), E> {
-    for command in SET_UP {
-        each(command)?;
-        wait(if command.0 == 0x11 { 120 } else { 1 });
+    wait(POWER_ON);
+    for (code, data, pause) in SET_UP {
+        each((code, data))?;
+        wait(pause);
     }
     Ok(())
 }

@@ -30,6 +30,7 @@ mod texture;
 use crate::args::AccuracyArgs;
 use crate::image_out::{write_atomically, write_image};
 use crate::plot::Scatter;
+use crate::stdio;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use cost::Costs;
 pub(crate) use cost::solve;
@@ -184,24 +185,29 @@ pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
     mark_frontier(&mut rows);
     if args.json {
         let list: Vec<Value> = rows.iter().map(Row::to_json).collect();
-        println!("{}", serde_json::to_string_pretty(&Value::from(list))?);
+        say!("{}", serde_json::to_string_pretty(&Value::from(list))?);
         // The list is the contract's; what could not be measured is said beside it.
         if let Some(note) = &note {
-            eprintln!("{note}");
+            tell!("{note}");
         }
     } else {
-        println!("{}", table(&rows));
-        println!(
+        say!("{}", table(&rows));
+        say!(
             "error: distance from f64, beyond the rounding of the output where it is in levels; \
              * on the frontier of cost and largest error among its likes"
         );
         let cost = "cost: instructions on a Cortex-M4, a pixel and, apart, a span with its line's entry; \
                     whole frames with everything, a pixel that is seen";
-        println!("{}", note.as_deref().unwrap_or(cost));
+        say!("{}", note.as_deref().unwrap_or(cost));
     }
     if let Some(folder) = &args.output {
-        std::fs::create_dir_all(folder)
-            .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+        std::fs::create_dir_all(folder).map_err(|error| {
+            format!(
+                "{}: cannot be made: {}",
+                folder.display(),
+                stdio::reason(&error)
+            )
+        })?;
         for (name, plot) in scatter::plots(&rows) {
             let file = |extension: &str| folder.join(format!("{name}.{extension}"));
             write_atomically(&file("svg"), plot.to_svg().as_bytes())?;

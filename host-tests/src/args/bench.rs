@@ -21,9 +21,33 @@ pub struct FirmwareArgs {
     /// Write the table of sizes into README.md, between its markers
     #[arg(long, requires = "sizes")]
     pub markdown: bool,
+    /// With the sizes also the largest functions of each preset's firmware
+    #[arg(long, requires = "sizes")]
+    pub symbols: bool,
+    /// Instead: step through one frame and print where its instructions go, by function
+    #[arg(long, value_name = "FRAME", conflicts_with_all = ["bench", "sizes", "output"])]
+    pub profile: Option<String>,
+    /// With a profile also the listing of the functions whose names have this in them, each
+    /// instruction with how often it ran
+    #[arg(long, value_name = "NAME", requires = "profile")]
+    pub function: Option<String>,
+    /// The board of a profile; m4 when nothing is said
+    #[arg(long, value_name = "BOARD", requires = "profile", value_parser = ["m4", "m3", "m0plus"])]
+    pub board: Option<String>,
     /// Folder for the plot of growth, made when it is not there
     #[arg(short = 'o', long = "output", value_name = "DIR", requires = "bench")]
     pub output: Option<PathBuf>,
+}
+
+/// Flags of `budgets`.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Args)]
+pub struct BudgetsArgs {
+    /// Count the source alone, and build nothing
+    #[arg(long)]
+    pub source: bool,
+    /// Lower the limits to what is measured
+    #[arg(long)]
+    pub tighten: bool,
 }
 
 /// Flags of `bench`.
@@ -38,4 +62,29 @@ pub struct BenchArgs {
     /// Write the tables into README.md, between their markers; also that of `firmware --sizes`
     #[arg(long)]
     pub markdown: bool,
+}
+
+/// Flags of `boards`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct BoardsArgs {
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Run this board alone
+    #[arg(value_name = "BOARD")]
+    pub board: Option<String>,
+    /// Frames of a run, 2 to 126
+    #[arg(long, value_name = "N", default_value_t = 2,
+        value_parser = clap::value_parser!(u16).range(2..=126))]
+    pub frames: u16,
+    /// Cycles that a miss of the RP2040's flash cache costs, in the model of it, up to 1000
+    #[arg(long, value_name = "CYCLES", default_value_t = 56,
+        value_parser = clap::value_parser!(u16).range(..=1000))]
+    pub miss_cycles: u16,
+    /// Folder with the built examples, TARGET/release/NAME
+    #[arg(long, value_name = "DIR")]
+    pub built: Option<PathBuf>,
+    /// Folder with the emulators' packages, as .ci/boards installs them
+    #[arg(long, value_name = "DIR")]
+    pub packages: Option<PathBuf>,
 }

@@ -53,6 +53,38 @@ fn defaults_are_those_of_the_design() {
 }
 
 #[test]
+fn boards_are_run_as_asked() {
+    let plain = BoardsArgs {
+        json: false,
+        board: None,
+        frames: 2,
+        miss_cycles: 56,
+        built: None,
+        packages: None,
+    };
+    assert_eq!(words("boards"), Ok(Command::Boards(plain)));
+    let all = BoardsArgs {
+        json: true,
+        board: Some("rp2350".into()),
+        frames: 126,
+        miss_cycles: 0,
+        built: Some("a".into()),
+        packages: Some("b".into()),
+    };
+    let line = "boards rp2350 --json --frames 126 --miss-cycles 0 --built a --packages b";
+    assert_eq!(words(line), Ok(Command::Boards(all)));
+    for line in [
+        "boards a b",
+        "boards --frames 1",
+        "boards --frames 127",
+        "boards --miss-cycles 1001",
+        "boards --miss-cycles x",
+    ] {
+        assert!(matches!(words(line), Err(Stop::Refused(_))), "{line}");
+    }
+}
+
+#[test]
 fn every_flag_arrives() {
     let view = render(
         "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
@@ -237,6 +269,13 @@ fn bad_lines_are_refused_in_one_line() {
         "disassemble",
         "disassemble m.list x",
         "firmware x",
+        "firmware --symbols",
+        "firmware --function a",
+        "firmware --board m4",
+        "firmware --profile",
+        "firmware --profile cube --board m7",
+        "firmware --profile cube --sizes",
+        "budgets x",
         "--frames 3",
     ] {
         match words(line) {

@@ -23,7 +23,7 @@ pub use boards::{Counted, OnBoard};
 
 use crate::args::BenchArgs;
 use crate::firmware::{clean_command, usual_target, workspace};
-use crate::preset_sizes;
+use crate::{preset_sizes, stdio};
 use scenes::{HEIGHT, Shot, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -115,15 +115,15 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     let rows = bench.rows()?;
     if args.json {
         let list: Vec<Value> = rows.iter().map(Row::to_json).collect();
-        println!("{}", serde_json::to_string_pretty(&Value::from(list))?);
+        say!("{}", serde_json::to_string_pretty(&Value::from(list))?);
     } else {
-        print!("{}", table::text(&rows));
+        stdio::out(format_args!("{}", table::text(&rows)));
     }
     if !bench.valgrind {
-        eprintln!("note: no instructions were counted: valgrind is not installed");
+        tell!("note: no instructions were counted: valgrind is not installed");
     }
     for reason in missing(&rows) {
-        eprintln!("note: not measured: {reason}");
+        tell!("note: not measured: {reason}");
     }
     if args.markdown {
         let readme = workspace().join("README.md");

@@ -14,7 +14,7 @@ pub struct Prepared {
     pub(super) chunks: Vec<Chunk>,
     /// Where the middle of the model is, and what one unit of its coordinates means.
     pub(super) centre: [f64; 3],
-    scale: f64,
+    pub(super) scale: f64,
 }
 
 /// How a part's texture places become what a mesh brings to the pipeline `P`.

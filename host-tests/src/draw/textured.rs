@@ -7,13 +7,14 @@ use crate::reference::{Shade, View};
 use crate::texture_file::{TextureFileError, TextureImage, of_materials};
 use clap::ValueEnum;
 use scanbeam::texture::{
-    Bilinear, Detail, LEVELS, LevelEnds, Levels, Quality, Rgba8871, Texel, TexelFormat, Texels,
-    Texture, Textured, Uv, Words,
+    Bilinear, Detail, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871, Texel, TexelFormat,
+    Texels, Texture, Textured, Uv, Words,
 };
 use scanbeam::{
     Counted, Depth32, DetailedTextures, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be,
     Rgb888, Shading, TextureSource, Textures,
 };
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// How texels are taken from a texture.
@@ -105,9 +106,10 @@ impl TextureSet {
         self.images.is_empty()
     }
 
-    /// What was done to the pictures, a line each.
+    /// What was done to the pictures, a line each; what is on several materials is told once.
     pub fn notes(&self) -> impl Iterator<Item = &str> {
-        self.images.iter().filter_map(|image| image.note.as_deref())
+        let notes = self.images.iter().filter_map(|image| image.note.as_deref());
+        notes.collect::<BTreeSet<_>>().into_iter()
     }
 
     /// The texture of a triangle.
@@ -133,6 +135,13 @@ impl Texels for HostTexture<'_> {
         match self {
             Self::Nearest(texture) => Rgba8871::expand(texture.at(place)),
             Self::Bilinear(texture) => texture.at(place),
+        }
+    }
+
+    fn period(&self) -> Period {
+        match self {
+            Self::Nearest(texture) => texture.period(),
+            Self::Bilinear(texture) => texture.period(),
         }
     }
 

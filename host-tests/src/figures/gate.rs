@@ -73,7 +73,7 @@ pub struct Verdict {
 }
 
 /// `rustc 1.95` of `rustc 1.95.0 (59807616e 2026-04-14)`.
-fn release(version: &str) -> String {
+pub(crate) fn release(version: &str) -> String {
     let number = version.split_whitespace().nth(1).unwrap_or(version);
     let parts: Vec<&str> = number.split('.').take(2).collect();
     format!("rustc {}", parts.join("."))

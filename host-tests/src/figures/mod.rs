@@ -240,25 +240,30 @@ impl Bench {
 
     /// For people.
     pub fn print(&self) {
-        println!("  kernel                    instr/px  a span with its line");
+        say!("  kernel                    instr/px  a span with its line");
         for Kernel { name, pixel, span } in &self.kernels {
-            println!("    {name:22} {pixel:>9.2} {span:>9.1}");
+            say!("    {name:22} {pixel:>9.2} {span:>9.1}");
         }
-        println!("  one more                     instr");
+        say!("  one more                     instr");
         for (name, each) in &self.units {
-            println!("    {name:22} {each:>9.1}");
+            say!("    {name:22} {each:>9.1}");
         }
-        println!("  lines of     pass one    median  99th pct     worst  (line)");
+        say!("  lines of     pass one    median  99th pct     worst  (line)");
         for l in &self.lines {
-            println!(
+            say!(
                 "    {:9} {:>9} {:>9} {:>9} {:>9}  ({})",
-                l.scene, l.pass_one, l.median, l.p99, l.worst, l.worst_line
+                l.scene,
+                l.pass_one,
+                l.median,
+                l.p99,
+                l.worst,
+                l.worst_line
             );
         }
-        println!("  sphere     triangles     instr   a triangle  a span");
+        say!("  sphere     triangles     instr   a triangle  a span");
         for curve in &self.growth {
             for point in &curve.points {
-                println!(
+                say!(
                     "    {:4} slots {:>7} {:>9} {:>10.1} {:>10.1}",
                     curve.slots,
                     point.run.triangles,
@@ -268,9 +273,9 @@ impl Bench {
                 );
             }
         }
-        println!("  program       code  constants  fast RAM with line buffers");
+        say!("  program       code  constants  fast RAM with line buffers");
         for Size { program, sections } in &self.sizes {
-            println!(
+            say!(
                 "    {program:8} {:>7} {:>9} {:>9}",
                 sections.text_bytes(),
                 sections.rodata.bytes,

@@ -111,9 +111,49 @@ fn firmware_runs_the_same_everywhere() -> Result<(), Box<dyn std::error::Error>>
             released = Some(measured);
         }
     }
-    assert_eq!(
-        measure(&toolchain, &M3, Profile::Release, &[])?,
-        released.expect("it was among them")
+    let released = released.expect("it was among them");
+    stepped_frames_have_what_was_counted(&toolchain, &M3, &released.output)?;
+    let again = measure(&toolchain, &M3, Profile::Release, &[])?;
+    assert_eq!(again, released);
+    Ok(())
+}
+
+/// A frame that is stepped through has the instructions that the firmware counts: but for two
+/// ticks, and for what stands between counter or marks and the frame.
+fn stepped_frames_have_what_was_counted(
+    toolchain: &Toolchain,
+    board: &Board,
+    output: &Output,
+) -> Result<(), FirmwareError> {
+    let stepped = profile::step(toolchain, board, "cube")?;
+    let counted = output.frames.iter().find(|frame| frame.scene == "cube");
+    let counted = counted.map_or(0, |frame| frame.instructions);
+    let apart = stepped.instructions().abs_diff(counted);
+    assert!(
+        apart <= 400,
+        "{counted} counted, {} stepped",
+        stepped.instructions()
+    );
+    let by_function: u64 = stepped.functions.iter().map(|f| f.instructions).sum();
+    let nowhere = stepped.instructions() - by_function;
+    assert!(nowhere * 100 < counted, "{nowhere} in no function");
+    let calls = |words: &str| {
+        let named = stepped
+            .functions
+            .iter()
+            .filter(|f| f.symbol.name.contains(words));
+        named.map(|f| f.calls).max().unwrap_or_default()
+    };
+    assert_eq!(calls("Frame::draw"), 1);
+    let missing = stepped.listing("no such function").unwrap_err();
+    assert!(
+        matches!(missing, FirmwareError::NoFunction { .. }),
+        "{missing}"
+    );
+    let unknown = profile::step(toolchain, board, "nothing").unwrap_err();
+    assert!(
+        unknown.to_string().contains("there is no frame `nothing`"),
+        "{unknown}"
     );
     Ok(())
 }

@@ -22,7 +22,7 @@ use scanbeam::list::{
     Bounds, Field, FieldForm, FieldPacker, Flow, Form, Head, Header, Id, ListWriter, Material,
     Matrix, State, VertexFormat, WriteError, parameter,
 };
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::error::Error;
 
 /// What is to be kept.
@@ -145,9 +145,13 @@ fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
     } else if args.textures == Pictures::Drop {
         loaded.pictures.clear();
     }
-    for picture in loaded.pictures.iter().flatten() {
-        let note = picture.image.note.as_deref();
-        note.into_iter().for_each(|note| eprintln!("note: {note}"));
+    // A picture on several materials is told once.
+    let mut told = BTreeSet::new();
+    let notes = loaded.pictures.iter().flatten();
+    for note in notes.filter_map(|picture| picture.image.note.as_deref()) {
+        if told.insert(note) {
+            tell!("note: {note}");
+        }
     }
     Ok(loaded)
 }

@@ -4,9 +4,12 @@
 //! Buffers and pictures are read from the file itself, from `data:` URIs, and from files beside it.
 //! Pictures are PNG or JPEG. Their texture places are those of the set that the material names.
 
+mod check;
+
 use super::texels::Picture;
 use crate::image_out::decode_image;
 use crate::model::{Material, Model, ModelError, ModelVertex};
+use crate::stdio;
 use base64::Engine as _;
 use gltf::buffer::Source;
 use gltf::mesh::Mode;
@@ -38,8 +41,9 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         line: None,
         reason,
     };
-    let bytes = std::fs::read(path).map_err(|e| wrong(format!("cannot be read: {e}")))?;
-    let gltf = gltf::Gltf::from_slice(&bytes).map_err(|e| wrong(e.to_string()))?;
+    let bytes =
+        std::fs::read(path).map_err(|e| wrong(format!("cannot be read: {}", stdio::reason(&e))))?;
+    let gltf = check::document(&bytes).map_err(wrong)?;
     let mut buffers = Vec::new();
     for buffer in gltf.buffers() {
         let data = match buffer.source() {
@@ -56,6 +60,7 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         buffers: &buffers,
         model: Model::default(),
         nodes: 0,
+        without_area: 0,
         above: HashSet::new(),
     };
     let mut pictures = Vec::new();
@@ -89,6 +94,16 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
     };
     for node in scenes.iter().flat_map(|scene| scene.nodes()) {
         reader.node(&node, IDENTITY).map_err(wrong)?;
+    }
+    let mut warn = |reason: String| reader.model.warnings.push(wrong(reason));
+    if scenes.is_empty() {
+        warn("it has no scene, so nothing is drawn".into());
+    } else if reader.model.triangles.is_empty() {
+        warn("its scene has no triangles".into());
+    }
+    if reader.without_area > 0 {
+        let n = reader.without_area;
+        warn(format!("primitives of points and lines are left out: {n}"));
     }
     Ok(Loaded {
         model: reader.model,
@@ -150,12 +165,12 @@ fn buffer_of(uri: &str, path: &Path) -> Result<Vec<u8>, String> {
     }
     let file = path.parent().unwrap_or(Path::new("")).join(name);
     let size = std::fs::metadata(&file)
-        .map_err(|e| format!("{uri:?}: {e}"))?
+        .map_err(|e| format!("{uri:?}: {}", stdio::reason(&e)))?
         .len();
     if size > MAX_BUFFER {
         return Err(format!("{uri:?} is too large"));
     }
-    std::fs::read(&file).map_err(|e| format!("{uri:?}: {e}"))
+    std::fs::read(&file).map_err(|e| format!("{uri:?}: {}", stdio::reason(&e)))
 }
 
 /// Columns of a 4 x 4 matrix, as glTF has them.
@@ -197,6 +212,8 @@ struct Reader<'b> {
     buffers: &'b [Vec<u8>],
     model: Model,
     nodes: usize,
+    /// Primitives of points and lines.
+    without_area: usize,
     /// The nodes above the one at work, so that a circle is noticed.
     above: HashSet<usize>,
 }
@@ -226,13 +243,14 @@ impl Reader<'_> {
         primitive: &gltf::Primitive<'_>,
         matrix: &Matrix,
     ) -> Result<(), String> {
-        // The parser checks where accessors lie, but not that a view is within its buffer.
         let buffers = self.buffers;
-        for (_, accessor) in primitive.attributes() {
-            check(&accessor, buffers)?;
-        }
-        if let Some(accessor) = primitive.indices() {
-            check(&accessor, buffers)?;
+        check::primitive(primitive, buffers)?;
+        if matches!(
+            primitive.mode(),
+            Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip
+        ) {
+            self.without_area += 1;
+            return Ok(());
         }
         let reader = primitive.reader(|b| buffers.get(b.index()).map(Vec::as_slice));
         let Some(positions) = reader.read_positions() else {
@@ -317,39 +335,6 @@ impl Reader<'_> {
     }
 }
 
-/// Whether an accessor's bytes are there.
-fn check(accessor: &gltf::Accessor<'_>, buffers: &[Vec<u8>]) -> Result<(), String> {
-    let bad = || {
-        Err(format!(
-            "accessor {} is not within its buffer",
-            accessor.index()
-        ))
-    };
-    if accessor.sparse().is_some() {
-        return Err(format!(
-            "accessor {} is sparse, which is not read",
-            accessor.index()
-        ));
-    }
-    let Some(view) = accessor.view() else {
-        return bad();
-    };
-    let have = buffers.get(view.buffer().index()).map_or(0, Vec::len);
-    let end = view.offset().checked_add(view.length());
-    if end.is_none_or(|end| end > have) {
-        return bad();
-    }
-    let stride = view.stride().unwrap_or(accessor.size());
-    let last = accessor.count().saturating_sub(1).checked_mul(stride);
-    let need = last
-        .and_then(|n| n.checked_add(accessor.size()))
-        .and_then(|n| n.checked_add(accessor.offset()));
-    if need.is_none_or(|need| need > view.length()) {
-        return bad();
-    }
-    Ok(())
-}
-
 fn placed(m: &Matrix, p: [f32; 3]) -> [f64; 3] {
     let p = p.map(f64::from);
     [0, 1, 2].map(|r| m[0][r] * p[0] + m[1][r] * p[1] + m[2][r] * p[2] + m[3][r])
@@ -372,7 +357,7 @@ fn triangles_of(mode: Mode, i: &[u32]) -> Result<Vec<[u32; 3]>, String> {
             .collect(),
         Mode::TriangleFan => i.windows(2).skip(1).map(|w| [i[0], w[0], w[1]]).collect(),
         // Points and lines have no area.
-        _ => Vec::new(),
+        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => Vec::new(),
     })
 }
 

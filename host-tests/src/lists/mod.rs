@@ -24,6 +24,7 @@ pub mod strips;
 mod tables;
 pub mod texels;
 
+use crate::stdio;
 use std::error::Error;
 use std::fs::File;
 use std::io::Read;
@@ -41,7 +42,7 @@ pub fn read_list(path: &Path) -> Result<Vec<u32>, Box<dyn Error>> {
     let mut bytes = Vec::new();
     File::open(path)
         .and_then(|f| f.take(MAX_LIST_BYTES + 1).read_to_end(&mut bytes))
-        .map_err(|e| wrong(format!("cannot be read: {e}")))?;
+        .map_err(|e| wrong(format!("cannot be read: {}", stdio::reason(&e))))?;
     if bytes.len() as u64 > MAX_LIST_BYTES {
         return Err(wrong(format!("is larger than {MAX_LIST_BYTES} bytes")).into());
     }

@@ -2,13 +2,13 @@
 
 use super::args::DisassembleArgs;
 use super::read_list;
+use crate::stdio;
 use scanbeam::list::{
     Flow, Header, Id, Instruction, Run, SEPARATE, SPLIT, State, VertexFormat, WIDE, long_words,
     parameter, read_block,
 };
 use std::error::Error;
 use std::fmt::Write as _;
-use std::io::{self, Write};
 
 /// Vertices and words of a block that are printed; of the rest only how many there are.
 const SHOWN: u32 = 4;
@@ -27,10 +27,7 @@ pub fn run(args: &DisassembleArgs) -> Result<(), Box<dyn Error>> {
 /// When it is malformed; what stands before is printed. A closed pipe is none.
 pub fn print(list: &[u32]) -> Result<(), Box<dyn Error>> {
     let (text, error) = listing(list);
-    match io::stdout().lock().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => return Err(error.into()),
-        _ => {}
-    }
+    stdio::out(format_args!("{text}"));
     match error {
         Some(error) => Err(error.into()),
         None => Ok(()),

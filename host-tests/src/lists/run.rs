@@ -44,10 +44,10 @@ pub fn run(args: &RunListArgs) -> Result<(), Box<dyn Error>> {
     let file = args.list.display();
     if ran.halt != Halt::End {
         let (halt, at) = (ran.halt, 4 * ran.position);
-        eprintln!("warning: {file}: halted at offset {at:#x}: {halt:?}");
+        tell!("warning: {file}: halted at offset {at:#x}: {halt:?}");
     }
     for (event, offset, times) in &ran.events {
-        eprintln!("warning: {file}: {event:?}, first at offset {offset:#x}, {times} times");
+        tell!("warning: {file}: {event:?}, first at offset {offset:#x}, {times} times");
     }
     Ok(())
 }

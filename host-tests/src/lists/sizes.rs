@@ -107,10 +107,10 @@ pub(super) fn report(b: &Baked, json: bool) -> Result<(), Box<dyn Error>> {
             "sizes": sizes,
             "textures": textures,
         });
-        println!("{}", serde_json::to_string_pretty(&report)?);
+        say!("{}", serde_json::to_string_pretty(&report)?);
         return Ok(());
     }
-    println!(
+    say!(
         "{bytes} bytes, {} triangles: {:.2} bytes a triangle but for texels",
         b.triangles,
         b.bytes_per_triangle()
@@ -119,21 +119,22 @@ pub(super) fn report(b: &Baked, json: bool) -> Result<(), Box<dyn Error>> {
         .parts()
         .map(|(name, bytes)| format!("{name} {bytes}"))
         .collect();
-    println!("bytes: {}", parts.join(", "));
-    println!(
+    say!("bytes: {}", parts.join(", "));
+    say!(
         "{} vertices in tables of at most {}; {strips} strips, {fans} fans, {separate} triangles alone",
-        b.vertices, b.table
+        b.vertices,
+        b.table
     );
-    println!("places {:?}, moved by {:.3e} at most", b.place, b.error);
+    say!("places {:?}, moved by {:.3e} at most", b.place, b.error);
     if let Some(normal) = b.normal {
-        println!(
+        say!(
             "normals {normal:?}, turned by {:.3} degrees at most",
             b.normal_error
         );
     }
     for (number, t) in b.textures.iter().enumerate() {
         let [width, height] = t.log_sides.map(|log| 1 << log);
-        println!(
+        say!(
             "texture {number}: {width} x {height} {:?}, {} colours, {} bytes, off by {:.2} levels",
             t.form,
             t.palette.len(),
@@ -142,13 +143,13 @@ pub(super) fn report(b: &Baked, json: bool) -> Result<(), Box<dyn Error>> {
         );
     }
     if b.places_cut > 0 {
-        eprintln!(
+        tell!(
             "warning: {} texture places are more than 16 sides from their neighbours, and cut off there",
             b.places_cut
         );
     }
     if b.dropped > 0 {
-        println!("{} triangles fell together and are left out", b.dropped);
+        say!("{} triangles fell together and are left out", b.dropped);
     }
     Ok(())
 }

@@ -24,6 +24,7 @@ mod text;
 
 pub use text::obj_text;
 
+use crate::stdio;
 use std::fmt;
 use std::io::Read;
 use std::path::{Path, PathBuf};
@@ -97,7 +98,7 @@ impl Model {
     /// Prints the warnings on stderr, a line each.
     pub fn print_warnings(&self) {
         for warning in &self.warnings {
-            eprintln!("warning: {warning}");
+            tell!("warning: {warning}");
         }
     }
 
@@ -155,7 +156,8 @@ fn read_text(path: &Path) -> Result<String, ModelError> {
         line: None,
         reason,
     };
-    let cannot_read = |error: std::io::Error| whole_file(format!("cannot be read: {error}"));
+    let cannot_read =
+        |error: std::io::Error| whole_file(format!("cannot be read: {}", stdio::reason(&error)));
     let file = std::fs::File::open(path).map_err(cannot_read)?;
     let mut bytes = Vec::new();
     file.take(MAX_FILE_BYTES + 1)

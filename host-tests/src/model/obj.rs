@@ -9,7 +9,8 @@
 //! | groups, smoothing, lines, points, curves, surfaces | passed over |
 //! | a keyword that OBJ does not have | an error, so that a file of another kind is refused |
 //! | `mtllib` of a file that is not there | a warning; its materials are white |
-//! | `usemtl` of a name in no material file | white, with a warning where the file has an `mtllib` and all are there |
+//! | `usemtl` of a name in no material file | white, with a warning, but where an `mtllib` is not there: that is told already |
+//! | no faces at all | a model without triangles, with a warning |
 //! | `usemtl` without a name | back to no material |
 
 use super::line::{Statement, error_at, quoted, statements};
@@ -260,8 +261,13 @@ impl Lists {
         let mut indices = Vec::with_capacity(self.material_names.len());
         for (name, line) in &self.material_names {
             let index = by_name.get(name.as_str()).copied();
-            if index.is_none() && !self.libraries.is_empty() && !self.incomplete {
-                let reason = format!("material {} is in no material file", quoted(name));
+            // Without any material file the first name is told, for all.
+            let is_told = self.libraries.is_empty() && !indices.is_empty();
+            if index.is_none() && !is_told && !self.incomplete {
+                let mut reason = format!("material {} is in no material file", quoted(name));
+                if self.libraries.is_empty() {
+                    reason.push_str(", and the model names none: all is white");
+                }
                 self.warnings.push(error_at(file, *line, reason));
             }
             indices.push(index);
@@ -271,6 +277,13 @@ impl Lists {
 
     fn into_model(mut self, file: &Path) -> Result<Model, ModelError> {
         let material_of_name = self.resolve_materials(file);
+        if self.triangles.is_empty() {
+            self.warnings.push(ModelError {
+                file: file.to_path_buf(),
+                line: None,
+                reason: "it has no faces, so nothing is drawn".into(),
+            });
+        }
         let lacks_normal =
             |triangle: &Triangle| triangle.corners.iter().any(|c| c.normal == ABSENT);
         let computed = if self.triangles.iter().any(lacks_normal) {

@@ -283,8 +283,10 @@ fn materials_that_cannot_be_found_are_white_with_a_warning() {
         load(&format!("mtllib\n{CORNERS}f 1 2 3\n")),
         [at(1, "`mtllib` needs a name")]
     );
-    // Files without any library often name materials all the same.
-    assert!(load(&format!("{CORNERS}usemtl blue\nf 1 2 3\n")).is_empty());
+    // Files without any library often name materials all the same: one line for all names.
+    let text = format!("{CORNERS}usemtl blue\nf 1 2 3\nusemtl red\nf 1 2 3\n");
+    let told = "material \"blue\" is in no material file, and the model names none: all is white";
+    assert_eq!(load(&text), [at(4, told)]);
 }
 
 #[test]

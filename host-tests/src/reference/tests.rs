@@ -490,7 +490,7 @@ fn five_thousand_triangles() {
     }
     let start = std::time::Instant::now();
     let picture = render(&model(&triangles), &View::default()).unwrap();
-    println!(
+    say!(
         "{} pixels covered in {:?}",
         covered(&picture),
         start.elapsed()

@@ -17,7 +17,7 @@ use crate::firmware_report::{picture, picture_b, picture_suite};
 use crate::image_out::{Frame, write_atomically};
 use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};
-use crate::{accuracy, bench, cache_report};
+use crate::{accuracy, bench, cache_report, stdio};
 use page::Page;
 use scanbeam::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
 use scenes::{HEIGHT, LEAN, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
@@ -44,11 +44,16 @@ pub fn run(args: &ReportArgs) -> Result<(), Box<dyn Error>> {
         peers(&mut page)?;
     }
     memory(&mut page);
-    std::fs::create_dir_all(folder)
-        .map_err(|error| format!("{}: cannot be made: {}", folder.display(), error.kind()))?;
+    std::fs::create_dir_all(folder).map_err(|error| {
+        format!(
+            "{}: cannot be made: {}",
+            folder.display(),
+            stdio::reason(&error)
+        )
+    })?;
     let file = folder.join("index.html");
     write_atomically(&file, page.finish().as_bytes())?;
-    println!("{}", file.display());
+    say!("{}", file.display());
     Ok(())
 }
 

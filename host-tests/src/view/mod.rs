@@ -24,6 +24,7 @@ pub use show::{Scenery, Shown};
 pub use state::{KEYS, State, Step};
 
 use crate::args::ViewArgs;
+use crate::draw::DrawFailure;
 use crate::model::{Model, obj_text};
 use std::error::Error;
 use std::path::Path;
@@ -42,11 +43,17 @@ pub fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
     };
     let scenery = Scenery::new(&model)?;
     let state = State::new(args);
-    show(args, &scenery, state)?;
+    show(args, &scenery, state).map_err(|error| -> Box<dyn Error> {
+        match (error.downcast::<DrawFailure>(), &args.model) {
+            (Ok(failure), Some(file)) => format!("{}: {failure}", file.display()).into(),
+            (Ok(failure), None) => failure.to_string().into(),
+            (Err(error), _) => error,
+        }
+    })?;
     // Last: a terminal shows its own screen until then.
     model.print_warnings();
     for note in scenery.notes() {
-        eprintln!("note: {note}");
+        tell!("note: {note}");
     }
     Ok(())
 }

@@ -52,7 +52,7 @@ pub fn run(
     window.set_target_fps(60);
     let (presses, pressed) = channel();
     window.set_input_callback(Box::new(Presses(presses)));
-    println!("{KEYS}");
+    say!("{KEYS}");
     let mut pace = Pace::new();
     let side = |pixels: usize| (pixels as u32).clamp(*SIDES.start(), *SIDES.end());
     while window.is_open() {

@@ -85,6 +85,7 @@ pub(crate) fn on_screen<S: Shading>(
         }
         None => false,
     };
+    let wide = S::may_be_plain(&skin);
     let mut done = Assembled {
         triangles: faces.len() as u32,
         ..Assembled::default()
@@ -127,9 +128,12 @@ pub(crate) fn on_screen<S: Shading>(
         let filed = fits.then(|| file(object, first, arena.as_slice()));
         if let Some(objects) = filed.flatten() {
             done.kept += objects;
+            let attributes = [&a.attribute, &b.attribute, &c.attribute];
             if objects == 0 {
                 done.culled += 1;
                 arena.truncate(before);
+            } else if wide && S::is_plain(&skin, attributes) {
+                done.untextured += 1;
             }
             continue;
         }

@@ -218,6 +218,19 @@ mod tests {
         assert!(cuts > 2_000, "{cuts}");
     }
 
+    /// A limit that a pixel meets exactly is the finer level's, whichever way 1/w goes.
+    #[test]
+    fn runs_end_exactly_at_a_limit() {
+        let ends = LevelEnds([100, 0, 0]);
+        assert_eq!((ends.level(100), ends.level(99)), (0, 1));
+        assert_eq!(ends.same(90, 5, 10), 2);
+        assert_eq!(ends.same(89, 5, 10), 3);
+        assert_eq!(ends.same(99, 1, 10), 1);
+        assert_eq!(ends.same(110, -5, 10), 3);
+        assert_eq!(ends.same(111, -5, 10), 3);
+        assert_eq!(ends.same(99, 0, 10), 10);
+    }
+
     #[test]
     fn constant_levels_are_those_of_the_ratio() {
         // Doubled areas of a square of texels (2^-16) and of pixels (2^-6).

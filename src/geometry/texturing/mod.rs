@@ -17,7 +17,7 @@ mod corners;
 mod detail;
 mod place;
 
-pub use corners::{Corner, Corners};
+pub use corners::{Corner, Corners, Period};
 pub use detail::{Detail, LEVELS, LevelEnds};
 pub use place::{Budget, FRACTION, Homogeneous, Quality, Uv};
 
@@ -33,7 +33,10 @@ pub struct Skin<'a> {
     /// The place of each vertex on the texture: to the right and down from its upper left corner,
     /// in texels with 8 fraction bits; any number of repeats. Empty, or as long as the positions.
     ///
-    /// A triangle may stretch over 4096 texels; one that is wider is drawn untextured.
+    /// A triangle may stretch over 4096 texels, wherever it begins. One that is wider is drawn
+    /// untextured, and counted in [`PassOne::untextured`](crate::PassOne::untextured); so is one on
+    /// a texture whose rim goes on ([`Clamp`](crate::texture::Clamp)) that lies across it and has
+    /// a corner below -4096 texels or from 4096 on.
     pub places: &'a [[i32; 2]],
     /// Which of the textures lent to the scene, below [`Skin::TEXTURES`].
     pub texture: u16,
@@ -43,7 +46,7 @@ pub struct Skin<'a> {
 
 impl Skin<'_> {
     /// How many textures there can be.
-    pub const TEXTURES: u16 = 0x3FFF;
+    pub const TEXTURES: u16 = 0xFFF;
 }
 
 /// Shadings without textures ignore it.
@@ -51,7 +54,8 @@ impl From<Skin<'_>> for () {
     fn from(_: Skin<'_>) {}
 }
 
-/// The texture of a face: its number in the lower 14 bits, and the quality above.
+/// The texture of a face: its number in the lower 12 bits, its period in the next 2, and the
+/// quality above.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FaceTexture(u16);
 
@@ -59,8 +63,9 @@ impl FaceTexture {
     /// No texture.
     const NONE: Self = Self(Skin::TEXTURES);
 
+    /// Of a skin that is [`known`].
     fn new(skin: &Skin<'_>) -> Self {
-        if skin.places.is_empty() || skin.texture >= Skin::TEXTURES {
+        if skin.places.is_empty() || skin.texture & Skin::TEXTURES == Skin::TEXTURES {
             return Self::NONE;
         }
         let quality = match skin.quality {
@@ -73,8 +78,13 @@ impl FaceTexture {
 
     /// The number of the texture, if there is one.
     fn texture(self) -> Option<u16> {
-        let number = self.0 & 0x3FFF;
+        let number = self.0 & Skin::TEXTURES;
         (number != Skin::TEXTURES).then_some(number)
+    }
+
+    /// How the texture repeats.
+    fn period(self) -> Period {
+        Period::of_code(self.0 >> PERIOD)
     }
 
     fn budget(self) -> Budget {
@@ -85,6 +95,18 @@ impl FaceTexture {
         }
         .budget()
     }
+}
+
+/// Where the period lies in the name of a texture.
+const PERIOD: u32 = 12;
+
+/// The skin with the period of its texture beside its number.
+fn known<'a>(skin: Skin<'a>, period: impl FnOnce(u16) -> Period) -> Skin<'a> {
+    let texture = match skin.texture {
+        number if number < Skin::TEXTURES => number | period(number).code() << PERIOD,
+        _ => Skin::TEXTURES,
+    };
+    Skin { texture, ..skin }
 }
 
 impl Default for FaceTexture {
@@ -195,7 +217,7 @@ impl TexturePlanes {
         };
         let straight = places.straight(texture.budget());
         let planes = if straight {
-            // Below 4096 texels: 31 bits.
+            // -4096 to 4095 texels, as triangles are that are straight: 32 bits.
             let uv = places.places().map(|(u, v)| (wide(u), wide(v)));
             [
                 plane(uv.map(|p| p.0))?,
@@ -220,12 +242,12 @@ impl TexturePlanes {
     }
 }
 
-/// A place with 8 fraction bits below 4096 texels with [`FRACTION`] of them.
-const fn wide(place: u32) -> i32 {
-    (place << (FRACTION - 8)) as i32
+/// A place with 8 fraction bits within 4096 texels with [`FRACTION`] of them.
+const fn wide(place: i32) -> i32 {
+    place << (FRACTION - 8)
 }
 
-/// The corners of a textured triangle with one exponent. Sides of textures divide 1024 texels.
+/// The corners of a textured triangle with one exponent.
 fn common<V: Copy>(
     texture: FaceTexture,
     corners: [TexturedVertex<V>; 3],
@@ -237,7 +259,7 @@ fn common<V: Copy>(
         u: corners[i].place[0],
         v: corners[i].place[1],
     };
-    Corners::new([corner(0), corner(1), corner(2)], 1024)
+    Corners::new([corner(0), corner(1), corner(2)], texture.period())
 }
 
 impl<S: Shading, D: Detail> Shading for Textured<S, D> {
@@ -282,6 +304,21 @@ impl<S: Shading, D: Detail> Shading for Textured<S, D> {
 
     fn fits(skin: &Skin<'_>, vertices: usize) -> bool {
         skin.places.is_empty() || skin.places.len() == vertices
+    }
+
+    fn known<'a>(skin: Self::Skin<'a>, period: impl FnOnce(u16) -> Period) -> Self::Skin<'a> {
+        known(skin, period)
+    }
+
+    fn may_be_plain(skin: &Skin<'_>) -> bool {
+        let face = FaceTexture::new(skin);
+        face.texture().is_some() && corners::may_be_refused(skin.places, face.period())
+    }
+
+    fn is_plain(skin: &Skin<'_>, corners: [&Self::Vertex; 3]) -> bool {
+        let face = FaceTexture::new(skin);
+        let places = corners.map(|c| c.place);
+        face.texture().is_some() && corners::reduced(places, face.period()).is_none()
     }
 
     #[inline]

@@ -131,9 +131,11 @@ impl<C: ListCoordinate> Batch<'_, C> {
             _ => places = &mut [],
         }
         let skin = target.skin(places, prsp);
+        let before = target.scene.pass_one().untextured;
         let done = target
             .scene
             .draw_screen(drawn, faces, skin, target.instance.cull);
         self.counts.take(vertices as u32, done, target);
+        target.tell_untextured(before);
     }
 }

@@ -34,8 +34,8 @@ mod tests;
 mod tlut;
 
 pub use crate::geometry::texturing::{
-    Budget, Corner, Corners, Detail, FRACTION, Homogeneous, LEVELS, LevelEnds, Quality, Skin,
-    TexturePlanes, Textured, Uv,
+    Budget, Corner, Corners, Detail, FRACTION, Homogeneous, LEVELS, LevelEnds, Period, Quality,
+    Skin, TexturePlanes, Textured, Uv,
 };
 pub use block::{BlockRun, BlockRuns, Blocked, Layout, Linear};
 pub use cache::{BlockCache, CacheError, CacheReads};
@@ -65,6 +65,12 @@ pub trait Texels {
 
     /// The colour at a place.
     fn at(&self, place: Uv) -> Self::Texel;
+
+    /// How it goes on beyond its sides: what may be taken off places without being seen. By it
+    /// places are kept near the first texel, where they are the most precise.
+    fn period(&self) -> Period {
+        Period::Long
+    }
 
     /// Stored texels that [`at`](Texels::at) reads.
     #[inline(always)]
@@ -144,6 +150,10 @@ impl<T: Texels + ?Sized> Texels for &T {
     #[inline(always)]
     fn at(&self, place: Uv) -> T::Texel {
         (**self).at(place)
+    }
+
+    fn period(&self) -> Period {
+        (**self).period()
     }
 
     #[inline(always)]

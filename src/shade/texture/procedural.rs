@@ -1,6 +1,6 @@
 //! Textures that are computed (H17): no memory at all.
 
-use super::{FRACTION, Texels, Uv};
+use super::{FRACTION, Period, Texels, Uv};
 
 /// Squares of two colours in turn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,15 @@ pub struct Checker<C> {
 
 impl<C: Copy> Texels for Checker<C> {
     type Texel = C;
+
+    /// Squares of up to 512 texels repeat with their neighbours.
+    fn period(&self) -> Period {
+        if self.log_side < 10 {
+            Period::Short
+        } else {
+            Period::Long
+        }
+    }
 
     #[inline(always)]
     fn at(&self, place: Uv) -> C {
@@ -34,6 +43,15 @@ pub struct Gradient {
 
 impl Texels for Gradient {
     type Texel = [u8; 3];
+
+    /// It repeats after the way back.
+    fn period(&self) -> Period {
+        if self.log_length < 10 {
+            Period::Short
+        } else {
+            Period::Long
+        }
+    }
 
     fn at(&self, place: Uv) -> [u8; 3] {
         // 8 bits of the way, and the bit above them, which turns it round.

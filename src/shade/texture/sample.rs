@@ -7,7 +7,7 @@
 use super::block::{Layout, Linear};
 use super::format::{Texel, TexelFormat};
 use super::tlut::Store;
-use super::{FRACTION, Texels, Uv, place_by_place};
+use super::{FRACTION, Period, Texels, Uv, place_by_place};
 use crate::visible::Visible;
 use core::marker::PhantomData;
 
@@ -132,6 +132,11 @@ impl Size {
 
 /// What lies beyond the sides of a texture.
 pub trait Address: Copy {
+    /// How sides of `2^log` texels go on.
+    fn period(_log: u32) -> Period {
+        Period::Long
+    }
+
     /// The column or row that stands for `texel` on a side of `2^log` texels: below `2^log`.
     fn side(texel: i32, log: u32) -> u32;
 }
@@ -149,6 +154,10 @@ pub struct Mirror;
 pub struct Clamp;
 
 impl Address for Wrap {
+    fn period(_: u32) -> Period {
+        Period::Short
+    }
+
     #[inline(always)]
     fn side(texel: i32, log: u32) -> u32 {
         texel as u32 & ((1 << log) - 1)
@@ -156,6 +165,15 @@ impl Address for Wrap {
 }
 
 impl Address for Mirror {
+    /// It repeats after its image.
+    fn period(log: u32) -> Period {
+        if log < MAX_SIDE.ilog2() {
+            Period::Short
+        } else {
+            Period::Long
+        }
+    }
+
     #[inline(always)]
     fn side(texel: i32, log: u32) -> u32 {
         // All ones in every second repeat, which runs backwards.
@@ -165,6 +183,10 @@ impl Address for Mirror {
 }
 
 impl Address for Clamp {
+    fn period(_: u32) -> Period {
+        Period::Never
+    }
+
     #[inline(always)]
     fn side(texel: i32, log: u32) -> u32 {
         texel.clamp(0, (1 << log) - 1) as u32
@@ -254,6 +276,10 @@ impl<S: Store, A: Address, L: Layout> Texels for Texture<S, A, L> {
         self.texel(place.texel())
     }
 
+    fn period(&self) -> Period {
+        A::period(self.size.log_width().max(self.size.log_height()))
+    }
+
     #[inline(always)]
     fn singly<W>(
         &self,
@@ -339,6 +365,10 @@ const fn twice(half: u32) -> u32 {
 
 impl<F: Fetch, const LOG: u32> Texels for Square<F, LOG> {
     type Texel = F::Texel;
+
+    fn period(&self) -> Period {
+        Period::Short
+    }
 
     #[inline(always)]
     fn at(&self, place: Uv) -> F::Texel {
@@ -466,6 +496,10 @@ where
     L: Layout,
 {
     type Texel = Texel;
+
+    fn period(&self) -> Period {
+        self.texture.period()
+    }
 
     #[inline(always)]
     fn fetches(&self) -> u32 {

@@ -1,9 +1,11 @@
 //! Textures as values: form, sides, palette and what lies beyond the sides, all known at run time.
 //!
 //! Textures of all forms and sizes serve one scene: a span looks once which loop reads its texels
-//! ([`fetch`](super::fetch)). All constructors are `const`, so that a texture can be a static:
+//! (room `look`). All constructors are `const`, so that a texture can be a static:
 //!
-//! ```ignore
+//! ```
+//! # use scanbeam::scene::Texture;
+//! # static TEXELS: [u16; 4096] = [0; 4096];
 //! static BRICKS: Texture = match Texture::words(&TEXELS, 64, 64) {
 //!     Ok(texture) => texture,
 //!     Err(_) => panic!("64 x 64 texels"),
@@ -86,7 +88,7 @@ pub enum Wrap {
 
 /// How texels lie in memory: rows from the top. Slices have the exact length of the texture.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Form<'t> {
+pub(crate) enum Form<'t> {
     /// A word of the panel each.
     Words(&'t [u16]),
     /// An index of 8 bits each.
@@ -103,7 +105,7 @@ pub(super) enum Form<'t> {
 /// A texture: texels or indices that somebody else keeps, and how they are read.
 #[derive(Clone, Copy, Debug)]
 pub struct Texture<'t> {
-    pub(super) form: Form<'t>,
+    pub(crate) form: Form<'t>,
     log_width: u8,
     log_height: u8,
     /// The power of two of both sides of a [`Square`]; else 0.
@@ -113,7 +115,7 @@ pub struct Texture<'t> {
 
 /// Rows of a square of words, whose side is known to the compiler, so that no index needs a check.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Square<'t> {
+pub(crate) enum Square<'t> {
     /// 32 texels a side.
     Side32(&'t [[u16; 32]; 32]),
     /// 64 texels a side.
@@ -287,13 +289,13 @@ impl<'t> Texture<'t> {
 
     /// Whether it is a [`Square`].
     #[inline(always)]
-    pub(super) const fn is_square(&self) -> bool {
+    pub(crate) const fn is_square(&self) -> bool {
         self.square != 0
     }
 
     /// The rows, if it is one of the squares that have loops of their own.
     #[inline(always)]
-    pub(super) fn square(&self) -> Option<Square<'t>> {
+    pub(crate) fn square(&self) -> Option<Square<'t>> {
         let Form::Words(texels) = self.form else {
             return None;
         };

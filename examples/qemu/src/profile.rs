@@ -1,0 +1,62 @@
+//! One frame alone, for whoever steps through it: between the marks is nothing but its drawing.
+//!
+//! The host asks for it by words that semihosting hands over, `qemu-firmware profile NAME`, and
+//! logs every instruction between the marks.
+
+use crate::console::Console;
+use crate::frames::frames;
+use crate::rooms::Rooms;
+use core::hint::black_box;
+use cortex_m_semihosting::nr;
+
+/// Bytes that the words may have.
+const WORDS: usize = 128;
+
+/// Where the host starts to count. Each mark has a number of its own, which nobody may leave out, so
+/// that neither is dropped, nor folded into the other.
+#[inline(never)]
+#[unsafe(no_mangle)]
+extern "C" fn scanbeam_profile_begin() {
+    black_box(1);
+}
+
+/// Where it ends.
+#[inline(never)]
+#[unsafe(no_mangle)]
+extern "C" fn scanbeam_profile_end() {
+    black_box(2);
+}
+
+/// Draws the frame that the host asks for, if it asks for one: whether that went well.
+pub(crate) fn asked(console: &mut Console) -> Option<bool> {
+    let mut line = [0; WORDS];
+    let mut words = words(&mut line)?.split_ascii_whitespace().skip(1);
+    if words.next() != Some("profile") {
+        return None;
+    }
+    let name = words.next().unwrap_or_default();
+    let Some(frame) = frames().find(|frame| frame.name == name) else {
+        console.line(format_args!("there is no frame `{name}`; there are:"));
+        for frame in frames() {
+            console.line(format_args!("{}", frame.name));
+        }
+        return Some(false);
+    };
+    let mut rooms = Rooms::take();
+    let mut bytes = 0;
+    scanbeam_profile_begin();
+    frame.draw(&mut rooms, &mut |line| bytes += black_box(line).len());
+    scanbeam_profile_end();
+    black_box(bytes);
+    Some(true)
+}
+
+/// The words that the host hands over; `None` where there are none, or too many.
+fn words(line: &mut [u8; WORDS]) -> Option<&str> {
+    let mut block = [line.as_mut_ptr() as usize, line.len()];
+    // SAFETY: the block names a room and its size; the call sets both to what it filled.
+    let failed =
+        unsafe { cortex_m_semihosting::syscall1(nr::GET_CMDLINE, (&raw mut block) as usize) != 0 };
+    let said = line.get(..block[1]).filter(|_| !failed)?;
+    Some(core::str::from_utf8(said).ok()?.trim_end_matches('\0'))
+}
