@@ -9,6 +9,7 @@ use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
 use crate::image_out::{Frame, write_atomically, write_image};
+use crate::lean_frames::lean_frame;
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
@@ -23,7 +24,7 @@ use scanbeam::{
     TexturedDepth, Textures, Worded, draw_frame,
 };
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LIST_INDICES,
+    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,
     LIST_TABLE, LookB, LookF, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SUITE,
     SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VARIANTS,
     VERTICES, WIDTH, build_crate, build_listed,
@@ -219,6 +220,9 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     for suite in SUITE {
         let bytes = drawn_suite::<GouraudDepth<Rgb565Be>, LookB, LookF>(suite)?.0;
         frames.insert(suite.name(), crc32fast::hash(&bytes));
+    }
+    for (name, suite) in LEAN {
+        frames.insert(name, crc32fast::hash(&lean_frame(suite)?));
     }
     for shot in SHOTS.into_iter().chain(STACKS).chain(STRESS) {
         frames.insert(

@@ -19,6 +19,7 @@ pub mod firmware;
 pub mod firmware_report;
 pub mod golden;
 pub mod image_out;
+mod lean_frames;
 pub mod lent;
 pub mod lists;
 pub mod memory_model;

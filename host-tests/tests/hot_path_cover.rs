@@ -22,7 +22,9 @@ fn colour(id: usize) -> [u8; 3] {
 }
 
 fn id(pixel: [u8; 3]) -> usize {
-    (0..3).fold(0, |id, i| id | (usize::from(pixel[i]) + 8) / 17 << (4 * i))
+    (0..3).fold(0, |id, i| {
+        id | ((usize::from(pixel[i]) + 8) / 17) << (4 * i)
+    })
 }
 
 /// A picture by the fill rule alone: the number of the last triangle at each pixel.

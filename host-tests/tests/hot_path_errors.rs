@@ -269,7 +269,7 @@ fn lines_without_the_memory_they_need_are_not_written() {
     let want = picture(&scene);
     let needed = scene.objects();
     let mut lines = LineRooms::fitting(&scene, 16, true);
-    let mut other = vec![[77; 3]; 41];
+    let mut other = [[77; 3]; 41];
     // Short of each thing in turn; then drawn all the same.
     lines.links.pop();
     let links = LineError::Links {
@@ -364,7 +364,6 @@ fn frames_are_their_lines_or_are_not_begun() {
             per_transfer,
         );
         let done = done.unwrap();
-        drop(pump);
         assert_eq!(sink.0, want.concat());
         let empty = want.iter().filter(|l| l.iter().all(|p| *p == BACKGROUND));
         assert!(done.lines_skipped as usize <= empty.count());

@@ -30,6 +30,7 @@ mod choices;
 mod console;
 mod count;
 mod frames;
+mod lean;
 mod lend;
 mod listed;
 mod profile;

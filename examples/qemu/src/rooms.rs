@@ -1,6 +1,7 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Listed, Smooth};
+use crate::lean::LeanRooms;
 use crate::lend::lend;
 use crate::listed::Unpacked;
 use scanbeam::{
@@ -85,6 +86,8 @@ impl ListRoom {
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
     pub(crate) faceted: RoomsOf<Faceted>,
+    /// For scenes of the suite in the new rooms.
+    pub(crate) lean: LeanRooms,
     /// For a textured list; all in external RAM.
     pub(crate) listed: RoomsOf<Listed>,
     /// For scenes B and F; all in external RAM.
@@ -193,6 +196,7 @@ impl Rooms {
         Self {
             smooth: rooms_of!(Smooth, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
             faceted: rooms_of!(Faceted, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
+            lean: LeanRooms::take(),
             listed: rooms_of!(Listed, ".slow", (FEW, FEW), (HEIGHT, WIDTH)),
             textured: rooms_of!(
                 LookB,

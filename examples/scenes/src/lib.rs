@@ -20,6 +20,7 @@
 #![forbid(unsafe_code)]
 
 mod effects;
+mod lean;
 mod listed;
 mod methods;
 mod octasphere;
@@ -36,6 +37,7 @@ pub use effects::{
     Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
     Numbered, Ranked, Shady, Transparent, by_effect,
 };
+pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook};
 pub use listed::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, LIST_INDICES, LIST_TABLE, ListedError, build_crate,
     build_listed, crate_list, teapot_list,

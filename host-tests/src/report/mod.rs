@@ -20,7 +20,7 @@ use crate::reference::{Cull, Reference, Shade, View, compare, render};
 use crate::{accuracy, bench, cache_report, stdio};
 use page::Page;
 use scanbeam::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
-use scenes::{HEIGHT, SCENES_B, SHOTS, STACKS, SUITE, Shot, Suite, WIDTH};
+use scenes::{HEIGHT, LEAN, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
 use std::error::Error;
 use std::path::Path;
 
@@ -251,13 +251,14 @@ const BEST_PEERS: [(&str, [f64; 3]); 7] = [
 fn suite(page: &mut Page, record: &Record) {
     page.paragraph(
         "The suite with 64 slots and a line a transfer, in million instructions, and in brackets \
-         those of the best other renderer (TGX, TinyGL or small3dlib).",
+         those of the best other renderer (TGX, TinyGL or small3dlib). Rows `lean` are drawn by the new rooms.",
     );
     let mut rows = vec![vec!["scene".to_owned()]];
     rows[0].extend(BOARDS.map(|board| board.name.to_owned()));
-    for scene in SUITE.map(Suite::name) {
+    let lean = LEAN.map(|(name, suite)| (name, suite.name()));
+    for (scene, of) in SUITE.map(|s| (s.name(), s.name())).into_iter().chain(lean) {
         let mut row = vec![scene.to_owned()];
-        let peers = BEST_PEERS.iter().find(|(name, _)| *name == scene);
+        let peers = BEST_PEERS.iter().find(|(name, _)| *name == of);
         row.extend((0..).zip(BOARDS).map(|(at, board)| {
             let figure = record.latest(board.name, &format!("frame {scene}"));
             let ours = figure.map_or_else(|| "-".to_owned(), |n| format!("{:.2}", n / 1e6));

@@ -1,10 +1,7 @@
-//! What is exact at a pixel: coverage from whole numbers, colour and depth from f64.
+//! What is exact at a pixel: coverage from whole numbers, the parts of corners from f64.
 
-use super::{Corner, NEAR, Place};
+use super::Place;
 use std::ops::Range;
-
-/// Depth units of 1/w = 1.
-pub const ONE: f64 = 2_147_483_648.0;
 
 /// Positive for a triangle that is clockwise to the eye (y goes down).
 pub fn doubled_area([a, b, c]: [Place; 3]) -> i64 {
@@ -52,10 +49,4 @@ pub fn weights(p: [Place; 3], column: i32, line: i32) -> ([f64; 3], [f64; 3]) {
     };
     let (here, next) = (at(column), at(column + 1));
     (here, [0, 1, 2].map(|k| next[k] - here[k]))
-}
-
-/// Depth at a pixel, in units of 2^-31.
-pub fn depth(corners: &[Corner; 3], column: i32, line: i32) -> f64 {
-    let (part, _) = weights(corners.map(|c| c.at), column, line);
-    (0..3).map(|k| part[k] * NEAR / corners[k].w * ONE).sum()
 }
