@@ -10,7 +10,8 @@ from unicorn.unicorn_const import UC_ERR_INSN_INVALID
 from elf import Elf
 from wire import Wire
 
-SECONDS = 20
+# A run that takes longer hangs; whole ones take a second, and a frame a part of one.
+SECONDS, SECONDS_A_FRAME = 60, 5
 COUNTER = "SCANBEAM_FRAMES"
 
 
@@ -30,7 +31,7 @@ class Machine:
         self.elf = Elf(elf)
         self.wire = Wire(frames)
         self.frames = frames
-        self.seconds = SECONDS + frames
+        self.seconds = SECONDS + frames * SECONDS_A_FRAME
         self.registers = {}
         self.reads = {}
         self.writes = {}
