@@ -1,9 +1,12 @@
 //! Scenes of the suite as this machine draws them in the rooms `scene`, `look` and `frame`.
 
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
-use scanbeam::scene::{DrawState, Memory, Object, Scene, Vertex};
+use scanbeam::look::Look;
+use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Link, PixelFormat, Rgb565Be};
-use scenes::{HEIGHT, LEAN_DRAWS, LeanLook, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH};
+use scenes::{
+    HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH,
+};
 use std::error::Error;
 
 /// The bytes of a scene of the suite, in scan-out order.
@@ -11,22 +14,32 @@ use std::error::Error;
 /// # Errors
 /// When it does not fit the memory that it asks for.
 pub fn lean_frame(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
+    if suite.texels().is_some() {
+        lean_frame_as::<LeanTextured>(suite)
+    } else {
+        lean_frame_as::<LeanLook>(suite)
+    }
+}
+
+/// The same with a look.
+fn lean_frame_as<L: Look<Pixel = Rgb565Be>>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut vertices = vec![Vertex::EMPTY; SUITE_VERTICES];
+    let mut places = vec![TexturePlace::EMPTY; SUITE_VERTICES];
     let mut objects = vec![Object::EMPTY; SUITE_OBJECTS];
     let mut bins = [0; HEIGHT as usize];
     let mut draws = [DrawState::EMPTY; LEAN_DRAWS];
     let memory = Memory {
         vertices: &mut vertices,
-        places: &mut [],
+        places: &mut places,
         objects: &mut objects,
         bins: &mut bins,
         draws: &mut draws,
     };
-    let mut scene = Scene::<LeanLook>::new(Shot::screen(), memory);
+    let mut scene = Scene::<L>::new(Shot::screen(), memory);
     suite
         .build_lean(&mut scene)
         .map_err(|error| format!("{}: {error:?}", suite.name()))?;
-    let mut cache = Box::new(FastMemory::<LeanLook>::new());
+    let mut cache = Box::new(FastMemory::<L>::new());
     let (mut links, mut depth) = (vec![Link::NONE; SUITE_OBJECTS], [0; WIDTH as usize]);
     let mut renderer = Renderer::new(LineMemory {
         cache: &mut cache,

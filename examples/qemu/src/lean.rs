@@ -5,20 +5,24 @@ use crate::rooms::Rooms;
 use scanbeam::PixelFormat;
 use scanbeam::Rgb565Be;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer, draw_frame};
+use scanbeam::look::Look;
 use scanbeam::scan_out::{Pump, ScanoutDma};
-use scanbeam::scene::{DrawState, Memory, Object, Scene, Vertex};
+use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
-    HEIGHT, LEAN_DRAWS, LeanLook, SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite,
+    HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot,
+    Suite,
 };
 
 /// What a scene is lent, in external RAM, and the object cache, in tightly coupled RAM. Links and depth are those
 /// of other frames.
 pub(crate) struct LeanRooms {
     vertices: &'static mut [Vertex],
+    places: &'static mut [TexturePlace],
     objects: &'static mut [Object],
     bins: &'static mut [u16],
     draws: &'static mut [DrawState<'static>],
     cache: &'static mut [FastMemory<LeanLook>],
+    textured: &'static mut [FastMemory<LeanTextured>],
 }
 
 impl LeanRooms {
@@ -26,12 +30,15 @@ impl LeanRooms {
     pub(crate) fn take() -> Self {
         // A constant: 6 KB are copied, and not made on the stack.
         const EMPTY: FastMemory<LeanLook> = FastMemory::new();
+        const TEXTURED: FastMemory<LeanTextured> = FastMemory::new();
         Self {
             vertices: lend!(".slow", Vertex, SUITE_VERTICES, Vertex::EMPTY),
+            places: lend!(".slow", TexturePlace, SUITE_VERTICES, TexturePlace::EMPTY),
             objects: lend!(".slow", Object, SUITE_OBJECTS, Object::EMPTY),
             bins: lend!(".slow", u16, HEIGHT as usize, 0),
             draws: lend!(".slow", DrawState<'static>, LEAN_DRAWS, DrawState::EMPTY),
             cache: lend!(".fast", FastMemory<LeanLook>, 1, EMPTY),
+            textured: lend!(".fast", FastMemory<LeanTextured>, 1, TEXTURED),
         }
     }
 }
@@ -43,27 +50,48 @@ where
     D: ScanoutDma<Buf = &'static mut [u16]>,
 {
     let lean = &mut rooms.lean;
-    let mut scene = Scene::<LeanLook>::new(
-        Shot::screen(),
-        Memory {
-            vertices: lean.vertices,
-            places: &mut [],
-            objects: lean.objects,
-            bins: lean.bins,
-            draws: lean.draws,
-        },
-    );
+    let memory = Memory {
+        vertices: &mut *lean.vertices,
+        places: &mut *lean.places,
+        objects: &mut *lean.objects,
+        bins: &mut *lean.bins,
+        draws: &mut *lean.draws,
+    };
+    let (links, depth) = (&mut *rooms.smooth.links, &mut *rooms.smooth.depth);
+    if suite.texels().is_some() {
+        if let [cache] = &mut *lean.textured {
+            let lines = LineMemory {
+                cache,
+                links,
+                depth,
+            };
+            draw_as::<LeanTextured, D>(suite, memory, lines, pump);
+        }
+    } else if let [cache] = &mut *lean.cache {
+        let lines = LineMemory {
+            cache,
+            links,
+            depth,
+        };
+        draw_as::<LeanLook, D>(suite, memory, lines, pump);
+    }
+}
+
+/// The same with a look.
+#[inline(never)]
+fn draw_as<L: Look<Pixel = Rgb565Be>, D>(
+    suite: Suite,
+    memory: Memory<'_, 'static>,
+    lines: LineMemory<'_, L>,
+    pump: &mut Pump<D>,
+) where
+    D: ScanoutDma<Buf = &'static mut [u16]>,
+{
+    let mut scene = Scene::<L>::new(Shot::screen(), memory);
     suite
         .build_lean(&mut scene)
         .expect("the rooms are large enough");
-    let [cache] = lean.cache else {
-        unreachable!("one was lent")
-    };
-    let mut renderer = Renderer::new(LineMemory {
-        cache,
-        links: rooms.smooth.links,
-        depth: rooms.smooth.depth,
-    });
+    let mut renderer = Renderer::new(lines);
     let background = Rgb565Be::from_rgb8(suite.background());
     draw_frame(&scene, &mut renderer, pump, background, SUITE_LINES)
         .expect("the sink cannot fail and the rooms are large enough");

@@ -37,7 +37,7 @@ pub use effects::{
     Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
     Numbered, Ranked, Shady, Transparent, by_effect,
 };
-pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook};
+pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook, LeanTextured};
 pub use listed::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, LIST_INDICES, LIST_TABLE, ListedError, build_crate,
     build_listed, crate_list, teapot_list,
