@@ -184,6 +184,14 @@ pub(super) fn reduced(places: [[i32; 2]; 3], period: Period) -> Option<[(i32, i3
 /// Whether some triangle of a mesh with these places may be too wide or too far away for
 /// [`Corners`]: `false` where none can be.
 pub(super) fn may_be_refused(places: &[[i32; 2]], period: Period) -> bool {
+    // Most meshes lie within half of that either way, which is quickly seen.
+    let half = |v: i32| v.wrapping_add(WIDEST / 2) as u32;
+    let all = places
+        .iter()
+        .fold(0, |all, p| all | half(p[0]) | half(p[1]));
+    if all < WIDEST as u32 {
+        return false;
+    }
     let (mut least, mut most) = ([i32::MAX; 2], [i32::MIN; 2]);
     for place in places {
         for i in 0..2 {
