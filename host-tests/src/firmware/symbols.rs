@@ -91,7 +91,7 @@ mod tests {
                 (0x100, 0x20, "_ZN8scanbeam4span4draw17h836dc6be1353f5a2E"),
                 (0x140, 8, "memset"),
                 (0x140, 8, "__aeabi_memset"),
-                (0x120, 6, "_ZN10_$LT$u8$GT$3new17h836dc6be1353f5a2E"),
+                (0x120, 6, "_ZN11_$LT$u8$GT$3new17h836dc6be1353f5a2E"),
             ]
             .into_iter(),
         );
