@@ -302,10 +302,10 @@ impl<F: Pixel> Paint for Gouraud<F> {
             Self::packed_planes(triangle, area, planes);
             return Fill::Plain;
         }
-        if matches!(size, Size::Sharp | Size::Thin)
-            && let Some(fill) = Self::even_planes(colour, planes)
-        {
-            return fill;
+        if matches!(size, Size::Sharp | Size::Thin) {
+            if let Some(fill) = Self::even_planes(colour, planes) {
+                return fill;
+            }
         }
         plane_shades(triangle, size, area, planes)
     }

@@ -202,9 +202,10 @@ pub(super) fn nearer_bits<W>(
         }
         base += pixels;
     }
-    if let Some(first) = from
-        && let Some(run) = run.get_mut(first as usize..base as usize)
-    {
+    let Some(first) = from else {
+        return;
+    };
+    if let Some(run) = run.get_mut(first as usize..base as usize) {
         fill(first, run);
     }
 }

@@ -357,10 +357,11 @@ impl<'t, L> Scene<'_, 't, L> {
                     .get(usize::from(i))
                     .map(|v| v.place)
             };
-            if let [Some(a), Some(b), Some(c)] = object.corner.map(at)
-                && let Some(bin) = bin_of([a, b, c], &picture)
-                && let Some(head) = self.bins.get_mut(bin)
-            {
+            let bin = match object.corner.map(at) {
+                [Some(a), Some(b), Some(c)] => bin_of([a, b, c], &picture),
+                _ => None,
+            };
+            if let Some(head) = bin.and_then(|bin| self.bins.get_mut(bin)) {
                 *head = object.next;
             }
             self.objects.truncate(index);
