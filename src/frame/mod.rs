@@ -9,6 +9,7 @@
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
+//! | `spans` | the pixels of a span |
 //! | `send` | all lines of a frame through a pump |
 
 mod advance;
@@ -18,6 +19,7 @@ mod renderer;
 mod scene;
 mod send;
 mod slot;
+mod spans;
 mod thin;
 
 pub use renderer::{FastMemory, LineError, Memory, Renderer};

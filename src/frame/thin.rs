@@ -1,6 +1,6 @@
 //! What triangles have that a plane serves, and those that are too thin for one (H1, K5).
 
-use super::line::Span;
+use super::spans::Span;
 use crate::look::{Parts, ThinSpan};
 use crate::span::{Size, Triangle};
 

@@ -1,0 +1,174 @@
+//! The pixels of a span, and those of them that are nearest.
+
+use super::renderer::View;
+use super::slot::{Active, Flags};
+use super::thin::{MARGIN, thin_span};
+use crate::active::CacheSlot;
+use crate::look::{Depths, Fill, Look, Place, WordOf, write_depth};
+use crate::visible::{Mask, Part};
+
+/// A line that is drawn.
+pub(super) struct Line<'a, 'v, W> {
+    pub(super) view: &'a View<'v>,
+    pub(super) number: u32,
+    pub(super) pixels: &'a mut [W],
+}
+
+/// The columns of a span.
+#[derive(Clone, Copy)]
+pub(super) struct Span {
+    pub(super) start: u32,
+    pub(super) end: u32,
+}
+
+/// The depth of a line, as far as it is known.
+pub(super) struct Known<'a> {
+    pub(super) cells: &'a mut [u32],
+    pub(super) written: &'a mut Mask,
+}
+
+/// A triangle as it is drawn: from a slot, or set up for one line.
+#[derive(Clone, Copy)]
+pub(super) struct Drawn<'a, P> {
+    pub(super) item: &'a Active<P>,
+    pub(super) flags: Flags,
+    pub(super) object: u16,
+}
+
+/// Colours those pixels of a span that are at least as near as what is there.
+#[inline(never)]
+pub(super) fn nearer<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+    known: Known<'_>,
+) {
+    let (column, line) = (span.start, out.number);
+    let [mut at, mut step, down] = drawn.item.depth;
+    at = at
+        .wrapping_add(step.wrapping_mul(column))
+        .wrapping_add(down.wrapping_mul(line));
+    if drawn.flags.lacks_depth() {
+        [at, step] = thin_depth::<L>(drawn.object, span, out);
+    }
+    let part = known.written.cover_part(span.start, span.end, |column| {
+        if let Some(cell) = known.cells.get_mut(column) {
+            *cell = 0;
+        }
+    });
+    let columns = span.start as usize..span.end as usize;
+    let (Some(cells), Some(run)) = (
+        known.cells.get_mut(columns.clone()),
+        out.pixels.get_mut(columns),
+    ) else {
+        return;
+    };
+    let mut depth = Depths { cells, at, step };
+    if part == Part::None {
+        write_depth(&mut depth);
+        return colour::<L>(drawn, span, out);
+    }
+    let at = Place {
+        span: column,
+        column,
+        line,
+    };
+    let draws = out.view.draws;
+    let fill = drawn.flags.fill();
+    if fill == Fill::Thin {
+        let planes = thin_planes::<L>(drawn.object, span, line, out.view);
+        return L::fill_nearer(Fill::Wide, &planes, at, draws, run, depth);
+    }
+    L::fill_nearer(fill, &drawn.item.planes, at, draws, run, depth);
+}
+
+/// The depth of a thin triangle at a span's first pixel, and its step.
+#[cold]
+#[inline(never)]
+pub(super) fn thin_depth<L: Look>(
+    object: u16,
+    span: Span,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> [u32; 2] {
+    let Some(triangle) = out.view.triangle_of::<L>(object) else {
+        return [0; 2];
+    };
+    let ends = thin_span(&triangle, span, out.number);
+    let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
+    let first = at.wrapping_add(step.wrapping_mul(span.start));
+    [first.wrapping_add(MARGIN), step]
+}
+
+/// The planes of a thin triangle on a line.
+#[cold]
+#[inline(never)]
+pub(super) fn thin_planes<L: Look>(
+    object: u16,
+    span: Span,
+    line: u32,
+    view: &View<'_>,
+) -> L::Planes {
+    let mut planes = L::EMPTY;
+    if let Some(triangle) = view.triangle_of::<L>(object) {
+        let ends = thin_span(&triangle, span, line);
+        L::set_up_thin(&ends, object, view.draws, &mut planes);
+    }
+    planes
+}
+
+/// Colours a span.
+#[inline(always)]
+pub(super) fn colour<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    colour_run::<L>(drawn, span, span, out);
+}
+
+/// Colours a run of a span.
+#[inline(always)]
+pub(super) fn colour_run<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    run: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
+        return;
+    };
+    let at = Place {
+        span: span.start,
+        column: run.start,
+        line: out.number,
+    };
+    let draws = out.view.draws;
+    let fill = drawn.flags.fill();
+    if fill == Fill::Thin {
+        let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
+        return L::fill(Fill::Wide, &planes, at, draws, pixels);
+    }
+    L::fill(fill, &drawn.item.planes, at, draws, pixels);
+}
+
+impl<'a, P> Drawn<'a, P> {
+    /// What is in a slot.
+    #[inline(always)]
+    pub(super) fn of(slot: &'a CacheSlot<Active<P>>) -> Self {
+        Self {
+            item: &slot.item,
+            flags: Flags(slot.flags),
+            object: slot.object,
+        }
+    }
+}
+
+impl Span {
+    #[inline(always)]
+    pub(super) fn of(word: u32) -> Self {
+        Self {
+            start: word >> 16,
+            end: word & 0xFFFF,
+        }
+    }
+}
