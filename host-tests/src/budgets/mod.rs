@@ -99,7 +99,7 @@ pub fn write(path: &Path, budgets: &Budgets) -> Result<(), Box<dyn Error>> {
 }
 
 /// What does not hold: figures above their limits, and those that have no limit. Code of another
-/// compiler than [`COMPILER`] may be larger by [`TOLERANCE_OTHER`].
+/// compiler than `COMPILER` may be larger by `TOLERANCE_OTHER`.
 #[must_use]
 pub fn broken(budgets: &Budgets, figures: &Figures, compiler: &str) -> Vec<String> {
     let is_other = !compiler.is_empty() && release(compiler) != COMPILER;

@@ -21,11 +21,11 @@ pub struct Counts {
     pub traits: usize,
     /// Constants of traits that are true or false.
     pub bools: usize,
-    /// Functions that take [`MANY_VALUES`] or more values, once tuples are opened.
+    /// Functions that take 8 or more values, once tuples are opened.
     pub wide_functions: usize,
     /// Functions that take a tuple.
     pub tuple_functions: usize,
-    /// Files of more than [`LONG_FILE`] lines, tests among them.
+    /// Files of more than 500 lines, tests among them.
     pub long_files: usize,
     /// Type parameters of the pipeline's parts.
     pub pipeline_parameters: usize,
