@@ -19,6 +19,10 @@ pub mod files;
 pub mod formats;
 pub mod frames;
 pub mod list;
+// What the reader of models says, where it says something.
+#[macro_use]
+#[path = "../../src/stdio.rs"]
+pub mod stdio;
 // The file itself, not the package: its dependencies would take longer to build than the rest.
 #[path = "../../src/model/mod.rs"]
 pub mod model;
