@@ -6,14 +6,13 @@
 //! Texture memory follows, for people: what a texture in blocks saves against one in rows (B5).
 
 use crate::args::CacheArgs;
-use crate::image_out::{write_atomically, write_image};
+use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::memory_model::{
     Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
 };
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::plot::{Chart, Marks, Series};
-use crate::stdio;
 use crate::texture_report::texture_table;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::scan_out::Pump;
@@ -68,13 +67,7 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
         say!("{}", texture_table());
     }
     if let Some(folder) = &args.output {
-        std::fs::create_dir_all(folder).map_err(|error| {
-            format!(
-                "{}: cannot be made: {}",
-                folder.display(),
-                stdio::reason(&error)
-            )
-        })?;
+        make_folder(folder)?;
         for (name, chart) in charts {
             let at = |extension| folder.join(format!("cache_{name}.{extension}"));
             write_atomically(&at("svg"), chart.to_svg().as_bytes())?;

@@ -5,7 +5,7 @@
 //! as small as a microcontroller's, and the tables say how much of it was used (M4, S5, K12).
 
 use crate::args::DemoArgs;
-use crate::image_out::{Frame, ImageError, write_animation, write_image, write_strip};
+use crate::image_out::{Frame, ImageError, make_folder, write_animation, write_image, write_strip};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
@@ -67,10 +67,7 @@ const FIRST_TURN: f32 = -0.4;
 /// little memory.
 pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
     let folder = &args.output;
-    std::fs::create_dir_all(folder).map_err(|error| ImageError {
-        file: folder.clone(),
-        reason: format!("cannot be made: {}", crate::stdio::reason(&error)),
-    })?;
+    make_folder(folder)?;
     // Draws nothing when stderr is not a terminal.
     let style = ProgressStyle::with_template("{msg} {wide_bar} {pos}/{len} frames")?;
     let bar = ProgressBar::new(u64::from(args.frames))

@@ -8,12 +8,12 @@ use crate::figures::{Bench, Figure, Size, growth};
 use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
-use crate::image_out::{Frame, write_atomically, write_image};
+use crate::image_out::{Frame, make_folder, write_atomically, write_image};
 use crate::lean_frames::lean_frame;
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
-use crate::{preset_sizes, profile_report, stdio};
+use crate::{preset_sizes, profile_report};
 use scanbeam::list::TextureSlot;
 use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
@@ -197,13 +197,7 @@ fn figures(boards: &[Compared]) -> BTreeMap<String, Vec<Figure>> {
 
 /// Writes the growth of the first board.
 fn plot(folder: &Path, boards: &[Compared]) -> Result<(), Box<dyn Error>> {
-    std::fs::create_dir_all(folder).map_err(|error| {
-        format!(
-            "{}: cannot be made: {}",
-            folder.display(),
-            stdio::reason(&error)
-        )
-    })?;
+    make_folder(folder)?;
     let curves = boards.first().and_then(|board| board.bench.as_ref());
     let plot = growth::plot(curves.map_or(&[], |bench| &bench.growth));
     write_atomically(&folder.join("growth.svg"), plot.to_svg().as_bytes())?;

@@ -136,6 +136,19 @@ impl fmt::Display for ImageError {
 
 impl std::error::Error for ImageError {}
 
+/// Makes a folder, and those above it, where they are missing.
+///
+/// # Errors
+/// Anything that the file system refuses.
+pub fn make_folder(folder: &Path) -> Result<(), ImageError> {
+    std::fs::create_dir_all(folder).map_err(|error| {
+        ImageError::new(
+            folder,
+            format_args!("cannot be made: {}", stdio::reason(&error)),
+        )
+    })
+}
+
 /// Writes all bytes or, on error, leaves what was there before.
 ///
 /// # Errors

@@ -28,9 +28,8 @@ mod tests;
 mod texture;
 
 use crate::args::AccuracyArgs;
-use crate::image_out::{write_atomically, write_image};
+use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::plot::Scatter;
-use crate::stdio;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use cost::Costs;
 pub(crate) use cost::solve;
@@ -201,13 +200,7 @@ pub fn run(args: &AccuracyArgs) -> Result<(), Box<dyn Error>> {
         say!("{}", note.as_deref().unwrap_or(cost));
     }
     if let Some(folder) = &args.output {
-        std::fs::create_dir_all(folder).map_err(|error| {
-            format!(
-                "{}: cannot be made: {}",
-                folder.display(),
-                stdio::reason(&error)
-            )
-        })?;
+        make_folder(folder)?;
         for (name, plot) in scatter::plots(&rows) {
             let file = |extension: &str| folder.join(format!("{name}.{extension}"));
             write_atomically(&file("svg"), plot.to_svg().as_bytes())?;

@@ -14,10 +14,10 @@ use crate::draw::{CrewSettings, Drawn, draw, draw_model};
 use crate::figures::gate::Record;
 use crate::firmware::BOARDS;
 use crate::firmware_report::{picture, picture_b, picture_suite};
-use crate::image_out::{Frame, write_atomically};
+use crate::image_out::{Frame, make_folder, write_atomically};
 use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};
-use crate::{accuracy, bench, cache_report, stdio};
+use crate::{accuracy, bench, cache_report};
 use page::Page;
 use scanbeam::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
 use scenes::{HEIGHT, LEAN, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
@@ -44,13 +44,7 @@ pub fn run(args: &ReportArgs) -> Result<(), Box<dyn Error>> {
         peers(&mut page)?;
     }
     memory(&mut page);
-    std::fs::create_dir_all(folder).map_err(|error| {
-        format!(
-            "{}: cannot be made: {}",
-            folder.display(),
-            stdio::reason(&error)
-        )
-    })?;
+    make_folder(folder)?;
     let file = folder.join("index.html");
     write_atomically(&file, page.finish().as_bytes())?;
     say!("{}", file.display());
