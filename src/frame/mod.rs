@@ -10,11 +10,13 @@
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
 //! | `spans` | the pixels of a span |
-//! | `send` | all lines of a frame through a pump |
+//! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
+//! | `relay` | a frame of two cores |
 
 mod advance;
 mod line;
 mod plan;
+mod relay;
 mod renderer;
 mod scene;
 mod send;
@@ -22,5 +24,8 @@ mod slot;
 mod spans;
 mod thin;
 
+pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
-pub use send::{FrameError, FrameUse, draw_frame};
+#[cfg(feature = "async")]
+pub use send::draw_frame_async;
+pub use send::{FrameError, FrameUse, draw_continuous, draw_frame};
