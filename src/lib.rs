@@ -53,7 +53,6 @@
 //! | smooth or textured meshes in half to two thirds of the instructions | [`guide::fewer_instructions`], [`scene`], [`look`], [`frame`] |
 //! | other choices: flat, no depth, textures, blending | the presets beside [`GouraudDepth`] |
 //! | a scene as data, in flash or in a ring that grows | [`list`], [`ListRunner`] |
-//! | the hardware that the ideas come from, bit for bit | [`model`] |
 //! | which requirement is met where, and which test says so | [`guide::rows`] |
 #![no_std]
 #![forbid(unsafe_code)]
@@ -76,7 +75,6 @@ pub mod guide;
 mod link;
 pub mod list;
 pub mod look;
-pub mod model;
 mod num;
 mod pipeline;
 mod pixel;
@@ -101,8 +99,8 @@ pub use composite::{Canvas, DrawnLines};
 pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
     Affine, Assembled, Blend, Blended, Camera, CameraError, Clip, Colour, Coordinate, Cull,
-    DepthFunction, DirectionalLight, Dropped, Empty, Faces, Factor, Finish, Flat, Gouraud, Kept,
-    Light, Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Mark, Marked, Material,
+    DepthFunction, DirectionalLight, Dropped, Empty, Faces, Factor, Filed, Finish, Flat, Gouraud,
+    Kept, Light, Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Mark, Marked, Material,
     MatrixRange, Mesh, MeshError, Object, Phong, PixelLamps, Priority, QuadSplit, Room, Scale,
     SceneVertex, Screen, ScreenError, ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight,
     ShadowMemory, ShadowRoom, Sphere, Surface,
@@ -110,10 +108,10 @@ pub use geometry::{
 pub use link::Link;
 pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
 pub use pipeline::{
-    BlockFixed, CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth,
-    FlatPainter, GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts,
-    PhongDepth, Pipeline, Prioritised, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, Windowed,
-    WithDepth, WithShading, WordOf, Worded,
+    BlockFixed, CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FiledOf,
+    FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf,
+    Parts, PhongDepth, Pipeline, Prioritised, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf,
+    Windowed, WithDepth, WithShading, WordOf, Worded,
 };
 pub use renderer::{
     Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,

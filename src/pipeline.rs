@@ -174,6 +174,11 @@ pub type Interpolated<P, I> = Parts<
 
 /// The word of a pipeline's pixels.
 pub type WordOf<P> = <<P as Pipeline>::Pixel as PixelFormat>::Word;
+/// A triangle read back from a scene of a pipeline.
+pub type FiledOf<P> = crate::geometry::Filed<
+    <<P as Pipeline>::Shading as Shading>::Vertex,
+    <<P as Pipeline>::Shading as Shading>::Face,
+>;
 /// The vertex record of a pipeline.
 pub type VertexOf<P> = crate::geometry::SceneVertex<<<P as Pipeline>::Shading as Shading>::Vertex>;
 /// The object record of a pipeline.

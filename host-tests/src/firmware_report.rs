@@ -15,7 +15,6 @@ use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::{preset_sizes, profile_report};
 use scanbeam::list::TextureSlot;
-use scanbeam::model::draw_model_frame;
 use scanbeam::scan_out::Pump;
 use scanbeam::texture::{Quality, Size as TextureSize, Texture, Textured, Words, Wrap};
 use scanbeam::{
@@ -23,6 +22,7 @@ use scanbeam::{
     GouraudDepth, GouraudPainter, ListMemory, ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene,
     TexturedDepth, Textures, Worded, draw_frame,
 };
+use scanbeam_model::draw_model_frame;
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,
     LIST_TABLE, LookB, LookF, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SUITE,

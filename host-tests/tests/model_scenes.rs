@@ -2,11 +2,11 @@
 //! (K4, K5, M1).
 
 use crate::common::{LineRooms, SceneRooms};
-use scanbeam::model::{
-    CornerColours, ModelRenderer, PipeCounts, PipeMemory, ProcessingFormat, Token,
-};
 use scanbeam::{
     Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, Rgb888, Scene, SpanCounts,
+};
+use scanbeam_model::{
+    CornerColours, ModelRenderer, PipeCounts, PipeMemory, ProcessingFormat, Token,
 };
 use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VERTICES, WIDTH};
 

@@ -5,12 +5,12 @@
 
 use crate::common::{LineRooms, Rng, SceneRooms};
 use scanbeam::list::Window;
-use scanbeam::model::{CuspPolygon, ModelSpan, Wins, priority_contest};
 use scanbeam::{
     Affine, Camera, CellOf, Clip, Composited, Cull, Finish, FlatDepth, Forward, GouraudDepth,
     Instance, Interleave, Interpolated, Pipeline, Prioritised, Priority, Rgb565Be, Rgb888, Scene,
     Screen, ScreenVertex, Shading, SkinOf, Windowed, WordOf,
 };
+use scanbeam_model::{CuspPolygon, ModelSpan, Wins, priority_contest};
 use scenes::CUBE;
 use std::ops::Range;
 

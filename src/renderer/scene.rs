@@ -6,12 +6,12 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::composite::TextureSource;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Light, LightingModel,
-    Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Shading, Sphere, Store,
-    on_screen, triangles,
+    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Filed, Light,
+    LightingModel, Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Shading,
+    Sphere, Store, on_screen, triangles,
 };
 use crate::link::Link;
-use crate::pipeline::{DrawableOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
+use crate::pipeline::{DrawableOf, FiledOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
@@ -610,6 +610,20 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     #[must_use]
     pub fn lines(&self) -> Range<u16> {
         self.lines.clone()
+    }
+
+    /// The triangle that was filed as number `index`, from 0 on in order of submission; `None`
+    /// beyond the last.
+    #[must_use]
+    pub fn filed(&self, index: u16) -> Option<FiledOf<P>> {
+        let object = self.object(index)?;
+        let corners = object.corners(self.vertices())?;
+        Some(Filed {
+            places: corners.map(|corner| (corner.x, corner.y)),
+            depths: corners.map(|corner| corner.depth),
+            attributes: corners.map(|corner| corner.attribute),
+            face: object.face,
+        })
     }
 
     /// Bytes of the slow arena in use: vertices, objects and buckets.

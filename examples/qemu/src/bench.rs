@@ -22,13 +22,13 @@ use crate::console::Console;
 use crate::count::Counter;
 use crate::rooms::Rooms;
 use core::hint::black_box;
-use scanbeam::model::{
-    ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
-};
 use scanbeam::{
     Camera, Counted, Cull, DepthUse, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
     Instance, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888,
     Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf, Worded,
+};
+use scanbeam_model::{
+    ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.

@@ -6,13 +6,13 @@ use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::list::TextureSlot;
-use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{
     BlockFixed, Crew, Deferred, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation,
     Lamplight, LineMemory, LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be,
     Scene, SceneMemory, Textures, Worded, draw_frame, draw_frame_indexed, send_frame,
 };
+use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
     LEAN, Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE,
