@@ -2,9 +2,10 @@
 //! (K4, K5, M1).
 
 use crate::common::{LineRooms, SceneRooms};
-use scanbeam::{
-    Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, Rgb888, Scene, SpanCounts,
-};
+use scanbeam::Scene;
+use scanbeam::pipeline::{Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline};
+use scanbeam::pixel::Rgb888;
+use scanbeam::stats::SpanCounts;
 use scanbeam_model::{
     CornerColours, ModelRenderer, PipeCounts, PipeMemory, ProcessingFormat, Token,
 };

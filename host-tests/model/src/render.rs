@@ -15,11 +15,11 @@ use super::interpreter::{Output, Pipe, PipeCounts, PipeMemory};
 use super::token::{Argb10, GlobalMode, StartDma, Target, Token};
 use super::vertex::{FormatWord, PLACE, ParameterRam, VertexFormat};
 use super::walker::{Segment, ZFlags, draw};
+use scanbeam::mesh::Colour;
+use scanbeam::pipeline::{Filed, Flat, Gouraud, LineDepth, Pipeline, Scale, Shading, WordOf};
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::{LineBuf, Pump, ScanError, ScanoutDma, Window};
-use scanbeam::{
-    Colour, Filed, Flat, Gouraud, LineDepth, Pipeline, PixelFormat, RendererError, Scale, Scene,
-    Shading, WordOf,
-};
+use scanbeam::{RendererError, Scene};
 
 /// Pixels of a segment, at most: what the 11 bits of a DMA's length count.
 pub const SEGMENT: usize = 2047;

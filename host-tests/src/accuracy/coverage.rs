@@ -2,7 +2,9 @@
 
 use super::stage::{Place, Rng, Setting, Stage, covers};
 use super::{Name, Row};
-use scanbeam::{FlatPainter, Rgb888, Scene};
+use scanbeam::Scene;
+use scanbeam::pipeline::FlatPainter;
+use scanbeam::pixel::Rgb888;
 use scanbeam_model::{ModelRenderer, PipeMemory};
 use std::error::Error;
 
