@@ -22,7 +22,7 @@ use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
 
 /// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`] or
-/// [`Rgb565Be`](crate::Rgb565Be). Texels have the same order of bytes.
+/// [`Rgb565Be`](crate::pixel::Rgb565Be). Texels have the same order of bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Textured<F>(PhantomData<F>);
 

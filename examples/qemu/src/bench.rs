@@ -22,13 +22,17 @@ use crate::console::Console;
 use crate::count::Counter;
 use crate::rooms::Rooms;
 use core::hint::black_box;
-use scanbeam::model::{
-    ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
+use scanbeam::pipeline::{
+    Counted, DepthUse, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, ObjectOf,
+    Pipeline, SceneVertex, WordOf, Worded,
 };
+use scanbeam::pixel::{Rgb565, Rgb888};
+use scanbeam::stats::SpanCounts;
 use scanbeam::{
-    Camera, Counted, Cull, DepthUse, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Instance, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888,
-    Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf, Worded,
+    Camera, Cull, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene, SceneMemory, Screen,
+};
+use scanbeam_model::{
+    ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.
