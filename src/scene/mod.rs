@@ -24,7 +24,7 @@ mod texture;
 pub use budget::Budget;
 pub use draw::{Draw, DrawState, Skin};
 pub use error::{BeginError, DrawError, Full};
-pub(crate) use record::NONE;
+pub(crate) use record::{NONE, ORIGIN};
 pub use record::{Object, TexturePlace, Vertex};
 pub(crate) use texture::{Form, Square};
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
