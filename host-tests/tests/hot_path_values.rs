@@ -8,7 +8,7 @@ use crate::hot::exact::within;
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Look};
-use scanbeam::scene::{Draw, Scene, Scissor};
+use scanbeam::scene::{DepthFunction, DepthTest, Draw, Scene, Scissor};
 use scanbeam::{Cull, PixelFormat, Rgb565Be, Rgb888, Screen};
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -50,11 +50,38 @@ impl Cut {
     }
 }
 
+/// A function, and whether it lets nearer, equal and farther depths pass.
+type Function = (DepthFunction, [bool; 3]);
+
+const NEARER_OR_EQUAL: Function = (DepthFunction::NEARER_OR_EQUAL, [true, true, false]);
+
+const FUNCTIONS: [Function; 8] = [
+    NEARER_OR_EQUAL,
+    (DepthFunction::NEVER, [false; 3]),
+    (DepthFunction::ALWAYS, [true; 3]),
+    (DepthFunction::NEARER, [true, false, false]),
+    (DepthFunction::EQUAL, [false, true, false]),
+    (DepthFunction::FARTHER_OR_EQUAL, [false, true, true]),
+    (DepthFunction::FARTHER, [false, false, true]),
+    (DepthFunction::DIFFERENT, [true, false, true]),
+];
+
+/// Whether a depth that compares so passes.
+fn passes((_, passing): Function, order: Ordering) -> bool {
+    match order {
+        Ordering::Greater => passing[0],
+        Ordering::Equal => passing[1],
+        Ordering::Less => passing[2],
+    }
+}
+
 /// A draw call of one triangle of one colour, and its values.
 #[derive(Clone, Debug)]
 struct Call {
     corners: [Corner; 3],
     cut: Option<Cut>,
+    /// Where it is seen, and where its depth is kept.
+    test: [Function; 2],
 }
 
 impl Call {
@@ -74,12 +101,21 @@ impl Call {
             w: w * rng.between(1.0, slant),
             colour,
         });
-        Self { corners, cut: None }
+        Self {
+            corners,
+            cut: None,
+            test: [NEARER_OR_EQUAL; 2],
+        }
     }
 
     fn dress(&self, call: &mut Draw<'_, '_, i32>) {
         call.cull = Cull::None;
         call.scissor = self.cut.as_ref().map(Cut::scissor);
+        let [colour_if, depth_if] = self.test.map(|(function, _)| function);
+        call.depth = DepthTest {
+            colour_if,
+            depth_if,
+        };
     }
 
     /// Whether it has this pixel.
@@ -94,20 +130,47 @@ impl Call {
     }
 }
 
-/// How depths compare; `None` where that is not known.
-fn compare(one: [f64; 2], other: [f64; 2]) -> Option<Ordering> {
-    let apart = one[0] - other[0];
-    (apart.abs() > one[1] + other[1]).then(|| apart.total_cmp(&0.0))
+/// A depth that is there: nothing, or that of a triangle.
+#[derive(Clone, Copy)]
+struct There<'a> {
+    of: Option<&'a [Corner; 3]>,
+    depth: [f64; 2],
+}
+
+/// How a depth compares with that which is there; `None` where that is not known. A triangle is as far as itself.
+fn compare(here: There<'_>, there: There<'_>) -> Option<Ordering> {
+    let same =
+        |a: &[Corner; 3], b: &[Corner; 3]| (0..3).all(|i| a[i].at == b[i].at && a[i].w == b[i].w);
+    match (here.of, there.of) {
+        (Some(a), Some(b)) if same(a, b) => return Some(Ordering::Equal),
+        _ => {}
+    }
+    let apart = here.depth[0] - there.depth[0];
+    (apart.abs() > here.depth[1] + there.depth[1]).then(|| apart.total_cmp(&0.0))
 }
 
 /// The colour of a pixel; `None` where it hangs on what depth may err.
 fn pixel(calls: &[Call], x: u16, y: u16, screen: Screen, by_depth: bool) -> Option<[f64; 3]> {
-    let (mut colour, mut depth) = (BACKGROUND.map(f64::from), [0.0; 2]);
+    let mut colour = BACKGROUND.map(f64::from);
+    let mut there = There {
+        of: None,
+        depth: [0.0; 2],
+    };
     for call in calls.iter().filter(|call| call.covers(x, y, screen)) {
-        let here = call.depth(x, y);
-        if !by_depth || compare(here, depth)? != Ordering::Less {
+        let here = There {
+            of: Some(&call.corners),
+            depth: call.depth(x, y),
+        };
+        let mut passing = [true; 2];
+        if by_depth {
+            let order = compare(here, there)?;
+            passing = call.test.map(|function| passes(function, order));
+        }
+        if passing[0] {
             colour = call.corners[0].colour.map(f64::from);
-            depth = here;
+        }
+        if passing[1] {
+            there = here;
         }
     }
     Some(colour)
@@ -208,6 +271,41 @@ fn scissors_keep_what_is_inside_or_outside() {
                 call
             })
             .collect();
+        let here = if round % 2 == 0 {
+            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, |_| 0.51)
+        } else {
+            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, step_565)
+        };
+        counts = [0, 1].map(|i| counts[i] + here[i]);
+    }
+    assert!(
+        counts[0] > 1_000_000 && counts[1] < counts[0] / 100,
+        "{counts:?}"
+    );
+}
+
+/// H9: all functions for colour and for depth, of calls in any order; some are drawn again, so that depths are equal.
+#[test]
+fn depth_functions_decide_on_colour_and_on_depth() {
+    let mut rng = Rng::new(1_602);
+    let mut counts = [0; 2];
+    for round in 0..250 {
+        let screen = Screen::new(rng.pick(&[33, 70, 128]), 40).unwrap();
+        let mut calls: Vec<Call> = Vec::new();
+        for _ in 0..2 + rng.below(9) {
+            let mut call = Call::new(&mut rng, screen);
+            if rng.below(3) == 0 && !calls.is_empty() {
+                let again = &calls[rng.below(calls.len() as u32) as usize];
+                for (corner, &old) in call.corners.iter_mut().zip(&again.corners) {
+                    (corner.at, corner.w) = (old.at, old.w);
+                }
+            }
+            if rng.below(3) > 0 {
+                call.test = [(); 2].map(|()| rng.pick(&FUNCTIONS));
+            }
+            call.cut = (rng.below(4) == 0).then(|| Cut::new(&mut rng, screen));
+            calls.push(call);
+        }
         let here = if round % 2 == 0 {
             hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, |_| 0.51)
         } else {

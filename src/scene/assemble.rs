@@ -76,7 +76,7 @@ impl<'t, L> Scene<'_, 't, L> {
             texture: skin.map(|skin| skin.texture),
             budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
             scissor: draw.scissor,
-            ..DrawState::EMPTY
+            depth: draw.depth,
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {

@@ -27,4 +27,22 @@ impl DepthTest {
         colour_if: DepthFunction::NEARER_OR_EQUAL,
         depth_if: DepthFunction::NEARER_OR_EQUAL,
     };
+
+    /// The same of this function, for colour and depth.
+    #[must_use]
+    pub const fn new(function: DepthFunction) -> Self {
+        Self {
+            colour_if: function,
+            depth_if: function,
+        }
+    }
+
+    /// The same, and depth is left as it is.
+    #[must_use]
+    pub const fn without_write(self) -> Self {
+        Self {
+            depth_if: DepthFunction::NEVER,
+            ..self
+        }
+    }
 }

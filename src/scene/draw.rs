@@ -23,6 +23,8 @@ pub struct Draw<'a, 't, C = i16> {
     pub texture: Option<Skin<'a, 't>>,
     /// The rectangle that it is cut to, or that is cut out of it.
     pub scissor: Option<Scissor>,
+    /// Where it is seen and where its depth is kept, by how that compares.
+    pub depth: DepthTest,
 }
 
 /// How a texture lies on a mesh.
@@ -52,6 +54,7 @@ impl<'a, C> Draw<'a, '_, C> {
             colour: [255; 3],
             texture: None,
             scissor: None,
+            depth: DepthTest::HIDES,
         }
     }
 }

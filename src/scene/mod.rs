@@ -24,8 +24,9 @@ mod record;
 mod scissor;
 mod texture;
 
+pub use crate::geometry::DepthFunction;
 pub use budget::Budget;
-pub(crate) use depth::DepthTest;
+pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub(crate) use record::NONE;
