@@ -73,6 +73,8 @@ impl<'t, L> Scene<'_, 't, L> {
             first: self.objects.len() as u16,
             texture: skin.map(|skin| skin.texture),
             budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
+            scissor: draw.scissor,
+            depth: draw.depth,
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
@@ -81,6 +83,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 first_face: 0,
             });
         }
+        self.has_values |= state.has_values();
         self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
