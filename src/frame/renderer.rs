@@ -209,6 +209,8 @@ pub struct View<'a> {
     pub(super) objects: &'a [Object],
     pub(super) draws: &'a [DrawState<'a>],
     pub(super) frame: Frame,
+    /// Whether a draw call has values that few have.
+    pub(super) values: bool,
 }
 
 impl<'a> View<'a> {
@@ -221,11 +223,21 @@ impl<'a> View<'a> {
             objects: scene.objects.as_slice(),
             draws: scene.draws.as_slice(),
             frame: Frame {
-                left: screen.left(),
-                top: screen.top(),
                 width: i32::from(screen.width()),
             },
+            values: scene.has_values,
         }
+    }
+
+    /// The state of an object's draw call.
+    pub(super) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
+        DrawState::of(object, self.draws)
+    }
+
+    /// Whether an object's draw call has values that few have.
+    #[inline(always)]
+    pub(super) fn has_values(&self, object: u16) -> bool {
+        self.values && self.state(object).is_some_and(DrawState::has_values)
     }
 
     /// The corners of a triangle.

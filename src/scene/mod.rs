@@ -8,6 +8,7 @@
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `cut` | triangles that cross a plane |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
+//! | `scissor`, `depth` | what else a draw call does to its pixels, as values |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
@@ -15,17 +16,22 @@
 mod assemble;
 mod budget;
 mod cut;
+mod depth;
 mod draw;
 mod error;
 mod project;
 mod record;
+mod scissor;
 mod texture;
 
+pub use crate::geometry::DepthFunction;
 pub use budget::Budget;
+pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Skin};
 pub use error::{BeginError, DrawError, Full};
-pub(crate) use record::NONE;
+pub(crate) use record::{NONE, ORIGIN};
 pub use record::{Object, TexturePlace, Vertex};
+pub use scissor::Scissor;
 pub(crate) use texture::{Form, Square};
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
@@ -97,6 +103,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) draws: Arena<'m, DrawState<'t>>,
     pub(crate) lines: Range<u16>,
     pub(crate) scale: Scale,
+    /// Whether a draw call has values that few have.
+    pub(crate) has_values: bool,
     pub(crate) assembled: Assembled,
     /// Counts changes, so that a renderer notices them.
     pub(crate) generation: u32,
@@ -116,6 +124,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             draws: Arena::new(memory.draws),
             lines: 0..0,
             scale,
+            has_values: false,
             assembled: Assembled::default(),
             generation: 0,
             look: PhantomData,
@@ -157,6 +166,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.draws.clear();
         self.camera = Some(*camera);
         self.lines = lines;
+        self.has_values = false;
         self.assembled = Assembled::default();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
@@ -207,7 +217,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             .filter(|&place| place != Vertex::OUTSIDE)
             .max()
             .map_or(0, first_line);
-        let end = lowest - self.screen.top();
+        let end = lowest - ORIGIN;
         end.clamp(self.lines.start.into(), self.lines.end.into()) as u16
     }
 

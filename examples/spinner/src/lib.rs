@@ -15,9 +15,10 @@ use scanbeam::frame::{
     FastMemory, FrameError, FrameUse, Memory as LineMemory, Renderer, draw_frame,
 };
 use scanbeam::look::{Gouraud, Look};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use scanbeam::scene::{Draw, Memory, Scene};
-use scanbeam::{Affine, Camera, Light, PixelFormat, Rgb565Be, Screen};
+use scanbeam::{Affine, Camera, Light, Screen};
 use static_cell::ConstStaticCell;
 
 /// Smooth colours, pixels in the order of the wire.

@@ -14,8 +14,9 @@ use embedded_display_controller::{
     DisplayConfiguration, DisplayController, DisplayControllerLayer, PixelFormat,
 };
 use panic_halt as _;
+use scanbeam::pixel::{PixelFormat as _, Rgb565};
 use scanbeam::scan_out::{FrameBuffer, FrameBufferSink, Pump, SwapFlag};
-use scanbeam::{PixelFormat as _, Rgb565, frame::draw_frame, look::Gouraud};
+use scanbeam::{frame::draw_frame, look::Gouraud};
 use spinner::{BACKGROUND, HEIGHT, TURN, WIDTH, lend};
 use stm32h7xx_hal::gpio::Speed;
 use stm32h7xx_hal::{ltdc::Ltdc, pac, prelude::*};

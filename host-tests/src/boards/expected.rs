@@ -3,8 +3,9 @@
 use super::panel::{HEIGHT, WIDTH};
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::look::Gouraud;
+use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, Vertex};
-use scanbeam::{Link, PixelFormat, Rgb565, Screen};
+use scanbeam::{Link, Screen};
 use spinner::{BACKGROUND, OBJECTS, VERTICES, build};
 use std::error::Error;
 
