@@ -4,6 +4,10 @@
 //! the fraction bits that are left. Where the output has 16 bits, that word can step from pixel to pixel
 //! as it is: two logical operations, a store and an addition a pixel.
 
+mod blend;
+
+pub(crate) use blend::blend;
+
 use crate::composite::{PixelFormat, Rgb565, Rgb565Bytes, Rgb888, Xrgb8888};
 
 /// How a pixel is made of a colour.
