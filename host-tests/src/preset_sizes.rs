@@ -13,7 +13,9 @@ use crate::firmware::{
 use crate::firmware_report::draw;
 use crate::image_out::write_atomically;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use scanbeam::{CellOf, Link, ObjectOf, Pipeline, Rgb565Be, SlotOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::pixel::Rgb565Be;
 use scenes::Shot;
 use serde_json::{Value, json};
 use std::error::Error;
@@ -295,7 +297,7 @@ mod tests {
         };
         let size = PresetSize {
             name: "GouraudDepth",
-            records: Records::of::<scanbeam::GouraudDepth<Rgb565Be>>(),
+            records: Records::of::<scanbeam::pipeline::GouraudDepth<Rgb565Be>>(),
             boards: vec![sections; BOARDS.len()],
             symbols: vec![Symbols::default(); BOARDS.len()],
         };

@@ -11,9 +11,10 @@
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
 use crate::hot::{Corner, LineRooms, Place, Smooth, WordOf, frame, line, with_scene};
+use scanbeam::Screen;
 use scanbeam::look::Gouraud;
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::Scene;
-use scanbeam::{PixelFormat, Rgb565, Rgb888, Screen};
 
 type L = Gouraud<Rgb888>;
 /// Depth where w is 1.

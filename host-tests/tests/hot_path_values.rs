@@ -8,11 +8,12 @@ use crate::hot::exact::within;
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
     Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Factor, Scene, Scissor, Skin,
     Texture, TexturePlace, Wrap,
 };
-use scanbeam::{Cull, PixelFormat, Rgb565Be, Rgb888, Screen};
+use scanbeam::{Cull, Screen};
 use std::cmp::Ordering;
 use std::ops::Range;
 

@@ -2,15 +2,17 @@
 
 use crate::common::Rng;
 use crate::listing::{self, PLENTY, Room, drawn, some_instance};
+use scanbeam::event::{Event, Notice};
+use scanbeam::input::ListSettings;
 use scanbeam::list::{
     Field, FieldForm, FieldPacker, Flow, Halt, Header, Id, ListRing, ListWriter, Material, Palette,
     State, TexelForm, Texture, TextureSlot, VertexFormat, parameter,
 };
-use scanbeam::texture::{Clamp, Quality, Size, Skin, Words};
-use scanbeam::{
-    Cull, Event, Faces, Instance, ListSettings, ListTextures, ListedDepth, Mesh, Notice, Rgb888,
-    ScreenVertex, TexelOf, TexturedDepth, Textures, texture,
-};
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::pipeline::{ListedDepth, TexturedDepth};
+use scanbeam::pixel::Rgb888;
+use scanbeam::texture::{Clamp, ListTextures, Quality, Size, Skin, TexelOf, Textures, Words};
+use scanbeam::{Cull, Faces, Instance, Mesh, texture};
 use std::sync::atomic::AtomicU32;
 
 type Listed<'t> = ListedDepth<'t, Rgb888>;
@@ -387,7 +389,7 @@ fn random_list(seed: u64) {
                         .chunks_exact(4)
                         .map(|q| [q[0], q[1], q[2], q[3]])
                         .collect();
-                    let faces = Faces::Quads(&fours, scanbeam::QuadSplit::Corner0To2);
+                    let faces = Faces::Quads(&fours, scanbeam::mesh::QuadSplit::Corner0To2);
                     scene.draw_skinned(&mesh(faces), skin, &instance)
                 }
                 Id::Long => {

@@ -14,8 +14,8 @@
 //! Each renderer has its own list, slots and column as `&mut`, so nothing here is shared and no
 //! atomics are needed: the compiler refuses two renderers over one column.
 
-use super::counts::CacheCounts;
 use crate::link::Link;
+use crate::stats::CacheCounts;
 
 /// What the list has to know of an object that is set up.
 pub trait Member {

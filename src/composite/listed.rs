@@ -24,7 +24,7 @@ use crate::visible::Visible;
 pub struct ListTextures<'t> {
     /// The words of the list.
     pub words: &'t [u32],
-    /// The slots that its [`ListMemory`](crate::ListMemory) has too.
+    /// The slots that its [`ListMemory`](crate::input::ListMemory) has too.
     pub slots: &'t [TextureSlot],
 }
 
@@ -131,7 +131,7 @@ fn one<F: PixelFormat, R: Reading>(
     TextureSource::<F>::paint(&Textures(&one), 0, pixels, course, stretch, visible)
 }
 
-/// The overlays of a list, for [`draw_frame_overlaid`](crate::draw_frame_overlaid). Each pixel is
+/// The overlays of a list, for [`draw_frame_overlaid`](crate::overlay::draw_frame_overlaid). Each pixel is
 /// expanded where it is painted.
 ///
 /// A list that is not in one piece, such as a ring, has none.
@@ -139,7 +139,7 @@ fn one<F: PixelFormat, R: Reading>(
 pub struct ListOverlays<'t> {
     /// The words of the list.
     pub words: &'t [u32],
-    /// The slots that its [`ListMemory`](crate::ListMemory) has too.
+    /// The slots that its [`ListMemory`](crate::input::ListMemory) has too.
     pub slots: &'t [OverlaySlot],
 }
 

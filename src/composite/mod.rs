@@ -111,7 +111,7 @@ pub trait PixelFormat {
     type Ramp: Ramp<Self>;
 
     /// Whether a pixel has at most 16 bits, so that a word has room for its depth too (see
-    /// [`DepthAndColour`](crate::DepthAndColour)).
+    /// [`DepthAndColour`](crate::pipeline::DepthAndColour)).
     const HALVES: bool = false;
 
     /// A pixel in 16 bits, where it has no more.

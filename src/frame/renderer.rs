@@ -207,8 +207,6 @@ impl<'a> View<'a> {
             objects: scene.objects.as_slice(),
             draws: scene.draws.as_slice(),
             frame: Frame {
-                left: screen.left(),
-                top: screen.top(),
                 width: i32::from(screen.width()),
             },
             values: scene.has_values,

@@ -43,7 +43,7 @@ pub use lighting::{DirectionalLight, Lighting, Material};
 pub use listed::{ListLamps, ListLighting, MatrixRange};
 pub use marks::{Clip, Kept, Mark, Marked, Part, Priority};
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
-pub use object::{Object, SceneVertex};
+pub use object::{Filed, Object, SceneVertex};
 pub use phong::{LitSkin, Phong, PhongLevels, PixelLamps};
 pub(crate) use project::Projection;
 pub(crate) use setup::at_pixel;

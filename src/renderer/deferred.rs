@@ -1,5 +1,5 @@
 //! A line on which spans overlap, each pixel shaded once: first who is seen where, then colours
-//! (X3). For pipelines whose depth is [`DepthAndId`](crate::DepthAndId).
+//! (X3). For pipelines whose depth is [`DepthAndId`](crate::pipeline::DepthAndId).
 
 use super::lines::LinePass;
 use crate::active::{ActiveList, Slot};

@@ -5,13 +5,14 @@ use super::place::Place;
 use super::scene::Scene;
 use super::spans::Brush;
 use super::transparent::{is_dormant, is_special};
-use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
+use crate::active::{ActiveList, Interleave, Member, Slot, Visitor};
 use crate::composite::{Compositing, PixelFormat};
 use crate::geometry::{Drawable, Mark};
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, MarkOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
+use crate::stats::CacheCounts;
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::{DepthCell, LineDepth};
 
@@ -19,7 +20,9 @@ use crate::visible::{DepthCell, LineDepth};
 ///
 /// All of it belongs to this renderer alone; a second one over the same link column is refused:
 /// ```compile_fail,E0499
-/// # use scanbeam::{GouraudDepth, LineMemory, LineRenderer, Link, Rgb888};
+/// # use scanbeam::pipeline::GouraudDepth;
+/// # use scanbeam::pixel::Rgb888;
+/// # use scanbeam::{LineMemory, LineRenderer, Link};
 /// let (mut links, mut depth, mut other) = ([Link::NONE; 9], [0; 9], [0; 9]);
 /// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth };
 /// let one = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
@@ -181,7 +184,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     }
 
     /// States how far the picture may be off; only pipelines that choose listen, such as those
-    /// with [`Auto`](crate::Auto).
+    /// with [`Auto`](crate::pipeline::Auto).
     pub fn set_quality(&mut self, quality: Quality) {
         self.interpolation.set_quality(quality);
     }

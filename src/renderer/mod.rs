@@ -50,4 +50,3 @@ pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};
 pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};
 pub use shadow::ShadowError;
-pub(crate) use spans::scale;

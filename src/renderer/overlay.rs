@@ -57,7 +57,7 @@ where
 }
 
 /// The same, and only lines that differ from what `shown` knows are sent, as
-/// [`draw_frame_changed`](crate::draw_frame_changed) does: what counts is the line with all that
+/// [`draw_frame_changed`](crate::send::draw_frame_changed) does: what counts is the line with all that
 /// is over it.
 ///
 /// # Errors

@@ -8,9 +8,9 @@
 //! What a list cannot do (H13): reach the master state, draw to a window that was not granted,
 //! jump or read outside itself. A try is an event, and the list goes on or stops, as the settings
 //! say. What this pipeline does not have is an event as well, and the rest is drawn: textures where
-//! the shading has none, opacity where it is not [`Composited`](crate::Composited), several lights
-//! and highlights without [`EightLights`](crate::EightLights), overlays without slots, and windows that
-//! are not the whole picture where surfaces are not [`Windowed`](crate::Windowed). Of levels of detail the first is drawn.
+//! the shading has none, opacity where it is not [`Composited`](crate::pipeline::Composited), several lights
+//! and highlights without [`EightLights`](crate::input::EightLights), overlays without slots, and windows that
+//! are not the whole picture where surfaces are not [`Windowed`](crate::pipeline::Windowed). Of levels of detail the first is drawn.
 
 use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
 use super::frame::FrameStats;
@@ -45,7 +45,7 @@ pub struct ListSettings<'c> {
     /// Whether its cameras count; else they are access violations.
     pub camera: bool,
     /// The part of the picture that it may ask for as its window; `None`: all. In pipelines such as
-    /// [`Windowed`](crate::Windowed) what it draws is cut to it; in others it is not, and bands confine
+    /// [`Windowed`](crate::pipeline::Windowed) what it draws is cut to it; in others it is not, and bands confine
     /// it to lines, as they do all that is drawn.
     pub window: Option<Window>,
     /// How far texture places may be off where a block has PRSP; elsewhere [`Quality::Fast`].
@@ -82,7 +82,7 @@ pub struct RunCounts {
 
 /// Executes lists.
 ///
-/// `L` says which lights they can have: [`OneLight`], or [`EightLights`](crate::EightLights).
+/// `L` says which lights they can have: [`OneLight`], or [`EightLights`](crate::input::EightLights).
 pub struct ListRunner<'m, 'c, C = i16, L = OneLight> {
     settings: ListSettings<'c>,
     walker: Walker,

@@ -6,12 +6,12 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::composite::TextureSource;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Light, LightingModel,
-    Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Shading, Sphere, Store,
-    on_screen, triangles,
+    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Filed, Light,
+    LightingModel, Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Shading,
+    Sphere, Store, on_screen, triangles,
 };
 use crate::link::Link;
-use crate::pipeline::{DrawableOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
+use crate::pipeline::{DrawableOf, FiledOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
@@ -28,7 +28,7 @@ pub struct SceneMemory<'m, P: Pipeline> {
 
 /// How and where a mesh stands in the world.
 ///
-/// `L` is what lights it: [`Light`], or [`Lighting`](crate::Lighting) for several lights and a
+/// `L` is what lights it: [`Light`], or [`Lighting`](crate::light::Lighting) for several lights and a
 /// material with highlights.
 #[derive(Clone, Copy, Debug)]
 pub struct Instance<L = Light> {
@@ -287,17 +287,19 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     }
 
     /// Cuts what is drawn from now on to the inside or the outside of a window (H15). Pipelines that
-    /// do so, such as [`Windowed`](crate::Windowed), have this; for others it does not compile.
+    /// do so, such as [`Windowed`](crate::pipeline::Windowed), have this; for others it does not compile.
     /// [`begin`](Scene::begin) sets it back to the whole picture.
     ///
     /// Spans are cut, and what has nothing in the part that is kept is skipped, and counted in
     /// [`PassOne::outside_window`]. What is cut to the outside may take up to four objects for a
     /// triangle. Depth and colour are those of the whole triangle: the pixels that are kept have the same bits with
-    /// flat colours and by [`Forward`](crate::Forward). Methods that go along a span from where it
+    /// flat colours and by [`Forward`](crate::pipeline::Forward). Methods that go along a span from where it
     /// begins, such as packed ramps, keep their own bound: at most a step of a channel.
     ///
     /// ```compile_fail
-    /// use scanbeam::{Clip, GouraudDepth, Rgb565, Scene};
+    /// use scanbeam::pipeline::{Clip, GouraudDepth};
+    /// use scanbeam::pixel::Rgb565;
+    /// use scanbeam::Scene;
     ///
     /// fn cut(scene: &mut Scene<'_, GouraudDepth<Rgb565>>) {
     ///     scene.set_clip(Clip::Picture);
@@ -327,11 +329,13 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     }
 
     /// Gives what is drawn from now on a priority (P1). Pipelines with priorities, such as
-    /// [`Prioritised`](crate::Prioritised), have this; for others it does not compile.
+    /// [`Prioritised`](crate::pipeline::Prioritised), have this; for others it does not compile.
     /// [`begin`](Scene::begin) sets it back to 0.
     ///
     /// ```compile_fail
-    /// use scanbeam::{GouraudPainter, Priority, Rgb565, Scene};
+    /// use scanbeam::pipeline::{GouraudPainter, Priority};
+    /// use scanbeam::pixel::Rgb565;
+    /// use scanbeam::Scene;
     ///
     /// fn rank(scene: &mut Scene<'_, GouraudPainter<Rgb565>>) {
     ///     scene.set_priority(Priority(1));
@@ -396,7 +400,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     }
 
     /// [`draw`](Scene::draw) with what the mesh brings beside its colours: in pipelines such as
-    /// [`TexturedDepth`](crate::TexturedDepth) a [`Skin`](crate::texture::Skin).
+    /// [`TexturedDepth`](crate::pipeline::TexturedDepth) a [`Skin`](crate::texture::Skin).
     ///
     /// # Errors
     /// As [`draw`](Scene::draw); a skin that is neither empty nor as long as the mesh's positions
@@ -610,6 +614,20 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     #[must_use]
     pub fn lines(&self) -> Range<u16> {
         self.lines.clone()
+    }
+
+    /// The triangle that was filed as number `index`, from 0 on in order of submission; `None`
+    /// beyond the last.
+    #[must_use]
+    pub fn filed(&self, index: u16) -> Option<FiledOf<P>> {
+        let object = self.object(index)?;
+        let corners = object.corners(self.vertices())?;
+        Some(Filed {
+            places: corners.map(|corner| (corner.x, corner.y)),
+            depths: corners.map(|corner| corner.depth),
+            attributes: corners.map(|corner| corner.attribute),
+            face: object.face,
+        })
     }
 
     /// Bytes of the slow arena in use: vertices, objects and buckets.

@@ -46,8 +46,8 @@ where
     /// Where `model` stretches it, it must do so by the same factor in all directions. The camera
     /// may be inside the volume.
     ///
-    /// Pipelines whose depth is [`ShadowDepth32`](crate::ShadowDepth32), such as
-    /// [`Shadowed`](crate::Shadowed), show it; others do not.
+    /// Pipelines whose depth is [`ShadowDepth32`](crate::blend::ShadowDepth32), such as
+    /// [`Shadowed`](crate::pipeline::Shadowed), show it; others do not.
     ///
     /// # Errors
     /// [`ShadowError::Room`] when memory is too short, and those of [`draw`](Scene::draw): what

@@ -1,5 +1,5 @@
 //! A line on which spans overlap, drawn into words of depth and colour (K8). For pipelines whose depth
-//! is [`DepthAndColour`](crate::DepthAndColour), and whose pixels have at most 16 bits.
+//! is [`DepthAndColour`](crate::pipeline::DepthAndColour), and whose pixels have at most 16 bits.
 //!
 //! Spans of one colour and packed ramps go straight into the words. Of all others the colours are
 //! first drawn over the line's pixels, which are scratch: all that a span covers is written again from

@@ -31,7 +31,7 @@ pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Skin};
 pub use error::{BeginError, DrawError, Full};
-pub(crate) use record::NONE;
+pub(crate) use record::{NONE, ORIGIN};
 pub use record::{Object, TexturePlace, Vertex};
 pub use scissor::Scissor;
 pub(crate) use texture::{Form, Square};

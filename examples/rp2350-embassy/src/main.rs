@@ -17,8 +17,10 @@ use embassy_time::{Delay, Duration, block_for};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_bus::spi::ExclusiveDevice;
 use panic_halt as _;
+use scanbeam::pipeline::{CellOf, SlotOf};
 use scanbeam::scan_out::{AsyncPump, AsyncSpiPanel, ErrorKind};
-use scanbeam::{CellOf, LineMemory, LineRenderer, Link, SlotOf, draw_frame_async};
+use scanbeam::send::draw_frame_async;
+use scanbeam::{LineMemory, LineRenderer, Link};
 use spinner::{LINES, Look, OBJECTS, SLOTS, WIDTH, background, lend, panel};
 
 bind_interrupts!(struct Interrupts {

@@ -11,11 +11,16 @@ pub mod dma;
 pub mod panel;
 
 use core::sync::atomic::{AtomicU32, Ordering};
+use scanbeam::parallel::{Crew, Interleave, LineDesk};
+use scanbeam::pipeline::{
+    CellOf, GouraudDepth, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, VertexOf,
+};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
+use scanbeam::send::send_frame;
 use scanbeam::{
-    Affine, Camera, CellOf, Crew, FrameError, FrameStats, GouraudDepth, Instance, Interleave,
-    Light, LineDesk, LineMemory, LineRenderer, Link, Object, ObjectOf, Pipeline, PixelFormat,
-    Rgb565Be, Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame, send_frame,
+    Affine, Camera, FrameError, FrameStats, Instance, Light, LineMemory, LineRenderer, Link, Scene,
+    SceneMemory, Screen, draw_frame,
 };
 use static_cell::ConstStaticCell;
 

@@ -14,11 +14,10 @@ use embedded_display_controller::{
     DisplayConfiguration, DisplayController, DisplayControllerLayer, PixelFormat,
 };
 use panic_halt as _;
+use scanbeam::pipeline::{CellOf, GouraudDepth, Object, ObjectOf, SceneVertex, SlotOf, VertexOf};
+use scanbeam::pixel::{PixelFormat as _, Rgb565};
 use scanbeam::scan_out::{FrameBuffer, FrameBufferSink, Pump, SwapFlag};
-use scanbeam::{
-    CellOf, GouraudDepth, LineMemory, LineRenderer, Link, Object, ObjectOf, PixelFormat as _,
-    Rgb565, Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf, draw_frame,
-};
+use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen, draw_frame};
 use spinner::{BACKGROUND, HEIGHT, OBJECTS, SLOTS, WIDTH, lend};
 use stm32h7xx_hal::gpio::Speed;
 use stm32h7xx_hal::{ltdc::Ltdc, pac, prelude::*};

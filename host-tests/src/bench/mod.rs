@@ -367,7 +367,7 @@ impl Compared {
 
 /// How far two pixels are apart, summed over the channels, in 8-bit levels.
 fn distance(a: u16, b: u16) -> u32 {
-    use scanbeam::{PixelFormat, Rgb565};
+    use scanbeam::pixel::{PixelFormat, Rgb565};
     let (a, b) = (Rgb565::to_rgb8(a), Rgb565::to_rgb8(b));
     (0..3).map(|i| u32::from(a[i].abs_diff(b[i]))).sum()
 }

@@ -2,7 +2,9 @@
 
 use super::panel::{HEIGHT, WIDTH};
 use crate::lent::{LineRooms, SceneRooms};
-use scanbeam::{GouraudDepth, PixelFormat, Rgb565, Screen};
+use scanbeam::Screen;
+use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pixel::{PixelFormat, Rgb565};
 use spinner::{BACKGROUND, OBJECTS, SLOTS, build};
 use std::error::Error;
 

@@ -19,7 +19,7 @@ use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};
 use crate::{accuracy, bench, cache_report};
 use page::Page;
-use scanbeam::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
 use scenes::{HEIGHT, LEAN, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
 use std::error::Error;
 use std::path::Path;

@@ -5,10 +5,9 @@ pub mod exact;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
 use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
-use scanbeam::{
-    Affine, Camera, Cull, Faces, Link, Mesh, PixelFormat, Rgb565, Rgb565Be, Rgb888, Screen,
-};
+use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 
 /// Distance of the near plane: what is 1 away is just behind it.
 pub const NEAR: f64 = 1.0 - 1.0 / 1024.0;
