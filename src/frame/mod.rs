@@ -13,6 +13,7 @@
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
 //! | `ruled` | pixels of such a span |
+//! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame through a pump |
 
 mod advance;
@@ -26,6 +27,7 @@ mod send;
 mod slot;
 mod spans;
 mod thin;
+mod translucent;
 mod values;
 
 pub use renderer::{FastMemory, LineError, Memory, Renderer};

@@ -1,8 +1,8 @@
-//! Lines with draw calls that have values few have (H9, H15).
+//! Lines with draw calls that have values few have (H9, H15, K11).
 //!
 //! Values are looked at once a span, and only where a call of the scene has any: other lines and other scenes know
 //! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
-//! submission, compared where spans meet or where values compare. Without depth all is drawn in order of submission.
+//! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
 use super::line::{deepen, insert};
 use super::renderer::{Renderer, View};
@@ -40,6 +40,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let count = self.submitted();
         self.draw_submitted(count, out);
+        if !self.depth.is_empty() {
+            self.draw_translucent(out);
+        }
         self.covered = Mask::EMPTY;
         self.over = Mask::EMPTY;
         self.written = Mask::EMPTY;
@@ -167,6 +170,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = out.view.state(slot.object) else {
             return;
         };
+        if is_compared && state.is_translucent() {
+            return;
+        }
         if is_compared {
             deepen::<L>(slot, deep, bit(i as u32), out.view);
         }
@@ -185,6 +191,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return self.draw_spilled(at, out);
         };
         let after = next(self.links, at);
+        if !self.depth.is_empty() && state.is_translucent() {
+            return after;
+        }
         let Some(mut alone) = self.set_up_alone(at.object(), out) else {
             return after;
         };

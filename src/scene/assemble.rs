@@ -74,7 +74,11 @@ impl<'t, L> Scene<'_, 't, L> {
             texture: skin.map(|skin| skin.texture),
             budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
             scissor: draw.scissor,
-            depth: draw.depth,
+            depth: match draw.blend {
+                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
+                _ => draw.depth,
+            },
+            blend: draw.blend,
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {

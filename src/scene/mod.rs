@@ -8,12 +8,13 @@
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `cut` | triangles that cross a plane |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
-//! | `scissor`, `depth` | what else a draw call does to its pixels, as values |
+//! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
 mod assemble;
+mod blend;
 mod budget;
 mod cut;
 mod depth;
@@ -25,6 +26,7 @@ mod scissor;
 mod texture;
 
 pub use crate::geometry::DepthFunction;
+pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Skin};
