@@ -14,12 +14,14 @@
 //! | `values` | lines with draw calls that have values few have |
 //! | `ruled` | pixels of such a span |
 //! | `translucent` | spans that what is behind shines through, from far to near |
-//! | `send` | all lines of a frame through a pump |
+//! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
+//! | `relay` | a frame of two cores |
 
 mod advance;
 mod alone;
 mod line;
 mod plan;
+mod relay;
 mod renderer;
 mod ruled;
 mod scene;
@@ -30,5 +32,8 @@ mod thin;
 mod translucent;
 mod values;
 
+pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
-pub use send::{FrameError, FrameUse, draw_frame};
+#[cfg(feature = "async")]
+pub use send::draw_frame_async;
+pub use send::{FrameError, FrameUse, draw_continuous, draw_frame};

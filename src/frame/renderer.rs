@@ -86,6 +86,16 @@ pub enum LineError {
         /// The line.
         line: u16,
     },
+    /// The wait for the other core was given up.
+    Stopped {
+        /// The line that was awaited.
+        line: u16,
+    },
+    /// The other core has given another line than was due.
+    Strayed {
+        /// The line that was due.
+        line: u16,
+    },
 }
 
 impl fmt::Display for LineError {
@@ -103,6 +113,12 @@ impl fmt::Display for LineError {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+            Self::Stopped { line } => {
+                write!(f, "renderer: the wait for line {line} was given up")
+            }
+            Self::Strayed { line } => {
+                write!(f, "renderer: another line came in the place of line {line}")
+            }
         }
     }
 }
