@@ -12,6 +12,7 @@
 //! | `plan` | the order in which a line is drawn |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
+//! | `rank` | lines that are drawn by priority |
 //! | `ruled` | pixels of such a span |
 //! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame through a pump |
@@ -20,6 +21,7 @@ mod advance;
 mod alone;
 mod line;
 mod plan;
+mod rank;
 mod renderer;
 mod ruled;
 mod scene;
