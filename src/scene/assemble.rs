@@ -79,6 +79,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 _ => draw.depth,
             },
             blend: draw.blend,
+            priority: draw.priority,
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
@@ -88,6 +89,7 @@ impl<'t, L> Scene<'_, 't, L> {
             });
         }
         self.has_values |= state.has_values();
+        self.is_ranked |= state.priority != 0;
         self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),

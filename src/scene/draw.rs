@@ -27,6 +27,9 @@ pub struct Draw<'a, 't, C = i16> {
     pub depth: DepthTest,
     /// What becomes of the colours that are there; `None` hides them.
     pub blend: Option<Blend>,
+    /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
+    /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
+    pub priority: u8,
 }
 
 /// How a texture lies on a mesh.
@@ -58,6 +61,7 @@ impl<'a, C> Draw<'a, '_, C> {
             scissor: None,
             depth: DepthTest::HIDES,
             blend: None,
+            priority: 0,
         }
     }
 }
@@ -72,6 +76,7 @@ pub struct DrawState<'t> {
     pub(crate) scissor: Option<Scissor>,
     pub(crate) depth: DepthTest,
     pub(crate) blend: Option<Blend>,
+    pub(crate) priority: u8,
 }
 
 impl<'t> DrawState<'t> {
@@ -83,6 +88,7 @@ impl<'t> DrawState<'t> {
         scissor: None,
         depth: DepthTest::HIDES,
         blend: None,
+        priority: 0,
     };
 
     /// The state of an object: that of the last call that began at it or before.
