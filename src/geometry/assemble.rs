@@ -9,15 +9,20 @@ use super::mesh::{Coordinate, Faces, Mesh};
 use super::object::{OUTSIDE, Object, SceneVertex};
 use super::project::Projection;
 use super::shading::Shading;
-use super::transform::{Affine, unit};
+use super::transform::Affine;
 use crate::arena::Arena;
 use core::ops::Range;
 
+mod colours;
 mod faces;
+mod outcome;
 mod screen;
+
+use colours::{Colours, face_normal};
 
 pub(crate) use faces::{check, check_known as check_mesh, each_triangle, triangles};
 use faces::{check_known, first_line, first_of, is_seen, leading};
+pub use outcome::{Assembled, Dropped, MeshError, Room};
 pub use screen::ScreenVertex;
 pub(crate) use screen::on_screen;
 
@@ -29,62 +34,6 @@ pub enum Cull {
     Back,
     /// None.
     None,
-}
-
-/// Which arena had no room.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Room {
-    /// That of the vertices.
-    Vertices,
-    /// That of the objects.
-    Objects,
-}
-
-/// Faces that could not be kept; all others are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Dropped {
-    /// The arena that was full when the first was dropped.
-    pub room: Room,
-    /// Index of the first face that lost a triangle.
-    pub first_face: u32,
-    /// How many triangles were dropped, or lost a piece that clipping had made of them.
-    pub triangles: u32,
-}
-
-/// A mesh that contradicts itself. Nothing of it is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum MeshError {
-    /// An attribute slice is neither empty nor as long as the positions.
-    AttributeLength,
-    /// This face names a vertex that does not exist.
-    Index {
-        /// Index of the face.
-        face: u32,
-    },
-    /// A quad strip has an odd number of indices, or two.
-    StripLength,
-}
-
-/// What became of a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Assembled {
-    /// Triangles submitted.
-    pub triangles: u32,
-    /// Triangles that cannot be seen: outside, from behind, or between pixel centres.
-    pub culled: u32,
-    /// Triangles that crossed a near, far or guard plane.
-    pub clipped: u32,
-    /// Objects kept, pieces of clipped triangles included.
-    pub kept: u32,
-    /// Of the triangles kept, those that are drawn without their texture, as they stretch over too
-    /// many of its texels.
-    pub untextured: u32,
-    /// What found no room.
-    pub dropped: Option<Dropped>,
 }
 
 /// One mesh on its way to the screen.
@@ -543,50 +492,6 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             None => tint.lit(1 << 15),
         })
     }
-}
-
-/// What lights the vertices of a mesh.
-struct Colours<'a, L> {
-    /// The light in model space.
-    light: Option<L>,
-    /// Colour of vertices without one.
-    tint: Tint,
-    scale: &'a Scale,
-}
-
-impl<L: ModelLight> Colours<'_, L> {
-    /// The lit colour of a vertex.
-    #[inline]
-    fn vertex<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
-        let tint = match mesh.colours.get(i) {
-            Some(&colour) => Tint::new(colour, self.scale),
-            None => self.tint,
-        };
-        match (&self.light, mesh.normals.get(i)) {
-            (Some(light), Some(&normal)) => {
-                light.lit(&tint, self.scale, normal, || mesh.positions[i])
-            }
-            _ => tint.lit(1 << 15),
-        }
-    }
-}
-
-/// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
-fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
-    let d = |a: usize, i: usize| i64::from(p[a][i]) - i64::from(p[0][i]);
-    // Shifted together until they have 30 bits, so that the products fit, and small faces keep
-    // all of theirs.
-    let mut bits = 1;
-    for i in 0..3 {
-        bits |= d(1, i).unsigned_abs() | d(2, i).unsigned_abs();
-    }
-    let down = 34u32.saturating_sub(bits.leading_zeros());
-    let e = |a: usize, i: usize| d(a, i) >> down;
-    let axis = |i: usize, k: usize| e(1, i) * e(2, k) - e(1, k) * e(2, i);
-    let n = [axis(1, 2), axis(2, 0), axis(0, 1)];
-    let bits = n.iter().fold(1, |b, c| b | c.unsigned_abs());
-    let down = 32u32.saturating_sub(bits.leading_zeros());
-    unit(n.map(|c| c >> down)).map(|c| c.to_bits())
 }
 
 /// What a look at a triangle tells.
