@@ -10,8 +10,9 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::composite::TextureSource;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, LightingModel, Mark, Mesh,
-    MeshError, Part, Priority, Screen, ScreenVertex, Shading, Sphere, Store, on_screen, triangles,
+    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, LightingModel, Looks, Mark, Mesh,
+    MeshError, Part, Priority, Screen, ScreenMesh, ScreenVertex, Shading, Sphere, Store, Surfaced,
+    on_screen, triangles,
 };
 use crate::link::Link;
 use crate::pipeline::{MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
@@ -319,10 +320,17 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         };
         let done = on_screen(
             &mut self.store,
-            (self.screen, self.lines.clone()),
-            cull,
-            (scale::<P>(), skin),
-            (vertices, triangles),
+            self.screen,
+            self.lines.clone(),
+            Surfaced {
+                scale: scale::<P>(),
+                skin,
+            },
+            ScreenMesh {
+                vertices,
+                faces: triangles,
+                cull,
+            },
             |object, first, all| filing.file(object, first, all),
         );
         self.count(done)
@@ -350,8 +358,15 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             self.screen,
             self.lines.clone(),
             &instance.model,
-            (instance.cull, instance.light, instance.colour),
-            (scale::<P>(), skin),
+            Looks {
+                cull: instance.cull,
+                light: instance.light,
+                colour: instance.colour,
+            },
+            Surfaced {
+                scale: scale::<P>(),
+                skin,
+            },
         );
         let filing = Filing {
             objects: &mut self.objects,
