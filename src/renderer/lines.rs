@@ -368,7 +368,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
         let Some(pixels) = self.pixels.get_mut(start..end) else {
             return;
         };
-        self.brush.draw(object, body, at, (pixels, cells));
+        self.brush.draw(object, body, at, pixels, cells);
     }
 }
 
@@ -492,7 +492,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             };
             let at = (left + start as i32, line);
             self.brush
-                .draw(slot.object(), slot.body(), at, (pixels, None));
+                .draw(slot.object(), slot.body(), at, pixels, None);
             start = end;
         }
         true

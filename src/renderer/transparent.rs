@@ -14,6 +14,8 @@
 
 mod blend;
 
+use blend::There;
+
 use super::lines::LinePass;
 use super::pile::{By, PILE, Pane, Pile};
 use super::scene::Scene;
@@ -23,7 +25,7 @@ use crate::geometry::{Finish, Parameters, Role, Shading, at_pixel};
 use crate::pipeline::{DrawableOf, LevelsOf, Pipeline};
 use crate::shade::Levels;
 use crate::stats::SpanCounter;
-use crate::visible::{DepthCell, LineDepth, MOST, ShadowCount, count_span};
+use crate::visible::{DepthCell, DepthRamp, LineDepth, MOST, ShadowCount, count_span};
 
 /// When an object is drawn.
 #[inline]
@@ -364,22 +366,33 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         let (column, line) = (self.left + start as i32, self.line);
         let all = pixels.len() as u32;
         let mut seen = 0;
-        let how = (count, P::Depth::grain(body.range().0));
+        let grain = P::Depth::grain(body.range().0);
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
                 let parts = pixels.chunks_mut(MOST).zip(cells.chunks_mut(MOST));
-                for (part, column) in parts.zip((column..).step_by(MOST)) {
-                    let depth = (plane.at(column, line) as u32, plane.dx as u32);
-                    seen += self.brush.blend(levels, (column, line), part, depth, how);
+                for ((pixels, cells), column) in parts.zip((column..).step_by(MOST)) {
+                    let there = There {
+                        cells,
+                        depth: DepthRamp::of(plane, column, line),
+                        grain,
+                        count,
+                    };
+                    seen += self.brush.blend(levels, (column, line), pixels, there);
                 }
             }
             Parameters::Corners => {
                 self.brush.reads += 1;
                 let parts = pixels.chunks_mut(1).zip(cells.chunks_mut(1));
-                for (part, column) in parts.zip(column..) {
+                for ((pixels, cells), column) in parts.zip(column..) {
                     let at = (column, line);
                     if let Some((depth, levels)) = thin::<P>(self.brush.scene, object, at) {
-                        seen += self.brush.blend(&levels, at, part, (depth, 0), how);
+                        let there = There {
+                            cells,
+                            depth: DepthRamp::single(depth),
+                            grain,
+                            count,
+                        };
+                        seen += self.brush.blend(&levels, at, pixels, there);
                     }
                 }
             }
@@ -397,7 +410,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
                 if let Some(finish) = levels.finish() {
-                    let depth = (plane.at(column, line) as u32, plane.dx as u32);
+                    let depth = DepthRamp::of(plane, column, line);
                     let passes = finish.rules.colour_if;
                     count_span::<P::Depth>(cells, depth, passes, finish.away);
                 }
@@ -416,7 +429,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                     if let Some((depth, levels)) = thin::<P>(scene, object, (column, line)) {
                         if let Some(finish) = levels.finish() {
                             let passes = finish.rules.colour_if;
-                            count_span::<P::Depth>(cell, (depth, 0), passes, away);
+                            count_span::<P::Depth>(cell, DepthRamp::single(depth), passes, away);
                         }
                     }
                 }

@@ -5,11 +5,21 @@ use crate::composite::{Blender, PixelAlpha, TextureSource};
 use crate::geometry::Blend;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::Levels;
-use crate::visible::{Everywhere, LineDepth, MOST, Rule, ShadowCount};
+use crate::visible::{DepthRamp, Everywhere, LineDepth, MOST, Rule, ShadowCount};
 
 /// Words on the stack, so aligned that two of 16 bits can be read as one.
 #[repr(align(4))]
 struct Words<W>([W; MOST + 1]);
+
+/// What pixels of a surface are held against, and their own depth.
+pub(super) struct There<'c, P: Pipeline> {
+    pub(super) cells: &'c mut [CellOf<P>],
+    pub(super) depth: DepthRamp,
+    /// How the depth of the surface is rounded.
+    pub(super) grain: <P::Depth as LineDepth>::Grain,
+    /// In which light it is drawn.
+    pub(super) count: ShadowCount,
+}
 
 impl<P: Pipeline> Brush<'_, '_, P> {
     /// Draws at most [`MOST`] pixels by the rules of a finish: their depth is that of the first
@@ -19,9 +29,8 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         &mut self,
         levels: &LevelsOf<P>,
         (column, line): (i32, i32),
-        (pixels, cells): (&mut [WordOf<P>], &mut [CellOf<P>]),
-        depth: (u32, u32),
-        (count, grain): (ShadowCount, <P::Depth as LineDepth>::Grain),
+        pixels: &mut [WordOf<P>],
+        there: There<'_, P>,
     ) -> u32 {
         let Some(finish) = levels.finish() else {
             return 0;
@@ -52,9 +61,9 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         let rule = Rule {
             colour_if: rules.colour_if,
             depth_if: rules.depth_if,
-            count,
+            count: there.count,
         };
-        let seen = rule.apply::<P::Depth>(cells, depth, grain, keep);
+        let seen = rule.apply::<P::Depth>(there.cells, there.depth, there.grain, keep);
         if seen == 0 {
             return 0;
         }
@@ -62,8 +71,7 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         let mut words = Words([WordOf::<P>::default(); MOST + 1]);
         let half = (pixels.as_ptr().addr() / size_of::<WordOf<P>>().max(1)) & 1;
         let words = &mut words.0[half..][..pixels.len().min(MOST)];
-        let how = (self.interpolation, self.scene.lent());
-        colour::<P, _>(words, levels, (column, line), how, &mut Everywhere);
+        colour::<P, _>(words, levels, (column, line), self.how(), &mut Everywhere);
         let blender = Blender::new(rules);
         let mut rest = seen;
         while rest != 0 {
