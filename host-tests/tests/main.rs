@@ -38,6 +38,7 @@ mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_errors;
 mod hot_path_texels;
+mod hot_path_values;
 mod input;
 mod lines_alone;
 mod list_bake;

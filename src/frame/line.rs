@@ -10,7 +10,7 @@ use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
 use super::spans::{Drawn, Known, Line, Span, colour, colour_run, nearer};
 use super::thin::depth_plane;
-use crate::active::next;
+use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
 use crate::link::Link;
 use crate::look::{Look, Place, WordOf};
@@ -50,6 +50,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
+        if view.values && self.draw_values(&mut out, background) {
+            return Ok(true);
+        }
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
             self.draw_near_first(usize::from(slots), &mut out);
@@ -162,7 +165,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The columns of all spans; whether two meet.
     #[inline(never)]
-    fn find_spans(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn find_spans(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         for word in 0..WORDS {
             let (slots, spans) = (&self.cache.slots[word], &mut self.cache.spans[word]);
@@ -281,7 +284,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A span in a slot that meets others.
     #[inline(never)]
-    fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
         let (Some(slots), Some(spans), Some(deep)) = (
             self.cache.slots.get_mut(word),
@@ -294,14 +297,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.depth.is_empty() {
             return colour::<L>(Drawn::of(slot), span, out);
         }
-        let one = bit(i as u32);
-        if *deep & one == 0 {
-            *deep |= one;
-            let triangle = out.view.triangle_of::<L>(slot.object);
-            let plane = triangle.and_then(|t| depth_plane(&t));
-            slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
-            slot.item.depth = plane.unwrap_or_default();
-        }
+        deepen::<L>(slot, deep, bit(i as u32), out.view);
         let drawn = Drawn::of(slot);
         let known = Known {
             cells: self.depth,
@@ -312,51 +308,46 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A span of what has no slot, set up for this line alone; the next of its kind.
     #[inline(never)]
-    fn draw_spilled(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
+    pub(super) fn draw_spilled(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let after = next(self.links, at);
-        let object = at.object();
-        let Some(triangle) = out.view.triangle_of::<L>(object) else {
-            return Link::NONE;
-        };
-        let area = triangle.area();
-        let size = triangle.size(area);
-        let way = triangle.way(size);
-        let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
-        let (start, end) = sides.columns(way, out.number, out.view.frame);
-        if start >= end {
+        let Some(mut alone) = self.set_up_alone(at.object(), out) else {
             return after;
-        }
-        let mut planes = L::EMPTY;
-        let fill = L::set_up(&triangle, object, size, area, out.view.draws, &mut planes);
-        self.counts.set_ups += 1;
-        let meets = !self.depth.is_empty() && self.met && self.over.meets(start, end);
-        let depth = if meets { depth_plane(&triangle) } else { None };
-        let item = Active {
-            sides,
-            planes,
-            depth: depth.unwrap_or_default(),
         };
-        let drawn = Drawn {
-            item: &item,
-            flags: Flags::new(fill, way).without_depth(depth.is_none()),
-            object,
-        };
-        if meets {
+        let Span { start, end } = alone.span;
+        if !self.depth.is_empty() && self.met && self.over.meets(start, end) {
+            Self::find_depth(&mut alone, out.view);
             let known = Known {
                 cells: self.depth,
                 written: &mut self.written,
             };
-            nearer::<L>(drawn, Span { start, end }, out, known);
+            nearer::<L>(alone.drawn(), alone.span, out, known);
         } else {
-            colour::<L>(drawn, Span { start, end }, out);
+            colour::<L>(alone.drawn(), alone.span, out);
         }
         after
     }
 }
 
+/// Finds the depth of a slot, unless it is among those whose depth is known.
+#[inline(always)]
+pub(super) fn deepen<L: Look>(
+    slot: &mut CacheSlot<Active<L::Planes>>,
+    deep: &mut u32,
+    one: u32,
+    view: &View<'_>,
+) {
+    if *deep & one == 0 {
+        *deep |= one;
+        let triangle = view.triangle_of::<L>(slot.object);
+        let plane = triangle.and_then(|t| depth_plane(&t));
+        slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
+        slot.item.depth = plane.unwrap_or_default();
+    }
+}
+
 /// Inserts a key among the first `count`, which rise.
 #[inline(always)]
-fn insert(keys: &mut [u32], count: usize, key: u32) {
+pub(super) fn insert(keys: &mut [u32], count: usize, key: u32) {
     if let Some(run) = keys.get_mut(..=count) {
         let mut after = run.iter_mut().rev();
         if let Some(mut to) = after.next() {

@@ -21,6 +21,7 @@ pub(super) struct Flags(pub(super) u8);
 impl Flags {
     const NO_DEPTH: u8 = 1 << 5;
     const CROSSES: u8 = 1 << 4;
+    const VALUES: u8 = 1 << 6;
 
     #[inline(always)]
     pub(super) fn new(fill: Fill, way: Way) -> Self {
@@ -55,6 +56,16 @@ impl Flags {
             kind,
             crosses: self.0 & Self::CROSSES != 0,
         }
+    }
+
+    /// Whether the draw call has values that few have.
+    #[inline(always)]
+    pub(super) fn has_values(self) -> bool {
+        self.0 & Self::VALUES != 0
+    }
+
+    pub(super) fn with_values(self) -> Self {
+        Self(self.0 | Self::VALUES)
     }
 
     /// Whether depth has to be found on each line.

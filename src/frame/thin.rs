@@ -2,6 +2,7 @@
 
 use super::spans::Span;
 use crate::look::{Parts, ThinSpan};
+use crate::scene::ORIGIN;
 use crate::span::{Size, Triangle};
 
 /// What all depths are raised by, more than a plane may err.
@@ -55,8 +56,8 @@ fn parts_at(triangle: &Triangle<'_>, column: u32, line: u32) -> Parts {
         let place = triangle.place(i);
         ((place & 0xFFFF) as i32, (place >> 16) as i32)
     });
-    let x = 8 * (column as i32 + triangle.frame.left) + 4 - a.0;
-    let y = 8 * (line as i32 + triangle.frame.top) + 4 - a.1;
+    let x = 8 * (column as i32 + ORIGIN) + 4 - a.0;
+    let y = 8 * (line as i32 + ORIGIN) + 4 - a.1;
     let area = triangle.area();
     let part = |doubled: i32| part_of((doubled.max(0) as u32).min(area), area);
     Parts {

@@ -185,7 +185,7 @@ pub fn copy(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
 
 /// [`copy`], called.
 #[inline(never)]
-fn copy_part(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
+pub(super) fn copy_part(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
     copy(run, texture, at, step);
 }
 

@@ -18,7 +18,7 @@
 //! near its middle, in whole repeats where the texture repeats.
 
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
-use super::perspective::{Homogeneous, Perspective};
+use super::perspective::{Homogeneous, Perspective, Range, Stride, reach};
 use crate::num::{leading_zeros, mul_16, mul_high, mul_high_unsigned, recip, recip_16};
 use crate::scene::Budget;
 use crate::scene::{Texture, Wrap};
@@ -53,6 +53,11 @@ pub enum Method {
 pub struct Mapping {
     /// What the planes are.
     pub method: Method,
+    /// In perspective, how far exact places may be apart.
+    pub reach: u8,
+    /// How many pixels of a span are drawn with exact places at its ends alone: that, or none where the texture or the
+    /// budget does not allow places in one word.
+    pub quick: u8,
     /// Whole texels to the right and down that come on top of what the planes give.
     pub base: [i32; 2],
     /// Value at the picture's first pixel, step to the right, step down: u or u/w or both of u and v
@@ -69,6 +74,8 @@ pub struct Values {
     pub base: [i32; 2],
     /// Of each plane, the values at the corners.
     pub of: [[i32; 3]; 3],
+    /// On each axis, the least and the most of the places at the corners, as in [`Uv`].
+    pub places: [[i32; 2]; 2],
 }
 
 /// Widest triangle, in texels with 8 fraction bits.
@@ -190,7 +197,7 @@ impl Values {
         if least == 0 || most >> 31 != 0 {
             return None;
         }
-        let (mut base, mut of) = ([0; 2], [[0; 3]; 3]);
+        let (mut base, mut of, mut places) = ([0; 2], [[0; 3]; 3], [[0; 2]; 2]);
         for (axis, log) in [texture.log_width(), texture.log_height()]
             .into_iter()
             .enumerate()
@@ -203,6 +210,7 @@ impl Values {
             let first = corners[0].texel[axis].wrapping_sub(base[axis] << 8);
             // Below 2,177 texels, 19 fraction bits.
             of[axis] = ways.map(|e| first.wrapping_add(e) << 11);
+            places[axis] = [low, high].map(|e| first.wrapping_add(e) << 11);
         }
         let method = if is_affine(width, depth, budget) {
             Method::Wide
@@ -217,17 +225,27 @@ impl Values {
             }
             Method::Perspective
         };
-        Some(Self { method, base, of })
+        Some(Self {
+            method,
+            base,
+            of,
+            places,
+        })
     }
 
     /// The planes through the values; `None` where the triangle is too thin.
     #[inline(never)]
     #[must_use]
-    pub fn planes(&self, corners: &[Corner; 3]) -> Option<Mapping> {
+    pub fn planes(
+        &self,
+        corners: &[Corner; 3],
+        texture: &Texture<'_>,
+        budget: Budget,
+    ) -> Option<Mapping> {
         let mut mapping = Mapping {
             method: self.method,
             base: self.base,
-            planes: [[0; 3]; 3],
+            ..Mapping::EMPTY
         };
         let small = Small::new(corners);
         let large = if small.is_none() {
@@ -243,7 +261,31 @@ impl Values {
                 _ => None,
             }?;
         }
+        if self.method == Method::Perspective {
+            self.stride(&mut mapping, texture, budget);
+        }
         Some(mapping)
+    }
+}
+
+impl Values {
+    /// How far exact places may be apart, from planes that are made.
+    #[inline(always)]
+    fn stride(&self, mapping: &mut Mapping, texture: &Texture<'_>, budget: Budget) {
+        let [low, _] = range(self.of[2]);
+        let of = |axis: usize| Range {
+            low: self.places[axis][0],
+            high: self.places[axis][1],
+            step: mapping.planes[axis][1] as i32,
+        };
+        let step = mapping.planes[2][1] as i32;
+        mapping.reach = reach(low as u32, step, [of(0), of(1)], budget);
+        let square = texture.is_square() && texture.wrap() == Wrap::Repeat;
+        if budget.is_coarse() && square {
+            // Rounded steps stay within 1/32 texel.
+            let exact = 16u8 << (8 - texture.log_width()).min(2);
+            mapping.quick = mapping.reach.min(exact) + 1;
+        }
     }
 }
 
@@ -376,6 +418,8 @@ impl Mapping {
     /// That of no triangle.
     pub const EMPTY: Self = Self {
         method: Method::Word,
+        reach: 1,
+        quick: 0,
         base: [0; 2],
         planes: [[0; 3]; 3],
     };
@@ -385,10 +429,12 @@ impl Mapping {
     #[must_use]
     pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
         word_planes(corners, texture, budget)
-            .or_else(|| Values::new(corners, texture, budget)?.planes(corners))
+            .or_else(|| Values::new(corners, texture, budget)?.planes(corners, texture, budget))
     }
 
     /// Copies texels into `run`, whose first pixel is at `column` and `line` of the picture.
+    ///
+    /// [`draw_slowly`](Self::draw_slowly), but for what is commonest.
     #[inline(always)]
     pub fn draw(
         &self,
@@ -442,6 +488,21 @@ impl Mapping {
         };
         let (at, step) = (of(q, s, t), of(dq, ds, dt));
         let span = Perspective { base, at, step };
-        span.draw(run, texture, span.stride(run.len(), budget));
+        if run.len() <= usize::from(self.quick) {
+            return span.between(run, texture);
+        }
+        if run.len() < 2 * usize::from(self.quick) {
+            return span.between_three(run, texture);
+        }
+        // Far from the triangle's nearest corner longer strides may do: long spans repay the question.
+        let long = (8 * usize::from(self.reach)).max(24);
+        let stride = if run.len() > long {
+            span.stride(run.len(), budget)
+        } else if budget.is_coarse() {
+            Stride::within(self.reach)
+        } else {
+            Stride::within(self.reach.min(4))
+        };
+        span.draw(run, texture, stride);
     }
 }

@@ -17,7 +17,7 @@ use super::{Depths, Fill, Paint, Place, ThinSpan};
 use crate::composite::{Rgb565, Rgb565Bytes};
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
-use crate::scene::DrawState;
+use crate::scene::{DrawState, ORIGIN};
 use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
 
@@ -80,13 +80,13 @@ impl<F: Texel> Textured<F> {
     /// The corners as a mapping wants them: fine places from the centre of the picture's first pixel.
     #[inline(always)]
     fn corners(triangle: &Triangle<'_>) -> [Corner; 3] {
-        let origin = [triangle.frame.left, triangle.frame.top].map(|o| 64 * o + 32);
+        const FIRST: i32 = 64 * ORIGIN + 32;
         let corner = |i: usize| {
             let (vertex, texture) = (triangle.vertex[i], triangle.texture[i]);
             let fine = texture.fine();
             Corner {
-                x: 8 * (vertex.place & 0xFFFF) as i32 + fine[0] - origin[0],
-                y: 8 * (vertex.place >> 16) as i32 + fine[1] - origin[1],
+                x: 8 * (vertex.place & 0xFFFF) as i32 + fine[0] - FIRST,
+                y: 8 * (vertex.place >> 16) as i32 + fine[1] - FIRST,
                 depth: vertex.depth.clamp(1, i32::MAX as u32),
                 texel: texture.texel(),
             }

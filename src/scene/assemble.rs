@@ -5,7 +5,7 @@
 
 use super::cut::{Corner, cut_all};
 use super::project::{View, project_all, project_textured};
-use super::{Draw, DrawError, DrawState, Full, NONE, Object, Scene, TexturePlace, Vertex};
+use super::{Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, TexturePlace, Vertex};
 use crate::geometry::{
     Colour, Coordinate, Cull, Faces, Light, LightingModel, Mesh, MeshError, ModelLight, Scale,
     Tint, check_mesh, each_triangle, triangles,
@@ -40,10 +40,8 @@ struct Pass<'a> {
 /// The lines and columns of guard space that are drawn.
 #[derive(Clone)]
 struct Picture {
-    top: i32,
-    lines: Range<i32>,
-    /// In units of 1/8 pixel.
-    left: u32,
+    lines: Range<u32>,
+    /// The column after the last, in units of 1/8 pixel.
     right: u32,
 }
 
@@ -75,6 +73,12 @@ impl<'t, L> Scene<'_, 't, L> {
             first: self.objects.len() as u16,
             texture: skin.map(|skin| skin.texture),
             budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
+            scissor: draw.scissor,
+            depth: match draw.blend {
+                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
+                _ => draw.depth,
+            },
+            blend: draw.blend,
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
@@ -83,6 +87,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 first_face: 0,
             });
         }
+        self.has_values |= state.has_values();
         self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
@@ -146,13 +151,10 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     fn picture(&self) -> Picture {
-        let (left, top) = (self.screen.left(), self.screen.top());
-        let right = left + i32::from(self.screen.width());
+        let line = |line: u16| u32::from(line) + ORIGIN as u32;
         Picture {
-            top,
-            lines: i32::from(self.lines.start)..i32::from(self.lines.end),
-            left: 8 * left as u32,
-            right: 8 * right as u32,
+            lines: line(self.lines.start)..line(self.lines.end),
+            right: 8 * line(self.screen.width()),
         }
     }
 
@@ -408,15 +410,16 @@ fn top_first<const CULLS: bool>(
 /// beside the picture.
 #[inline(always)]
 fn bin_of([a, b, c]: [u32; 3], picture: &Picture) -> Option<usize> {
-    let line = |place: u32| (place.wrapping_add(4 << 16) >> 19) as i32 - picture.top;
+    let line = |place: u32| place.wrapping_add(4 << 16) >> 19;
     let first = line(a).max(picture.lines.start);
     let end = line(b.max(c)).min(picture.lines.end);
     if first >= end {
         return None;
     }
+    const LEFT: u32 = 8 * ORIGIN as u32;
     let x = a & 0xFFFF;
-    if x <= picture.left {
-        if b & 0xFFFF <= picture.left && c & 0xFFFF <= picture.left {
+    if x <= LEFT {
+        if b & 0xFFFF <= LEFT && c & 0xFFFF <= LEFT {
             return None;
         }
     } else if x >= picture.right && b & 0xFFFF >= picture.right && c & 0xFFFF >= picture.right {

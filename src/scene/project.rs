@@ -8,7 +8,7 @@
 //! The guard band reaches 2,047.7 pixels either way from the middle, so that all differences of places have
 //! 16 bits, also of places that were rounded away from each other.
 
-use super::record::{TexturePlace, Vertex};
+use super::record::{ORIGIN, TexturePlace, Vertex};
 use crate::geometry::{Affine, Camera, Coordinate, Projection, Screen};
 use crate::num::{SHORT, leading_zeros, mul_16_unsigned, recip_16, shift_round};
 
@@ -80,8 +80,10 @@ impl View {
         }
         let range = |v: i32| shift_round(i64::from(v), -along).max(1) as i32;
         let centre = |axis: usize| {
+            let first = [screen.left(), screen.top()][axis];
+            let from_first = projection.centre(axis) - 8 * i64::from(first);
             // Less the half space that a signed quotient is taken from.
-            (((projection.centre(axis) - 0x8000) << 14) + (1 << 13)) as i32
+            (((from_first + 8 * i64::from(ORIGIN) - 0x8000) << 14) + (1 << 13)) as i32
         };
         Self {
             rows,
@@ -261,8 +263,8 @@ mod tests {
             let [x, y, z] = q.map(|c| f64::from(c) / 16_384.0 * f64::from(size));
             let z = f64::from(away) - z;
             let want = [
-                32_768.0 + 8.0 * f64::from(focal) * x / z,
-                32_768.0 - 8.0 * f64::from(focal) * y / z,
+                8.0 * (f64::from(ORIGIN) + 160.0 + f64::from(focal) * x / z),
+                8.0 * (f64::from(ORIGIN) + 120.0 - f64::from(focal) * y / z),
             ];
             let got = [on.place & 0xFFFF, on.place >> 16].map(f64::from);
             for k in 0..2 {

@@ -1,5 +1,11 @@
 //! The records that pass one leaves in slow memory (S3, C1).
 
+/// The column and the line of guard space at which each picture begins.
+///
+/// A multiple of 1,024, so that it drops out of columns of 10 bits; the guard band reaches 2,048 pixels from the
+/// middle of the picture, so places of up to [`LARGEST`](super::LARGEST) pixels stay within their 13 bits.
+pub(crate) const ORIGIN: i32 = 3072;
+
 /// A vertex on the screen, shared by the triangles around it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]

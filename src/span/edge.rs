@@ -15,13 +15,11 @@
 //! multiple of 1,024 of them.
 
 use crate::num::{self, column_exact, of_height, slope_of};
+use crate::scene::ORIGIN;
 
-/// What the picture's place in guard space is to edges and planes.
+/// What the picture's place in guard space is to edges and planes: it begins at [`ORIGIN`], either way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frame {
-    /// The picture's first column and line.
-    pub(crate) left: i32,
-    pub(crate) top: i32,
     /// Columns of the picture.
     pub(crate) width: i32,
 }
@@ -29,7 +27,7 @@ pub struct Frame {
 impl Frame {
     /// The column from which crossing triangles count: as much room to the left as to the right.
     pub(crate) const fn wide_left(self) -> i32 {
-        self.left - (1023 - self.width) / 2
+        ORIGIN - (1023 - self.width) / 2
     }
 }
 
@@ -80,11 +78,11 @@ impl Edge {
     /// A side of at most 511 units either way, from the place `a` down by `(dx, dy)`; columns count
     /// from `origin`, lines from the picture's first.
     #[inline(always)]
-    pub(crate) fn short(a: u32, dx: i32, dy: i32, origin: i32, top: i32) -> Self {
+    pub(crate) fn short(a: u32, dx: i32, dy: i32, origin: i32) -> Self {
         let slope = slope_of(dx, of_height(dy as u32)) as u32;
         let (x, y) = (a & 0xFFFF, a >> 16);
         let start = (x << 19).wrapping_add(((4 - 8 * origin) << 19) as u32 + 512);
-        let way = ((4 + 8 * top) as u32).wrapping_sub(y);
+        let way = ((4 + 8 * ORIGIN) as u32).wrapping_sub(y);
         Self {
             at: start.wrapping_add(slope.wrapping_mul(way)),
             slope: slope << 3,
@@ -93,17 +91,17 @@ impl Edge {
 
     /// A side of any kind from the place `a` down to `b`.
     #[inline(never)]
-    pub(crate) fn of_kind(kind: Kind, a: u32, b: u32, origin: i32, top: i32) -> Self {
+    pub(crate) fn of_kind(kind: Kind, a: u32, b: u32, origin: i32) -> Self {
         let d = b.wrapping_sub(a);
         let (dx, dy) = (across(d), down(d));
         match kind {
             Kind::Divided => Self { at: a, slope: b },
             _ if dy <= 0 => Self::NONE,
-            Kind::Short => Self::short(a, dx, dy, origin, top),
+            Kind::Short => Self::short(a, dx, dy, origin),
             Kind::Tall => {
                 let (at, slope) = num::Edge::new(parts(a), (dx, dy), origin).at_and_slope();
                 Self {
-                    at: at.wrapping_add(slope.wrapping_mul(top)) as u32,
+                    at: at.wrapping_add(slope.wrapping_mul(ORIGIN)) as u32,
                     slope: slope as u32,
                 }
             }
@@ -140,13 +138,13 @@ mod tests {
 
     #[test]
     fn short_sides_are_exact_for_all_differences() {
-        let (origin, top) = (3936, 3976);
+        let (origin, top) = (ORIGIN, ORIGIN);
         for dy in 1..=511i32 {
             for dx in -511..=511i32 {
                 let x = 8 * (origin + 100) + (dx * 7 + dy * 3) % 61;
                 let y = 8 * top + 40 + (dx * 5 + dy) % 8;
                 let a = (y << 16 | x) as u32;
-                let edge = Edge::short(a, dx, dy, origin, top);
+                let edge = Edge::short(a, dx, dy, origin);
                 let (pa, pb) = ((x as u16, y as u16), ((x + dx) as u16, (y + dy) as u16));
                 // Both ends and the middle: the error is linear in between.
                 let (first, end) = (first_line(a), (y + dy + 4) >> 3);
@@ -163,23 +161,18 @@ mod tests {
     #[test]
     fn every_kind_finds_the_same_columns() {
         let mut rng = Rng(77);
-        let frame = Frame {
-            left: 3936,
-            top: 3976,
-            width: 320,
-        };
         let mut asked = 0;
         for _ in 0..20_000 {
             let mut at = |low: i32, size: u32| (8 * low + rng.below(size) as i32) as u32;
-            let (xa, xb) = (at(frame.left, 2560), at(frame.left, 2560));
-            let ya = at(frame.top - 20, 1900);
+            let (xa, xb) = (at(ORIGIN, 2560), at(ORIGIN, 2560));
+            let ya = at(ORIGIN - 20, 1900);
             let yb = ya + 1 + rng.below(1000);
             let (a, b) = (ya << 16 | xa, yb << 16 | xb);
-            let tall = Edge::of_kind(Kind::Tall, a, b, frame.left, frame.top);
-            let divided = Edge::of_kind(Kind::Divided, a, b, frame.left, frame.top);
+            let tall = Edge::of_kind(Kind::Tall, a, b, ORIGIN);
+            let divided = Edge::of_kind(Kind::Divided, a, b, ORIGIN);
             for line in first_line(a)..first_line(b) {
                 let want = exact(parts(a), parts(b), line);
-                let column = tall.column((line - frame.top) as u32) as i32 + frame.left;
+                let column = tall.column((line - ORIGIN) as u32) as i32 + ORIGIN;
                 assert_eq!(i64::from(column), want);
                 assert_eq!(i64::from(divided.divided(line)), want);
                 asked += 1;

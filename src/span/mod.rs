@@ -10,6 +10,7 @@ mod edge;
 mod plane;
 mod triangle;
 
+pub(crate) use edge::first_line;
 pub use edge::{Edge, Frame, Kind};
 pub use plane::{Rise, Shares};
 pub use triangle::{Sides, Size, Triangle, Way};

@@ -3,8 +3,9 @@
 //! A gradient is `8 (e1 dy2 - e2 dy1) / area` a pixel. What all planes of a triangle share is each
 //! side times the reciprocal of the area, cut to what leaves room for rises of 11 bits.
 
-use super::edge::{Frame, across, down};
+use super::edge::{across, down};
 use crate::num::{leading_zeros, mul_high, recip_16};
+use crate::scene::ORIGIN;
 
 /// Sides times the reciprocal of the doubled area, `r 2^(up - 47)`, and the first corner's place.
 #[derive(Clone, Copy, Debug)]
@@ -31,7 +32,7 @@ pub struct Rise {
 impl Shares {
     /// For corners that go clockwise; `area` is the doubled area in units of 1/64 pixel, at least 1.
     #[inline(always)]
-    pub(crate) fn new(area: u32, place: [u32; 3], frame: Frame) -> Self {
+    pub(crate) fn new(area: u32, place: [u32; 3]) -> Self {
         let (d1, d2) = (
             place[1].wrapping_sub(place[0]),
             place[2].wrapping_sub(place[0]),
@@ -44,8 +45,8 @@ impl Shares {
             y1: across(d1).wrapping_mul(r),
             y2: across(d2).wrapping_mul(-r),
             up,
-            x: (place[0] & 0xFFFF) as i32 - (8 * frame.left + 4),
-            y: (place[0] >> 16) as i32 - (8 * frame.top + 4),
+            x: (place[0] & 0xFFFF) as i32 - (8 * ORIGIN + 4),
+            y: (place[0] >> 16) as i32 - (8 * ORIGIN + 4),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::edge::{Edge, Frame, Kind, across, down, first_line};
 use super::plane::Shares;
 use crate::num::{InverseArea, Plane};
-use crate::scene::{TexturePlace, Vertex};
+use crate::scene::{ORIGIN, TexturePlace, Vertex};
 
 /// Corners of a triangle, the topmost first, clockwise, with a doubled area above 0.
 #[derive(Clone, Copy, Debug)]
@@ -114,7 +114,7 @@ impl Triangle<'_> {
 
     #[inline(always)]
     pub(crate) fn shares(&self, area: u32) -> Shares {
-        Shares::new(area, self.places(), self.frame)
+        Shares::new(area, self.places())
     }
 
     /// The turn and the end.
@@ -122,8 +122,8 @@ impl Triangle<'_> {
     pub(crate) fn lines(&self) -> Lines {
         let (b, c) = (first_line(self.place(1)), first_line(self.place(2)));
         Lines {
-            turn: b.min(c) - self.frame.top,
-            end: b.max(c) - self.frame.top,
+            turn: b.min(c) - ORIGIN,
+            end: b.max(c) - ORIGIN,
         }
     }
 
@@ -159,27 +159,24 @@ impl Triangle<'_> {
     #[inline(always)]
     fn upper_sides(&self, way: Way) -> Sides {
         let [a, b, c] = self.places();
-        let (origin, top) = (self.origin(way), self.frame.top);
+        let origin = self.origin(way);
         if way.kind == Kind::Short {
             let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
             return Sides {
-                left: Edge::short(a, across(d2), down(d2), origin, top),
-                right: Edge::short(a, across(d1), down(d1), origin, top),
+                left: Edge::short(a, across(d2), down(d2), origin),
+                right: Edge::short(a, across(d1), down(d1), origin),
             };
         }
         Sides {
-            left: Edge::of_kind(way.kind, a, c, origin, top),
-            right: Edge::of_kind(way.kind, a, b, origin, top),
+            left: Edge::of_kind(way.kind, a, c, origin),
+            right: Edge::of_kind(way.kind, a, b, origin),
         }
     }
 
     /// How the sides are evaluated.
     #[inline(always)]
     pub(crate) fn way(&self, size: Size) -> Way {
-        let (low, high) = (
-            8 * self.frame.left,
-            8 * (self.frame.left + self.frame.width),
-        );
+        let (low, high) = (8 * ORIGIN, 8 * (ORIGIN + self.frame.width));
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let inside = x.map(|x| (x - low) | (high - x));
         // Tiny and small triangles have short sides.
@@ -196,7 +193,7 @@ impl Triangle<'_> {
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
         let kind = self.kind();
-        let crosses = low < 8 * frame.left || high > 8 * (frame.left + frame.width);
+        let crosses = low < 8 * ORIGIN || high > 8 * (ORIGIN + frame.width);
         let wide = 8 * frame.wide_left();
         if crosses && (low < wide || high >= wide + 8 * 1023) {
             let kind = Kind::Divided;
@@ -210,7 +207,7 @@ impl Triangle<'_> {
         if way.crosses {
             self.frame.wide_left()
         } else {
-            self.frame.left
+            ORIGIN
         }
     }
 
@@ -222,7 +219,7 @@ impl Triangle<'_> {
 
     /// A plane of guard space, counted from the picture's first pixel.
     pub(crate) fn in_picture(&self, plane: Plane) -> [u32; 3] {
-        let at = plane.at(self.frame.left, self.frame.top);
+        let at = plane.at(ORIGIN, ORIGIN);
         [at, plane.dx, plane.dy].map(|v| v as u32)
     }
 }
@@ -232,14 +229,14 @@ impl Sides {
     #[inline(always)]
     pub(crate) fn turn(&mut self, triangle: &Triangle<'_>, way: Way) {
         let [_, b, c] = triangle.places();
-        let (origin, top) = (triangle.origin(way), triangle.frame.top);
+        let origin = triangle.origin(way);
         let d = c.wrapping_sub(b);
         let to_right = down(d) > 0;
         let side = match (way.kind, to_right) {
-            (Kind::Short, true) => Edge::short(b, across(d), down(d), origin, top),
-            (Kind::Short, false) => Edge::short(c, -across(d), -down(d), origin, top),
-            (kind, true) => Edge::of_kind(kind, b, c, origin, top),
-            (kind, false) => Edge::of_kind(kind, c, b, origin, top),
+            (Kind::Short, true) => Edge::short(b, across(d), down(d), origin),
+            (Kind::Short, false) => Edge::short(c, -across(d), -down(d), origin),
+            (kind, true) => Edge::of_kind(kind, b, c, origin),
+            (kind, false) => Edge::of_kind(kind, c, b, origin),
         };
         if to_right {
             self.right = side;
@@ -261,9 +258,9 @@ impl Sides {
     fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
         let of = |edge: Edge| {
             let column = if way.kind == Kind::Divided {
-                edge.divided(line as i32 + frame.top) - frame.left
+                edge.divided(line as i32 + ORIGIN) - ORIGIN
             } else {
-                edge.column(line) as i32 + frame.wide_left() - frame.left
+                edge.column(line) as i32 + frame.wide_left() - ORIGIN
             };
             column.clamp(0, frame.width) as u32
         };

@@ -11,6 +11,7 @@ mod mask;
 mod named;
 mod placed;
 mod shadow;
+mod test;
 mod word;
 
 pub use block_fix::BlockFixDepth;
@@ -21,6 +22,7 @@ pub(crate) use mask::{Mask, Part};
 pub use named::{DepthAndId, MOST_NAMES, Named, name};
 pub use placed::Placed;
 pub use shadow::{ShadowCell, ShadowDepth32, count_span};
+pub(crate) use test::{MOST as MOST_TESTED, test};
 pub use word::{DepthAndColour, WordCourse, resolve};
 
 use crate::num::Plane;

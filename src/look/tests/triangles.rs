@@ -118,7 +118,7 @@ fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
     assert!(values(&none).is_none());
     // Thin: values, and no planes.
     let thin = [corner(0, 0, 0), corner(64, 64, 256), corner(128, 128, 512)];
-    assert!(values(&thin).is_some_and(|v| v.planes(&thin).is_none()));
+    assert!(values(&thin).is_some_and(|v| v.planes(&thin, &texture, Budget::FAST).is_none()));
 }
 
 #[test]

@@ -1,0 +1,69 @@
+//! What has no slot: set up for one line (C5).
+
+use super::renderer::{Renderer, View};
+use super::slot::{Active, Flags};
+use super::spans::{Drawn, Line, Span};
+use super::thin::depth_plane;
+use crate::look::{Look, WordOf};
+
+/// A triangle without a slot, set up for one line.
+pub(super) struct Alone<P> {
+    item: Active<P>,
+    flags: Flags,
+    object: u16,
+    pub(super) span: Span,
+}
+
+impl<P> Alone<P> {
+    /// As it is drawn.
+    #[inline(always)]
+    pub(super) fn drawn(&self) -> Drawn<'_, P> {
+        Drawn {
+            item: &self.item,
+            flags: self.flags,
+            object: self.object,
+        }
+    }
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// What has no slot, set up for one line; `None` where it has no pixels there.
+    #[inline(always)]
+    pub(super) fn set_up_alone(
+        &mut self,
+        object: u16,
+        out: &Line<'_, '_, WordOf<L>>,
+    ) -> Option<Alone<L::Planes>> {
+        let triangle = out.view.triangle_of::<L>(object)?;
+        let area = triangle.area();
+        let size = triangle.size(area);
+        let way = triangle.way(size);
+        let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
+        let (start, end) = sides.columns(way, out.number, out.view.frame);
+        if start >= end {
+            return None;
+        }
+        let mut planes = L::EMPTY;
+        let fill = L::set_up(&triangle, object, size, area, out.view.draws, &mut planes);
+        self.counts.set_ups += 1;
+        Some(Alone {
+            item: Active {
+                sides,
+                planes,
+                depth: [0; 3],
+            },
+            flags: Flags::new(fill, way).without_depth(true),
+            object,
+            span: Span { start, end },
+        })
+    }
+
+    /// Finds the depth of what has no slot.
+    #[inline(always)]
+    pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) {
+        let triangle = view.triangle_of::<L>(alone.object);
+        let plane = triangle.and_then(|t| depth_plane(&t));
+        alone.flags = alone.flags.without_depth(plane.is_none());
+        alone.item.depth = plane.unwrap_or_default();
+    }
+}
