@@ -102,7 +102,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The background, where nothing is.
     #[inline(never)]
-    fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
+    pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
             if let Some(run) = pixels.get_mut(from as usize..to as usize) {
                 L::Pixel::fill(run, background);
@@ -112,7 +112,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours spans as they are found; `false` as soon as two meet.
     #[inline(never)]
-    fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         for word in 0..WORDS {
             if !self.draw_plain(out, word) {
                 return false;

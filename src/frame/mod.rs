@@ -12,7 +12,9 @@
 //! | `plan` | the order in which a line is drawn |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
+//! | `rank` | lines that are drawn by priority |
 //! | `ruled` | pixels of such a span |
+//! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
 //! | `relay` | a frame of two cores |
 
@@ -20,6 +22,7 @@ mod advance;
 mod alone;
 mod line;
 mod plan;
+mod rank;
 mod relay;
 mod renderer;
 mod ruled;
@@ -28,6 +31,7 @@ mod send;
 mod slot;
 mod spans;
 mod thin;
+mod translucent;
 mod values;
 
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};

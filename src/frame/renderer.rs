@@ -211,6 +211,8 @@ pub struct View<'a> {
     pub(super) frame: Frame,
     /// Whether a draw call has values that few have.
     pub(super) values: bool,
+    /// Whether the scene is drawn by priority.
+    pub(super) ranked: bool,
 }
 
 impl<'a> View<'a> {
@@ -225,13 +227,22 @@ impl<'a> View<'a> {
             frame: Frame {
                 width: i32::from(screen.width()),
             },
-            values: scene.has_values,
+            values: scene.has_values || scene.is_ranked,
+            ranked: scene.is_ranked,
         }
     }
 
     /// The state of an object's draw call.
     pub(super) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
         DrawState::of(object, self.draws)
+    }
+
+    /// The priority of an object's draw call, if the scene is drawn by it.
+    pub(super) fn rank(&self, object: u16) -> u32 {
+        match self.state(object) {
+            Some(state) if self.ranked => state.priority.into(),
+            _ => 0,
+        }
     }
 
     /// Whether an object's draw call has values that few have.

@@ -4,6 +4,10 @@
 //! the fraction bits that are left. Where the output has 16 bits, that word can step from pixel to pixel
 //! as it is: two logical operations, a store and an addition a pixel.
 
+mod blend;
+
+pub(crate) use blend::blend;
+
 pub use crate::composite::{
     Cut, CutOff, Dithered, Grey8, Index4, Index8, Indexed, LinePalettes, OneWord, Ordered,
     PaletteTable, PixelFormat, Pixels, Ramp, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le,

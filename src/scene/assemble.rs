@@ -74,7 +74,12 @@ impl<'t, L> Scene<'_, 't, L> {
             texture: skin.map(|skin| skin.texture),
             budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
             scissor: draw.scissor,
-            depth: draw.depth,
+            depth: match draw.blend {
+                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
+                _ => draw.depth,
+            },
+            blend: draw.blend,
+            priority: draw.priority,
         };
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
@@ -84,6 +89,7 @@ impl<'t, L> Scene<'_, 't, L> {
             });
         }
         self.has_values |= state.has_values();
+        self.is_ranked |= state.priority != 0;
         self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),

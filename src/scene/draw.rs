@@ -1,6 +1,6 @@
 //! What a draw call says, and what pass two needs of it.
 
-use super::{Budget, DepthTest, Scissor, Texture};
+use super::{Blend, Budget, DepthTest, Scissor, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh};
 use core::ops::Range;
 
@@ -25,6 +25,11 @@ pub struct Draw<'a, 't, C = i16> {
     pub scissor: Option<Scissor>,
     /// Where it is seen and where its depth is kept, by how that compares.
     pub depth: DepthTest,
+    /// What becomes of the colours that are there; `None` hides them.
+    pub blend: Option<Blend>,
+    /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
+    /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
+    pub priority: u8,
 }
 
 /// How a texture lies on a mesh.
@@ -55,6 +60,8 @@ impl<'a, C> Draw<'a, '_, C> {
             texture: None,
             scissor: None,
             depth: DepthTest::HIDES,
+            blend: None,
+            priority: 0,
         }
     }
 }
@@ -68,6 +75,8 @@ pub struct DrawState<'t> {
     pub(crate) budget: Budget,
     pub(crate) scissor: Option<Scissor>,
     pub(crate) depth: DepthTest,
+    pub(crate) blend: Option<Blend>,
+    pub(crate) priority: u8,
 }
 
 impl<'t> DrawState<'t> {
@@ -78,6 +87,8 @@ impl<'t> DrawState<'t> {
         budget: Budget::BALANCED,
         scissor: None,
         depth: DepthTest::HIDES,
+        blend: None,
+        priority: 0,
     };
 
     /// The state of an object: that of the last call that began at it or before.
@@ -93,7 +104,12 @@ impl<'t> DrawState<'t> {
 
     /// Whether its pixels do anything else than hide what is behind them.
     pub(crate) fn compares(&self) -> bool {
-        self.depth != DepthTest::HIDES
+        self.blend.is_some() || self.depth != DepthTest::HIDES
+    }
+
+    /// Whether what is behind shines through.
+    pub(crate) fn is_translucent(&self) -> bool {
+        self.blend.is_some_and(|blend| blend.is_translucent())
     }
 
     /// The columns of a line that are kept, from left to right; either run may be empty.

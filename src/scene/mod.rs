@@ -8,12 +8,13 @@
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `cut` | triangles that cross a plane |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
-//! | `scissor`, `depth` | what else a draw call does to its pixels, as values |
+//! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
 mod assemble;
+mod blend;
 mod budget;
 mod cut;
 mod depth;
@@ -25,6 +26,7 @@ mod scissor;
 mod texture;
 
 pub use crate::geometry::DepthFunction;
+pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Skin};
@@ -105,6 +107,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) scale: Scale,
     /// Whether a draw call has values that few have.
     pub(crate) has_values: bool,
+    /// Whether a draw call has a priority.
+    pub(crate) is_ranked: bool,
     pub(crate) assembled: Assembled,
     /// Counts changes, so that a renderer notices them.
     pub(crate) generation: u32,
@@ -125,6 +129,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             lines: 0..0,
             scale,
             has_values: false,
+            is_ranked: false,
             assembled: Assembled::default(),
             generation: 0,
             look: PhantomData,
@@ -167,6 +172,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.camera = Some(*camera);
         self.lines = lines;
         self.has_values = false;
+        self.is_ranked = false;
         self.assembled = Assembled::default();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
