@@ -71,11 +71,7 @@ impl<'t, L> Scene<'_, 't, L> {
             return Err(DrawError::Mesh(MeshError::AttributeLength));
         }
         let submitted = triangles(mesh.faces);
-        let state = DrawState {
-            first: self.objects.len() as u16,
-            texture: skin.map(|skin| skin.texture),
-            budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
-        };
+        let state = DrawState::new(self.objects.len() as u16, skin.as_ref());
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
                 memory: Full::Draws,

@@ -1,5 +1,6 @@
 //! What a draw call says, and what pass two needs of it.
 
+use super::texture::Square;
 use super::{Budget, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh};
 
@@ -59,6 +60,8 @@ pub struct DrawState<'t> {
     pub(crate) first: u16,
     pub(crate) texture: Option<&'t Texture<'t>>,
     pub(crate) budget: Budget,
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    square: Option<Square<'t>>,
 }
 
 impl<'t> DrawState<'t> {
@@ -67,11 +70,29 @@ impl<'t> DrawState<'t> {
         first: 0,
         texture: None,
         budget: Budget::BALANCED,
+        square: None,
     };
+
+    /// That of a call whose first triangle has this number.
+    pub(crate) fn new(first: u16, skin: Option<&Skin<'_, 't>>) -> Self {
+        let texture = skin.map(|skin| skin.texture);
+        Self {
+            first,
+            texture,
+            budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
+            square: texture.and_then(Texture::square),
+        }
+    }
 
     /// The texture, if there is one, and how exact it is.
     #[inline(always)]
     pub(crate) fn texture(&self) -> Option<(&'t Texture<'t>, Budget)> {
         Some((self.texture?, self.budget))
+    }
+
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    #[inline(always)]
+    pub(crate) fn square(&self) -> Option<Square<'t>> {
+        self.square
     }
 }

@@ -11,6 +11,7 @@ mod plane;
 mod triangle;
 
 pub use edge::{Edge, Frame, Kind};
+pub(crate) use edge::{across, down};
 pub use plane::{Rise, Shares};
 pub use triangle::{Sides, Size, Triangle, Way};
 
