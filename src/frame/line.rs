@@ -7,7 +7,7 @@
 
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
-use super::slot::{Active, Flags};
+use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour, colour_run, nearer};
 use super::thin::depth_plane;
 use crate::active::next;
@@ -53,18 +53,34 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
             self.draw_near_first(usize::from(slots), &mut out);
-        } else if self.met || spilled || !self.draw_calm(&mut out) {
-            self.covered = Mask::EMPTY;
-            self.met = self.find_spans(&mut out);
-            self.draw_found(&mut out);
-            if self.met {
-                self.over = Mask::EMPTY;
-                self.written = Mask::EMPTY;
-                self.find_plan(&view);
+        } else {
+            self.guests = 0;
+            let met = spilled && self.find_spilled(&mut out);
+            let tries = !spilled && !self.met;
+            if tries && !self.draw_calm(&mut out) {
+                self.covered = Mask::EMPTY;
+                self.draw_meeting_spans(false, &mut out);
+            } else if !tries {
+                self.draw_meeting_spans(met, &mut out);
             }
         }
         self.fill_rest(out.pixels, background);
         Ok(true)
+    }
+
+    /// Draws all spans where some meet, or some have no slot, which `met` others.
+    fn draw_meeting_spans(&mut self, met: bool, out: &mut Line<'_, '_, WordOf<L>>) {
+        if !self.draw_crowded(out) {
+            self.met = self.find_spans(out) | met;
+            if !self.met || !self.draw_near(out) {
+                self.draw_found(out);
+            }
+            self.over = Mask::EMPTY;
+            self.written = Mask::EMPTY;
+        }
+        if self.met {
+            self.find_plan(out.view);
+        }
     }
 
     /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
@@ -72,7 +88,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let mut left = out.pixels.len() as u32;
         for k in 0..slots {
-            let number = self.cache.near.as_flattened().get(k).copied();
+            let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize & 0xFF;
             let Some(slots) = self.cache.slots.get(number >> 5) else {
                 return;
@@ -177,15 +193,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
             }
         }
-        if self.cache.spilled.is_some() {
-            met |= self.find_spilled(out);
-        }
         met
     }
 
     /// The columns of what has no slot; what has ended leaves the chain.
     #[inline(never)]
-    fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         let line = out.number as i32;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
@@ -203,6 +216,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let (start, end) = sides.columns(way, out.number, out.view.frame);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
+                    self.keep_guest(at.object(), Span { start, end });
                 }
                 self.counts.misses += 1;
                 before = at;
@@ -307,7 +321,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             cells: self.depth,
             written: &mut self.written,
         };
-        nearer::<L>(drawn, span, out, known);
+        nearer::<L>(drawn, span, out, slot.item.depth, known);
     }
 
     /// A span of what has no slot, set up for this line alone; the next of its kind.
@@ -331,13 +345,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.counts.set_ups += 1;
         let meets = !self.depth.is_empty() && self.met && self.over.meets(start, end);
         let depth = if meets { depth_plane(&triangle) } else { None };
-        let item = Active {
-            sides,
-            planes,
-            depth: depth.unwrap_or_default(),
-        };
         let drawn = Drawn {
-            item: &item,
+            planes: &planes,
             flags: Flags::new(fill, way).without_depth(depth.is_none()),
             object,
         };
@@ -346,7 +355,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 cells: self.depth,
                 written: &mut self.written,
             };
-            nearer::<L>(drawn, Span { start, end }, out, known);
+            nearer::<L>(
+                drawn,
+                Span { start, end },
+                out,
+                depth.unwrap_or_default(),
+                known,
+            );
         } else {
             colour::<L>(drawn, Span { start, end }, out);
         }

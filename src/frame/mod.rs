@@ -9,13 +9,17 @@
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
+//! | `near` | spans that meet others, from the nearest on |
+//! | `rival` | who of two spans is seen |
 //! | `spans` | the pixels of a span |
 //! | `send` | all lines of a frame through a pump |
 
 mod advance;
 mod line;
+mod near;
 mod plan;
 mod renderer;
+mod rival;
 mod scene;
 mod send;
 mod slot;

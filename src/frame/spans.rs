@@ -30,7 +30,7 @@ pub(super) struct Known<'a> {
 /// A triangle as it is drawn: from a slot, or set up for one line.
 #[derive(Clone, Copy)]
 pub(super) struct Drawn<'a, P> {
-    pub(super) item: &'a Active<P>,
+    pub(super) planes: &'a P,
     pub(super) flags: Flags,
     pub(super) object: u16,
 }
@@ -41,10 +41,11 @@ pub(super) fn nearer<L: Look>(
     drawn: Drawn<'_, L::Planes>,
     span: Span,
     out: &mut Line<'_, '_, WordOf<L>>,
+    depth: [u32; 3],
     known: Known<'_>,
 ) {
     let (column, line) = (span.start, out.number);
-    let [mut at, mut step, down] = drawn.item.depth;
+    let [mut at, mut step, down] = depth;
     at = at
         .wrapping_add(step.wrapping_mul(column))
         .wrapping_add(down.wrapping_mul(line));
@@ -79,7 +80,7 @@ pub(super) fn nearer<L: Look>(
         let planes = thin_planes::<L>(drawn.object, span, line, out.view);
         return L::fill_nearer(Fill::Wide, &planes, at, draws, run, depth);
     }
-    L::fill_nearer(fill, &drawn.item.planes, at, draws, run, depth);
+    L::fill_nearer(fill, drawn.planes, at, draws, run, depth);
 }
 
 /// The depth of a thin triangle at a span's first pixel, and its step.
@@ -148,7 +149,7 @@ pub(super) fn colour_run<L: Look>(
         let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
         return L::fill(Fill::Wide, &planes, at, draws, pixels);
     }
-    L::fill(fill, &drawn.item.planes, at, draws, pixels);
+    L::fill(fill, drawn.planes, at, draws, pixels);
 }
 
 impl<'a, P> Drawn<'a, P> {
@@ -156,7 +157,7 @@ impl<'a, P> Drawn<'a, P> {
     #[inline(always)]
     pub(super) fn of(slot: &'a CacheSlot<Active<P>>) -> Self {
         Self {
-            item: &slot.item,
+            planes: &slot.item.planes,
             flags: Flags(slot.flags),
             object: slot.object,
         }
@@ -164,6 +165,12 @@ impl<'a, P> Drawn<'a, P> {
 }
 
 impl Span {
+    /// Whether two spans that are not empty share a column.
+    #[inline(always)]
+    pub(super) fn meets(self, other: Self) -> bool {
+        self.start < other.end && other.start < self.end
+    }
+
     #[inline(always)]
     pub(super) fn of(word: u32) -> Self {
         Self {

@@ -164,6 +164,13 @@ impl Mask {
         part
     }
 
+    /// Whether the mask has all of `start .. end`.
+    pub(crate) fn has_all(&self, start: u32, end: u32) -> bool {
+        let mut lack = 0;
+        each_word(start, end, |word, bits| lack |= bits & !self.0[word]);
+        lack == 0
+    }
+
     /// Calls `run` with each run of the first `width` columns that is not covered, from left to right; then the
     /// mask is empty.
     #[inline(always)]
@@ -211,6 +218,19 @@ impl Mask {
         mut run: impl FnMut(u32, u32),
     ) -> u32 {
         const COVERED: u32 = u32::MAX;
+        if is_in_one(start, end) {
+            let bits = between(start, end);
+            let word = &mut self.0[word_of(start)];
+            let old = *word & bits;
+            if old == bits {
+                return 0;
+            }
+            if old == 0 {
+                *word |= bits;
+                run(start, end);
+                return end - start;
+            }
+        }
         let (mut from, mut count) = (COVERED, 0);
         each_word(start, end, |word, bits| {
             let base = word as u32 * 32;
@@ -269,6 +289,7 @@ mod tests {
                 let hits = columns.len() - old.len();
                 assert_eq!(mask.meets(start, end), hits > 0);
                 let mut other = mask;
+                assert_eq!(mask.has_all(start, end), old.is_empty());
                 assert_eq!(other.cover(start, end), hits > 0);
                 assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);
                 assert_eq!(mask, other);
