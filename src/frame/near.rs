@@ -13,13 +13,13 @@
 use super::renderer::Renderer;
 use super::rival::{CELLS, Guest, Rival, Slope, find_depth, rival_of, slope_of, thin_slope};
 use super::slot::{Active, Flags};
-use super::spans::{Drawn, Line, Span, colour, colour_run};
+use super::spans::{Drawn, Line, Span, colour_run, colour_slot};
 use super::thin::depth_plane;
-use crate::active::{Cache, CacheUse};
+use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
 use crate::span::Way;
-use crate::visible::Mask;
+use crate::visible::{Mask, Part};
 
 /// The lowest bits of a key: a slot's number.
 const NUMBER: u32 = 0xFF;
@@ -104,6 +104,23 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         }
     }
 
+    /// Draws a span before what comes later, of which some may be seen before it.
+    #[inline(never)]
+    fn draw_contested(
+        &self,
+        slot: &CacheSlot<Active<L::Planes>>,
+        span: Span,
+        far: u32,
+        taken: Taken,
+        drawing: &mut Drawing<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
+        let mut mask = *drawing.mask;
+        let rival = rival_of::<L>(slot, span, out);
+        self.hide(rival, far, taken, out, &mut mask);
+        colour_free::<L>(drawing.mask, &mut mask, Drawn::of(slot), span, out);
+    }
+
     /// Draws the guest that comes next; the key of the one after it.
     #[inline(never)]
     fn next_guest(
@@ -145,7 +162,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         if taken.has_all(start, end) {
             return;
         }
-        colour_guest::<L>(rival, taken, drawing, out);
+        colour_guest::<L>(rival, &mut taken, drawing, out);
     }
 }
 
@@ -161,7 +178,7 @@ struct Drawing<'a> {
 #[inline(never)]
 fn colour_guest<L: Look>(
     rival: Rival,
-    taken: Mask,
+    taken: &mut Mask,
     drawing: &mut Drawing<'_>,
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
@@ -182,11 +199,25 @@ fn colour_guest<L: Look>(
     colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
 }
 
+/// Colours what is free of the span of a slot.
+#[inline(never)]
+fn colour_rest<L: Look>(
+    mask: &mut Mask,
+    slot: &CacheSlot<Active<L::Planes>>,
+    span: u32,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let (drawn, span) = (Drawn::of(slot), Span::of(span));
+    mask.cover_free(span.start, span.end, |start, end| {
+        colour_run::<L>(drawn, span, Span { start, end }, out);
+    });
+}
+
 /// Colours a span but for columns that are taken.
 #[inline(never)]
 fn colour_free<L: Look>(
     mask: &mut Mask,
-    mut taken: Mask,
+    taken: &mut Mask,
     drawn: Drawn<'_, L::Planes>,
     span: Span,
     out: &mut Line<'_, '_, WordOf<L>>,
@@ -270,7 +301,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     if self.over.meets(span.start, span.end) {
                         continue;
                     }
-                    colour::<L>(Drawn::of(&slots[i]), span, out);
+                    colour_slot::<L>(&slots[i], spans[i], out);
                     alone += 1;
                 }
                 listed &= !bit(i as u32);
@@ -284,6 +315,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn sort_slots<const FIND: bool>(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
         let mut count = 0;
+        let mut last = u32::MAX;
         for k in 0..usize::from(self.nearest) {
             let key = self.cache.order.as_flattened().get(k).copied();
             let key = key.unwrap_or_default();
@@ -294,7 +326,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let one = bit(number as u32 & 31);
             if *listed & one != 0 {
                 *listed &= !one;
-                self.insert_slot::<FIND>(key, count, out);
+                self.insert_slot::<FIND>(key, count, &mut last, out);
                 count += 1;
             }
         }
@@ -302,7 +334,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut listed = self.cache.listed[word];
             while listed != 0 {
                 let key = word as u32 * 32 + take_first(&mut listed);
-                self.insert_slot::<FIND>(key, count, out);
+                self.insert_slot::<FIND>(key, count, &mut last, out);
                 count += 1;
             }
         }
@@ -317,6 +349,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         &mut self,
         mut key: u32,
         count: usize,
+        last: &mut u32,
         out: &mut Line<'_, '_, WordOf<L>>,
     ) {
         let number = (key & NUMBER) as usize;
@@ -332,9 +365,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         };
         let span = if FIND {
-            let way = Flags(slot.flags).way();
-            let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
-            Span { start, end }
+            columns_of::<L>(slot, out)
         } else {
             Span::of(*word)
         };
@@ -353,7 +384,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             *farthest = far;
             key = near & !NUMBER | number as u32;
         }
-        insert_falling(self.cache.order.as_flattened_mut(), count, key);
+        if key > *last {
+            insert_falling(self.cache.order.as_flattened_mut(), count, key);
+        } else if let Some(to) = self.cache.order.as_flattened_mut().get_mut(count) {
+            (*to, *last) = (key, key);
+        }
     }
 
     /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.
@@ -366,13 +401,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             let Rival { span, object, .. } = guest.rival;
             if !ALL && !self.over.meets(span.start, span.end) {
-                let mut mask = Mask::EMPTY;
+                let mut masks = [Mask::EMPTY; 2];
+                let [mask, taken] = &mut masks;
                 let mut drawing = Drawing {
-                    mask: &mut mask,
+                    mask,
                     counts: &mut self.counts,
                     hidden: 0,
                 };
-                colour_guest::<L>(guest.rival, Mask::EMPTY, &mut drawing, out);
+                colour_guest::<L>(guest.rival, taken, &mut drawing, out);
                 continue;
             }
             let triangle = out.view.triangle_of::<L>(object);
@@ -436,23 +472,25 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             else {
                 break;
             };
-            let (drawn, span) = (Drawn::of(slot), Span::of(span));
-            if span.end == 0 {
+            let Span { start, end } = Span::of(span);
+            if end == 0 {
                 continue;
             }
             let next = field.keys.get(taken.slots).copied().unwrap_or_default();
             if guest_key >= far
-                || next | NUMBER >= far && field.is_contested(span, far, taken.slots)
+                || next | NUMBER >= far && field.is_contested(Span { start, end }, far, taken.slots)
             {
-                let mut mask = *drawing.mask;
-                field.hide(rival_of::<L>(slot, span, out), far, taken, out, &mut mask);
-                colour_free::<L>(drawing.mask, mask, drawn, span, out);
+                field.draw_contested(slot, Span { start, end }, far, taken, &mut drawing, out);
                 continue;
             }
-            let fresh = drawing.mask.cover_free(span.start, span.end, |start, end| {
-                colour_run::<L>(drawn, span, Span { start, end }, out);
-            });
-            drawing.hidden += u32::from(fresh != span.end - span.start);
+            match drawing.mask.cover_new(start, end) {
+                Part::None => colour_slot::<L>(slot, span, out),
+                Part::Some => {
+                    drawing.hidden += 1;
+                    colour_rest::<L>(drawing.mask, slot, span, out);
+                }
+                Part::All => drawing.hidden += 1,
+            }
         }
         while taken.guests < guests {
             field.next_guest(&mut taken, &mut drawing, out);
@@ -461,8 +499,23 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-/// Inserts a key among the first `count`, which fall.
+/// The columns of a slot.
 #[inline(always)]
+fn columns_of<L: Look>(slot: &CacheSlot<Active<L::Planes>>, out: &Line<'_, '_, WordOf<L>>) -> Span {
+    let (flags, sides) = (Flags(slot.flags), &slot.item.sides);
+    let (start, end) = if flags.is_direct() {
+        (
+            sides.left.column(out.number),
+            sides.right.column(out.number),
+        )
+    } else {
+        sides.clipped(flags.way(), out.number, out.view.frame)
+    };
+    Span { start, end }
+}
+
+/// Inserts a key among the first `count`, which fall.
+#[inline(never)]
 fn insert_falling(keys: &mut [u32], count: usize, key: u32) {
     let Some(keys) = keys.get_mut(..=count) else {
         return;

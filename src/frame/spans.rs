@@ -117,6 +117,28 @@ pub(super) fn thin_planes<L: Look>(
     planes
 }
 
+/// Colours the span of a slot.
+#[inline(never)]
+pub(super) fn colour_slot<L: Look>(
+    slot: &CacheSlot<Active<L::Planes>>,
+    span: u32,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let span = Span::of(span);
+    if Flags(slot.flags).fill() != Fill::Plain {
+        return colour::<L>(Drawn::of(slot), span, out);
+    }
+    let Some(run) = out.pixels.get_mut(span.start as usize..span.end as usize) else {
+        return;
+    };
+    let at = Place {
+        span: span.start,
+        column: span.start,
+        line: out.number,
+    };
+    L::fill_plain(&slot.item.planes, at, out.view.draws, run);
+}
+
 /// Colours a span.
 #[inline(always)]
 pub(super) fn colour<L: Look>(

@@ -79,6 +79,15 @@ pub(super) fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
     }
 }
 
+/// Colours 16 pixels.
+#[inline(always)]
+pub(super) fn fill_16<F: Pixel>(run: &mut [F::Word; 16], mut ramp: Packed) {
+    ramp.step = black_box(ramp.step);
+    for pixel in run {
+        *pixel = next::<F>(&mut ramp);
+    }
+}
+
 /// Colours a run by a pair, pixel by pixel.
 #[inline(never)]
 pub(super) fn fill_pair<F: Pixel>(run: &mut [F::Word], mut at: Pair, step: Pair) {

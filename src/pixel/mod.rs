@@ -18,11 +18,17 @@ pub trait Pixel: PixelFormat {
     }
 }
 
-/// The upper bits of the three fields, each at its place in one half of the word or the other.
+/// The upper bits of the three fields in the lower half; the upper half has anything.
 #[inline(always)]
-fn to_565(word: u32) -> u16 {
+fn to_565(word: u32) -> u32 {
     let fields = word & 0xF81F_07E0;
-    (fields | fields >> 16) as u16
+    fields | fields >> 16
+}
+
+/// Both halves of a word with their bytes swapped: one instruction, where of a half alone it is two.
+#[inline(always)]
+fn swapped_halves(word: u32) -> u32 {
+    word.swap_bytes().rotate_left(16)
 }
 
 impl Pixel for Rgb565 {
@@ -30,7 +36,7 @@ impl Pixel for Rgb565 {
 
     #[inline(always)]
     fn of_word(word: u32) -> u16 {
-        to_565(word)
+        to_565(word) as u16
     }
 }
 
@@ -40,7 +46,11 @@ impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
     #[inline(always)]
     fn of_word(word: u32) -> u16 {
         let word = to_565(word);
-        if BIG { word.to_be() } else { word.to_le() }
+        if BIG == cfg!(target_endian = "big") {
+            word as u16
+        } else {
+            swapped_halves(word) as u16
+        }
     }
 }
 
