@@ -32,8 +32,8 @@ const RING: usize = 64;
 
 /// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is.
 #[derive(Debug)]
+#[repr(C)]
 pub struct Cache<T, const WORDS: usize> {
-    pub(crate) slots: [[Slot<T>; 32]; WORDS],
     /// Slots that hold an object.
     pub(crate) used: [u32; WORDS],
     /// Of these, those that are drawn in the commonest way.
@@ -53,6 +53,8 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) spilled: Link,
     /// How many slots may be used.
     limit: u16,
+    /// The last, so that all else lies within the reach of one instruction.
+    pub(crate) slots: [[Slot<T>; 32]; WORDS],
 }
 
 /// What the cache has done since it was cleared (C8).
