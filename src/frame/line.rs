@@ -52,7 +52,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
-            self.draw_near_first(usize::from(slots), &mut out);
+            if self.draw_near_first(usize::from(slots), &mut out) {
+                self.covered = Mask::EMPTY;
+                return Ok(true);
+            }
         } else {
             self.guests = 0;
             let met = spilled && self.find_spilled(&mut out);
@@ -83,15 +86,16 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
+    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full;
+    /// whether it is.
     #[inline(never)]
-    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut left = out.pixels.len() as u32;
         for k in 0..slots {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize & 0xFF;
             let Some(slots) = self.cache.slots.get(number >> 5) else {
-                return;
+                return false;
             };
             let slot = &slots[number & 31];
             let way = Flags(slot.flags).way();
@@ -108,9 +112,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 colour_run::<L>(drawn, Span { start, end }, run, out);
             });
             if left == 0 {
-                return;
+                return true;
             }
         }
+        false
     }
 
     /// The background, where nothing is.

@@ -153,16 +153,14 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
             drawing.hidden += 1;
             return;
         }
-        let is_contested =
-            self.is_contested(rival.span, far, after.slots) || self.guest_key(after.guests) >= far;
+        if !self.is_contested(rival.span, far, after.slots) && self.guest_key(after.guests) < far {
+            return colour_guest::<L>(rival, None, drawing, out);
+        }
         let mut taken = *drawing.mask;
-        if is_contested {
-            self.hide(rival, far, after, out, &mut taken);
+        self.hide(rival, far, after, out, &mut taken);
+        if !taken.has_all(start, end) {
+            colour_guest::<L>(rival, Some(&mut taken), drawing, out);
         }
-        if taken.has_all(start, end) {
-            return;
-        }
-        colour_guest::<L>(rival, &mut taken, drawing, out);
     }
 }
 
@@ -174,11 +172,11 @@ struct Drawing<'a> {
     hidden: u32,
 }
 
-/// Colours what has no slot, but for columns that are taken.
+/// Colours what has no slot, where nobody is and but for columns that are taken.
 #[inline(never)]
 fn colour_guest<L: Look>(
     rival: Rival,
-    taken: &mut Mask,
+    taken: Option<&mut Mask>,
     drawing: &mut Drawing<'_>,
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
@@ -196,7 +194,13 @@ fn colour_guest<L: Look>(
         flags: Flags::new(fill, Way::PLAIN),
         object,
     };
-    colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
+    if let Some(taken) = taken {
+        return colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
+    }
+    let Span { start, end } = rival.span;
+    drawing.mask.cover_free(start, end, |start, end| {
+        colour_run::<L>(drawn, rival.span, Span { start, end }, out);
+    });
 }
 
 /// Colours what is free of the span of a slot.
@@ -401,14 +405,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             let Rival { span, object, .. } = guest.rival;
             if !ALL && !self.over.meets(span.start, span.end) {
-                let mut masks = [Mask::EMPTY; 2];
-                let [mask, taken] = &mut masks;
+                let mut mask = Mask::EMPTY;
                 let mut drawing = Drawing {
-                    mask,
+                    mask: &mut mask,
                     counts: &mut self.counts,
                     hidden: 0,
                 };
-                colour_guest::<L>(guest.rival, taken, &mut drawing, out);
+                colour_guest::<L>(guest.rival, None, &mut drawing, out);
                 continue;
             }
             let triangle = out.view.triangle_of::<L>(object);
