@@ -1,4 +1,4 @@
-//! H8, H9, H15, K11, P5: what a draw call does to its pixels, as values of the call.
+//! H8, H9, H15, K11, P1, P5: what a draw call does to its pixels, as values of the call.
 //!
 //! The reference goes from pixel to pixel and from call to call: coverage from whole numbers, 1/w in f64, and no
 //! spans. Where two depths are nearer to each other than depth may err, a pixel is left out, and counted.
@@ -97,6 +97,7 @@ struct Call {
     test: [Function; 2],
     /// What becomes of colours that are there, and the channels that are written.
     blend: Option<(BlendMode, [bool; 3])>,
+    priority: u8,
 }
 
 impl Call {
@@ -121,6 +122,7 @@ impl Call {
             cut: None,
             test: [NEARER_OR_EQUAL; 2],
             blend: None,
+            priority: 0,
         }
     }
 
@@ -137,6 +139,7 @@ impl Call {
             colour_if,
             depth_if,
         };
+        call.priority = self.priority;
         call.blend = self.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
     }
 
@@ -244,7 +247,7 @@ impl Levels {
 
 /// The colour of a pixel; `None` where it hangs on what depth may err.
 fn pixel(
-    calls: &[Call],
+    calls: &[&Call],
     [x, y]: [u16; 2],
     screen: Screen,
     by_depth: bool,
@@ -343,15 +346,19 @@ where
 {
     let mut counts = [0; 2];
     with_calls::<L, _>(screen, calls, |scene| {
-        for by_depth in [true, false] {
+        let mut order: Vec<_> = calls.iter().collect();
+        order.sort_by_key(|call| call.priority);
+        let is_ranked = calls.iter().any(|call| call.priority > 0);
+        for has_depth in [true, false] {
+            let by_depth = has_depth && !is_ranked;
             let background = L::Format::from_rgb8(BACKGROUND);
-            let lines = frame(scene, 128, by_depth, background);
+            let lines = frame(scene, 128, has_depth, background);
             let slots = rng.pick(&[0, 1, 2, 5, 128]);
-            let others = shuffled(scene, rng, slots, by_depth);
+            let others = shuffled(scene, rng, slots, has_depth);
             for (y, (line, other)) in (0..).zip(lines.iter().zip(&others)) {
                 assert_eq!(line, other, "line {y}, {slots} slots, depth: {by_depth}");
                 for (x, &word) in (0..).zip(line) {
-                    let Some(want) = pixel(calls, [x, y], screen, by_depth, rounding) else {
+                    let Some(want) = pixel(&order, [x, y], screen, by_depth, rounding) else {
                         counts[1] += 1;
                         continue;
                     };
@@ -517,4 +524,38 @@ fn many_panes_over_each_other_are_blended_from_far_to_near() {
         counts = [0, 1].map(|i| counts[i] + here[i]);
     }
     assert!(counts[0] > 2_000 && counts[1] == 0, "{counts:?}");
+}
+
+/// P1: priorities, some of them equal, in any order of submission, with everything else that a call may have.
+#[test]
+fn calls_are_drawn_by_priority_where_any_has_one() {
+    let mut rng = Rng::new(1_605);
+    let mut counts = [0; 2];
+    for round in 0..250 {
+        let screen = Screen::new(rng.pick(&[33, 70, 128]), 24).unwrap();
+        let (many, levels) = (rng.pick(&[3, 10, 40]), rng.pick(&[2, 4, 256]));
+        let mut calls: Vec<_> = (0..2 + rng.below(many))
+            .map(|_| {
+                let mut call = Call::new(&mut rng, screen);
+                call.priority = rng.below(levels) as u8;
+                if round % 2 == 0 && rng.below(3) == 0 {
+                    call.blend = Some((some_mode(&mut rng), [true; 3]));
+                }
+                if round % 2 == 0 && rng.below(3) == 0 {
+                    call.test[0] = rng.pick(&FUNCTIONS);
+                }
+                call.cut =
+                    (round % 2 == 0 && rng.below(4) == 0).then(|| Cut::new(&mut rng, screen));
+                call
+            })
+            .collect();
+        calls[0].priority = 1;
+        let here = match round % 6 {
+            0..4 => hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888),
+            4 => hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565),
+            _ => hold::<Textured<Rgb565Be>>(&mut rng, screen, &calls, OF_TEXELS),
+        };
+        counts = [0, 1].map(|i| counts[i] + here[i]);
+    }
+    assert!(counts[0] > 500_000 && counts[1] == 0, "{counts:?}");
 }

@@ -107,6 +107,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) scale: Scale,
     /// Whether a draw call has values that few have.
     pub(crate) has_values: bool,
+    /// Whether a draw call has a priority.
+    pub(crate) is_ranked: bool,
     pub(crate) assembled: Assembled,
     /// Counts changes, so that a renderer notices them.
     pub(crate) generation: u32,
@@ -127,6 +129,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             lines: 0..0,
             scale,
             has_values: false,
+            is_ranked: false,
             assembled: Assembled::default(),
             generation: 0,
             look: PhantomData,
@@ -169,6 +172,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.camera = Some(*camera);
         self.lines = lines;
         self.has_values = false;
+        self.is_ranked = false;
         self.assembled = Assembled::default();
         self.generation = self.generation.wrapping_add(1);
         Ok(())

@@ -12,6 +12,7 @@ mod triangle;
 
 pub(crate) use edge::first_line;
 pub use edge::{Edge, Frame, Kind};
+pub(crate) use edge::{across, down};
 pub use plane::{Rise, Shares};
 pub use triangle::{Sides, Size, Triangle, Way};
 
