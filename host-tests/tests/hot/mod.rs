@@ -4,7 +4,7 @@
 pub mod exact;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
-use scanbeam::look::{Gouraud, Look};
+use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{
     Affine, Camera, Cull, Faces, Link, Mesh, PixelFormat, Rgb565, Rgb565Be, Rgb888, Screen,
@@ -40,8 +40,8 @@ pub trait Smooth: Look + 'static {
 pub type WordOf<L> = <<L as Smooth>::Format as PixelFormat>::Word;
 
 macro_rules! smooth {
-    ($($format:ty),+) => {$(
-        impl Smooth for Gouraud<$format> {
+    ($($look:ident<$format:ty>),+) => {$(
+        impl Smooth for $look<$format> {
             type Format = $format;
 
             fn draw_line(
@@ -56,7 +56,12 @@ macro_rules! smooth {
         }
     )+};
 }
-smooth!(Rgb565, Rgb565Be, Rgb888);
+smooth!(
+    Gouraud<Rgb565>,
+    Gouraud<Rgb565Be>,
+    Gouraud<Rgb888>,
+    Textured<Rgb565>
+);
 
 /// What a scene is lent.
 pub struct SceneRooms {
@@ -71,7 +76,7 @@ impl SceneRooms {
     pub fn new(vertices: usize, objects: usize, bins: usize, draws: usize) -> Self {
         Self {
             vertices: vec![Vertex::EMPTY; vertices],
-            places: Vec::new(),
+            places: vec![TexturePlace::EMPTY; vertices],
             objects: vec![Object::EMPTY; objects],
             bins: vec![0; bins],
             draws: vec![DrawState::EMPTY; draws],
