@@ -12,8 +12,8 @@ mod list;
 
 pub use bucket::Buckets;
 pub use cache::Slot as CacheSlot;
-pub(crate) use cache::next;
 pub use cache::{Cache, CacheUse};
+pub(crate) use cache::{Change, next};
 pub use counts::CacheCounts;
 pub use interleave::Interleave;
 pub use list::{ActiveList, Member, Slot, Visitor};

@@ -3,9 +3,10 @@
 use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::slot::Flags;
-use crate::active::next;
+use crate::active::{Change, next};
 use crate::link::Link;
 use crate::look::Look;
+use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object, Scene};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -41,26 +42,54 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What turns or ends on a line.
     #[inline(never)]
     fn change(&mut self, view: &View<'_>, line: u16) {
-        let mut at = self.cache.events(line);
-        while let Some(after) = self.cache.after(at) {
-            let number = usize::from(at);
-            at = after;
-            let Some(slot) = self.cache.slot(number) else {
-                continue;
-            };
-            if slot.event == line && slot.end == line {
-                self.cache.free_slot(number);
-                self.changed = true;
-                continue;
+        for word in 0..WORDS {
+            let changes = self.cache.take_changes(word, line);
+            self.changed |= changes.ended != 0;
+            let mut turning = changes.turning;
+            while turning != 0 {
+                self.turn(view, word, take_first(&mut turning));
             }
-            let mut event = slot.event;
-            if event == line {
-                event = slot.end;
-                if let Some(triangle) = view.triangle_of::<L>(slot.object) {
-                    slot.item.sides.turn(&triangle, Flags(slot.flags).way());
+            for (mut far, turns) in changes.far.into_iter().zip([true, false]) {
+                while far != 0 {
+                    self.change_far(view, word, take_first(&mut far), turns);
                 }
             }
-            self.cache.await_event(number, event);
+        }
+    }
+
+    /// A side of a slot gives way to the third one.
+    #[inline(always)]
+    fn turn(&mut self, view: &View<'_>, word: usize, i: u32) {
+        let slot = &mut self.cache.slots[word][i as usize & 31];
+        let Some(triangle) = view.triangle_of::<L>(slot.object) else {
+            return;
+        };
+        slot.item.sides.turn(&triangle, Flags(slot.flags).way());
+        let change = Change {
+            line: triangle.lines().end as u16,
+            turns: false,
+        };
+        self.cache.await_change(word, bit(i), change);
+    }
+
+    /// What has gone around the ring once or more: a side turns or the triangle ends, here or farther down.
+    #[cold]
+    #[inline(never)]
+    fn change_far(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
+        let slot = &self.cache.slots[word][i as usize & 31];
+        let Some(triangle) = view.triangle_of::<L>(slot.object) else {
+            return;
+        };
+        let lines = triangle.lines();
+        let at = if turns { lines.turn } else { lines.end } as u16;
+        if at != self.cache.line() {
+            self.cache
+                .await_change(word, bit(i), Change { line: at, turns });
+        } else if turns {
+            self.turn(view, word, i);
+        } else {
+            self.cache.free_slots(word, bit(i));
+            self.changed = true;
         }
     }
 
@@ -119,12 +148,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let flags = Flags::new(fill, way);
         kept.object = number;
         kept.flags = flags.0;
-        kept.end = lines.end as u16;
-        let turns = lines.turn > i32::from(line);
-        let event = if turns { lines.turn } else { lines.end };
+        let turns = i32::from(line) < lines.turn && lines.turn < lines.end;
+        let at = if turns { lines.turn } else { lines.end } as u16;
         let lacks = L::lacks_texture(&kept.item.planes, view.draws);
         self.counts.untextured += u32::from(lacks);
-        self.cache.keep(slot, flags.is_plain(), event as u16);
+        let change = Change { line: at, turns };
+        self.cache.keep(slot, flags.is_plain(), change);
         self.counts.set_ups += 1;
         if let Some(link) = self.links.get_mut(usize::from(number)) {
             *link = Link::cached(slot);

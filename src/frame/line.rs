@@ -283,10 +283,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
-        let (Some(slots), Some(spans), Some(deep)) = (
+        let (Some(slots), Some(spans), Some(deep), Some(depth)) = (
             self.cache.slots.get_mut(word),
             self.cache.spans.get(word),
             self.cache.deep.get_mut(word),
+            self.cache.depth.get_mut(word),
         ) else {
             return;
         };
@@ -300,10 +301,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let triangle = out.view.triangle_of::<L>(slot.object);
             let plane = triangle.and_then(|t| depth_plane(&t));
             slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
-            slot.item.depth = plane.unwrap_or_default();
+            depth[i] = plane.unwrap_or_default();
         }
         let drawn = Drawn::of(slot);
         let known = Known {
+            plane: depth[i],
             cells: self.depth,
             written: &mut self.written,
         };
@@ -331,11 +333,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.counts.set_ups += 1;
         let meets = !self.depth.is_empty() && self.met && self.over.meets(start, end);
         let depth = if meets { depth_plane(&triangle) } else { None };
-        let item = Active {
-            sides,
-            planes,
-            depth: depth.unwrap_or_default(),
-        };
+        let item = Active { sides, planes };
         let drawn = Drawn {
             item: &item,
             flags: Flags::new(fill, way).without_depth(depth.is_none()),
@@ -343,6 +341,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         if meets {
             let known = Known {
+                plane: depth.unwrap_or_default(),
                 cells: self.depth,
                 written: &mut self.written,
             };

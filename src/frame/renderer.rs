@@ -27,7 +27,6 @@ impl<L: Look, const WORDS: usize> FastMemory<L, WORDS> {
                 right: Edge::NONE,
             },
             planes: L::EMPTY,
-            depth: [0; 3],
         }))
     }
 

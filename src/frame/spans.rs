@@ -21,8 +21,9 @@ pub(super) struct Span {
     pub(super) end: u32,
 }
 
-/// The depth of a line, as far as it is known.
+/// The depth of a line, as far as it is known, and the plane of what is drawn.
 pub(super) struct Known<'a> {
+    pub(super) plane: [u32; 3],
     pub(super) cells: &'a mut [u32],
     pub(super) written: &'a mut Mask,
 }
@@ -44,7 +45,7 @@ pub(super) fn nearer<L: Look>(
     known: Known<'_>,
 ) {
     let (column, line) = (span.start, out.number);
-    let [mut at, mut step, down] = drawn.item.depth;
+    let [mut at, mut step, down] = known.plane;
     at = at
         .wrapping_add(step.wrapping_mul(column))
         .wrapping_add(down.wrapping_mul(line));

@@ -176,10 +176,7 @@ impl Triangle<'_> {
     /// How the sides are evaluated.
     #[inline(always)]
     pub(crate) fn way(&self, size: Size) -> Way {
-        let (low, high) = (
-            8 * ORIGIN,
-            8 * (ORIGIN + self.frame.width),
-        );
+        let (low, high) = (8 * ORIGIN, 8 * (ORIGIN + self.frame.width));
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let inside = x.map(|x| (x - low) | (high - x));
         // Tiny and small triangles have short sides.
