@@ -8,6 +8,7 @@ use crate::link::Link;
 use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object, Scene};
+use crate::span::{Measure, Way, end_line};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Brings the cache to a line of the picture.
@@ -61,15 +62,26 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(always)]
     fn turn(&mut self, view: &View<'_>, word: usize, i: u32) {
         let slot = &mut self.cache.slots[word][i as usize & 31];
-        let Some(triangle) = view.triangle_of::<L>(slot.object) else {
+        let Some(object) = view.objects.get(usize::from(slot.object)) else {
             return;
         };
-        slot.item.sides.turn(&triangle, Flags(slot.flags).way());
-        let change = Change {
-            line: triangle.lines().end as u16,
-            turns: false,
+        let way = Flags(slot.flags).way();
+        let end = if way == Way::PLAIN {
+            let [_, b, c] = object.corner;
+            let at = |i: u16| view.vertices.get(usize::from(i)).map(|v| v.place);
+            let (Some(b), Some(c)) = (at(b), at(c)) else {
+                return;
+            };
+            end_line(slot.item.sides.turn_plain([b, c]))
+        } else {
+            let Some(triangle) = view.triangle(object) else {
+                return;
+            };
+            slot.item.sides.turn(&triangle, way);
+            triangle.lines().end as u16
         };
-        self.cache.await_change(word, bit(i), change);
+        let turns = false;
+        self.cache.await_change(word, bit(i), Change { line: end, turns });
     }
 
     /// What has gone around the ring once or more: a side turns or the triangle ends, here or farther down.
@@ -77,7 +89,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn change_far(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
         let slot = &self.cache.slots[word][i as usize & 31];
-        let Some(triangle) = view.triangle_of::<L>(slot.object) else {
+        let Some(triangle) = view.triangle_of(slot.object) else {
             return;
         };
         let lines = triangle.lines();
@@ -125,26 +137,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// An object into a slot; its link leads there from now on (C3).
     #[inline(never)]
     fn take_in(&mut self, view: &View<'_>, slot: usize, number: u16, object: &Object, line: u16) {
-        let (Some(triangle), Some(kept)) = (view.triangle::<L>(object), self.cache.slot(slot))
+        let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot))
         else {
             return;
         };
-        let lines = triangle.lines();
-        if lines.end <= i32::from(line) {
+        if triangle.lines().end <= i32::from(line) {
             return;
         }
-        let area = triangle.area();
-        let size = triangle.size(area);
-        let way = triangle.way(size);
+        let Measure { area, size, way } = triangle.measure();
+        let planes = &mut kept.item.planes;
+        let fill = L::set_up(&triangle, number, size, area, view.draws, planes);
+        let lines = triangle.lines();
         kept.item.sides = triangle.sides(way, i32::from(line), lines.turn);
-        let fill = L::set_up(
-            &triangle,
-            number,
-            size,
-            area,
-            view.draws,
-            &mut kept.item.planes,
-        );
         let flags = Flags::new(fill, way);
         kept.object = number;
         kept.flags = flags.0;

@@ -16,6 +16,7 @@ use crate::link::Link;
 use crate::look::{Look, Place, WordOf};
 use crate::num::{bit, take_first};
 use crate::scene::Scene;
+use crate::span::Measure;
 use crate::visible::Mask;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -190,7 +191,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let line = out.number as i32;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
         while at.is_some() {
-            let Some(triangle) = out.view.triangle_of::<L>(at.object()) else {
+            let Some(triangle) = out.view.triangle_of(at.object()) else {
                 break;
             };
             let after = next(self.links, at);
@@ -198,7 +199,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if lines.end <= line {
                 self.cache.relink(before, after, self.links);
             } else {
-                let way = triangle.way(triangle.size(triangle.area()));
+                let way = triangle.measure().way;
                 let sides = triangle.sides(way, line, lines.turn);
                 let (start, end) = sides.columns(way, out.number, out.view.frame);
                 if start < end {
@@ -298,7 +299,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let one = bit(i as u32);
         if *deep & one == 0 {
             *deep |= one;
-            let triangle = out.view.triangle_of::<L>(slot.object);
+            let triangle = out.view.triangle_of(slot.object);
             let plane = triangle.and_then(|t| depth_plane(&t));
             slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
             depth[i] = plane.unwrap_or_default();
@@ -317,12 +318,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn draw_spilled(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let after = next(self.links, at);
         let object = at.object();
-        let Some(triangle) = out.view.triangle_of::<L>(object) else {
+        let Some(triangle) = out.view.triangle_of(object) else {
             return Link::NONE;
         };
-        let area = triangle.area();
-        let size = triangle.size(area);
-        let way = triangle.way(size);
+        let Measure { area, size, way } = triangle.measure();
         let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
         let (start, end) = sides.columns(way, out.number, out.view.frame);
         if start >= end {

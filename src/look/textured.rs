@@ -82,7 +82,7 @@ impl<F: Texel> Textured<F> {
     fn corners(triangle: &Triangle<'_>) -> [Corner; 3] {
         const FIRST: i32 = 64 * ORIGIN + 32;
         let corner = |i: usize| {
-            let (vertex, texture) = (triangle.vertex[i], triangle.texture[i]);
+            let (vertex, texture) = (triangle.vertex[i], triangle.texture(i));
             let fine = texture.fine();
             Corner {
                 x: 8 * (vertex.place & 0xFFFF) as i32 + fine[0] - FIRST,

@@ -12,7 +12,8 @@ mod triangle;
 
 pub use edge::{Edge, Frame, Kind};
 pub use plane::{Rise, Shares};
-pub use triangle::{Sides, Size, Triangle, Way};
+pub use triangle::{Measure, Sides, Size, Triangle, Way};
+pub(crate) use triangle::end_line;
 
 /// The pixels of one object on one line, clipped to the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

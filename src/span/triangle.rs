@@ -3,15 +3,25 @@
 use super::edge::{Edge, Frame, Kind, across, down, first_line};
 use super::plane::Shares;
 use crate::num::{InverseArea, Plane};
-use crate::scene::{ORIGIN, TexturePlace, Vertex};
+use crate::scene::{ORIGIN, Object, TexturePlace, Vertex};
 
 /// Corners of a triangle, the topmost first, clockwise, with a doubled area above 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle<'a> {
     pub(crate) vertex: [&'a Vertex; 3],
-    /// Empty where the look has no textures.
-    pub(crate) texture: [TexturePlace; 3],
+    /// The numbers of the corners, and the texture places of all vertices: looked up where a look asks.
+    pub(crate) object: &'a Object,
+    pub(crate) places: &'a [TexturePlace],
     pub(crate) frame: Frame,
+}
+
+/// What is known of a triangle before its planes are made.
+#[derive(Clone, Copy, Debug)]
+pub struct Measure {
+    /// The doubled area, units of 1/64 pixel.
+    pub(crate) area: u32,
+    pub(crate) size: Size,
+    pub(crate) way: Way,
 }
 
 /// The way of evaluating planes, from the cheapest on.
@@ -74,6 +84,13 @@ impl Triangle<'_> {
         self.vertex[corner].place
     }
 
+    /// Where a corner lies on its texture.
+    #[inline(always)]
+    pub(crate) fn texture(&self, corner: usize) -> TexturePlace {
+        let number = usize::from(self.object.corner[corner]);
+        self.places.get(number).copied().unwrap_or_default()
+    }
+
     #[inline(always)]
     fn places(&self) -> [u32; 3] {
         self.vertex.map(|v| v.place)
@@ -88,14 +105,32 @@ impl Triangle<'_> {
         plus.wrapping_sub(across(d2).wrapping_mul(down(d1))) as u32
     }
 
+    /// Area, size and way.
+    #[inline(always)]
+    pub(crate) fn measure(&self) -> Measure {
+        let (area, far) = (self.area(), self.reach());
+        let size = self.size_of(area, far);
+        let way = self.way_of(size, far);
+        Measure { area, size, way }
+    }
+
     /// How planes are made; `area` is the triangle's.
     #[inline(always)]
     pub(crate) fn size(&self, area: u32) -> Size {
+        self.size_of(area, self.reach())
+    }
+
+    /// The farthest way from the first corner to another, across and down.
+    #[inline(always)]
+    fn reach(&self) -> i32 {
         let [a, b, c] = self.places();
-        let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
         let magnitude = |d: i32| d ^ (d >> 31);
         let way = |d: u32| magnitude(across(d)) + down(d);
-        let far = way(d1).max(way(d2));
+        way(b.wrapping_sub(a)).max(way(c.wrapping_sub(a)))
+    }
+
+    #[inline(always)]
+    fn size_of(&self, area: u32, far: i32) -> Size {
         if far < 224 && area >= 256 || far < 200 && area >= 128 {
             return Size::Tiny;
         }
@@ -120,10 +155,10 @@ impl Triangle<'_> {
     /// The turn and the end.
     #[inline(always)]
     pub(crate) fn lines(&self) -> Lines {
-        let (b, c) = (first_line(self.place(1)), first_line(self.place(2)));
+        let (b, c) = (self.place(1), self.place(2));
         Lines {
-            turn: b.min(c) - ORIGIN,
-            end: b.max(c) - ORIGIN,
+            turn: first_line(b.min(c)) - ORIGIN,
+            end: first_line(b.max(c)) - ORIGIN,
         }
     }
 
@@ -150,7 +185,11 @@ impl Triangle<'_> {
     pub(crate) fn sides(&self, way: Way, line: i32, turn: i32) -> Sides {
         let mut sides = self.upper_sides(way);
         if line >= turn {
-            sides.turn(self, way);
+            if way == Way::PLAIN {
+                sides.turn_plain([self.place(1), self.place(2)]);
+            } else {
+                sides.turn(self, way);
+            }
         }
         sides
     }
@@ -159,14 +198,20 @@ impl Triangle<'_> {
     #[inline(always)]
     fn upper_sides(&self, way: Way) -> Sides {
         let [a, b, c] = self.places();
-        let origin = self.origin(way);
-        if way.kind == Kind::Short {
+        if way == Way::PLAIN {
             let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
             return Sides {
-                left: Edge::short(a, across(d2), down(d2), origin),
-                right: Edge::short(a, across(d1), down(d1), origin),
+                left: Edge::short(a, across(d2), down(d2), ORIGIN),
+                right: Edge::short(a, across(d1), down(d1), ORIGIN),
             };
         }
+        self.upper_sides_of_any(way)
+    }
+
+    #[inline(never)]
+    fn upper_sides_of_any(&self, way: Way) -> Sides {
+        let [a, b, c] = self.places();
+        let origin = self.origin(way);
         Sides {
             left: Edge::of_kind(way.kind, a, c, origin),
             right: Edge::of_kind(way.kind, a, b, origin),
@@ -175,13 +220,11 @@ impl Triangle<'_> {
 
     /// How the sides are evaluated.
     #[inline(always)]
-    pub(crate) fn way(&self, size: Size) -> Way {
-        let (low, high) = (8 * ORIGIN, 8 * (ORIGIN + self.frame.width));
-        let x = self.places().map(|p| (p & 0xFFFF) as i32);
-        let inside = x.map(|x| (x - low) | (high - x));
+    fn way_of(&self, size: Size, far: i32) -> Way {
+        let x = (self.place(0) & 0xFFFF) as i32 - 8 * ORIGIN;
         // Tiny and small triangles have short sides.
         let is_short = matches!(size, Size::Tiny | Size::Sharp | Size::Small);
-        if is_short && inside[0] | inside[1] | inside[2] >= 0 {
+        if is_short && (x - far) | (8 * self.frame.width - x - far) >= 0 {
             return Way::PLAIN;
         }
         self.way_of_any()
@@ -224,9 +267,30 @@ impl Triangle<'_> {
     }
 }
 
+/// The line after the last of a triangle that ends at a place, counted from the picture's first.
+#[inline(always)]
+pub(crate) fn end_line(place: u32) -> u16 {
+    (first_line(place) - ORIGIN) as u16
+}
+
 impl Sides {
-    /// The third side, in place of the one that ends at the middle corner.
+    /// The third side of [`Way::PLAIN`], in place of the one that ends at the middle corner; the place where it
+    /// ends.
     #[inline(always)]
+    pub(crate) fn turn_plain(&mut self, [b, c]: [u32; 2]) -> u32 {
+        let d = c.wrapping_sub(b);
+        let (dx, dy) = (across(d), down(d));
+        if dy > 0 {
+            self.right = Edge::short(b, dx, dy, ORIGIN);
+            c
+        } else {
+            self.left = Edge::short(c, -dx, -dy, ORIGIN);
+            b
+        }
+    }
+
+    /// The third side, in place of the one that ends at the middle corner.
+    #[inline(never)]
     pub(crate) fn turn(&mut self, triangle: &Triangle<'_>, way: Way) {
         let [_, b, c] = triangle.places();
         let origin = triangle.origin(way);
