@@ -30,37 +30,40 @@ pub struct Change {
 /// Lines of the ring. What changes farther down goes around.
 const RING: u16 = 32;
 
-/// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is.
+/// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is. Sets come first, where a
+/// processor reaches them without reckoning an address.
 #[derive(Debug)]
+#[repr(C)]
 pub struct Cache<T, const WORDS: usize> {
-    pub(crate) slots: [[Slot<T>; 32]; WORDS],
     /// Slots that hold an object.
     pub(crate) used: [u32; WORDS],
     /// Of these, those that are drawn in the commonest way.
     pub(crate) plain: [u32; WORDS],
-    /// Of these, those whose depth is known, and what it is: at the picture's first pixel, its steps across and
-    /// down.
-    pub(crate) deep: [u32; WORDS],
-    pub(crate) depth: [[[u32; 3]; 32]; WORDS],
     /// Of these, those whose next change is the turn of a side.
     turning: [u32; WORDS],
     /// Of these, those whose next change was farther away than the ring is long.
     far: [u32; WORDS],
-    /// The columns of each slot on this line: the first in the upper half, the one after the last below.
-    pub(crate) spans: [[u32; 32]; WORDS],
-    /// Slots of spans that meet others, by number of object; and the same as a set.
+    /// Of these, those whose depth is known.
+    pub(crate) deep: [u32; WORDS],
+    /// Slots of spans that meet others.
     pub(crate) listed: [u32; WORDS],
-    pub(crate) order: [[u32; 32]; WORDS],
-    /// Slots from the nearest on, while no object begins or ends.
-    pub(crate) near: [[u32; 32]; WORDS],
-    /// The line whose changes were taken last.
-    line: u16,
-    /// What changes on each line of the ring.
-    ring: [[u32; WORDS]; RING as usize],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
     /// How many slots may be used.
     limit: u16,
+    /// The line whose changes were taken last.
+    line: u16,
+    /// What changes on each line of the ring.
+    ring: [[u32; WORDS]; RING as usize],
+    pub(crate) slots: [[Slot<T>; 32]; WORDS],
+    /// The depth of each slot, where it is known: at the picture's first pixel, its steps across and down.
+    pub(crate) depth: [[[u32; 3]; 32]; WORDS],
+    /// The columns of each slot on this line: the first in the upper half, the one after the last below.
+    pub(crate) spans: [[u32; 32]; WORDS],
+    /// Slots of spans that meet others, by number of object.
+    pub(crate) order: [[u32; 32]; WORDS],
+    /// Slots from the nearest on, while no object begins or ends.
+    pub(crate) near: [[u32; 32]; WORDS],
 }
 
 /// Slots of a word that a line changes.
@@ -167,7 +170,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     /// The slot of a number; there is one for each number below `32 WORDS`.
     #[inline(always)]
     pub(crate) fn slot(&mut self, slot: usize) -> Option<&mut Slot<T>> {
-        Some(&mut self.slots.get_mut(slot >> 5)?[slot & 31])
+        self.slots.as_flattened_mut().get_mut(slot)
     }
 
     /// Says that a slot is in use from now on, and when it changes.
@@ -179,7 +182,6 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         }
         let one = bit(slot as u32);
         self.used[word] |= one;
-        self.deep[word] &= !one;
         if plain {
             self.plain[word] |= one;
         }
@@ -203,6 +205,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     pub(crate) fn free_slots(&mut self, word: usize, slots: u32) {
         self.used[word] &= !slots;
         self.plain[word] &= !slots;
+        self.deep[word] &= !slots;
     }
 
     /// The line whose changes were taken last.

@@ -8,7 +8,7 @@ use crate::link::Link;
 use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object, Scene};
-use crate::span::{Measure, Way, end_line};
+use crate::span::{Way, end_line};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Brings the cache to a line of the picture.
@@ -81,7 +81,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             triangle.lines().end as u16
         };
         let turns = false;
-        self.cache.await_change(word, bit(i), Change { line: end, turns });
+        self.cache
+            .await_change(word, bit(i), Change { line: end, turns });
     }
 
     /// What has gone around the ring once or more: a side turns or the triangle ends, here or farther down.
@@ -120,10 +121,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 self.take_in(view, slot, number, object, line);
             }
         }
-        let mut at = head;
+        let (mut at, mut hits) = (head, 0);
         while let Some(object) = view.objects.get(usize::from(at)) {
             if let Some(slot) = self.cache.free() {
-                self.counts.hits += 1;
+                hits += 1;
                 self.take_in(view, slot, at, object, line);
             } else {
                 self.counts.spilled += 1;
@@ -131,32 +132,38 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
             at = object.next;
         }
+        self.counts.hits += hits;
         self.counts.peak = self.counts.peak.max(self.cache.in_use());
     }
 
     /// An object into a slot; its link leads there from now on (C3).
     #[inline(never)]
     fn take_in(&mut self, view: &View<'_>, slot: usize, number: u16, object: &Object, line: u16) {
-        let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot))
-        else {
+        let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot)) else {
             return;
         };
-        if triangle.lines().end <= i32::from(line) {
+        let entry = triangle.enter(line, &mut kept.item.sides);
+        if entry.change() == 0 {
             return;
         }
-        let Measure { area, size, way } = triangle.measure();
         let planes = &mut kept.item.planes;
-        let fill = L::set_up(&triangle, number, size, area, view.draws, planes);
-        let lines = triangle.lines();
-        kept.item.sides = triangle.sides(way, i32::from(line), lines.turn);
-        let flags = Flags::new(fill, way);
+        let fill = L::set_up(
+            &triangle,
+            number,
+            entry.size(),
+            entry.area,
+            view.draws,
+            planes,
+        );
+        let flags = Flags::new(fill, entry.way());
         kept.object = number;
         kept.flags = flags.0;
-        let turns = i32::from(line) < lines.turn && lines.turn < lines.end;
-        let at = if turns { lines.turn } else { lines.end } as u16;
-        let lacks = L::lacks_texture(&kept.item.planes, view.draws);
+        let lacks = L::lacks_texture(planes, view.draws);
         self.counts.untextured += u32::from(lacks);
-        let change = Change { line: at, turns };
+        let change = Change {
+            line: entry.change(),
+            turns: entry.turns(),
+        };
         self.cache.keep(slot, flags.is_plain(), change);
         self.counts.set_ups += 1;
         if let Some(link) = self.links.get_mut(usize::from(number)) {

@@ -1,7 +1,7 @@
 //! A triangle in a slot of the cache: 56 bytes with smooth colours, and 12 beside it for its depth.
 
 use crate::look::Fill;
-use crate::span::{Kind, Sides, Way};
+use crate::span::{Sides, Way};
 
 /// A triangle, set up.
 #[derive(Clone, Copy, Debug)]
@@ -18,18 +18,18 @@ pub(super) struct Flags(pub(super) u8);
 
 impl Flags {
     const NO_DEPTH: u8 = 1 << 5;
-    const CROSSES: u8 = 1 << 4;
+    const WAY: u32 = 2;
 
     #[inline(always)]
     pub(super) fn new(fill: Fill, way: Way) -> Self {
-        let crosses = if way.crosses { Self::CROSSES } else { 0 };
-        Self(fill as u8 | (way.kind as u8) << 2 | crosses)
+        Self(fill as u8 | way.0 << Self::WAY)
     }
 
     /// Whether the triangle is drawn in the commonest way.
     #[inline(always)]
     pub(super) fn is_plain(self) -> bool {
-        self.fill() == Fill::Plain && self.way().is_direct()
+        const { assert!(Fill::Plain as u8 == 0) };
+        self.0 & (3 | Way::INDIRECT << Self::WAY) == 0
     }
 
     #[inline(always)]
@@ -44,15 +44,7 @@ impl Flags {
 
     #[inline(always)]
     pub(super) fn way(self) -> Way {
-        let kind = match self.0 >> 2 & 3 {
-            0 => Kind::Short,
-            1 => Kind::Tall,
-            _ => Kind::Divided,
-        };
-        Way {
-            kind,
-            crosses: self.0 & Self::CROSSES != 0,
-        }
+        Way(self.0 >> Self::WAY & Way::BITS)
     }
 
     /// Whether depth has to be found on each line.

@@ -60,6 +60,22 @@ impl<F: Pixel> Gouraud<F> {
         planes[2] = join(|r| r.dy);
     }
 
+    /// Planes of all that are not tiny, or not in one word.
+    #[inline(never)]
+    fn other_planes(triangle: &Triangle<'_>, size: Size, area: u32, planes: &mut Planes) -> Fill {
+        let colour = triangle.vertex.map(|v| v.colour);
+        if size == Size::Sharp && F::PACKED && is_flat(colour) {
+            Self::packed_planes(triangle.vertex, area, planes);
+            return Fill::Plain;
+        }
+        if matches!(size, Size::Sharp | Size::Thin) {
+            if let Some(fill) = Self::even_planes(colour, planes) {
+                return fill;
+            }
+        }
+        plane_shades(triangle, size, area, planes)
+    }
+
     /// One colour for a thin triangle whose corners differ by less than a step.
     #[inline(never)]
     fn even_planes(colour: [u32; 3], planes: &mut Planes) -> Option<Fill> {
@@ -293,21 +309,11 @@ impl<F: Pixel> Paint for Gouraud<F> {
         _: &[DrawState<'_>],
         planes: &mut Planes,
     ) -> Fill {
-        let colour = triangle.vertex.map(|v| v.colour);
         if size == Size::Tiny && F::PACKED {
             Self::packed_planes(triangle.vertex, area, planes);
             return Fill::Plain;
         }
-        if size == Size::Sharp && F::PACKED && is_flat(colour) {
-            Self::packed_planes(triangle.vertex, area, planes);
-            return Fill::Plain;
-        }
-        if matches!(size, Size::Sharp | Size::Thin) {
-            if let Some(fill) = Self::even_planes(colour, planes) {
-                return fill;
-            }
-        }
-        plane_shades(triangle, size, area, planes)
+        Self::other_planes(triangle, size, area, planes)
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {

@@ -10,10 +10,10 @@ mod edge;
 mod plane;
 mod triangle;
 
-pub use edge::{Edge, Frame, Kind};
+pub use edge::{Edge, Frame};
 pub use plane::{Rise, Shares};
-pub use triangle::{Measure, Sides, Size, Triangle, Way};
 pub(crate) use triangle::end_line;
+pub use triangle::{Measure, Sides, Size, Triangle, Way};
 
 /// The pixels of one object on one line, clipped to the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

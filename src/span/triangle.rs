@@ -48,25 +48,83 @@ pub struct Lines {
     pub(crate) end: i32,
 }
 
-/// How sides are evaluated.
+/// How sides are evaluated, in three bits: 0 and 1 say the [`Kind`], 2 whether columns may lie beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
-    pub(crate) kind: Kind,
-    /// Whether columns may lie beside the picture.
-    pub(crate) crosses: bool,
-}
+pub struct Way(pub(crate) u8);
 
 impl Way {
     /// Sides within the picture by one multiply-add.
-    pub(crate) const PLAIN: Self = Self {
-        kind: Kind::Short,
-        crosses: false,
-    };
+    pub(crate) const PLAIN: Self = Self(0);
+    /// The bits of all ways.
+    pub(crate) const BITS: u8 = 7;
+    /// Bits of which none is set where columns need no look at the picture's border.
+    pub(crate) const INDIRECT: u8 = Self::CROSSES | Kind::Divided as u8;
+    const CROSSES: u8 = 4;
+
+    const fn new(kind: Kind, crosses: bool) -> Self {
+        Self(kind as u8 | if crosses { Self::CROSSES } else { 0 })
+    }
+
+    #[inline(always)]
+    pub(crate) fn kind(self) -> Kind {
+        match self.0 & 3 {
+            0 => Kind::Short,
+            1 => Kind::Tall,
+            _ => Kind::Divided,
+        }
+    }
+
+    #[inline(always)]
+    fn crosses(self) -> bool {
+        self.0 & Self::CROSSES != 0
+    }
 
     /// Whether columns need no look at the picture's border.
     #[inline(always)]
     pub(crate) fn is_direct(self) -> bool {
-        !self.crosses && self.kind != Kind::Divided
+        self.0 & Self::INDIRECT == 0
+    }
+}
+
+/// What a triangle is found to be as it begins: in two words, so that it comes back in registers.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The doubled area, units of 1/64 pixel.
+    pub(crate) area: u32,
+    /// From the lowest bit on: 8 of the size, 8 of the way, 15 of the line of the next change, 1 whether a side
+    /// turns on it. All are 0 where the triangle ends above.
+    bits: u32,
+}
+
+impl Entry {
+    const TURNS: u32 = 1 << 31;
+
+    #[inline(always)]
+    pub(crate) fn size(self) -> Size {
+        match self.bits & 0xFF {
+            0 => Size::Tiny,
+            1 => Size::Small,
+            2 => Size::Sharp,
+            3 => Size::Thin,
+            _ => Size::Large,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn way(self) -> Way {
+        Way((self.bits >> 8) as u8)
+    }
+
+    /// The line on which a side turns, or that after the last; 0 where the triangle ends above.
+    #[inline(always)]
+    pub(crate) fn change(self) -> u16 {
+        (self.bits >> 16) as u16 & 0x7FFF
+    }
+
+    /// Whether a side turns on it.
+    #[inline(always)]
+    pub(crate) fn turns(self) -> bool {
+        self.bits & Self::TURNS != 0
     }
 }
 
@@ -180,16 +238,42 @@ impl Triangle<'_> {
         }
     }
 
+    /// Measures a triangle, and sets its sides for `line` and below, up to the turn or the end.
+    #[inline(never)]
+    pub(crate) fn enter(&self, line: u16, sides: &mut Sides) -> Entry {
+        let (line, lines) = (i32::from(line), self.lines());
+        if lines.end <= line {
+            return Entry { area: 0, bits: 0 };
+        }
+        let (area, far) = (self.area(), self.reach());
+        let size = self.size_of(area, far);
+        let way = self.way_of(size, far);
+        *sides = self.upper_sides(way);
+        let mut change = lines.end as u32;
+        if line >= lines.turn {
+            self.turn_sides(way, sides);
+        } else if lines.turn < lines.end {
+            change = lines.turn as u32 | Entry::TURNS >> 16;
+        }
+        let bits = size as u32 | u32::from(way.0) << 8 | change << 16;
+        Entry { area, bits }
+    }
+
+    #[inline(always)]
+    fn turn_sides(&self, way: Way, sides: &mut Sides) {
+        if way == Way::PLAIN {
+            sides.turn_plain([self.place(1), self.place(2)]);
+        } else {
+            sides.turn(self, way);
+        }
+    }
+
     /// The sides on `line` and below, up to the turn or the end.
     #[inline(always)]
     pub(crate) fn sides(&self, way: Way, line: i32, turn: i32) -> Sides {
         let mut sides = self.upper_sides(way);
         if line >= turn {
-            if way == Way::PLAIN {
-                sides.turn_plain([self.place(1), self.place(2)]);
-            } else {
-                sides.turn(self, way);
-            }
+            self.turn_sides(way, &mut sides);
         }
         sides
     }
@@ -213,8 +297,8 @@ impl Triangle<'_> {
         let [a, b, c] = self.places();
         let origin = self.origin(way);
         Sides {
-            left: Edge::of_kind(way.kind, a, c, origin),
-            right: Edge::of_kind(way.kind, a, b, origin),
+            left: Edge::of_kind(way.kind(), a, c, origin),
+            right: Edge::of_kind(way.kind(), a, b, origin),
         }
     }
 
@@ -239,15 +323,14 @@ impl Triangle<'_> {
         let crosses = low < 8 * ORIGIN || high > 8 * (ORIGIN + frame.width);
         let wide = 8 * frame.wide_left();
         if crosses && (low < wide || high >= wide + 8 * 1023) {
-            let kind = Kind::Divided;
-            return Way { kind, crosses };
+            return Way::new(Kind::Divided, crosses);
         }
-        Way { kind, crosses }
+        Way::new(kind, crosses)
     }
 
     #[inline(always)]
     fn origin(&self, way: Way) -> i32 {
-        if way.crosses {
+        if way.crosses() {
             self.frame.wide_left()
         } else {
             ORIGIN
@@ -296,7 +379,7 @@ impl Sides {
         let origin = triangle.origin(way);
         let d = c.wrapping_sub(b);
         let to_right = down(d) > 0;
-        let side = match (way.kind, to_right) {
+        let side = match (way.kind(), to_right) {
             (Kind::Short, true) => Edge::short(b, across(d), down(d), origin),
             (Kind::Short, false) => Edge::short(c, -across(d), -down(d), origin),
             (kind, true) => Edge::of_kind(kind, b, c, origin),
@@ -321,7 +404,7 @@ impl Sides {
     #[inline(never)]
     fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
         let of = |edge: Edge| {
-            let column = if way.kind == Kind::Divided {
+            let column = if way.kind() == Kind::Divided {
                 edge.divided(line as i32 + ORIGIN) - ORIGIN
             } else {
                 edge.column(line) as i32 + frame.wide_left() - ORIGIN
