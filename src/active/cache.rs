@@ -62,8 +62,11 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) spans: [[u32; 32]; WORDS],
     /// Slots of spans that meet others, by number of object.
     pub(crate) order: [[u32; 32]; WORDS],
-    /// Slots from the nearest on, while no object begins or ends.
+    /// Slots from the nearest on, while no object begins or ends and all have slots; columns of those without one,
+    /// in their order, otherwise.
     pub(crate) near: [[u32; 32]; WORDS],
+    /// An object without a slot, while it is drawn.
+    pub(crate) scratch: T,
 }
 
 /// Slots of a word that a line changes.
@@ -119,6 +122,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             listed: [0; WORDS],
             order: [[0; 32]; WORDS],
             near: [[0; 32]; WORDS],
+            scratch: item,
             line: 0,
             ring: [[0; WORDS]; RING as usize],
             spilled: Link::NONE,

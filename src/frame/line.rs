@@ -7,7 +7,7 @@
 
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
-use super::slot::{Active, Flags};
+use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour, colour_run, nearer};
 use super::thin::depth_plane;
 use crate::active::next;
@@ -16,7 +16,7 @@ use crate::link::Link;
 use crate::look::{Look, Place, WordOf};
 use crate::num::{bit, take_first};
 use crate::scene::Scene;
-use crate::span::Measure;
+use crate::span::{Triangle, Way};
 use crate::visible::Mask;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -189,6 +189,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         let line = out.number as i32;
+        let mut kept = 0;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
         while at.is_some() {
             let Some(triangle) = out.view.triangle_of(at.object()) else {
@@ -199,12 +200,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if lines.end <= line {
                 self.cache.relink(before, after, self.links);
             } else {
-                let way = triangle.measure().way;
-                let sides = triangle.sides(way, line, lines.turn);
-                let (start, end) = sides.columns(way, out.number, out.view.frame);
+                let Span { start, end } = columns_of(&triangle, out);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
                 }
+                if let Some(columns) = self.cache.near.as_flattened_mut().get_mut(kept) {
+                    *columns = start << 16 | end;
+                }
+                kept += 1;
                 self.counts.misses += 1;
                 before = at;
             }
@@ -239,17 +242,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         self.ordered = meeting as u16;
-        let mut slow = self.cache.spilled;
+        let mut slow = Spilled {
+            at: self.cache.spilled,
+            drawn: 0,
+        };
         for k in 0..meeting {
             let key = self.cache.order.as_flattened().get(k).copied();
             let key = key.unwrap_or_default();
             // One comparison says whether what has no slot comes first (C3).
-            while slow.is_some() && u32::from(slow.object()) < key >> 16 {
+            while slow.at.is_some() && u32::from(slow.at.object()) < key >> 16 {
                 slow = self.draw_spilled(slow, out);
             }
             self.draw_meeting(key as usize & 0xFFFF, out);
         }
-        while slow.is_some() {
+        while slow.at.is_some() {
             slow = self.draw_spilled(slow, out);
         }
     }
@@ -315,27 +321,34 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A span of what has no slot, set up for this line alone; the next of its kind.
     #[inline(never)]
-    fn draw_spilled(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
-        let after = next(self.links, at);
-        let object = at.object();
-        let Some(triangle) = out.view.triangle_of(object) else {
-            return Link::NONE;
+    fn draw_spilled(&mut self, spilled: Spilled, out: &mut Line<'_, '_, WordOf<L>>) -> Spilled {
+        let object = spilled.at.object();
+        let after = Spilled {
+            at: next(self.links, spilled.at),
+            drawn: spilled.drawn + 1,
         };
-        let Measure { area, size, way } = triangle.measure();
-        let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
-        let (start, end) = sides.columns(way, out.number, out.view.frame);
-        if start >= end {
+        let columns = self.cache.near.as_flattened().get(spilled.drawn);
+        let columns = columns.map(|&word| Span::of(word));
+        if columns.is_some_and(|span| span.start >= span.end) {
             return after;
         }
-        let mut planes = L::EMPTY;
-        let fill = L::set_up(&triangle, object, size, area, out.view.draws, &mut planes);
+        let Some(triangle) = out.view.triangle_of(object) else {
+            return after;
+        };
+        let span = columns.unwrap_or_else(|| columns_of(&triangle, out));
+        if span.start >= span.end {
+            return after;
+        }
+        let area = triangle.area();
+        let planes = &mut self.cache.scratch.planes;
+        let (size, draws) = (triangle.size(area), out.view.draws);
+        let fill = L::set_up(&triangle, object, size, area, draws, planes);
         self.counts.set_ups += 1;
-        let meets = !self.depth.is_empty() && self.met && self.over.meets(start, end);
+        let meets = !self.depth.is_empty() && self.met && self.over.meets(span.start, span.end);
         let depth = if meets { depth_plane(&triangle) } else { None };
-        let item = Active { sides, planes };
         let drawn = Drawn {
-            item: &item,
-            flags: Flags::new(fill, way).without_depth(depth.is_none()),
+            item: &self.cache.scratch,
+            flags: Flags::new(fill, Way::PLAIN).without_depth(depth.is_none()),
             object,
         };
         if meets {
@@ -344,12 +357,28 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 cells: self.depth,
                 written: &mut self.written,
             };
-            nearer::<L>(drawn, Span { start, end }, out, known);
+            nearer::<L>(drawn, span, out, known);
         } else {
-            colour::<L>(drawn, Span { start, end }, out);
+            colour::<L>(drawn, span, out);
         }
         after
     }
+}
+
+/// An object without a slot, and how many have been drawn on this line before it.
+#[derive(Clone, Copy)]
+struct Spilled {
+    at: Link,
+    drawn: usize,
+}
+
+/// The columns of a triangle without a slot.
+#[inline(never)]
+fn columns_of<W>(triangle: &Triangle<'_>, out: &Line<'_, '_, W>) -> Span {
+    let way = triangle.way();
+    let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
+    let (start, end) = sides.columns(way, out.number, out.view.frame);
+    Span { start, end }
 }
 
 /// Inserts a key among the first `count`, which rise.

@@ -13,7 +13,7 @@ mod triangle;
 pub use edge::{Edge, Frame};
 pub use plane::{Rise, Shares};
 pub(crate) use triangle::end_line;
-pub use triangle::{Measure, Sides, Size, Triangle, Way};
+pub use triangle::{Sides, Size, Triangle, Way};
 
 /// The pixels of one object on one line, clipped to the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,15 +15,6 @@ pub struct Triangle<'a> {
     pub(crate) frame: Frame,
 }
 
-/// What is known of a triangle before its planes are made.
-#[derive(Clone, Copy, Debug)]
-pub struct Measure {
-    /// The doubled area, units of 1/64 pixel.
-    pub(crate) area: u32,
-    pub(crate) size: Size,
-    pub(crate) way: Way,
-}
-
 /// The way of evaluating planes, from the cheapest on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Size {
@@ -163,13 +154,11 @@ impl Triangle<'_> {
         plus.wrapping_sub(across(d2).wrapping_mul(down(d1))) as u32
     }
 
-    /// Area, size and way.
+    /// How the sides are evaluated.
     #[inline(always)]
-    pub(crate) fn measure(&self) -> Measure {
+    pub(crate) fn way(&self) -> Way {
         let (area, far) = (self.area(), self.reach());
-        let size = self.size_of(area, far);
-        let way = self.way_of(size, far);
-        Measure { area, size, way }
+        self.way_of(self.size_of(area, far), far)
     }
 
     /// How planes are made; `area` is the triangle's.
