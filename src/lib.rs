@@ -23,7 +23,7 @@
 //!
 //! ```
 //! # use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma};
-//! # use scanbeam::*;
+//! # use scanbeam::{pipeline::GouraudDepth, pixel::{PixelFormat, Rgb565Be}, *};
 //! type Look = GouraudDepth<Rgb565Be>; // smooth colours, 32-bit depth, 16-bit pixels for SPI
 //!
 //! fn frame<D: ScanoutDma<Buf: LineBuf<Word = u16>>>(
@@ -43,6 +43,13 @@
 //! }
 //! ```
 //!
+//! # Where things are
+//!
+//! What a first frame needs is here at the root; the rest is in modules by task: [`mesh`], [`light`],
+//! [`texture`], [`blend`] and [`overlay`] for what is drawn, [`pipeline`] and [`pixel`] for how,
+//! [`list`] and [`input`] for scenes as data, [`parallel`], [`send`] and [`scan_out`] for frames on
+//! their way to displays, [`stats`] and [`event`] for what happened.
+//!
 //! # Where to go on
 //!
 //! | for | see |
@@ -51,9 +58,8 @@
 //! | your display, your memory, two cores | [`guide::own_display`], [`guide::own_memory`], [`guide::two_cores`] |
 //! | speed against error, and what a frame did | [`guide::quality`], [`guide::figures`] |
 //! | smooth or textured meshes in half to two thirds of the instructions | [`guide::fewer_instructions`], [`scene`], [`look`], [`frame`] |
-//! | other choices: flat, no depth, textures, blending | the presets beside [`GouraudDepth`] |
-//! | a scene as data, in flash or in a ring that grows | [`list`], [`ListRunner`] |
-//! | the hardware that the ideas come from, bit for bit | [`model`] |
+//! | other choices: flat, no depth, textures, blending | the presets of [`pipeline`], [`texture`], [`blend`] |
+//! | a scene as data, in flash or in a ring that grows | [`list`], [`input`] |
 //! | which requirement is met where, and which test says so | [`guide::rows`] |
 #![no_std]
 #![forbid(unsafe_code)]
@@ -68,71 +74,39 @@ struct Readme;
 
 mod active;
 mod arena;
+pub mod blend;
 mod composite;
-mod event;
+pub mod event;
 pub mod frame;
 mod geometry;
 pub mod guide;
+pub mod input;
+pub mod light;
 mod link;
 pub mod list;
 pub mod look;
-pub mod model;
+pub mod mesh;
 mod num;
-mod pipeline;
-mod pixel;
+pub mod overlay;
+pub mod parallel;
+pub mod pipeline;
+pub mod pixel;
 mod renderer;
 pub mod scan_out;
 pub mod scene;
+pub mod send;
 mod shade;
 mod span;
-mod stats;
+pub mod stats;
+pub mod texture;
 mod visible;
 
-pub use active::{CacheCounts, Interleave, Slot};
-pub use composite::{
-    Blender, Blending, Compositing, Cut, CutOff, DetailedTextures, Dithered, Grey8, Index4, Index8,
-    Indexed, Ink, LineOverlay, LinePalettes, ListOverlays, ListTexel, ListTextures, Mix, OneWord,
-    Ordered, Overlay, PaletteTable, PixelAlpha, PixelFormat, Pixels, Ramp, Ranks, Rgb565, Rgb565Be,
-    Rgb565Bytes, Rgb565Le, Rgb888, Sprite, TexelOf, TextureSource, Textures, Threshold, TwoWords,
-    UnsortedSprites, Xrgb8888, expand_indices, mono_page, mono_row,
-};
-#[cfg(feature = "embedded-graphics")]
-pub use composite::{Canvas, DrawnLines};
-pub use event::{Event, EventFlags, EventSet, EventSink, Notice};
 pub use geometry::{
-    Affine, Assembled, Blend, Blended, Camera, CameraError, Clip, Colour, Coordinate, Cull,
-    DepthFunction, DirectionalLight, Dropped, Empty, Faces, Factor, Finish, Flat, Gouraud, Kept,
-    Light, Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Mark, Marked, Material,
-    MatrixRange, Mesh, MeshError, Object, Phong, PixelLamps, Priority, QuadSplit, Room, Scale,
-    SceneVertex, Screen, ScreenError, ScreenVertex, Shading, Shadow, ShadowEdge, ShadowLight,
-    ShadowMemory, ShadowRoom, Sphere, Surface,
+    Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen, ScreenError,
 };
 pub use link::Link;
-pub use num::{BlockFix16, I2F14, I2F30, U1F15, U13F3};
-pub use pipeline::{
-    BlockFixed, CellOf, Composited, Counted, Deferred, DetailedDepth, DrawableOf, FlatDepth,
-    FlatPainter, GouraudDepth, GouraudPainter, Interpolated, ListedDepth, ObjectOf, Parts,
-    PhongDepth, Pipeline, Prioritised, Shadowed, SkinOf, SlotOf, TexturedDepth, VertexOf, Windowed,
-    WithDepth, WithShading, WordOf, Worded,
-};
 pub use renderer::{
-    Command, Crew, DepthUse, DrawError, EightLights, FrameError, FrameStats, Input, InputError,
-    InputQueue, Instance, LineDesk, LineMemory, LineRenderer, LineSource, LineWorker,
-    ListCoordinate, ListLights, ListMemory, ListRunner, ListSettings, OnViolation, OneLight,
-    Overlaid, PassOne, Prefetched, Relay, RendererError, RunCounts, Scene, SceneError, SceneMemory,
-    ShadowError, Source, Stalled, Stream, Vertices, draw_continuous, draw_frame,
-    draw_frame_changed, draw_frame_changed_runs, draw_frame_indexed, draw_frame_overlaid,
-    draw_frame_overlaid_changed, send_changed, send_changed_runs, send_frame, send_frame_indexed,
+    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, PassOne, RendererError,
+    Scene, SceneError, SceneMemory, draw_frame,
 };
-#[cfg(feature = "async")]
-pub use renderer::{draw_frame_async, send_frame_async};
-pub use shade::{
-    Auto, Forward, HalfRate, Interpolation, Lamplight, Lirp10, Lirp12, Lirp16, LirpPacked, Method,
-    Packed8, Packed16, PixelLights, Precision, Quality, QuarterRate,
-};
-pub use shade::{Levels, texture};
-pub use stats::{SpanCounter, SpanCounts};
-pub use visible::{
-    BlockFixDepth, Depth32, DepthAndColour, DepthAndId, DepthCell, LineDepth, ShadowCell,
-    ShadowDepth32,
-};
+pub use shade::Quality;

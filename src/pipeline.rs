@@ -20,15 +20,27 @@
 //! | [`Deferred`] | as the preset it wraps | [`DepthAndId`]: the same picture, each pixel shaded once | | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
+pub use crate::active::Slot;
 use crate::composite::{
     Blending, Compositing, DetailedTextures, ListTextures, PixelFormat, TextureSource, Textures,
 };
 use crate::geometry::texturing::{LevelEnds, Textured};
-use crate::geometry::{Blended, Flat, Gouraud, Kept, Marked, Phong, Priority, Shading};
-use crate::shade::{Interpolation, Lamplight, Levels, Packed8, PixelLights};
+use crate::geometry::{Blended, Phong};
+pub use crate::geometry::{
+    Clip, Empty, Filed, Flat, Gouraud, Kept, Mark, Marked, Object, Priority, Scale, SceneVertex,
+    Shading,
+};
+pub use crate::num::{BlockFix16, U13F3};
+pub use crate::renderer::DepthUse;
+pub use crate::shade::{
+    Auto, Forward, HalfRate, Interpolation, Levels, Lirp10, Lirp12, Lirp16, LirpPacked, Method,
+    Packed8, Packed16, Precision, QuarterRate,
+};
+use crate::shade::{Lamplight, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::{
-    BlockFixDepth, Depth32, DepthAndColour, DepthAndId, LineDepth, ShadowDepth32,
+use crate::visible::ShadowDepth32;
+pub use crate::visible::{
+    BlockFixDepth, Depth32, DepthAndColour, DepthAndId, DepthCell, LineDepth,
 };
 use core::marker::PhantomData;
 
@@ -50,7 +62,7 @@ pub trait Pipeline {
     /// opaque. Shadings that are [`Blended`] have one.
     type Compositing: Compositing;
     /// What lights pixels: [`Lamplight`], or `()` where light falls on vertices and faces. Shadings
-    /// that are [`Phong`](crate::Phong) have normals for it.
+    /// that are [`Phong`] have normals for it.
     type Lights: PixelLights;
 }
 
@@ -174,6 +186,11 @@ pub type Interpolated<P, I> = Parts<
 
 /// The word of a pipeline's pixels.
 pub type WordOf<P> = <<P as Pipeline>::Pixel as PixelFormat>::Word;
+/// A triangle read back from a scene of a pipeline.
+pub type FiledOf<P> = crate::geometry::Filed<
+    <<P as Pipeline>::Shading as Shading>::Vertex,
+    <<P as Pipeline>::Shading as Shading>::Face,
+>;
 /// The vertex record of a pipeline.
 pub type VertexOf<P> = crate::geometry::SceneVertex<<<P as Pipeline>::Shading as Shading>::Vertex>;
 /// The object record of a pipeline.

@@ -6,11 +6,11 @@
 use crate::draw::CrewSettings;
 use crate::lent::LineRooms;
 use crate::mock::HostLine;
+use scanbeam::parallel::{Crew, Interleave, Relay};
+use scanbeam::pipeline::{Pipeline, WordOf};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
-use scanbeam::{
-    Crew, FrameError, FrameStats, Interleave, LineRenderer, Pipeline, Relay, Scene, WordOf,
-    send_frame,
-};
+use scanbeam::send::send_frame;
+use scanbeam::{FrameError, FrameStats, LineRenderer, Scene};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Line buffers between a thread and the sender, and one more, as the queues keep one free.

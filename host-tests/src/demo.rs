@@ -10,11 +10,11 @@ use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
+use scanbeam::pipeline::{CellOf, Counted, GouraudDepth, ObjectOf, SlotOf, VertexOf, WordOf};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ShownLines};
-use scanbeam::{
-    Affine, Camera, CellOf, Counted, FrameStats, GouraudDepth, Instance, Light, Link, ObjectOf,
-    PixelFormat, Rgb565Be, Screen, SlotOf, VertexOf, WordOf, draw_frame_changed,
-};
+use scanbeam::send::draw_frame_changed;
+use scanbeam::{Affine, Camera, FrameStats, Instance, Light, Link, Screen};
 use scenes::TEAPOT;
 use std::error::Error;
 use std::f32::consts::TAU;

@@ -20,14 +20,16 @@ use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockError, MockFrameBuffer};
 use crate::model::Model;
 use crate::reference::{Cull, Shade, View};
-use scanbeam::model::{
-    CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,
-};
+use scanbeam::blend::{Compositing, ShadowError};
+use scanbeam::pipeline::{DepthUse, FlatDepth, GouraudDepth, Pipeline, WordOf};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
 use scanbeam::{
-    Camera, Compositing, DepthUse, DrawError, Faces, FlatDepth, FrameError, FrameStats,
-    GouraudDepth, Instance, Light, Link, Mesh, PassOne, Pipeline, PixelFormat, Quality, Rgb565Be,
-    Rgb888, Scene, Screen, ShadowError, WordOf,
+    Camera, DrawError, Faces, FrameError, FrameStats, Instance, Light, Link, Mesh, PassOne,
+    Quality, Scene, Screen,
+};
+use scanbeam_model::{
+    CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,
 };
 use serde_json::json;
 use std::ops::Range;

@@ -4,10 +4,12 @@ use crate::image_out::Frame;
 use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::MethodFrame;
 use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::light::Lamplight;
+use scanbeam::pipeline::{Pipeline, WordOf};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
-use scanbeam::{
-    Lamplight, Pipeline, PixelFormat, Rgb565Be, Scene, WordOf, draw_frame, draw_frame_indexed,
-};
+use scanbeam::send::draw_frame_indexed;
+use scanbeam::{Scene, draw_frame};
 use scenes::{
     Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
     Numbered, Ranked, Shady, ShotError, Transparent, by_effect, method_screen,

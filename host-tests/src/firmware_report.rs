@@ -4,7 +4,7 @@ use crate::args::FirmwareArgs;
 use crate::draw::ModelLines;
 use crate::effect_frames::effect_frames;
 use crate::figures::gate::{Record, Verdict};
-use crate::figures::{Bench, Figure, Size, growth};
+use crate::figures::{Bench, Figure, Size, growth, suite};
 use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
@@ -14,15 +14,17 @@ use crate::lent::{LineRooms, SceneRooms};
 use crate::method_frames::method_frames;
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::{preset_sizes, profile_report};
+use scanbeam::input::ListMemory;
 use scanbeam::list::TextureSlot;
-use scanbeam::model::draw_model_frame;
-use scanbeam::scan_out::Pump;
-use scanbeam::texture::{Quality, Size as TextureSize, Texture, Textured, Words, Wrap};
-use scanbeam::{
-    BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FlatPainter, FrameStats, Gouraud,
-    GouraudDepth, GouraudPainter, ListMemory, ListedDepth, Pipeline, PixelFormat, Rgb565Be, Scene,
-    TexturedDepth, Textures, Worded, draw_frame,
+use scanbeam::pipeline::{
+    BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FlatPainter, Gouraud, GouraudDepth,
+    GouraudPainter, ListedDepth, Pipeline, TexturedDepth, Worded,
 };
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scan_out::Pump;
+use scanbeam::texture::{Quality, Size as TextureSize, Texture, Textured, Textures, Words, Wrap};
+use scanbeam::{FrameStats, Scene, draw_frame};
+use scanbeam_model::draw_model_frame;
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,
     LIST_TABLE, LookB, LookF, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SUITE,
@@ -106,6 +108,7 @@ fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
         record.write(&path)?;
         tell!("recorded: {}", toolchain.version);
     }
+    suite::write(&record)?;
     tell!("{} is new: look at what changed in it", path.display());
     Ok(false)
 }

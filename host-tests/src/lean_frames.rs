@@ -1,9 +1,10 @@
 //! Scenes of the suite as this machine draws them in the rooms `scene`, `look` and `frame`.
 
+use scanbeam::Link;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::look::Look;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
-use scanbeam::{Link, PixelFormat, Rgb565Be};
 use scenes::{
     HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH,
 };

@@ -1,9 +1,7 @@
 //! The memory that firmware would lend, on the heap: for one scene, and for one line renderer.
 
-use scanbeam::{
-    CellOf, LineDepth, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, Scene, SceneMemory,
-    Screen, SlotOf, VertexOf,
-};
+use scanbeam::pipeline::{CellOf, LineDepth, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen};
 
 /// What a scene is lent.
 pub struct SceneRooms<P: Pipeline> {

@@ -8,7 +8,7 @@
 //! The processor's own work is the same counts times instructions, of which those
 //! that the cache changes were measured on a Cortex-M4 in QEMU, at one instruction a cycle; instructions do not overlap with memory.
 
-use scanbeam::{CacheCounts, SpanCounts};
+use scanbeam::stats::{CacheCounts, SpanCounts};
 
 /// The access time of a memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -216,7 +216,9 @@ impl Counted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scanbeam::{GouraudDepth, LineRenderer, Rgb565Be};
+    use scanbeam::LineRenderer;
+    use scanbeam::pipeline::GouraudDepth;
+    use scanbeam::pixel::Rgb565Be;
 
     #[test]
     fn bursts_are_whole_words() {

@@ -2,8 +2,10 @@
 
 use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
+use scanbeam::pipeline::{GouraudDepth, Interpolated, Interpolation};
+use scanbeam::pixel::Rgb565Be;
 use scanbeam::scan_out::Pump;
-use scanbeam::{GouraudDepth, Interpolated, Interpolation, Quality, Rgb565Be, draw_frame};
+use scanbeam::{Quality, draw_frame};
 use scenes::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };

@@ -6,21 +6,23 @@
 //! same preset. Records are what the types take; they are the same on all cores.
 
 use crate::args::FirmwareArgs;
-use crate::bench::table::between;
+use crate::bench::table::{between, page};
 use crate::firmware::{
-    self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain, workspace,
+    self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain,
 };
 use crate::firmware_report::draw;
 use crate::image_out::write_atomically;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use scanbeam::{CellOf, Link, ObjectOf, Pipeline, Rgb565Be, SlotOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::pixel::Rgb565Be;
 use scenes::Shot;
 use serde_json::{Value, json};
 use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What stands before and after the table in the README.
+/// What stands before and after the table in `host-tests/figures/tables.md`.
 const MARKERS: [&str; 2] = [
     "<!-- sizes: written by `firmware --sizes --markdown` -->",
     "<!-- /sizes -->",
@@ -215,10 +217,10 @@ pub fn measure() -> Result<Vec<PresetSize>, Box<dyn Error>> {
     measured.collect()
 }
 
-/// Measures, prints, and writes the README where that is asked.
+/// Measures, prints, and writes the table where that is asked.
 ///
 /// # Errors
-/// As [`measure`], and where the README cannot be written.
+/// As [`measure`], and where the table cannot be written.
 pub(crate) fn run(args: &FirmwareArgs) -> Result<(), Box<dyn Error>> {
     let sizes = measure()?;
     if args.json {
@@ -234,7 +236,7 @@ pub(crate) fn run(args: &FirmwareArgs) -> Result<(), Box<dyn Error>> {
         }
     }
     if args.markdown {
-        write(&workspace().join("README.md"), &sizes)?;
+        write(&page(), &sizes)?;
     }
     Ok(())
 }
@@ -295,7 +297,7 @@ mod tests {
         };
         let size = PresetSize {
             name: "GouraudDepth",
-            records: Records::of::<scanbeam::GouraudDepth<Rgb565Be>>(),
+            records: Records::of::<scanbeam::pipeline::GouraudDepth<Rgb565Be>>(),
             boards: vec![sections; BOARDS.len()],
             symbols: vec![Symbols::default(); BOARDS.len()],
         };
@@ -312,7 +314,7 @@ mod tests {
         assert_eq!(size.to_json(true)["fast_bytes"], 6_516);
         let written = markdown(std::slice::from_ref(&size));
         assert!(written.contains("| `GouraudDepth` | 50,123 |"), "{written}");
-        let readme = include_str!("../../README.md");
+        let readme = include_str!("../figures/tables.md");
         let new = between(readme, MARKERS, &written).unwrap();
         assert_eq!(between(&new, MARKERS, &written).unwrap(), new);
         assert_eq!(thousands(1_002_003), "1,002,003");

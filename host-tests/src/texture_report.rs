@@ -12,12 +12,12 @@
 use crate::image_out::{ImageError, write_atomically, write_image};
 use crate::plot::{Chart, Marks, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use scanbeam::BlockFix16;
-use scanbeam::model::{Cluster, Grid, Traversal};
+use scanbeam::pipeline::BlockFix16;
 use scanbeam::texture::{
     BlockCache, Blocked, CacheReads, Homogeneous, Layout, Linear, PerspectiveSpan, Size, Stride,
     Texels, Texture, Uv, Words, Wrap,
 };
+use scanbeam_model::{Cluster, Grid, Traversal};
 use std::collections::BTreeSet;
 use std::path::Path;
 

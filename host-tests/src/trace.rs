@@ -8,8 +8,9 @@ use crate::draw::{ModelLines, Overfull, Prepared, Setting, rooms_for};
 use crate::model::Model;
 use crate::reference::{Shade, View};
 use crate::stdio;
-use scanbeam::model::{Chart, CornerColours, PipeCounts, Token, TokenBits};
-use scanbeam::{FlatDepth, GouraudDepth, Pipeline, PixelFormat, Rgb888};
+use scanbeam::pipeline::{FlatDepth, GouraudDepth, Pipeline};
+use scanbeam::pixel::{PixelFormat, Rgb888};
+use scanbeam_model::{Chart, CornerColours, PipeCounts, Token, TokenBits};
 use std::error::Error;
 use std::io::{self, Write};
 

@@ -2,9 +2,12 @@
 //! any slice makes a panic.
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame};
+use scanbeam::mesh::Room;
+use scanbeam::pipeline::{FlatPainter, GouraudDepth, Pipeline, WordOf};
+use scanbeam::pixel::Rgb888;
 use scanbeam::{
-    Affine, Camera, Cull, DrawError, Faces, FlatPainter, GouraudDepth, Instance, Mesh, MeshError,
-    Pipeline, RendererError, Rgb888, Room, Scene, SceneError, Screen, WordOf,
+    Affine, Camera, Cull, DrawError, Faces, Instance, Mesh, MeshError, RendererError, Scene,
+    SceneError, Screen,
 };
 use scenes::{CUBE, TEAPOT};
 

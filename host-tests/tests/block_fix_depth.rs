@@ -2,10 +2,10 @@
 //! it is not, in every range, against codes by `f64`.
 
 use crate::common::{self, LineRooms, SceneRooms};
-use scanbeam::{
-    Affine, BlockFixed, Camera, Cull, DepthUse, Faces, FlatDepth, Instance, Mesh, Pipeline,
-    QuadSplit, Rgb888, Screen,
-};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::{BlockFixed, DepthUse, FlatDepth, Pipeline};
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Screen};
 
 const NEAR: f64 = 1.0;
 /// Units that coordinates are fractions of.

@@ -3,11 +3,14 @@
 
 use crate::common::{self, LineRooms, Rng, SceneRooms};
 use host_tests::mock::{HostLine, MockFrameBuffer};
+use scanbeam::parallel::{Crew, Interleave, LineSource, Relay};
+use scanbeam::pipeline::{Counted, FlatPainter, GouraudDepth, Pipeline, WordOf};
+use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
+use scanbeam::send::send_frame;
 use scanbeam::{
-    Camera, Counted, Crew, Cull, Faces, FlatPainter, FrameStats, GouraudDepth, Instance,
-    Interleave, LineRenderer, LineSource, Mesh, Pipeline, Relay, RendererError, Rgb565Be, Rgb888,
-    Scene, Screen, WordOf, draw_frame, send_frame,
+    Camera, Cull, Faces, FrameStats, Instance, LineRenderer, Mesh, RendererError, Scene, Screen,
+    draw_frame,
 };
 use std::task::Poll;
 
@@ -319,10 +322,10 @@ fn renderers_and_scenes_may_cross_threads() {
     send::<LineRenderer<'static, Depth>>();
     send::<Scene<'static, Depth>>();
     sync::<Scene<'static, Depth>>();
-    send::<scanbeam::LineWorker<'static, HostLine<u16>>>();
-    send::<scanbeam::LineDesk<'static, HostLine<u16>>>();
-    send::<scanbeam::Source<'static, 'static>>();
-    send::<scanbeam::Stream<'static, 'static>>();
+    send::<scanbeam::parallel::LineWorker<'static, HostLine<u16>>>();
+    send::<scanbeam::parallel::LineDesk<'static, HostLine<u16>>>();
+    send::<scanbeam::input::Source<'static, 'static>>();
+    send::<scanbeam::input::Stream<'static, 'static>>();
 }
 
 /// A frame by `count` renderers on threads of their own and perhaps one on this.

@@ -4,10 +4,10 @@ use crate::common::changes::{
     self, Lines, Look, Mock, Picture, begun, buffers, camera, change, recovered, some_fault,
 };
 use crate::common::{LineRooms, Rng, SceneRooms};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ScanStats, ShownLines};
-use scanbeam::{
-    Affine, Instance, PixelFormat, Rgb565Be, Screen, draw_frame, draw_frame_changed, send_changed,
-};
+use scanbeam::send::{draw_frame_changed, send_changed};
+use scanbeam::{Affine, Instance, Screen, draw_frame};
 
 const WIDTH: u16 = 5;
 const HEIGHT: u16 = 23;

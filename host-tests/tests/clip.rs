@@ -5,13 +5,18 @@
 //! clips of their own; at each pixel the right picture is that of the groups which keep the pixel.
 
 use crate::common::{LineRooms, Rng, SceneRooms};
-use scanbeam::list::{Budget, FieldForm, FieldPacker, Halt, Header, Id, ListWriter, State, Window};
-use scanbeam::{
-    Camera, Clip, Composited, Counted, Cull, Event, EventSet, Faces, Finish, FlatDepth,
-    FlatPainter, Forward, GouraudDepth, GouraudPainter, Instance, Interleave, Interpolated,
-    ListMemory, ListRunner, ListSettings, Mesh, Notice, Pipeline, Rgb565Be, Rgb888, Scene, Screen,
-    Shading, SkinOf, Windowed, WordOf,
+use host_tests::lists::writer::{FieldPacker, ListWriter};
+use scanbeam::blend::Finish;
+use scanbeam::event::{Event, EventSet, Notice};
+use scanbeam::input::{ListMemory, ListRunner, ListSettings};
+use scanbeam::list::{Budget, FieldForm, Halt, Header, Id, State, Window};
+use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::{
+    Clip, Composited, Counted, FlatDepth, FlatPainter, Forward, GouraudDepth, GouraudPainter,
+    Interpolated, Pipeline, Shading, SkinOf, Windowed, WordOf,
 };
+use scanbeam::pixel::{Rgb565Be, Rgb888};
+use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 use std::ops::Range;
 
 const SIZE: (u16, u16) = (47, 38);

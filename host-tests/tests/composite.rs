@@ -2,11 +2,12 @@
 //! pipeline, and its pixels are composited one by one in f64 (K11, H8, H9, P5).
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::{
-    Blend, Camera, Composited, Cull, DepthFunction, DepthUse, Faces, Factor, Finish, FlatPainter,
-    GouraudDepth, GouraudPainter, Instance, Mesh, Pipeline, Rgb565Be, Rgb888, Scene, Screen,
-    Surface, WordOf,
+use scanbeam::blend::{Blend, DepthFunction, Factor, Finish, Surface};
+use scanbeam::pipeline::{
+    Composited, DepthUse, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, WordOf,
 };
+use scanbeam::pixel::{Rgb565Be, Rgb888};
+use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 
 const WIDTH: u16 = 70;
 const HEIGHT: u16 = 40;
@@ -101,7 +102,7 @@ fn alphas(pane: &Pane) -> Pixels {
 
 fn build<P: Pipeline>(scene: &mut Scene<'_, P>, panes: &[Pane])
 where
-    for<'a> scanbeam::SkinOf<'a, P>: From<Surface<'a>>,
+    for<'a> scanbeam::pipeline::SkinOf<'a, P>: From<Surface<'a>>,
 {
     scene.begin(&camera()).unwrap();
     for pane in panes {
@@ -352,7 +353,7 @@ fn a_hundred_panes() {
 /// Whatever the cache and the renderers are, and line by line, the picture is the same.
 fn same_picture<P: Pipeline>(seed: u64)
 where
-    for<'a> scanbeam::SkinOf<'a, P>: From<Surface<'a>>,
+    for<'a> scanbeam::pipeline::SkinOf<'a, P>: From<Surface<'a>>,
 {
     let mut rng = Rng::new(seed);
     for _ in 0..8 {

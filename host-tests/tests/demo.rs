@@ -3,7 +3,7 @@
 use host_tests::args::DemoArgs;
 use host_tests::demo::{self, BACKGROUND, HEIGHT, WIDTH};
 use host_tests::image_out::{Frame, read_image};
-use scanbeam::{PixelFormat, Rgb565Be};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use std::fs::File;
 use std::io::BufReader;
 

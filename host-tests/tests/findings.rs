@@ -1,13 +1,17 @@
 //! Promises that were once broken at the ends of their ranges, each held by what a caller sees.
 
 use crate::common::{Rng, SceneRooms, frame};
+use scanbeam::blend::{ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
+use scanbeam::mesh::{I2F14, U1F15};
+use scanbeam::pipeline::{
+    Composited, FlatDepth, FlatPainter, GouraudDepth, LineDepth, ListedDepth, ObjectOf, PhongDepth,
+    Pipeline, Prioritised, Shadowed, SlotOf, VertexOf, Windowed,
+};
+use scanbeam::pixel::{Grey8, Rgb565, Rgb888};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanoutDma, ShownRuns, Window};
 use scanbeam::{
-    Affine, Camera, CameraError, Composited, Cull, DrawError, Faces, FlatDepth, FlatPainter,
-    GouraudDepth, Grey8, I2F14, Instance, Light, LineDepth, LineMemory, LineRenderer, Link,
-    ListedDepth, Mesh, MeshError, ObjectOf, PhongDepth, Pipeline, Prioritised, Rgb565, Rgb888,
-    Scene, SceneMemory, Screen, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, Shadowed,
-    SlotOf, U1F15, VertexOf, Windowed,
+    Affine, Camera, CameraError, Cull, DrawError, Faces, Instance, Light, LineMemory, LineRenderer,
+    Link, Mesh, MeshError, Scene, SceneMemory, Screen,
 };
 use std::collections::VecDeque;
 use std::convert::Infallible;

@@ -1,10 +1,13 @@
 //! Finishes in company: many transparent surfaces over each other, and with every kind of depth.
 
 use crate::common::{Rng, SceneRooms, frame};
-use scanbeam::{
-    BlockFixed, Camera, Composited, Cull, DepthFunction, Faces, Finish, FlatDepth, FlatPainter,
-    Instance, Mesh, Pipeline, QuadSplit, Rgb888, Scene, Screen, Shadowed, Worded,
+use scanbeam::blend::{DepthFunction, Finish};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::{
+    BlockFixed, Composited, FlatDepth, FlatPainter, Pipeline, Shadowed, Worded,
 };
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 
 const WIDTH: u16 = 64;
 const HEIGHT: u16 = 12;
@@ -54,7 +57,7 @@ impl Pane {
 
 fn draw<P: Pipeline>(scene: &mut Scene<'_, P>, panes: &[&Pane], slope: [f64; 2])
 where
-    for<'a> scanbeam::SkinOf<'a, P>: From<Finish>,
+    for<'a> scanbeam::pipeline::SkinOf<'a, P>: From<Finish>,
 {
     scene.begin(&camera()).unwrap();
     for pane in panes {
@@ -122,7 +125,7 @@ fn any_number_of_leaning_panes_is_blended_from_back_to_front() {
 /// The picture of surfaces in order, each of two triangles.
 fn picture<P: Pipeline<Pixel = Rgb888>>(panes: &[&Pane], slope: [f64; 2]) -> Vec<Vec<[u8; 3]>>
 where
-    for<'a> scanbeam::SkinOf<'a, P>: From<Finish>,
+    for<'a> scanbeam::pipeline::SkinOf<'a, P>: From<Finish>,
 {
     let mut rooms = SceneRooms::<P>::new(99, 99, usize::from(HEIGHT));
     let mut scene = rooms.scene(Screen::new(WIDTH, HEIGHT).unwrap());
@@ -134,7 +137,7 @@ where
 /// see equal depths, and a surface without a rule covers one with a rule.
 fn sees_its_own_depth<P: Pipeline<Pixel = Rgb888>>(seed: u64)
 where
-    for<'a> scanbeam::SkinOf<'a, P>: From<Finish>,
+    for<'a> scanbeam::pipeline::SkinOf<'a, P>: From<Finish>,
 {
     let mut rng = Rng::new(seed);
     let mut seen = 0;

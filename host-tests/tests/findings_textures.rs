@@ -2,17 +2,22 @@
 
 use crate::common::{Rng, SceneRooms, frame};
 use crate::listing::{PLENTY, Room};
+use host_tests::lists::writer::ListWriter;
 use host_tests::places::{PlaceFormat, Places};
-use scanbeam::list::{self, Halt, Header, Id, ListWriter, Material, State, TexelForm, TextureSlot};
+use scanbeam::event::{Event, Notice};
+use scanbeam::input::ListSettings;
+use scanbeam::list::{self, Halt, Header, Id, Material, State, TexelForm, TextureSlot};
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::pipeline::{
+    Composited, Depth32, Flat, ListedDepth, Packed8, Parts, PhongDepth, Pipeline, TexturedDepth,
+    Windowed,
+};
+use scanbeam::pixel::Rgb888;
 use scanbeam::texture::{
-    Address, Checker, Clamp, Gradient, Mirror, Quality, Size, Skin, Texels, Texture, Textured,
-    Words, Wrap,
+    Address, Checker, Clamp, Gradient, ListTextures, Mirror, Quality, Size, Skin, TexelOf, Texels,
+    Texture, Textured, Textures, Words, Wrap,
 };
-use scanbeam::{
-    Camera, Composited, Cull, Depth32, Event, Faces, Flat, FrameStats, Instance, ListSettings,
-    ListTextures, ListedDepth, Mesh, Notice, Packed8, Parts, PhongDepth, Pipeline, Rgb888, Screen,
-    ScreenVertex, TexelOf, TexturedDepth, Textures, Windowed,
-};
+use scanbeam::{Camera, Cull, Faces, FrameStats, Instance, Mesh, Screen};
 
 type Look<'t, T> = TexturedDepth<'t, Rgb888, T>;
 

@@ -13,7 +13,8 @@ use crate::common::Rng;
 use crate::hot::exact::{self, weights, within};
 use crate::hot::{Corner, Place, SceneRooms, Smooth, camera, draw, frame};
 use scanbeam::look::Gouraud;
-use scanbeam::{Cull, PixelFormat, Rgb565, Rgb565Be, Rgb888, Screen};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
+use scanbeam::{Cull, Screen};
 
 /// What was seen: the worst and the sum of all differences, in steps of the output.
 #[derive(Debug, Default)]

@@ -9,8 +9,9 @@ use crate::hot::exact::{columns, doubled_area, within};
 use crate::hot::{Corner, LineRooms, Place, SceneRooms, Smooth, WordOf, camera, draw, frame, line};
 use crate::watertight::count::Count;
 use scanbeam::look::Gouraud;
+use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::scene::Scene;
-use scanbeam::{Cull, Rgb565Be, Rgb888, Screen};
+use scanbeam::{Cull, Screen};
 
 type L = Gouraud<Rgb888>;
 /// As far from the picture's middle as a corner can be without being cut off, in units of 1/8 pixel.

@@ -11,9 +11,10 @@
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
 use crate::hot::{Corner, LineRooms, Place, Smooth, WordOf, frame, line, with_scene};
+use scanbeam::Screen;
 use scanbeam::look::Gouraud;
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::Scene;
-use scanbeam::{PixelFormat, Rgb565, Rgb888, Screen};
 
 type L = Gouraud<Rgb888>;
 /// Depth where w is 1.
@@ -45,14 +46,14 @@ fn distance(rng: &mut Rng, bits: f64) -> f64 {
 }
 
 /// 1/w at a pixel, as depth.
-fn exact(corners: &[Corner; 3], column: usize, line: u16) -> f64 {
+pub fn exact(corners: &[Corner; 3], column: usize, line: u16) -> f64 {
     let places = corners.map(|c| c.at);
     let (part, _) = weights(places, column as i32, line.into());
     (0..3).map(|k| part[k] * ONE / corners[k].w).sum()
 }
 
 /// How far depth may be off at a pixel.
-fn bound(corners: &[Corner; 3]) -> f64 {
+pub fn bound(corners: &[Corner; 3]) -> f64 {
     let depth = corners.map(|c| ONE / c.w);
     let (low, high) = depth
         .iter()

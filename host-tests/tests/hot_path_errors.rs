@@ -5,9 +5,11 @@ use crate::common::Rng;
 use crate::hot::{Corner, LineRooms, SceneRooms, camera, draw, frame, line};
 use scanbeam::frame::{FrameError, LineError, draw_frame};
 use scanbeam::look::Gouraud;
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pixel::Rgb888;
 use scanbeam::scan_out::{Blocking, ErrorType, LineWriter, Pump, Window};
 use scanbeam::scene::{BeginError, Draw, DrawError, Full, Scene};
-use scanbeam::{Affine, Camera, Cull, Faces, Light, Mesh, MeshError, QuadSplit, Rgb888, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Light, Mesh, MeshError, Screen};
 
 type L = Gouraud<Rgb888>;
 type Picture = Vec<Vec<[u8; 3]>>;

@@ -5,10 +5,11 @@
 
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::look::Textured;
+use scanbeam::pixel::Rgb565;
 use scanbeam::scene::{
     Budget, Draw, DrawState, Memory, Object, Scene, Skin, Texture, TexturePlace, Vertex,
 };
-use scanbeam::{Affine, Camera, Cull, Faces, Light, Link, Mesh, Rgb565, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Light, Link, Mesh, Screen};
 use scenes::{CUBE, PLACES_F};
 
 const WIDTH: usize = 320;

@@ -1,10 +1,10 @@
 //! The input queues lose nothing, stall, and keep the order of their sources (K17).
 
 use crate::common::{self, SceneRooms};
-use scanbeam::{
-    Affine, Camera, Command, DrawError, Faces, GouraudDepth, Input, InputError, InputQueue,
-    Instance, Mesh, MeshError, Rgb888, Scene, Screen, Stalled,
-};
+use scanbeam::input::{Command, Input, InputError, InputQueue, Stalled};
+use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Affine, Camera, DrawError, Faces, Instance, Mesh, MeshError, Scene, Screen};
 use scenes::{CUBE, SPHERE};
 use std::task::Poll;
 

@@ -2,10 +2,13 @@
 //! bits that it has in the whole frame.
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
+use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::{
+    Counted, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, WordOf,
+};
+use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::{
-    Affine, Camera, Counted, Cull, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Instance, Interleave, Light, LineMemory, LineRenderer, Mesh, Pipeline, Rgb565Be, Rgb888, Scene,
-    Screen, WordOf,
+    Affine, Camera, Cull, Faces, Instance, Light, LineMemory, LineRenderer, Mesh, Scene, Screen,
 };
 use scenes::{CUBE, RIBBON, SHOTS, STRESS, Shot, TEAPOT};
 use std::ops::Range;

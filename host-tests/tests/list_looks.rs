@@ -4,14 +4,20 @@ use crate::common::Rng;
 use crate::listing::{
     self, Cloud, HEIGHT, PLENTY, Room, Smooth, WIDTH, begin, drawn, rooms, some_instance,
 };
+use host_tests::lists::writer::ListWriter;
+use scanbeam::blend::Finish;
+use scanbeam::event::{Event, Notice};
+use scanbeam::input::{ListRunner, ListSettings};
+use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::list::{
-    FieldForm, Flow, Halt, Header, Id, LightWords, ListWriter, Material, Overlay, OverlaySlot,
-    Palette, State, TexelForm, TextureSlot,
+    FieldForm, Flow, Halt, Header, Id, LightWords, Material, Overlay, OverlaySlot, Palette, State,
+    TexelForm, TextureSlot,
 };
-use scanbeam::{
-    Composited, DirectionalLight, Event, Finish, I2F14, Instance, Light, Lighting, LineOverlay,
-    ListOverlays, ListRunner, ListSettings, Notice, PixelFormat, Rgb565, Rgb888, Screen, U1F15,
-};
+use scanbeam::mesh::{I2F14, U1F15};
+use scanbeam::overlay::{LineOverlay, ListOverlays};
+use scanbeam::pipeline::Composited;
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use scanbeam::{Instance, Light, Screen};
 
 type Picture = Vec<Vec<[u8; 3]>>;
 
@@ -130,10 +136,10 @@ fn lights_of_lists_are_those_of_calls() {
                 .collect();
             let ambient: u32 = on.iter().map(|l| u32::from(l.ambient)).sum();
             let ambient = [U1F15::from_bits(ambient.min(32_768) as u16); 3];
-            let surface = scanbeam::Material {
+            let surface = scanbeam::mesh::Material {
                 specular: material.specular.map(|c| share(c, 32_768.0)),
                 shininess: u16::from(material.exponent),
-                ..scanbeam::Material::default()
+                ..scanbeam::mesh::Material::default()
             };
             let lighting = Lighting::new(&falls, ambient, surface).unwrap();
             let mesh = scanbeam::Mesh {

@@ -6,10 +6,13 @@ use crate::listing::{
     Cloud, Faceted, HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, in_blocks, listed, some_format,
     some_instance, unrolled,
 };
-use scanbeam::list::{Bounds, Halt, Header, Id, ListWriter, Material, Matrix, State};
-use scanbeam::{
-    Affine, Cull, Faces, Instance, ListSettings, Mesh, Notice, Pipeline, ScreenVertex, WordOf,
-};
+use host_tests::lists::writer::ListWriter;
+use scanbeam::event::Notice;
+use scanbeam::input::ListSettings;
+use scanbeam::list::{Bounds, Halt, Header, Id, Material, Matrix, State};
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::pipeline::{Pipeline, WordOf};
+use scanbeam::{Affine, Cull, Faces, Instance, Mesh};
 
 /// Vertices on and around the picture.
 fn on_screen(rng: &mut Rng, count: usize) -> Vec<ScreenVertex> {

@@ -2,15 +2,18 @@
 
 use crate::common::Rng;
 use crate::listing::{self, PLENTY, Room, drawn, some_instance};
+use host_tests::lists::writer::{FieldPacker, ListWriter};
+use scanbeam::event::{Event, Notice};
+use scanbeam::input::ListSettings;
 use scanbeam::list::{
-    Field, FieldForm, FieldPacker, Flow, Halt, Header, Id, ListRing, ListWriter, Material, Palette,
-    State, TexelForm, Texture, TextureSlot, VertexFormat, parameter,
+    Field, FieldForm, Flow, Halt, Header, Id, ListRing, Material, Palette, State, TexelForm,
+    Texture, TextureSlot, VertexFormat, parameter,
 };
-use scanbeam::texture::{Clamp, Quality, Size, Skin, Words};
-use scanbeam::{
-    Cull, Event, Faces, Instance, ListSettings, ListTextures, ListedDepth, Mesh, Notice, Rgb888,
-    ScreenVertex, TexelOf, TexturedDepth, Textures, texture,
-};
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::pipeline::{ListedDepth, TexturedDepth};
+use scanbeam::pixel::Rgb888;
+use scanbeam::texture::{Clamp, ListTextures, Quality, Size, Skin, TexelOf, Textures, Words};
+use scanbeam::{Cull, Faces, Instance, Mesh, texture};
 use std::sync::atomic::AtomicU32;
 
 type Listed<'t> = ListedDepth<'t, Rgb888>;
@@ -334,7 +337,7 @@ fn random_list(seed: u64) {
                 let words = sheet.words(&format, table, &all);
                 writer.vertices(table, &words).unwrap();
                 let order = draw.order.iter().map(|i| Some(*i)).collect::<Vec<_>>();
-                let form = scanbeam::list::Form::Strip;
+                let form = host_tests::lists::writer::Form::Strip;
                 writer
                     .indexed(Some(form), false, order.into_iter())
                     .unwrap();
@@ -387,7 +390,7 @@ fn random_list(seed: u64) {
                         .chunks_exact(4)
                         .map(|q| [q[0], q[1], q[2], q[3]])
                         .collect();
-                    let faces = Faces::Quads(&fours, scanbeam::QuadSplit::Corner0To2);
+                    let faces = Faces::Quads(&fours, scanbeam::mesh::QuadSplit::Corner0To2);
                     scene.draw_skinned(&mesh(faces), skin, &instance)
                 }
                 Id::Long => {

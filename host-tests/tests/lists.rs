@@ -4,8 +4,11 @@ use crate::common::Rng;
 use crate::listing::{
     Cloud, Faceted, Smooth, drawn, in_blocks, listed, some_format, some_instance, unrolled,
 };
-use scanbeam::list::{FieldForm, Flow, Form, Header, Id, ListWriter, SPLIT, State, VertexFormat};
-use scanbeam::{Faces, Mesh, Pipeline, QuadSplit, Vertices, WordOf};
+use host_tests::lists::writer::{Form, ListWriter};
+use scanbeam::list::{FieldForm, Flow, Header, Id, SPLIT, State, VertexFormat};
+use scanbeam::mesh::{QuadSplit, Vertices};
+use scanbeam::pipeline::{Pipeline, WordOf};
+use scanbeam::{Faces, Mesh};
 
 fn strips_and_fans<P: Pipeline>(seeds: std::ops::Range<u64>)
 where

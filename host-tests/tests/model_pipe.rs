@@ -1,6 +1,6 @@
 //! The pipeline behind stage one does with tokens what the device does (K8-K14).
 
-use scanbeam::model::{
+use scanbeam_model::{
     Argb10, GlobalMode, Output, ParameterSetup, Pipe, PipeMemory, PixelToken, SpanWeight, StartDma,
     Target, Token, ZSetup, lirp,
 };

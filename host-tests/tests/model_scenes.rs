@@ -2,11 +2,12 @@
 //! (K4, K5, M1).
 
 use crate::common::{LineRooms, SceneRooms};
-use scanbeam::model::{
+use scanbeam::Scene;
+use scanbeam::pipeline::{Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline};
+use scanbeam::pixel::Rgb888;
+use scanbeam::stats::SpanCounts;
+use scanbeam_model::{
     CornerColours, ModelRenderer, PipeCounts, PipeMemory, ProcessingFormat, Token,
-};
-use scanbeam::{
-    Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, Rgb888, Scene, SpanCounts,
 };
 use scenes::{HEIGHT, OBJECTS, SHOTS, Shot, VERTICES, WIDTH};
 

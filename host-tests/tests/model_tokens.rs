@@ -1,7 +1,7 @@
 //! Tokens survive the wires, bit by bit, and what is no token is refused (K13).
 
 use crate::common::Rng;
-use scanbeam::model::{
+use scanbeam_model::{
     Argb10, CHARTS, Chart, GlobalMode, ParameterSetup, PixelToken, StartDma, Target, Token,
     TokenBits, TokenError, ZSetup,
 };

@@ -5,7 +5,7 @@ use host_tests::draw::{CrewSettings, draw, draw_model};
 use host_tests::model::Model;
 use host_tests::reference::{Shade, View};
 use host_tests::trace::{describe, trace};
-use scanbeam::model::{Output, ParameterSetup, Pipe, PipeMemory, Target, Token, TokenBits};
+use scanbeam_model::{Output, ParameterSetup, Pipe, PipeMemory, Target, Token, TokenBits};
 use std::process::Command;
 
 const SQUARE: &str = "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 0 0 0 1\nv -1 1 0 1 1 1\nf 1 2 3 4\n";

@@ -4,10 +4,15 @@
 //! towards each other, and through each other, so that some lines can be ordered and some cannot.
 
 use crate::common::{Rng, SceneRooms};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::{
+    Counted, Deferred, DepthUse, FlatDepth, GouraudDepth, Interpolated, LineDepth, Pipeline,
+    QuarterRate, WordOf,
+};
+use scanbeam::pixel::{Rgb565Be, Rgb888};
+use scanbeam::stats::SpanCounts;
 use scanbeam::{
-    Affine, Camera, Counted, Cull, Deferred, DepthUse, Faces, FlatDepth, GouraudDepth, Instance,
-    Interpolated, LineDepth, LineMemory, LineRenderer, Link, Mesh, Pipeline, QuadSplit,
-    QuarterRate, Rgb565Be, Rgb888, Scene, Screen, SpanCounts, WordOf,
+    Affine, Camera, Cull, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene, Screen,
 };
 
 const FOCAL: f64 = 100.0;

@@ -6,13 +6,16 @@
 
 use crate::common::{LineRooms, Rng, SceneRooms};
 use host_tests::mock::{HostLine, MockFrameBuffer};
-use scanbeam::scan_out::{LineBuf, Pump};
-use scanbeam::{
-    Camera, Crew, Cull, DepthUse, Faces, FlatDepth, FrameError, GouraudDepth, Index4, Index8,
-    Indexed, Instance, Interleave, LinePalettes, Mesh, Overlaid, Overlay, PaletteTable, Pipeline,
-    PixelFormat, Pixels, RendererError, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Scene, Screen, Sprite,
-    draw_frame_indexed, send_frame_indexed,
+use scanbeam::overlay::{Overlaid, Overlay, Sprite};
+use scanbeam::parallel::{Crew, Interleave};
+use scanbeam::pipeline::{DepthUse, FlatDepth, GouraudDepth, Pipeline};
+use scanbeam::pixel::{
+    Index4, Index8, Indexed, LinePalettes, PaletteTable, PixelFormat, Pixels, Rgb565, Rgb565Be,
+    Rgb565Le, Rgb888,
 };
+use scanbeam::scan_out::{LineBuf, Pump};
+use scanbeam::send::{draw_frame_indexed, send_frame_indexed};
+use scanbeam::{Camera, Cull, Faces, FrameError, Instance, Mesh, RendererError, Scene, Screen};
 use std::fmt::Debug;
 
 const SIZE: (u16, u16) = (53, 41);

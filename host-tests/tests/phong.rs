@@ -2,11 +2,11 @@
 
 use crate::common::solid::{V, cross, dot, octahedron, unit};
 use crate::common::{Rng, SceneRooms, frame};
-use scanbeam::{
-    Affine, Camera, Composited, Cull, DirectionalLight, Faces, GouraudDepth, Instance, Lamplight,
-    Lighting, Material, Mesh, PhongDepth, Pipeline, PixelFormat, PixelLamps, Rgb565, Rgb888,
-    Screen, U1F15, WordOf,
-};
+use scanbeam::light::{DirectionalLight, Lamplight, Lighting, PixelLamps};
+use scanbeam::mesh::{Material, U1F15};
+use scanbeam::pipeline::{Composited, GouraudDepth, PhongDepth, Pipeline, WordOf};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Screen};
 
 const SIDE: u16 = 121;
 const FOCAL: f64 = 170.0;

@@ -4,13 +4,17 @@
 //! that cover it; what is covered is told by the model's vertex sort.
 
 use crate::common::{LineRooms, Rng, SceneRooms};
+use scanbeam::blend::Finish;
 use scanbeam::list::Window;
-use scanbeam::model::{CuspPolygon, ModelSpan, Wins, priority_contest};
-use scanbeam::{
-    Affine, Camera, CellOf, Clip, Composited, Cull, Finish, FlatDepth, Forward, GouraudDepth,
-    Instance, Interleave, Interpolated, Pipeline, Prioritised, Priority, Rgb565Be, Rgb888, Scene,
-    Screen, ScreenVertex, Shading, SkinOf, Windowed, WordOf,
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::{
+    CellOf, Clip, Composited, FlatDepth, Forward, GouraudDepth, Interpolated, Pipeline,
+    Prioritised, Priority, Shading, SkinOf, Windowed, WordOf,
 };
+use scanbeam::pixel::{Rgb565Be, Rgb888};
+use scanbeam::{Affine, Camera, Cull, Instance, Scene, Screen};
+use scanbeam_model::{CuspPolygon, ModelSpan, Wins, priority_contest};
 use scenes::CUBE;
 use std::ops::Range;
 
@@ -230,7 +234,7 @@ fn glass_is_blended_in_order_of_priority() {
         assert!(pictures.iter().all(|picture| *picture == pictures[0]));
         // In order, as without priorities.
         faces.sort_by_key(|(face, _)| face.priority);
-        let mut rooms = rooms::<Composited<scanbeam::FlatPainter<Rgb888>>>();
+        let mut rooms = rooms::<Composited<scanbeam::pipeline::FlatPainter<Rgb888>>>();
         let mut scene = rooms.scene(screen());
         scene.begin(&camera()).unwrap();
         for (face, finish) in &faces {

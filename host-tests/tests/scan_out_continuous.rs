@@ -2,10 +2,11 @@
 //! recovers at the next line (X5).
 
 use crate::common::{LineRooms, Rng, SceneRooms};
+use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scan_out::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
-use scanbeam::{
-    Affine, Camera, GouraudDepth, Instance, PixelFormat, Rgb565, Screen, draw_continuous,
-};
+use scanbeam::send::draw_continuous;
+use scanbeam::{Affine, Camera, Instance, Screen};
 
 const WIDTH: usize = 4;
 

@@ -8,11 +8,10 @@ use crate::common::changes::{
 };
 use crate::common::{LineRooms, Rng, SceneRooms};
 use host_tests::mock::{HostLine, MockError};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
-use scanbeam::{
-    Affine, Instance, PixelFormat, Rgb565Be, Screen, draw_frame, draw_frame_changed_runs,
-    send_changed_runs,
-};
+use scanbeam::send::{draw_frame_changed_runs, send_changed_runs};
+use scanbeam::{Affine, Instance, Screen, draw_frame};
 
 /// The mock, with the windows that were opened.
 struct Recorder {

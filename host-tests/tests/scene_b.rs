@@ -6,7 +6,9 @@ use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{
     Cull, NO_OBJECT, Options, Reference, Shade, TextureMap, Textures, View, render_textured,
 };
-use scanbeam::{Counted, Faces, PixelFormat, Rgb565Be};
+use scanbeam::Faces;
+use scanbeam::pipeline::Counted;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scenes::{
     DEPTHS, HEIGHT, KeepsDepth, LookB, SCENES_B, SPHERE, Shot, TEXEL_SIDE, TEXELS_565, WIDTH,
 };

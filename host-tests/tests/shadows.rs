@@ -2,11 +2,12 @@
 
 use crate::common::solid::{V, along, cross, dot, octahedron, sub, unit};
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::{
-    Affine, Camera, Counted, Cull, Faces, Finish, GouraudDepth, Instance, Light, Mesh, Pipeline,
-    Rgb888, Scene, Screen, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, ShadowRoom,
-    Shadowed, Surface,
+use scanbeam::blend::{
+    Finish, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, ShadowRoom, Surface,
 };
+use scanbeam::pipeline::{Counted, GouraudDepth, Pipeline, Shadowed};
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Light, Mesh, Scene, Screen};
 
 const WIDTH: usize = 72;
 const HEIGHT: usize = 54;
@@ -55,7 +56,7 @@ impl Body {
         rooms: [usize; 3],
     ) -> Result<(), ShadowError>
     where
-        P: Pipeline<Shading = scanbeam::Blended<scanbeam::Gouraud>>,
+        P: Pipeline<Shading = scanbeam::blend::Blended<scanbeam::pipeline::Gouraud>>,
     {
         let memory = ShadowMemory {
             edges: &mut vec![ShadowEdge::default(); rooms[0]],

@@ -1,10 +1,10 @@
 //! What is not done because nobody would see it, and that nobody does (M4, X3).
 
 use crate::common::{Rng, SceneRooms, frame};
-use scanbeam::{
-    Affine, Camera, Cull, Faces, GouraudDepth, Instance, Mesh, PassOne, Rgb888, Scene, Screen,
-    Sphere, WordOf,
-};
+use scanbeam::mesh::Sphere;
+use scanbeam::pipeline::{GouraudDepth, WordOf};
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, PassOne, Scene, Screen};
 
 type Look = GouraudDepth<Rgb888>;
 

@@ -3,10 +3,9 @@
 //! or an overflow. The bounds are in the table of `stress_shapes.rs`.
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::{
-    Affine, Camera, CameraError, Cull, FlatPainter, GouraudDepth, Instance, Light, Rgb565Be,
-    Rgb888, Scene, Screen,
-};
+use scanbeam::pipeline::{FlatPainter, GouraudDepth};
+use scanbeam::pixel::{Rgb565Be, Rgb888};
+use scanbeam::{Affine, Camera, CameraError, Cull, Instance, Light, Scene, Screen};
 use scenes::{CUBE, TEAPOT};
 use std::fs;
 use std::process::Command;

@@ -13,7 +13,9 @@
 //! - That an edge stays closed has no tolerance.
 
 use crate::common::{LineRooms, Rng, SceneRooms, line};
-use scanbeam::{Affine, Camera, Cull, Faces, GouraudDepth, Instance, Mesh, Rgb888, Scene, Screen};
+use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 
 type P = GouraudDepth<Rgb888>;
 

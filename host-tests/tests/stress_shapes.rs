@@ -25,7 +25,9 @@
 use crate::common::{LineRooms, Rng, line};
 use crate::stress::{self, Corner, Worst, check, colour, depth_bound, distance, with_scene};
 use crate::watertight::count::{self, Place, doubled_area};
-use scanbeam::{GouraudDepth, Rgb888, Screen};
+use scanbeam::Screen;
+use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pixel::Rgb888;
 
 /// Corners at these places, at distances up to 2^`bits`.
 fn corners(rng: &mut Rng, places: [Place; 3], bits: f64) -> [Corner; 3] {

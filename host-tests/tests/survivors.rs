@@ -4,15 +4,19 @@
 
 use crate::common::{LineRooms, SceneRooms, frame};
 use crate::listing::{PLENTY, Room};
+use host_tests::lists::writer::ListWriter;
 use host_tests::mock::HostLine;
-use scanbeam::list::{Budget, Flow, Halt, ListWriter};
-use scanbeam::texture::{Quality, Size, Skin, Texel, Texture, Words};
-use scanbeam::{
-    Affine, Blend, Camera, Composited, Crew, Cull, Dithered, Event, Faces, Factor, Finish,
-    FlatDepth, FrameStats, I2F14, Instance, Interleave, LineSource, ListSettings, Mesh, Notice,
-    Ordered, PixelFormat, Ranks, Relay, Rgb565, Rgb888, Scene, Screen, ScreenVertex, ShadowEdge,
-    ShadowLight, ShadowMemory, Shadowed, SpanCounts, Surface, TexturedDepth, Textures,
-};
+use scanbeam::blend::{Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface};
+use scanbeam::event::{Event, Notice};
+use scanbeam::input::ListSettings;
+use scanbeam::list::{Budget, Flow, Halt};
+use scanbeam::mesh::{I2F14, ScreenVertex};
+use scanbeam::parallel::{Crew, Interleave, LineSource, Relay};
+use scanbeam::pipeline::{Composited, FlatDepth, Shadowed, TexturedDepth};
+use scanbeam::pixel::{Dithered, Ordered, PixelFormat, Ranks, Rgb565, Rgb888};
+use scanbeam::stats::SpanCounts;
+use scanbeam::texture::{Quality, Size, Skin, Texel, Texture, Textures, Words};
+use scanbeam::{Affine, Camera, Cull, Faces, FrameStats, Instance, Mesh, Scene, Screen};
 
 type Store<'t> = Texture<Words<'t, Texel>>;
 

@@ -3,8 +3,11 @@
 //! every read.
 
 use host_tests::firmware_report::textured_b;
-use scanbeam::texture::{BlockCache, Blocked, CacheReads, Size, Store, Texture, Words, Wrap};
-use scanbeam::{Counted, Rgb565Be, TexturedDepth, Textures};
+use scanbeam::pipeline::{Counted, TexturedDepth};
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::texture::{
+    BlockCache, Blocked, CacheReads, Size, Store, Texture, Textures, Words, Wrap,
+};
 use scenes::{CachedB, CachedLookB, SCENES_B, SceneB, TEXEL_SIDE, TEXELS_PANEL};
 use std::cell::RefCell;
 use std::collections::BTreeSet;

@@ -10,9 +10,10 @@ pub mod count;
 
 use crate::common::{self, LineRooms, Rng, SceneRooms};
 use count::{Count, Place, doubled_area};
-use scanbeam::{
-    Camera, Counted, Cull, Faces, FlatPainter, Instance, Mesh, QuadSplit, Rgb888, Screen,
-};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::{Counted, FlatPainter};
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Screen};
 
 type P = Counted<FlatPainter<Rgb888>>;
 

@@ -2,11 +2,13 @@
 //! picture of 32-bit depth, whatever the shading, the cache and the order; within a step the last wins.
 
 use crate::common::{LineRooms, Rng, SceneRooms};
-use scanbeam::{
-    Affine, Camera, Composited, Counted, Cull, DepthUse, Faces, FlatDepth, GouraudDepth, Instance,
-    Interpolated, Mesh, Pipeline, QuarterRate, Rgb565, Rgb565Be, Rgb888, Scene, Screen, SpanCounts,
+use scanbeam::pipeline::{
+    Composited, Counted, DepthUse, FlatDepth, GouraudDepth, Interpolated, Pipeline, QuarterRate,
     WordOf, Worded,
 };
+use scanbeam::pixel::{Rgb565, Rgb565Be, Rgb888};
+use scanbeam::stats::SpanCounts;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 
 const WIDTH: u16 = 90;
 const HEIGHT: u16 = 60;

@@ -134,7 +134,7 @@ impl<W, const N: usize> LinePalettes<W, N> for PaletteTable<'_, W, N> {
 /// does not compile.
 ///
 /// ```compile_fail
-/// scanbeam::expand_indices::<u16, 0>(&[1], &[], &mut [0]);
+/// scanbeam::pixel::expand_indices::<u16, 0>(&[1], &[], &mut [0]);
 /// ```
 #[inline]
 pub fn expand_indices<W: Copy, const N: usize>(indices: &[u8], palette: &[W; N], out: &mut [W]) {

@@ -6,7 +6,8 @@
 //! texel asked for its form, and for each a function was called, it took 8.8.
 //! Firmware with one form of its own lends [`Textures`] instead.
 
-use super::texels::{TexelOf, TextureSource, Textures};
+use super::texel::TexelOf;
+use super::texels::{TextureSource, Textures};
 use super::{LineOverlay, PixelFormat};
 use crate::geometry::texturing::{LevelEnds, Period, SpanPlace};
 use crate::list::{
@@ -24,7 +25,7 @@ use crate::visible::Visible;
 pub struct ListTextures<'t> {
     /// The words of the list.
     pub words: &'t [u32],
-    /// The slots that its [`ListMemory`](crate::ListMemory) has too.
+    /// The slots that its [`ListMemory`](crate::input::ListMemory) has too.
     pub slots: &'t [TextureSlot],
 }
 
@@ -131,7 +132,7 @@ fn one<F: PixelFormat, R: Reading>(
     TextureSource::<F>::paint(&Textures(&one), 0, pixels, course, stretch, visible)
 }
 
-/// The overlays of a list, for [`draw_frame_overlaid`](crate::draw_frame_overlaid). Each pixel is
+/// The overlays of a list, for [`draw_frame_overlaid`](crate::overlay::draw_frame_overlaid). Each pixel is
 /// expanded where it is painted.
 ///
 /// A list that is not in one piece, such as a ring, has none.
@@ -139,7 +140,7 @@ fn one<F: PixelFormat, R: Reading>(
 pub struct ListOverlays<'t> {
     /// The words of the list.
     pub words: &'t [u32],
-    /// The slots that its [`ListMemory`](crate::ListMemory) has too.
+    /// The slots that its [`ListMemory`](crate::input::ListMemory) has too.
     pub slots: &'t [OverlaySlot],
 }
 

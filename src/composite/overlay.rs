@@ -151,7 +151,8 @@ impl core::error::Error for UnsortedSprites {}
 /// Lines may be painted in any order; downwards is fast.
 ///
 /// ```
-/// use scanbeam::{Ink, LineOverlay, Overlay, Pixels, Rgb565, Sprite};
+/// use scanbeam::overlay::{Ink, LineOverlay, Overlay, Sprite};
+/// use scanbeam::pixel::{Pixels, Rgb565};
 ///
 /// // A bar of 3 x 2 pixels, and a cross whose corners let the picture through.
 /// let cross = [0, 7, 0, 7, 7, 7, 0, 7, 0];
@@ -170,7 +171,7 @@ impl core::error::Error for UnsortedSprites {}
 ///     [7, 7, 7, 1, 1],
 ///     [1, 7, 1, 1, 1],
 /// ]);
-/// # Ok::<(), scanbeam::UnsortedSprites>(())
+/// # Ok::<(), scanbeam::overlay::UnsortedSprites>(())
 /// ```
 #[derive(Debug)]
 pub struct Overlay<'o, F: PixelFormat> {

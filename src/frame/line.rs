@@ -5,18 +5,18 @@
 //! by submission, and only they have their depth compared: where nobody has written before it is written alone.
 //! Without depth they are drawn in that order. The background goes where the mask has nothing.
 
+use super::alone::columns_of;
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
-use super::slot::Flags;
+use super::slot::{Active, Flags};
 use super::spans::{Drawn, Known, Line, Span, colour, colour_run, nearer};
 use super::thin::depth_plane;
-use crate::active::next;
+use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
 use crate::link::Link;
 use crate::look::{Look, Place, WordOf};
 use crate::num::{bit, take_first};
 use crate::scene::Scene;
-use crate::span::{Triangle, Way};
 use crate::visible::Mask;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -51,6 +51,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
+        if view.values && self.draw_values(&mut out, background) {
+            return Ok(true);
+        }
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
             self.draw_near_first(usize::from(slots), &mut out);
@@ -100,7 +103,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The background, where nothing is.
     #[inline(never)]
-    fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
+    pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
             if let Some(run) = pixels.get_mut(from as usize..to as usize) {
                 L::Pixel::fill(run, background);
@@ -110,7 +113,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours spans as they are found; `false` as soon as two meet.
     #[inline(never)]
-    fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         for word in 0..WORDS {
             if !self.draw_plain(out, word) {
                 return false;
@@ -163,7 +166,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The columns of all spans; whether two meet.
     #[inline(never)]
-    fn find_spans(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn find_spans(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         for word in 0..WORDS {
             let (slots, spans) = (&self.cache.slots[word], &mut self.cache.spans[word]);
@@ -200,7 +203,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if lines.end <= line {
                 self.cache.relink(before, after, self.links);
             } else {
-                let Span { start, end } = columns_of(&triangle, out);
+                let Span { start, end } = columns_of(&triangle, out.number, out.view.frame);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
                 }
@@ -242,22 +245,28 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         self.ordered = meeting as u16;
-        let mut slow = Spilled {
-            at: self.cache.spilled,
-            drawn: 0,
-        };
+        let (mut slow, mut drawn) = (self.cache.spilled, 0);
         for k in 0..meeting {
             let key = self.cache.order.as_flattened().get(k).copied();
             let key = key.unwrap_or_default();
             // One comparison says whether what has no slot comes first (C3).
-            while slow.at.is_some() && u32::from(slow.at.object()) < key >> 16 {
-                slow = self.draw_spilled(slow, out);
+            while slow.is_some() && u32::from(slow.object()) < key >> 16 {
+                slow = self.draw_spilled(slow, self.kept_columns(drawn), out);
+                drawn += 1;
             }
             self.draw_meeting(key as usize & 0xFFFF, out);
         }
-        while slow.at.is_some() {
-            slow = self.draw_spilled(slow, out);
+        while slow.is_some() {
+            slow = self.draw_spilled(slow, self.kept_columns(drawn), out);
+            drawn += 1;
         }
+    }
+
+    /// The columns that were found for what has no slot, by its place among its kind; the first are kept.
+    #[inline(always)]
+    fn kept_columns(&self, place: usize) -> Option<Span> {
+        let columns = self.cache.near.as_flattened().get(place);
+        columns.map(|&word| Span::of(word))
     }
 
     /// Keeps of the last line's order what meets others again; how many spans that are.
@@ -288,7 +297,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A span in a slot that meets others.
     #[inline(never)]
-    fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
         let (Some(slots), Some(spans), Some(deep), Some(depth)) = (
             self.cache.slots.get_mut(word),
@@ -302,17 +311,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.depth.is_empty() {
             return colour::<L>(Drawn::of(slot), span, out);
         }
-        let one = bit(i as u32);
-        if *deep & one == 0 {
-            *deep |= one;
-            let triangle = out.view.triangle_of(slot.object);
-            let plane = triangle.and_then(|t| depth_plane(&t));
-            slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
-            depth[i] = plane.unwrap_or_default();
-        }
-        let drawn = Drawn::of(slot);
+        deepen::<L>(slot, deep, bit(i as u32), &mut depth[i], out.view);
+        let drawn = Drawn::of(slot).at_depth(&depth[i]);
         let known = Known {
-            plane: depth[i],
             cells: self.depth,
             written: &mut self.written,
         };
@@ -321,69 +322,53 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A span of what has no slot, set up for this line alone; the next of its kind.
     #[inline(never)]
-    fn draw_spilled(&mut self, spilled: Spilled, out: &mut Line<'_, '_, WordOf<L>>) -> Spilled {
-        let object = spilled.at.object();
-        let after = Spilled {
-            at: next(self.links, spilled.at),
-            drawn: spilled.drawn + 1,
-        };
-        let columns = self.cache.near.as_flattened().get(spilled.drawn);
-        let columns = columns.map(|&word| Span::of(word));
-        if columns.is_some_and(|span| span.start >= span.end) {
-            return after;
-        }
-        let Some(triangle) = out.view.triangle_of(object) else {
+    pub(super) fn draw_spilled(
+        &mut self,
+        at: Link,
+        columns: Option<Span>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> Link {
+        let after = next(self.links, at);
+        let Some(mut alone) = self.set_up_alone(at.object(), columns, out) else {
             return after;
         };
-        let span = columns.unwrap_or_else(|| columns_of(&triangle, out));
-        if span.start >= span.end {
-            return after;
-        }
-        let area = triangle.area();
-        let planes = &mut self.cache.scratch.planes;
-        let (size, draws) = (triangle.size(area), out.view.draws);
-        let fill = L::set_up(&triangle, object, size, area, draws, planes);
-        self.counts.set_ups += 1;
-        let meets = !self.depth.is_empty() && self.met && self.over.meets(span.start, span.end);
-        let depth = if meets { depth_plane(&triangle) } else { None };
-        let drawn = Drawn {
-            item: &self.cache.scratch,
-            flags: Flags::new(fill, Way::PLAIN).without_depth(depth.is_none()),
-            object,
-        };
-        if meets {
+        let Span { start, end } = alone.span;
+        let item = &self.cache.scratch;
+        if !self.depth.is_empty() && self.met && self.over.meets(start, end) {
+            alone.find_depth(out.view);
             let known = Known {
-                plane: depth.unwrap_or_default(),
                 cells: self.depth,
                 written: &mut self.written,
             };
-            nearer::<L>(drawn, span, out, known);
+            nearer::<L>(alone.drawn(item), alone.span, out, known);
         } else {
-            colour::<L>(drawn, span, out);
+            colour::<L>(alone.drawn(item), alone.span, out);
         }
         after
     }
 }
 
-/// An object without a slot, and how many have been drawn on this line before it.
-#[derive(Clone, Copy)]
-struct Spilled {
-    at: Link,
-    drawn: usize,
-}
-
-/// The columns of a triangle without a slot.
-#[inline(never)]
-fn columns_of<W>(triangle: &Triangle<'_>, out: &Line<'_, '_, W>) -> Span {
-    let way = triangle.way();
-    let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
-    let (start, end) = sides.columns(way, out.number, out.view.frame);
-    Span { start, end }
+/// Finds the depth of a slot, unless it is among those whose depth is known.
+#[inline(always)]
+pub(super) fn deepen<L: Look>(
+    slot: &mut CacheSlot<Active<L::Planes>>,
+    deep: &mut u32,
+    one: u32,
+    depth: &mut [u32; 3],
+    view: &View<'_>,
+) {
+    if *deep & one == 0 {
+        *deep |= one;
+        let triangle = view.triangle_of(slot.object);
+        let plane = triangle.and_then(|t| depth_plane(&t));
+        slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
+        *depth = plane.unwrap_or_default();
+    }
 }
 
 /// Inserts a key among the first `count`, which rise.
 #[inline(always)]
-fn insert(keys: &mut [u32], count: usize, key: u32) {
+pub(super) fn insert(keys: &mut [u32], count: usize, key: u32) {
     if let Some(run) = keys.get_mut(..=count) {
         let mut after = run.iter_mut().rev();
         if let Some(mut to) = after.next() {

@@ -4,23 +4,38 @@
 //! |---|---|
 //! | `renderer` | what draws lines: its memory, its errors |
 //! | `advance` | from line to line: which triangles begin, turn and end |
+//! | `alone` | a triangle without a slot |
 //! | `line` | one line: who is seen, and its pixels |
 //! | `scene` | a scene made for a look |
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
 //! | `spans` | the pixels of a span |
-//! | `send` | all lines of a frame through a pump |
+//! | `values` | lines with draw calls that have values few have |
+//! | `rank` | lines that are drawn by priority |
+//! | `ruled` | pixels of such a span |
+//! | `translucent` | spans that what is behind shines through, from far to near |
+//! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
+//! | `relay` | a frame of two cores |
 
 mod advance;
+mod alone;
 mod line;
 mod plan;
+mod rank;
+mod relay;
 mod renderer;
+mod ruled;
 mod scene;
 mod send;
 mod slot;
 mod spans;
 mod thin;
+mod translucent;
+mod values;
 
+pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
-pub use send::{FrameError, FrameUse, draw_frame};
+#[cfg(feature = "async")]
+pub use send::draw_frame_async;
+pub use send::{FrameError, FrameUse, draw_continuous, draw_frame};

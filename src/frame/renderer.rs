@@ -85,6 +85,16 @@ pub enum LineError {
         /// The line.
         line: u16,
     },
+    /// The wait for the other core was given up.
+    Stopped {
+        /// The line that was awaited.
+        line: u16,
+    },
+    /// The other core has given another line than was due.
+    Strayed {
+        /// The line that was due.
+        line: u16,
+    },
 }
 
 impl fmt::Display for LineError {
@@ -102,6 +112,12 @@ impl fmt::Display for LineError {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+            Self::Stopped { line } => {
+                write!(f, "renderer: the wait for line {line} was given up")
+            }
+            Self::Strayed { line } => {
+                write!(f, "renderer: another line came in the place of line {line}")
+            }
         }
     }
 }
@@ -192,6 +208,10 @@ pub struct View<'a> {
     pub(super) objects: &'a [Object],
     pub(super) draws: &'a [DrawState<'a>],
     pub(super) frame: Frame,
+    /// Whether a draw call has values that few have.
+    pub(super) values: bool,
+    /// Whether the scene is drawn by priority.
+    pub(super) ranked: bool,
 }
 
 impl<'a> View<'a> {
@@ -206,7 +226,28 @@ impl<'a> View<'a> {
             frame: Frame {
                 width: i32::from(screen.width()),
             },
+            values: scene.has_values || scene.is_ranked,
+            ranked: scene.is_ranked,
         }
+    }
+
+    /// The state of an object's draw call.
+    pub(super) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
+        DrawState::of(object, self.draws)
+    }
+
+    /// The priority of an object's draw call, if the scene is drawn by it.
+    pub(super) fn rank(&self, object: u16) -> u32 {
+        match self.state(object) {
+            Some(state) if self.ranked => state.priority.into(),
+            _ => 0,
+        }
+    }
+
+    /// Whether an object's draw call has values that few have.
+    #[inline(always)]
+    pub(super) fn has_values(&self, object: u16) -> bool {
+        self.values && self.state(object).is_some_and(DrawState::has_values)
     }
 
     /// The corners of a triangle.

@@ -19,6 +19,7 @@ pub(super) struct Flags(pub(super) u8);
 impl Flags {
     const NO_DEPTH: u8 = 1 << 5;
     const WAY: u32 = 2;
+    const VALUES: u8 = 1 << 6;
 
     #[inline(always)]
     pub(super) fn new(fill: Fill, way: Way) -> Self {
@@ -45,6 +46,16 @@ impl Flags {
     #[inline(always)]
     pub(super) fn way(self) -> Way {
         Way(self.0 >> Self::WAY & Way::BITS)
+    }
+
+    /// Whether the draw call has values that few have.
+    #[inline(always)]
+    pub(super) fn has_values(self) -> bool {
+        self.0 & Self::VALUES != 0
+    }
+
+    pub(super) fn with_values(self) -> Self {
+        Self(self.0 | Self::VALUES)
     }
 
     /// Whether depth has to be found on each line.

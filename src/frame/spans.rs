@@ -21,9 +21,8 @@ pub(super) struct Span {
     pub(super) end: u32,
 }
 
-/// The depth of a line, as far as it is known, and the plane of what is drawn.
+/// The depth of a line, as far as it is known.
 pub(super) struct Known<'a> {
-    pub(super) plane: [u32; 3],
     pub(super) cells: &'a mut [u32],
     pub(super) written: &'a mut Mask,
 }
@@ -32,6 +31,8 @@ pub(super) struct Known<'a> {
 #[derive(Clone, Copy)]
 pub(super) struct Drawn<'a, P> {
     pub(super) item: &'a Active<P>,
+    /// Where it is asked for: at the picture's first pixel, its steps across and down.
+    pub(super) depth: &'a [u32; 3],
     pub(super) flags: Flags,
     pub(super) object: u16,
 }
@@ -45,7 +46,7 @@ pub(super) fn nearer<L: Look>(
     known: Known<'_>,
 ) {
     let (column, line) = (span.start, out.number);
-    let [mut at, mut step, down] = known.plane;
+    let [mut at, mut step, down] = *drawn.depth;
     at = at
         .wrapping_add(step.wrapping_mul(column))
         .wrapping_add(down.wrapping_mul(line));
@@ -153,14 +154,21 @@ pub(super) fn colour_run<L: Look>(
 }
 
 impl<'a, P> Drawn<'a, P> {
-    /// What is in a slot.
+    /// What is in a slot, to be drawn without its depth.
     #[inline(always)]
     pub(super) fn of(slot: &'a CacheSlot<Active<P>>) -> Self {
         Self {
             item: &slot.item,
+            depth: &[0; 3],
             flags: Flags(slot.flags),
             object: slot.object,
         }
+    }
+
+    /// The same with its depth.
+    #[inline(always)]
+    pub(super) fn at_depth(self, depth: &'a [u32; 3]) -> Self {
+        Self { depth, ..self }
     }
 }
 

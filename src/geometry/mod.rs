@@ -29,7 +29,8 @@ mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room, ScreenVertex};
 pub(crate) use assemble::{
-    Assembler, Store, check, check_mesh, each_triangle, on_screen, triangles,
+    Assembler, Looks, ScreenMesh, Store, Surfaced, check, check_mesh, each_triangle, on_screen,
+    triangles,
 };
 pub use blended::{Blended, BlendedLevels, ObjectFinish, Surface};
 pub use bounds::Sphere;
@@ -43,7 +44,7 @@ pub use lighting::{DirectionalLight, Lighting, Material};
 pub use listed::{ListLamps, ListLighting, MatrixRange};
 pub use marks::{Clip, Kept, Mark, Marked, Part, Priority};
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
-pub use object::{Object, SceneVertex};
+pub use object::{Filed, Object, SceneVertex};
 pub use phong::{LitSkin, Phong, PhongLevels, PixelLamps};
 pub(crate) use project::Projection;
 pub(crate) use setup::at_pixel;

@@ -57,6 +57,19 @@ pub struct Object<F> {
     pub(crate) face: F,
 }
 
+/// A triangle read back from a scene: its corners on the screen, and what its shading keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Filed<A, F> {
+    /// Column and line of each corner in 13.3 of guard space.
+    pub places: [(u16, u16); 3],
+    /// 1/w of each corner with the near plane at 2^31.
+    pub depths: [u32; 3],
+    /// What the shading keeps at each corner.
+    pub attributes: [A; 3],
+    /// What the shading keeps for the face.
+    pub face: F,
+}
+
 impl<F: Empty> Object<F> {
     /// What fresh memory is filled with, also that of a static.
     #[must_use]

@@ -10,6 +10,9 @@ use super::shading::Shading;
 use crate::num::{Edge, GUARD_CENTRE, InverseArea, Plane, SmallArea, column_exact, first_at};
 use core::ops::Range;
 
+#[cfg(test)]
+mod tests;
+
 /// How colour and depth are found at a pixel.
 #[derive(Clone, Copy, Debug)]
 pub enum Parameters<L> {

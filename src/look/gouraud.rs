@@ -27,13 +27,13 @@ pub type Planes = [u32; 9];
 
 /// Red, green and blue of a word of colour: 11, 11 and 10 bits.
 #[inline(always)]
-fn fields(word: u32) -> [i32; 3] {
+pub(super) fn fields(word: u32) -> [i32; 3] {
     [word >> 21, word & 0x7FF, word >> 11 & 0x3FF].map(|f| f as i32)
 }
 
 /// `values[0]` and what is to be added for each column and line, at a place.
 #[inline(always)]
-fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
+pub(super) fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
     planes[plane]
         .wrapping_add(planes[plane + 1].wrapping_mul(place.column))
         .wrapping_add(planes[plane + 2].wrapping_mul(place.line))

@@ -26,7 +26,9 @@
 //! steps has `dq m / n`, and a `du` of at most `m / n max q / min q` of the whole's. So its error is
 //! at most `e (m / n)² max q / min q`.
 
-use super::fetch::{FRACTION, Uv, Way, copy_exact, copy_square, packed, packed_step, straight};
+use super::fetch::{
+    FRACTION, Uv, Way, copy, copy_exact, copy_part, copy_square, packed, packed_step, straight,
+};
 use crate::num::{leading_zeros, mul_17, mul_high, mul_high_unsigned, recip_16};
 use crate::scene::{Budget, Square, Texture, Wrap};
 
@@ -137,6 +139,77 @@ impl Stride {
     pub const fn pixels(self) -> usize {
         1 << self.log()
     }
+
+    /// The longest of at most so many steps.
+    #[inline(always)]
+    #[must_use]
+    pub const fn within(steps: u8) -> Self {
+        match steps {
+            16.. => Self::Sixteen,
+            8.. => Self::Eight,
+            4.. => Self::Four,
+            2.. => Self::Two,
+            _ => Self::One,
+        }
+    }
+}
+
+/// Most steps from one exact place to the next.
+const LONGEST: u8 = 64;
+
+/// How many steps from one exact place to the next keep `budget` anywhere in a triangle: 1 to 64.
+///
+/// `least` is its least 1/w, whose step is `step`. With `K = d(u/w) - u d(1/w)`, u changes by `K / q` a pixel, and `K` is
+/// extreme at a corner. The second derivative is `2 dq K / q^2`, so over `m` steps u is off from the straight way by
+/// `m^2 |dq K| / (4 q^2)` at most.
+#[inline(always)]
+#[must_use]
+pub fn reach(least: u32, step: i32, ways: [Range; 2], budget: Budget) -> u8 {
+    let r = Reciprocal::of(least);
+    let of = |range: &Range| {
+        let turned = |place: i32| range.step.wrapping_sub(mul_high(place, step) << 2);
+        let (low, high) = (turned(range.low), turned(range.high));
+        (low ^ low >> 31).max(high ^ high >> 31) as u32 + 1
+    };
+    let most = of(&ways[0]).max(of(&ways[1]));
+    let step = (step ^ step >> 31) as u32 + 1;
+    if step > least >> 2 || most > least {
+        return 1;
+    }
+    // Each by 1/w, times 2^30 and more by what the reciprocal may lack.
+    let of = |value: u32| {
+        let part = (mul_17(value as i32, r.mantissa) as u32) << r.shift;
+        part + (part >> 14) + 1
+    };
+    // The product in units of 2^-19 texel, of which the budget has 2^11.
+    let worst = mul_high_unsigned(of(step), of(most)) + 1;
+    let twice = halvings(budget.for_curves() << 11, worst).min(12);
+    ROOTS[twice as usize & 15]
+}
+
+/// How often `most` may be halved and be at least `least`, which is above 0.
+#[inline(always)]
+fn halvings(most: u32, least: u32) -> u32 {
+    if most < least {
+        return 0;
+    }
+    let times = leading_zeros(least) - leading_zeros(most);
+    if most >> (times & 31) >= least {
+        times
+    } else {
+        times - 1
+    }
+}
+
+/// `floor(2^(i / 2))`.
+static ROOTS: [u8; 16] = [1, 1, 2, 2, 4, 5, 8, 11, 16, 22, 32, 45, LONGEST, 0, 0, 0];
+
+/// The least and the most of the places on one axis, as in [`Uv`], and the step of them over w to the next pixel.
+#[derive(Clone, Copy, Debug)]
+pub struct Range {
+    pub low: i32,
+    pub high: i32,
+    pub step: i32,
 }
 
 /// A span of a triangle in perspective.
@@ -152,21 +225,21 @@ pub struct Perspective {
 }
 
 /// `2^31 / n`, rounded down, for runs that end early.
-static PARTS: [i32; 16] = {
-    let mut parts = [i32::MAX; 16];
+static PARTS: [i32; 128] = {
+    let mut parts = [i32::MAX; 128];
     parts[0] = 0;
     let mut n = 2;
-    while n < 16 {
+    while n < 128 {
         parts[n] = ((1u32 << 31) / n as u32) as i32;
         n += 1;
     }
     parts
 };
 
-/// One step of a way of `steps` of them, at most 15; rounded down.
+/// One step of a way of `steps` of them, at most [`LONGEST`]; rounded down.
 #[inline(always)]
 fn nth(way: Uv, steps: usize) -> Uv {
-    let n = PARTS[steps & 15];
+    let n = PARTS[steps & 127];
     Uv {
         u: mul_high(way.u, n) << 1,
         v: mul_high(way.v, n) << 1,
@@ -205,6 +278,33 @@ impl Perspective {
             () if worst <= may => Stride::Two,
             () => Stride::One,
         }
+    }
+
+    /// Copies a square's texels into `run`, of 1 to [`LONGEST`] + 1 pixels, with exact places at both ends.
+    #[inline(always)]
+    pub fn between(&self, run: &mut [u16], texture: &Texture<'_>) {
+        let steps = run.len().saturating_sub(1);
+        let from = self.at.place();
+        let way = self.at.plus(self.step.times(steps)).place().minus(from);
+        let side = texture.log_width();
+        let (at, step) = (packed(from, side), packed_step(nth(way, steps), side));
+        copy(run, texture, at, step);
+    }
+
+    /// Copies a square's texels into `run`, of 3 to 129 pixels, with exact places at both ends and at the middle one.
+    #[inline(always)]
+    pub fn between_three(&self, run: &mut [u16], texture: &Texture<'_>) {
+        let steps = run.len().saturating_sub(1);
+        let half = steps >> 1;
+        let from = self.at.place();
+        let middle = self.at.plus(self.step.times(half)).place();
+        let to = self.at.plus(self.step.times(steps)).place();
+        let side = texture.log_width();
+        let (first, second) = run.split_at_mut(half);
+        let step = packed_step(nth(middle.minus(from), half), side);
+        copy_part(first, texture, packed(from, side), step);
+        let step = packed_step(nth(to.minus(middle), steps - half), side);
+        copy_part(second, texture, packed(middle, side), step);
     }
 
     /// Copies the span's texels into `run`, with exact places at every `stride` pixels and at the

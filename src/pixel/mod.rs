@@ -1,10 +1,18 @@
-//! Pixels as the new hot path makes them: of one word of colour, or of two.
+//! Formats of pixels, and pixels as the new hot path makes them: of one word of colour, or of two.
 //!
 //! A vertex's colour is one word: red in bits 31..21, blue in 20..11, green in 10..0, steps of the output and
 //! the fraction bits that are left. Where the output has 16 bits, that word can step from pixel to pixel
 //! as it is: two logical operations, a store and an addition a pixel.
 
-use crate::composite::{PixelFormat, Rgb565, Rgb565Bytes, Rgb888, Xrgb8888};
+mod blend;
+
+pub(crate) use blend::blend;
+
+pub use crate::composite::{
+    Cut, CutOff, Dithered, Grey8, Index4, Index8, Indexed, LinePalettes, OneWord, Ordered,
+    PaletteTable, PixelFormat, Pixels, Ramp, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le,
+    Rgb888, Threshold, TwoWords, Xrgb8888, expand_indices, mono_page, mono_row,
+};
 
 /// How a pixel is made of a colour.
 pub trait Pixel: PixelFormat {

@@ -17,7 +17,9 @@ mod places;
 mod table;
 mod vertices;
 
-use super::scene::{DrawError, Instance, Scene};
+use super::error::DrawError;
+use super::instance::Instance;
+use super::scene::Scene;
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::texturing::{Quality, Skin};
 use crate::geometry::{
@@ -51,10 +53,10 @@ pub struct ListMemory<'m, C = i16> {
     pub places: &'m mut [[i32; 2]],
     /// Names of textures: one for each number of a texture and of a palette, and one for each
     /// pair of both that is drawn with; none where nothing is textured. The scene's
-    /// [`ListTextures`](crate::ListTextures) have the same ones.
+    /// [`ListTextures`](crate::texture::ListTextures) have the same ones.
     pub textures: &'m [TextureSlot],
     /// One for each overlay of a frame; none where there are none. The
-    /// [`ListOverlays`](crate::ListOverlays) that paint them have the same ones.
+    /// [`ListOverlays`](crate::overlay::ListOverlays) that paint them have the same ones.
     pub overlays: &'m [OverlaySlot],
 }
 

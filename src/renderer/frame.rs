@@ -1,14 +1,17 @@
 //! A whole frame: every line drawn and sent while the one before is on its way (K12).
 
-use super::lines::{LineRenderer, RendererError};
-use super::scene::{PassOne, Scene};
-use crate::active::{CacheCounts, Interleave};
+use super::error::RendererError;
+use super::instance::PassOne;
+use super::lines::LineRenderer;
+use super::scene::Scene;
+use crate::active::Interleave;
 use crate::composite::PixelFormat;
 use crate::pipeline::{Pipeline, WordOf};
 use crate::scan_out::{
     ContinuousPanel, ErrorType, FeedStats, LineBuf, LineWord, Pump, ScanError, ScanStats,
     ScanoutDma, ShownLines, ShownRuns, Window, feed_frame,
 };
+use crate::stats::CacheCounts;
 use crate::stats::SpanCounts;
 
 /// Why a frame was not finished. The pump has its buffers back, and the next frame is whole.
@@ -88,7 +91,7 @@ impl FrameStats {
 /// Returns what the frame took: [`FrameStats`] has the counts of pass one, the hits, misses and
 /// spills of the object cache and the most slots that were in use at once, bytes to and from slow
 /// memory, and what was sent. Spans and pixels are in it where the pipeline is
-/// [`Counted`](crate::Counted); to count costs instructions.
+/// [`Counted`](crate::pipeline::Counted); to count costs instructions.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or the renderer has too little memory.

@@ -28,7 +28,7 @@ where
 }
 
 /// Sends the lines of `scene` through `pump` in order, as `source` gives them: the awaited
-/// twin of [`send_frame`](crate::send_frame).
+/// twin of [`send_frame`](crate::send::send_frame).
 ///
 /// # Errors
 /// When the sink fails, naming the line, or the source does.

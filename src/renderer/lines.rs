@@ -1,17 +1,19 @@
 //! Pass two: the objects of a line into its pixels (K1, K5, K8).
 
+use super::error::RendererError;
 use super::order::{Doubt, Order};
 use super::place::Place;
 use super::scene::Scene;
 use super::spans::Brush;
 use super::transparent::{is_dormant, is_special};
-use crate::active::{ActiveList, CacheCounts, Interleave, Member, Slot, Visitor};
+use crate::active::{ActiveList, Interleave, Member, Slot, Visitor};
 use crate::composite::{Compositing, PixelFormat};
 use crate::geometry::{Drawable, Mark};
 use crate::link::Link;
 use crate::pipeline::{CellOf, DrawableOf, MarkOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
+use crate::stats::CacheCounts;
 use crate::stats::{SpanCounter, SpanCounts};
 use crate::visible::{DepthCell, LineDepth};
 
@@ -19,7 +21,9 @@ use crate::visible::{DepthCell, LineDepth};
 ///
 /// All of it belongs to this renderer alone; a second one over the same link column is refused:
 /// ```compile_fail,E0499
-/// # use scanbeam::{GouraudDepth, LineMemory, LineRenderer, Link, Rgb888};
+/// # use scanbeam::pipeline::GouraudDepth;
+/// # use scanbeam::pixel::Rgb888;
+/// # use scanbeam::{LineMemory, LineRenderer, Link};
 /// let (mut links, mut depth, mut other) = ([Link::NONE; 9], [0; 9], [0; 9]);
 /// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth };
 /// let one = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);
@@ -47,76 +51,6 @@ pub enum DepthUse {
     /// On every line.
     Always,
 }
-
-/// A line renderer has less memory than the scene needs. Nothing was drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum RendererError {
-    /// Fewer links than the scene has objects.
-    Links {
-        /// Objects of the scene.
-        needed: usize,
-        /// Links of the renderer.
-        have: usize,
-    },
-    /// Fewer depth cells than a line has pixels.
-    Depth {
-        /// Pixels a line.
-        needed: usize,
-        /// Depth cells of the renderer.
-        have: usize,
-    },
-    /// The pixels lent for a line are not as many as a line has.
-    Pixels {
-        /// Pixels a line.
-        needed: usize,
-        /// Pixels lent.
-        have: usize,
-    },
-    /// The line is not among those the scene was begun with.
-    Line {
-        /// The line.
-        line: u16,
-    },
-    /// The line belongs to none of the renderers, or came out of turn from the one it belongs to.
-    Unowned {
-        /// The line.
-        line: u16,
-    },
-    /// The frame was given up while another renderer still owed the line.
-    Stopped {
-        /// The line.
-        line: u16,
-    },
-}
-
-impl core::fmt::Display for RendererError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Links { needed, have } => {
-                write!(
-                    f,
-                    "renderer: {needed} objects need as many links, there are {have}"
-                )
-            }
-            Self::Depth { needed, have } => {
-                write!(
-                    f,
-                    "renderer: a line of {needed} pixels has {have} depth cells"
-                )
-            }
-            Self::Pixels { needed, have } => {
-                write!(f, "renderer: a line of {needed} pixels was lent {have}")
-            }
-            Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
-            Self::Unowned { line } => write!(f, "renderer: nobody draws line {line} in its turn"),
-            Self::Stopped { line } => write!(f, "renderer: given up while line {line} was awaited"),
-        }
-    }
-}
-
-impl core::error::Error for RendererError {}
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the
 /// scene with any number of others (K16, X6).
@@ -181,7 +115,7 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     }
 
     /// States how far the picture may be off; only pipelines that choose listen, such as those
-    /// with [`Auto`](crate::Auto).
+    /// with [`Auto`](crate::pipeline::Auto).
     pub fn set_quality(&mut self, quality: Quality) {
         self.interpolation.set_quality(quality);
     }
@@ -434,7 +368,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
         let Some(pixels) = self.pixels.get_mut(start..end) else {
             return;
         };
-        self.brush.draw(object, body, at, (pixels, cells));
+        self.brush.draw(object, body, at, pixels, cells);
     }
 }
 
@@ -558,7 +492,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             };
             let at = (left + start as i32, line);
             self.brush
-                .draw(slot.object(), slot.body(), at, (pixels, None));
+                .draw(slot.object(), slot.body(), at, pixels, None);
             start = end;
         }
         true

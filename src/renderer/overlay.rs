@@ -3,8 +3,9 @@
 //! A source of lines is wrapped, so it does not matter who draws, and lines that have not changed
 //! are still known by all that is on them (X4).
 
+use super::error::RendererError;
 use super::frame::{Alone, FrameError, FrameStats, LineSource, send_changed, send_frame};
-use super::lines::{LineRenderer, RendererError};
+use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::composite::LineOverlay;
 use crate::pipeline::{Pipeline, WordOf};
@@ -57,7 +58,7 @@ where
 }
 
 /// The same, and only lines that differ from what `shown` knows are sent, as
-/// [`draw_frame_changed`](crate::draw_frame_changed) does: what counts is the line with all that
+/// [`draw_frame_changed`](crate::send::draw_frame_changed) does: what counts is the line with all that
 /// is over it.
 ///
 /// # Errors

@@ -4,14 +4,15 @@
 //! fast RAM, and from there each pixel is looked up. Whatever gives lines can be sent so: several
 //! renderers, and what is [`Overlaid`](super::Overlaid) with sprites of indices.
 
+use super::error::RendererError;
 use super::frame::{Alone, FrameError, FrameStats, LineSource, window};
-use super::lines::{LineRenderer, RendererError};
+use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::composite::{Indexed, LinePalettes, expand_indices};
 use crate::pipeline::Pipeline;
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanStats, ScanoutDma};
 
-/// Sends the lines of `scene` as [`send_frame`](crate::send_frame) does. `source` gives their
+/// Sends the lines of `scene` as [`send_frame`](crate::send::send_frame) does. `source` gives their
 /// indices, for which `indices` has a byte a pixel, and `palettes` say what these mean on a line.
 ///
 /// # Errors

@@ -6,7 +6,9 @@
 //! [`Finish::lit_by`], with what one light adds, for several. Which of them a pixel gets is
 //! counted on each line; lines without volumes go the usual way.
 
-use super::scene::{DrawError, Instance, Scene};
+use super::error::DrawError;
+use super::instance::Instance;
+use super::scene::Scene;
 use crate::geometry::{
     Affine, Assembled, Blended, Coordinate, Cull, DepthFunction, Extrusion, Faces, Finish, Mesh,
     Shading, ShadowLight, ShadowMemory, ShadowRoom, Surface, check,
@@ -46,8 +48,8 @@ where
     /// Where `model` stretches it, it must do so by the same factor in all directions. The camera
     /// may be inside the volume.
     ///
-    /// Pipelines whose depth is [`ShadowDepth32`](crate::ShadowDepth32), such as
-    /// [`Shadowed`](crate::Shadowed), show it; others do not.
+    /// Pipelines whose depth is [`ShadowDepth32`](crate::blend::ShadowDepth32), such as
+    /// [`Shadowed`](crate::pipeline::Shadowed), show it; others do not.
     ///
     /// # Errors
     /// [`ShadowError::Room`] when memory is too short, and those of [`draw`](Scene::draw): what

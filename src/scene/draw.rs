@@ -1,7 +1,9 @@
 //! What a draw call says, and what pass two needs of it.
 
-use super::{Budget, Texture};
+use super::texture::Square;
+use super::{Blend, Budget, DepthTest, Scissor, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh};
+use core::ops::Range;
 
 /// One draw call: a mesh, where it stands and how it looks.
 ///
@@ -20,6 +22,15 @@ pub struct Draw<'a, 't, C = i16> {
     pub colour: [u8; 3],
     /// The texture, for looks that have any; colours and light are multiplied with it.
     pub texture: Option<Skin<'a, 't>>,
+    /// The rectangle that it is cut to, or that is cut out of it.
+    pub scissor: Option<Scissor>,
+    /// Where it is seen and where its depth is kept, by how that compares.
+    pub depth: DepthTest,
+    /// What becomes of the colours that are there; `None` hides them.
+    pub blend: Option<Blend>,
+    /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
+    /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
+    pub priority: u8,
 }
 
 /// How a texture lies on a mesh.
@@ -48,6 +59,10 @@ impl<'a, C> Draw<'a, '_, C> {
             light: None,
             colour: [255; 3],
             texture: None,
+            scissor: None,
+            depth: DepthTest::HIDES,
+            blend: None,
+            priority: 0,
         }
     }
 }
@@ -59,6 +74,12 @@ pub struct DrawState<'t> {
     pub(crate) first: u16,
     pub(crate) texture: Option<&'t Texture<'t>>,
     pub(crate) budget: Budget,
+    pub(crate) scissor: Option<Scissor>,
+    pub(crate) depth: DepthTest,
+    pub(crate) blend: Option<Blend>,
+    pub(crate) priority: u8,
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    square: Option<Square<'t>>,
 }
 
 impl<'t> DrawState<'t> {
@@ -67,11 +88,69 @@ impl<'t> DrawState<'t> {
         first: 0,
         texture: None,
         budget: Budget::BALANCED,
+        scissor: None,
+        depth: DepthTest::HIDES,
+        blend: None,
+        priority: 0,
+        square: None,
     };
+
+    /// That of a call whose first triangle has this number, with a texture where the look draws one.
+    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, skin: Option<&Skin<'_, 't>>) -> Self {
+        let texture = skin.map(|skin| skin.texture);
+        Self {
+            first,
+            texture,
+            budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
+            scissor: draw.scissor,
+            depth: match draw.blend {
+                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
+                _ => draw.depth,
+            },
+            blend: draw.blend,
+            priority: draw.priority,
+            square: texture.and_then(Texture::square),
+        }
+    }
+
+    /// The state of an object: that of the last call that began at it or before.
+    pub(crate) fn of(object: u16, draws: &[Self]) -> Option<&Self> {
+        let after = draws.partition_point(|draw| draw.first <= object);
+        draws.get(after.checked_sub(1)?)
+    }
+
+    /// Whether its triangles are drawn in another way than most.
+    pub(crate) fn has_values(&self) -> bool {
+        self.scissor.is_some() || self.compares()
+    }
+
+    /// Whether its pixels do anything else than hide what is behind them.
+    pub(crate) fn compares(&self) -> bool {
+        self.blend.is_some() || self.depth != DepthTest::HIDES
+    }
+
+    /// Whether what is behind shines through.
+    pub(crate) fn is_translucent(&self) -> bool {
+        self.blend.is_some_and(|blend| blend.is_translucent())
+    }
+
+    /// The columns of a line that are kept, from left to right; either run may be empty.
+    pub(crate) fn cut(&self, line: u32, columns: Range<u32>) -> [Range<u32>; 2] {
+        match &self.scissor {
+            Some(scissor) => scissor.cut(line, columns),
+            None => [columns.clone(), columns.end..columns.end],
+        }
+    }
 
     /// The texture, if there is one, and how exact it is.
     #[inline(always)]
     pub(crate) fn texture(&self) -> Option<(&'t Texture<'t>, Budget)> {
         Some((self.texture?, self.budget))
+    }
+
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    #[inline(always)]
+    pub(crate) fn square(&self) -> Option<Square<'t>> {
+        self.square
     }
 }

@@ -23,7 +23,7 @@ impl PixelLights for () {
     }
 }
 
-/// Lamps by number; the shading is [`Phong`](crate::Phong). What names none is drawn unlit.
+/// Lamps by number; the shading is [`Phong`](crate::light::Phong). What names none is drawn unlit.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Lamplight<'l>(
     /// The lamps.

@@ -140,6 +140,12 @@ impl Triangle<'_> {
         self.places.get(number).copied().unwrap_or_default()
     }
 
+    /// Where the corners lie on their texture.
+    #[inline(always)]
+    pub(crate) fn textures(&self) -> [TexturePlace; 3] {
+        [0, 1, 2].map(|i| self.texture(i))
+    }
+
     #[inline(always)]
     fn places(&self) -> [u32; 3] {
         self.vertex.map(|v| v.place)

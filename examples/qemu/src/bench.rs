@@ -22,13 +22,17 @@ use crate::console::Console;
 use crate::count::Counter;
 use crate::rooms::Rooms;
 use core::hint::black_box;
-use scanbeam::model::{
-    ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
+use scanbeam::pipeline::{
+    Counted, DepthUse, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, ObjectOf,
+    Pipeline, SceneVertex, WordOf, Worded,
 };
+use scanbeam::pixel::{Rgb565, Rgb888};
+use scanbeam::stats::SpanCounts;
 use scanbeam::{
-    Camera, Counted, Cull, DepthUse, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Instance, LineDepth, LineMemory, LineRenderer, Link, Mesh, ObjectOf, Pipeline, Rgb565, Rgb888,
-    Scene, SceneMemory, SceneVertex, Screen, SpanCounts, WordOf, Worded,
+    Camera, Cull, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene, SceneMemory, Screen,
+};
+use scanbeam_model::{
+    ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };
 
 /// Lines of a triangle. The first sets it up, and is not counted.
@@ -119,16 +123,14 @@ fn drawn<P: Pipeline>(at: (i32, u16), counter: &Counter) -> (u64, SpanCounts) {
             depth: &mut depth,
         });
         renderer.set_depth_use(DepthUse::Always);
-        let mut draw = |line| {
+        let instructions = counter.lines_finely(0..LINES, |line| {
+            if line == 0 {
+                // What is counted is of the lines from here on.
+                renderer.take_span_counts();
+            }
             renderer
                 .draw_line(scene, line, black_box(&mut pixels))
-                .expect("the memory suffices")
-        };
-        draw(0);
-        let instructions = counter.instructions(|| {
-            for line in 1..LINES {
-                draw(line);
-            }
+                .expect("the memory suffices");
         });
         let mut counts = renderer.take_span_counts();
         // The first line's span, which is as wide as the triangle but for half a line's part.
@@ -167,16 +169,10 @@ fn model(at: (i32, u16), counter: &Counter) -> (u64, SpanCounts) {
             rgb: [c0, c1],
         });
         let mut pixels = [0; WIDTH as usize];
-        let mut draw = |line| {
+        counter.lines_finely(0..LINES, |line| {
             renderer
                 .draw_line(scene, line, 0, black_box(&mut pixels))
                 .expect("the memory suffices");
-        };
-        draw(0);
-        counter.instructions(|| {
-            for line in 1..LINES {
-                draw(line);
-            }
         })
     });
     (instructions, counts)
@@ -241,7 +237,7 @@ fn with_scene<P: Pipeline, R>(
 #[inline(never)]
 fn blend<const N: u32>(width: u16, counter: &Counter) -> (u64, SpanCounts) {
     let mut line = [[0u8; 3]; WIDTH as usize];
-    let instructions = counter.instructions(|| {
+    let instructions = counter.finely(|| {
         for _ in 0..LINES {
             let pixels = black_box(&mut line[..usize::from(width)]);
             blend_span::<N>(pixels, black_box([[250, 10, 128], [3, 200, 90]]));

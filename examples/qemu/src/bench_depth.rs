@@ -7,7 +7,7 @@
 use crate::console::Console;
 use crate::count::Counter;
 use core::hint::black_box;
-use scanbeam::BlockFix16;
+use scanbeam::pipeline::BlockFix16;
 use scenes::WIDTH;
 
 const LONG: usize = WIDTH as usize;

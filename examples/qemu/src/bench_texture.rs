@@ -31,7 +31,7 @@ pub(crate) fn run(counter: &Counter, console: &mut Console) {
     let mut time = |name, kernel: &mut dyn FnMut(PerspectiveSpan, &mut [u16])| {
         for width in [LONG, SHORT] {
             let mut line = [0u16; LONG];
-            let instructions = counter.instructions(|| {
+            let instructions = counter.finely(|| {
                 for i in 0..SPANS {
                     kernel(span(i), black_box(&mut line[..width]));
                 }
@@ -82,7 +82,7 @@ fn by_quality(texels: &impl Texels<Texel = u16>, counter: &Counter, console: &mu
     ] {
         for width in [LONG, LONG / 2] {
             let mut line = [0u16; LONG];
-            let instructions = counter.instructions(|| {
+            let instructions = counter.finely(|| {
                 for span in black_box(&spans) {
                     chosen(texels, *span, quality, black_box(&mut line[..width]));
                 }

@@ -75,6 +75,22 @@ impl Counter {
         sum / u64::from(PHASES)
     }
 
+    /// The same of lines that are drawn one after the other, without the first, which is drawn before.
+    #[cfg(feature = "bench")]
+    pub(crate) fn lines_finely(
+        &self,
+        lines: core::ops::Range<u16>,
+        mut draw: impl FnMut(u16),
+    ) -> u64 {
+        let mut sum = 0;
+        for phase in 0..PHASES {
+            draw(lines.start);
+            self.wait(phase);
+            sum += self.instructions(|| (lines.start + 1..lines.end).for_each(&mut draw));
+        }
+        sum / u64::from(PHASES)
+    }
+
     /// Waits for the start of a tick, and then for `phase` of [`PHASES`] parts of it.
     #[cfg(feature = "bench")]
     #[inline(never)]

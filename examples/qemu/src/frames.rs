@@ -5,14 +5,19 @@ use crate::lean::draw_lean;
 use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
+use scanbeam::light::Lamplight;
 use scanbeam::list::TextureSlot;
-use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
-use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
-use scanbeam::{
-    BlockFixed, Crew, Deferred, FlatDepth, GouraudDepth, Interleave, Interpolated, Interpolation,
-    Lamplight, LineMemory, LineRenderer, ListedDepth, Pipeline, PixelFormat, Quality, Rgb565Be,
-    Scene, SceneMemory, Textures, Worded, draw_frame, draw_frame_indexed, send_frame,
+use scanbeam::parallel::{Crew, Interleave};
+use scanbeam::pipeline::{
+    BlockFixed, Deferred, FlatDepth, GouraudDepth, Interpolated, Interpolation, ListedDepth,
+    Pipeline, Worded,
 };
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
+use scanbeam::send::{draw_frame_indexed, send_frame};
+use scanbeam::texture::Textures;
+use scanbeam::{LineMemory, LineRenderer, Quality, Scene, SceneMemory, draw_frame};
+use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
     LEAN, Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE,

@@ -2,10 +2,9 @@
 
 use crate::lend::lend;
 use crate::rooms::Rooms;
-use scanbeam::PixelFormat;
-use scanbeam::Rgb565Be;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer, draw_frame};
 use scanbeam::look::Look;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ScanoutDma};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{

@@ -4,7 +4,8 @@
 use crate::frames::Smooth;
 use crate::rooms::{Rooms, RoomsOf};
 use scanbeam::list::{Instruction, Layout, State, Strip, VertexFormat, normal, read_block};
-use scanbeam::{Affine, Camera, Instance, Light, Scene, SceneMemory, Vertices};
+use scanbeam::mesh::Vertices;
+use scanbeam::{Affine, Camera, Instance, Light, Scene, SceneMemory};
 use scenes::{Shot, build_listed, teapot_list};
 
 /// Tables that the list may have.

@@ -11,11 +11,11 @@ mod lend;
 mod small;
 
 use cortex_m_rt::entry;
-use scanbeam::DepthCell;
+use scanbeam::pipeline::DepthCell;
 use small::{buffers, display, exit, room, say, teapot};
 
 #[cfg(not(feature = "sized"))]
-type Look = scanbeam::GouraudDepth<scanbeam::Rgb565Be>;
+type Look = scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>;
 
 macro_rules! looks {
     ($($feature:literal, $name:literal, $look:ty;)*) => {

@@ -10,10 +10,10 @@ mod small;
 
 use cortex_m_rt::entry;
 use lend::lend;
-use scanbeam::model::{ModelRenderer, PipeMemory, draw_model_frame};
-use scanbeam::{
-    FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, PixelFormat, Rgb565Be, Scene, SceneMemory,
-};
+use scanbeam::pipeline::{FlatDepth, FlatPainter, GouraudDepth, GouraudPainter};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::{Scene, SceneMemory};
+use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{Shot, WIDTH};
 use small::{Display, Room, buffers, display, exit, room, say, teapot};
 

@@ -4,10 +4,12 @@ use crate::frames::{Faceted, LINES_PER_TRANSFER, Listed, Smooth};
 use crate::lean::LeanRooms;
 use crate::lend::lend;
 use crate::listed::Unpacked;
-use scanbeam::{
-    BlockFixed, CellOf, Deferred, LineDepth, LineMemory, LineRenderer, Link, ListMemory, Object,
-    ObjectOf, Pipeline, Scene, SceneMemory, SceneVertex, Screen, SlotOf, VertexOf,
+use scanbeam::input::ListMemory;
+use scanbeam::pipeline::{
+    BlockFixed, CellOf, Deferred, LineDepth, Object, ObjectOf, Pipeline, SceneVertex, SlotOf,
+    VertexOf,
 };
+use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen};
 use scenes::{
     BLOCK_TEXELS_B, CACHE_SLOTS_B, CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
     Grainy, HEIGHT, LIST_INDICES, LIST_TABLE, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,

@@ -9,11 +9,10 @@ use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicU16, Ordering};
 use core::task::Poll;
 use cortex_m_semihosting::{debug, hio};
+use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
-use scanbeam::{
-    CellOf, LineMemory, LineRenderer, Link, ObjectOf, Pipeline, PixelFormat, Rgb565Be, Scene,
-    SceneMemory, SlotOf, VertexOf, draw_frame,
-};
+use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, draw_frame};
 use scenes::Shot;
 
 /// Vertices of the teapot on the screen, and its objects: what the README's table has.
@@ -37,7 +36,8 @@ macro_rules! room {
     ($pipeline:ty, $cell:expr) => {{
         use crate::lend::lend;
         use crate::small::{OBJECTS, Room, SLOTS, VERTICES};
-        use scanbeam::{CellOf, LineRenderer, Link, ObjectOf, SlotOf, VertexOf};
+        use scanbeam::pipeline::{CellOf, ObjectOf, SlotOf, VertexOf};
+        use scanbeam::{LineRenderer, Link};
         use scenes::{HEIGHT, WIDTH};
         Room::<$pipeline> {
             vertices: lend!(

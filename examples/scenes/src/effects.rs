@@ -5,13 +5,16 @@
 use crate::{
     CUBE, METHOD_HEIGHT, METHOD_WIDTH, RIBBON, SPHERE, ShotError, build_method, method_screen,
 };
+use scanbeam::blend::{Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface};
+use scanbeam::light::{DirectionalLight, Lamplight, Lighting, PixelLamps};
 use scanbeam::list::Window;
-use scanbeam::{
-    Affine, Blend, Camera, Clip, Composited, Cull, DirectionalLight, Dithered, Factor, Finish,
-    FlatDepth, GouraudDepth, I2F14, Index8, Instance, Lamplight, Light, Lighting, LinePalettes,
-    Material, Mesh, PhongDepth, Pipeline, PixelFormat, PixelLamps, Prioritised, Priority, Rgb565,
-    Rgb565Be, Scene, ShadowEdge, ShadowLight, ShadowMemory, Shadowed, Surface, U1F15, Windowed,
+use scanbeam::mesh::{I2F14, Material, U1F15};
+use scanbeam::pipeline::{
+    Clip, Composited, FlatDepth, GouraudDepth, PhongDepth, Pipeline, Prioritised, Priority,
+    Shadowed, Windowed,
 };
+use scanbeam::pixel::{Dithered, Index8, LinePalettes, PixelFormat, Rgb565, Rgb565Be};
+use scanbeam::{Affine, Camera, Cull, Instance, Light, Mesh, Scene};
 
 /// Pixels a line of such a frame.
 pub const EFFECT_WIDTH: u16 = METHOD_WIDTH;
@@ -199,7 +202,7 @@ fn shadows(scene: &mut Scene<'_, Shady>) -> Result<(), ShotError> {
             positions: &CORNERS,
             normals: &[],
             colours: &[],
-            faces: scanbeam::Faces::Quads(&SIDES, scanbeam::QuadSplit::Corner0To2),
+            faces: scanbeam::Faces::Quads(&SIDES, scanbeam::mesh::QuadSplit::Corner0To2),
         };
         // The memory suffices, and a scene that is full says so for the cubes too.
         if scene.draw_shadow(&cube, model, &shadow, memory).is_err() {

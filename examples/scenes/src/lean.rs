@@ -2,9 +2,10 @@
 
 use crate::suite::Suite;
 use crate::{TEXELS_F_PANEL, TEXELS_PANEL};
+use scanbeam::CameraError;
 use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{BeginError, Budget, Draw, DrawError, Scene, Skin, Texture};
-use scanbeam::{CameraError, Rgb565Be};
 
 /// What they are drawn with: smooth colours, as an SPI panel takes them.
 pub type LeanLook = Gouraud<Rgb565Be>;

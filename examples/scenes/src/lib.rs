@@ -65,7 +65,8 @@ pub use suite::{
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
 pub use textured::textured;
 
-use scanbeam::{Faces, Mesh, QuadSplit};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::{Faces, Mesh};
 
 include!(concat!(env!("OUT_DIR"), "/meshes.rs"));
 

@@ -1,11 +1,12 @@
 //! Baked lists, run from flash: the teapot, and a crate with its textures (H7, H11).
 
 use crate::ShotError;
+use scanbeam::event::Notice;
+use scanbeam::input::{ListMemory, ListRunner, ListSettings, RunCounts};
 use scanbeam::list::{Budget, Halt, ListError, TextureSlot, words_of};
-use scanbeam::{
-    Affine, Camera, Instance, Light, ListMemory, ListRunner, ListSettings, ListTextures, Notice,
-    Pipeline, RunCounts, Scene, include_list,
-};
+use scanbeam::pipeline::Pipeline;
+use scanbeam::texture::ListTextures;
+use scanbeam::{Affine, Camera, Instance, Light, Scene, include_list};
 
 /// Vertices of the list's largest table, which its HEAD says.
 pub const LIST_TABLE: usize = 255;

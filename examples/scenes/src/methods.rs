@@ -1,10 +1,11 @@
 //! A small frame for each interpolation method, which must have the same bits everywhere.
 
 use crate::{CUBE, RIBBON, ShotError};
-use scanbeam::{
-    Affine, Auto, Camera, Cull, Forward, HalfRate, Instance, Interpolation, Light, Lirp10, Lirp12,
-    Lirp16, LirpPacked, Packed8, Packed16, Pipeline, Quality, QuarterRate, Scene, Screen,
+use scanbeam::pipeline::{
+    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Packed8, Packed16,
+    Pipeline, QuarterRate,
 };
+use scanbeam::{Affine, Camera, Cull, Instance, Light, Quality, Scene, Screen};
 
 /// Pixels a line of a method's frame.
 pub const METHOD_WIDTH: u16 = 64;

@@ -6,10 +6,12 @@
 
 use crate::texels::{TEXEL_SIDE, TEXELS_565};
 use crate::{SPHERE, Shot, ShotError};
+use scanbeam::pipeline::{Gouraud, Pipeline, TexturedDepth};
+use scanbeam::pixel::Rgb565Be;
 use scanbeam::texture::{
     BlockCache, Blocked, Quality, Skin, Square128, Texture, Textured, Words, Wrap,
 };
-use scanbeam::{Gouraud, Instance, Pipeline, Rgb565Be, Scene, TexturedDepth};
+use scanbeam::{Instance, Scene};
 
 /// A way to draw scene B.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

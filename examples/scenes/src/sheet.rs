@@ -2,10 +2,9 @@
 //! none is hit twice (K4).
 
 use crate::{HEIGHT, Shot, WIDTH};
-use scanbeam::{
-    Camera, Counted, Cull, Faces, FlatPainter, Instance, LineRenderer, Mesh, PixelFormat, Rgb565Be,
-    Scene,
-};
+use scanbeam::pipeline::{Counted, FlatPainter};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::{Camera, Cull, Faces, Instance, LineRenderer, Mesh, Scene};
 
 /// Cells across and down.
 const CELLS: [usize; 2] = [24, 18];

@@ -2,9 +2,9 @@
 
 use crate::suite::{self, Suite};
 use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, stress};
+use scanbeam::pipeline::Pipeline;
 use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Pipeline, Scene, SceneError,
-    Screen,
+    Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Scene, SceneError, Screen,
 };
 
 /// Pixels a line of every shot.

@@ -7,27 +7,27 @@
 macro_rules! sized {
     ($with:ident) => {
         $with! {
-            "gouraud-depth", "GouraudDepth", scanbeam::GouraudDepth<scanbeam::Rgb565Be>;
-            "flat-depth", "FlatDepth", scanbeam::FlatDepth<scanbeam::Rgb565Be>;
-            "gouraud-painter", "GouraudPainter", scanbeam::GouraudPainter<scanbeam::Rgb565Be>;
-            "flat-painter", "FlatPainter", scanbeam::FlatPainter<scanbeam::Rgb565Be>;
+            "gouraud-depth", "GouraudDepth", scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>;
+            "flat-depth", "FlatDepth", scanbeam::pipeline::FlatDepth<scanbeam::pixel::Rgb565Be>;
+            "gouraud-painter", "GouraudPainter", scanbeam::pipeline::GouraudPainter<scanbeam::pixel::Rgb565Be>;
+            "flat-painter", "FlatPainter", scanbeam::pipeline::FlatPainter<scanbeam::pixel::Rgb565Be>;
             "block-fixed", "BlockFixed<GouraudDepth>",
-                scanbeam::BlockFixed<scanbeam::GouraudDepth<scanbeam::Rgb565Be>>;
+                scanbeam::pipeline::BlockFixed<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "deferred", "Deferred<GouraudDepth>",
-                scanbeam::Deferred<scanbeam::GouraudDepth<scanbeam::Rgb565Be>>;
+                scanbeam::pipeline::Deferred<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "textured-depth", "TexturedDepth", $crate::LookB;
             "listed-depth", "ListedDepth",
-                scanbeam::ListedDepth<'static, scanbeam::Rgb565Be>;
+                scanbeam::pipeline::ListedDepth<'static, scanbeam::pixel::Rgb565Be>;
             "phong-depth", "PhongDepth",
-                scanbeam::PhongDepth<'static, scanbeam::Rgb565Be>;
+                scanbeam::pipeline::PhongDepth<'static, scanbeam::pixel::Rgb565Be>;
             "windowed", "Windowed<GouraudDepth>",
-                scanbeam::Windowed<scanbeam::GouraudDepth<scanbeam::Rgb565Be>>;
+                scanbeam::pipeline::Windowed<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "prioritised", "Prioritised<GouraudDepth>",
-                scanbeam::Prioritised<scanbeam::GouraudDepth<scanbeam::Rgb565Be>>;
+                scanbeam::pipeline::Prioritised<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "composited", "Composited<GouraudDepth>",
-                scanbeam::Composited<scanbeam::GouraudDepth<scanbeam::Rgb565Be>>;
+                scanbeam::pipeline::Composited<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "shadowed", "Shadowed<GouraudDepth>",
-                scanbeam::Shadowed<scanbeam::GouraudDepth<scanbeam::Rgb565Be>>;
+                scanbeam::pipeline::Shadowed<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
         }
     };
 }

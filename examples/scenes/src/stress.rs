@@ -2,7 +2,8 @@
 //! X1).
 
 use crate::{Shot, ShotError};
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Pipeline, Scene};
+use scanbeam::pipeline::Pipeline;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene};
 
 /// The shots of this file.
 pub const STRESS: [Shot; 3] = [Shot::Slivers, Shot::Giants, Shot::Crossings];

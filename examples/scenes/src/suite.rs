@@ -18,11 +18,11 @@ use crate::scene_b::{PLACES, TEXELS_PANEL};
 use crate::shots::{LAYER, LAYER_COLOURS, LAYERS, NEAREST_LAYER};
 use crate::texels::TEXEL_SIDE;
 use crate::{CUBE, FINE_SPHERE, SPHERE, ShotError, TEAPOT};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::{Gouraud, Pipeline, TexturedDepth};
+use scanbeam::pixel::Rgb565Be;
 use scanbeam::texture::{Quality, Skin, Square64, Textured};
-use scanbeam::{
-    Affine, Camera, CameraError, Cull, Faces, Gouraud, Instance, Light, Mesh, Pipeline, QuadSplit,
-    Rgb565Be, Scene, TexturedDepth,
-};
+use scanbeam::{Affine, Camera, CameraError, Cull, Faces, Instance, Light, Mesh, Scene};
 
 /// Slots of the object cache that the suite is measured with.
 pub const SUITE_SLOTS: usize = 64;

@@ -7,7 +7,7 @@
 
 use crate::textured::textured;
 use crate::{HEIGHT, WIDTH};
-use scanbeam::BlockFix16;
+use scanbeam::pipeline::BlockFix16;
 use scanbeam::texture::{
     Bilinear, BlockCache, Blocked, CacheReads, Checker, Clamp, Corner, Corners, Gradient,
     Homogeneous, Indexed, LevelEnds, Levels, Mirror, PaintRun, Period, PerspectiveSpan, Quality,

@@ -5,10 +5,14 @@
 
 use crate::texels::{TEXEL_SIDE, TEXELS_565, size};
 use crate::{CUBE, HEIGHT, Shot, ShotError, WIDTH};
-use scanbeam::texture::{Quality, Skin, Texture, Words, Wrap};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::{Counted, ObjectOf, TexturedDepth, VertexOf};
+use scanbeam::pixel::Rgb565;
+use scanbeam::stats::SpanCounts;
+use scanbeam::texture::{Quality, Skin, Texture, Textures, Words, Wrap};
 use scanbeam::{
-    Affine, Camera, Counted, Cull, Faces, Instance, Light, LineMemory, LineRenderer, Link, Mesh,
-    ObjectOf, QuadSplit, Rgb565, Scene, SceneMemory, SpanCounts, TexturedDepth, Textures, VertexOf,
+    Affine, Camera, Cull, Faces, Instance, Light, LineMemory, LineRenderer, Link, Mesh, Scene,
+    SceneMemory,
 };
 
 type Store<'t> = Texture<Words<'t, u16>, Wrap>;

@@ -2,7 +2,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use scanbeam::{Faces, Mesh, QuadSplit};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::{Faces, Mesh};
 use scenes::{CUBE, CUBE_QUADS, FINE_SPHERE, RIBBON, SPHERE, TEAPOT};
 
 #[allow(dead_code)]

@@ -1,6 +1,7 @@
 //! Every pixel of a random sheet is hit exactly once (K4); the firmware asks the same in QEMU.
 
-use scanbeam::{LineMemory, LineRenderer, Link, ObjectOf, Scene, SceneMemory, VertexOf};
+use scanbeam::pipeline::{ObjectOf, VertexOf};
+use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory};
 use scenes::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline, Shot};
 
 #[test]

@@ -1,7 +1,7 @@
 //! The hardware model's formats: any bits are decoded or refused, and encoding gives them back.
 
 use arbitrary::{Result, Unstructured};
-use scanbeam::model::{
+use scanbeam_model::{
     FormatWord, InputFormat, PLACE, ParameterRam, Segment, Token, TokenBits, VertexFormat,
     WORD_BITS, ZFlags, draw,
 };

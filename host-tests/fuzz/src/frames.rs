@@ -1,11 +1,16 @@
 //! Set-up to pixels: any bytes as a scene, drawn by several pipelines in every way.
 
 use arbitrary::{Result, Unstructured};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::{
+    DepthUse, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, ObjectOf, Pipeline,
+    VertexOf, WordOf,
+};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
 use scanbeam::{
-    Affine, Camera, CameraError, Cull, DepthUse, DrawError, Faces, FlatDepth, FlatPainter,
-    GouraudDepth, GouraudPainter, Instance, Interleave, Light, LineDepth, LineMemory, LineRenderer,
-    Link, Mesh, ObjectOf, Pipeline, PixelFormat, QuadSplit, Rgb565, Rgb565Be, Rgb888, Scene,
-    SceneMemory, Screen, VertexOf, WordOf,
+    Affine, Camera, CameraError, Cull, DrawError, Faces, Instance, Light, LineMemory, LineRenderer,
+    Link, Mesh, Scene, SceneMemory, Screen,
 };
 
 /// Longest side of a picture.

@@ -1,10 +1,14 @@
 //! Any bytes as a list: no panic, no hang, work within the budget (X7).
 
+use scanbeam::event::Notice;
+use scanbeam::input::{EightLights, ListMemory, ListRunner, ListSettings};
 use scanbeam::list::{Budget, Halt, ListCommand, OverlaySlot, TextureSlot};
+use scanbeam::overlay::{LineOverlay, ListOverlays};
+use scanbeam::pipeline::{ListedDepth, ObjectOf, VertexOf};
+use scanbeam::pixel::Rgb888;
+use scanbeam::texture::ListTextures;
 use scanbeam::{
-    Camera, EightLights, Instance, Light, LineMemory, LineOverlay, LineRenderer, Link, ListMemory,
-    ListOverlays, ListRunner, ListSettings, ListTextures, ListedDepth, Notice, ObjectOf, Rgb888,
-    Scene, SceneMemory, Screen, VertexOf,
+    Camera, Instance, Light, LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen,
 };
 
 type Look<'t> = ListedDepth<'t, Rgb888>;

@@ -3,7 +3,8 @@
 use super::Row;
 use crate::firmware::{FirmwareError, KernelRun, M4, Output, Profile, Toolchain, measure};
 use crate::lent::{LineRooms, SceneRooms};
-use scanbeam::{Counted, GouraudDepth, Rgb565Be};
+use scanbeam::pipeline::{Counted, GouraudDepth};
+use scanbeam::pixel::Rgb565Be;
 use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
 use std::collections::BTreeMap;
 use std::error::Error;

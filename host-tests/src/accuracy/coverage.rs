@@ -2,8 +2,10 @@
 
 use super::stage::{Place, Rng, Setting, Stage, covers};
 use super::{Name, Row};
-use scanbeam::model::{ModelRenderer, PipeMemory};
-use scanbeam::{FlatPainter, Rgb888, Scene};
+use scanbeam::Scene;
+use scanbeam::pipeline::FlatPainter;
+use scanbeam::pixel::Rgb888;
+use scanbeam_model::{ModelRenderer, PipeMemory};
 use std::error::Error;
 
 const SIDE: u16 = 128;

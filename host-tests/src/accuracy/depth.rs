@@ -3,8 +3,9 @@
 use super::coverage::rates;
 use super::stage::{Place, Rng, Setting, Stage, at_place, covers, doubled_area, plane};
 use super::{Errors, Row};
-use scanbeam::model::{ModelRenderer, PipeMemory};
-use scanbeam::{BlockFix16, GouraudDepth, PixelFormat, Rgb565, Rgb888, Worded};
+use scanbeam::pipeline::{BlockFix16, GouraudDepth, Worded};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use scanbeam_model::{ModelRenderer, PipeMemory};
 use std::error::Error;
 
 type P = GouraudDepth<Rgb888>;

@@ -1,7 +1,8 @@
 //! The interpolation methods of the crate, and how each is drawn and costed.
 
 use crate::args::InterpArg;
-use scanbeam::{GouraudPainter, Interpolated, Quality};
+use scanbeam::Quality;
+use scanbeam::pipeline::{GouraudPainter, Interpolated};
 
 /// A method by name.
 pub(super) struct Method {

@@ -1,9 +1,11 @@
 //! Triangles on chosen places of the screen, and any pipeline to draw them.
 
+use scanbeam::pipeline::{
+    CellOf, DepthUse, LineDepth, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf,
+};
 use scanbeam::{
-    Camera, CellOf, Cull, DepthUse, DrawError, Faces, Instance, LineDepth, LineMemory,
-    LineRenderer, Link, Mesh, ObjectOf, Pipeline, Scene, SceneMemory, Screen, SlotOf, VertexOf,
-    WordOf,
+    Camera, Cull, DrawError, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene,
+    SceneMemory, Screen,
 };
 use std::error::Error;
 

@@ -92,7 +92,7 @@ fn two_equations_tell_pixels_from_spans() {
 /// The largest error that each method may have; a row that is not here is a method without a
 /// bound. Levels are beyond the rounding of the method's own format.
 ///
-/// Of interpolation methods that is their own bound (see `scanbeam::Auto`) and what planes and the
+/// Of interpolation methods that is their own bound (see `scanbeam::pipeline::Auto`) and what planes and the
 /// corners' colours err, which is at most 0.56 levels for small triangles: 0.4 with RGB565.
 ///
 /// Block-fix cannot tell two surfaces apart in `1 - d s` of the cases, where they are `d` apart and the

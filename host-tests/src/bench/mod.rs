@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `boards.rs` | the same programs on Cortex-M |
 //! | `scene.rs` | the scenes as numbers, for renderers that take any mesh |
-//! | `table.rs` | the tables of the README |
+//! | `table.rs` | the tables of `host-tests/figures/tables.md` |
 //!
 //! The programs that are measured are crates of their own, `host-tests/bench/ours` and
 //! `host-tests/bench/peers`, built here with the profile of the firmware, for this machine and for
@@ -126,9 +126,9 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
         tell!("note: not measured: {reason}");
     }
     if args.markdown {
-        let readme = workspace().join("README.md");
-        table::write(&readme, &rows)?;
-        preset_sizes::write(&readme, &preset_sizes::measure()?)?;
+        let tables = table::page();
+        table::write(&tables, &rows)?;
+        preset_sizes::write(&tables, &preset_sizes::measure()?)?;
     }
     Ok(())
 }
@@ -367,7 +367,7 @@ impl Compared {
 
 /// How far two pixels are apart, summed over the channels, in 8-bit levels.
 fn distance(a: u16, b: u16) -> u32 {
-    use scanbeam::{PixelFormat, Rgb565};
+    use scanbeam::pixel::{PixelFormat, Rgb565};
     let (a, b) = (Rgb565::to_rgb8(a), Rgb565::to_rgb8(b));
     (0..3).map(|i| u32::from(a[i].abs_diff(b[i]))).sum()
 }

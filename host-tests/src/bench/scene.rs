@@ -1,6 +1,7 @@
 //! Scenes A and C as plain numbers, for renderers that take any mesh.
 
-use scanbeam::{Faces, PixelFormat, Rgb565};
+use scanbeam::Faces;
+use scanbeam::pixel::{PixelFormat, Rgb565};
 use scenes::{LAYER, LAYERS, NEAREST_LAYER, SPHERE, Shot, layer_colours};
 use serde::Serialize;
 

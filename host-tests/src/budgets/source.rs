@@ -97,7 +97,11 @@ fn count_sources(sources: &[(PathBuf, String)]) -> Counts {
         counts.names = counts.root_names;
         // `pub mod` of the root, and public modules that it takes from its rooms.
         for module in public_modules(&kept.words) {
-            let file = read.iter().find(|(path, ..)| is_module(root, path, module));
+            // A room of the root before a module within a room that has the same name.
+            let files = read
+                .iter()
+                .filter(|(path, ..)| is_module(root, path, module));
+            let file = files.min_by_key(|(path, ..)| path.components().count());
             counts.names += file.map_or(0, |(.., kept)| public_names(&kept.words).len());
         }
     }
@@ -359,6 +363,7 @@ mod tests {
                 "pub use x::{K, L};\npub trait M { fn n(); }\n",
             ),
             ("src/list/mod.rs", "pub use x::O;\n"),
+            ("src/a/list/mod.rs", "pub use x::{P, Q};\n"),
         ]);
         // list, texture, C, E, F, h, J; and K, L, M, O.
         assert_eq!((counts.root_names, counts.names), (7, 11));

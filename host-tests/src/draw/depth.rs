@@ -4,10 +4,11 @@ use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as, formats};
 use crate::args::{DepthArg, PixelFormatArg};
 use crate::model::Model;
 use crate::reference::{Shade, View};
-use scanbeam::{
+use scanbeam::pipeline::{
     BlockFixDepth, Counted, DepthAndColour, DepthAndId, DepthUse, FlatDepth, GouraudDepth,
-    LineDepth, PixelFormat, Rgb565Be, Rgb888, WithDepth,
+    LineDepth, WithDepth,
 };
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 
 /// Draws a model as [`draw`](super::draw) does, and finds what is seen by a method.
 ///

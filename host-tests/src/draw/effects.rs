@@ -13,13 +13,15 @@ use super::{
 use crate::args::PixelFormatArg;
 use crate::model::{Material, Model};
 use crate::reference::{Shade, View};
-use scanbeam::texture::{LevelEnds, Levels, Quality, Skin, Textured};
-use scanbeam::{
-    Auto, Blended, Counted, Depth32, DetailedTextures, DirectionalLight, Dithered, DrawError,
-    Finish, Flat, Gouraud, Lamplight, Lighting, Link, LitSkin, Parts, Phong, Pipeline, PixelFormat,
-    PixelLamps, Rgb565Be, Rgb888, Scene, Shading, ShadowError, ShadowLight, Shadowed, SkinOf,
-    Surface, U1F15,
+use scanbeam::blend::{Blended, Finish, ShadowError, ShadowLight, Surface};
+use scanbeam::light::{DirectionalLight, Lamplight, Lighting, LitSkin, Phong, PixelLamps};
+use scanbeam::mesh::U1F15;
+use scanbeam::pipeline::{
+    Auto, Counted, Depth32, Flat, Gouraud, Parts, Pipeline, Shading, Shadowed, SkinOf,
 };
+use scanbeam::pixel::{Dithered, PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
+use scanbeam::{DrawError, Link, Scene};
 
 /// What is asked for beside what materials say.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -223,10 +225,10 @@ struct Lamps {
 impl Lamps {
     /// On what looks so; in the dark the ambient light alone.
     fn on(&self, looks: Option<&Looks>) -> Lighting<'_> {
-        let material = scanbeam::Material::default();
+        let material = scanbeam::mesh::Material::default();
         let (lights, material) = match looks {
             Some(looks) => {
-                let material = scanbeam::Material {
+                let material = scanbeam::mesh::Material {
                     diffuse: self.diffuse,
                     specular: looks.specular,
                     shininess: looks.shininess,
@@ -274,9 +276,9 @@ impl Task<'_> {
 
     fn by<S, F>(&self) -> Result<Drawn, DrawFailure>
     where
-        S: Shading<Levels: scanbeam::Levels>,
+        S: Shading<Levels: scanbeam::pipeline::Levels>,
         F: PixelFormat,
-        for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::TextureSource<F>,
+        for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::texture::TextureSource<F>,
     {
         type Plain<'t, S, F> = Counted<
             Parts<
@@ -304,7 +306,7 @@ impl Task<'_> {
     fn by_pixels<F>(&self) -> Result<Drawn, DrawFailure>
     where
         F: PixelFormat,
-        for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::TextureSource<F>,
+        for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::texture::TextureSource<F>,
     {
         type Plain<'t, F> = Counted<
             Parts<

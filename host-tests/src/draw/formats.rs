@@ -4,10 +4,8 @@ use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as};
 use crate::args::PixelFormatArg;
 use crate::image_out::Frame;
 use crate::reference::{Shade, View};
-use scanbeam::{
-    Counted, Dithered, FlatDepth, GouraudDepth, Grey8, PixelFormat, Rgb565Be, Rgb888, Xrgb8888,
-    mono_row,
-};
+use scanbeam::pipeline::{Counted, FlatDepth, GouraudDepth};
+use scanbeam::pixel::{Dithered, Grey8, PixelFormat, Rgb565Be, Rgb888, Xrgb8888, mono_row};
 
 /// Draws a model with the pipeline that the view and the format ask for.
 pub(super) fn draw_in(

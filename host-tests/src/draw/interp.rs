@@ -4,10 +4,11 @@ use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw, draw_as, draw_mode
 use crate::args::{InterpArg, PixelFormatArg};
 use crate::model::Model;
 use crate::reference::{Shade, View};
-use scanbeam::{
+use scanbeam::pipeline::{
     Auto, Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12,
-    Lirp16, LirpPacked, Packed16, QuarterRate, Rgb565Be, Rgb888,
+    Lirp16, LirpPacked, Packed16, QuarterRate,
 };
+use scanbeam::pixel::{Rgb565Be, Rgb888};
 
 /// Draws a model as [`draw`] does, with colours by a method. Flat faces need none.
 ///

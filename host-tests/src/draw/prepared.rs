@@ -2,11 +2,12 @@
 
 use super::TextureSet;
 use crate::model::Model;
+use scanbeam::blend::{Blended, ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
+use scanbeam::light::LightingModel;
+use scanbeam::mesh::Sphere;
+use scanbeam::pipeline::{Pipeline, Shading, SkinOf};
 use scanbeam::texture::{Quality, Skin};
-use scanbeam::{
-    Affine, Blended, DrawError, Faces, Instance, LightingModel, Mesh, Pipeline, Scene, Shading,
-    ShadowEdge, ShadowError, ShadowLight, ShadowMemory, SkinOf, Sphere,
-};
+use scanbeam::{Affine, DrawError, Faces, Instance, Mesh, Scene};
 use std::collections::HashMap;
 
 /// A model in the crate's number formats.

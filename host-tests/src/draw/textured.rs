@@ -6,13 +6,11 @@ use crate::model::Model;
 use crate::reference::{Shade, View};
 use crate::texture_file::{TextureFileError, TextureImage, of_materials};
 use clap::ValueEnum;
+use scanbeam::pipeline::{Counted, Depth32, Flat, Gouraud, Packed8, Parts, Shading};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::texture::{
-    Bilinear, Detail, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871, Texel, TexelFormat,
-    Texels, Texture, Textured, Uv, Words,
-};
-use scanbeam::{
-    Counted, Depth32, DetailedTextures, Flat, Gouraud, Packed8, Parts, PixelFormat, Rgb565Be,
-    Rgb888, Shading, TextureSource, Textures,
+    Bilinear, Detail, DetailedTextures, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871,
+    Texel, TexelFormat, Texels, Texture, TextureSource, Textured, Textures, Uv, Words,
 };
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -232,7 +230,7 @@ fn by_shading<S, F, X>(
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure>
 where
-    S: Shading<Levels: scanbeam::Levels>,
+    S: Shading<Levels: scanbeam::pipeline::Levels>,
     F: PixelFormat,
     X: TextureSource<F> + Sync,
 {

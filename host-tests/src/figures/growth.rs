@@ -8,7 +8,8 @@
 use crate::firmware::GrowthRun;
 use crate::lent::{LineRooms, SceneRooms};
 use crate::plot::{Dot, Scatter};
-use scanbeam::{Counted, GouraudDepth, Rgb565Be};
+use scanbeam::pipeline::{Counted, GouraudDepth};
+use scanbeam::pixel::Rgb565Be;
 use scenes::{HEIGHT, MOST_SLOTS, OCTASPHERES, Octasphere, Shot, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

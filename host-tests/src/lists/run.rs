@@ -6,16 +6,18 @@ use crate::image_out::{Frame, write_image};
 use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::reference::{Cull, Shade, View};
+use scanbeam::event::{Event, Notice};
+use scanbeam::input::{EightLights, ListMemory, ListRunner, ListSettings, RunCounts};
 use scanbeam::list::{
     Budget, Halt, Head, Instruction, OverlaySlot, State, TextureSlot, VertexFormat, read_block,
 };
+use scanbeam::overlay::{ListOverlays, draw_frame_overlaid};
+use scanbeam::pipeline::{Composited, Depth32, Flat, Gouraud, Packed8, Parts, Pipeline};
+use scanbeam::pixel::{PixelFormat, Rgb888};
 use scanbeam::scan_out::Pump;
-use scanbeam::texture::Textured;
-use scanbeam::{
-    Affine, Camera, Composited, Depth32, EightLights, Event, Flat, Gouraud, Instance, Light, Link,
-    ListMemory, ListOverlays, ListRunner, ListSettings, ListTextures, Notice, Packed8, Parts,
-    Pipeline, PixelFormat, Rgb888, RunCounts, Screen, SpanCounts, draw_frame_overlaid,
-};
+use scanbeam::stats::SpanCounts;
+use scanbeam::texture::{ListTextures, Textured};
+use scanbeam::{Affine, Camera, Instance, Light, Link, Screen};
 use std::error::Error;
 
 /// Vertices that a table can have.

@@ -3,10 +3,11 @@
 
 use super::{Rng, SceneRooms};
 use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
+use scanbeam::parallel::LineSource;
+use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pixel::Rgb565Be;
 use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanoutDma};
-use scanbeam::{
-    Camera, FrameError, GouraudDepth, LineSource, RendererError, Rgb565Be, Scene, Screen,
-};
+use scanbeam::{Camera, FrameError, RendererError, Scene, Screen};
 
 pub type Look = GouraudDepth<Rgb565Be>;
 pub type Mock = MockFrameBuffer<u16>;

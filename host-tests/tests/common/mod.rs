@@ -5,7 +5,8 @@ pub mod changes;
 pub mod solid;
 
 pub use host_tests::lent::{LineRooms, SceneRooms};
-use scanbeam::{LineRenderer, Pipeline, Scene, WordOf};
+use scanbeam::pipeline::{Pipeline, WordOf};
+use scanbeam::{LineRenderer, Scene};
 
 /// xorshift64*: small, and the same everywhere.
 #[derive(Clone, Debug)]

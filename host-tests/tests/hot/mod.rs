@@ -4,11 +4,10 @@
 pub mod exact;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
-use scanbeam::look::{Gouraud, Look};
+use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
-use scanbeam::{
-    Affine, Camera, Cull, Faces, Link, Mesh, PixelFormat, Rgb565, Rgb565Be, Rgb888, Screen,
-};
+use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 
 /// Distance of the near plane: what is 1 away is just behind it.
 pub const NEAR: f64 = 1.0 - 1.0 / 1024.0;
@@ -40,8 +39,8 @@ pub trait Smooth: Look + 'static {
 pub type WordOf<L> = <<L as Smooth>::Format as PixelFormat>::Word;
 
 macro_rules! smooth {
-    ($($format:ty),+) => {$(
-        impl Smooth for Gouraud<$format> {
+    ($($look:ident<$format:ty>),+) => {$(
+        impl Smooth for $look<$format> {
             type Format = $format;
 
             fn draw_line(
@@ -56,7 +55,12 @@ macro_rules! smooth {
         }
     )+};
 }
-smooth!(Rgb565, Rgb565Be, Rgb888);
+smooth!(
+    Gouraud<Rgb565>,
+    Gouraud<Rgb565Be>,
+    Gouraud<Rgb888>,
+    Textured<Rgb565Be>
+);
 
 /// What a scene is lent.
 pub struct SceneRooms {
@@ -183,6 +187,15 @@ pub fn draw<L: Look>(
     triangles: &[[Corner; 3]],
     cull: Cull,
 ) -> Result<(), DrawError> {
+    draw_with(scene, triangles, |call| call.cull = cull)
+}
+
+/// The same, as a call that `dress` changes.
+pub fn draw_with<L: Look>(
+    scene: &mut Scene<'_, '_, L>,
+    triangles: &[[Corner; 3]],
+    dress: impl FnOnce(&mut Draw<'_, '_, i32>),
+) -> Result<(), DrawError> {
     let screen = scene.screen();
     let corners = triangles.as_flattened();
     let scale = scale(screen, corners);
@@ -205,8 +218,8 @@ pub fn draw<L: Look>(
         faces: Faces::Triangles(&faces),
     };
     let mut call = Draw::new(mesh);
-    call.cull = cull;
     call.model = Affine::placed(scale as f32, [0.0; 3]).expect("a power of two");
+    dress(&mut call);
     scene.draw(&call)
 }
 

@@ -3,10 +3,11 @@
 
 use crate::common::{LineRooms, Rng, SceneRooms, line};
 use crate::watertight::count::{Count, Place, doubled_area};
-use scanbeam::{
-    Affine, Camera, Cull, Depth32, Faces, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter,
-    Instance, LineDepth, Mesh, Pipeline, PixelFormat, Rgb565, Rgb565Be, Rgb888, Screen, WordOf,
+use scanbeam::pipeline::{
+    Depth32, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, Pipeline, WordOf,
 };
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Screen};
 
 /// Distance of the near plane: what is 1 away is just behind it.
 pub const NEAR: f64 = 1.0 - 1.0 / 1024.0;
@@ -161,11 +162,15 @@ trait Look: Pipeline {
     const FLAT: bool;
 }
 
-impl<D: LineDepth, F: PixelFormat> Look for scanbeam::Parts<scanbeam::Gouraud, D, F> {
+impl<D: LineDepth, F: PixelFormat> Look
+    for scanbeam::pipeline::Parts<scanbeam::pipeline::Gouraud, D, F>
+{
     const FLAT: bool = false;
 }
 
-impl<D: LineDepth, F: PixelFormat> Look for scanbeam::Parts<scanbeam::Flat, D, F> {
+impl<D: LineDepth, F: PixelFormat> Look
+    for scanbeam::pipeline::Parts<scanbeam::pipeline::Flat, D, F>
+{
     const FLAT: bool = true;
 }
 

@@ -11,8 +11,9 @@
 //! A pipeline reads its textures through a cache where their store is one:
 //!
 //! ```
-//! use scanbeam::texture::{BlockCache, Blocked, CacheReads, Size, Texture, Words, Wrap};
-//! use scanbeam::{Pipeline, Rgb565Be, Textures, TexturedDepth};
+//! use scanbeam::texture::{BlockCache, Blocked, CacheReads, Size, Texture, Textures, Words, Wrap};
+//! use scanbeam::pipeline::{Pipeline, TexturedDepth};
+//! use scanbeam::pixel::Rgb565Be;
 //!
 //! type Cached<'t> = Texture<BlockCache<'t, Words<'t, u16>>, Wrap, Blocked>;
 //! type Look<'t> = TexturedDepth<'t, Rgb565Be, Cached<'t>>;
@@ -33,7 +34,9 @@
 //!
 //! ```compile_fail,E0277
 //! use scanbeam::texture::{BlockCache, Blocked, Texture, Words, Wrap};
-//! use scanbeam::{Rgb565Be, Scene, TexturedDepth};
+//! use scanbeam::pipeline::TexturedDepth;
+//! use scanbeam::pixel::Rgb565Be;
+//! use scanbeam::Scene;
 //!
 //! type Cached<'t> = Texture<BlockCache<'t, Words<'t, u16>>, Wrap, Blocked>;
 //! fn shared<T: Sync>() {}

@@ -12,8 +12,8 @@ use crate::rooms::{Rooms, SLOTS};
 use core::convert::Infallible;
 use core::fmt;
 use core::task::Poll;
-use scanbeam::Textures;
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
+use scanbeam::texture::Textures;
 use scenes::{HEIGHT, LookB, SCENES_B, STACKS, Shot, TEXTURES_B, Variant};
 
 /// Lines of a row that is printed.

@@ -7,11 +7,12 @@
 use super::{LINES, WIDEST, drawn};
 use crate::console::Console;
 use crate::count::Counter;
-use scanbeam::{
+use scanbeam::Quality;
+use scanbeam::pipeline::{
     Auto, Counted, Forward, GouraudDepth, GouraudPainter, HalfRate, Interpolated, Interpolation,
-    Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8, Packed16, Precision, Quality, QuarterRate,
-    Rgb565, Rgb888,
+    Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8, Packed16, Precision, QuarterRate,
 };
+use scanbeam::pixel::{Rgb565, Rgb888};
 
 /// Times all methods and prints them.
 pub(super) fn run(counter: &Counter, console: &mut Console) {

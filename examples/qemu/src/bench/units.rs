@@ -15,9 +15,10 @@ use crate::console::Console;
 use crate::count::Counter;
 use crate::frames::Smooth;
 use core::hint::black_box;
+use scanbeam::pipeline::{DepthUse, ObjectOf, VertexOf};
 use scanbeam::{
-    Camera, DepthUse, Faces, Instance, Light, LineMemory, LineRenderer, Link, Mesh, ObjectOf,
-    Scene, SceneMemory, Screen, VertexOf,
+    Camera, Faces, Instance, Light, LineMemory, LineRenderer, Link, Mesh, Scene, SceneMemory,
+    Screen,
 };
 
 /// Things of the smaller scene.

@@ -9,7 +9,7 @@
 //! Five entries are the most, three on the side of the middle corner and two on the other: with the lower
 //! ends of both chains these are the seven corners that a clipped triangle can have.
 
-use crate::num::{column_exact, first_at};
+use crate::exact::{column_exact, first_at};
 use core::ops::Range;
 use heapless::Vec;
 
@@ -176,7 +176,7 @@ fn chain(edges: &[EdgeLines], lines: &Range<i32>, wall: i32, keeps: &dyn Fn(i32)
 mod tests {
     use super::super::ModelSpan;
     use super::*;
-    use crate::num::random::Rng;
+    use crate::random::Rng;
 
     /// What the whole triangle has on a line, by vertex sort.
     fn whole(corners: [(u16, u16); 3], line: i32) -> Option<(i32, i32)> {

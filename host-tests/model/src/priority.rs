@@ -86,7 +86,7 @@ pub const fn priority_contest(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::random::Rng;
+    use crate::random::Rng;
     use std::vec::Vec;
 
     /// Bus, own, resolved, for own: the bit that goes on, resolved, for own.

@@ -39,7 +39,6 @@ impl FormatWord {
 
 /// Why a vertex cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum FormatError {
     /// The description runs off the end of the format RAM.
@@ -296,7 +295,7 @@ mod tests {
 
     #[test]
     fn the_table_of_scenes_is_read_as_it_stands() {
-        let read = VertexFormat::read(&crate::model::SCENE_VERTEX, 0);
+        let read = VertexFormat::read(&crate::SCENE_VERTEX, 0);
         assert_eq!(read, Ok(VertexFormat::SCENE));
     }
 

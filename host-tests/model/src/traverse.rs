@@ -336,8 +336,8 @@ impl Iterator for Traversal {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::num::random::Rng;
-    use crate::num::{column_exact, first_at};
+    use crate::exact::{column_exact, first_at};
+    use crate::random::Rng;
     use std::vec::Vec;
 
     fn triangle(rng: &mut Rng, size: u32) -> [(u16, u16); 3] {

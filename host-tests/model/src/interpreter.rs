@@ -22,7 +22,6 @@ pub enum Output {
 
 /// What the pipeline has done since it was built.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PipeCounts {
     /// Clocks: one a token, and those it waited.
     pub clocks: u64,

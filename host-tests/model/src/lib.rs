@@ -1,6 +1,6 @@
 //! The hardware told bit for bit: a scanline renderer of tokens, as a pipeline of its own (K13).
 //!
-//! The crate's fast path takes its ideas from a rendering device of three chips. This room is
+//! The fast path of `scanbeam` takes its ideas from a rendering device of three chips. This is
 //! that device, to the bit: the widths, roundings and saturations of its circuits, the layouts
 //! of its tokens, its two line buffers a unit. It is here to be measured against, and to be
 //! read; it knows nothing of the fast kernels, and they nothing of it.
@@ -20,6 +20,7 @@
 //! | `render` | whole scenes through it | S4, M1 |
 //! | `cusp` | clipped triangles as a left and a right chain | P2 |
 //! | `priority` | the contest of priorities, bit by bit | P6 |
+//! | `exact` | where an edge meets a line, by division | K4 |
 //! | `edge_function` | inside or outside by linear functions | B4 |
 //! | `traverse` | a triangle by blocks, clusters and several renderers | B2, B3, B6 |
 //!
@@ -27,14 +28,23 @@
 //! 32 bits and less is nearer. Levels have 8 bits outside, 9 in set-up tokens and 10 in pixels;
 //! they grow by repeating their top bits, so full is full everywhere.
 
+#![no_std]
+#![forbid(unsafe_code)]
+
+#[cfg(test)]
+extern crate std;
+
 mod buffers;
 mod cusp;
 mod edge_function;
+mod exact;
 mod format;
 mod interpreter;
 mod layout;
 mod lirp;
 mod priority;
+#[cfg(test)]
+mod random;
 mod render;
 mod stage;
 #[cfg(test)]

@@ -154,7 +154,6 @@ pub enum Token {
 
 /// Why bits are no token.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum TokenError {
     /// No token has this id.
     Id {

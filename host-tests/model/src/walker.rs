@@ -164,9 +164,9 @@ pub struct ZFlags {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::format::{InputFormat, ProcessingFormat};
-    use crate::model::lirp::lirp;
-    use crate::model::vertex::FormatWord;
+    use crate::format::{InputFormat, ProcessingFormat};
+    use crate::lirp::lirp;
+    use crate::vertex::FormatWord;
     use std::vec::Vec;
 
     const A: (u8, (u16, u16)) = (0, (60, 20));

@@ -1,6 +1,6 @@
 //! Whole scenes through the model: a scene's objects into tokens, tokens into pixels.
 //!
-//! The conductor of this room. It takes the objects as they lie in the scene, corners and all,
+//! The conductor. It takes the objects as they lie in the scene, corners and all,
 //! hands each one that a line meets to stage one as the words of a draw command, and lets the
 //! pipeline have the tokens. No plane, no edge and no walker of the fast path is used, so the
 //! two can be held against each other: the same pixels are covered (K4), colours and depths are
@@ -15,12 +15,11 @@ use super::interpreter::{Output, Pipe, PipeCounts, PipeMemory};
 use super::token::{Argb10, GlobalMode, StartDma, Target, Token};
 use super::vertex::{FormatWord, PLACE, ParameterRam, VertexFormat};
 use super::walker::{Segment, ZFlags, draw};
-use crate::composite::PixelFormat;
-use crate::geometry::{Colour, Flat, Gouraud, Object, Scale, SceneVertex, Shading};
-use crate::pipeline::{Pipeline, WordOf};
-use crate::renderer::{RendererError, Scene, scale};
-use crate::scan_out::{LineBuf, Pump, ScanError, ScanoutDma, Window};
-use crate::visible::LineDepth;
+use scanbeam::mesh::Colour;
+use scanbeam::pipeline::{Filed, Flat, Gouraud, LineDepth, Pipeline, Scale, Shading, WordOf};
+use scanbeam::pixel::PixelFormat;
+use scanbeam::scan_out::{LineBuf, Pump, ScanError, ScanoutDma, Window};
+use scanbeam::{RendererError, Scene};
 
 /// Pixels of a segment, at most: what the 11 bits of a DMA's length count.
 pub const SEGMENT: usize = 2047;
@@ -210,25 +209,18 @@ fn objects<P>(
 ) where
     P: Pipeline<Shading: CornerColours>,
 {
-    let vertices = scene.vertices();
+    let scale = Scale::new(P::Pixel::STEPS);
     for index in 0..scene.pass_one().objects {
-        let Some(object) = scene.object(index as u16) else {
+        let Some(filed) = scene.filed(index as u16) else {
             break;
         };
-        let Some(corners) = object.corners(vertices) else {
-            continue;
-        };
-        let y = corners.map(|c| c.y);
+        let y = filed.places.map(|(_, y)| y);
         let above = y.iter().all(|y| *y < segment.y);
         let below = y.iter().all(|y| *y >= segment.y);
         if above || below {
             continue;
         }
-        for (v, words) in (0..).zip(words::<P::Shading>(
-            object,
-            corners.map(|c| *c),
-            scale::<P>(),
-        )) {
+        for (v, words) in (0..).zip(words::<P::Shading>(&filed, &scale)) {
             // The format has as many words as these arrays, so this does not fail.
             let _ = ram.load(0, v, format, &words);
         }
@@ -244,24 +236,16 @@ fn objects<P>(
 }
 
 /// The words of an object's corners, as [`SCENE_VERTEX`] describes them.
-fn words<S: CornerColours>(
-    object: &Object<S::Face>,
-    corners: [SceneVertex<S::Vertex>; 3],
-    scale: &Scale,
-) -> [[u32; 3]; 3] {
-    let colours = S::colours(corners.map(|c| c.attribute), object.face);
+fn words<S: CornerColours>(filed: &Filed<S::Vertex, S::Face>, scale: &Scale) -> [[u32; 3]; 3] {
+    let colours = S::colours(filed.attributes, filed.face);
     [0, 1, 2].map(|i| {
-        let corner = &corners[i];
+        let (x, y) = filed.places[i];
         let argb = colours[i]
             .to_rgb8(scale)
             .iter()
             .fold(0xFF, |word, &level| word << 8 | u32::from(level));
         // Scenes keep 1/w, where more is nearer; tokens keep what is nearer below.
-        [
-            u32::from(corner.x) << 16 | u32::from(corner.y),
-            !corner.depth,
-            argb,
-        ]
+        [u32::from(x) << 16 | u32::from(y), !filed.depths[i], argb]
     })
 }
 
@@ -290,7 +274,6 @@ fn finish(width: u16, emit: &mut impl FnMut(Token)) {
 
 /// Why a frame of the model was not finished.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum ModelFrameError<E> {
     /// The sink failed.
     ScanOut(ScanError<E>),
@@ -299,7 +282,7 @@ pub enum ModelFrameError<E> {
 }
 
 /// Draws all lines of `scene` with the model and sends them through `pump`, as
-/// [`draw_frame`](crate::draw_frame) does with the fast path.
+/// [`draw_frame`](scanbeam::draw_frame) does with the fast path.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or there is too little memory.

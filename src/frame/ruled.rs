@@ -1,0 +1,149 @@
+//! The pixels of a span whose draw call has values that few have (H9, H15, K11).
+//!
+//! What the scissor keeps is compared 32 pixels at a time, and what is seen of that is coloured in runs, or blended over what is there. So a
+//! triangle has the same columns, depths and planes as without such values.
+
+use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
+use crate::look::{Fill, Look, Place, WordOf};
+use crate::num::leading_zeros;
+use crate::pixel::blend;
+use crate::scene::{Blend, DrawState};
+use crate::visible::{MOST_TESTED, Part, test};
+
+/// A span of a triangle, and the values of its draw call.
+#[derive(Clone, Copy)]
+pub(super) struct Ruled<'a, P> {
+    pub(super) drawn: Drawn<'a, P>,
+    pub(super) span: Span,
+    pub(super) state: &'a DrawState<'a>,
+}
+
+/// What colours the runs of a span.
+struct Ink<'a, P> {
+    fill: Fill,
+    planes: &'a P,
+    /// The span's first column.
+    span: u32,
+    blend: Option<Blend>,
+}
+
+/// Colours those pixels between `from` and `to` that the values let through; without depth nothing is compared.
+#[inline(never)]
+pub(super) fn draw_ruled<L: Look>(
+    ruled: Ruled<'_, L::Planes>,
+    part: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+    mut known: Option<Known<'_>>,
+) {
+    let Ruled { drawn, span, state } = ruled;
+    let thin;
+    let mut ink = Ink {
+        fill: drawn.flags.fill(),
+        planes: &drawn.item.planes,
+        span: span.start,
+        blend: state.blend,
+    };
+    if ink.fill == Fill::Thin {
+        thin = thin_planes::<L>(drawn.object, span, out.number, out.view);
+        (ink.fill, ink.planes) = (Fill::Wide, &thin);
+    }
+    let depth = match known {
+        Some(_) => depth_on_line::<L>(drawn, span, out),
+        None => [0; 2],
+    };
+    let (start, end) = (part.start.max(span.start), part.end.min(span.end));
+    for run in state.cut(out.number, start..end) {
+        let run = Span {
+            start: run.start,
+            end: run.end,
+        };
+        if run.start >= run.end {
+            continue;
+        }
+        match &mut known {
+            Some(known) => compare::<L>(&ink, run, state, depth, out, known),
+            None => lay::<L>(&ink, run, out),
+        }
+    }
+}
+
+/// The depth of a span at the picture's first column, and its step.
+#[inline(always)]
+pub(super) fn depth_on_line<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> [u32; 2] {
+    if drawn.flags.lacks_depth() {
+        let [at, step] = thin_depth::<L>(drawn.object, span, out);
+        return [at.wrapping_sub(step.wrapping_mul(span.start)), step];
+    }
+    let [at, step, down] = *drawn.depth;
+    [at.wrapping_add(down.wrapping_mul(out.number)), step]
+}
+
+/// Colours those pixels of a run that pass the test.
+fn compare<L: Look>(
+    ink: &Ink<'_, L::Planes>,
+    run: Span,
+    state: &DrawState<'_>,
+    [at, step]: [u32; 2],
+    out: &mut Line<'_, '_, WordOf<L>>,
+    known: &mut Known<'_>,
+) {
+    // What nobody has written is farthest away.
+    let part = known.written.cover_part(run.start, run.end, |column| {
+        if let Some(cell) = known.cells.get_mut(column) {
+            *cell = 0;
+        }
+    });
+    let Some(cells) = known.cells.get_mut(run.start as usize..run.end as usize) else {
+        return;
+    };
+    if part == Part::None {
+        cells.fill(0);
+    }
+    let firsts = (run.start..).step_by(MOST_TESTED);
+    for (cells, first) in cells.chunks_mut(MOST_TESTED).zip(firsts) {
+        let depth = at.wrapping_add(step.wrapping_mul(first));
+        let mut seen = test(cells, depth, step, state.depth).reverse_bits();
+        let mut start = first;
+        while seen != 0 {
+            let skipped = leading_zeros(seen);
+            let pixels = leading_zeros(!(seen << (skipped & 31))).min(32 - skipped);
+            start += skipped;
+            let end = start + pixels;
+            lay::<L>(ink, Span { start, end }, out);
+            start = end;
+            seen = if skipped + pixels < 32 {
+                seen << (skipped + pixels)
+            } else {
+                0
+            };
+        }
+    }
+}
+
+/// Colours a run, or blends it.
+fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, WordOf<L>>) {
+    let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
+        return;
+    };
+    let mut at = Place {
+        span: ink.span,
+        column: run.start,
+        line: out.number,
+    };
+    let Some(how) = ink.blend else {
+        return L::fill(ink.fill, ink.planes, at, out.view.draws, pixels);
+    };
+    let mut colours = [WordOf::<L>::default(); MOST_TESTED];
+    for pixels in pixels.chunks_mut(MOST_TESTED) {
+        let Some(new) = colours.get_mut(..pixels.len()) else {
+            return;
+        };
+        L::fill(ink.fill, ink.planes, at, out.view.draws, new);
+        blend::<L::Pixel>(pixels, new, how);
+        at.column += pixels.len() as u32;
+    }
+}

@@ -1,0 +1,178 @@
+//! Lines with draw calls that have values few have (H9, H15, K11).
+//!
+//! Values are looked at once a span, and only where a call of the scene has any: other lines and other scenes know
+//! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
+//! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
+
+use super::line::deepen;
+use super::renderer::{Renderer, View};
+use super::ruled::{Ruled, draw_ruled};
+use super::slot::Flags;
+use super::spans::{Drawn, Known, Line, Span, colour};
+use crate::active::next;
+use crate::composite::PixelFormat;
+use crate::link::Link;
+use crate::look::{Look, WordOf};
+use crate::num::{bit, take_first};
+use crate::scene::DrawState;
+use crate::visible::Mask;
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Draws a line over a background, if a draw call on it has values that few have.
+    #[inline(never)]
+    pub(super) fn draw_values(
+        &mut self,
+        out: &mut Line<'_, '_, WordOf<L>>,
+        background: WordOf<L>,
+    ) -> bool {
+        if self.changed {
+            self.mark_values(out.view);
+        }
+        if !self.has_values(out.view) {
+            return out.view.ranked && self.draw_ranked(out, background);
+        }
+        L::Pixel::fill(out.pixels, background);
+        self.find_spans(out);
+        // Where this is so, `over` says where depth is compared.
+        self.met = !self.depth.is_empty() && !out.view.ranked;
+        if self.met {
+            self.find_compared(out);
+        }
+        self.draw_in_order(out);
+        if self.met {
+            self.draw_translucent(out);
+        }
+        self.covered = Mask::EMPTY;
+        self.over = Mask::EMPTY;
+        self.written = Mask::EMPTY;
+        self.met = false;
+        self.ordered = 0;
+        true
+    }
+
+    /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
+    /// scene without any.
+    fn mark_values(&mut self, view: &View<'_>) {
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let i = take_first(&mut used);
+                let slot = &mut self.cache.slots[word][i as usize & 31];
+                if view.has_values(slot.object) {
+                    slot.flags = Flags(slot.flags).with_values().0;
+                    self.cache.plain[word] &= !bit(i);
+                }
+            }
+        }
+    }
+
+    /// Whether a draw call on this line has values.
+    fn has_values(&self, view: &View<'_>) -> bool {
+        for word in 0..WORDS {
+            let mut others = self.cache.used[word] & !self.cache.plain[word];
+            while others != 0 {
+                let i = take_first(&mut others) as usize & 31;
+                if Flags(self.cache.slots[word][i].flags).has_values() {
+                    return true;
+                }
+            }
+        }
+        let mut at = self.cache.spilled;
+        while at.is_some() {
+            if view.has_values(at.object()) {
+                return true;
+            }
+            at = next(self.links, at);
+        }
+        false
+    }
+
+    /// Adds the columns of spans that compare to those where spans meet.
+    fn find_compared(&mut self, out: &Line<'_, '_, WordOf<L>>) {
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word] & !self.cache.plain[word];
+            while used != 0 {
+                let i = take_first(&mut used) as usize & 31;
+                let slot = &self.cache.slots[word][i];
+                let span = Span::of(self.cache.spans[word][i]);
+                let has = Flags(slot.flags).has_values() && span.start < span.end;
+                if has && out.view.state(slot.object).is_some_and(DrawState::compares) {
+                    self.over.cover(span.start, span.end);
+                }
+            }
+        }
+        let mut at = self.cache.spilled;
+        while at.is_some() {
+            let state = out.view.state(at.object());
+            if state.is_some_and(DrawState::compares) {
+                if let Some(alone) = self.set_up_alone(at.object(), None, out) {
+                    self.over.cover(alone.span.start, alone.span.end);
+                }
+            }
+            at = next(self.links, at);
+        }
+    }
+
+    /// Draws a span in a slot.
+    pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+        let (word, i) = (number >> 5, number & 31);
+        let (Some(slots), Some(spans), Some(deep), Some(depth)) = (
+            self.cache.slots.get_mut(word),
+            self.cache.spans.get(word),
+            self.cache.deep.get_mut(word),
+            self.cache.depth.get_mut(word),
+        ) else {
+            return;
+        };
+        let (slot, span) = (&mut slots[i], Span::of(spans[i]));
+        let is_compared = self.met && self.over.meets(span.start, span.end);
+        if !Flags(slot.flags).has_values() {
+            if is_compared {
+                return self.draw_meeting(number, out);
+            }
+            return colour::<L>(Drawn::of(slot), span, out);
+        }
+        let Some(state) = out.view.state(slot.object) else {
+            return;
+        };
+        if is_compared && state.is_translucent() {
+            return;
+        }
+        if is_compared {
+            deepen::<L>(slot, deep, bit(i as u32), &mut depth[i], out.view);
+        }
+        let drawn = Drawn::of(slot).at_depth(&depth[i]);
+        let known = is_compared.then_some(Known {
+            cells: self.depth,
+            written: &mut self.written,
+        });
+        draw_ruled::<L>(Ruled { drawn, span, state }, span, out, known);
+    }
+
+    /// Draws a span without a slot; the next of its kind.
+    pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
+        let state = out.view.state(at.object());
+        let Some(state) = state.filter(|state| state.has_values()) else {
+            return self.draw_spilled(at, None, out);
+        };
+        let after = next(self.links, at);
+        if self.met && state.is_translucent() {
+            return after;
+        }
+        let Some(mut alone) = self.set_up_alone(at.object(), None, out) else {
+            return after;
+        };
+        let span = alone.span;
+        let is_compared = self.met && self.over.meets(span.start, span.end);
+        if is_compared {
+            alone.find_depth(out.view);
+        }
+        let drawn = alone.drawn(&self.cache.scratch);
+        let known = is_compared.then_some(Known {
+            cells: self.depth,
+            written: &mut self.written,
+        });
+        draw_ruled::<L>(Ruled { drawn, span, state }, span, out, known);
+        after
+    }
+}
