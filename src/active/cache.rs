@@ -42,10 +42,10 @@ pub struct Cache<T, const WORDS: usize> {
     /// Of these, those whose next change is the turn of a side.
     turning: [u32; WORDS],
     /// Of these, those whose next change was farther away than the ring is long.
-    far: [u32; WORDS],
+    distant: [u32; WORDS],
     /// Of these, those whose depth is known.
     pub(crate) deep: [u32; WORDS],
-    /// Slots of spans that meet others.
+    /// Slots of spans that meet others, as a set.
     pub(crate) listed: [u32; WORDS],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
@@ -55,18 +55,14 @@ pub struct Cache<T, const WORDS: usize> {
     line: u16,
     /// What changes on each line of the ring.
     ring: [[u32; WORDS]; RING as usize],
-    pub(crate) slots: [[Slot<T>; 32]; WORDS],
-    /// The depth of each slot, where it is known: at the picture's first pixel, its steps across and down.
-    pub(crate) depth: [[[u32; 3]; 32]; WORDS],
     /// The columns of each slot on this line: the first in the upper half, the one after the last below.
     pub(crate) spans: [[u32; 32]; WORDS],
-    /// Slots of spans that meet others, by number of object.
+    /// Slots of spans that meet others, and all slots, from the nearest on or by number of object.
     pub(crate) order: [[u32; 32]; WORDS],
-    /// Slots from the nearest on, while no object begins or ends and all have slots; columns of those without one,
-    /// in their order, otherwise.
-    pub(crate) near: [[u32; 32]; WORDS],
-    /// An object without a slot, while it is drawn.
-    pub(crate) scratch: T,
+    /// The farthest depth of each slot's span on this line.
+    pub(crate) far: [[u32; 32]; WORDS],
+    /// The last, so that all else lies within the reach of one instruction.
+    pub(crate) slots: [[Slot<T>; 32]; WORDS],
 }
 
 /// Slots of a word that a line changes.
@@ -115,14 +111,12 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             used: [0; WORDS],
             plain: [0; WORDS],
             deep: [0; WORDS],
-            depth: [[[0; 3]; 32]; WORDS],
             turning: [0; WORDS],
-            far: [0; WORDS],
+            distant: [0; WORDS],
             spans: [[0; 32]; WORDS],
             listed: [0; WORDS],
             order: [[0; 32]; WORDS],
-            near: [[0; 32]; WORDS],
-            scratch: item,
+            far: [[0; 32]; WORDS],
             line: 0,
             ring: [[0; WORDS]; RING as usize],
             spilled: Link::NONE,
@@ -142,7 +136,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.plain = [0; WORDS];
         self.deep = [0; WORDS];
         self.turning = [0; WORDS];
-        self.far = [0; WORDS];
+        self.distant = [0; WORDS];
         self.ring = [[0; WORDS]; RING as usize];
         self.spilled = Link::NONE;
     }
@@ -200,7 +194,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             self.turning[word] |= one;
         }
         if change.line.wrapping_sub(self.line) > RING {
-            self.far[word] |= one;
+            self.distant[word] |= one;
         }
     }
 
@@ -226,8 +220,8 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         if due == 0 {
             return Changes::default();
         }
-        let far = due & self.far[word];
-        self.far[word] &= !far;
+        let far = due & self.distant[word];
+        self.distant[word] &= !far;
         let turning = due & self.turning[word];
         self.turning[word] &= !turning;
         let ended = due & !turning & !far;

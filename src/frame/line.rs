@@ -5,7 +5,6 @@
 //! by submission, and only they have their depth compared: where nobody has written before it is written alone.
 //! Without depth they are drawn in that order. The background goes where the mask has nothing.
 
-use super::alone::columns_of;
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
@@ -56,30 +55,50 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
-            self.draw_near_first(usize::from(slots), &mut out);
-        } else if self.met || spilled || !self.draw_calm(&mut out) {
-            self.covered = Mask::EMPTY;
-            self.met = self.find_spans(&mut out);
-            self.draw_found(&mut out);
-            if self.met {
-                self.over = Mask::EMPTY;
-                self.written = Mask::EMPTY;
-                self.find_plan(&view);
+            if self.draw_near_first(usize::from(slots), &mut out) {
+                self.covered = Mask::EMPTY;
+                return Ok(true);
+            }
+        } else {
+            self.guests = 0;
+            let met = spilled && self.find_spilled(&mut out);
+            let tries = !spilled && !self.met;
+            if tries && !self.draw_calm(&mut out) {
+                self.covered = Mask::EMPTY;
+                self.draw_meeting_spans(false, &mut out);
+            } else if !tries {
+                self.draw_meeting_spans(met, &mut out);
             }
         }
         self.fill_rest(out.pixels, background);
         Ok(true)
     }
 
-    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
+    /// Draws all spans where some meet, or some have no slot, which `met` others.
+    fn draw_meeting_spans(&mut self, met: bool, out: &mut Line<'_, '_, WordOf<L>>) {
+        if !self.draw_crowded(out) {
+            self.met = self.find_spans(out) | met;
+            if !self.met || !self.draw_near(out) {
+                self.draw_found(out);
+            }
+            self.over = Mask::EMPTY;
+            self.written = Mask::EMPTY;
+        }
+        if self.met {
+            self.find_plan(out.view);
+        }
+    }
+
+    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full;
+    /// whether it is.
     #[inline(never)]
-    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut left = out.pixels.len() as u32;
         for k in 0..slots {
-            let number = self.cache.near.as_flattened().get(k).copied();
+            let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize & 0xFF;
             let Some(slots) = self.cache.slots.get(number >> 5) else {
-                return;
+                return false;
             };
             let slot = &slots[number & 31];
             let way = Flags(slot.flags).way();
@@ -96,9 +115,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 colour_run::<L>(drawn, Span { start, end }, run, out);
             });
             if left == 0 {
-                return;
+                return true;
             }
         }
+        false
     }
 
     /// The background, where nothing is.
@@ -181,18 +201,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
             }
         }
-        if self.cache.spilled.is_some() {
-            met |= self.find_spilled(out);
-        }
         met
     }
 
     /// The columns of what has no slot; what has ended leaves the chain.
     #[inline(never)]
-    fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         let line = out.number as i32;
-        let mut kept = 0;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
         while at.is_some() {
             let Some(triangle) = out.view.triangle_of(at.object()) else {
@@ -203,14 +219,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if lines.end <= line {
                 self.cache.relink(before, after, self.links);
             } else {
-                let Span { start, end } = columns_of(&triangle, out.number, out.view.frame);
+                let way = triangle.way();
+                let sides = triangle.sides(way, line, lines.turn);
+                let (start, end) = sides.columns(way, out.number, out.view.frame);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
+                    self.keep_guest(at.object(), Span { start, end });
                 }
-                if let Some(columns) = self.cache.near.as_flattened_mut().get_mut(kept) {
-                    *columns = start << 16 | end;
-                }
-                kept += 1;
                 self.counts.misses += 1;
                 before = at;
             }
@@ -245,28 +260,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         self.ordered = meeting as u16;
-        let (mut slow, mut drawn) = (self.cache.spilled, 0);
+        let mut slow = self.cache.spilled;
         for k in 0..meeting {
             let key = self.cache.order.as_flattened().get(k).copied();
             let key = key.unwrap_or_default();
             // One comparison says whether what has no slot comes first (C3).
             while slow.is_some() && u32::from(slow.object()) < key >> 16 {
-                slow = self.draw_spilled(slow, self.kept_columns(drawn), out);
-                drawn += 1;
+                slow = self.draw_spilled(slow, out);
             }
             self.draw_meeting(key as usize & 0xFFFF, out);
         }
         while slow.is_some() {
-            slow = self.draw_spilled(slow, self.kept_columns(drawn), out);
-            drawn += 1;
+            slow = self.draw_spilled(slow, out);
         }
-    }
-
-    /// The columns that were found for what has no slot, by its place among its kind; the first are kept.
-    #[inline(always)]
-    fn kept_columns(&self, place: usize) -> Option<Span> {
-        let columns = self.cache.near.as_flattened().get(place);
-        columns.map(|&word| Span::of(word))
     }
 
     /// Keeps of the last line's order what meets others again; how many spans that are.
@@ -299,11 +305,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn draw_meeting(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
-        let (Some(slots), Some(spans), Some(deep), Some(depth)) = (
+        let (Some(slots), Some(spans), Some(deep)) = (
             self.cache.slots.get_mut(word),
             self.cache.spans.get(word),
             self.cache.deep.get_mut(word),
-            self.cache.depth.get_mut(word),
         ) else {
             return;
         };
@@ -311,9 +316,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.depth.is_empty() {
             return colour::<L>(Drawn::of(slot), span, out);
         }
-        deepen::<L>(slot, deep, bit(i as u32), &mut depth[i], out.view);
-        let drawn = Drawn::of(slot).at_depth(&depth[i]);
+        deepen::<L>(slot, deep, bit(i as u32), out.view);
+        let drawn = Drawn::of(slot);
         let known = Known {
+            plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         };
@@ -322,27 +328,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A span of what has no slot, set up for this line alone; the next of its kind.
     #[inline(never)]
-    pub(super) fn draw_spilled(
-        &mut self,
-        at: Link,
-        columns: Option<Span>,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) -> Link {
+    pub(super) fn draw_spilled(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let after = next(self.links, at);
-        let Some(mut alone) = self.set_up_alone(at.object(), columns, out) else {
+        let Some(mut alone) = self.set_up_alone(at.object(), out) else {
             return after;
         };
         let Span { start, end } = alone.span;
-        let item = &self.cache.scratch;
         if !self.depth.is_empty() && self.met && self.over.meets(start, end) {
-            alone.find_depth(out.view);
             let known = Known {
+                plane: Self::find_depth(&mut alone, out.view),
                 cells: self.depth,
                 written: &mut self.written,
             };
-            nearer::<L>(alone.drawn(item), alone.span, out, known);
+            nearer::<L>(alone.drawn(), alone.span, out, known);
         } else {
-            colour::<L>(alone.drawn(item), alone.span, out);
+            colour::<L>(alone.drawn(), alone.span, out);
         }
         after
     }
@@ -354,7 +354,6 @@ pub(super) fn deepen<L: Look>(
     slot: &mut CacheSlot<Active<L::Planes>>,
     deep: &mut u32,
     one: u32,
-    depth: &mut [u32; 3],
     view: &View<'_>,
 ) {
     if *deep & one == 0 {
@@ -362,7 +361,7 @@ pub(super) fn deepen<L: Look>(
         let triangle = view.triangle_of(slot.object);
         let plane = triangle.and_then(|t| depth_plane(&t));
         slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
-        *depth = plane.unwrap_or_default();
+        slot.item.depth = plane.unwrap_or_default();
     }
 }
 

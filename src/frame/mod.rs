@@ -10,6 +10,8 @@
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
+//! | `near` | spans that meet others, from the nearest on |
+//! | `rival` | who of two spans is seen |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
 //! | `rank` | lines that are drawn by priority |
@@ -21,10 +23,12 @@
 mod advance;
 mod alone;
 mod line;
+mod near;
 mod plan;
 mod rank;
 mod relay;
 mod renderer;
+mod rival;
 mod ruled;
 mod scene;
 mod send;

@@ -27,6 +27,7 @@ impl<L: Look, const WORDS: usize> FastMemory<L, WORDS> {
                 right: Edge::NONE,
             },
             planes: L::EMPTY,
+            depth: [0; 3],
         }))
     }
 
@@ -145,6 +146,12 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) met: bool,
     /// How many spans met on the last line that was drawn in order.
     pub(super) ordered: u16,
+    /// How many slots the last line had in order from the nearest on.
+    pub(super) nearest: u16,
+    /// How many spans of this line have no slot; as many as find room lie in the cells of depth.
+    pub(super) guests: usize,
+    /// Whether most spans of the last line met others.
+    pub(super) crowded: bool,
     /// Whether triangles began or ended on this line.
     pub(super) changed: bool,
     pub(super) plan: Plan,
@@ -165,6 +172,9 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             written: Mask::EMPTY,
             met: false,
             ordered: 0,
+            nearest: 0,
+            guests: 0,
+            crowded: false,
             changed: true,
             plan: Plan::Changed,
             counts: CacheUse::default(),

@@ -171,8 +171,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
                 let state = out.view.state(slot.object);
                 if state.is_some_and(DrawState::is_translucent) {
-                    let depth = &mut self.cache.depth[word][i as usize & 31];
-                    deepen::<L>(slot, &mut self.cache.deep[word], bit(i), depth, out.view);
+                    deepen::<L>(slot, &mut self.cache.deep[word], bit(i), out.view);
                     if let Some(place) = self.cache.order.as_flattened_mut().get_mut(count) {
                         *place = word as u32 * 32 + i;
                         count += 1;
@@ -188,18 +187,16 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for k in 0..count {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize;
-            let (Some(slots), Some(spans), Some(depth)) = (
+            let (Some(slots), Some(spans)) = (
                 self.cache.slots.get(number >> 5),
                 self.cache.spans.get(number >> 5),
-                self.cache.depth.get(number >> 5),
             ) else {
                 return;
             };
             let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
-            let drawn = Drawn::of(slot).at_depth(&depth[number & 31]);
             f(Pane {
                 span,
-                depth: depth_on_line::<L>(drawn, span, out),
+                depth: depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out),
                 object: slot.object,
                 slot: number as u16,
             });
@@ -209,15 +206,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let object = at.object();
             let state = out.view.state(object);
             if state.is_some_and(DrawState::is_translucent) {
-                if let Some(mut alone) = self.set_up_alone(object, None, out) {
-                    alone.find_depth(out.view);
+                if let Some(mut alone) = self.set_up_alone(object, out) {
+                    let plane = Self::find_depth(&mut alone, out.view);
                     f(Pane {
                         span: alone.span,
-                        depth: depth_on_line::<L>(
-                            alone.drawn(&self.cache.scratch),
-                            alone.span,
-                            out,
-                        ),
+                        depth: depth_on_line::<L>(alone.drawn(), plane, alone.span, out),
                         object,
                         slot: NO_SLOT,
                     });
@@ -290,18 +283,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let span = pane.span;
         let number = usize::from(pane.slot);
-        let (slots, depth) = (&self.cache.slots, &self.cache.depth);
-        if let (Some(slots), Some(depth)) = (slots.get(number >> 5), depth.get(number >> 5)) {
-            let drawn = Drawn::of(&slots[number & 31]).at_depth(&depth[number & 31]);
+        if let Some(slots) = self.cache.slots.get(number >> 5) {
+            let slot = &slots[number & 31];
+            let drawn = Drawn::of(slot);
             let known = Known {
+                plane: slot.item.depth,
                 cells: self.depth,
                 written: &mut self.written,
             };
             draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
-        } else if let Some(mut alone) = self.set_up_alone(pane.object, None, out) {
-            alone.find_depth(out.view);
-            let drawn = alone.drawn(&self.cache.scratch);
+        } else if let Some(mut alone) = self.set_up_alone(pane.object, out) {
+            let plane = Self::find_depth(&mut alone, out.view);
+            let drawn = alone.drawn();
             let known = Known {
+                plane,
                 cells: self.depth,
                 written: &mut self.written,
             };

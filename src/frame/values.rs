@@ -5,6 +5,7 @@
 //! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
 use super::line::deepen;
+use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
@@ -32,7 +33,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return out.view.ranked && self.draw_ranked(out, background);
         }
         L::Pixel::fill(out.pixels, background);
-        self.find_spans(out);
+        self.find_all(out);
         // Where this is so, `over` says where depth is compared.
         self.met = !self.depth.is_empty() && !out.view.ranked;
         if self.met {
@@ -46,8 +47,25 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.over = Mask::EMPTY;
         self.written = Mask::EMPTY;
         self.met = false;
-        self.ordered = 0;
+        self.forget_order();
         true
+    }
+
+    /// The columns of all spans, with a slot or without.
+    pub(super) fn find_all(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+        self.guests = 0;
+        if self.cache.spilled.is_some() {
+            self.find_spilled(out);
+        }
+        self.find_spans(out);
+        // Nobody sorts them by depth here.
+        self.guests = 0;
+    }
+
+    /// Says that what was kept of an order of slots has been written over.
+    pub(super) fn forget_order(&mut self) {
+        (self.ordered, self.nearest) = (0, 0);
+        self.plan = Plan::Changed;
     }
 
     /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
@@ -105,7 +123,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             let state = out.view.state(at.object());
             if state.is_some_and(DrawState::compares) {
-                if let Some(alone) = self.set_up_alone(at.object(), None, out) {
+                if let Some(alone) = self.set_up_alone(at.object(), out) {
                     self.over.cover(alone.span.start, alone.span.end);
                 }
             }
@@ -116,11 +134,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws a span in a slot.
     pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
-        let (Some(slots), Some(spans), Some(deep), Some(depth)) = (
+        let (Some(slots), Some(spans), Some(deep)) = (
             self.cache.slots.get_mut(word),
             self.cache.spans.get(word),
             self.cache.deep.get_mut(word),
-            self.cache.depth.get_mut(word),
         ) else {
             return;
         };
@@ -139,10 +156,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         }
         if is_compared {
-            deepen::<L>(slot, deep, bit(i as u32), &mut depth[i], out.view);
+            deepen::<L>(slot, deep, bit(i as u32), out.view);
         }
-        let drawn = Drawn::of(slot).at_depth(&depth[i]);
+        let drawn = Drawn::of(slot);
         let known = is_compared.then_some(Known {
+            plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         });
@@ -153,22 +171,25 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let state = out.view.state(at.object());
         let Some(state) = state.filter(|state| state.has_values()) else {
-            return self.draw_spilled(at, None, out);
+            return self.draw_spilled(at, out);
         };
         let after = next(self.links, at);
         if self.met && state.is_translucent() {
             return after;
         }
-        let Some(mut alone) = self.set_up_alone(at.object(), None, out) else {
+        let Some(mut alone) = self.set_up_alone(at.object(), out) else {
             return after;
         };
         let span = alone.span;
         let is_compared = self.met && self.over.meets(span.start, span.end);
-        if is_compared {
-            alone.find_depth(out.view);
-        }
-        let drawn = alone.drawn(&self.cache.scratch);
+        let plane = if is_compared {
+            Self::find_depth(&mut alone, out.view)
+        } else {
+            [0; 3]
+        };
+        let drawn = alone.drawn();
         let known = is_compared.then_some(Known {
+            plane,
             cells: self.depth,
             written: &mut self.written,
         });

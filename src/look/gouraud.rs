@@ -328,13 +328,23 @@ impl<F: Pixel> Paint for Gouraud<F> {
     #[inline(never)]
     fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
         if fill == Fill::Plain {
-            return ramp::fill_long::<F>(run, Self::packed(planes, place));
+            return ramp::fill::<F>(run, Self::packed(planes, place));
         }
         let off = place.column.wrapping_sub(place.span) & 15;
         let column = place.column.wrapping_sub(off);
         let mut course = course(fill, planes, Place { column, ..place });
         let mut off = off;
         let mut rest = run;
+        if F::PACKED && off == 0 {
+            let mut chunks = rest.chunks_exact_mut(16);
+            for chunk in chunks.by_ref() {
+                if let Ok(chunk) = <&mut [F::Word; 16]>::try_from(chunk) {
+                    ramp::fill_16::<F>(chunk, course.packed(0));
+                }
+                course.skip(16);
+            }
+            rest = chunks.into_remainder();
+        }
         while !rest.is_empty() {
             let pixels = rest.len().min(16 - off as usize);
             let (run, after) = rest.split_at_mut(pixels);
