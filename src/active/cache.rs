@@ -267,3 +267,63 @@ pub(crate) fn next(links: &[Link], at: Link) -> Link {
         .copied()
         .unwrap_or(Link::NONE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of a slot that begins on line 0, turns and ends: the lines on which the ring says so.
+    fn changes_of(turn: u16, end: u16) -> [Option<u16>; 2] {
+        let mut cache = Cache::<(), 2>::with(());
+        let (word, one) = (1, bit(9));
+        let change = |line: u16, turns: bool| Change { line, turns };
+        let _ = cache.take_changes(word, 0);
+        cache.keep(word * 32 + 9, true, change(turn, true));
+        let mut seen = [None; 2];
+        for line in 1..=end + 40 {
+            assert_eq!(cache.take_changes(0, line), Changes::default());
+            let changes = cache.take_changes(word, line);
+            let [turns, ends] = changes.far;
+            let due = |at: u16, set: u32| set & one != 0 && at == line;
+            if changes.turning & one != 0 || due(turn, turns) {
+                seen[0] = Some(line);
+                cache.await_change(word, one, change(end, false));
+            } else if changes.ended & one != 0 || due(end, ends) {
+                seen[1] = Some(line);
+                cache.free_slots(word, one);
+            } else if turns & one != 0 {
+                cache.await_change(word, one, change(turn, true));
+            } else if ends & one != 0 {
+                cache.await_change(word, one, change(end, false));
+            }
+            assert_eq!(cache.used[word] & one != 0, seen[1].is_none(), "{line}");
+        }
+        assert!(cache.is_empty());
+        seen
+    }
+
+    #[test]
+    fn slots_turn_and_end_on_their_lines_however_far_they_are() {
+        for turn in [1, 2, 31, 32, 33, 64, 65, 200] {
+            for height in [1, 31, 32, 33, 64, 97, 500] {
+                let end = turn + height;
+                assert_eq!(changes_of(turn, end), [Some(turn), Some(end)]);
+            }
+        }
+    }
+
+    #[test]
+    fn what_ends_is_neither_plain_nor_deep_any_more() {
+        let mut cache = Cache::<(), 1>::with(());
+        let _ = cache.take_changes(0, 7);
+        for (slot, line) in [(0, 9), (3, 9), (4, 10)] {
+            cache.keep(slot, slot != 3, Change { line, turns: false });
+            cache.deep[0] |= bit(slot as u32);
+        }
+        assert_eq!((cache.in_use(), cache.free()), (3, Some(1)));
+        let changes = cache.take_changes(0, 9);
+        assert_eq!(changes.ended, bit(0) | bit(3));
+        let left = [cache.used[0], cache.plain[0], cache.deep[0]];
+        assert_eq!(left, [bit(4); 3]);
+    }
+}
