@@ -8,8 +8,9 @@ use crate::hot::exact::within;
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Look};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{DepthFunction, DepthTest, Draw, Scene, Scissor};
-use scanbeam::{Cull, PixelFormat, Rgb565Be, Rgb888, Screen};
+use scanbeam::{Cull, Screen};
 use std::cmp::Ordering;
 use std::ops::Range;
 
