@@ -234,3 +234,138 @@ pub(crate) fn next(links: &[Link], at: Link) -> Link {
         .copied()
         .unwrap_or(Link::NONE)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    /// What a slot holds, by number: its item, whether it is plain, and when it changes.
+    type Model = [Option<(u32, bool, u16)>; 64];
+
+    fn set(model: &Model, of: impl Fn(&(u32, bool, u16)) -> bool) -> [u32; 2] {
+        let mut words = [0; 2];
+        for (number, held) in model.iter().enumerate() {
+            if held.as_ref().is_some_and(&of) {
+                words[number / 32] |= bit(number as u32);
+            }
+        }
+        words
+    }
+
+    /// Slots are kept, change on their line, however far down that is, and are freed, as in a plain
+    /// list; the first free one below the limit is taken.
+    #[test]
+    fn slots_are_those_of_a_list() {
+        let mut rng = Rng(11);
+        let (mut full, mut around) = (0, 0);
+        for round in 0..40 {
+            let limit = [64, 33, 32, 31, 1, 0, 200][round % 7];
+            let mut cache = Cache::<u32, 2>::with(0);
+            cache.set_limit(limit);
+            let mut model: Model = [None; 64];
+            let mut deep = [0u32; 2];
+            for line in 0..400u16 {
+                for _ in 0..rng.below(6) {
+                    let want = (0..64.min(limit.into())).find(|&i| model[i].is_none());
+                    assert_eq!(cache.free(), want, "line {line}");
+                    let Some(slot) = want else {
+                        full += 1;
+                        continue;
+                    };
+                    let held = (rng.below(1 << 30), rng.below(2) == 0);
+                    let event = line + 1 + rng.below(if round % 2 == 0 { 40 } else { 200 }) as u16;
+                    cache.slot(slot).unwrap().item = held.0;
+                    cache.keep(slot, held.1, event);
+                    model[slot] = Some((held.0, held.1, event));
+                    let one = bit(slot as u32);
+                    assert_eq!(cache.deep[slot / 32] & one, 0);
+                    // As the owner does where depth is made.
+                    cache.deep[slot / 32] |= one;
+                    deep[slot / 32] |= one;
+                }
+                assert_eq!(cache.deep, deep);
+                assert_eq!(cache.used, set(&model, |_| true));
+                assert_eq!(cache.plain, set(&model, |held| held.1));
+                let count = model.iter().flatten().count();
+                assert_eq!(cache.in_use() as usize, count);
+                assert_eq!(cache.is_empty(), count == 0);
+                let mut chain = Vec::new();
+                let mut at = cache.events(line + 1);
+                while let Some(next) = cache.after(at) {
+                    chain.push(usize::from(at));
+                    at = next;
+                }
+                assert_eq!(cache.events(line + 1), NONE, "a chain is handed out once");
+                for slot in chain {
+                    let (item, _, event) = model[slot].unwrap();
+                    let kept = *cache.slot(slot).unwrap();
+                    assert_eq!((kept.item, kept.event), (item, event));
+                    if event == line + 1 {
+                        cache.free_slot(slot);
+                        model[slot] = None;
+                    } else {
+                        assert_eq!((event - line - 1) % RING as u16, 0);
+                        cache.await_event(slot, event);
+                        around += 1;
+                    }
+                }
+                let late = model.iter().flatten().find(|held| held.2 <= line + 1);
+                assert_eq!(late, None, "line {line}");
+            }
+            cache.clear();
+            assert!(cache.is_empty() && cache.plain == [0; 2] && cache.deep == [0; 2]);
+            assert!((0..64).all(|line| cache.events(line) == NONE));
+        }
+        assert!(full > 1000 && around > 1000, "{full} {around}");
+    }
+
+    #[test]
+    fn numbers_beyond_the_slots_are_none() {
+        let mut cache = Cache::<u32, 2>::with(7);
+        assert!(cache.slot(63).is_some() && cache.slot(64).is_none());
+        assert_eq!(cache.after(63), Some(NONE));
+        assert_eq!(cache.after(64), None);
+        cache.keep(64, true, 3);
+        cache.free_slot(64);
+        assert_eq!((cache.used, cache.plain), ([0; 2], [0; 2]));
+    }
+
+    /// Objects without a slot are in the order of their numbers, however they come and go.
+    #[test]
+    fn spilled_objects_are_a_sorted_list() {
+        let mut rng = Rng(12);
+        let mut cache = Cache::<(), 1>::with(());
+        let mut links = [Link::NONE; 50];
+        let mut model: Vec<u16> = Vec::new();
+        for _ in 0..4000 {
+            let object = rng.below(50) as u16;
+            match model.binary_search(&object) {
+                Err(at) => {
+                    cache.spill(object, &mut links);
+                    model.insert(at, object);
+                }
+                Ok(at) => {
+                    let link = |at: usize| model.get(at).map_or(Link::NONE, |o| Link::slow(*o));
+                    let before = at.checked_sub(1).map_or(Link::NONE, link);
+                    cache.relink(before, link(at + 1), &mut links);
+                    model.remove(at);
+                }
+            }
+            let mut found = Vec::new();
+            let mut at = cache.spilled;
+            while at.is_some() {
+                found.push(at.object());
+                at = next(&links, at);
+            }
+            assert_eq!(found, model);
+            assert_eq!(cache.is_empty(), model.is_empty());
+        }
+        // A column of links that is too short loses objects, and nothing else.
+        let mut cache = Cache::<(), 1>::with(());
+        cache.spill(7, &mut [Link::NONE; 3]);
+        assert_eq!(cache.spilled.object(), 7);
+        assert!(!next(&[Link::NONE; 3], cache.spilled).is_some());
+    }
+}
