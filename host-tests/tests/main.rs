@@ -68,6 +68,7 @@ mod scan_out_faults;
 mod scan_out_runs;
 mod scan_out_spi;
 mod scene_b;
+mod scene_files;
 mod shadows;
 mod skipped;
 mod stress_input;
