@@ -1,4 +1,4 @@
-//! H9, H15: what a draw call does to its pixels, as values of the call.
+//! H8, H9, H15, K11, P1, P5: what a draw call does to its pixels, as values of the call.
 //!
 //! The reference goes from pixel to pixel and from call to call: coverage from whole numbers, 1/w in f64, and no
 //! spans. Where two depths are nearer to each other than depth may err, a pixel is left out, and counted.
@@ -7,14 +7,26 @@ use crate::common::Rng;
 use crate::hot::exact::within;
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use crate::hot_path_depth::{bound, exact};
-use scanbeam::look::{Gouraud, Look};
+use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::scene::{DepthFunction, DepthTest, Draw, Scene, Scissor};
+use scanbeam::scene::{
+    Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Factor, Scene, Scissor, Skin,
+    Texture, TexturePlace, Wrap,
+};
 use scanbeam::{Cull, Screen};
 use std::cmp::Ordering;
 use std::ops::Range;
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
+
+/// A texture that leaves colours as they are.
+static WHITE: Texture<'static> = {
+    static WORDS: [u16; 64] = [0xFFFF; 64];
+    match Texture::words(&WORDS, 8, 8) {
+        Ok(texture) => texture.wrapping(Wrap::Repeat),
+        Err(_) => panic!("8 x 8 texels"),
+    }
+};
 
 /// A rectangle, and whether what is outside of it is kept.
 #[derive(Clone, Debug)]
@@ -83,6 +95,9 @@ struct Call {
     cut: Option<Cut>,
     /// Where it is seen, and where its depth is kept.
     test: [Function; 2],
+    /// What becomes of colours that are there, and the channels that are written.
+    blend: Option<(BlendMode, [bool; 3])>,
+    priority: u8,
 }
 
 impl Call {
@@ -106,10 +121,17 @@ impl Call {
             corners,
             cut: None,
             test: [NEARER_OR_EQUAL; 2],
+            blend: None,
+            priority: 0,
         }
     }
 
     fn dress(&self, call: &mut Draw<'_, '_, i32>) {
+        call.texture = Some(Skin {
+            texture: &WHITE,
+            places: &[[0, 0], [60 << 8, 0], [0, 40 << 8]],
+            budget: Budget::BALANCED,
+        });
         call.cull = Cull::None;
         call.scissor = self.cut.as_ref().map(Cut::scissor);
         let [colour_if, depth_if] = self.test.map(|(function, _)| function);
@@ -117,6 +139,8 @@ impl Call {
             colour_if,
             depth_if,
         };
+        call.priority = self.priority;
+        call.blend = self.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
     }
 
     /// Whether it has this pixel.
@@ -150,31 +174,132 @@ fn compare(here: There<'_>, there: There<'_>) -> Option<Ordering> {
     (apart.abs() > here.depth[1] + there.depth[1]).then(|| apart.total_cmp(&0.0))
 }
 
+/// The levels of a pixel, and by how much each may be off.
+#[derive(Clone, Copy, Debug)]
+struct Levels {
+    level: [f64; 3],
+    off: [f64; 3],
+}
+
+/// What rounding may add to a level: where a colour is written, and where it is blended.
+#[derive(Clone, Copy)]
+struct Rounding {
+    written: f64,
+    blended: f64,
+}
+
+const OF_888: Rounding = Rounding {
+    written: 0.51,
+    blended: 1.01,
+};
+/// Half a step of 5 bits and what rounding may add; that, and alpha of 5 bits.
+const OF_565: Rounding = Rounding {
+    written: 4.7,
+    blended: 8.8,
+};
+
+/// The shade that a texel is multiplied by has 5 and 6 bits, too.
+const OF_TEXELS: Rounding = Rounding {
+    written: 9.0,
+    blended: 8.8,
+};
+
+/// What a mode makes of a level that is there, and what becomes of its error.
+fn blended(mode: BlendMode, old: f64, new: f64) -> [f64; 2] {
+    let part = |alpha: u8| f64::from(alpha) / 255.0;
+    let [level, of_old] = match mode {
+        BlendMode::Replace => [new, 0.0],
+        BlendMode::Filter(alpha) => [old + (new - old) * part(alpha), 1.0 - part(alpha)],
+        BlendMode::Half => [(old + new) / 2.0, 0.5],
+        BlendMode::Add(alpha) => [old + new * part(alpha), 1.0],
+        BlendMode::Subtract(alpha) => [old - new * part(alpha), 1.0],
+        BlendMode::Factors {
+            source,
+            destination,
+        } => {
+            let factor = |factor: Factor| match factor {
+                Factor::Constant(value) => [part(value), 0.0],
+                Factor::Destination => [old / 255.0, 1.0 / 255.0],
+                Factor::InverseDestination => [1.0 - old / 255.0, -1.0 / 255.0],
+            };
+            let [[s, ds], [d, dd]] = [factor(source), factor(destination)];
+            [new * s + old * d, (new * ds + old * dd + d).abs()]
+        }
+    };
+    [level.clamp(0.0, 255.0), of_old]
+}
+
+impl Levels {
+    fn lay(&mut self, call: &Call, rounding: Rounding) {
+        let (mode, rgb) = call.blend.unwrap_or((BlendMode::Replace, [true; 3]));
+        for i in (0..3).filter(|&i| rgb[i]) {
+            let new = f64::from(call.corners[0].colour[i]);
+            let [level, of_old] = blended(mode, self.level[i], new);
+            let more = match mode {
+                BlendMode::Replace => rounding.written,
+                // The new colour was rounded too.
+                _ => rounding.blended + rounding.written,
+            };
+            (self.level[i], self.off[i]) = (level, self.off[i] * of_old + more);
+        }
+    }
+}
+
 /// The colour of a pixel; `None` where it hangs on what depth may err.
-fn pixel(calls: &[Call], x: u16, y: u16, screen: Screen, by_depth: bool) -> Option<[f64; 3]> {
-    let mut colour = BACKGROUND.map(f64::from);
+fn pixel(
+    calls: &[&Call],
+    [x, y]: [u16; 2],
+    screen: Screen,
+    by_depth: bool,
+    rounding: Rounding,
+) -> Option<Levels> {
+    let mut levels = Levels {
+        level: BACKGROUND.map(f64::from),
+        off: [rounding.written; 3],
+    };
     let mut there = There {
         of: None,
         depth: [0.0; 2],
     };
+    let mut waiting: Vec<(&Call, There<'_>)> = Vec::new();
     for call in calls.iter().filter(|call| call.covers(x, y, screen)) {
+        if !by_depth {
+            levels.lay(call, rounding);
+            continue;
+        }
         let here = There {
             of: Some(&call.corners),
             depth: call.depth(x, y),
         };
-        let mut passing = [true; 2];
-        if by_depth {
-            let order = compare(here, there)?;
-            passing = call.test.map(|function| passes(function, order));
+        if call
+            .blend
+            .is_some_and(|(mode, _)| mode != BlendMode::Replace)
+        {
+            // From far to near; what is as far as another comes after it.
+            let mut at = waiting.len();
+            for (i, (_, other)) in waiting.iter().enumerate().rev() {
+                if compare(here, *other)? == Ordering::Less {
+                    at = i;
+                }
+            }
+            waiting.insert(at, (call, here));
+            continue;
         }
+        let order = compare(here, there)?;
+        let passing = call.test.map(|function| passes(function, order));
         if passing[0] {
-            colour = call.corners[0].colour.map(f64::from);
+            levels.lay(call, rounding);
         }
         if passing[1] {
             there = here;
         }
     }
-    Some(colour)
+    for (call, here) in waiting {
+        if passes(call.test[0], compare(here, there)?) {
+            levels.lay(call, rounding);
+        }
+    }
+    Some(levels)
 }
 
 /// Draws calls, and hands the scene to `see`.
@@ -184,6 +309,7 @@ fn with_calls<L: Look, R>(
     see: impl FnOnce(&Scene<'_, '_, L>) -> R,
 ) -> R {
     let mut rooms = SceneRooms::of_triangles(calls.len(), screen);
+    rooms.places = vec![TexturePlace::EMPTY; rooms.vertices.len()];
     let mut scene = rooms.scene::<L>(screen);
     scene.begin(&camera()).expect("the rooms are large enough");
     for call in calls {
@@ -214,36 +340,34 @@ fn shuffled<L: Smooth>(
 
 /// Holds pictures of calls against the reference: with and without depth, any number of slots, any order of lines. How
 /// many pixels were compared, and how many were left out.
-fn hold<L: Smooth>(
-    rng: &mut Rng,
-    screen: Screen,
-    calls: &[Call],
-    may_be_off: impl Fn(usize) -> f64,
-) -> [usize; 2]
+fn hold<L: Smooth>(rng: &mut Rng, screen: Screen, calls: &[Call], rounding: Rounding) -> [usize; 2]
 where
     WordOf<L>: PartialEq + std::fmt::Debug,
 {
     let mut counts = [0; 2];
     with_calls::<L, _>(screen, calls, |scene| {
-        for by_depth in [true, false] {
+        let mut order: Vec<_> = calls.iter().collect();
+        order.sort_by_key(|call| call.priority);
+        let is_ranked = calls.iter().any(|call| call.priority > 0);
+        for has_depth in [true, false] {
+            let by_depth = has_depth && !is_ranked;
             let background = L::Format::from_rgb8(BACKGROUND);
-            let lines = frame(scene, 128, by_depth, background);
+            let lines = frame(scene, 128, has_depth, background);
             let slots = rng.pick(&[0, 1, 2, 5, 128]);
-            let others = shuffled(scene, rng, slots, by_depth);
+            let others = shuffled(scene, rng, slots, has_depth);
             for (y, (line, other)) in (0..).zip(lines.iter().zip(&others)) {
                 assert_eq!(line, other, "line {y}, {slots} slots, depth: {by_depth}");
                 for (x, &word) in (0..).zip(line) {
-                    let Some(want) = pixel(calls, x, y, screen, by_depth) else {
+                    let Some(want) = pixel(&order, [x, y], screen, by_depth, rounding) else {
                         counts[1] += 1;
                         continue;
                     };
                     counts[0] += 1;
                     let got = L::Format::to_rgb8(word);
-                    let off = (0..3).map(|i| (f64::from(got[i]) - want[i]).abs());
-                    let off = off.fold(0.0, f64::max);
-                    let layers = calls.iter().filter(|c| c.covers(x, y, screen)).count();
+                    let is_near =
+                        |i: usize| (f64::from(got[i]) - want.level[i]).abs() <= want.off[i];
                     assert!(
-                        off <= may_be_off(layers),
+                        (0..3).all(is_near),
                         "{got:?} for {want:?} at {x}, {y}, depth: {by_depth}: {calls:#?}"
                     );
                 }
@@ -251,11 +375,6 @@ where
         }
     });
     counts
-}
-
-/// Half a step of 5 bits, and what rounding may add.
-fn step_565(_: usize) -> f64 {
-    255.0 / 31.0 / 2.0 + 0.5
 }
 
 /// H15: inside and outside of rectangles, within calls of which some have none.
@@ -273,9 +392,9 @@ fn scissors_keep_what_is_inside_or_outside() {
             })
             .collect();
         let here = if round % 2 == 0 {
-            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, |_| 0.51)
+            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888)
         } else {
-            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, step_565)
+            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565)
         };
         counts = [0, 1].map(|i| counts[i] + here[i]);
     }
@@ -308,9 +427,9 @@ fn depth_functions_decide_on_colour_and_on_depth() {
             calls.push(call);
         }
         let here = if round % 2 == 0 {
-            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, |_| 0.51)
+            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888)
         } else {
-            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, step_565)
+            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565)
         };
         counts = [0, 1].map(|i| counts[i] + here[i]);
     }
@@ -318,4 +437,125 @@ fn depth_functions_decide_on_colour_and_on_depth() {
         counts[0] > 1_000_000 && counts[1] < counts[0] / 100,
         "{counts:?}"
     );
+}
+
+/// Modes of which no error grows.
+fn some_mode(rng: &mut Rng) -> BlendMode {
+    let alpha = rng.below(256) as u8;
+    match rng.below(9) {
+        0 => BlendMode::Half,
+        1 => BlendMode::Add(alpha),
+        2 => BlendMode::Subtract(alpha),
+        3 => BlendMode::Factors {
+            source: Factor::Destination,
+            destination: Factor::ZERO,
+        },
+        4 => BlendMode::Factors {
+            source: Factor::InverseDestination,
+            destination: Factor::ONE,
+        },
+        5 => BlendMode::Factors {
+            source: Factor::Constant(alpha),
+            destination: Factor::Constant(rng.below(256) as u8),
+        },
+        6 => BlendMode::Replace,
+        _ => BlendMode::Filter(alpha),
+    }
+}
+
+/// K11, H8, P5: all modes, among what is opaque, with scissors and functions; more of them over each other than a pile
+/// holds, many of which cross.
+#[test]
+fn translucent_calls_are_blended_from_far_to_near() {
+    let mut rng = Rng::new(1_603);
+    let mut counts = [0; 2];
+    for round in 0..250 {
+        let screen = Screen::new(rng.pick(&[33, 70, 128]), 24).unwrap();
+        let many = if round % 16 == 0 { 60 } else { 10 };
+        let calls: Vec<_> = (0..2 + rng.below(many))
+            .map(|_| {
+                let mut call = Call::new(&mut rng, screen);
+                if rng.below(4) > 0 {
+                    let rgb = [(); 3].map(|()| rng.below(8) > 0);
+                    call.blend = Some((some_mode(&mut rng), rgb));
+                }
+                if rng.below(4) == 0 {
+                    call.test[0] = rng.pick(&FUNCTIONS);
+                }
+                call.cut = (rng.below(4) == 0).then(|| Cut::new(&mut rng, screen));
+                call
+            })
+            .collect();
+        let here = match round % 4 {
+            0 | 1 => hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888),
+            2 => hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565),
+            _ => hold::<Textured<Rgb565Be>>(&mut rng, screen, &calls, OF_TEXELS),
+        };
+        counts = [0, 1].map(|i| counts[i] + here[i]);
+    }
+    assert!(
+        counts[0] > 500_000 && counts[1] < counts[0] / 20,
+        "{counts:?}"
+    );
+}
+
+/// More panes over each other than a pile or a cache holds, in any order of submission.
+#[test]
+fn many_panes_over_each_other_are_blended_from_far_to_near() {
+    let mut rng = Rng::new(1_604);
+    let screen = Screen::new(37, 6).unwrap();
+    let mut counts = [0; 2];
+    for panes in [15, 16, 17, 33, 100, 150] {
+        let mut order: Vec<_> = (0..panes).collect();
+        rng.shuffle(&mut order);
+        let calls: Vec<_> = order
+            .into_iter()
+            .map(|i| {
+                let mut call = Call::new(&mut rng, screen);
+                let w = 1.0 + f64::from(i) / 20.0;
+                for (corner, at) in call.corners.iter_mut().zip([(-80, -8), (600, 3), (5, 400)]) {
+                    (corner.at, corner.w) = (at, w);
+                }
+                call.blend = Some((BlendMode::Filter(100), [true; 3]));
+                call
+            })
+            .collect();
+        let here = hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888);
+        counts = [0, 1].map(|i| counts[i] + here[i]);
+    }
+    assert!(counts[0] > 2_000 && counts[1] == 0, "{counts:?}");
+}
+
+/// P1: priorities, some of them equal, in any order of submission, with everything else that a call may have.
+#[test]
+fn calls_are_drawn_by_priority_where_any_has_one() {
+    let mut rng = Rng::new(1_605);
+    let mut counts = [0; 2];
+    for round in 0..250 {
+        let screen = Screen::new(rng.pick(&[33, 70, 128]), 24).unwrap();
+        let (many, levels) = (rng.pick(&[3, 10, 40]), rng.pick(&[2, 4, 256]));
+        let mut calls: Vec<_> = (0..2 + rng.below(many))
+            .map(|_| {
+                let mut call = Call::new(&mut rng, screen);
+                call.priority = rng.below(levels) as u8;
+                if round % 2 == 0 && rng.below(3) == 0 {
+                    call.blend = Some((some_mode(&mut rng), [true; 3]));
+                }
+                if round % 2 == 0 && rng.below(3) == 0 {
+                    call.test[0] = rng.pick(&FUNCTIONS);
+                }
+                call.cut =
+                    (round % 2 == 0 && rng.below(4) == 0).then(|| Cut::new(&mut rng, screen));
+                call
+            })
+            .collect();
+        calls[0].priority = 1;
+        let here = match round % 6 {
+            0..4 => hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888),
+            4 => hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565),
+            _ => hold::<Textured<Rgb565Be>>(&mut rng, screen, &calls, OF_TEXELS),
+        };
+        counts = [0, 1].map(|i| counts[i] + here[i]);
+    }
+    assert!(counts[0] > 500_000 && counts[1] == 0, "{counts:?}");
 }

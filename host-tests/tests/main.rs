@@ -49,6 +49,7 @@ mod list_fuzz;
 mod list_looks;
 mod list_screen;
 mod list_textures;
+mod list_words;
 mod lists;
 mod model_pipe;
 mod model_scenes;

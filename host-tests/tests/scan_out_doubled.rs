@@ -62,7 +62,7 @@ const WORDS: Format<u32> = Format {
 fn wanted(drawn: &[Vec<Steps>], x: usize, y: usize) -> Steps {
     // The drawn line or column that a sent one lies in, and the one on its other side.
     let around = |at: usize, count: usize| {
-        let far = if at % 2 == 0 {
+        let far = if at.is_multiple_of(2) {
             (at / 2).saturating_sub(1)
         } else {
             (at / 2 + 1).min(count - 1)

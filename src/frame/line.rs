@@ -55,30 +55,50 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
-            self.draw_near_first(usize::from(slots), &mut out);
-        } else if self.met || spilled || !self.draw_calm(&mut out) {
-            self.covered = Mask::EMPTY;
-            self.met = self.find_spans(&mut out);
-            self.draw_found(&mut out);
-            if self.met {
-                self.over = Mask::EMPTY;
-                self.written = Mask::EMPTY;
-                self.find_plan(&view);
+            if self.draw_near_first(usize::from(slots), &mut out) {
+                self.covered = Mask::EMPTY;
+                return Ok(true);
+            }
+        } else {
+            self.guests = 0;
+            let met = spilled && self.find_spilled(&mut out);
+            let tries = !spilled && !self.met;
+            if tries && !self.draw_calm(&mut out) {
+                self.covered = Mask::EMPTY;
+                self.draw_meeting_spans(false, &mut out);
+            } else if !tries {
+                self.draw_meeting_spans(met, &mut out);
             }
         }
         self.fill_rest(out.pixels, background);
         Ok(true)
     }
 
-    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
+    /// Draws all spans where some meet, or some have no slot, which `met` others.
+    fn draw_meeting_spans(&mut self, met: bool, out: &mut Line<'_, '_, WordOf<L>>) {
+        if !self.draw_crowded(out) {
+            self.met = self.find_spans(out) | met;
+            if !self.met || !self.draw_near(out) {
+                self.draw_found(out);
+            }
+            self.over = Mask::EMPTY;
+            self.written = Mask::EMPTY;
+        }
+        if self.met {
+            self.find_plan(out.view);
+        }
+    }
+
+    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full;
+    /// whether it is.
     #[inline(never)]
-    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut left = out.pixels.len() as u32;
         for k in 0..slots {
-            let number = self.cache.near.as_flattened().get(k).copied();
+            let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize & 0xFF;
             let Some(slots) = self.cache.slots.get(number >> 5) else {
-                return;
+                return false;
             };
             let slot = &slots[number & 31];
             let way = Flags(slot.flags).way();
@@ -95,14 +115,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 colour_run::<L>(drawn, Span { start, end }, run, out);
             });
             if left == 0 {
-                return;
+                return true;
             }
         }
+        false
     }
 
     /// The background, where nothing is.
     #[inline(never)]
-    fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
+    pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
             if let Some(run) = pixels.get_mut(from as usize..to as usize) {
                 L::Pixel::fill(run, background);
@@ -112,7 +133,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours spans as they are found; `false` as soon as two meet.
     #[inline(never)]
-    fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         for word in 0..WORDS {
             if !self.draw_plain(out, word) {
                 return false;
@@ -180,15 +201,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
             }
         }
-        if self.cache.spilled.is_some() {
-            met |= self.find_spilled(out);
-        }
         met
     }
 
     /// The columns of what has no slot; what has ended leaves the chain.
     #[inline(never)]
-    fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         let line = out.number as i32;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
@@ -206,6 +224,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let (start, end) = sides.columns(way, out.number, out.view.frame);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
+                    self.keep_guest(at.object(), Span { start, end });
                 }
                 self.counts.misses += 1;
                 before = at;
@@ -300,6 +319,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         deepen::<L>(slot, deep, bit(i as u32), out.view);
         let drawn = Drawn::of(slot);
         let known = Known {
+            plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         };
@@ -315,8 +335,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let Span { start, end } = alone.span;
         if !self.depth.is_empty() && self.met && self.over.meets(start, end) {
-            Self::find_depth(&mut alone, out.view);
             let known = Known {
+                plane: Self::find_depth(&mut alone, out.view),
                 cells: self.depth,
                 written: &mut self.written,
             };

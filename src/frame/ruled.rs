@@ -1,12 +1,13 @@
-//! The pixels of a span whose draw call has values that few have (H9, H15).
+//! The pixels of a span whose draw call has values that few have (H9, H15, K11).
 //!
-//! What the scissor keeps is compared 32 pixels at a time, and what is seen of that is coloured in runs. So a
+//! What the scissor keeps is compared 32 pixels at a time, and what is seen of that is coloured in runs, or blended over what is there. So a
 //! triangle has the same columns, depths and planes as without such values.
 
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::leading_zeros;
-use crate::scene::DrawState;
+use crate::pixel::blend;
+use crate::scene::{Blend, DrawState};
 use crate::visible::{MOST_TESTED, Part, test};
 
 /// A span of a triangle, and the values of its draw call.
@@ -23,6 +24,7 @@ struct Ink<'a, P> {
     planes: &'a P,
     /// The span's first column.
     span: u32,
+    blend: Option<Blend>,
 }
 
 /// Colours those pixels between `from` and `to` that the values let through; without depth nothing is compared.
@@ -37,15 +39,16 @@ pub(super) fn draw_ruled<L: Look>(
     let thin;
     let mut ink = Ink {
         fill: drawn.flags.fill(),
-        planes: &drawn.item.planes,
+        planes: drawn.planes,
         span: span.start,
+        blend: state.blend,
     };
     if ink.fill == Fill::Thin {
         thin = thin_planes::<L>(drawn.object, span, out.number, out.view);
         (ink.fill, ink.planes) = (Fill::Wide, &thin);
     }
-    let depth = match known {
-        Some(_) => depth_on_line::<L>(drawn, span, out),
+    let depth = match &known {
+        Some(known) => depth_on_line::<L>(drawn, known.plane, span, out),
         None => [0; 2],
     };
     let (start, end) = (part.start.max(span.start), part.end.min(span.end));
@@ -68,6 +71,7 @@ pub(super) fn draw_ruled<L: Look>(
 #[inline(always)]
 pub(super) fn depth_on_line<L: Look>(
     drawn: Drawn<'_, L::Planes>,
+    plane: [u32; 3],
     span: Span,
     out: &Line<'_, '_, WordOf<L>>,
 ) -> [u32; 2] {
@@ -75,7 +79,7 @@ pub(super) fn depth_on_line<L: Look>(
         let [at, step] = thin_depth::<L>(drawn.object, span, out);
         return [at.wrapping_sub(step.wrapping_mul(span.start)), step];
     }
-    let [at, step, down] = drawn.item.depth;
+    let [at, step, down] = plane;
     [at.wrapping_add(down.wrapping_mul(out.number)), step]
 }
 
@@ -121,15 +125,26 @@ fn compare<L: Look>(
     }
 }
 
-/// Colours a run.
+/// Colours a run, or blends it.
 fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, WordOf<L>>) {
     let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };
-    let at = Place {
+    let mut at = Place {
         span: ink.span,
         column: run.start,
         line: out.number,
     };
-    L::fill(ink.fill, ink.planes, at, out.view.draws, pixels);
+    let Some(how) = ink.blend else {
+        return L::fill(ink.fill, ink.planes, at, out.view.draws, pixels);
+    };
+    let mut colours = [WordOf::<L>::default(); MOST_TESTED];
+    for pixels in pixels.chunks_mut(MOST_TESTED) {
+        let Some(new) = colours.get_mut(..pixels.len()) else {
+            return;
+        };
+        L::fill(ink.fill, ink.planes, at, out.view.draws, new);
+        blend::<L::Pixel>(pixels, new, how);
+        at.column += pixels.len() as u32;
+    }
 }

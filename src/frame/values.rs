@@ -1,10 +1,11 @@
-//! Lines with draw calls that have values few have (H9, H15).
+//! Lines with draw calls that have values few have (H9, H15, K11).
 //!
 //! Values are looked at once a span, and only where a call of the scene has any: other lines and other scenes know
 //! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
-//! submission, compared where spans meet or where values compare. Without depth all is drawn in order of submission.
+//! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
-use super::line::{deepen, insert};
+use super::line::deepen;
+use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
@@ -29,23 +30,42 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.mark_values(out.view);
         }
         if !self.has_values(out.view) {
-            return false;
+            return out.view.ranked && self.draw_ranked(out, background);
         }
         L::Pixel::fill(out.pixels, background);
-        self.covered = Mask::EMPTY;
-        self.find_spans(out);
-        self.met = true;
-        if !self.depth.is_empty() {
+        self.find_all(out);
+        // Where this is so, `over` says where depth is compared.
+        self.met = !self.depth.is_empty() && !out.view.ranked;
+        if self.met {
             self.find_compared(out);
         }
-        let count = self.submitted();
-        self.draw_submitted(count, out);
+        self.draw_in_order(out);
+        if self.met {
+            self.draw_translucent(out);
+        }
         self.covered = Mask::EMPTY;
         self.over = Mask::EMPTY;
         self.written = Mask::EMPTY;
         self.met = false;
-        self.ordered = 0;
+        self.forget_order();
         true
+    }
+
+    /// The columns of all spans, with a slot or without.
+    pub(super) fn find_all(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+        self.guests = 0;
+        if self.cache.spilled.is_some() {
+            self.find_spilled(out);
+        }
+        self.find_spans(out);
+        // Nobody sorts them by depth here.
+        self.guests = 0;
+    }
+
+    /// Says that what was kept of an order of slots has been written over.
+    pub(super) fn forget_order(&mut self) {
+        (self.ordered, self.nearest) = (0, 0);
+        self.plan = Plan::Changed;
     }
 
     /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
@@ -111,43 +131,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Puts the spans of slots in order of submission; how many there are.
-    fn submitted(&mut self) -> usize {
-        let mut count = 0;
-        for word in 0..WORDS {
-            let mut used = self.cache.used[word];
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
-                let span = Span::of(self.cache.spans[word][i]);
-                if span.start < span.end {
-                    let object = self.cache.slots[word][i].object;
-                    let key = u32::from(object) << 16 | (word * 32 + i) as u32;
-                    insert(self.cache.order.as_flattened_mut(), count, key);
-                    count += 1;
-                }
-            }
-        }
-        count
-    }
-
-    /// Draws spans in order of submission, and what has no slot between them.
-    fn draw_submitted(&mut self, count: usize, out: &mut Line<'_, '_, WordOf<L>>) {
-        let mut slow = self.cache.spilled;
-        for k in 0..count {
-            let key = self.cache.order.as_flattened().get(k).copied();
-            let key = key.unwrap_or_default();
-            while slow.is_some() && u32::from(slow.object()) < key >> 16 {
-                slow = self.draw_alone(slow, out);
-            }
-            self.draw_slot(key as usize & 0xFFFF, out);
-        }
-        while slow.is_some() {
-            slow = self.draw_alone(slow, out);
-        }
-    }
-
     /// Draws a span in a slot.
-    fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
         let (Some(slots), Some(spans), Some(deep)) = (
             self.cache.slots.get_mut(word),
@@ -157,7 +142,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
-        let is_compared = !self.depth.is_empty() && self.over.meets(span.start, span.end);
+        let is_compared = self.met && self.over.meets(span.start, span.end);
         if !Flags(slot.flags).has_values() {
             if is_compared {
                 return self.draw_meeting(number, out);
@@ -167,11 +152,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = out.view.state(slot.object) else {
             return;
         };
+        if is_compared && state.is_translucent() {
+            return;
+        }
         if is_compared {
             deepen::<L>(slot, deep, bit(i as u32), out.view);
         }
         let drawn = Drawn::of(slot);
         let known = is_compared.then_some(Known {
+            plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         });
@@ -179,22 +168,28 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Draws a span without a slot; the next of its kind.
-    fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
+    pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let state = out.view.state(at.object());
         let Some(state) = state.filter(|state| state.has_values()) else {
             return self.draw_spilled(at, out);
         };
         let after = next(self.links, at);
+        if self.met && state.is_translucent() {
+            return after;
+        }
         let Some(mut alone) = self.set_up_alone(at.object(), out) else {
             return after;
         };
         let span = alone.span;
-        let is_compared = !self.depth.is_empty() && self.over.meets(span.start, span.end);
-        if is_compared {
-            Self::find_depth(&mut alone, out.view);
-        }
+        let is_compared = self.met && self.over.meets(span.start, span.end);
+        let plane = if is_compared {
+            Self::find_depth(&mut alone, out.view)
+        } else {
+            [0; 3]
+        };
         let drawn = alone.drawn();
         let known = is_compared.then_some(Known {
+            plane,
             cells: self.depth,
             written: &mut self.written,
         });

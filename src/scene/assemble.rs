@@ -69,13 +69,7 @@ impl<'t, L> Scene<'_, 't, L> {
             return Err(DrawError::Mesh(MeshError::AttributeLength));
         }
         let submitted = triangles(mesh.faces);
-        let state = DrawState {
-            first: self.objects.len() as u16,
-            texture: skin.map(|skin| skin.texture),
-            budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
-            scissor: draw.scissor,
-            depth: draw.depth,
-        };
+        let state = DrawState::new(self.objects.len() as u16, draw, skin.as_ref());
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
                 memory: Full::Draws,
@@ -84,6 +78,7 @@ impl<'t, L> Scene<'_, 't, L> {
             });
         }
         self.has_values |= state.has_values();
+        self.is_ranked |= state.priority != 0;
         self.generation = self.generation.wrapping_add(1);
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),

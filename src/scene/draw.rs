@@ -1,6 +1,7 @@
 //! What a draw call says, and what pass two needs of it.
 
-use super::{Budget, DepthTest, Scissor, Texture};
+use super::texture::Square;
+use super::{Blend, Budget, DepthTest, Scissor, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh};
 use core::ops::Range;
 
@@ -25,6 +26,11 @@ pub struct Draw<'a, 't, C = i16> {
     pub scissor: Option<Scissor>,
     /// Where it is seen and where its depth is kept, by how that compares.
     pub depth: DepthTest,
+    /// What becomes of the colours that are there; `None` hides them.
+    pub blend: Option<Blend>,
+    /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
+    /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
+    pub priority: u8,
 }
 
 /// How a texture lies on a mesh.
@@ -55,6 +61,8 @@ impl<'a, C> Draw<'a, '_, C> {
             texture: None,
             scissor: None,
             depth: DepthTest::HIDES,
+            blend: None,
+            priority: 0,
         }
     }
 }
@@ -68,6 +76,10 @@ pub struct DrawState<'t> {
     pub(crate) budget: Budget,
     pub(crate) scissor: Option<Scissor>,
     pub(crate) depth: DepthTest,
+    pub(crate) blend: Option<Blend>,
+    pub(crate) priority: u8,
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    square: Option<Square<'t>>,
 }
 
 impl<'t> DrawState<'t> {
@@ -78,7 +90,28 @@ impl<'t> DrawState<'t> {
         budget: Budget::BALANCED,
         scissor: None,
         depth: DepthTest::HIDES,
+        blend: None,
+        priority: 0,
+        square: None,
     };
+
+    /// That of a call whose first triangle has this number, with a texture where the look draws one.
+    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, skin: Option<&Skin<'_, 't>>) -> Self {
+        let texture = skin.map(|skin| skin.texture);
+        Self {
+            first,
+            texture,
+            budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
+            scissor: draw.scissor,
+            depth: match draw.blend {
+                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
+                _ => draw.depth,
+            },
+            blend: draw.blend,
+            priority: draw.priority,
+            square: texture.and_then(Texture::square),
+        }
+    }
 
     /// The state of an object: that of the last call that began at it or before.
     pub(crate) fn of(object: u16, draws: &[Self]) -> Option<&Self> {
@@ -93,7 +126,12 @@ impl<'t> DrawState<'t> {
 
     /// Whether its pixels do anything else than hide what is behind them.
     pub(crate) fn compares(&self) -> bool {
-        self.depth != DepthTest::HIDES
+        self.blend.is_some() || self.depth != DepthTest::HIDES
+    }
+
+    /// Whether what is behind shines through.
+    pub(crate) fn is_translucent(&self) -> bool {
+        self.blend.is_some_and(|blend| blend.is_translucent())
     }
 
     /// The columns of a line that are kept, from left to right; either run may be empty.
@@ -108,5 +146,11 @@ impl<'t> DrawState<'t> {
     #[inline(always)]
     pub(crate) fn texture(&self) -> Option<(&'t Texture<'t>, Budget)> {
         Some((self.texture?, self.budget))
+    }
+
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    #[inline(always)]
+    pub(crate) fn square(&self) -> Option<Square<'t>> {
+        self.square
     }
 }

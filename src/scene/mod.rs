@@ -8,12 +8,13 @@
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `cut` | triangles that cross a plane |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
-//! | `scissor`, `depth` | what else a draw call does to its pixels, as values |
+//! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
 mod assemble;
+mod blend;
 mod budget;
 mod cut;
 mod depth;
@@ -25,6 +26,7 @@ mod scissor;
 mod texture;
 
 pub use crate::geometry::DepthFunction;
+pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Skin};
@@ -38,6 +40,7 @@ pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 use crate::arena::Arena;
 use crate::geometry::{Camera, Scale, Screen};
 use crate::link::Link;
+use crate::span::first_line;
 use core::marker::PhantomData;
 use core::ops::Range;
 
@@ -104,6 +107,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) scale: Scale,
     /// Whether a draw call has values that few have.
     pub(crate) has_values: bool,
+    /// Whether a draw call has a priority.
+    pub(crate) is_ranked: bool,
     pub(crate) assembled: Assembled,
     /// Counts changes, so that a renderer notices them.
     pub(crate) generation: u32,
@@ -124,6 +129,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             lines: 0..0,
             scale,
             has_values: false,
+            is_ranked: false,
             assembled: Assembled::default(),
             generation: 0,
             look: PhantomData,
@@ -166,6 +172,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.camera = Some(*camera);
         self.lines = lines;
         self.has_values = false;
+        self.is_ranked = false;
         self.assembled = Assembled::default();
         self.generation = self.generation.wrapping_add(1);
         Ok(())
@@ -195,6 +202,29 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             place: self.objects.as_slice().as_ptr().addr(),
             changes: self.generation,
         }
+    }
+
+    /// The first line from `line` on that a triangle begins on; the line after the last where none does.
+    pub(crate) fn begins_from(&self, line: u16) -> u16 {
+        let bins = self.bins.get(..self.lines.len()).unwrap_or_default();
+        let mut rest = bins
+            .iter()
+            .skip(usize::from(line.saturating_sub(self.lines.start)));
+        match rest.position(|&head| head != NONE) {
+            Some(lines) => line.max(self.lines.start) + lines as u16,
+            None => self.lines.end,
+        }
+    }
+
+    /// A line from which on no triangle is active, by the lowest vertex.
+    pub(crate) fn ends_by(&self) -> u16 {
+        let places = self.vertices.as_slice().iter().map(|v| v.place);
+        let lowest = places
+            .filter(|&place| place != Vertex::OUTSIDE)
+            .max()
+            .map_or(0, first_line);
+        let end = lowest - ORIGIN;
+        end.clamp(self.lines.start.into(), self.lines.end.into()) as u16
     }
 
     /// How many triangles are in memory.

@@ -176,10 +176,7 @@ impl Triangle<'_> {
     /// How the sides are evaluated.
     #[inline(always)]
     pub(crate) fn way(&self, size: Size) -> Way {
-        let (low, high) = (
-            8 * ORIGIN,
-            8 * (ORIGIN + self.frame.width),
-        );
+        let (low, high) = (8 * ORIGIN, 8 * (ORIGIN + self.frame.width));
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let inside = x.map(|x| (x - low) | (high - x));
         // Tiny and small triangles have short sides.
@@ -257,8 +254,9 @@ impl Sides {
         self.clipped(way, line, frame)
     }
 
+    /// The same of any sides.
     #[inline(never)]
-    fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
+    pub(crate) fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
         let of = |edge: Edge| {
             let column = if way.kind == Kind::Divided {
                 edge.divided(line as i32 + ORIGIN) - ORIGIN

@@ -4,7 +4,7 @@
 pub mod exact;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
-use scanbeam::look::{Gouraud, Look};
+use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
@@ -39,8 +39,8 @@ pub trait Smooth: Look + 'static {
 pub type WordOf<L> = <<L as Smooth>::Format as PixelFormat>::Word;
 
 macro_rules! smooth {
-    ($($format:ty),+) => {$(
-        impl Smooth for Gouraud<$format> {
+    ($($look:ident<$format:ty>),+) => {$(
+        impl Smooth for $look<$format> {
             type Format = $format;
 
             fn draw_line(
@@ -55,7 +55,12 @@ macro_rules! smooth {
         }
     )+};
 }
-smooth!(Rgb565, Rgb565Be, Rgb888);
+smooth!(
+    Gouraud<Rgb565>,
+    Gouraud<Rgb565Be>,
+    Gouraud<Rgb888>,
+    Textured<Rgb565Be>
+);
 
 /// What a scene is lent.
 pub struct SceneRooms {

@@ -1,0 +1,140 @@
+//! The order in which a line with values or priorities is drawn (P1).
+//!
+//! By priority no depth is kept: what is higher is drawn over what is lower, and among equal ones what was submitted
+//! later over what was before. A line on which no spans meet needs no order. On others that is a plan, found when
+//! triangles begin or end: from the highest on, each where nobody has been before. Where something is blended or
+//! has no slot, and in looks whose pixels depend on their runs, it goes from the lowest on.
+
+use super::line::insert;
+use super::plan::Plan;
+use super::renderer::{Renderer, View};
+use super::spans::{Line, Span};
+use crate::active::next;
+use crate::composite::PixelFormat;
+use crate::link::Link;
+use crate::look::{Look, WordOf};
+use crate::num::take_first;
+use crate::visible::Mask;
+
+/// A slot in its order: priority, number of the object, number of the slot.
+fn key(view: &View<'_>, object: u16, slot: usize) -> u32 {
+    view.rank(object) << 24 | u32::from(object) << 8 | slot as u32
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Draws a line without values by priority; `false` where there is a plan for it.
+    #[inline(never)]
+    pub(super) fn draw_ranked(
+        &mut self,
+        out: &mut Line<'_, '_, WordOf<L>>,
+        background: WordOf<L>,
+    ) -> bool {
+        if !self.cache.spilled.is_some() {
+            if matches!(self.plan, Plan::NearFirst(_)) {
+                return false;
+            }
+            if self.draw_calm(out) {
+                self.fill_rest(out.pixels, background);
+                return true;
+            }
+            self.covered = Mask::EMPTY;
+            if L::ANY_RUNS {
+                self.plan = Plan::NearFirst(self.highest_first(out.view));
+                return false;
+            }
+        }
+        L::Pixel::fill(out.pixels, background);
+        self.find_all(out);
+        self.met = false;
+        self.draw_in_order(out);
+        self.covered = Mask::EMPTY;
+        self.over = Mask::EMPTY;
+        self.forget_order();
+        true
+    }
+
+    /// Sorts the slots in use from the highest priority on; how many there are.
+    fn highest_first(&mut self, view: &View<'_>) -> u16 {
+        let mut count = 0;
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let i = take_first(&mut used) as usize & 31;
+                let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
+                insert(self.cache.order.as_flattened_mut(), count, key);
+                count += 1;
+            }
+        }
+        if let Some(order) = self.cache.order.as_flattened_mut().get_mut(..count) {
+            order.reverse();
+        }
+        self.forget_order();
+        count as u16
+    }
+
+    /// Draws all spans from the lowest priority on, or in order of submission, what has no slot between the others.
+    pub(super) fn draw_in_order(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+        let count = self.lowest_first(out.view);
+        let at = |keys: &[[u32; 32]; WORDS], k: usize| {
+            let keys = keys.as_flattened().get(..count);
+            keys.and_then(|keys| keys.get(k)).copied()
+        };
+        let (mut k, mut level) = (0, Some(0));
+        while let Some(rank) = level {
+            let mut slow = self.next_alone(self.cache.spilled, rank, out.view);
+            while let Some(key) = at(&self.cache.order, k).filter(|key| key >> 24 == rank) {
+                while slow.is_some() && u32::from(slow.object()) < key >> 8 & 0xFFFF {
+                    let after = self.draw_alone(slow, out);
+                    slow = self.next_alone(after, rank, out.view);
+                }
+                self.draw_slot(key as usize & 0xFF, out);
+                k += 1;
+            }
+            while slow.is_some() {
+                let after = self.draw_alone(slow, out);
+                slow = self.next_alone(after, rank, out.view);
+            }
+            let fast = at(&self.cache.order, k).map(|key| key >> 24);
+            level = self.level_above(rank, fast, out.view);
+        }
+    }
+
+    /// Sorts the slots with a span from the lowest priority on; how many there are.
+    fn lowest_first(&mut self, view: &View<'_>) -> usize {
+        let mut count = 0;
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let i = take_first(&mut used) as usize & 31;
+                let span = Span::of(self.cache.spans[word][i]);
+                if span.start < span.end {
+                    let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
+                    insert(self.cache.order.as_flattened_mut(), count, key);
+                    count += 1;
+                }
+            }
+        }
+        count
+    }
+
+    /// What has no slot and this priority, from `at` on.
+    fn next_alone(&self, mut at: Link, rank: u32, view: &View<'_>) -> Link {
+        while at.is_some() && view.rank(at.object()) != rank {
+            at = next(self.links, at);
+        }
+        at
+    }
+
+    /// The lowest priority above another; `fast` is that of what is in slots.
+    fn level_above(&self, rank: u32, fast: Option<u32>, view: &View<'_>) -> Option<u32> {
+        let (mut level, mut at) = (fast, self.cache.spilled);
+        while at.is_some() {
+            let here = view.rank(at.object());
+            if here > rank && level.is_none_or(|level| here < level) {
+                level = Some(here);
+            }
+            at = next(self.links, at);
+        }
+        level
+    }
+}
