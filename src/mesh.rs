@@ -4,5 +4,5 @@ pub use crate::geometry::{
     Assembled, Colour, Coordinate, Dropped, Material, MatrixRange, QuadSplit, Room, ScreenVertex,
     Sphere,
 };
-pub use crate::num::{I2F14, I2F30, U1F15};
+pub use crate::num::{I2F14, U1F15};
 pub use crate::renderer::Vertices;

@@ -271,6 +271,8 @@ pub(crate) fn next(links: &[Link], at: Link) -> Link {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
 
     /// Of a slot that begins on line 0, turns and ends: the lines on which the ring says so.
     fn changes_of(turn: u16, end: u16) -> [Option<u16>; 2] {
@@ -325,5 +327,42 @@ mod tests {
         assert_eq!(changes.ended, bit(0) | bit(3));
         let left = [cache.used[0], cache.plain[0], cache.deep[0]];
         assert_eq!(left, [bit(4); 3]);
+    }
+
+    /// Objects without a slot are in the order of their numbers, however they come and go.
+    #[test]
+    fn spilled_objects_are_a_sorted_list() {
+        let mut rng = Rng(12);
+        let mut cache = Cache::<(), 1>::with(());
+        let mut links = [Link::NONE; 50];
+        let mut model: Vec<u16> = Vec::new();
+        for _ in 0..4000 {
+            let object = rng.below(50) as u16;
+            match model.binary_search(&object) {
+                Err(at) => {
+                    cache.spill(object, &mut links);
+                    model.insert(at, object);
+                }
+                Ok(at) => {
+                    let link = |at: usize| model.get(at).map_or(Link::NONE, |o| Link::slow(*o));
+                    let before = at.checked_sub(1).map_or(Link::NONE, link);
+                    cache.relink(before, link(at + 1), &mut links);
+                    model.remove(at);
+                }
+            }
+            let mut found = Vec::new();
+            let mut at = cache.spilled;
+            while at.is_some() {
+                found.push(at.object());
+                at = next(&links, at);
+            }
+            assert_eq!(found, model);
+            assert_eq!(cache.is_empty(), model.is_empty());
+        }
+        // A column of links that is too short loses objects, and nothing else.
+        let mut cache = Cache::<(), 1>::with(());
+        cache.spill(7, &mut [Link::NONE; 3]);
+        assert_eq!(cache.spilled.object(), 7);
+        assert!(!next(&[Link::NONE; 3], cache.spilled).is_some());
     }
 }
