@@ -101,9 +101,7 @@ pub mod stats;
 pub mod texture;
 mod visible;
 
-pub use geometry::{
-    Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen, ScreenError,
-};
+pub use geometry::{Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen};
 pub use link::Link;
 pub use renderer::{
     DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, PassOne, RendererError,
