@@ -104,7 +104,7 @@ mod visible;
 pub use geometry::{Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen};
 pub use link::Link;
 pub use renderer::{
-    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, PassOne, RendererError,
-    Scene, SceneError, SceneMemory, draw_frame,
+    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, RendererError, Scene,
+    SceneError, SceneMemory, draw_frame,
 };
 pub use shade::Quality;
