@@ -26,9 +26,10 @@ use scanbeam::blend::{Compositing, ShadowError};
 use scanbeam::pipeline::{DepthUse, FlatDepth, GouraudDepth, Pipeline, WordOf};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
+use scanbeam::stats::PassOne;
 use scanbeam::{
-    Camera, DrawError, Faces, FrameError, FrameStats, Instance, Light, Link, Mesh, PassOne,
-    Quality, Scene, Screen,
+    Camera, DrawError, Faces, FrameError, FrameStats, Instance, Light, Link, Mesh, Quality, Scene,
+    Screen,
 };
 use scanbeam_model::{
     CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,

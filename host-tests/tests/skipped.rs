@@ -4,7 +4,8 @@ use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::mesh::Sphere;
 use scanbeam::pipeline::{GouraudDepth, WordOf};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, PassOne, Scene, Screen};
+use scanbeam::stats::PassOne;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 
 type Look = GouraudDepth<Rgb888>;
 
