@@ -150,7 +150,7 @@ fn a_ground_that_the_near_plane_cuts_shows_the_texels_of_f64() {
         ] {
             let got = picture(budget, roll);
             let (mut inner, mut wrong) = (0, 0);
-            for i in 0..WIDTH * HEIGHT {
+            for (i, &got) in got.iter().enumerate() {
                 // Where texels are smaller than pixels the snapping of the screen shows.
                 let Some((place, way)) = place(roll, i % WIDTH, i / WIDTH) else {
                     continue;
@@ -159,7 +159,7 @@ fn a_ground_that_the_near_plane_cuts_shows_the_texels_of_f64() {
                     continue;
                 }
                 inner += 1;
-                wrong += u32::from(!names(got[i], place));
+                wrong += u32::from(!names(got, place));
             }
             let part = f64::from(wrong) / f64::from(inner);
             println!(
