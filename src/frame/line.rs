@@ -1,9 +1,11 @@
 //! One line: who is seen, and its pixels (K4, K8, X3).
 //!
 //! Where the last line had no overlap, spans are coloured as they are found, and inserted into a coverage
-//! mask. Where two meet, all spans are found first; those that meet nobody are coloured, the others are sorted
-//! by submission, and only they have their depth compared: where nobody has written before it is written alone.
-//! Without depth they are drawn in that order. The background goes where the mask has nothing.
+//! mask. Where two meet, all spans are found first; those that meet nobody are coloured, the others are drawn from
+//! the nearest on (`near`). A look that needs its spans whole, and a line with more spans without a slot than there
+//! are cells of depth for, have them sorted by submission, and their depth compared pixel by pixel: where nobody has
+//! written before it is written alone. Without depth they are drawn in that order. The background goes where the
+//! mask has nothing.
 
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};

@@ -50,7 +50,7 @@ pub struct Memory<'m, L: Look, const WORDS: usize = 2> {
     pub cache: &'m mut FastMemory<L, WORDS>,
     /// This renderer's column of links, one for each triangle of the scene; in slow memory.
     pub links: &'m mut [Link],
-    /// The depth of one line, a cell a pixel, in fast memory. Empty: no depth is compared, and of triangles over
+    /// Cells for the depth of one line, one a pixel, in fast memory. Empty: no depth is compared, and of triangles over
     /// each other the one drawn last is seen.
     pub depth: &'m mut [u32],
 }
