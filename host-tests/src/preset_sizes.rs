@@ -1,6 +1,6 @@
 //! `firmware --sizes`: what each preset takes of flash and RAM, on each core.
 //!
-//! The program is `examples/qemu/src/preset.rs`: the teapot at 320x240 by one preset, with a cache
+//! The program is `host-tests/firmware/src/preset.rs`: the teapot at 320x240 by one preset, with a cache
 //! of 43 slots and two buffers of a line, no formatting and no messages. It is built for each
 //! preset and run, and refused where its picture is not the one that this machine draws by the
 //! same preset. Records are what the types take; they are the same on all cores.

@@ -8,7 +8,7 @@
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
-use super::spans::{Drawn, Known, Line, Span, colour, colour_run, nearer};
+use super::spans::{Drawn, Known, Line, Span, colour, colour_run, columns_of, nearer};
 use super::thin::depth_plane;
 use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
@@ -101,8 +101,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 return false;
             };
             let slot = &slots[number & 31];
-            let way = Flags(slot.flags).way();
-            let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
+            let Span { start, end } = columns_of::<L>(slot, out);
             if start >= end {
                 continue;
             }
@@ -141,8 +140,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
                 let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
-                let way = Flags(slot.flags).way();
-                let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
+                let Span { start, end } = columns_of::<L>(slot, out);
                 if start >= end {
                     continue;
                 }
@@ -193,8 +191,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut used = self.cache.used[word];
             while used != 0 {
                 let i = take_first(&mut used) as usize & 31;
-                let way = Flags(slots[i].flags).way();
-                let (start, end) = slots[i].item.sides.columns(way, out.number, out.view.frame);
+                let Span { start, end } = columns_of::<L>(&slots[i], out);
                 spans[i] = start << 16 | end;
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);

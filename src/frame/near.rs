@@ -13,7 +13,7 @@
 use super::renderer::Renderer;
 use super::rival::{CELLS, Guest, Rival, Slope, find_depth, rival_of, slope_of, thin_slope};
 use super::slot::{Active, Flags};
-use super::spans::{Drawn, Line, Span, colour_run, colour_slot};
+use super::spans::{Drawn, Line, Span, colour_run, colour_slot, columns_of};
 use super::thin::depth_plane;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::look::{Look, WordOf};
@@ -500,21 +500,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         drawing.hidden
     }
-}
-
-/// The columns of a slot.
-#[inline(always)]
-fn columns_of<L: Look>(slot: &CacheSlot<Active<L::Planes>>, out: &Line<'_, '_, WordOf<L>>) -> Span {
-    let (flags, sides) = (Flags(slot.flags), &slot.item.sides);
-    let (start, end) = if flags.is_direct() {
-        (
-            sides.left.column(out.number),
-            sides.right.column(out.number),
-        )
-    } else {
-        sides.clipped(flags.way(), out.number, out.view.frame)
-    };
-    Span { start, end }
 }
 
 /// Inserts a key among the first `count`, which fall.

@@ -239,7 +239,6 @@ impl<B: LineBuf> Desk<'_, B> {
 
     /// Begins a frame.
     fn open<L>(&mut self, scene: &Scene<'_, '_, L>) {
-        self.discard();
         self.lent.clear();
         self.next = scene.lines().start;
         self.blank = scene.begins_from(self.next);
@@ -404,3 +403,6 @@ where
     let closed = desk.close(end, peer).map_err(FrameError::Line);
     sent.and_then(|sent| closed.map(|()| sent))
 }
+
+#[cfg(test)]
+mod tests;

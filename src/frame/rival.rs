@@ -170,3 +170,87 @@ pub(super) fn rival_of<L: Look>(
         object: slot.object,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    #[test]
+    fn who_is_seen_is_told_for_each_column() {
+        let mut rng = Rng(11);
+        let (mut crossed, mut equal) = (0, 0);
+        for round in 0..40_000 {
+            let rival = |rng: &mut Rng, object: u16| {
+                let start = rng.below(60);
+                let span = Span {
+                    start,
+                    end: start + 1 + rng.below([3, 40][round % 2]),
+                };
+                let slope = Slope {
+                    at: (1 << 20) + rng.below(64),
+                    step: rng.below(7).wrapping_sub(3),
+                };
+                Rival {
+                    span,
+                    slope,
+                    object,
+                }
+            };
+            let mut pair = [rival(&mut rng, 5), rival(&mut rng, 9)];
+            if round % 5 == 0 {
+                pair[1].slope = pair[0].slope;
+            }
+            if round % 3 == 0 {
+                pair.swap(0, 1);
+            }
+            let [a, b] = pair;
+            let of = |r: Rival, c: u32| r.slope.at.wrapping_add(r.slope.step.wrapping_mul(c));
+            let both: Vec<u32> = (a.span.start..a.span.end)
+                .filter(|c| (b.span.start..b.span.end).contains(c))
+                .collect();
+            let want: Vec<u32> = both
+                .iter()
+                .copied()
+                .filter(|&c| match of(a, c).cmp(&of(b, c)) {
+                    std::cmp::Ordering::Equal => a.object > b.object,
+                    order => order.is_gt(),
+                })
+                .collect();
+            let hidden = a.hidden_of(b);
+            let got: Vec<u32> = hidden.map_or(Vec::new(), |s| (s.start..s.end).collect());
+            assert_eq!(got, want);
+            crossed += u32::from(!want.is_empty() && want.len() < both.len());
+            equal += u32::from(both.iter().any(|&c| of(a, c) == of(b, c)));
+        }
+        assert!(crossed > 1_000 && equal > 1_000, "{crossed}, {equal}");
+    }
+
+    #[test]
+    fn what_lies_in_cells_comes_back() {
+        let rival = Rival {
+            span: Span {
+                start: 3,
+                end: 1016,
+            },
+            slope: Slope {
+                at: 0x8123_4567,
+                step: 0xFFFF_FF00,
+            },
+            object: 61_439,
+        };
+        let guest = Guest { key: 77, rival };
+        let mut cells = [0; 3 * CELLS - 1];
+        guest.keep(&mut cells, 1);
+        let back = Guest::of(&cells, 1).unwrap();
+        assert_eq!((back.key, back.rival.object), (77, 61_439));
+        assert_eq!(back.rival.slope.at(5), rival.slope.at(5));
+        assert_eq!(back.rival.slope.at(0), rival.slope.at(0));
+        assert_eq!((back.rival.span.start, back.rival.span.end), (3, 1016));
+        guest.keep(&mut cells, 2);
+        assert!(Guest::of(&cells, 2).is_none());
+        assert_eq!(cells[..CELLS], [0; CELLS]);
+        assert_eq!(cells[2 * CELLS..], [0; CELLS - 1]);
+    }
+}

@@ -118,6 +118,24 @@ pub(super) fn thin_planes<L: Look>(
     planes
 }
 
+/// The columns of a slot.
+#[inline(always)]
+pub(super) fn columns_of<L: Look>(
+    slot: &CacheSlot<Active<L::Planes>>,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> Span {
+    let (flags, sides) = (Flags(slot.flags), &slot.item.sides);
+    let (start, end) = if flags.is_direct() {
+        (
+            sides.left.column(out.number),
+            sides.right.column(out.number),
+        )
+    } else {
+        sides.clipped(flags.way(), out.number, out.view.frame)
+    };
+    Span { start, end }
+}
+
 /// Colours the span of a slot.
 #[inline(never)]
 pub(super) fn colour_slot<L: Look>(

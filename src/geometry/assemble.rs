@@ -3,7 +3,7 @@
 
 use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
-use super::colour::{Colour, Scale, Tint};
+use super::colour::{Scale, Tint};
 use super::light::{LightingModel, ModelLight};
 use super::mesh::{Coordinate, Faces, Mesh};
 use super::object::{OUTSIDE, Object, SceneVertex};
@@ -18,7 +18,7 @@ mod faces;
 mod outcome;
 mod screen;
 
-use colours::{Colours, face_normal};
+use colours::Colours;
 
 pub use faces::Cull;
 use faces::{Picture, check_known, first_line, first_of, is_seen, leading};
@@ -458,53 +458,6 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     #[inline]
     fn first_line(&self, p: [(u16, u16); 3]) -> Option<i32> {
         first_line(p, self.cull, &self.picture)
-    }
-
-    /// The lit colour of a vertex.
-    fn vertex_colour<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
-        let colours = Colours {
-            light: self.light,
-            tint: self.tint,
-            scale: self.scale,
-        };
-        colours.vertex(mesh, i)
-    }
-
-    /// The lit colour of a face, by its own normal.
-    #[inline]
-    fn face_colour<C: Coordinate>(
-        &self,
-        mesh: &Mesh<'_, C>,
-        corners: [u16; 3],
-        provoking: u16,
-    ) -> S::Face {
-        let mut face = self.face_lit(mesh, corners, provoking);
-        S::dress_face(&mut face, &self.skin);
-        face
-    }
-
-    #[inline]
-    fn face_lit<C: Coordinate>(
-        &self,
-        mesh: &Mesh<'_, C>,
-        corners: [u16; 3],
-        provoking: u16,
-    ) -> S::Face {
-        if !S::PER_FACE {
-            return S::Face::default();
-        }
-        let tint = match mesh.colours.get(usize::from(provoking)) {
-            Some(&colour) => Tint::new(colour, self.scale),
-            None => self.tint,
-        };
-        S::face(match &self.light {
-            Some(light) => {
-                let p = corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30));
-                let place = || mesh.positions[usize::from(provoking)];
-                light.lit(&tint, self.scale, face_normal(p), place)
-            }
-            None => tint.lit(1 << 15),
-        })
     }
 }
 

@@ -182,20 +182,10 @@ impl<'a> Near<'a> {
         // Sides times 64 / area are these times 2^(up - 44).
         let share = |d: i32| (d * r) << 3;
         let (y2, y1, x1, x2) = (share(dy[1]), share(-dy[0]), share(dx[0]), share(-dx[1]));
-        let plane = |axis: usize, log: u32| {
-            let [e1, e2] = rises[axis].map(|e| e as i16);
-            // 16 - log fraction bits, of 8 in e: rounded.
-            let down = (20 + log).wrapping_sub(up) & 31;
-            let half = 1 << down >> 1;
-            let step = |a: i32, b: i32| (half + mul_16(a, e1) + mul_16(b, e2)) >> down;
-            let (right, below) = (step(y2, y1), step(x2, x1));
-            // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
-            let rest = 32 - right.wrapping_mul(x & 63) - below.wrapping_mul(y & 63);
-            let at = ((first[axis] << (8 - log)) & 0xFFFF) + (rest >> 6);
-            [at, right, below]
-        };
-        let u = plane(0, texture.log_width());
-        let v = plane(1, texture.log_height());
+        let shares = [y2, y1, x1, x2];
+        let at = [x & 63, y & 63];
+        let u = one_axis(first[0], rises[0], texture.log_width(), up, shares, at);
+        let v = one_axis(first[1], rises[1], texture.log_height(), up, shares, at);
         let both = |i: usize| (v[i] << 16).wrapping_add(u[i]) as u32;
         let (right, below) = (both(1), both(2));
         let at = both(0)
@@ -203,6 +193,28 @@ impl<'a> Near<'a> {
             .wrapping_sub(below.wrapping_mul((y >> 6) as u32));
         Some([at, right, below])
     }
+}
+
+/// The place of one axis at the first corner's pixel, and its steps, with `16 - log` fraction bits.
+#[inline(always)]
+fn one_axis(
+    first: i32,
+    rise: [i32; 2],
+    log: u32,
+    up: u32,
+    [y2, y1, x1, x2]: [i32; 4],
+    [x, y]: [i32; 2],
+) -> [i32; 3] {
+    let [e1, e2] = rise.map(|e| e as i16);
+    // Of 8 fraction bits in a rise; rounded.
+    let down = (20 + log).wrapping_sub(up) & 31;
+    let half = 1 << down >> 1;
+    let right = (half + mul_16(y2, e1) + mul_16(y1, e2)) >> down;
+    let below = (half + mul_16(x2, e1) + mul_16(x1, e2)) >> down;
+    // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+    let rest = 32 - right.wrapping_mul(x) - below.wrapping_mul(y);
+    let at = ((first << (8 - log)) & 0xFFFF) + (rest >> 6);
+    [at, right, below]
 }
 
 /// Whether no place of a triangle comes within 1/8 texel of the texture's rim.
@@ -483,42 +495,61 @@ impl Mapping {
     }
 
     /// Copies texels into `run`, whose first pixel is at `column` and `line` of the picture.
-    #[inline(never)]
+    #[inline(always)]
     pub fn draw(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
-        if self.method == Method::Word {
-            let plane = &self.planes[0];
-            return copy(run, texture, word_at(plane, place), plane[1]);
+        if run.len() <= usize::from(self.quick) {
+            return self.span(place).between(run, texture);
         }
-        let Place { column, line, .. } = place;
-        let [s, t, q] = self.planes.map(|[at, dx, dy]| {
-            at.wrapping_add(dx.wrapping_mul(column))
-                .wrapping_add(dy.wrapping_mul(line))
-        });
-        let [ds, dt, dq] = self.planes.map(|[_, dx, _]| dx);
-        let uv = |u: u32, v: u32| Uv {
-            u: u as i32,
-            v: v as i32,
-        };
-        let base = self.base;
-        if self.method == Method::Wide {
-            let (at, step) = (uv(s, t), uv(ds, dt));
-            let copy = if budget.is_coarse() {
-                copy_wide
-            } else {
-                copy_exact
-            };
-            return copy(run, texture, Way { base, at, step });
-        }
+        self.draw_any(run, place, texture, budget);
+    }
+
+    #[inline(always)]
+    fn span(&self, place: Place) -> Perspective {
+        let [s, t, q] = [0, 1, 2].map(|i| word_at(&self.planes[i], place));
+        let [ds, dt, dq] = self.planes.map(|[_, right, _]| right);
         let of = |q, s: u32, t: u32| Homogeneous {
             q,
             s: s as i32,
             t: t as i32,
         };
-        let (at, step) = (of(q, s, t), of(dq, ds, dt));
-        let span = Perspective { base, at, step };
-        if run.len() <= usize::from(self.quick) {
-            return span.between(run, texture);
+        Perspective {
+            base: self.base,
+            at: of(q, s, t),
+            step: of(dq, ds, dt),
         }
+    }
+
+    #[inline(never)]
+    fn draw_any(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+        match self.method {
+            Method::Word => {
+                let plane = &self.planes[0];
+                copy(run, texture, word_at(plane, place), plane[1]);
+            }
+            Method::Wide => {
+                let uv = |u: u32, v: u32| Uv {
+                    u: u as i32,
+                    v: v as i32,
+                };
+                let [u, v] = [0, 1].map(|i| word_at(&self.planes[i], place));
+                let way = Way {
+                    base: self.base,
+                    at: uv(u, v),
+                    step: uv(self.planes[0][1], self.planes[1][1]),
+                };
+                if budget.is_coarse() {
+                    copy_wide(run, texture, way);
+                } else {
+                    copy_exact(run, texture, way);
+                }
+            }
+            Method::Perspective => self.draw_long(run, place, texture, budget),
+        }
+    }
+
+    #[inline(always)]
+    fn draw_long(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+        let span = self.span(place);
         if run.len() < 2 * usize::from(self.quick) {
             return span.between_three(run, texture);
         }

@@ -244,6 +244,7 @@ impl<F: Texel> Paint for Textured<F> {
             let near = Self::near(triangle);
             if let Some(plane) = near.word_plane(texture, budget) {
                 planes.mapping.method = Method::Word;
+                planes.mapping.quick = 0;
                 planes.mapping.planes[0] = plane;
                 planes.mapped = true;
                 is_plain = state.and_then(DrawState::square).is_some();

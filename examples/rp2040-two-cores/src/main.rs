@@ -34,7 +34,7 @@ const AHEAD: usize = 24;
 #[unsafe(link_section = ".boot2")]
 #[used]
 static BOOT2: [u8; 256] = rp2040_boot2::BOOT_LOADER_W25Q080;
-static CORE1_STACK: multicore::Stack<4096> = multicore::Stack::new();
+static CORE1_STACK: multicore::Stack<2048> = multicore::Stack::new();
 static SCENES: StaticCell<Scenes> = StaticCell::new();
 static RELAY: StaticCell<Relay<RelayLine, { AHEAD + 1 }>> = StaticCell::new();
 
