@@ -23,6 +23,8 @@ mod error;
 mod project;
 mod record;
 mod scissor;
+#[cfg(test)]
+mod tests;
 mod texture;
 
 pub use crate::geometry::DepthFunction;
