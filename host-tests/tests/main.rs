@@ -37,7 +37,6 @@ mod hot_path_colours;
 mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_errors;
-mod hot_path_ground;
 mod hot_path_texels;
 mod input;
 mod lines_alone;
