@@ -138,6 +138,22 @@ impl Course {
         }
     }
 
+    /// Whether the colour does not step.
+    #[inline(always)]
+    fn is_even(&self) -> bool {
+        self.step[0] | self.step[1] | self.step[2] == 0
+    }
+
+    /// The pixel of a colour that does not step.
+    #[inline(always)]
+    fn even<F: Pixel>(&self) -> F::Word {
+        if F::PACKED {
+            return F::of_word(self.packed(0).word);
+        }
+        let [at, _] = self.pair(0);
+        F::pack_words(at.red_blue, at.green)
+    }
+
     /// The word of colour so many pixels on from an anchor.
     #[inline(always)]
     fn packed(&self, off: u32) -> Packed {
@@ -322,11 +338,14 @@ impl<F: Pixel> Paint for Gouraud<F> {
     #[inline(never)]
     fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
         if fill == Fill::Plain {
-            return ramp::fill_long::<F>(run, Self::packed(planes, place));
+            return ramp::fill_any::<F>(run, Self::packed(planes, place));
         }
         let off = place.column.wrapping_sub(place.span) & 15;
         let column = place.column.wrapping_sub(off);
         let mut course = course(fill, planes, Place { column, ..place });
+        if course.is_even() {
+            return F::fill(run, course.even::<F>());
+        }
         let mut off = off;
         let mut rest = run;
         while !rest.is_empty() {
