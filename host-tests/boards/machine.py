@@ -4,7 +4,7 @@ import argparse
 import struct
 import sys
 
-from unicorn import Uc, UcError, arm_const as arm
+from unicorn import UC_ARCH_ARM, UC_MODE_MCLASS, UC_MODE_THUMB, Uc, UcError, arm_const as arm
 from unicorn.unicorn_const import UC_ERR_INSN_INVALID
 
 from elf import Elf
@@ -125,8 +125,21 @@ class CortexM(Machine):
 
     NOP, YIELD, WFE = b"\x00\xbf", b"\x10\xbf", b"\x20\xbf"
     RETURN = 0xFFFFFFF9
+    SYSTEM, SYSTEM_SIZE = 0xE0000000, 1 << 20  # the core's own registers, as plain memory
     VECTOR_TABLE = 0xE000ED08
     FRAME = 0x68  # what an exception may put on the stack
+
+    def __init__(self, elf, frames, model, flash, ram):
+        """`model` is unicorn's number of the core; flash and RAM are each a place and a size. The
+        program lies in flash, and may use floats."""
+        uc = Uc(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
+        uc.ctl_set_cpu_model(model)
+        super().__init__(uc, elf, frames)
+        for place, size in flash, ram, (self.SYSTEM, self.SYSTEM_SIZE):
+            uc.mem_map(place, size)
+        uc.reg_write(arm.UC_ARM_REG_C1_C0_2, 0xF << 20)
+        uc.reg_write(arm.UC_ARM_REG_FPEXC, 1 << 30)
+        self.load(stored=True)
 
     def boot(self, flash):
         self.flash = flash

@@ -1,6 +1,5 @@
 """One core of an RP2350 as the example uses it: clocks, resets, GPIO, SPI0 and the DMA."""
 
-from unicorn import UC_ARCH_ARM, UC_MODE_MCLASS, UC_MODE_THUMB, Uc
 from unicorn.arm_const import UC_CPU_ARM_CORTEX_M33
 
 from machine import CortexM, arguments
@@ -25,14 +24,8 @@ ALIASES = "RWCT", "TRWC", "TCRW", "TWCR"
 
 class Chip(CortexM):
     def __init__(self, elf, frames):
-        uc = Uc(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
-        uc.ctl_set_cpu_model(UC_CPU_ARM_CORTEX_M33)
-        super().__init__(uc, elf, frames)
-        uc.mem_map(FLASH, FLASH_SIZE)
-        uc.mem_map(RAM, RAM_SIZE)
-        uc.mem_map(0xE0000000, 1 << 20)
-        self.load(stored=True)
-        self.check(IMAGE_BLOCK in uc.mem_read(FLASH, 4096), "no image block for the boot ROM")
+        super().__init__(elf, frames, UC_CPU_ARM_CORTEX_M33, (FLASH, FLASH_SIZE), (RAM, RAM_SIZE))
+        self.check(IMAGE_BLOCK in self.uc.mem_read(FLASH, 4096), "no image block for the boot ROM")
         for base, size in (0x40000000, 0x170000), (DMA, 0x10000), (SIO, 0x1000):
             self.map_registers(base, size)
         self.bus = Bus(self.wire, depth=8)

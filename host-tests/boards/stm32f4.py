@@ -1,7 +1,6 @@
 """An STM32F411 as the example uses it: clocks, GPIOA, SPI1 and stream 3 of DMA2."""
 
-from unicorn import UC_ARCH_ARM, UC_MODE_MCLASS, UC_MODE_THUMB, Uc
-from unicorn.arm_const import UC_ARM_REG_C1_C0_2, UC_ARM_REG_FPEXC, UC_CPU_ARM_CORTEX_M4
+from unicorn.arm_const import UC_CPU_ARM_CORTEX_M4
 
 from machine import CortexM, arguments
 from wire import Bus
@@ -20,15 +19,7 @@ DC = 1 << 1  # PA1
 
 class Chip(CortexM):
     def __init__(self, elf, frames):
-        uc = Uc(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
-        uc.ctl_set_cpu_model(UC_CPU_ARM_CORTEX_M4)
-        super().__init__(uc, elf, frames)
-        uc.mem_map(FLASH, FLASH_SIZE)
-        uc.mem_map(RAM, RAM_SIZE)
-        uc.mem_map(0xE0000000, 1 << 20)
-        uc.reg_write(UC_ARM_REG_C1_C0_2, 0xF << 20)
-        uc.reg_write(UC_ARM_REG_FPEXC, 1 << 30)
-        self.load(stored=True)
+        super().__init__(elf, frames, UC_CPU_ARM_CORTEX_M4, (FLASH, FLASH_SIZE), (RAM, RAM_SIZE))
         self.map_registers(PERIPHERALS, 0x80000)
         self.map_aliases()
         self.bus = Bus(self.wire, depth=2)

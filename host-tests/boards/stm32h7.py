@@ -6,8 +6,7 @@ order of a wire: the higher byte of each pixel first.
 
 import struct
 
-from unicorn import UC_ARCH_ARM, UC_MODE_MCLASS, UC_MODE_THUMB, Uc
-from unicorn.arm_const import UC_ARM_REG_C1_C0_2, UC_ARM_REG_FPEXC, UC_CPU_ARM_CORTEX_M7
+from unicorn.arm_const import UC_CPU_ARM_CORTEX_M7
 
 from machine import CortexM, arguments
 
@@ -43,15 +42,7 @@ def halves(value):
 
 class Chip(CortexM):
     def __init__(self, elf, frames):
-        uc = Uc(UC_ARCH_ARM, UC_MODE_THUMB | UC_MODE_MCLASS)
-        uc.ctl_set_cpu_model(UC_CPU_ARM_CORTEX_M7)
-        super().__init__(uc, elf, frames)
-        uc.mem_map(FLASH, FLASH_SIZE)
-        uc.mem_map(RAM, RAM_SIZE)
-        uc.mem_map(0xE0000000, 1 << 20)
-        uc.reg_write(UC_ARM_REG_C1_C0_2, 0xF << 20)
-        uc.reg_write(UC_ARM_REG_FPEXC, 1 << 30)
-        self.load(stored=True)
+        super().__init__(elf, frames, UC_CPU_ARM_CORTEX_M7, (FLASH, FLASH_SIZE), (RAM, RAM_SIZE))
         self.map_registers(0x40000000, 0x20000000)
         self.registers.update({GCR: GCR_RESET, RCC_CR: 1})  # the internal clock is on
         self.looks = 0

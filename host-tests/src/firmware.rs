@@ -1,4 +1,4 @@
-//! Builds the firmware of `examples/qemu` for Cortex-M, runs it in QEMU and reads what it prints.
+//! Builds the firmware of `host-tests/firmware` for Cortex-M, runs it in QEMU and reads what it prints.
 //!
 //! ```text
 //! Toolchain::find() -> build() -> ELF -> Sections::read()
@@ -234,10 +234,10 @@ fn target_directory(toolchain: &Toolchain) -> PathBuf {
         .join(toolchain.source.name())
 }
 
-/// The program of `examples/qemu` that draws and compares the test scenes.
+/// The program of `host-tests/firmware` that draws and compares the test scenes.
 pub const COMPARER: &str = "qemu-firmware";
 
-/// Builds a program of `examples/qemu` and gives the path of its ELF.
+/// Builds a program of `host-tests/firmware` and gives the path of its ELF.
 ///
 /// `program` is [`COMPARER`] or another binary there, `features` are its features. What cargo says is kept for the error; a first build
 /// takes about half a minute, or a whole one with `core`.
@@ -286,7 +286,7 @@ pub fn build_all(
         words.extend(["--features", &features]);
     }
     let package = Package {
-        folder: workspace().join("examples/qemu"),
+        folder: workspace().join("host-tests/firmware"),
         target,
         crates: "core",
     };

@@ -4,7 +4,7 @@ use crate::args::FirmwareArgs;
 use crate::draw::ModelLines;
 use crate::effect_frames::effect_frames;
 use crate::figures::gate::{Record, Verdict};
-use crate::figures::{Bench, Figure, Size, growth};
+use crate::figures::{Bench, Figure, Size, growth, suite};
 use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
@@ -108,6 +108,7 @@ fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
         record.write(&path)?;
         tell!("recorded: {}", toolchain.version);
     }
+    suite::write(&record)?;
     tell!("{} is new: look at what changed in it", path.display());
     Ok(false)
 }

@@ -1,14 +1,14 @@
 //! `firmware --sizes`: what each preset takes of flash and RAM, on each core.
 //!
-//! The program is `examples/qemu/src/preset.rs`: the teapot at 320x240 by one preset, with a cache
+//! The program is `host-tests/firmware/src/preset.rs`: the teapot at 320x240 by one preset, with a cache
 //! of 43 slots and two buffers of a line, no formatting and no messages. It is built for each
 //! preset and run, and refused where its picture is not the one that this machine draws by the
 //! same preset. Records are what the types take; they are the same on all cores.
 
 use crate::args::FirmwareArgs;
-use crate::bench::table::between;
+use crate::bench::table::{between, page};
 use crate::firmware::{
-    self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain, workspace,
+    self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain,
 };
 use crate::firmware_report::draw;
 use crate::image_out::write_atomically;
@@ -22,7 +22,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// What stands before and after the table in the README.
+/// What stands before and after the table in `host-tests/figures/tables.md`.
 const MARKERS: [&str; 2] = [
     "<!-- sizes: written by `firmware --sizes --markdown` -->",
     "<!-- /sizes -->",
@@ -217,10 +217,10 @@ pub fn measure() -> Result<Vec<PresetSize>, Box<dyn Error>> {
     measured.collect()
 }
 
-/// Measures, prints, and writes the README where that is asked.
+/// Measures, prints, and writes the table where that is asked.
 ///
 /// # Errors
-/// As [`measure`], and where the README cannot be written.
+/// As [`measure`], and where the table cannot be written.
 pub(crate) fn run(args: &FirmwareArgs) -> Result<(), Box<dyn Error>> {
     let sizes = measure()?;
     if args.json {
@@ -236,7 +236,7 @@ pub(crate) fn run(args: &FirmwareArgs) -> Result<(), Box<dyn Error>> {
         }
     }
     if args.markdown {
-        write(&workspace().join("README.md"), &sizes)?;
+        write(&page(), &sizes)?;
     }
     Ok(())
 }
@@ -314,7 +314,7 @@ mod tests {
         assert_eq!(size.to_json(true)["fast_bytes"], 6_516);
         let written = markdown(std::slice::from_ref(&size));
         assert!(written.contains("| `GouraudDepth` | 50,123 |"), "{written}");
-        let readme = include_str!("../../README.md");
+        let readme = include_str!("../figures/tables.md");
         let new = between(readme, MARKERS, &written).unwrap();
         assert_eq!(between(&new, MARKERS, &written).unwrap(), new);
         assert_eq!(thousands(1_002_003), "1,002,003");

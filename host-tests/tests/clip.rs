@@ -5,10 +5,11 @@
 //! clips of their own; at each pixel the right picture is that of the groups which keep the pixel.
 
 use crate::common::{LineRooms, Rng, SceneRooms};
+use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::blend::Finish;
 use scanbeam::event::{Event, EventSet, Notice};
 use scanbeam::input::{ListMemory, ListRunner, ListSettings};
-use scanbeam::list::{Budget, FieldForm, FieldPacker, Halt, Header, Id, ListWriter, State, Window};
+use scanbeam::list::{Budget, FieldForm, Halt, Header, Id, State, Window};
 use scanbeam::parallel::Interleave;
 use scanbeam::pipeline::{
     Clip, Composited, Counted, FlatDepth, FlatPainter, Forward, GouraudDepth, GouraudPainter,

@@ -2,10 +2,11 @@
 
 use crate::common::{Rng, SceneRooms, frame};
 use crate::listing::{PLENTY, Room};
+use host_tests::lists::writer::ListWriter;
 use host_tests::places::{PlaceFormat, Places};
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::ListSettings;
-use scanbeam::list::{self, Halt, Header, Id, ListWriter, Material, State, TexelForm, TextureSlot};
+use scanbeam::list::{self, Halt, Header, Id, Material, State, TexelForm, TextureSlot};
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pipeline::{
     Composited, Depth32, Flat, ListedDepth, Packed8, Parts, PhongDepth, Pipeline, TexturedDepth,

@@ -12,11 +12,13 @@ use crate::common::Rng;
 use crate::hot::exact::{weights, within};
 use crate::hot::{Corner, LineRooms, Place, Smooth, WordOf, frame, line, with_scene};
 use scanbeam::Screen;
-use scanbeam::look::Gouraud;
+use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::Scene;
 
 type L = Gouraud<Rgb888>;
+/// A look that keeps the depth of what meets; others ask it at the ends of spans alone.
+type Kept = Textured<Rgb565>;
 /// Depth where w is 1.
 const ONE: f64 = (1u32 << 30) as f64;
 /// What all depths are raised by.
@@ -110,7 +112,7 @@ fn depth_is_within_its_bound_of_1_over_w() {
         let one = triangle(&mut rng, bits, away, 0);
         let at = one.map(|c| c.at);
         let bound = bound(&one);
-        with_scene::<L, _>(screen, &[one; 2], |scene| {
+        with_scene::<Kept, _>(screen, &[one; 2], |scene| {
             let slots = rng.pick(&[0, 1, 4]);
             for y in 0..screen.height() {
                 let columns = within(at, y.into(), screen.width());
@@ -118,7 +120,7 @@ fn depth_is_within_its_bound_of_1_over_w() {
                     continue;
                 }
                 let mut rooms = LineRooms::fitting(scene, slots, true);
-                line(&mut rooms.renderer(), scene, y, [0; 3]);
+                line(&mut rooms.renderer(), scene, y, 0);
                 for x in columns {
                     let want = exact(&one, x, y) + RAISED;
                     let off = (f64::from(rooms.depth[x]) - want).abs();
@@ -152,13 +154,13 @@ fn depth_never_wraps() {
             w: rng.pick(&[1.0, 1.0, 4_000.0, 65_400.0]),
             colour: [200, 0, 0],
         });
-        with_scene::<L, _>(screen, &[one; 2], |scene| {
+        with_scene::<Kept, _>(screen, &[one; 2], |scene| {
             let slots = rng.pick(&[0, 4]);
             let mut rooms = LineRooms::fitting(scene, slots, true);
             let mut cells = Vec::new();
             for y in (0..screen.height()).step_by(3) {
                 rooms.depth.fill(u32::MAX);
-                line(&mut rooms.renderer(), scene, y, [0; 3]);
+                line(&mut rooms.renderer(), scene, y, 0);
                 cells.extend(rooms.depth.iter().filter(|&&cell| cell != u32::MAX));
             }
             for cell in cells {

@@ -2,12 +2,12 @@
 
 use crate::common::Rng;
 use crate::listing::{HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, triangle};
+use host_tests::lists::writer::ListWriter;
 use scanbeam::Light;
 use scanbeam::event::{Event, EventFlags, EventSet, Notice};
 use scanbeam::input::{ListRunner, ListSettings, OnViolation};
 use scanbeam::list::{
-    Budget, Flow, Halt, LightWords, ListCommand, ListControl, ListRing, ListWriter, Material,
-    State, Window,
+    Budget, Flow, Halt, LightWords, ListCommand, ListControl, ListRing, Material, State, Window,
 };
 use std::sync::atomic::AtomicU32;
 

@@ -3,12 +3,13 @@
 
 use crate::common::{self, LineRooms, Rng, SceneRooms};
 use host_tests::lists::print;
+use host_tests::lists::writer::{Form, ListWriter};
 use scanbeam::event::Notice;
 use scanbeam::input::{EightLights, ListMemory, ListRunner, ListSettings};
 use scanbeam::list::{
-    Bounds, Budget, CameraWords, Field, FieldForm, Flow, Form, Halt, Head, Header, Id, LightWords,
-    ListWriter, Material, Matrix, Overlay, OverlaySlot, Palette, State, TexelForm, Texture,
-    TextureSlot, VertexFormat, Window, parameter,
+    Bounds, Budget, CameraWords, Field, FieldForm, Flow, Halt, Head, Header, Id, LightWords,
+    Material, Matrix, Overlay, OverlaySlot, Palette, State, TexelForm, Texture, TextureSlot,
+    VertexFormat, Window, parameter,
 };
 use scanbeam::overlay::{LineOverlay, ListOverlays};
 use scanbeam::pipeline::ListedDepth;

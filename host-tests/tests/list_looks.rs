@@ -4,13 +4,14 @@ use crate::common::Rng;
 use crate::listing::{
     self, Cloud, HEIGHT, PLENTY, Room, Smooth, WIDTH, begin, drawn, rooms, some_instance,
 };
+use host_tests::lists::writer::ListWriter;
 use scanbeam::blend::Finish;
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::{ListRunner, ListSettings};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::list::{
-    FieldForm, Flow, Halt, Header, Id, LightWords, ListWriter, Material, Overlay, OverlaySlot,
-    Palette, State, TexelForm, TextureSlot,
+    FieldForm, Flow, Halt, Header, Id, LightWords, Material, Overlay, OverlaySlot, Palette, State,
+    TexelForm, TextureSlot,
 };
 use scanbeam::mesh::{I2F14, U1F15};
 use scanbeam::overlay::{LineOverlay, ListOverlays};

@@ -6,9 +6,10 @@ use crate::listing::{
     Cloud, Faceted, HEIGHT, PLENTY, Room, Smooth, WIDTH, drawn, in_blocks, listed, some_format,
     some_instance, unrolled,
 };
+use host_tests::lists::writer::ListWriter;
 use scanbeam::event::Notice;
 use scanbeam::input::ListSettings;
-use scanbeam::list::{Bounds, Halt, Header, Id, ListWriter, Material, Matrix, State};
+use scanbeam::list::{Bounds, Halt, Header, Id, Material, Matrix, State};
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pipeline::{Pipeline, WordOf};
 use scanbeam::{Affine, Cull, Faces, Instance, Mesh};

@@ -2,11 +2,12 @@
 
 use crate::common::Rng;
 use crate::listing::{self, PLENTY, Room, drawn, some_instance};
+use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::ListSettings;
 use scanbeam::list::{
-    Field, FieldForm, FieldPacker, Flow, Halt, Header, Id, ListRing, ListWriter, Material, Palette,
-    State, TexelForm, Texture, TextureSlot, VertexFormat, parameter,
+    Field, FieldForm, Flow, Halt, Header, Id, ListRing, Material, Palette, State, TexelForm,
+    Texture, TextureSlot, VertexFormat, parameter,
 };
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pipeline::{ListedDepth, TexturedDepth};
@@ -336,7 +337,7 @@ fn random_list(seed: u64) {
                 let words = sheet.words(&format, table, &all);
                 writer.vertices(table, &words).unwrap();
                 let order = draw.order.iter().map(|i| Some(*i)).collect::<Vec<_>>();
-                let form = scanbeam::list::Form::Strip;
+                let form = host_tests::lists::writer::Form::Strip;
                 writer
                     .indexed(Some(form), false, order.into_iter())
                     .unwrap();

@@ -4,7 +4,8 @@ use crate::common::Rng;
 use crate::listing::{
     Cloud, Faceted, Smooth, drawn, in_blocks, listed, some_format, some_instance, unrolled,
 };
-use scanbeam::list::{FieldForm, Flow, Form, Header, Id, ListWriter, SPLIT, State, VertexFormat};
+use host_tests::lists::writer::{Form, ListWriter};
+use scanbeam::list::{FieldForm, Flow, Header, Id, SPLIT, State, VertexFormat};
 use scanbeam::mesh::{QuadSplit, Vertices};
 use scanbeam::pipeline::{Pipeline, WordOf};
 use scanbeam::{Faces, Mesh};

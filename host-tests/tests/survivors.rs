@@ -4,11 +4,12 @@
 
 use crate::common::{LineRooms, SceneRooms, frame};
 use crate::listing::{PLENTY, Room};
+use host_tests::lists::writer::ListWriter;
 use host_tests::mock::HostLine;
 use scanbeam::blend::{Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface};
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::ListSettings;
-use scanbeam::list::{Budget, Flow, Halt, ListWriter};
+use scanbeam::list::{Budget, Flow, Halt};
 use scanbeam::mesh::{I2F14, ScreenVertex};
 use scanbeam::parallel::{Crew, Interleave, LineSource, Relay};
 use scanbeam::pipeline::{Composited, FlatDepth, Shadowed, TexturedDepth};

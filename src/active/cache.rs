@@ -32,8 +32,8 @@ const RING: usize = 64;
 
 /// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is.
 #[derive(Debug)]
+#[repr(C)]
 pub struct Cache<T, const WORDS: usize> {
-    pub(crate) slots: [[Slot<T>; 32]; WORDS],
     /// Slots that hold an object.
     pub(crate) used: [u32; WORDS],
     /// Of these, those that are drawn in the commonest way.
@@ -42,16 +42,19 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) deep: [u32; WORDS],
     /// The columns of each slot on this line: the first in the upper half, the one after the last below.
     pub(crate) spans: [[u32; 32]; WORDS],
-    /// Slots of spans that meet others, by number of object; and the same as a set.
+    /// Slots of spans that meet others, as a set.
     pub(crate) listed: [u32; WORDS],
+    /// The same, and all slots, from the nearest on or by number of object.
     pub(crate) order: [[u32; 32]; WORDS],
-    /// Slots from the nearest on, while no object begins or ends.
-    pub(crate) near: [[u32; 32]; WORDS],
+    /// The farthest depth of each slot's span on this line.
+    pub(crate) far: [[u32; 32]; WORDS],
     ring: [u8; RING],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
     /// How many slots may be used.
     limit: u16,
+    /// The last, so that all else lies within the reach of one instruction.
+    pub(crate) slots: [[Slot<T>; 32]; WORDS],
 }
 
 /// What the cache has done since it was cleared (C8).
@@ -95,7 +98,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             spans: [[0; 32]; WORDS],
             listed: [0; WORDS],
             order: [[0; 32]; WORDS],
-            near: [[0; 32]; WORDS],
+            far: [[0; 32]; WORDS],
             ring: [NONE; RING],
             spilled: Link::NONE,
             limit: 32 * WORDS as u16,

@@ -7,10 +7,12 @@ mod bucket;
 mod cache;
 mod interleave;
 mod list;
+mod slot;
 
 pub use bucket::Buckets;
 pub use cache::Slot as CacheSlot;
 pub(crate) use cache::next;
 pub use cache::{Cache, CacheUse};
 pub use interleave::Interleave;
-pub use list::{ActiveList, Member, Slot, Visitor};
+pub use list::ActiveList;
+pub use slot::{Member, Slot, Visitor};

@@ -3,7 +3,8 @@
 //! Each pixel has the level that its 1/w asks for: where the level changes along a span, the span
 //! is cut, which is a division a cut and happens to few.
 
-use super::texels::{Light, TexelOf, TextureSource, alphas_part, paint_part};
+use super::texel::TexelOf;
+use super::texels::{Light, TextureSource, alphas_part, paint_part};
 use super::{PixelAlpha, PixelFormat};
 use crate::geometry::texturing::{LevelEnds, Period, SpanPlace};
 use crate::shade::Stretch;

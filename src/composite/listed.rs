@@ -6,7 +6,8 @@
 //! texel asked for its form, and for each a function was called, it took 8.8.
 //! Firmware with one form of its own lends [`Textures`] instead.
 
-use super::texels::{TexelOf, TextureSource, Textures};
+use super::texel::TexelOf;
+use super::texels::{TextureSource, Textures};
 use super::{LineOverlay, PixelFormat};
 use crate::geometry::texturing::{LevelEnds, Period, SpanPlace};
 use crate::list::{

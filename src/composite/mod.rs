@@ -35,6 +35,7 @@ mod paint;
 mod ramp;
 #[cfg(test)]
 mod tests;
+mod texel;
 mod texels;
 mod words;
 mod xrgb;
@@ -51,7 +52,8 @@ pub use listed::{ListOverlays, ListTexel, ListTextures};
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, Ramp, TwoWords};
-pub use texels::{TexelOf, TextureSource, Textures};
+pub use texel::TexelOf;
+pub use texels::{TextureSource, Textures};
 pub(crate) use words::paint_words;
 pub use xrgb::Xrgb8888;
 

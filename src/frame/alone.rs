@@ -1,14 +1,14 @@
 //! What has no slot: set up for one line (C5).
 
 use super::renderer::{Renderer, View};
-use super::slot::{Active, Flags};
+use super::slot::Flags;
 use super::spans::{Drawn, Line, Span};
 use super::thin::depth_plane;
 use crate::look::{Look, WordOf};
 
 /// A triangle without a slot, set up for one line.
 pub(super) struct Alone<P> {
-    item: Active<P>,
+    planes: P,
     flags: Flags,
     object: u16,
     pub(super) span: Span,
@@ -19,7 +19,7 @@ impl<P> Alone<P> {
     #[inline(always)]
     pub(super) fn drawn(&self) -> Drawn<'_, P> {
         Drawn {
-            item: &self.item,
+            planes: &self.planes,
             flags: self.flags,
             object: self.object,
         }
@@ -47,23 +47,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let fill = L::set_up(&triangle, object, size, area, out.view.draws, &mut planes);
         self.counts.set_ups += 1;
         Some(Alone {
-            item: Active {
-                sides,
-                planes,
-                depth: [0; 3],
-            },
+            planes,
             flags: Flags::new(fill, way).without_depth(true),
             object,
             span: Span { start, end },
         })
     }
 
-    /// Finds the depth of what has no slot.
+    /// The plane of depth of what has no slot.
     #[inline(always)]
-    pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) {
+    pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) -> [u32; 3] {
         let triangle = view.triangle_of::<L>(alone.object);
         let plane = triangle.and_then(|t| depth_plane(&t));
         alone.flags = alone.flags.without_depth(plane.is_none());
-        alone.item.depth = plane.unwrap_or_default();
+        plane.unwrap_or_default()
     }
 }

@@ -8,7 +8,7 @@
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
 use super::slot::{Active, Flags};
-use super::spans::{Drawn, Known, Line, Span, colour, colour_run, nearer};
+use super::spans::{Drawn, Known, Line, Span, colour, colour_run, columns_of, nearer};
 use super::thin::depth_plane;
 use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
@@ -55,34 +55,53 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
-            self.draw_near_first(usize::from(slots), &mut out);
-        } else if self.met || spilled || !self.draw_calm(&mut out) {
-            self.covered = Mask::EMPTY;
-            self.met = self.find_spans(&mut out);
-            self.draw_found(&mut out);
-            if self.met {
-                self.over = Mask::EMPTY;
-                self.written = Mask::EMPTY;
-                self.find_plan(&view);
+            if self.draw_near_first(usize::from(slots), &mut out) {
+                self.covered = Mask::EMPTY;
+                return Ok(true);
+            }
+        } else {
+            self.guests = 0;
+            let met = spilled && self.find_spilled(&mut out);
+            let tries = !spilled && !self.met;
+            if tries && !self.draw_calm(&mut out) {
+                self.covered = Mask::EMPTY;
+                self.draw_meeting_spans(false, &mut out);
+            } else if !tries {
+                self.draw_meeting_spans(met, &mut out);
             }
         }
         self.fill_rest(out.pixels, background);
         Ok(true)
     }
 
-    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full.
+    /// Draws all spans where some meet, or some have no slot, which `met` others.
+    fn draw_meeting_spans(&mut self, met: bool, out: &mut Line<'_, '_, WordOf<L>>) {
+        if !self.draw_crowded(out) {
+            self.met = self.find_spans(out) | met;
+            if !self.met || !self.draw_near(out) {
+                self.draw_found(out);
+            }
+            self.over = Mask::EMPTY;
+            self.written = Mask::EMPTY;
+        }
+        if self.met {
+            self.find_plan(out.view);
+        }
+    }
+
+    /// Colours spans from the nearest on, where nobody has been before, up to a line that is full;
+    /// whether it is.
     #[inline(never)]
-    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_near_first(&mut self, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut left = out.pixels.len() as u32;
         for k in 0..slots {
-            let number = self.cache.near.as_flattened().get(k).copied();
+            let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize & 0xFF;
             let Some(slots) = self.cache.slots.get(number >> 5) else {
-                return;
+                return false;
             };
             let slot = &slots[number & 31];
-            let way = Flags(slot.flags).way();
-            let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
+            let Span { start, end } = columns_of::<L>(slot, out);
             if start >= end {
                 continue;
             }
@@ -95,9 +114,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 colour_run::<L>(drawn, Span { start, end }, run, out);
             });
             if left == 0 {
-                return;
+                return true;
             }
         }
+        false
     }
 
     /// The background, where nothing is.
@@ -120,8 +140,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
                 let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
-                let way = Flags(slot.flags).way();
-                let (start, end) = slot.item.sides.columns(way, out.number, out.view.frame);
+                let Span { start, end } = columns_of::<L>(slot, out);
                 if start >= end {
                     continue;
                 }
@@ -172,23 +191,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut used = self.cache.used[word];
             while used != 0 {
                 let i = take_first(&mut used) as usize & 31;
-                let way = Flags(slots[i].flags).way();
-                let (start, end) = slots[i].item.sides.columns(way, out.number, out.view.frame);
+                let Span { start, end } = columns_of::<L>(&slots[i], out);
                 spans[i] = start << 16 | end;
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
                 }
             }
         }
-        if self.cache.spilled.is_some() {
-            met |= self.find_spilled(out);
-        }
         met
     }
 
     /// The columns of what has no slot; what has ended leaves the chain.
     #[inline(never)]
-    fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn find_spilled(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         let mut met = false;
         let line = out.number as i32;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
@@ -206,6 +221,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let (start, end) = sides.columns(way, out.number, out.view.frame);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
+                    self.keep_guest(at.object(), Span { start, end });
                 }
                 self.counts.misses += 1;
                 before = at;
@@ -300,6 +316,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         deepen::<L>(slot, deep, bit(i as u32), out.view);
         let drawn = Drawn::of(slot);
         let known = Known {
+            plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         };
@@ -315,8 +332,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let Span { start, end } = alone.span;
         if !self.depth.is_empty() && self.met && self.over.meets(start, end) {
-            Self::find_depth(&mut alone, out.view);
             let known = Known {
+                plane: Self::find_depth(&mut alone, out.view),
                 cells: self.depth,
                 written: &mut self.written,
             };

@@ -10,19 +10,25 @@
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
+//! | `near` | spans that meet others, from the nearest on |
+//! | `rival` | who of two spans is seen |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
 //! | `rank` | lines that are drawn by priority |
 //! | `ruled` | pixels of such a span |
 //! | `translucent` | spans that what is behind shines through, from far to near |
-//! | `send` | all lines of a frame through a pump |
+//! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
+//! | `relay` | a frame of two cores |
 
 mod advance;
 mod alone;
 mod line;
+mod near;
 mod plan;
 mod rank;
+mod relay;
 mod renderer;
+mod rival;
 mod ruled;
 mod scene;
 mod send;
@@ -32,5 +38,8 @@ mod thin;
 mod translucent;
 mod values;
 
+pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
-pub use send::{FrameError, FrameUse, draw_frame};
+#[cfg(feature = "async")]
+pub use send::draw_frame_async;
+pub use send::{FrameError, FrameUse, draw_continuous, draw_frame};

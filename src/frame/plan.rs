@@ -56,6 +56,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return None;
         }
         count = 0;
+        self.nearest = 0;
+        self.ordered = 0;
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             while used != 0 {
@@ -63,7 +65,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 // What is nearer comes first: keys fall.
                 let key = self.range(view, number)?[1] & !0xFF | number;
                 let mut at = count;
-                let keys = self.cache.near.as_flattened_mut();
+                let keys = self.cache.order.as_flattened_mut();
                 while at > 0 && *keys.get(at - 1)? < key {
                     *keys.get_mut(at)? = *keys.get(at - 1)?;
                     at -= 1;
@@ -80,7 +82,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn is_sorted(&self, view: &View<'_>, count: usize) -> bool {
         let keys = self
             .cache
-            .near
+            .order
             .as_flattened()
             .get(..count)
             .unwrap_or_default();

@@ -44,11 +44,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         L::Pixel::fill(out.pixels, background);
-        self.find_spans(out);
+        self.find_all(out);
         self.met = false;
         self.draw_in_order(out);
         self.covered = Mask::EMPTY;
         self.over = Mask::EMPTY;
+        self.forget_order();
         true
     }
 
@@ -60,13 +61,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             while used != 0 {
                 let i = take_first(&mut used) as usize & 31;
                 let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
-                insert(self.cache.near.as_flattened_mut(), count, key);
+                insert(self.cache.order.as_flattened_mut(), count, key);
                 count += 1;
             }
         }
-        if let Some(near) = self.cache.near.as_flattened_mut().get_mut(..count) {
-            near.reverse();
+        if let Some(order) = self.cache.order.as_flattened_mut().get_mut(..count) {
+            order.reverse();
         }
+        self.forget_order();
         count as u16
     }
 

@@ -86,6 +86,16 @@ pub enum LineError {
         /// The line.
         line: u16,
     },
+    /// The wait for the other core was given up.
+    Stopped {
+        /// The line that was awaited.
+        line: u16,
+    },
+    /// The other core has given another line than was due.
+    Strayed {
+        /// The line that was due.
+        line: u16,
+    },
 }
 
 impl fmt::Display for LineError {
@@ -103,6 +113,12 @@ impl fmt::Display for LineError {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+            Self::Stopped { line } => {
+                write!(f, "renderer: the wait for line {line} was given up")
+            }
+            Self::Strayed { line } => {
+                write!(f, "renderer: another line came in the place of line {line}")
+            }
         }
     }
 }
@@ -130,6 +146,12 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) met: bool,
     /// How many spans met on the last line that was drawn in order.
     pub(super) ordered: u16,
+    /// How many slots the last line had in order from the nearest on.
+    pub(super) nearest: u16,
+    /// How many spans of this line have no slot; as many as find room lie in the cells of depth.
+    pub(super) guests: usize,
+    /// Whether most spans of the last line met others.
+    pub(super) crowded: bool,
     /// Whether triangles began or ended on this line.
     pub(super) changed: bool,
     pub(super) plan: Plan,
@@ -150,6 +172,9 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             written: Mask::EMPTY,
             met: false,
             ordered: 0,
+            nearest: 0,
+            guests: 0,
+            crowded: false,
             changed: true,
             plan: Plan::Changed,
             counts: CacheUse::default(),

@@ -39,7 +39,7 @@ pub(super) fn draw_ruled<L: Look>(
     let thin;
     let mut ink = Ink {
         fill: drawn.flags.fill(),
-        planes: &drawn.item.planes,
+        planes: drawn.planes,
         span: span.start,
         blend: state.blend,
     };
@@ -47,8 +47,8 @@ pub(super) fn draw_ruled<L: Look>(
         thin = thin_planes::<L>(drawn.object, span, out.number, out.view);
         (ink.fill, ink.planes) = (Fill::Wide, &thin);
     }
-    let depth = match known {
-        Some(_) => depth_on_line::<L>(drawn, span, out),
+    let depth = match &known {
+        Some(known) => depth_on_line::<L>(drawn, known.plane, span, out),
         None => [0; 2],
     };
     let (start, end) = (part.start.max(span.start), part.end.min(span.end));
@@ -71,6 +71,7 @@ pub(super) fn draw_ruled<L: Look>(
 #[inline(always)]
 pub(super) fn depth_on_line<L: Look>(
     drawn: Drawn<'_, L::Planes>,
+    plane: [u32; 3],
     span: Span,
     out: &Line<'_, '_, WordOf<L>>,
 ) -> [u32; 2] {
@@ -78,7 +79,7 @@ pub(super) fn depth_on_line<L: Look>(
         let [at, step] = thin_depth::<L>(drawn.object, span, out);
         return [at.wrapping_sub(step.wrapping_mul(span.start)), step];
     }
-    let [at, step, down] = drawn.item.depth;
+    let [at, step, down] = plane;
     [at.wrapping_add(down.wrapping_mul(out.number)), step]
 }
 

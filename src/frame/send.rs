@@ -1,9 +1,14 @@
-//! All lines of a frame, each drawn while the one before is on its way (K12).
+//! All lines of a frame, each drawn while the one before is on its way (K12, X5).
 
 use super::renderer::{LineError, Renderer};
 use crate::active::CacheUse;
 use crate::look::{Look, WordOf};
-use crate::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window};
+#[cfg(feature = "async")]
+use crate::scan_out::{AsyncLineWriter, AsyncPump};
+use crate::scan_out::{
+    ContinuousPanel, ErrorType, FeedStats, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window,
+    feed_frame,
+};
 use crate::scene::{Assembled, Scene};
 use core::fmt;
 
@@ -64,29 +69,125 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
+    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
+        renderer.draw_line(scene, line, pixels, background)
+    };
+    send(scene, renderer, pump, lines_per_transfer, draw)
+}
+
+/// Sends all lines of `scene`, each as `draw` writes it, which says whether something is active there.
+#[inline(always)]
+pub(super) fn send<'m, L, D, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'m, L, WORDS>,
+    pump: &mut Pump<D>,
+    lines_per_transfer: u16,
+    mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [WordOf<L>]) -> Result<bool, LineError>,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
+{
     renderer.check(scene).map_err(FrameError::Line)?;
     renderer.restart();
     let mut skipped = 0;
-    let lines = scene.lines();
-    let window = Window {
-        x: 0,
-        y: lines.start,
-        width: scene.screen().width(),
-        height: lines.len() as u16,
-    };
     pump.take_stats();
-    pump.begin(window, lines_per_transfer)?;
-    for line in lines {
+    pump.begin(window(scene), lines_per_transfer)?;
+    for line in scene.lines() {
         let pixels = pump.line()?;
-        let drawn = renderer.draw_line(scene, line, pixels, background);
+        let drawn = draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
         pump.line_done()?;
     }
     pump.finish()?;
-    Ok(FrameUse {
-        assembled: scene.assembled(),
-        cache: renderer.counts(),
-        lines_skipped: skipped,
-        scan_out: pump.stats(),
+    Ok(FrameUse::told(scene, renderer, skipped, pump.stats()))
+}
+
+/// Draws the lines of `scene` for a panel that reads them by its own clock. A line whose deadline is over is
+/// counted and left out, and the picture goes on at the next.
+///
+/// # Errors
+/// When the renderer has too little memory, or the panel a line of another width.
+pub fn draw_continuous<L, C, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    panel: &mut C,
+    background: WordOf<L>,
+) -> Result<(FeedStats, FrameUse), LineError>
+where
+    L: Look,
+    C: ContinuousPanel<Word = WordOf<L>>,
+{
+    renderer.check(scene)?;
+    renderer.restart();
+    let mut skipped = 0;
+    let fed = feed_frame(panel, scene.lines(), |line, pixels| {
+        skipped += u32::from(!renderer.draw_line(scene, line, pixels, background)?);
+        Ok(())
+    })?;
+    let sent = ScanStats::default();
+    Ok((fed, FrameUse::told(scene, renderer, skipped, sent)))
+}
+
+/// Draws all lines of `scene` over `background` and sends them through `pump`, as [`draw_frame`] does. Between lines it
+/// is the turn of other tasks.
+///
+/// # Errors
+/// When the sink fails, naming the line, or the renderer has too little memory.
+#[cfg(feature = "async")]
+pub async fn draw_frame_async<L, D, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    pump: &mut AsyncPump<'_, D>,
+    background: WordOf<L>,
+    lines_per_transfer: u16,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look,
+    D: AsyncLineWriter<Word = WordOf<L>>,
+{
+    renderer.check(scene).map_err(FrameError::Line)?;
+    renderer.restart();
+    let mut skipped = 0;
+    pump.take_stats();
+    let window = window(scene);
+    pump.frame(window, lines_per_transfer, |below, pixels| {
+        let line = window.y.saturating_add(below);
+        let drawn = renderer.draw_line(scene, line, pixels, background);
+        skipped += u32::from(!drawn.map_err(FrameError::Line)?);
+        Ok::<_, FrameError<_>>(())
     })
+    .await?;
+    Ok(FrameUse::told(scene, renderer, skipped, pump.stats()))
+}
+
+/// The part of the display that a scene fills.
+fn window<L>(scene: &Scene<'_, '_, L>) -> Window {
+    let lines = scene.lines();
+    Window {
+        x: 0,
+        y: lines.start,
+        width: scene.screen().width(),
+        height: lines.len() as u16,
+    }
+}
+
+impl FrameUse {
+    /// What a frame took; the log gets it at trace level.
+    fn told<L: Look, const WORDS: usize>(
+        scene: &Scene<'_, '_, L>,
+        renderer: &Renderer<'_, L, WORDS>,
+        lines_skipped: u32,
+        scan_out: ScanStats,
+    ) -> Self {
+        let told = Self {
+            assembled: scene.assembled(),
+            cache: renderer.counts(),
+            lines_skipped,
+            scan_out,
+        };
+        #[cfg(feature = "defmt")]
+        defmt::trace!("frame: {}", told);
+        told
+    }
 }

@@ -68,6 +68,13 @@ impl Flags {
         Self(self.0 | Self::VALUES)
     }
 
+    /// Whether columns need no look at the picture's border.
+    #[inline(always)]
+    pub(super) fn is_direct(self) -> bool {
+        const DIVIDED: u8 = (Kind::Divided as u8) << 2;
+        self.0 & (Self::CROSSES | DIVIDED) == 0
+    }
+
     /// Whether depth has to be found on each line.
     #[inline(always)]
     pub(super) fn lacks_depth(self) -> bool {

@@ -23,6 +23,8 @@ pub(super) struct Span {
 
 /// The depth of a line, as far as it is known.
 pub(super) struct Known<'a> {
+    /// The plane of the triangle that is compared.
+    pub(super) plane: [u32; 3],
     pub(super) cells: &'a mut [u32],
     pub(super) written: &'a mut Mask,
 }
@@ -30,7 +32,7 @@ pub(super) struct Known<'a> {
 /// A triangle as it is drawn: from a slot, or set up for one line.
 #[derive(Clone, Copy)]
 pub(super) struct Drawn<'a, P> {
-    pub(super) item: &'a Active<P>,
+    pub(super) planes: &'a P,
     pub(super) flags: Flags,
     pub(super) object: u16,
 }
@@ -44,7 +46,7 @@ pub(super) fn nearer<L: Look>(
     known: Known<'_>,
 ) {
     let (column, line) = (span.start, out.number);
-    let [mut at, mut step, down] = drawn.item.depth;
+    let [mut at, mut step, down] = known.plane;
     at = at
         .wrapping_add(step.wrapping_mul(column))
         .wrapping_add(down.wrapping_mul(line));
@@ -79,7 +81,7 @@ pub(super) fn nearer<L: Look>(
         let planes = thin_planes::<L>(drawn.object, span, line, out.view);
         return L::fill_nearer(Fill::Wide, &planes, at, draws, run, depth);
     }
-    L::fill_nearer(fill, &drawn.item.planes, at, draws, run, depth);
+    L::fill_nearer(fill, drawn.planes, at, draws, run, depth);
 }
 
 /// The depth of a thin triangle at a span's first pixel, and its step.
@@ -116,6 +118,46 @@ pub(super) fn thin_planes<L: Look>(
     planes
 }
 
+/// The columns of a slot.
+#[inline(always)]
+pub(super) fn columns_of<L: Look>(
+    slot: &CacheSlot<Active<L::Planes>>,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> Span {
+    let (flags, sides) = (Flags(slot.flags), &slot.item.sides);
+    let (start, end) = if flags.is_direct() {
+        (
+            sides.left.column(out.number),
+            sides.right.column(out.number),
+        )
+    } else {
+        sides.clipped(flags.way(), out.number, out.view.frame)
+    };
+    Span { start, end }
+}
+
+/// Colours the span of a slot.
+#[inline(never)]
+pub(super) fn colour_slot<L: Look>(
+    slot: &CacheSlot<Active<L::Planes>>,
+    span: u32,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let span = Span::of(span);
+    if Flags(slot.flags).fill() != Fill::Plain {
+        return colour::<L>(Drawn::of(slot), span, out);
+    }
+    let Some(run) = out.pixels.get_mut(span.start as usize..span.end as usize) else {
+        return;
+    };
+    let at = Place {
+        span: span.start,
+        column: span.start,
+        line: out.number,
+    };
+    L::fill_plain(&slot.item.planes, at, out.view.draws, run);
+}
+
 /// Colours a span.
 #[inline(always)]
 pub(super) fn colour<L: Look>(
@@ -148,7 +190,7 @@ pub(super) fn colour_run<L: Look>(
         let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
         return L::fill(Fill::Wide, &planes, at, draws, pixels);
     }
-    L::fill(fill, &drawn.item.planes, at, draws, pixels);
+    L::fill(fill, drawn.planes, at, draws, pixels);
 }
 
 impl<'a, P> Drawn<'a, P> {
@@ -156,7 +198,7 @@ impl<'a, P> Drawn<'a, P> {
     #[inline(always)]
     pub(super) fn of(slot: &'a CacheSlot<Active<P>>) -> Self {
         Self {
-            item: &slot.item,
+            planes: &slot.item.planes,
             flags: Flags(slot.flags),
             object: slot.object,
         }
@@ -164,6 +206,12 @@ impl<'a, P> Drawn<'a, P> {
 }
 
 impl Span {
+    /// Whether two spans that are not empty share a column.
+    #[inline(always)]
+    pub(super) fn meets(self, other: Self) -> bool {
+        self.start < other.end && other.start < self.end
+    }
+
     #[inline(always)]
     pub(super) fn of(word: u32) -> Self {
         Self {

@@ -196,7 +196,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
             f(Pane {
                 span,
-                depth: depth_on_line::<L>(Drawn::of(slot), span, out),
+                depth: depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out),
                 object: slot.object,
                 slot: number as u16,
             });
@@ -207,10 +207,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let state = out.view.state(object);
             if state.is_some_and(DrawState::is_translucent) {
                 if let Some(mut alone) = self.set_up_alone(object, out) {
-                    Self::find_depth(&mut alone, out.view);
+                    let plane = Self::find_depth(&mut alone, out.view);
                     f(Pane {
                         span: alone.span,
-                        depth: depth_on_line::<L>(alone.drawn(), alone.span, out),
+                        depth: depth_on_line::<L>(alone.drawn(), plane, alone.span, out),
                         object,
                         slot: NO_SLOT,
                     });
@@ -284,16 +284,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let span = pane.span;
         let number = usize::from(pane.slot);
         if let Some(slots) = self.cache.slots.get(number >> 5) {
-            let drawn = Drawn::of(&slots[number & 31]);
+            let slot = &slots[number & 31];
+            let drawn = Drawn::of(slot);
             let known = Known {
+                plane: slot.item.depth,
                 cells: self.depth,
                 written: &mut self.written,
             };
             draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
         } else if let Some(mut alone) = self.set_up_alone(pane.object, out) {
-            Self::find_depth(&mut alone, out.view);
+            let plane = Self::find_depth(&mut alone, out.view);
             let drawn = alone.drawn();
             let known = Known {
+                plane,
                 cells: self.depth,
                 written: &mut self.written,
             };

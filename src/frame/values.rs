@@ -5,6 +5,7 @@
 //! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
 use super::line::deepen;
+use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
@@ -32,7 +33,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return out.view.ranked && self.draw_ranked(out, background);
         }
         L::Pixel::fill(out.pixels, background);
-        self.find_spans(out);
+        self.find_all(out);
         // Where this is so, `over` says where depth is compared.
         self.met = !self.depth.is_empty() && !out.view.ranked;
         if self.met {
@@ -46,8 +47,25 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.over = Mask::EMPTY;
         self.written = Mask::EMPTY;
         self.met = false;
-        self.ordered = 0;
+        self.forget_order();
         true
+    }
+
+    /// The columns of all spans, with a slot or without.
+    pub(super) fn find_all(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+        self.guests = 0;
+        if self.cache.spilled.is_some() {
+            self.find_spilled(out);
+        }
+        self.find_spans(out);
+        // Nobody sorts them by depth here.
+        self.guests = 0;
+    }
+
+    /// Says that what was kept of an order of slots has been written over.
+    pub(super) fn forget_order(&mut self) {
+        (self.ordered, self.nearest) = (0, 0);
+        self.plan = Plan::Changed;
     }
 
     /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
@@ -142,6 +160,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let drawn = Drawn::of(slot);
         let known = is_compared.then_some(Known {
+            plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         });
@@ -163,11 +182,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let span = alone.span;
         let is_compared = self.met && self.over.meets(span.start, span.end);
-        if is_compared {
-            Self::find_depth(&mut alone, out.view);
-        }
+        let plane = if is_compared {
+            Self::find_depth(&mut alone, out.view)
+        } else {
+            [0; 3]
+        };
         let drawn = alone.drawn();
         let known = is_compared.then_some(Known {
+            plane,
             cells: self.depth,
             written: &mut self.written,
         });

@@ -3,98 +3,38 @@
 
 use super::camera::{Camera, Screen};
 use super::clip::{Corner, guard, near_far};
-use super::colour::{Colour, Scale, Tint};
+use super::colour::{Scale, Tint};
 use super::light::{LightingModel, ModelLight};
 use super::mesh::{Coordinate, Faces, Mesh};
 use super::object::{OUTSIDE, Object, SceneVertex};
 use super::project::Projection;
 use super::shading::Shading;
-use super::transform::{Affine, unit};
+use super::transform::Affine;
 use crate::arena::Arena;
 use core::ops::Range;
 
+mod colours;
 mod faces;
+mod outcome;
 mod screen;
 
+use colours::Colours;
+pub(crate) use colours::face_normal;
+
+pub use faces::Cull;
+use faces::{Picture, check_known, first_line, first_of, is_seen, leading};
 pub(crate) use faces::{check, check_known as check_mesh, each_triangle, triangles};
-use faces::{check_known, first_line, first_of, is_seen, leading};
+pub use outcome::{Assembled, Dropped, MeshError, Room};
 pub use screen::ScreenVertex;
-pub(crate) use screen::on_screen;
-
-/// Which faces are dropped.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Cull {
-    /// Those seen from behind.
-    #[default]
-    Back,
-    /// None.
-    None,
-}
-
-/// Which arena had no room.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub enum Room {
-    /// That of the vertices.
-    Vertices,
-    /// That of the objects.
-    Objects,
-}
-
-/// Faces that could not be kept; all others are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Dropped {
-    /// The arena that was full when the first was dropped.
-    pub room: Room,
-    /// Index of the first face that lost a triangle.
-    pub first_face: u32,
-    /// How many triangles were dropped, or lost a piece that clipping had made of them.
-    pub triangles: u32,
-}
-
-/// A mesh that contradicts itself. Nothing of it is drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum MeshError {
-    /// An attribute slice is neither empty nor as long as the positions.
-    AttributeLength,
-    /// This face names a vertex that does not exist.
-    Index {
-        /// Index of the face.
-        face: u32,
-    },
-    /// A quad strip has an odd number of indices, or two.
-    StripLength,
-}
-
-/// What became of a mesh.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub struct Assembled {
-    /// Triangles submitted.
-    pub triangles: u32,
-    /// Triangles that cannot be seen: outside, from behind, or between pixel centres.
-    pub culled: u32,
-    /// Triangles that crossed a near, far or guard plane.
-    pub clipped: u32,
-    /// Objects kept, pieces of clipped triangles included.
-    pub kept: u32,
-    /// Of the triangles kept, those that are drawn without their texture, as they stretch over too
-    /// many of its texels.
-    pub untextured: u32,
-    /// What found no room.
-    pub dropped: Option<Dropped>,
-}
+pub(crate) use screen::{ScreenMesh, on_screen};
 
 /// One mesh on its way to the screen.
 pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     /// Where vertices go.
     vertices: &'a mut Arena<'m, SceneVertex<S::Vertex>>,
     pub(super) projection: Projection,
-    /// Columns and lines of guard space that are drawn.
-    columns: Range<i32>,
-    lines: Range<i32>,
+    /// What of guard space is the picture.
+    picture: Picture,
     cull: Cull,
     /// The light in model space.
     light: Option<L>,
@@ -115,6 +55,20 @@ pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     pub(super) done: Assembled,
 }
 
+/// What a mesh is lit by, and which of its faces are dropped.
+pub(crate) struct Looks<M> {
+    pub(crate) cull: Cull,
+    pub(crate) light: Option<M>,
+    /// Colour of vertices that have none of their own.
+    pub(crate) colour: [u8; 3],
+}
+
+/// What a mesh brings beside its colours, and how levels become steps of the output.
+pub(crate) struct Surfaced<'a, 'k, S: Shading> {
+    pub(crate) scale: &'a Scale,
+    pub(crate) skin: S::Skin<'k>,
+}
+
 /// The arena in which pass one keeps vertices.
 pub(crate) struct Store<'m, S: Shading> {
     pub(crate) vertices: Arena<'m, SceneVertex<S::Vertex>>,
@@ -129,19 +83,18 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         screen: Screen,
         lines: Range<u16>,
         model: &Affine,
-        (cull, light, colour): (Cull, Option<M>, [u8; 3]),
-        (scale, skin): (&'a Scale, S::Skin<'k>),
+        looks: Looks<M>,
+        surface: Surfaced<'a, 'k, S>,
     ) -> Self {
-        let light = light.map(|l| l.in_model(model, &camera.view));
-        let (left, top) = (screen.left(), screen.top());
+        let Surfaced { scale, skin } = surface;
+        let light = looks.light.map(|l| l.in_model(model, &camera.view));
         Self {
             vertices: &mut store.vertices,
             projection: Projection::new(camera, screen, model),
-            columns: left..left + i32::from(screen.width()),
-            lines: top + i32::from(lines.start)..top + i32::from(lines.end),
-            cull,
+            picture: Picture::new(screen, lines),
+            cull: looks.cull,
             light,
-            tint: Tint::new(colour, scale),
+            tint: Tint::new(looks.colour, scale),
             turn: S::turn(model, &camera.view),
             lost: false,
             wide: S::may_be_plain(&skin),
@@ -188,16 +141,25 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             Faces::Triangles(faces) if shared && !self.wide => {
                 let mut face = 0;
                 while face < faces.len() {
-                    face = self.on_screen_faces(mesh, (faces, face), base, &mut file);
+                    face = self.on_screen_faces(mesh, faces, face, base, &mut file);
                     if let Some(&corners) = faces.get(face) {
-                        let triangle = (face as u32, corners, corners[0]);
-                        self.triangle(mesh, triangle, (base, shared), &mut file);
+                        let face = Face {
+                            number: face as u32,
+                            corners,
+                            provoking: corners[0],
+                        };
+                        self.triangle(mesh, face, Some(base), &mut file);
                     }
                     face += 1;
                 }
             }
-            _ => each_triangle(mesh.faces, |face, corners, provoking| {
-                self.triangle(mesh, (face, corners, provoking), (base, shared), &mut file);
+            _ => each_triangle(mesh.faces, |number, corners, provoking| {
+                let face = Face {
+                    number,
+                    corners,
+                    provoking,
+                };
+                self.triangle(mesh, face, shared.then_some(base), &mut file);
             }),
         }
         if self.done.kept == 0 {
@@ -261,7 +223,8 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     fn on_screen_faces<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
-        (faces, from): (&[[u16; 3]], usize),
+        faces: &[[u16; 3]],
+        from: usize,
         base: usize,
         file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) -> usize {
@@ -288,7 +251,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
                 break;
             }
             let place = [(a.x, a.y), (b.x, b.y), (c.x, c.y)];
-            if let Some(first) = first_of(place, (&self.columns, &self.lines)) {
+            if let Some(first) = first_of(place, &self.picture) {
                 let index = corners.map(|c| base as u16 + c);
                 let object = Object::new(index, self.face_colour(mesh, corners, corners[0]));
                 let Some(objects) = file(object, first, all) else {
@@ -304,33 +267,29 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         face
     }
 
-    /// A triangle that may be seen.
+    /// A triangle that may be seen; where its vertices are shared they lie from `base` on.
     #[inline(never)]
     fn triangle<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
-        (face, corners, provoking): (u32, [u16; 3], u16),
-        (base, shared): (usize, bool),
+        face: Face,
+        base: Option<usize>,
         file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
-        let look = if shared {
-            self.look(base, corners)
-        } else {
-            Look::Outside
-        };
+        let look = base.map_or(Look::Outside, |base| self.look(base, face.corners));
         match look {
             Look::Culled => self.done.culled += 1,
             Look::Seen(first) => {
-                let index = corners.map(|c| base as u16 + c);
-                let face_colour = self.face_colour(mesh, corners, provoking);
+                let index = face.corners.map(|c| base.unwrap_or_default() as u16 + c);
+                let face_colour = self.face_colour(mesh, face.corners, face.provoking);
                 let kept = self.done.kept;
-                self.keep(Object::new(index, face_colour), first, face, file);
+                self.keep(Object::new(index, face_colour), first, face.number, file);
                 self.settle(kept);
             }
             Look::Outside => {
                 let kept = self.done.kept;
                 let before = self.vertices.len();
-                self.alone(mesh, (face, corners, provoking), file);
+                self.alone(mesh, face, file);
                 if self.done.kept == kept {
                     self.vertices.truncate(before);
                 }
@@ -389,10 +348,10 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     fn alone<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
-        (face, corners, provoking): (u32, [u16; 3], u16),
+        face: Face,
         file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
-        let corner = corners.map(|i| {
+        let corner = face.corners.map(|i| {
             let i = usize::from(i);
             let mut attribute = if S::PER_FACE {
                 S::Vertex::default()
@@ -412,9 +371,9 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         if self.projection.hides(codes) {
             return;
         }
-        let face_colour = self.face_colour(mesh, corners, provoking);
+        let face_colour = self.face_colour(mesh, face.corners, face.provoking);
         if codes == [0; 3] {
-            self.piece(corner, face_colour, face, file);
+            self.piece(corner, face_colour, face.number, file);
             return;
         }
         self.done.clipped += 1;
@@ -422,7 +381,12 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         for i in 2..cut.len() {
             let part = guard::<S>([cut[0], cut[i - 1], cut[i]], &self.projection);
             for k in 2..part.len() {
-                self.piece([part[0], part[k - 1], part[k]], face_colour, face, file);
+                self.piece(
+                    [part[0], part[k - 1], part[k]],
+                    face_colour,
+                    face.number,
+                    file,
+                );
             }
         }
     }
@@ -494,99 +458,18 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
     /// [`first_line`] of a triangle of this mesh.
     #[inline]
     fn first_line(&self, p: [(u16, u16); 3]) -> Option<i32> {
-        first_line(p, self.cull, (&self.columns, &self.lines))
-    }
-
-    /// The lit colour of a vertex.
-    fn vertex_colour<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
-        let colours = Colours {
-            light: self.light,
-            tint: self.tint,
-            scale: self.scale,
-        };
-        colours.vertex(mesh, i)
-    }
-
-    /// The lit colour of a face, by its own normal.
-    #[inline]
-    fn face_colour<C: Coordinate>(
-        &self,
-        mesh: &Mesh<'_, C>,
-        corners: [u16; 3],
-        provoking: u16,
-    ) -> S::Face {
-        let mut face = self.face_lit(mesh, corners, provoking);
-        S::dress_face(&mut face, &self.skin);
-        face
-    }
-
-    #[inline]
-    fn face_lit<C: Coordinate>(
-        &self,
-        mesh: &Mesh<'_, C>,
-        corners: [u16; 3],
-        provoking: u16,
-    ) -> S::Face {
-        if !S::PER_FACE {
-            return S::Face::default();
-        }
-        let tint = match mesh.colours.get(usize::from(provoking)) {
-            Some(&colour) => Tint::new(colour, self.scale),
-            None => self.tint,
-        };
-        S::face(match &self.light {
-            Some(light) => {
-                let p = corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30));
-                let place = || mesh.positions[usize::from(provoking)];
-                light.lit(&tint, self.scale, face_normal(p), place)
-            }
-            None => tint.lit(1 << 15),
-        })
+        first_line(p, self.cull, &self.picture)
     }
 }
 
-/// What lights the vertices of a mesh.
-struct Colours<'a, L> {
-    /// The light in model space.
-    light: Option<L>,
-    /// Colour of vertices without one.
-    tint: Tint,
-    scale: &'a Scale,
-}
-
-impl<L: ModelLight> Colours<'_, L> {
-    /// The lit colour of a vertex.
-    #[inline]
-    fn vertex<C: Coordinate>(&self, mesh: &Mesh<'_, C>, i: usize) -> Colour {
-        let tint = match mesh.colours.get(i) {
-            Some(&colour) => Tint::new(colour, self.scale),
-            None => self.tint,
-        };
-        match (&self.light, mesh.normals.get(i)) {
-            (Some(light), Some(&normal)) => {
-                light.lit(&tint, self.scale, normal, || mesh.positions[i])
-            }
-            _ => tint.lit(1 << 15),
-        }
-    }
-}
-
-/// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
-pub(crate) fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
-    let d = |a: usize, i: usize| i64::from(p[a][i]) - i64::from(p[0][i]);
-    // Shifted together until they have 30 bits, so that the products fit, and small faces keep
-    // all of theirs.
-    let mut bits = 1;
-    for i in 0..3 {
-        bits |= d(1, i).unsigned_abs() | d(2, i).unsigned_abs();
-    }
-    let down = 34u32.saturating_sub(bits.leading_zeros());
-    let e = |a: usize, i: usize| d(a, i) >> down;
-    let axis = |i: usize, k: usize| e(1, i) * e(2, k) - e(1, k) * e(2, i);
-    let n = [axis(1, 2), axis(2, 0), axis(0, 1)];
-    let bits = n.iter().fold(1, |b, c| b | c.unsigned_abs());
-    let down = 32u32.saturating_sub(bits.leading_zeros());
-    unit(n.map(|c| c >> down)).map(|c| c.to_bits())
+/// A triangle of a mesh.
+#[derive(Clone, Copy)]
+struct Face {
+    /// Index of its face.
+    number: u32,
+    corners: [u16; 3],
+    /// The vertex that says what colour it has.
+    provoking: u16,
 }
 
 /// What a look at a triangle tells.

@@ -72,6 +72,12 @@ impl FieldForm {
         Self::S8x3,
     ];
 
+    /// 32-bit words of a column of a table that has `count` vertices.
+    #[must_use]
+    pub const fn column_words(self, count: u16) -> u32 {
+        (self.column_bytes() * count as u32).div_ceil(4)
+    }
+
     /// 32-bit words in a vertex.
     #[must_use]
     pub const fn words(self) -> u32 {
@@ -243,14 +249,9 @@ impl VertexFormat {
     /// Words of a table of `count` vertices: each column is padded to a word.
     #[must_use]
     pub fn table_words(&self, header: Header, count: u16) -> u32 {
-        let column = |f: Field| column_words(f.form, count);
+        let column = |f: Field| f.form.column_words(count);
         self.fields_of(header).map(column).sum()
     }
-}
-
-/// Words of a column.
-pub(super) const fn column_words(form: FieldForm, count: u16) -> u32 {
-    (form.column_bytes() * count as u32).div_ceil(4)
 }
 
 #[cfg(test)]

@@ -68,13 +68,13 @@
 //! | `block.rs` | blocks as values, each payload to the bit |
 //! | `words.rs` | slices and rings of words |
 //! | `reader.rs` | words into blocks |
-//! | `writer.rs` | blocks into words |
 //! | `vertex.rs` | parameters out of vertices and columns |
 //! | `strip.rs` | vertices into triangles |
 //! | `texels.rs` | texels where they lie, and which texture is which |
 //! | `overlays.rs` | pixels over the picture |
 //! | `flow.rs` | which block comes next: jumps, commands, budget |
 //!
+//! Lists are written on the host: `scanbeam bake` makes them of models.
 //! A list is drawn by `ListRunner` of the renderer, which this room does not know.
 
 mod block;
@@ -85,12 +85,9 @@ mod header;
 mod overlays;
 mod reader;
 mod strip;
-#[cfg(test)]
-mod tests;
 mod texels;
 mod vertex;
 mod words;
-mod writer;
 
 pub use block::{
     Bounds, CameraWords, Flow, Head, Instruction, LightWords, MAGIC, Material, Matrix, Overlay,
@@ -108,4 +105,3 @@ pub use texels::{
 };
 pub use vertex::{Layout, Place, Slot, colour, normal};
 pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};
-pub use writer::{FieldPacker, Form, ListWriter, WriteError, words_of_column};

@@ -3,7 +3,7 @@
 //! The form is looked at once a column, not once a vertex; fields of 3 and 6 bytes are taken
 //! three words at a time, so that no field costs a division or a 64-bit shift.
 
-use super::format::{FieldForm, VertexFormat, column_words, parameter};
+use super::format::{FieldForm, VertexFormat, parameter};
 use super::header::{Header, Id};
 use super::words::Words;
 
@@ -157,7 +157,7 @@ impl Layout {
                 _ => {}
             }
             layout.words += if header.id == Id::Table {
-                column_words(field.form, header.count)
+                field.form.column_words(header.count)
             } else {
                 field.form.words()
             };
@@ -191,7 +191,7 @@ impl Slot {
         of: impl Fn([i32; 3]) -> T,
     ) {
         let at = at.wrapping_add(self.word);
-        let len = column_words(self.form, out.len().min(0xFFFF) as u16);
+        let len = self.form.column_words(out.len().min(0xFFFF) as u16);
         match words.slice(at, len) {
             // Whole threes of words, without a question for each whether it is there.
             Some(slice) if self.form == FieldForm::S8x3 => {
@@ -240,7 +240,7 @@ impl Slot {
         if cfg!(target_endian = "big") || self.form.column_bytes() as usize != one {
             return None;
         }
-        let len = column_words(self.form, count);
+        let len = self.form.column_words(count);
         let slice = words.slice(at.wrapping_add(self.word), len)?;
         let bytes: &[u8] = bytemuck::cast_slice(slice);
         let bytes = bytes.get(..usize::from(count) * one)?;

@@ -175,11 +175,19 @@ fn copy_short<const SIDE: usize>(run: &mut [u16], t: &[[u16; SIDE]; SIDE], mut a
 #[inline(always)]
 pub fn copy(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
     match texture.square() {
-        Some(Square::Side32(t)) => copy_square(run, t, at, step),
-        Some(Square::Side64(t)) => copy_square(run, t, at, step),
-        Some(Square::Side128(t)) => copy_square(run, t, at, step),
-        Some(Square::Side256(t)) => copy_square(run, t, at, step),
+        Some(square) => copy_from(run, square, at, step),
         None => copy_packed(run, texture, at, step),
+    }
+}
+
+/// [`copy`] from one of the squares that have loops of their own.
+#[inline(always)]
+pub fn copy_from(run: &mut [u16], square: Square<'_>, at: u32, step: u32) {
+    match square {
+        Square::Side32(t) => copy_square(run, t, at, step),
+        Square::Side64(t) => copy_square(run, t, at, step),
+        Square::Side128(t) => copy_square(run, t, at, step),
+        Square::Side256(t) => copy_square(run, t, at, step),
     }
 }
 

@@ -27,13 +27,13 @@ pub type Planes = [u32; 9];
 
 /// Red, green and blue of a word of colour: 11, 11 and 10 bits.
 #[inline(always)]
-fn fields(word: u32) -> [i32; 3] {
+pub(super) fn fields(word: u32) -> [i32; 3] {
     [word >> 21, word & 0x7FF, word >> 11 & 0x3FF].map(|f| f as i32)
 }
 
 /// `values[0]` and what is to be added for each column and line, at a place.
 #[inline(always)]
-fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
+pub(super) fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
     planes[plane]
         .wrapping_add(planes[plane + 1].wrapping_mul(place.column))
         .wrapping_add(planes[plane + 2].wrapping_mul(place.line))
@@ -338,7 +338,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
     #[inline(never)]
     fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
         if fill == Fill::Plain {
-            return ramp::fill_any::<F>(run, Self::packed(planes, place));
+            return ramp::fill::<F>(run, Self::packed(planes, place));
         }
         let off = place.column.wrapping_sub(place.span) & 15;
         let column = place.column.wrapping_sub(off);
@@ -348,6 +348,16 @@ impl<F: Pixel> Paint for Gouraud<F> {
         }
         let mut off = off;
         let mut rest = run;
+        if F::PACKED && off == 0 {
+            let mut chunks = rest.chunks_exact_mut(16);
+            for chunk in chunks.by_ref() {
+                if let Ok(chunk) = <&mut [F::Word; 16]>::try_from(chunk) {
+                    ramp::fill_16::<F>(chunk, course.packed(0));
+                }
+                course.skip(16);
+            }
+            rest = chunks.into_remainder();
+        }
         while !rest.is_empty() {
             let pixels = rest.len().min(16 - off as usize);
             let (run, after) = rest.split_at_mut(pixels);

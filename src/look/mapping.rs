@@ -2,7 +2,7 @@
 //!
 //! | [`Method`] | where | off by at most |
 //! |---|---|---|
-//! | `Word` | within 25 pixels, sides up to 256, less than 128 texels wide, affine | 1/16 texel |
+//! | `Word` | within 50 pixels, or 25 for sides of 256, less than 128 texels wide, affine | 1/16 texel |
 //! | `Wide` | any triangle that is affine within the budget | 2^-15 of its width |
 //! | `Perspective` | all others | see [`Perspective`] |
 //!
@@ -17,11 +17,12 @@
 //! A triangle may be 4,096 texels wide, wherever on the texture it lies: places count from a base
 //! near its middle, in whole repeats where the texture repeats.
 
+use super::Place;
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Homogeneous, Perspective, Range, Stride, reach};
 use crate::num::{leading_zeros, mul_16, mul_high, mul_high_unsigned, recip, recip_16};
 use crate::scene::Budget;
-use crate::scene::{Texture, Wrap};
+use crate::scene::{Texture, TexturePlace, Wrap};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -117,72 +118,114 @@ pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
     most == least || off < may
 }
 
-/// [`Method::Word`]'s planes, where a triangle may have them.
-#[inline(never)]
-#[must_use]
-pub fn word_planes(
-    corners: &[Corner; 3],
-    texture: &Texture<'_>,
-    budget: Budget,
-) -> Option<Mapping> {
-    let width = width(corners)?;
-    if !texture.is_small() || width >= 128 << 8 || !budget.is_coarse() {
-        return None;
+/// What [`Method::Word`] asks of a triangle: corners as differences from the first one's, which is kept whole.
+#[derive(Clone, Copy, Debug)]
+pub struct Near<'a> {
+    /// The first corner, as in [`Corner`].
+    pub x: i32,
+    pub y: i32,
+    /// From there to the second and to the third.
+    pub dx: [i32; 2],
+    pub dy: [i32; 2],
+    pub depth: [u32; 3],
+    /// Of the corners.
+    pub texture: &'a [TexturePlace; 3],
+}
+
+impl<'a> Near<'a> {
+    #[cfg(test)]
+    #[must_use]
+    pub fn of(corners: &[Corner; 3], texture: &'a [TexturePlace; 3]) -> Self {
+        let [a, b, c] = corners;
+        Self {
+            x: a.x,
+            y: a.y,
+            dx: [b, c].map(|p| p.x.wrapping_sub(a.x)),
+            dy: [b, c].map(|p| p.y.wrapping_sub(a.y)),
+            depth: corners.map(|c| c.depth),
+            texture,
+        }
     }
-    let [a, b, c] = corners;
-    let (dx1, dy1) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
-    let (dx2, dy2) = (c.x.wrapping_sub(a.x), c.y.wrapping_sub(a.y));
-    let way = |dx: i32, dy: i32| (dx ^ (dx >> 31)).saturating_add(dy ^ (dy >> 31));
-    if way(dx1, dy1).max(way(dx2, dy2)) >= 25 << 6 {
-        return None;
-    }
-    let area = dx1 * dy2 - dx2 * dy1;
-    // Two pixels; on thinner ones steps grow.
-    if area < 4 << 12
-        || !is_affine(width, corners.map(|c| c.depth), budget)
-        || texture.wrap() != Wrap::Repeat && !lies_inside(corners, texture)
-    {
-        return None;
-    }
-    let up = leading_zeros(area as u32);
-    let r = recip_16((area as u32) << up >> 16) as i32;
-    // Sides times 64 / area are these times 2^(up - 45).
-    let shares = [dy2, -dy1, dx1, -dx2].map(|d| (d * r) << 4);
-    let plane = |axis: usize, log: u32| {
-        let [_, e1, e2] = ways(corners, axis).map(|e| e as i16);
-        // 16 - log fraction bits, of 8 in e: rounded.
-        let down = (21 + log).wrapping_sub(up) & 31;
-        let half = 1 << down >> 1;
-        let step = |a: i32, b: i32| {
-            let sum = mul_16(shares[a as usize], e1);
-            (half + sum + mul_16(shares[b as usize], e2)) >> down
+
+    /// [`Method::Word`]'s plane, where a triangle may have it: the places of both axes at the picture's first pixel,
+    /// and their steps.
+    #[inline(always)]
+    #[must_use]
+    pub fn word_plane(&self, texture: &Texture<'_>, budget: Budget) -> Option<[u32; 3]> {
+        let Self { x, y, dx, dy, .. } = *self;
+        let way = |i: usize| {
+            let magnitude = |d: i32| d ^ (d >> 31);
+            magnitude(dx[i]).saturating_add(magnitude(dy[i]))
         };
-        let (dx, dy) = (step(0, 1), step(3, 2));
-        // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
-        let rest = 32 - dx.wrapping_mul(a.x & 63) - dy.wrapping_mul(a.y & 63);
-        let first = (a.texel[axis] << (8 - log)) & 0xFFFF;
-        let at = (first + (rest >> 6))
-            .wrapping_sub(dx.wrapping_mul(a.x >> 6))
-            .wrapping_sub(dy.wrapping_mul(a.y >> 6));
-        [at, dx, dy]
-    };
-    let (u, v) = (
-        plane(0, texture.log_width()),
-        plane(1, texture.log_height()),
-    );
-    let mut mapping = Mapping::default();
-    mapping.planes[0] = [0, 1, 2].map(|i| (v[i] << 16).wrapping_add(u[i]) as u32);
-    Some(mapping)
+        // Rounded steps stay within 1/20 texel of the place.
+        let pixels = if texture.is_tiny() { 50 } else { 25 };
+        if way(0).max(way(1)) >= pixels << 6 || !texture.is_small() || !budget.is_coarse() {
+            return None;
+        }
+        let area = dx[0] * dy[1] - dx[1] * dy[0];
+        let texel = self.texture.map(TexturePlace::texel);
+        let first = texel[0];
+        let rise = |i: usize, axis: usize| texel[i][axis].wrapping_sub(first[axis]);
+        let rises = [0, 1].map(|axis| [rise(1, axis), rise(2, axis)]);
+        let width = |[e1, e2]: [i32; 2]| (e1.max(e2).max(0)).wrapping_sub(e1.min(e2).min(0)) as u32;
+        let width = width(rises[0]).max(width(rises[1]));
+        // Two pixels; on thinner ones steps grow.
+        if area < 4 << 12
+            || width >= 128 << 8
+            || !is_affine(width, self.depth, budget)
+            || texture.wrap() != Wrap::Repeat && !lies_inside(self.texture, texture)
+        {
+            return None;
+        }
+        let up = leading_zeros(area as u32);
+        let r = recip_16((area as u32) << up >> 16) as i32;
+        // Sides times 64 / area are these times 2^(up - 44).
+        let share = |d: i32| (d * r) << 3;
+        let (y2, y1, x1, x2) = (share(dy[1]), share(-dy[0]), share(dx[0]), share(-dx[1]));
+        let shares = [y2, y1, x1, x2];
+        let at = [x & 63, y & 63];
+        let u = one_axis(first[0], rises[0], texture.log_width(), up, shares, at);
+        let v = one_axis(first[1], rises[1], texture.log_height(), up, shares, at);
+        let both = |i: usize| (v[i] << 16).wrapping_add(u[i]) as u32;
+        let (right, below) = (both(1), both(2));
+        let at = both(0)
+            .wrapping_sub(right.wrapping_mul((x >> 6) as u32))
+            .wrapping_sub(below.wrapping_mul((y >> 6) as u32));
+        Some([at, right, below])
+    }
+}
+
+/// The place of one axis at the first corner's pixel, and its steps, with `16 - log` fraction bits.
+#[inline(always)]
+fn one_axis(
+    first: i32,
+    rise: [i32; 2],
+    log: u32,
+    up: u32,
+    [y2, y1, x1, x2]: [i32; 4],
+    [x, y]: [i32; 2],
+) -> [i32; 3] {
+    let [e1, e2] = rise.map(|e| e as i16);
+    // Of 8 fraction bits in a rise; rounded.
+    let down = (20 + log).wrapping_sub(up) & 31;
+    let half = 1 << down >> 1;
+    let right = (half + mul_16(y2, e1) + mul_16(y1, e2)) >> down;
+    let below = (half + mul_16(x2, e1) + mul_16(x1, e2)) >> down;
+    // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
+    let rest = 32 - right.wrapping_mul(x) - below.wrapping_mul(y);
+    let at = ((first << (8 - log)) & 0xFFFF) + (rest >> 6);
+    [at, right, below]
 }
 
 /// Whether no place of a triangle comes within 1/8 texel of the texture's rim.
 #[inline(never)]
-fn lies_inside(corners: &[Corner; 3], texture: &Texture<'_>) -> bool {
+fn lies_inside(places: &[TexturePlace; 3], texture: &Texture<'_>) -> bool {
     let within = |at: i32, side: u32| at >= 32 && at <= (side << 8) as i32 - 32;
     let sides = [texture.width(), texture.height()];
-    corners
+    places
         .iter()
-        .all(|c| within(c.texel[0], sides[0]) && within(c.texel[1], sides[1]))
+        .map(|place| place.texel())
+        .all(|[u, v]| within(u, sides[0]) && within(v, sides[1]))
 }
 
 impl Values {
@@ -233,7 +276,7 @@ impl Values {
         })
     }
 
-    /// The planes through the values; `None` where the triangle is too thin.
+    /// The mapping by planes through the values; `false` where the triangle is too thin for them.
     #[inline(never)]
     #[must_use]
     pub fn planes(
@@ -241,30 +284,33 @@ impl Values {
         corners: &[Corner; 3],
         texture: &Texture<'_>,
         budget: Budget,
-    ) -> Option<Mapping> {
-        let mut mapping = Mapping {
-            method: self.method,
-            base: self.base,
-            ..Mapping::EMPTY
-        };
+        mapping: &mut Mapping,
+    ) -> bool {
+        mapping.method = self.method;
+        mapping.base = self.base;
+        mapping.quick = 0;
         let small = Small::new(corners);
         let large = if small.is_none() {
-            Some(Large::new(corners)?)
+            Large::new(corners)
         } else {
             None
         };
         let used = if self.method == Method::Wide { 2 } else { 3 };
-        for (plane, values) in mapping.planes.iter_mut().zip(self.of).take(used) {
-            *plane = match (&small, &large) {
+        for (to, values) in mapping.planes.iter_mut().zip(self.of).take(used) {
+            let plane = match (&small, &large) {
                 (Some(area), _) => area.plane(values),
                 (_, Some(area)) => area.plane(values),
                 _ => None,
-            }?;
+            };
+            let Some(plane) = plane else {
+                return false;
+            };
+            *to = plane;
         }
         if self.method == Method::Perspective {
-            self.stride(&mut mapping, texture, budget);
+            self.stride(mapping, texture, budget);
         }
-        Some(mapping)
+        true
     }
 }
 
@@ -414,6 +460,13 @@ impl Large {
     }
 }
 
+/// A plane's value at a pixel.
+#[inline(always)]
+pub fn word_at([at, right, below]: &[u32; 3], place: Place) -> u32 {
+    at.wrapping_add(right.wrapping_mul(place.column))
+        .wrapping_add(below.wrapping_mul(place.line))
+}
+
 impl Mapping {
     /// That of no triangle.
     pub const EMPTY: Self = Self {
@@ -425,72 +478,78 @@ impl Mapping {
     };
 
     /// The mapping of a triangle; `None` where [`Values`] has none or planes have none.
-    #[inline]
+    #[cfg(test)]
     #[must_use]
     pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
-        word_planes(corners, texture, budget)
-            .or_else(|| Values::new(corners, texture, budget)?.planes(corners, texture, budget))
+        let places = corners.map(|c| TexturePlace::new(c.texel, [0; 2]));
+        if let Some(plane) = Near::of(corners, &places).word_plane(texture, budget) {
+            let mut mapping = Self::EMPTY;
+            mapping.planes[0] = plane;
+            return Some(mapping);
+        }
+        let values = Values::new(corners, texture, budget)?;
+        let mut mapping = Self::EMPTY;
+        values
+            .planes(corners, texture, budget, &mut mapping)
+            .then_some(mapping)
     }
 
     /// Copies texels into `run`, whose first pixel is at `column` and `line` of the picture.
-    ///
-    /// [`draw_slowly`](Self::draw_slowly), but for what is commonest.
     #[inline(always)]
-    pub fn draw(
-        &self,
-        run: &mut [u16],
-        [column, line]: [u32; 2],
-        texture: &Texture<'_>,
-        budget: Budget,
-    ) {
-        let [at, dx, dy] = self.planes[0];
-        let first = at
-            .wrapping_add(dx.wrapping_mul(column))
-            .wrapping_add(dy.wrapping_mul(line));
-        if self.method == Method::Word {
-            copy(run, texture, first, dx);
-        } else {
-            self.draw_slowly(run, [column, line], texture, budget);
+    pub fn draw(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+        if run.len() <= usize::from(self.quick) {
+            return self.span(place).between(run, texture);
         }
+        self.draw_any(run, place, texture, budget);
     }
 
-    #[inline(never)]
-    fn draw_slowly(
-        &self,
-        run: &mut [u16],
-        [column, line]: [u32; 2],
-        texture: &Texture<'_>,
-        budget: Budget,
-    ) {
-        let [s, t, q] = self.planes.map(|[at, dx, dy]| {
-            at.wrapping_add(dx.wrapping_mul(column))
-                .wrapping_add(dy.wrapping_mul(line))
-        });
-        let [ds, dt, dq] = self.planes.map(|[_, dx, _]| dx);
-        let uv = |u: u32, v: u32| Uv {
-            u: u as i32,
-            v: v as i32,
-        };
-        let base = self.base;
-        if self.method == Method::Wide {
-            let (at, step) = (uv(s, t), uv(ds, dt));
-            let copy = if budget.is_coarse() {
-                copy_wide
-            } else {
-                copy_exact
-            };
-            return copy(run, texture, Way { base, at, step });
-        }
+    #[inline(always)]
+    fn span(&self, place: Place) -> Perspective {
+        let [s, t, q] = [0, 1, 2].map(|i| word_at(&self.planes[i], place));
+        let [ds, dt, dq] = self.planes.map(|[_, right, _]| right);
         let of = |q, s: u32, t: u32| Homogeneous {
             q,
             s: s as i32,
             t: t as i32,
         };
-        let (at, step) = (of(q, s, t), of(dq, ds, dt));
-        let span = Perspective { base, at, step };
-        if run.len() <= usize::from(self.quick) {
-            return span.between(run, texture);
+        Perspective {
+            base: self.base,
+            at: of(q, s, t),
+            step: of(dq, ds, dt),
         }
+    }
+
+    #[inline(never)]
+    fn draw_any(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+        match self.method {
+            Method::Word => {
+                let plane = &self.planes[0];
+                copy(run, texture, word_at(plane, place), plane[1]);
+            }
+            Method::Wide => {
+                let uv = |u: u32, v: u32| Uv {
+                    u: u as i32,
+                    v: v as i32,
+                };
+                let [u, v] = [0, 1].map(|i| word_at(&self.planes[i], place));
+                let way = Way {
+                    base: self.base,
+                    at: uv(u, v),
+                    step: uv(self.planes[0][1], self.planes[1][1]),
+                };
+                if budget.is_coarse() {
+                    copy_wide(run, texture, way);
+                } else {
+                    copy_exact(run, texture, way);
+                }
+            }
+            Method::Perspective => self.draw_long(run, place, texture, budget),
+        }
+    }
+
+    #[inline(always)]
+    fn draw_long(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+        let span = self.span(place);
         if run.len() < 2 * usize::from(self.quick) {
             return span.between_three(run, texture);
         }

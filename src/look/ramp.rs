@@ -65,7 +65,7 @@ pub(super) fn fill<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
 
 /// Colours a run of any length, which may be of one colour.
 #[inline(always)]
-pub(super) fn fill_any<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
+fn fill_any<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
     if ramp.step == 0 {
         return F::fill(run, F::of_word(ramp.word));
     }
@@ -78,13 +78,29 @@ pub(super) fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
     let mut chunks = run.chunks_exact_mut(8);
     for chunk in chunks.by_ref() {
         if let Ok(chunk) = <&mut [F::Word; 8]>::try_from(chunk) {
-            for pixel in chunk {
-                *pixel = next::<F>(&mut ramp);
-            }
+            fill_chunk::<F, 8>(chunk, &mut ramp);
         }
     }
     for pixel in chunks.into_remainder() {
         *pixel = next::<F>(&mut ramp);
+    }
+}
+
+/// Colours 16 pixels.
+#[inline(always)]
+pub(super) fn fill_16<F: Pixel>(run: &mut [F::Word; 16], mut ramp: Packed) {
+    ramp.step = black_box(ramp.step);
+    fill_chunk::<F, 16>(run, &mut ramp);
+}
+
+/// Colours an even number of pixels, two at a time.
+#[inline(always)]
+fn fill_chunk<F: Pixel, const N: usize>(run: &mut [F::Word; N], ramp: &mut Packed) {
+    for two in run.chunks_exact_mut(2) {
+        let first = ramp.word;
+        let second = first.wrapping_add(ramp.step);
+        ramp.word = second.wrapping_add(ramp.step);
+        two.copy_from_slice(&F::of_words([first, second]));
     }
 }
 

@@ -9,16 +9,17 @@
 //! | others that have planes | planes of u and v, or of u/w, v/w and 1/w | a plane a channel, anew every 64 pixels |
 //! | thin | from both ends of each span | likewise |
 
-use super::gouraud::{Course, Planes as Shades, course, plane_shades, thin_shades};
-use super::mapping::{Corner, Mapping, Method, Values};
+use super::fetch::copy_from;
+use super::gouraud::{Course, Planes as Shades, at, course, fields, plane_shades, thin_shades};
+use super::mapping::{Corner, Mapping, Method, Near, Values, word_at};
 use super::ramp::nearer_bits;
 use super::tint::{Shade, tint, tint_swapped};
 use super::{Depths, Fill, Paint, Place, ThinSpan};
 use crate::composite::{Rgb565, Rgb565Bytes};
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
-use crate::scene::{DrawState, ORIGIN};
-use crate::span::{Size, Triangle};
+use crate::scene::{Budget, DrawState, ORIGIN, Texture, TexturePlace, Vertex};
+use crate::span::{Rise, Shares, Size, Triangle, across, down};
 use core::marker::PhantomData;
 
 /// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`] or
@@ -94,23 +95,78 @@ impl<F: Texel> Textured<F> {
         [corner(0), corner(1), corner(2)]
     }
 
-    /// Whether all corners are in full light.
+    /// The same as [`Near`] has them.
     #[inline(always)]
-    fn is_full(triangle: &Triangle<'_>) -> bool {
+    fn near<'a>(triangle: &'a Triangle<'_>) -> Near<'a> {
+        let [a, b, c] = triangle.vertex;
+        let texture = triangle.texture;
+        let fine = texture.map(TexturePlace::fine);
+        let way = |vertex: &Vertex| vertex.place.wrapping_sub(a.place);
+        let (d1, d2) = (way(b), way(c));
+        let side = |way: i32, i: usize, axis: usize| 8 * way + (fine[i][axis] - fine[0][axis]);
+        const FIRST: i32 = 64 * ORIGIN + 32;
+        Near {
+            x: 8 * (a.place & 0xFFFF) as i32 + fine[0][0] - FIRST,
+            y: 8 * (a.place >> 16) as i32 + fine[0][1] - FIRST,
+            dx: [side(across(d1), 1, 0), side(across(d2), 2, 0)],
+            dy: [side(down(d1), 1, 1), side(down(d2), 2, 1)],
+            depth: [a.depth, b.depth, c.depth],
+            texture: &triangle.texture,
+        }
+    }
+
+    /// Planes of the shade: how they are evaluated; `None` in full light.
+    #[inline(always)]
+    fn set_up_shade(
+        triangle: &Triangle<'_>,
+        size: Size,
+        area: u32,
+        planes: &mut Shades,
+    ) -> Option<Fill> {
         const FULL: u32 = Scale::SHADE.full_word();
-        triangle.vertex.iter().all(|v| v.colour == FULL)
+        let colour = triangle.vertex.map(|v| v.colour);
+        let [a, b, c] = colour.map(|colour| colour ^ FULL);
+        if a | b | c == 0 {
+            return None;
+        }
+        if matches!(size, Size::Tiny | Size::Small) {
+            shade_planes(&triangle.shares(area), colour, planes);
+            return Some(Fill::Small);
+        }
+        Some(plane_shades(triangle, size, area, planes))
+    }
+
+    /// The mapping of a triangle that [`Near`] does not serve; whether the triangle is too thin for planes.
+    #[inline(never)]
+    fn set_up_mapping(
+        triangle: &Triangle<'_>,
+        texture: &Texture<'_>,
+        budget: Budget,
+        planes: &mut Planes,
+    ) -> bool {
+        let corners = Self::corners(triangle);
+        let Some(values) = Values::new(&corners, texture, budget) else {
+            return false;
+        };
+        planes.mapped = values.planes(&corners, texture, budget, &mut planes.mapping);
+        !planes.mapped
+    }
+
+    /// Multiplies a run by the shade of a triangle within 64 pixels.
+    #[inline(always)]
+    fn shade_small(planes: &Shades, place: Place, run: &mut [u16]) {
+        let step = Shade {
+            red_blue: planes[1],
+            green: planes[4],
+        };
+        let at = Shade {
+            red_blue: at(planes, 0, place),
+            green: at(planes, 3, place),
+        };
+        F::tint(run, at, step);
     }
 
     /// Multiplies a run by the shade.
-    #[inline(always)]
-    fn shade(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
-        if fill == Fill::Small && run.len() <= SHADE_RUN {
-            let [shade, step] = shade_at(&course(fill, planes, place));
-            return F::tint(run, shade, step);
-        }
-        Self::shade_long(fill, planes, place, run);
-    }
-
     #[inline(never)]
     fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
         let columns = (place.column..).step_by(SHADE_RUN);
@@ -119,6 +175,24 @@ impl<F: Texel> Textured<F> {
             F::tint(run, shade, step);
         }
     }
+}
+
+/// Planes of a shade half a pixel beyond each pixel, of a triangle within 64 pixels: red and blue, then green.
+#[inline(always)]
+fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) {
+    let shares = shares.cut::<6>();
+    let [a, b, c] = colour.map(fields);
+    let red = shares.rise::<6, 5>(b[0] - a[0], c[0] - a[0]);
+    let green = shares.rise::<6, 5>(b[1] - a[1], c[1] - a[1]);
+    let blue = shares.rise::<6, 6>(b[2] - a[2], c[2] - a[2]);
+    let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
+    let first = |rise: &Rise, value: i32| rise.at.wrapping_add(value).wrapping_add(rise.dx >> 1);
+    planes[0] = join(first(&red, a[0] << 5), first(&blue, a[2] << 6));
+    planes[1] = join(red.dx, blue.dx);
+    planes[2] = join(red.dy, blue.dy);
+    planes[3] = (first(&green, a[1] << 5) << 16) as u32;
+    planes[4] = (green.dx << 16) as u32;
+    planes[5] = (green.dy << 16) as u32;
 }
 
 /// The shade half a pixel beyond a place, and its step.
@@ -161,26 +235,23 @@ impl<F: Texel> Paint for Textured<F> {
         planes: &mut Planes,
     ) -> Fill {
         planes.draw = Self::draw_of(object, draws);
-        planes.shaded = None;
-        let mut thin = false;
-        if !Self::is_full(triangle) {
-            let fill = plane_shades(triangle, size, area, &mut planes.shade);
-            thin = fill == Fill::Thin;
-            planes.shaded = Some(fill);
-        }
+        planes.shaded = Self::set_up_shade(triangle, size, area, &mut planes.shade);
         planes.mapped = false;
+        let mut is_plain = false;
+        let mut thin = planes.shaded == Some(Fill::Thin);
         let state = draws.get(usize::from(planes.draw));
         if let Some((texture, budget)) = state.and_then(DrawState::texture) {
-            let corners = Self::corners(triangle);
-            match Mapping::new(&corners, texture, budget) {
-                Some(mapping) => {
-                    planes.mapping = mapping;
-                    planes.mapped = true;
-                }
-                None => thin |= Values::new(&corners, texture, budget).is_some(),
+            let near = Self::near(triangle);
+            if let Some(plane) = near.word_plane(texture, budget) {
+                planes.mapping.method = Method::Word;
+                planes.mapping.quick = 0;
+                planes.mapping.planes[0] = plane;
+                planes.mapped = true;
+                is_plain = state.and_then(DrawState::square).is_some();
+            } else {
+                thin |= Self::set_up_mapping(triangle, texture, budget, planes);
             }
         }
-        let is_plain = planes.mapping.method == Method::Word || !planes.mapped;
         match planes.shaded {
             _ if thin => Fill::Thin,
             None | Some(Fill::Small) if is_plain => Fill::Plain,
@@ -211,22 +282,36 @@ impl<F: Texel> Paint for Textured<F> {
 
     #[inline(always)]
     fn fill_plain(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        let state = draws.get(usize::from(planes.draw));
-        match state.and_then(DrawState::texture) {
-            Some((texture, budget)) if planes.mapped => {
-                let at = [place.column, place.line];
-                planes.mapping.draw(run, at, texture, budget);
-            }
-            _ => run.fill(0xFFFF),
-        }
-        if let Some(fill) = planes.shaded {
-            Self::shade(fill, &planes.shade, place, run);
+        let Some(square) = draws
+            .get(usize::from(planes.draw))
+            .and_then(DrawState::square)
+        else {
+            return;
+        };
+        let plane = &planes.mapping.planes[0];
+        copy_from(run, square, word_at(plane, place), plane[1]);
+        if planes.shaded.is_some() {
+            Self::shade_small(&planes.shade, place, run);
         }
     }
 
     #[inline(never)]
-    fn fill(_: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        Self::fill_plain(planes, place, draws, run);
+    fn fill(fill: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        if fill == Fill::Plain {
+            return Self::fill_plain(planes, place, draws, run);
+        }
+        let state = draws.get(usize::from(planes.draw));
+        match state.and_then(DrawState::texture) {
+            Some((texture, budget)) if planes.mapped => {
+                planes.mapping.draw(run, place, texture, budget);
+            }
+            _ => run.fill(0xFFFF),
+        }
+        match planes.shaded {
+            Some(Fill::Small) => Self::shade_small(&planes.shade, place, run),
+            Some(fill) => Self::shade_long(fill, &planes.shade, place, run),
+            None => {}
+        }
     }
 
     #[inline(never)]

@@ -191,7 +191,7 @@ fn gouraud_long<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Sh
 /// Up to 7 pixels in straight code: 4, 2 and 1.
 #[inline(never)]
 fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: Shade) {
-    let m = *unknown(&MASKS);
+    let m = MASKS;
     let (four, rest) = run.split_at_mut(run.len() & 4);
     if let [a, b, c, d] = four {
         pair::<SWAPPED>(a, b, shade.channels(), m);

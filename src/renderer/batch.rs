@@ -17,7 +17,9 @@ mod places;
 mod table;
 mod vertices;
 
-use super::scene::{DrawError, Instance, Scene};
+use super::error::DrawError;
+use super::instance::Instance;
+use super::scene::Scene;
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::texturing::{Quality, Skin};
 use crate::geometry::{

@@ -6,7 +6,7 @@ use crate::active::{ActiveList, Slot};
 use crate::geometry::Parameters;
 use crate::pipeline::{DrawableOf, Pipeline};
 use crate::stats::SpanCounter;
-use crate::visible::{MOST_NAMES, Named, name};
+use crate::visible::{DepthRamp, MOST_NAMES, Named, name};
 
 impl<P: Pipeline> LinePass<'_, '_, P> {
     /// Draws all objects, if each has a name and a plane; `false` when nothing was drawn.
@@ -46,7 +46,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                     _ => 0,
                 }
             };
-            let course = (plane.at(column, line) as u32, plane.dx as u32);
+            let course = DepthRamp::of(plane, column, line);
             name::<P::Depth>(cells, course, index as u32 + 1, whole);
             spans += 1;
             pixels += (end - start) as u32;
@@ -74,7 +74,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             };
             let place = (self.left + start as i32, self.line);
             let named = Named::new(cells, name);
-            self.brush.draw_named(slot.body(), place, (pixels, named));
+            self.brush.draw_named(slot.body(), place, pixels, named);
             (spans, covered) = (spans - 1, covered - (end - start) as u32);
             at += 1;
         }

@@ -1,7 +1,9 @@
 //! A whole frame: every line drawn and sent while the one before is on its way (K12).
 
-use super::lines::{LineRenderer, RendererError};
-use super::scene::{PassOne, Scene};
+use super::error::RendererError;
+use super::instance::PassOne;
+use super::lines::LineRenderer;
+use super::scene::Scene;
 use crate::active::Interleave;
 use crate::composite::PixelFormat;
 use crate::pipeline::{Pipeline, WordOf};

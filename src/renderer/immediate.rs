@@ -3,7 +3,9 @@
 //! Thin over [`Scene::draw`]: the same vertices give the same pixels in every way. What has no
 //! indices is drawn in pieces of 64 faces, because a mesh needs some.
 
-use super::scene::{DrawError, Instance, Scene};
+use super::error::DrawError;
+use super::instance::Instance;
+use super::scene::Scene;
 use crate::geometry::{Assembled, Coordinate, Dropped, Faces, Mesh, QuadSplit};
 use crate::pipeline::Pipeline;
 

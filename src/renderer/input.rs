@@ -6,7 +6,9 @@
 //! other, each to its end of the frame, so that the order of submission, and with it the picture,
 //! depends on what was said and never on who was faster.
 
-use super::scene::{DrawError, Instance, Scene};
+use super::error::DrawError;
+use super::instance::Instance;
+use super::scene::Scene;
 use crate::geometry::{Coordinate, Mesh};
 use crate::pipeline::Pipeline;
 use core::task::Poll;

@@ -1,5 +1,6 @@
 //! Pass two: the objects of a line into its pixels (K1, K5, K8).
 
+use super::error::RendererError;
 use super::order::{Doubt, Order};
 use super::place::Place;
 use super::scene::Scene;
@@ -50,76 +51,6 @@ pub enum DepthUse {
     /// On every line.
     Always,
 }
-
-/// A line renderer has less memory than the scene needs. Nothing was drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum RendererError {
-    /// Fewer links than the scene has objects.
-    Links {
-        /// Objects of the scene.
-        needed: usize,
-        /// Links of the renderer.
-        have: usize,
-    },
-    /// Fewer depth cells than a line has pixels.
-    Depth {
-        /// Pixels a line.
-        needed: usize,
-        /// Depth cells of the renderer.
-        have: usize,
-    },
-    /// The pixels lent for a line are not as many as a line has.
-    Pixels {
-        /// Pixels a line.
-        needed: usize,
-        /// Pixels lent.
-        have: usize,
-    },
-    /// The line is not among those the scene was begun with.
-    Line {
-        /// The line.
-        line: u16,
-    },
-    /// The line belongs to none of the renderers, or came out of turn from the one it belongs to.
-    Unowned {
-        /// The line.
-        line: u16,
-    },
-    /// The frame was given up while another renderer still owed the line.
-    Stopped {
-        /// The line.
-        line: u16,
-    },
-}
-
-impl core::fmt::Display for RendererError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Links { needed, have } => {
-                write!(
-                    f,
-                    "renderer: {needed} objects need as many links, there are {have}"
-                )
-            }
-            Self::Depth { needed, have } => {
-                write!(
-                    f,
-                    "renderer: a line of {needed} pixels has {have} depth cells"
-                )
-            }
-            Self::Pixels { needed, have } => {
-                write!(f, "renderer: a line of {needed} pixels was lent {have}")
-            }
-            Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
-            Self::Unowned { line } => write!(f, "renderer: nobody draws line {line} in its turn"),
-            Self::Stopped { line } => write!(f, "renderer: given up while line {line} was awaited"),
-        }
-    }
-}
-
-impl core::error::Error for RendererError {}
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the
 /// scene with any number of others (K16, X6).
@@ -437,7 +368,7 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for LinePass<'_, '_, P> {
         let Some(pixels) = self.pixels.get_mut(start..end) else {
             return;
         };
-        self.brush.draw(object, body, at, (pixels, cells));
+        self.brush.draw(object, body, at, pixels, cells);
     }
 }
 
@@ -561,7 +492,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
             };
             let at = (left + start as i32, line);
             self.brush
-                .draw(slot.object(), slot.body(), at, (pixels, None));
+                .draw(slot.object(), slot.body(), at, pixels, None);
             start = end;
         }
         true

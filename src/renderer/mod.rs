@@ -9,6 +9,7 @@
 
 mod batch;
 mod deferred;
+mod error;
 mod filing;
 mod fill;
 mod frame;
@@ -16,6 +17,7 @@ mod frame;
 mod frame_async;
 mod immediate;
 mod input;
+mod instance;
 mod lights;
 mod lines;
 mod order;
@@ -33,6 +35,7 @@ mod transparent;
 mod words;
 
 pub use batch::{ListCoordinate, ListMemory};
+pub use error::{DrawError, RendererError, SceneError};
 pub use frame::{
     FrameError, FrameStats, LineSource, draw_continuous, draw_frame, draw_frame_changed,
     draw_frame_changed_runs, send_changed, send_changed_runs, send_frame,
@@ -41,12 +44,13 @@ pub use frame::{
 pub use frame_async::{draw_frame_async, send_frame_async};
 pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
+pub use instance::{Instance, PassOne};
 pub use lights::{EightLights, ListLights, OneLight};
-pub use lines::{DepthUse, LineMemory, LineRenderer, RendererError};
+pub use lines::{DepthUse, LineMemory, LineRenderer};
 pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};
 pub use palette::{draw_frame_indexed, send_frame_indexed};
 pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};
-pub use scene::{DrawError, Instance, PassOne, Scene, SceneError, SceneMemory};
+pub use scene::{Scene, SceneMemory};
 pub use shadow::ShadowError;

@@ -192,11 +192,10 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         let (object, body) = (slot.object(), slot.body());
         match cover.look(start, end) {
             Covered::All => self.brush.counter.span(0, pixels.len() as u32, false),
-            Covered::Nothing => self.brush.draw(object, body, at, (pixels, None)),
-            Covered::Some => {
-                self.brush
-                    .draw_masked(object, body, at, (pixels, cover.masked(start)))
-            }
+            Covered::Nothing => self.brush.draw(object, body, at, pixels, None),
+            Covered::Some => self
+                .brush
+                .draw_masked(object, body, at, pixels, cover.masked(start)),
         }
     }
 }

@@ -3,8 +3,9 @@
 //! A source of lines is wrapped, so it does not matter who draws, and lines that have not changed
 //! are still known by all that is on them (X4).
 
+use super::error::RendererError;
 use super::frame::{Alone, FrameError, FrameStats, LineSource, send_changed, send_frame};
-use super::lines::{LineRenderer, RendererError};
+use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::composite::LineOverlay;
 use crate::pipeline::{Pipeline, WordOf};

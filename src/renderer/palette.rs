@@ -4,8 +4,9 @@
 //! fast RAM, and from there each pixel is looked up. Whatever gives lines can be sent so: several
 //! renderers, and what is [`Overlaid`](super::Overlaid) with sprites of indices.
 
+use super::error::RendererError;
 use super::frame::{Alone, FrameError, FrameStats, LineSource, window};
-use super::lines::{LineRenderer, RendererError};
+use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::composite::{Indexed, LinePalettes, expand_indices};
 use crate::pipeline::Pipeline;

@@ -1,6 +1,7 @@
 //! Where a line renderer is in a scene, and fetching ahead of it (C4).
 
-use super::lines::{LineRenderer, RendererError};
+use super::error::RendererError;
+use super::lines::LineRenderer;
 use super::scene::Scene;
 use super::transparent::is_special;
 use crate::composite::Compositing;

@@ -6,8 +6,9 @@
 //! is faster, and a worker is at most as many lines ahead as it has buffers. Nobody shares
 //! anything else but the scene, read-only.
 
+use super::error::RendererError;
 use super::frame::{FrameStats, LineSource};
-use super::lines::{LineRenderer, RendererError};
+use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::active::Interleave;
 use crate::composite::PixelFormat;

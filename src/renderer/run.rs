@@ -12,17 +12,19 @@
 //! and highlights without [`EightLights`](crate::input::EightLights), overlays without slots, and windows that
 //! are not the whole picture where surfaces are not [`Windowed`](crate::pipeline::Windowed). Of levels of detail the first is drawn.
 
-use super::batch::{BadIndex, Batch, ListCoordinate, ListMemory, Target};
+mod blocks;
+
+use super::batch::{Batch, ListCoordinate, ListMemory, Target};
 use super::frame::FrameStats;
+use super::instance::Instance;
 use super::lights::{ListLights, OneLight};
-use super::scene::{Instance, Scene};
+use super::scene::Scene;
 use crate::event::{Event, EventSet, EventSink, Notice};
 use crate::geometry::texturing::Quality;
-use crate::geometry::{Affine, Camera, Clip, Cull, Mark, Shading, Sphere};
+use crate::geometry::{Affine, Clip, Cull, Mark, Shading};
 use crate::list::{
-    Bound, Bounds, Budget, Flow, Halt, Id, Instruction, ListCommand, ListControl, ListError,
-    Material, Matrix, NoTexture, Overlay, Reason, State, Step, Texture, TextureSlots, Walker,
-    Window, Words, read_block,
+    Bound, Budget, Halt, ListCommand, ListControl, ListError, Material, NoTexture, Step,
+    TextureSlots, Walker, Window, Words,
 };
 use crate::pipeline::{MarkOf, Pipeline};
 
@@ -346,215 +348,6 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
             offset: self.walker.offset(),
         };
         self.batch.flush(words, &mut target);
-    }
-
-    /// Does one block.
-    fn execute<'w, P: Pipeline>(
-        &mut self,
-        words: impl Words<'w>,
-        instruction: Instruction,
-        scene: &mut Scene<'_, P>,
-        events: &mut impl EventSink,
-    ) -> Result<Step, ListError> {
-        self.counts.blocks += 1;
-        // State comes in groups and is combined once, before the first block that draws.
-        let draws = !matches!(instruction, Instruction::State(_) | Instruction::Flow(_));
-        if self.stale && draws {
-            self.renew::<P>(events);
-        }
-        let light = self.lights.on(&self.material);
-        let mut target = Target {
-            scene,
-            instance: self.instance.lit_by(light.filter(|_| !self.material.unlit)),
-            opacity: self.material.opacity,
-            texture: self.texture.map(|t| (t, self.settings.quality)),
-            events,
-            offset: self.walker.offset(),
-        };
-        let format = self.walker.format();
-        let done = match instruction {
-            Instruction::Short(run) | Instruction::Quads(run) | Instruction::Points(run) => self
-                .batch
-                .run(words, format, run, self.point_size, &mut target),
-            Instruction::Long(run) => {
-                self.batch.long(words, run, &mut target);
-                Ok(())
-            }
-            Instruction::Table(run) => self.batch.table(words, format, run, &mut target),
-            Instruction::Indexed(run) => {
-                if let Err(BadIndex(index, count)) = self.batch.indexed(words, run, &mut target) {
-                    let reason = Reason::Index { index, count };
-                    return Err(self.walker.fail(Id::Indexed, reason));
-                }
-                Ok(())
-            }
-            Instruction::State(state) => return self.state(words, state, scene, events),
-            Instruction::Flow(Flow::LoadTexture { number, at }) => {
-                self.flush(words, scene, events);
-                self.load(words, number, at, events);
-                Ok(())
-            }
-            _ => Err(Event::Unimplemented),
-        };
-        match done {
-            Err(Event::Unimplemented) => self.unimplemented(events),
-            Err(event) => self.notice(events, event, 0),
-            Ok(()) => {}
-        }
-        Ok(Step::Do(instruction))
-    }
-
-    /// Gives a number to the texture that is defined elsewhere in the list; the walker has seen
-    /// that one is there.
-    fn load<'w>(
-        &mut self,
-        words: impl Words<'w>,
-        number: u8,
-        at: u32,
-        events: &mut impl EventSink,
-    ) {
-        let block = read_block(words, at, self.walker.format());
-        if let Ok(Instruction::State(State::Texture(texture))) = block.map(|b| b.instruction) {
-            let slots = TextureSlots(self.batch.textures());
-            if !slots.texture(&Texture { number, ..texture }) {
-                self.notice(events, Event::Full, 0);
-            }
-            self.stale = true;
-        }
-    }
-
-    /// Keeps an overlay for those who draw the lines.
-    fn overlay(&mut self, overlay: &Overlay, events: &mut impl EventSink) {
-        let slots = self.batch.overlays();
-        let colours = match overlay.form.is_indexed() {
-            true => TextureSlots(self.batch.textures()).colours(overlay.palette),
-            false => Some((0, 1)),
-        };
-        match colours {
-            Some(colours) if !slots.0.is_empty() => {
-                if !slots.push(overlay, colours) {
-                    self.notice(events, Event::Full, 0);
-                }
-            }
-            // Nobody paints them, or there is no such palette.
-            _ => self.unimplemented(events),
-        }
-    }
-
-    /// Passes over what a sphere holds that cannot be seen.
-    fn bounds<'w, P: Pipeline>(
-        &mut self,
-        words: impl Words<'w>,
-        bounds: &Bounds,
-        scene: &Scene<'_, P>,
-    ) {
-        // The sphere in units of 2^-30, at a place of that scale.
-        let sphere = Sphere {
-            centre: bounds.centre,
-            radius: bounds.radius.unsigned_abs(),
-        };
-        let scale = Matrix {
-            linear_exponent: bounds.exponent + 1,
-            ..Matrix::IDENTITY
-        };
-        let model = Affine::from(&scale).then(&self.settings.instance.model);
-        if scene.is_outside(&sphere, &model) {
-            let to = self.walker.position().wrapping_add(bounds.words);
-            // Of a ring, what is not yet there cannot be passed over.
-            if self.walker.jump(words, to) {
-                self.counts.skipped += 1;
-                self.counts.skipped_words += bounds.words;
-            }
-        }
-    }
-
-    /// Takes new state; what was gathered is drawn with the old one.
-    fn state<'w, P: Pipeline>(
-        &mut self,
-        words: impl Words<'w>,
-        state: State,
-        scene: &mut Scene<'_, P>,
-        events: &mut impl EventSink,
-    ) -> Result<Step, ListError> {
-        match state {
-            State::Head(_) | State::Format(_) => return Ok(Step::Passed),
-            State::Bounds(bounds) => {
-                self.bounds(words, &bounds, scene);
-                return Ok(Step::Passed);
-            }
-            _ => self.flush(words, scene, events),
-        }
-        let screen = scene.screen();
-        match state {
-            State::Matrix(matrix) => self.matrix = Affine::from(&matrix),
-            State::Light { number, light } => {
-                if !self.lights.set(number, Some(light)) {
-                    self.unimplemented(events);
-                }
-            }
-            State::LightOff { number } => {
-                self.lights.set(number, None);
-            }
-            State::Material(material) => {
-                if (material.opacity != 255 && !P::Shading::COMPOSITED)
-                    || (material.specular != [0; 3] && !L::HIGHLIGHTS)
-                    || (material.texture.is_some() && !P::Shading::TEXTURED)
-                {
-                    self.unimplemented(events);
-                }
-                self.material = material;
-            }
-            State::Camera(_) if !self.settings.camera => return Ok(Step::Violation),
-            State::Camera(camera) => match Camera::listed(&camera, screen.height()) {
-                Ok(camera) => scene.set_camera(&camera),
-                Err(_) => return Err(self.walker.fail(Id::State, Reason::Camera)),
-            },
-            State::Window(window) => {
-                let all = Window {
-                    left: 0,
-                    top: 0,
-                    right: screen.width(),
-                    bottom: screen.height(),
-                };
-                let granted = self.settings.window.unwrap_or(all);
-                if window.left < granted.left
-                    || window.top < granted.top
-                    || window.right > granted.right
-                    || window.bottom > granted.bottom
-                {
-                    return Ok(Step::Violation);
-                }
-                if MarkOf::<P>::CUTS {
-                    self.window = Some(window);
-                    scene.cut_to(Clip::Inside(window));
-                } else if window != all {
-                    self.unimplemented(events);
-                }
-            }
-            State::PointSize(size) => self.point_size = size,
-            // Texels are drawn from where they lie.
-            State::Texture(texture)
-                if P::Shading::TEXTURED && words.slice(texture.at, texture.words()).is_some() =>
-            {
-                if !TextureSlots(self.batch.textures()).texture(&texture) {
-                    self.notice(events, Event::Full, 0);
-                }
-            }
-            State::Palette(palette)
-                if (P::Shading::TEXTURED || !self.batch.overlays().0.is_empty())
-                    && words.slice(palette.at, u32::from(palette.count)).is_some() =>
-            {
-                if !TextureSlots(self.batch.textures()).palette(&palette) {
-                    self.notice(events, Event::Full, 0);
-                }
-            }
-            State::Overlay(overlay) if words.slice(overlay.at, overlay.words()).is_some() => {
-                self.overlay(&overlay, events);
-            }
-            _ => self.unimplemented(events),
-        }
-        self.stale = true;
-        Ok(Step::Passed)
     }
 }
 

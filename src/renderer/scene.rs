@@ -1,17 +1,21 @@
 //! Pass one: meshes into the slow arena, each object under the first line it is on (K1, S3).
 
+mod read;
+
+use super::error::{DrawError, SceneError};
 use super::filing::Filing;
+use super::instance::{Instance, PassOne};
 use super::spans::scale;
 use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::composite::TextureSource;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, Dropped, Filed, Light,
-    LightingModel, Mark, Mesh, MeshError, Part, Priority, Room, Screen, ScreenVertex, Shading,
-    Sphere, Store, on_screen, triangles,
+    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, LightingModel, Looks, Mark, Mesh,
+    MeshError, Part, Priority, Screen, ScreenMesh, ScreenVertex, Shading, Sphere, Store, Surfaced,
+    on_screen, triangles,
 };
 use crate::link::Link;
-use crate::pipeline::{DrawableOf, FiledOf, MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
+use crate::pipeline::{MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
@@ -24,165 +28,6 @@ pub struct SceneMemory<'m, P: Pipeline> {
     pub objects: &'m mut [ObjectOf<P>],
     /// One for each line of the picture, or of the largest band that is begun.
     pub buckets: &'m mut [Link],
-}
-
-/// How and where a mesh stands in the world.
-///
-/// `L` is what lights it: [`Light`], or [`Lighting`](crate::light::Lighting) for several lights and a
-/// material with highlights.
-#[derive(Clone, Copy, Debug)]
-pub struct Instance<L = Light> {
-    /// Model space to world space.
-    pub model: Affine,
-    /// Which faces are dropped.
-    pub cull: Cull,
-    /// The light, where the mesh is to be lit.
-    pub light: Option<L>,
-    /// Colour of vertices that have none of their own.
-    pub colour: [u8; 3],
-}
-
-impl Default for Instance {
-    /// At the origin, white, not lit, faces seen from behind dropped.
-    fn default() -> Self {
-        Self {
-            model: Affine::IDENTITY,
-            cull: Cull::Back,
-            light: None,
-            colour: [255; 3],
-        }
-    }
-}
-
-impl<L> Instance<L> {
-    /// The same instance lit by something else, or not at all.
-    #[must_use]
-    pub fn lit_by<M>(self, light: Option<M>) -> Instance<M> {
-        Instance {
-            model: self.model,
-            cull: self.cull,
-            light,
-            colour: self.colour,
-        }
-    }
-}
-
-/// Why a scene cannot be begun.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum SceneError {
-    /// There are fewer buckets than lines.
-    Buckets {
-        /// How many lines were to be begun.
-        needed: u16,
-        /// How many buckets there are.
-        have: usize,
-    },
-    /// The lines are not within the picture, or there are none.
-    Lines {
-        /// The first line.
-        start: u16,
-        /// The line after the last.
-        end: u16,
-        /// The picture's height.
-        height: u16,
-    },
-}
-
-impl core::fmt::Display for SceneError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Buckets { needed, have } => {
-                write!(
-                    f,
-                    "scene: {needed} lines need as many buckets, there are {have}"
-                )
-            }
-            Self::Lines { start, end, height } => {
-                write!(
-                    f,
-                    "scene: lines {start}..{end} of a picture of {height} lines"
-                )
-            }
-        }
-    }
-}
-
-impl core::error::Error for SceneError {}
-
-/// Why a mesh was not drawn, or not all of it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum DrawError {
-    /// An arena is full; what was kept is drawn.
-    Full(Dropped),
-    /// The mesh contradicts itself; nothing of it is drawn.
-    Mesh(MeshError),
-}
-
-impl core::fmt::Display for DrawError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        match self {
-            Self::Full(Dropped {
-                room,
-                first_face,
-                triangles,
-            }) => {
-                let room = match room {
-                    Room::Vertices => "vertex",
-                    Room::Objects => "object",
-                };
-                write!(
-                    f,
-                    "the {room} arena is full: {triangles} triangles dropped, from face {first_face} on"
-                )
-            }
-            Self::Mesh(MeshError::AttributeLength) => {
-                f.write_str("mesh: normals or colours are not as many as the positions")
-            }
-            Self::Mesh(MeshError::Index { face }) => {
-                write!(f, "mesh: face {face} names a vertex that does not exist")
-            }
-            Self::Mesh(MeshError::StripLength) => {
-                f.write_str("mesh: a quad strip needs an even number of indices, and not two")
-            }
-        }
-    }
-}
-
-impl core::error::Error for DrawError {}
-
-/// What pass one has done since the scene was begun.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PassOne {
-    /// Triangles submitted.
-    pub triangles: u32,
-    /// Triangles that cannot be seen, and never cost anything again.
-    pub culled: u32,
-    /// Triangles that crossed a near, far or guard plane.
-    pub clipped: u32,
-    /// Objects in the arena.
-    pub objects: u32,
-    /// Vertices in the arena.
-    pub vertices: u32,
-    /// Triangles that found no room.
-    pub dropped: u32,
-    /// Triangles that are drawn without their texture, as they stretch over more of its texels than
-    /// a [`Skin`](crate::texture::Skin) may say.
-    pub untextured: u32,
-    /// Meshes wholly outside the view, which were not looked at (M4). Their triangles are among
-    /// the culled.
-    pub meshes_skipped: u32,
-    /// Triangles of these meshes.
-    pub triangles_skipped: u32,
-    /// Vertices of these meshes: neither transformed nor lit.
-    pub vertices_skipped: u32,
-    /// Triangles, or pieces of clipped ones, that have nothing in what a window keeps (H15). The
-    /// triangles are among the culled.
-    pub outside_window: u32,
 }
 
 /// A scene in memory: shared by any number of line renderers, read-only while they draw.
@@ -475,10 +320,17 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         };
         let done = on_screen(
             &mut self.store,
-            (self.screen, self.lines.clone()),
-            cull,
-            (scale::<P>(), skin),
-            (vertices, triangles),
+            self.screen,
+            self.lines.clone(),
+            Surfaced {
+                scale: scale::<P>(),
+                skin,
+            },
+            ScreenMesh {
+                vertices,
+                faces: triangles,
+                cull,
+            },
             |object, first, all| filing.file(object, first, all),
         );
         self.count(done)
@@ -506,8 +358,15 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             self.screen,
             self.lines.clone(),
             &instance.model,
-            (instance.cull, instance.light, instance.colour),
-            (scale::<P>(), skin),
+            Looks {
+                cull: instance.cull,
+                light: instance.light,
+                colour: instance.colour,
+            },
+            Surfaced {
+                scale: scale::<P>(),
+                skin,
+            },
         );
         let filing = Filing {
             objects: &mut self.objects,
@@ -596,109 +455,5 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.pass_one.triangles_skipped += done.triangles;
         self.pass_one.vertices_skipped += mesh.positions.len() as u32;
         Some(done)
-    }
-
-    /// What pass one has done since the scene was begun.
-    #[must_use]
-    pub fn pass_one(&self) -> PassOne {
-        self.pass_one
-    }
-
-    /// The size of the picture.
-    #[must_use]
-    pub fn screen(&self) -> Screen {
-        self.screen
-    }
-
-    /// The lines of the picture that were begun.
-    #[must_use]
-    pub fn lines(&self) -> Range<u16> {
-        self.lines.clone()
-    }
-
-    /// The triangle that was filed as number `index`, from 0 on in order of submission; `None`
-    /// beyond the last.
-    #[must_use]
-    pub fn filed(&self, index: u16) -> Option<FiledOf<P>> {
-        let object = self.object(index)?;
-        let corners = object.corners(self.vertices())?;
-        Some(Filed {
-            places: corners.map(|corner| (corner.x, corner.y)),
-            depths: corners.map(|corner| corner.depth),
-            attributes: corners.map(|corner| corner.attribute),
-            face: object.face,
-        })
-    }
-
-    /// Bytes of the slow arena in use: vertices, objects and buckets.
-    #[must_use]
-    pub fn bytes(&self) -> usize {
-        self.store.vertices.len() * size_of::<VertexOf<P>>()
-            + self.objects.len() * size_of::<ObjectOf<P>>()
-            + self.buckets.lines().len() * size_of::<Link>()
-    }
-
-    /// What the lines of a renderer's list must agree on: where the objects lie and how often
-    /// they have changed.
-    pub(crate) fn content(&self) -> (usize, u32) {
-        (self.objects.as_slice().as_ptr().addr(), self.generation)
-    }
-
-    /// The first line that was begun, in guard space.
-    #[inline]
-    pub(crate) fn first_line(&self) -> i32 {
-        self.screen.top() + i32::from(self.lines.start)
-    }
-
-    /// The object first seen on `line` of guard space that was filed last.
-    #[inline]
-    pub(crate) fn bucket(&self, line: i32) -> Link {
-        self.buckets.head(line)
-    }
-
-    /// The objects of a bucket from `link` on, latest first.
-    #[inline]
-    pub(crate) fn chain(&self, mut link: Link) -> impl Iterator<Item = u16> + '_ {
-        core::iter::from_fn(move || {
-            let index = link.is_some().then(|| link.object())?;
-            link = self.object(index)?.next();
-            Some(index)
-        })
-    }
-
-    /// The object at `index`, if there is one.
-    #[inline]
-    pub(crate) fn object(&self, index: u16) -> Option<&ObjectOf<P>> {
-        self.objects.as_slice().get(usize::from(index))
-    }
-
-    #[inline]
-    pub(crate) fn vertices(&self) -> &[VertexOf<P>] {
-        self.store.vertices.as_slice()
-    }
-
-    /// Sets up the object at `index` in `out` for `line` of guard space and all below; without
-    /// its depth where it may be `shallow`.
-    #[inline(always)]
-    pub(crate) fn set_up(
-        &self,
-        index: u16,
-        (line, shallow): (i32, bool),
-        out: &mut DrawableOf<P>,
-    ) -> bool {
-        let left = self.screen.left();
-        let picture = left..left + i32::from(self.screen.width());
-        let how = (line, &picture, shallow);
-        self.object(index)
-            .is_some_and(|o| o.set_up::<P::Shading>(self.vertices(), scale::<P>(), how, out))
-    }
-
-    /// Makes the depth of what was set up without it; whether it was.
-    pub(crate) fn deepen(&self, index: u16, out: &mut DrawableOf<P>) -> bool {
-        let shallow = out.is_shallow();
-        if let Some(object) = self.object(index).filter(|_| shallow) {
-            object.deepen(self.vertices(), out);
-        }
-        shallow
     }
 }

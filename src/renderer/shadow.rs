@@ -6,7 +6,9 @@
 //! [`Finish::lit_by`], with what one light adds, for several. Which of them a pixel gets is
 //! counted on each line; lines without volumes go the usual way.
 
-use super::scene::{DrawError, Instance, Scene};
+use super::error::DrawError;
+use super::instance::Instance;
+use super::scene::Scene;
 use crate::geometry::{
     Affine, Assembled, Blended, Coordinate, Cull, DepthFunction, Extrusion, Faces, Finish, Mesh,
     Shading, ShadowLight, ShadowMemory, ShadowRoom, Surface, check,

@@ -3,14 +3,39 @@
 use super::scene::Scene;
 use crate::composite::{Compositing, PixelFormat, TextureSource, paint};
 use crate::geometry::{Parameters, Role, Scale, Shading, at_pixel};
-use crate::num::Plane;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::{Forward, Interpolation, Levels, PixelLights, Stretch};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, LineDepth, Masked, Named, Placed, Tested, Visible};
+use crate::visible::{DepthRamp, Everywhere, LineDepth, Masked, Named, Placed, Tested, Visible};
 
-/// What is lent to a scene.
-type Lent<P> = (<P as Pipeline>::Textures, <P as Pipeline>::Lights);
+/// How spans are coloured: by which method, and with what is lent to the scene.
+pub(super) struct How<P: Pipeline, I> {
+    pub(super) interpolation: I,
+    pub(super) textures: P::Textures,
+    lights: P::Lights,
+}
+
+impl<P: Pipeline, I: Copy> Clone for How<P, I> {
+    #[inline(always)]
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<P: Pipeline, I: Copy> Copy for How<P, I> {}
+
+impl<P: Pipeline, I> How<P, I> {
+    /// By this method, with what the scene has.
+    #[inline(always)]
+    pub(super) fn new(scene: &Scene<'_, P>, interpolation: I) -> Self {
+        let (textures, lights) = scene.lent();
+        Self {
+            interpolation,
+            textures,
+            lights,
+        }
+    }
+}
 
 /// How levels become steps of the output.
 pub(crate) const fn scale<P: Pipeline>() -> &'static Scale {
@@ -27,6 +52,12 @@ pub(super) struct Brush<'a, 's, P: Pipeline> {
 }
 
 impl<P: Pipeline> Brush<'_, '_, P> {
+    /// How this brush colours spans.
+    #[inline(always)]
+    pub(super) fn how(&self) -> How<P, P::Interpolation> {
+        How::new(self.scene, self.interpolation)
+    }
+
     /// Draws a span of an object from a column and line of guard space on, into its pixels and,
     /// where other spans may share them, its depth cells.
     #[inline(always)]
@@ -35,19 +66,30 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         object: u16,
         body: &DrawableOf<P>,
         at: (i32, i32),
-        (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
+        pixels: &mut [WordOf<P>],
+        cells: Option<&mut [CellOf<P>]>,
     ) {
+        let grain = P::Depth::grain(body.range().0);
         match &body.parameters {
-            Parameters::Planes(plane, levels) => {
-                let how = (self.interpolation, self.scene.lent(), &mut *self.counter);
-                let grain = P::Depth::grain(body.range().0);
-                draw_span::<P>((plane, grain, levels), at, (pixels, cells), how);
-            }
+            Parameters::Planes(plane, levels) => match cells {
+                Some(cells) => {
+                    let course = DepthRamp::of(plane, at.0, at.1);
+                    let mut tests = Tested::<P::Depth, P::Counter>::new(cells, course, grain);
+                    self.count_flat(levels, at);
+                    colour::<P, _>(pixels, levels, at, self.how(), &mut tests);
+                    self.count(levels, at, pixels.len(), tests.seen(), true);
+                }
+                None => {
+                    self.count_flat(levels, at);
+                    colour::<P, _>(pixels, levels, at, self.how(), &mut Everywhere);
+                    let count = pixels.len();
+                    self.count(levels, at, count, count as u32, false);
+                }
+            },
             Parameters::Corners => {
                 self.reads += 1;
                 let (count, tested) = (pixels.len() as u32, cells.is_some());
                 let cells = cells.unwrap_or_default();
-                let grain = P::Depth::grain(body.range().0);
                 let shown = &mut |i, depth| {
                     let cell = cells.get_mut(i);
                     cell.is_none_or(|cell| P::Depth::test(cell, depth, grain))
@@ -58,24 +100,42 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         }
     }
 
+    /// Says beforehand whether the next span has one colour, where spans are counted.
+    #[inline(always)]
+    pub(super) fn count_flat(&mut self, levels: &LevelsOf<P>, at: (i32, i32)) {
+        if P::Counter::COUNTS && matches!(levels.stretch(at.0, at.1), Stretch::Constant(_)) {
+            self.counter.flat();
+        }
+    }
+
+    /// Counts a span of planes.
+    #[inline(always)]
+    fn count(
+        &mut self,
+        levels: &LevelsOf<P>,
+        at: (i32, i32),
+        count: usize,
+        seen: u32,
+        tested: bool,
+    ) {
+        self.counter.span(seen, count as u32 - seen, tested);
+        count_fetches::<P>(levels, at, self.scene.textures(), seen, self.counter);
+    }
+
     /// Draws those pixels of a span of planes that have its name.
     #[inline(never)]
     pub(super) fn draw_named(
         &mut self,
         body: &DrawableOf<P>,
         at: (i32, i32),
-        (pixels, mut named): (&mut [WordOf<P>], Named<'_, P::Depth>),
+        pixels: &mut [WordOf<P>],
+        mut named: Named<'_, P::Depth>,
     ) {
         let Parameters::Planes(_, levels) = &body.parameters else {
             return;
         };
-        let count = pixels.len() as u32;
-        let lent = self.scene.lent();
-        let how = (self.interpolation, lent);
-        colour::<P, _>(pixels, levels, at, how, &mut named);
-        let seen = named.seen();
-        self.counter.span(seen, count - seen, true);
-        count_fetches::<P>(levels, at, lent.0, seen, self.counter);
+        colour::<P, _>(pixels, levels, at, self.how(), &mut named);
+        self.count(levels, at, pixels.len(), named.seen(), true);
     }
 
     /// Draws those pixels of a span that are not covered, and covers them.
@@ -85,14 +145,12 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         object: u16,
         body: &DrawableOf<P>,
         at: (i32, i32),
-        (pixels, mut masked): (&mut [WordOf<P>], Masked<'_, '_, P::Depth>),
+        pixels: &mut [WordOf<P>],
+        mut masked: Masked<'_, '_, P::Depth>,
     ) {
         let count = pixels.len() as u32;
         match &body.parameters {
-            Parameters::Planes(_, levels) => {
-                let how = (self.interpolation, self.scene.lent(), &mut *self.counter);
-                draw_masked::<P>(levels, at, (pixels, &mut masked), how);
-            }
+            Parameters::Planes(_, levels) => self.colour_masked(levels, at, pixels, &mut masked),
             Parameters::Corners => {
                 self.reads += 1;
                 let shown = &mut |_, _| masked.next();
@@ -102,38 +160,20 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         let seen = masked.seen();
         self.counter.span(seen, count - seen, false);
     }
-}
 
-/// Draws a span of an object with this depth and these levels, from a column and line of guard
-/// space on, into its pixels and, where other spans may share them, its depth cells.
-#[inline(always)]
-fn draw_span<P: Pipeline>(
-    (plane, grain, levels): (&Plane, <P::Depth as LineDepth>::Grain, &LevelsOf<P>),
-    (column, line): (i32, i32),
-    (pixels, cells): (&mut [WordOf<P>], Option<&mut [CellOf<P>]>),
-    (interpolation, lent, counter): (P::Interpolation, Lent<P>, &mut P::Counter),
-) {
-    let at = (column, line);
-    if P::Counter::COUNTS && matches!(levels.stretch(column, line), Stretch::Constant(_)) {
-        counter.flat();
+    /// The same of a span of planes.
+    #[inline(never)]
+    fn colour_masked(
+        &mut self,
+        levels: &LevelsOf<P>,
+        at: (i32, i32),
+        pixels: &mut [WordOf<P>],
+        masked: &mut Masked<'_, '_, P::Depth>,
+    ) {
+        let how = self.how();
+        colour::<P, _>(pixels, levels, at, how, masked);
+        count_fetches::<P>(levels, at, how.textures, masked.seen(), self.counter);
     }
-    let count = pixels.len() as u32;
-    let tested = cells.is_some();
-    let seen = match cells {
-        Some(cells) => {
-            let course = (plane.at(column, line) as u32, plane.dx as u32);
-            let mut tests = Tested::<P::Depth, P::Counter>::new(cells, course, grain);
-            colour::<P, _>(pixels, levels, at, (interpolation, lent), &mut tests);
-            tests.seen()
-        }
-        None => {
-            let how = (interpolation, lent);
-            colour::<P, _>(pixels, levels, at, how, &mut Everywhere);
-            count
-        }
-    };
-    counter.span(seen, count - seen, tested);
-    count_fetches::<P>(levels, at, lent.0, seen, counter);
 }
 
 /// Writes the pixels of a span that are seen: its texture times its levels, or these alone.
@@ -142,26 +182,14 @@ pub(super) fn colour<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
-    (interpolation, lent): (I, Lent<P>),
+    how: How<P, I>,
     visible: &mut impl Visible,
 ) {
     if P::Pixel::DITHERS {
         let placed = &mut Placed::new(visible, column, line);
-        colour_placed::<P, _>(
-            pixels,
-            levels,
-            (column, line),
-            (interpolation, lent),
-            placed,
-        );
+        colour_placed::<P, _>(pixels, levels, (column, line), how, placed);
     } else {
-        colour_placed::<P, _>(
-            pixels,
-            levels,
-            (column, line),
-            (interpolation, lent),
-            visible,
-        );
+        colour_placed::<P, _>(pixels, levels, (column, line), how, visible);
     }
 }
 
@@ -171,21 +199,24 @@ fn colour_placed<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
-    (interpolation, lent): (I, Lent<P>),
+    how: How<P, I>,
     visible: &mut impl Visible,
 ) {
     if P::Lights::SHINE && LevelsOf::<P>::NORMALS {
         for (pixel, column) in pixels.chunks_mut(1).zip(column..) {
             let format = (P::Pixel::BITS, P::Pixel::STEPS);
-            let stretch = lent.1.lit(levels, (column, line), format);
-            let how = (Forward, lent.0);
-            colour_stretch::<P, _>(pixel, levels, (column, line), (stretch, how), visible);
+            let stretch = how.lights.lit(levels, (column, line), format);
+            let how = How {
+                interpolation: Forward,
+                textures: how.textures,
+                lights: how.lights,
+            };
+            colour_stretch::<P, _>(pixel, levels, (column, line), stretch, how, visible);
         }
         return;
     }
     let stretch = levels.stretch(column, line);
-    let how = (interpolation, lent.0);
-    colour_stretch::<P, _>(pixels, levels, (column, line), (stretch, how), visible);
+    colour_stretch::<P, _>(pixels, levels, (column, line), stretch, how, visible);
 }
 
 /// The same, by the colours of a stretch.
@@ -194,16 +225,17 @@ fn colour_stretch<P: Pipeline, I: Interpolation>(
     pixels: &mut [WordOf<P>],
     levels: &LevelsOf<P>,
     (column, line): (i32, i32),
-    (stretch, (interpolation, textures)): (Stretch, (I, P::Textures)),
+    stretch: Stretch,
+    how: How<P, I>,
     visible: &mut impl Visible,
 ) {
     if let Some((index, place)) = levels.texture(column, line) {
         let course = (place, levels.detail());
-        if textures.paint(index, pixels, course, stretch, visible) {
+        if how.textures.paint(index, pixels, course, stretch, visible) {
             return;
         }
     }
-    paint::<P::Pixel, _>(pixels, stretch, interpolation, visible);
+    paint::<P::Pixel, _>(pixels, stretch, how.interpolation, visible);
 }
 
 /// Counts the texels of `seen` pixels, where they are counted.
@@ -221,18 +253,6 @@ pub(super) fn count_fetches<P: Pipeline>(
     if let Some((index, _)) = levels.texture(column, line) {
         counter.fetched(seen * textures.fetches(index));
     }
-}
-
-/// Draws those pixels of a span that are not covered, and covers them.
-#[inline(never)]
-fn draw_masked<P: Pipeline>(
-    levels: &LevelsOf<P>,
-    at: (i32, i32),
-    (pixels, masked): (&mut [WordOf<P>], &mut Masked<'_, '_, P::Depth>),
-    (interpolation, lent, counter): (P::Interpolation, Lent<P>, &mut P::Counter),
-) {
-    colour::<P, _>(pixels, levels, at, (interpolation, lent), masked);
-    count_fetches::<P>(levels, at, lent.0, masked.seen(), counter);
 }
 
 /// Draws a span of a triangle that is too thin for planes, pixel by pixel from its corners, where
@@ -259,13 +279,13 @@ pub(super) fn draw_thin<P: Pipeline>(
         return 0;
     }
     let mut seen = 0;
-    let lent = scene.lent();
+    let how = How::new(scene, Forward);
     for (i, (pixel, column)) in pixels.chunks_mut(1).zip(column..).enumerate() {
         let at = (column, line);
         let (depth, levels) = at_pixel::<P::Shading>(corners, face, scale::<P>(), at);
         if shown(i, depth) {
-            colour::<P, _>(pixel, &levels, at, (Forward, lent), &mut Everywhere);
-            count_fetches::<P>(&levels, at, lent.0, 1, counter);
+            colour::<P, _>(pixel, &levels, at, how, &mut Everywhere);
+            count_fetches::<P>(&levels, at, how.textures, 1, counter);
             seen += 1;
         }
     }

@@ -12,17 +12,20 @@
 //! A line without such surfaces goes the usual way. Colours are found as always, into words on the
 //! stack, so every shading and texture can be blended.
 
+mod blend;
+
+use blend::There;
+
 use super::lines::LinePass;
 use super::pile::{By, PILE, Pane, Pile};
 use super::scene::Scene;
-use super::spans::{Brush, colour, count_fetches, scale};
+use super::spans::scale;
 use crate::active::{ActiveList, Visitor};
-use crate::composite::{Blender, PixelAlpha, TextureSource};
-use crate::geometry::{Blend, Finish, Parameters, Role, Shading, at_pixel};
-use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
+use crate::geometry::{Finish, Parameters, Role, Shading, at_pixel};
+use crate::pipeline::{DrawableOf, LevelsOf, Pipeline};
 use crate::shade::Levels;
 use crate::stats::SpanCounter;
-use crate::visible::{DepthCell, Everywhere, LineDepth, MOST, Rule, ShadowCount, count_span};
+use crate::visible::{DepthCell, DepthRamp, LineDepth, MOST, ShadowCount, count_span};
 
 /// When an object is drawn.
 #[inline]
@@ -363,22 +366,33 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         let (column, line) = (self.left + start as i32, self.line);
         let all = pixels.len() as u32;
         let mut seen = 0;
-        let how = (count, P::Depth::grain(body.range().0));
+        let grain = P::Depth::grain(body.range().0);
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
                 let parts = pixels.chunks_mut(MOST).zip(cells.chunks_mut(MOST));
-                for (part, column) in parts.zip((column..).step_by(MOST)) {
-                    let depth = (plane.at(column, line) as u32, plane.dx as u32);
-                    seen += self.brush.blend(levels, (column, line), part, depth, how);
+                for ((pixels, cells), column) in parts.zip((column..).step_by(MOST)) {
+                    let there = There {
+                        cells,
+                        depth: DepthRamp::of(plane, column, line),
+                        grain,
+                        count,
+                    };
+                    seen += self.brush.blend(levels, (column, line), pixels, there);
                 }
             }
             Parameters::Corners => {
                 self.brush.reads += 1;
                 let parts = pixels.chunks_mut(1).zip(cells.chunks_mut(1));
-                for (part, column) in parts.zip(column..) {
+                for ((pixels, cells), column) in parts.zip(column..) {
                     let at = (column, line);
                     if let Some((depth, levels)) = thin::<P>(self.brush.scene, object, at) {
-                        seen += self.brush.blend(&levels, at, part, (depth, 0), how);
+                        let there = There {
+                            cells,
+                            depth: DepthRamp::single(depth),
+                            grain,
+                            count,
+                        };
+                        seen += self.brush.blend(&levels, at, pixels, there);
                     }
                 }
             }
@@ -396,7 +410,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         match &body.parameters {
             Parameters::Planes(plane, levels) => {
                 if let Some(finish) = levels.finish() {
-                    let depth = (plane.at(column, line) as u32, plane.dx as u32);
+                    let depth = DepthRamp::of(plane, column, line);
                     let passes = finish.rules.colour_if;
                     count_span::<P::Depth>(cells, depth, passes, finish.away);
                 }
@@ -415,7 +429,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                     if let Some((depth, levels)) = thin::<P>(scene, object, (column, line)) {
                         if let Some(finish) = levels.finish() {
                             let passes = finish.rules.colour_if;
-                            count_span::<P::Depth>(cell, (depth, 0), passes, away);
+                            count_span::<P::Depth>(cell, DepthRamp::single(depth), passes, away);
                         }
                     }
                 }
@@ -440,89 +454,4 @@ fn thin<P: Pipeline>(
         scale::<P>(),
         at,
     ))
-}
-
-/// Words on the stack, so aligned that two of 16 bits can be read as one.
-#[repr(align(4))]
-struct Words<W>([W; MOST + 1]);
-
-impl<P: Pipeline> Brush<'_, '_, P> {
-    /// Draws at most [`MOST`] pixels by the rules of a finish: their depth is that of the first
-    /// and a step. How many are seen.
-    #[inline(never)]
-    fn blend(
-        &mut self,
-        levels: &LevelsOf<P>,
-        (column, line): (i32, i32),
-        (pixels, cells): (&mut [WordOf<P>], &mut [CellOf<P>]),
-        depth: (u32, u32),
-        (count, grain): (ShadowCount, <P::Depth as LineDepth>::Grain),
-    ) -> u32 {
-        let Some(finish) = levels.finish() else {
-            return 0;
-        };
-        let rules = &finish.rules;
-        let textures = self.scene.textures();
-        let is_factor = matches!(rules.blend, Blend::Factors { .. });
-        let by_texel = rules.texel_alpha || rules.force_additive || is_factor;
-        let mut alphas = [PixelAlpha::OPAQUE; MOST];
-        let mut keep = u32::MAX;
-        let varies = finish.varies() || by_texel;
-        if varies {
-            let alphas = &mut alphas[..pixels.len().min(MOST)];
-            if let Some((index, place)) = levels.texture(column, line).filter(|_| by_texel) {
-                textures.alphas(index, alphas, (place, levels.detail()));
-            }
-            for ((i, alpha), column) in alphas.iter_mut().enumerate().zip(column..) {
-                alpha.surface = finish.alpha(column, line);
-                alpha.additive &= rules.force_additive;
-                if !(rules.texel_alpha || is_factor) {
-                    alpha.texel = 255;
-                }
-                if rules.blend == Blend::Replace && alpha.texel == 0 {
-                    keep &= !(1 << i);
-                }
-            }
-        }
-        let rule = Rule {
-            colour_if: rules.colour_if,
-            depth_if: rules.depth_if,
-            count,
-        };
-        let seen = rule.apply::<P::Depth>(cells, depth, grain, keep);
-        if seen == 0 {
-            return 0;
-        }
-        // At the same half of a word as the pixels, which lie anywhere.
-        let mut words = Words([WordOf::<P>::default(); MOST + 1]);
-        let half = (pixels.as_ptr().addr() / size_of::<WordOf<P>>().max(1)) & 1;
-        let words = &mut words.0[half..][..pixels.len().min(MOST)];
-        let how = (self.interpolation, self.scene.lent());
-        colour::<P, _>(words, levels, (column, line), how, &mut Everywhere);
-        let blender = Blender::new(rules);
-        let mut rest = seen;
-        while rest != 0 {
-            // A run of pixels that are seen.
-            let from = rest.trailing_zeros();
-            let run = (!(rest >> from)).trailing_zeros();
-            let range = from as usize..(from + run) as usize;
-            rest &= u32::MAX.checked_shl(from + run).unwrap_or(0);
-            let (old, new) = (&mut pixels[range.clone()], &words[range.clone()]);
-            if varies {
-                for ((old, &new), &alpha) in old.iter_mut().zip(new).zip(&alphas[range]) {
-                    *old = blender.pixel::<P::Pixel>(*old, new, alpha);
-                }
-            } else {
-                blender.blend::<P::Pixel>(old, new);
-            }
-        }
-        count_fetches::<P>(
-            levels,
-            (column, line),
-            textures,
-            seen.count_ones(),
-            self.counter,
-        );
-        seen.count_ones()
-    }
 }

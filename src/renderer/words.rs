@@ -6,14 +6,14 @@
 //! the words when the line is complete.
 
 use super::lines::LinePass;
-use super::spans::{colour, count_fetches, draw_thin};
+use super::spans::{How, colour, count_fetches, draw_thin};
 use crate::active::{ActiveList, Visitor};
 use crate::composite::{PixelFormat, paint_words};
 use crate::geometry::Parameters;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::{Levels, PixelLights, Stretch};
+use crate::shade::{Levels, PixelLights};
 use crate::stats::SpanCounter;
-use crate::visible::{Everywhere, WordCourse, resolve};
+use crate::visible::{DepthRamp, Everywhere, WordCourse, resolve};
 
 /// A line whose cells are words of depth and colour.
 struct WordPass<'w, 'a, 's, P: Pipeline> {
@@ -45,15 +45,11 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for WordPass<'_, '_, '_, P> {
         let count = pixels.len() as u32;
         let seen = match &body.parameters {
             Parameters::Planes(plane, levels) => {
-                let depth = (plane.at(at.0, at.1) as u32, plane.dx as u32);
-                let lent = brush.scene.lent();
-                if P::Counter::COUNTS && matches!(levels.stretch(at.0, at.1), Stretch::Constant(_))
-                {
-                    brush.counter.flat();
-                }
-                let how = (brush.interpolation, lent);
-                let seen = draw_words::<P>((pixels, cells), levels, at, depth, how);
-                count_fetches::<P>(levels, at, lent.0, seen, brush.counter);
+                let depth = DepthRamp::of(plane, at.0, at.1);
+                brush.count_flat(levels, at);
+                let how = brush.how();
+                let seen = draw_words::<P>(pixels, cells, levels, at, depth, how);
+                count_fetches::<P>(levels, at, how.textures, seen, brush.counter);
                 seen
             }
             Parameters::Corners => {
@@ -83,32 +79,39 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for WordPass<'_, '_, '_, P> {
 /// Draws a span of planes; how many pixels are seen, where they are counted.
 #[inline(always)]
 fn draw_words<P: Pipeline>(
-    (pixels, cells): (&mut [WordOf<P>], &mut [CellOf<P>]),
+    pixels: &mut [WordOf<P>],
+    cells: &mut [CellOf<P>],
     levels: &LevelsOf<P>,
     at: (i32, i32),
-    depth: (u32, u32),
-    how: (P::Interpolation, (P::Textures, P::Lights)),
+    depth: DepthRamp,
+    how: How<P, P::Interpolation>,
 ) -> u32 {
     let course = WordCourse::new(depth, pixels.len());
     let plain = !(P::Pixel::DITHERS || P::Lights::SHINE && LevelsOf::<P>::NORMALS)
         && levels.texture(at.0, at.1).is_none();
     if let Some(course) = course.filter(|_| plain) {
         let stretch = levels.stretch(at.0, at.1);
-        let seen = paint_words::<P::Pixel, _, P::Counter, CellOf<P>>(cells, course, stretch, how.0);
+        let seen = paint_words::<P::Pixel, _, P::Counter, CellOf<P>>(
+            cells,
+            course,
+            stretch,
+            how.interpolation,
+        );
         if let Some(seen) = seen {
             return seen;
         }
     }
     colour::<P, _>(pixels, levels, at, how, &mut Everywhere);
-    merge::<P>((pixels, cells), course, depth)
+    merge::<P>(pixels, cells, course, depth)
 }
 
 /// Puts pixels into words; how many are seen.
 #[inline(never)]
 fn merge<P: Pipeline>(
-    (pixels, cells): (&mut [WordOf<P>], &mut [CellOf<P>]),
+    pixels: &mut [WordOf<P>],
+    cells: &mut [CellOf<P>],
     course: Option<WordCourse>,
-    (mut depth, step): (u32, u32),
+    ramp: DepthRamp,
 ) -> u32 {
     let mut seen = 0;
     let pairs = pixels.iter().zip(cells);
@@ -121,9 +124,10 @@ fn merge<P: Pipeline>(
         }
         return seen;
     }
+    let mut depth = ramp.first;
     for (pixel, cell) in pairs {
         seen += u32::from(WordCourse::single(depth).put(cell, P::Pixel::to_half(*pixel)));
-        depth = depth.wrapping_add(step);
+        depth = depth.wrapping_add(ramp.step);
     }
     seen
 }

@@ -52,18 +52,7 @@ impl<'t, L> Scene<'_, 't, L> {
             return Err(DrawError::Mesh(MeshError::AttributeLength));
         }
         let submitted = triangles(mesh.faces);
-        let state = DrawState {
-            first: self.objects.len() as u16,
-            texture: skin.map(|skin| skin.texture),
-            budget: skin.map_or(DrawState::EMPTY.budget, |skin| skin.budget),
-            scissor: draw.scissor,
-            depth: match draw.blend {
-                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
-                _ => draw.depth,
-            },
-            blend: draw.blend,
-            priority: draw.priority,
-        };
+        let state = DrawState::new(self.objects.len() as u16, draw, skin.as_ref());
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
                 memory: Full::Draws,

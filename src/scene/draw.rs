@@ -1,5 +1,6 @@
 //! What a draw call says, and what pass two needs of it.
 
+use super::texture::Square;
 use super::{Blend, Budget, DepthTest, Scissor, Texture};
 use crate::geometry::{Affine, Cull, Light, Lighting, Mesh};
 use core::ops::Range;
@@ -96,6 +97,8 @@ pub struct DrawState<'t> {
     pub(crate) depth: DepthTest,
     pub(crate) blend: Option<Blend>,
     pub(crate) priority: u8,
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    square: Option<Square<'t>>,
 }
 
 impl<'t> DrawState<'t> {
@@ -108,7 +111,26 @@ impl<'t> DrawState<'t> {
         depth: DepthTest::HIDES,
         blend: None,
         priority: 0,
+        square: None,
     };
+
+    /// That of a call whose first triangle has this number, with a texture where the look draws one.
+    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, skin: Option<&Skin<'_, 't>>) -> Self {
+        let texture = skin.map(|skin| skin.texture);
+        Self {
+            first,
+            texture,
+            budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
+            scissor: draw.scissor,
+            depth: match draw.blend {
+                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
+                _ => draw.depth,
+            },
+            blend: draw.blend,
+            priority: draw.priority,
+            square: texture.and_then(Texture::square),
+        }
+    }
 
     /// The state of an object: that of the last call that began at it or before.
     pub(crate) fn of(object: u16, draws: &[Self]) -> Option<&Self> {
@@ -143,5 +165,11 @@ impl<'t> DrawState<'t> {
     #[inline(always)]
     pub(crate) fn texture(&self) -> Option<(&'t Texture<'t>, Budget)> {
         Some((self.texture?, self.budget))
+    }
+
+    /// The texture's rows, if it is one of the squares that have loops of their own.
+    #[inline(always)]
+    pub(crate) fn square(&self) -> Option<Square<'t>> {
+        self.square
     }
 }

@@ -44,6 +44,7 @@ pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 use crate::arena::Arena;
 use crate::geometry::{Camera, Scale, Screen};
 use crate::link::Link;
+use crate::span::first_line;
 use core::marker::PhantomData;
 use core::ops::Range;
 
@@ -205,6 +206,29 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             place: self.objects.as_slice().as_ptr().addr(),
             changes: self.generation,
         }
+    }
+
+    /// The first line from `line` on that a triangle begins on; the line after the last where none does.
+    pub(crate) fn begins_from(&self, line: u16) -> u16 {
+        let bins = self.bins.get(..self.lines.len()).unwrap_or_default();
+        let mut rest = bins
+            .iter()
+            .skip(usize::from(line.saturating_sub(self.lines.start)));
+        match rest.position(|&head| head != NONE) {
+            Some(lines) => line.max(self.lines.start) + lines as u16,
+            None => self.lines.end,
+        }
+    }
+
+    /// A line from which on no triangle is active, by the lowest vertex.
+    pub(crate) fn ends_by(&self) -> u16 {
+        let places = self.vertices.as_slice().iter().map(|v| v.place);
+        let lowest = places
+            .filter(|&place| place != Vertex::OUTSIDE)
+            .max()
+            .map_or(0, first_line);
+        let end = lowest - ORIGIN;
+        end.clamp(self.lines.start.into(), self.lines.end.into()) as u16
     }
 
     /// How many triangles are in memory.

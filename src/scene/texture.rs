@@ -287,6 +287,13 @@ impl<'t> Texture<'t> {
         self.log_width <= 8 && self.log_height <= 8
     }
 
+    /// Whether places in one word have a bit to spare: no side is above 128.
+    #[inline(always)]
+    #[must_use]
+    pub(crate) const fn is_tiny(&self) -> bool {
+        self.log_width <= 7 && self.log_height <= 7
+    }
+
     /// Whether it is a [`Square`].
     #[inline(always)]
     pub(crate) const fn is_square(&self) -> bool {

@@ -10,7 +10,9 @@ mod edge;
 mod plane;
 mod triangle;
 
+pub(crate) use edge::first_line;
 pub use edge::{Edge, Frame, Kind};
+pub(crate) use edge::{across, down};
 pub use plane::{Rise, Shares};
 pub use triangle::{Sides, Size, Triangle, Way};
 

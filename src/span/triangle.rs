@@ -254,8 +254,9 @@ impl Sides {
         self.clipped(way, line, frame)
     }
 
+    /// The same of any sides.
     #[inline(never)]
-    fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
+    pub(crate) fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
         let of = |edge: Edge| {
             let column = if way.kind == Kind::Divided {
                 edge.divided(line as i32 + ORIGIN) - ORIGIN

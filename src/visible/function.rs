@@ -4,7 +4,7 @@
 //! colours. Here the answer is a word of bits, so that pixels which are all seen can be blended
 //! several at a time.
 
-use super::{DepthCell, LineDepth};
+use super::{DepthCell, DepthRamp, LineDepth};
 use crate::geometry::DepthFunction;
 
 /// Most pixels that are asked for in one go.
@@ -38,18 +38,18 @@ pub struct Rule {
 
 impl Rule {
     /// A bit for each of at most [`MOST`] pixels whose colour is to be written, the first the
-    /// lowest; their cells get the depths that are to be written. Depths go from `depth` on by
-    /// `step`, each rounded to the object's grain as where it is [tested](LineDepth::test); pixels
+    /// lowest; their cells get the depths that are to be written. Depths are
+    /// those of `ramp`, each rounded to the object's grain as where it is [tested](LineDepth::test); pixels
     /// that `keep` has no bit of are as if they were not there.
     #[inline(never)]
     pub fn apply<D: LineDepth>(
         &self,
         cells: &mut [D::Cell],
-        (mut next, step): (u32, u32),
+        ramp: DepthRamp,
         grain: D::Grain,
         keep: u32,
     ) -> u32 {
-        let mut seen = 0;
+        let (mut seen, mut next) = (0, ramp.first);
         for (i, cell) in cells.iter_mut().take(MOST).enumerate() {
             let here = match self.count {
                 ShadowCount::Any => true,
@@ -68,7 +68,7 @@ impl Rule {
                     cell.set_number(depth);
                 }
             }
-            next = next.wrapping_add(step);
+            next = next.wrapping_add(ramp.step);
         }
         seen
     }
@@ -120,6 +120,7 @@ mod tests {
                     } else {
                         below(1 << 24) << below(9)
                     };
+                    let ramp = DepthRamp { first: depth, step };
                     let rule = |count| Rule {
                         colour_if,
                         depth_if,
@@ -127,8 +128,7 @@ mod tests {
                     };
                     let which = [ShadowCount::Any, ShadowCount::Lit, ShadowCount::Shadowed]
                         [below(3) as usize];
-                    let seen =
-                        rule(which).apply::<ShadowDepth32>(&mut cells, (depth, step), (), keep);
+                    let seen = rule(which).apply::<ShadowDepth32>(&mut cells, ramp, (), keep);
                     for i in 0..count {
                         let new = depth.wrapping_add(step.wrapping_mul(i as u32));
                         let old = before[i].number();
@@ -152,8 +152,8 @@ mod tests {
                     let any = rule(ShadowCount::Any);
                     let mut same = before.clone();
                     assert_eq!(
-                        any.apply::<Depth32>(&mut plain, (depth, step), (), keep),
-                        any.apply::<ShadowDepth32>(&mut same, (depth, step), (), keep)
+                        any.apply::<Depth32>(&mut plain, ramp, (), keep),
+                        any.apply::<ShadowDepth32>(&mut same, ramp, (), keep)
                     );
                 }
             }

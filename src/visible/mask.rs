@@ -164,6 +164,43 @@ impl Mask {
         part
     }
 
+    /// How much of `start .. end` was covered; where none was, all of it is now.
+    #[inline(always)]
+    pub(crate) fn cover_new(&mut self, start: u32, end: u32) -> Part {
+        if is_in_one(start, end) {
+            let bits = between(start, end);
+            let word = &mut self.0[word_of(start)];
+            let old = *word & bits;
+            if old == 0 {
+                *word |= bits;
+                return Part::None;
+            }
+            return if old == bits { Part::All } else { Part::Some };
+        }
+        self.cover_new_words(start, end)
+    }
+
+    #[inline(never)]
+    fn cover_new_words(&mut self, start: u32, end: u32) -> Part {
+        let (mut any, mut lack) = (0, 0);
+        each_word(start, end, |word, bits| {
+            any |= self.0[word] & bits;
+            lack |= bits & !self.0[word];
+        });
+        if any != 0 {
+            return if lack == 0 { Part::All } else { Part::Some };
+        }
+        each_word(start, end, |word, bits| self.0[word] |= bits);
+        Part::None
+    }
+
+    /// Whether the mask has all of `start .. end`.
+    pub(crate) fn has_all(&self, start: u32, end: u32) -> bool {
+        let mut lack = 0;
+        each_word(start, end, |word, bits| lack |= bits & !self.0[word]);
+        lack == 0
+    }
+
     /// Calls `run` with each run of the first `width` columns that is not covered, from left to right; then the
     /// mask is empty.
     #[inline(always)]
@@ -173,10 +210,8 @@ impl Mask {
         let mut from = COVERED;
         let mut before = 1;
         let mut base = 0;
-        for word in &mut self.0 {
-            if base >= width {
-                break;
-            }
+        let words = width.div_ceil(32) as usize;
+        for word in self.0.get_mut(..words).unwrap_or_default() {
             let bits = core::mem::take(word);
             // Columns that differ from the one before them.
             let mut ends = bits ^ (bits >> 1 | before << 31);
@@ -260,6 +295,7 @@ mod tests {
             let mut plain = [false; 1023];
             let (mut mask, mut over, mut part, mut free) =
                 (Mask::EMPTY, Mask::EMPTY, Mask::EMPTY, Mask::EMPTY);
+            let mut whole = Mask::EMPTY;
             for _ in 0..1 + round % 12 {
                 let size = [8, 40, 1022][round % 3];
                 let start = rng.below(1022);
@@ -269,6 +305,7 @@ mod tests {
                 let hits = columns.len() - old.len();
                 assert_eq!(mask.meets(start, end), hits > 0);
                 let mut other = mask;
+                assert_eq!(mask.has_all(start, end), old.is_empty());
                 assert_eq!(other.cover(start, end), hits > 0);
                 assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);
                 assert_eq!(mask, other);
@@ -284,6 +321,11 @@ mod tests {
                     assert_eq!(new, old);
                 }
                 assert_eq!(part, mask);
+                let was = whole;
+                assert_eq!(whole.cover_new(start, end), want);
+                let is_new = want == Part::None;
+                assert_eq!(whole, if is_new { mask } else { was });
+                whole = mask;
                 let mut runs = Vec::new();
                 let count = free.cover_free(start, end, |a, b| {
                     assert!(a < b && runs.last().is_none_or(|&(_, end)| end < a));

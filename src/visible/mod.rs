@@ -25,6 +25,7 @@ pub use shadow::{ShadowCell, ShadowDepth32, count_span};
 pub(crate) use test::{MOST as MOST_TESTED, test};
 pub use word::{DepthAndColour, WordCourse, resolve};
 
+use crate::num::Plane;
 use crate::stats::SpanCounter;
 use core::cmp::Ordering;
 use core::marker::PhantomData;
@@ -144,6 +145,35 @@ impl Visible for Everywhere {
     }
 }
 
+/// Depth along a span.
+#[derive(Clone, Copy, Debug)]
+pub struct DepthRamp {
+    /// That of the first pixel.
+    pub first: u32,
+    /// What each has more than the one before.
+    pub step: u32,
+}
+
+impl DepthRamp {
+    /// Along a span that starts at a pixel of guard space.
+    #[inline(always)]
+    pub fn of(plane: &Plane, column: i32, line: i32) -> Self {
+        Self {
+            first: plane.at(column, line) as u32,
+            step: plane.dx as u32,
+        }
+    }
+
+    /// Of one pixel.
+    #[inline(always)]
+    pub const fn single(depth: u32) -> Self {
+        Self {
+            first: depth,
+            step: 0,
+        }
+    }
+}
+
 /// The depth line decides; what is seen is counted if `C` counts.
 #[derive(Debug)]
 pub struct Tested<'d, D: LineDepth, C> {
@@ -159,13 +189,13 @@ pub struct Tested<'d, D: LineDepth, C> {
 }
 
 impl<'d, D: LineDepth, C: SpanCounter> Tested<'d, D, C> {
-    /// Over the cells of a span, with the depth of its first pixel and the step to the next.
+    /// Over the cells of a span.
     #[inline(always)]
-    pub fn new(cells: &'d mut [D::Cell], (depth, step): (u32, u32), grain: D::Grain) -> Self {
+    pub fn new(cells: &'d mut [D::Cell], ramp: DepthRamp, grain: D::Grain) -> Self {
         Self {
             cells,
-            depth,
-            step,
+            depth: ramp.first,
+            step: ramp.step,
             grain,
             seen: 0,
             counter: PhantomData,

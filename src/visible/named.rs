@@ -4,7 +4,7 @@
 //! the 22 bits are the same, the depth that stands there is taken again, whole, from the plane of
 //! the slot it names: so every pixel is that which 32 bits give.
 
-use super::{Depth32, DepthCell, LineDepth, Visible};
+use super::{Depth32, DepthCell, DepthRamp, LineDepth, Visible};
 
 /// Bits of a word that name who is there, 0 for nobody.
 const NAMES: u32 = (1 << 10) - 1;
@@ -35,15 +35,16 @@ impl LineDepth for DepthAndId {
 }
 
 /// Lets `name`, 1 to [`MOST_NAMES`], have those cells of a span in which it is not behind what is
-/// there: `depth` is that of the first, `step` what the next has more. `whole` gives the depth of
+/// there. `whole` gives the depth of
 /// another name at an index of the span.
 #[inline(always)]
 pub fn name<D: LineDepth>(
     cells: &mut [D::Cell],
-    (mut depth, step): (u32, u32),
+    ramp: DepthRamp,
     name: u32,
     mut whole: impl FnMut(usize, u32) -> u32,
 ) {
+    let mut depth = ramp.first;
     for (i, cell) in cells.iter_mut().enumerate() {
         let there = cell.number();
         let wins = depth > there | NAMES
@@ -52,7 +53,7 @@ pub fn name<D: LineDepth>(
         if wins {
             cell.set_number(depth & !NAMES | name);
         }
-        depth = depth.wrapping_add(step);
+        depth = depth.wrapping_add(ramp.step);
     }
 }
 

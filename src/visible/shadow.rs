@@ -4,7 +4,7 @@
 //! through the back of another, so where fronts (-1) and backs (+1) do not balance the pixel is in
 //! shadow. The counts of one line are all that is kept: they lie beside its depths.
 
-use super::{DepthCell, LineDepth};
+use super::{DepthCell, DepthRamp, LineDepth};
 use crate::geometry::DepthFunction;
 
 /// The depth of a pixel, and how many shadow polygons are in front of it.
@@ -69,21 +69,21 @@ impl LineDepth for ShadowDepth32 {
     }
 }
 
-/// Counts a shadow polygon along a span, where `passes` says so of its depths, which go from
-/// `depth` on by `step`.
+/// Counts a shadow polygon along a span, where `passes` says so of its depths.
 #[inline(never)]
 pub fn count_span<D: LineDepth>(
     cells: &mut [D::Cell],
-    (mut depth, step): (u32, u32),
+    ramp: DepthRamp,
     passes: DepthFunction,
     away: bool,
 ) {
     let change = if away { 1 } else { -1 };
+    let mut depth = ramp.first;
     for cell in cells {
         if passes.passes(D::compare(cell, depth)) {
             cell.set_count(cell.count().wrapping_add(change));
         }
-        depth = depth.wrapping_add(step);
+        depth = depth.wrapping_add(ramp.step);
     }
 }
 
@@ -112,7 +112,7 @@ mod tests {
                 let away = below(2) == 1;
                 count_span::<ShadowDepth32>(
                     &mut cells[start..end],
-                    (depth, step),
+                    DepthRamp { first: depth, step },
                     DepthFunction::NEARER,
                     away,
                 );

@@ -5,7 +5,7 @@
 //! compared has all lower bits set: where 16 bits of depth are the same, what is submitted later wins,
 //! as by [`Depth32`](super::Depth32). 1/w of a pixel is at least 1 in its 16 bits, so 0 is nobody.
 
-use super::{DepthCell, LineDepth};
+use super::{DepthCell, DepthRamp, LineDepth};
 use core::cmp::Ordering;
 
 /// 16 bits of 1/w, one word a pixel with its colour: nearer or equal wins.
@@ -67,7 +67,8 @@ impl WordCourse {
     /// Over so many pixels, at least one, from a depth and its step on; none where a depth between has to be
     /// put within limits first.
     #[inline(always)]
-    pub fn new((depth, step): (u32, u32), pixels: usize) -> Option<Self> {
+    pub fn new(ramp: DepthRamp, pixels: usize) -> Option<Self> {
+        let DepthRamp { first: depth, step } = ramp;
         let last = depth.wrapping_add(step.wrapping_mul(pixels as u32 - 1));
         let fits = within(depth) == depth && within(last) == last;
         fits.then_some(Self {
@@ -141,7 +142,7 @@ mod tests {
                 if !(0..=1 << 31).contains(&last) {
                     continue;
                 }
-                let course = WordCourse::new((depth, step), end - start);
+                let course = WordCourse::new(DepthRamp { first: depth, step }, end - start);
                 limited += u32::from(course.is_none());
                 let colour = rng.below(1 << 16) as u16;
                 for i in start..end {

@@ -1,11 +1,10 @@
-//! Two cores of an RP2040 draw alternate lines of one scene; core 0's DMA sends them (X6).
+//! Two cores of an RP2040 draw one picture; core 0's DMA sends it (X6).
 //!
-//! Core 0 has pass one, the even lines and the SPI; core 1 has the odd lines. The scene is behind
-//! a read-write lock: written by core 0 between frames, read by both while they draw. What core 1
-//! draws comes through a [`Relay`] of four line buffers. Each has its own cache, link column and
-//! line of depth, and there is no shared memory that two write. A core that has to wait for the
-//! other sleeps (`wfe`) until that has passed on a line or a buffer (`sev`), and leaves the memory
-//! to it meanwhile.
+//! Core 1 makes the next scene while core 0 draws this one; then it helps, and gets bands of lines
+//! from core 0 by a [`Relay`] until there are no more. Core 0 draws the other lines and sends all.
+//! There are three scenes, so that core 1 goes on while core 0 sends the last lines. Each core has
+//! its own cache, link column and line of depth; a scene is behind a read-write lock. A core that has to wait for the other sleeps (`wfe`) until that has
+//! passed on a line, a buffer or a band (`sev`), and leaves the memory to it meanwhile.
 //!
 //! SPI0: GP2 clock, GP3 data, GP4 data/command; chip select is wired low. The bus runs at 62.5 MHz,
 //! half of the processor's clock: an ST7789 takes that. An ILI9341 is specified for 10 MHz; most
@@ -19,65 +18,34 @@ mod ram_code;
 use panic_halt as _;
 use rp2040_hal::clocks::init_clocks_and_plls as start;
 use rp2040_hal::{self as hal, Clock, dma::DMAExt, fugit::RateExtU32, multicore, pac};
-use scanbeam::parallel::{Crew, Interleave, LineSource, LineWorker, Relay};
-use scanbeam::pipeline::{CellOf, SlotOf};
-use scanbeam::scan_out::Pump;
-use scanbeam::send::send_frame;
-use scanbeam::{LineMemory, LineRenderer, Link, RendererError, Scene};
+use scanbeam::frame::{Desk, Peer, Relay, Renderer, Worker, draw_frame_shared};
+use scanbeam::{scan_out::Pump, scene::Scene};
 use spin::RwLock;
-use spinner::{LINES, Look, OBJECTS, SLOTS, WIDTH, background, lend};
+use spinner::{LINES, Smooth, TURN, WIDTH, background, lend};
 use static_cell::StaticCell;
 
 type RelayLine = &'static mut [u16];
+type Scenes = [RwLock<Scene<'static, 'static, Smooth>>; 3];
+
+/// Lines that core 1 may be ahead of core 0.
+const AHEAD: usize = 24;
 
 /// The second-stage boot loader, for the flash chip of a Pico.
 #[unsafe(link_section = ".boot2")]
 #[used]
 static BOOT2: [u8; 256] = rp2040_boot2::BOOT_LOADER_W25Q080;
 static CORE1_STACK: multicore::Stack<2048> = multicore::Stack::new();
-static SCENE: StaticCell<RwLock<Scene<'static, Look>>> = StaticCell::new();
-static RELAY: StaticCell<Relay<RelayLine, 5>> = StaticCell::new();
-
-/// A renderer of every other line, from line `$offset` on, with memory of its own.
-macro_rules! renderer {
-    ($offset:literal) => {{
-        let mut renderer = LineRenderer::<Look>::new(LineMemory {
-            slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
-            links: lend!(Link, OBJECTS, Link::NONE),
-            depth: lend!(CellOf<Look>, WIDTH, 0),
-        });
-        renderer.set_interleave(every_other($offset));
-        renderer.set_prefetch(1_000); // bytes a line, while it waits
-        renderer
-    }};
-}
-
-/// Every other line, from `offset` on.
-fn every_other(offset: u16) -> Interleave {
-    Interleave::lines(2, offset).expect("0 and 1 are below 2")
-}
-
-/// Lines as another source gives them; after each the other core is woken, which may wait for the
-/// buffer that it came in.
-struct Waking<S>(S);
-
-impl<S: LineSource<Look>> LineSource<Look> for Waking<S> {
-    fn line(&mut self, line: u16, pixels: &mut [u16]) -> Result<(), RendererError> {
-        let given = self.0.line(line, pixels);
-        cortex_m::asm::sev();
-        given
-    }
-
-    fn idle(&mut self, line: u16) {
-        self.0.idle(line);
-    }
-}
+static SCENES: StaticCell<Scenes> = StaticCell::new();
+static RELAY: StaticCell<Relay<RelayLine, { AHEAD + 1 }>> = StaticCell::new();
 
 /// Sleeps until the other core stirs; it never gives up.
 fn sleep() -> bool {
     cortex_m::asm::wfe();
     true
 }
+
+/// The other core.
+const PEER: Peer<'static> = Peer { wait: &sleep, wake: &cortex_m::asm::sev };
 
 #[hal::entry]
 fn main() -> ! {
@@ -95,51 +63,63 @@ fn main() -> ! {
     let sink = panel::Panel::new(pac.DMA.split(r).ch0, bus, pins.gpio4.reconfigure(), timer);
     let sink = sink.expect("the bus sends the panel's commands");
 
-    let scene: &'static RwLock<_> = SCENE.init(RwLock::new(spinner::scene()));
-    let lines = lend!(u16, 4 * WIDTH, 0).chunks_exact_mut(WIDTH);
+    let scenes = [spinner::scene!(Smooth), spinner::scene!(Smooth), spinner::scene!(Smooth)];
+    let scenes: &'static Scenes = SCENES.init(scenes.map(RwLock::new));
+    spinner::build(&mut scenes[0].write(), 0);
+    let lines = lend!(u16, AHEAD * WIDTH, 0).chunks_exact_mut(WIDTH);
     let (worker, desk) = RELAY.init(Relay::new(lines)).split();
-    let far = renderer!(1);
+    let far = spinner::renderer!(Smooth);
     let mut cores = multicore::Multicore::new(&mut pac.PSM, &mut pac.PPB, &mut sio.fifo);
     let stack = CORE1_STACK.take().expect("taken once");
-    let spawned = cores.cores()[1].spawn(stack, move || core1(scene, worker, far));
+    let spawned = cores.cores()[1].spawn(stack, move || core1(scenes, worker, far));
     spawned.expect("core 1 was idle");
+    core0(scenes, desk, spinner::renderer!(Smooth), sink)
+}
 
-    let mut here = [renderer!(0)];
-    let mut desks = [(every_other(1), desk)];
+/// Core 0: draws and sends frame after frame.
+fn core0(
+    scenes: &'static Scenes,
+    mut desk: Desk<'static, RelayLine>,
+    mut renderer: Renderer<'static, Smooth>,
+    sink: panel::Panel,
+) -> ! {
     let mut pump = Pump::new(sink, spinner::dma::lines());
-    for turn in (0..126).cycle() {
-        // Waits until core 1 has let go of the last frame.
-        spinner::build(&mut scene.write(), turn);
+    for scene in scenes.iter().cycle() {
         let scene = scene.read();
-        sio.fifo.write_blocking(0); // core 1 may draw
-        here[0].restart();
-        let (here, desks, background) = (&mut here, &mut desks, background());
-        let crew = Crew { scene: &scene, here, desks, background, wait: sleep, skipped: 0 };
-        let mut crew = Waking(crew);
-        let sent = send_frame(&scene, &mut crew, &mut pump, LINES as u16);
-        crew.0.stats(sent.expect("the buses of the RP2040 cannot fail")); // and logs it, by defmt
+        let sent = draw_frame_shared(
+            &scene,
+            &mut renderer,
+            &mut desk,
+            &mut pump,
+            background(),
+            LINES as u16,
+            PEER,
+        );
+        sent.expect("the buses of the RP2040 cannot fail");
+        drop(scene);
+        cortex_m::asm::sev(); // core 1 may wait for this scene
         spinner::count_frame();
     }
     unreachable!("it turns for ever")
 }
 
-/// Core 1: whenever core 0 says so, the odd lines of the scene.
+/// Core 1: makes the next scene, then helps with the lines of this one.
 fn core1(
-    scene: &'static RwLock<Scene<'static, Look>>,
-    mut worker: LineWorker<'static, RelayLine>,
-    mut renderer: LineRenderer<'static, Look>,
+    scenes: &'static Scenes,
+    mut worker: Worker<'static, RelayLine>,
+    mut renderer: Renderer<'static, Smooth>,
 ) {
-    // SAFETY: SIO answers each core with its own side of the mailbox; nothing else is taken.
-    let mut sio = hal::Sio::new(unsafe { pac::Peripherals::steal() }.SIO);
-    loop {
-        sio.fifo.read_blocking();
-        let scene = scene.read();
-        renderer.restart();
-        for line in renderer.interleave().of(scene.lines()) {
-            while worker.step(&scene, &mut renderer, background(), line).is_pending() {
-                sleep();
+    let others = scenes.iter().cycle().skip(1);
+    for (turn, (scene, next)) in (1..=TURN).cycle().zip(scenes.iter().cycle().zip(others)) {
+        // Core 0 may still draw the frame before the last.
+        loop {
+            if let Some(mut next) = next.try_write() {
+                spinner::build(&mut next, turn);
+                break;
             }
-            cortex_m::asm::sev(); // core 0 may wait for this line
+            sleep();
         }
+        let scene = scene.read();
+        worker.help(&scene, &mut renderer, background(), PEER);
     }
 }

@@ -17,11 +17,9 @@ use embassy_time::{Delay, Duration, block_for};
 use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_bus::spi::ExclusiveDevice;
 use panic_halt as _;
-use scanbeam::pipeline::{CellOf, SlotOf};
+use scanbeam::frame::draw_frame_async;
 use scanbeam::scan_out::{AsyncPump, AsyncSpiPanel, ErrorKind};
-use scanbeam::send::draw_frame_async;
-use scanbeam::{LineMemory, LineRenderer, Link};
-use spinner::{LINES, Look, OBJECTS, SLOTS, WIDTH, background, lend, panel};
+use spinner::{LINES, Smooth, TURN, WIDTH, background, lend, panel};
 
 bind_interrupts!(struct Interrupts {
     DMA_IRQ_0 => dma::InterruptHandler<DMA_CH0>;
@@ -71,13 +69,8 @@ async fn main(_spawner: Spawner) {
     let panel = AsyncSpiPanel::<_, _, u16>::new(device, dc);
     let buffers = [lend!(u16, LINES * WIDTH, 0), lend!(u16, LINES * WIDTH, 0)];
     let mut pump = AsyncPump::new(panel, buffers);
-    let mut scene = spinner::scene();
-    let mut renderer = LineRenderer::<Look>::new(LineMemory {
-        slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
-        links: lend!(Link, OBJECTS, Link::NONE),
-        depth: lend!(CellOf<Look>, WIDTH, 0),
-    });
-    for turn in (0..126).cycle() {
+    let (mut scene, mut renderer) = (spinner::scene!(Smooth), spinner::renderer!(Smooth));
+    for turn in (0..TURN).cycle() {
         spinner::build(&mut scene, turn);
         let lines = LINES as u16;
         let sent = draw_frame_async(&scene, &mut renderer, &mut pump, background(), lines).await;

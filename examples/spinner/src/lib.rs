@@ -11,21 +11,18 @@ pub mod dma;
 pub mod panel;
 
 use core::sync::atomic::{AtomicU32, Ordering};
-use scanbeam::parallel::{Crew, Interleave, LineDesk};
-use scanbeam::pipeline::{
-    CellOf, GouraudDepth, Object, ObjectOf, Pipeline, SceneVertex, SlotOf, VertexOf,
+use scanbeam::frame::{
+    FastMemory, FrameError, FrameUse, Memory as LineMemory, Renderer, draw_frame,
 };
+use scanbeam::look::{Gouraud, Look};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
-use scanbeam::send::send_frame;
-use scanbeam::{
-    Affine, Camera, FrameError, FrameStats, Instance, Light, LineMemory, LineRenderer, Link, Scene,
-    SceneMemory, Screen, draw_frame,
-};
+use scanbeam::scene::{Draw, Memory, Scene};
+use scanbeam::{Affine, Camera, Light, Screen};
 use static_cell::ConstStaticCell;
 
-/// Smooth colours, 32-bit depth, pixels in the order of the wire.
-pub type Look = GouraudDepth<Rgb565Be>;
+/// Smooth colours, pixels in the order of the wire.
+pub type Smooth = Gouraud<Rgb565Be>;
 
 /// Pixels of a line.
 pub const WIDTH: usize = 320;
@@ -35,8 +32,11 @@ pub const HEIGHT: usize = 240;
 pub const LINES: usize = 8;
 /// Triangles that a frame may have.
 pub const OBJECTS: usize = 1_300;
-/// Triangles that the cache holds.
-pub const SLOTS: usize = 64;
+/// Vertices that a frame may have.
+pub const VERTICES: usize = 1_300;
+
+/// Frames of a turn.
+pub const TURN: u16 = 126;
 
 /// What is behind the teapot.
 pub const BACKGROUND: [u8; 3] = [24, 32, 48];
@@ -90,48 +90,101 @@ pub fn fill<T, const N: usize>(
     room.as_mut_slice()
 }
 
-/// The scene of one teapot, in memory lent for ever.
-///
-/// # Panics
-/// The second time.
+/// A scene of one teapot, for pixels of the look `$look`, in memory lent for ever.
+#[macro_export]
+macro_rules! scene {
+    ($look:ty) => {
+        $crate::scene_in::<$look>($crate::scene_memory!())
+    };
+}
+
+/// Memory of a scene.
+#[macro_export]
+macro_rules! scene_memory {
+    () => {
+        $crate::SceneMemory {
+            vertices: $crate::lend!(
+                $crate::SceneVertex,
+                $crate::VERTICES,
+                $crate::SceneVertex::EMPTY
+            ),
+            places: &mut [],
+            objects: $crate::lend!(
+                $crate::SceneObject,
+                $crate::OBJECTS,
+                $crate::SceneObject::EMPTY
+            ),
+            bins: $crate::lend!(u16, $crate::HEIGHT, 0),
+            draws: $crate::lend!($crate::SceneDraw, 1, $crate::SceneDraw::EMPTY),
+        }
+    };
+}
+
+/// A renderer of the look `$look`, in memory lent for ever.
+#[macro_export]
+macro_rules! renderer {
+    ($look:ty) => {{
+        static CACHE: $crate::Cell<$crate::Cache<$look>> = $crate::Cell::new($crate::Cache::new());
+        $crate::renderer_in::<$look>(
+            CACHE.take(),
+            $crate::lend!($crate::Link, $crate::OBJECTS, $crate::Link::NONE),
+            $crate::lend!(u32, $crate::WIDTH, 0),
+        )
+    }};
+}
+
+pub use scanbeam::Link;
+pub use scanbeam::frame::FastMemory as Cache;
+pub use scanbeam::scene::{
+    DrawState as SceneDraw, Memory as SceneMemory, Object as SceneObject, Vertex as SceneVertex,
+};
+pub use static_cell::ConstStaticCell as Cell;
+
+/// A scene in this memory, of the whole picture.
 #[must_use]
-pub fn scene() -> Scene<'static, Look> {
+pub fn scene_in<L: Look>(memory: Memory<'static, 'static>) -> Scene<'static, 'static, L> {
     let Ok(screen) = Screen::new(WIDTH as u16, HEIGHT as u16) else {
         unreachable!("a size within the limits")
     };
-    Scene::new(
-        screen,
-        SceneMemory {
-            vertices: lend!(VertexOf<Look>, OBJECTS, SceneVertex::empty()),
-            objects: lend!(ObjectOf<Look>, OBJECTS, Object::default()),
-            buckets: lend!(Link, HEIGHT, Link::NONE),
-        },
-    )
+    Scene::new(screen, memory)
+}
+
+/// A renderer in this memory.
+#[must_use]
+pub fn renderer_in<L: Look>(
+    cache: &'static mut FastMemory<L>,
+    links: &'static mut [Link],
+    depth: &'static mut [u32],
+) -> Renderer<'static, L> {
+    Renderer::new(LineMemory {
+        cache,
+        links,
+        depth,
+    })
 }
 
 /// Pass one: the teapot, turned.
 ///
 /// # Panics
-/// When a room of `scene` is too small for the teapot: those of [`scene()`] are not.
-pub fn build<P: Pipeline>(scene: &mut Scene<'_, P>, turn: u16) {
+/// When the memory of `scene` is too small for the teapot: that of [`scene!`](crate::scene!) is not.
+pub fn build<L: Look>(scene: &mut Scene<'_, '_, L>, turn: u16) {
     let eye = [0.0, 1.2, 2.6];
     let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0)
         .expect("the eye is apart from what it looks at");
-    scene.begin(&camera).expect("the scene has a bucket a line");
-    let instance = Instance {
-        model: Affine::rotation_y(f32::from(turn % 126) * (core::f32::consts::TAU / 126.0)),
+    scene.begin(&camera).expect("the scene has a bin a line");
+    let call = Draw {
+        model: Affine::rotation_y(f32::from(turn % TURN) * (core::f32::consts::TAU / 126.0)),
         light: Light::new([0.3, 0.8, 0.6], 0.2),
         colour: [236, 196, 112],
-        ..Instance::default()
+        ..Draw::new(scenes::TEAPOT)
     };
-    let drawn = scene.draw(&scenes::TEAPOT, &instance);
-    drawn.expect("the rooms hold the teapot");
+    scene.draw(&call).expect("the memory holds the teapot");
 }
 
 /// The teapot and who draws it.
 pub struct Spinner {
-    scene: Scene<'static, Look>,
-    renderer: LineRenderer<'static, Look>,
+    scene: Scene<'static, 'static, Smooth>,
+    renderer: Renderer<'static, Smooth>,
     turn: u16,
 }
 
@@ -143,70 +196,24 @@ impl Spinner {
     #[must_use]
     pub fn new() -> Self {
         Self {
-            scene: scene(),
-            renderer: LineRenderer::new(LineMemory {
-                slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
-                links: lend!(Link, OBJECTS, Link::NONE),
-                depth: lend!(CellOf<Look>, WIDTH, 0),
-            }),
+            scene: scene!(Smooth),
+            renderer: renderer!(Smooth),
             turn: 0,
         }
     }
 
-    /// Draws and sends a frame, then turns on: 126 frames a turn.
+    /// Draws and sends a frame, then turns on.
     ///
     /// # Errors
     /// When the sink fails. The next frame is whole again.
-    pub fn frame<D>(&mut self, pump: &mut Pump<D>) -> Result<FrameStats, FrameError<D::Error>>
+    pub fn frame<D>(&mut self, pump: &mut Pump<D>) -> Result<FrameUse, FrameError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
         build(&mut self.scene, self.turn);
-        self.turn = (self.turn + 1) % 126;
+        self.turn = (self.turn + 1) % TURN;
         let (scene, renderer) = (&self.scene, &mut self.renderer);
         draw_frame(scene, renderer, pump, background(), LINES as u16)
-    }
-
-    /// The same, once, by a crew of two renderers on this core, which take lines in turn.
-    ///
-    /// # Errors
-    /// When the sink fails.
-    ///
-    /// # Panics
-    /// The second time: the second renderer's memory is lent here.
-    pub fn frame_by_crew<D>(
-        &mut self,
-        pump: &mut Pump<D>,
-    ) -> Result<FrameStats, FrameError<D::Error>>
-    where
-        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
-    {
-        build(&mut self.scene, self.turn);
-        let mut here = [
-            LineRenderer::new(LineMemory {
-                slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
-                links: lend!(Link, OBJECTS, Link::NONE),
-                depth: lend!(CellOf<Look>, WIDTH, 0),
-            }),
-            LineRenderer::new(LineMemory {
-                slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
-                links: lend!(Link, OBJECTS, Link::NONE),
-                depth: lend!(CellOf<Look>, WIDTH, 0),
-            }),
-        ];
-        for (offset, renderer) in (0..).zip(&mut here) {
-            renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
-        }
-        let mut crew = Crew {
-            scene: &self.scene,
-            here: &mut here,
-            desks: &mut [] as &mut [(Interleave, LineDesk<'_, D::Buf>)],
-            background: background(),
-            wait: || false,
-            skipped: 0,
-        };
-        let sent = send_frame(&self.scene, &mut crew, pump, LINES as u16)?;
-        Ok(crew.stats(sent))
     }
 }
 

@@ -14,15 +14,14 @@ use embedded_display_controller::{
     DisplayConfiguration, DisplayController, DisplayControllerLayer, PixelFormat,
 };
 use panic_halt as _;
-use scanbeam::pipeline::{CellOf, GouraudDepth, Object, ObjectOf, SceneVertex, SlotOf, VertexOf};
 use scanbeam::pixel::{PixelFormat as _, Rgb565};
 use scanbeam::scan_out::{FrameBuffer, FrameBufferSink, Pump, SwapFlag};
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen, draw_frame};
-use spinner::{BACKGROUND, HEIGHT, OBJECTS, SLOTS, WIDTH, lend};
+use scanbeam::{frame::draw_frame, look::Gouraud};
+use spinner::{BACKGROUND, HEIGHT, TURN, WIDTH, lend};
 use stm32h7xx_hal::gpio::Speed;
 use stm32h7xx_hal::{ltdc::Ltdc, pac, prelude::*};
 
-type Look = GouraudDepth<Rgb565>;
+type Look = Gouraud<Rgb565>;
 
 const PANEL: DisplayConfiguration = DisplayConfiguration {
     active_width: WIDTH as u16,
@@ -74,13 +73,8 @@ fn main() -> ! {
     let frames = FrameBuffer::new(frames, WIDTH as u16, HEIGHT as u16, &SWAP);
     let lines = [lend!(u16, WIDTH, 0), lend!(u16, WIDTH, 0)];
     let mut pump = Pump::new(FrameBufferSink::over(frames), lines);
-    let mut scene = scene();
-    let mut renderer = LineRenderer::<Look>::new(LineMemory {
-        slots: lend!(SlotOf<Look>, SLOTS, LineRenderer::<Look>::empty_slot()),
-        links: lend!(Link, OBJECTS, Link::NONE),
-        depth: lend!(CellOf<Look>, WIDTH, 0),
-    });
-    for turn in (0..126).cycle() {
+    let (mut scene, mut renderer) = (spinner::scene!(Look), spinner::renderer!(Look));
+    for turn in (0..TURN).cycle() {
         spinner::build(&mut scene, turn);
         let background = Rgb565::from_rgb8(BACKGROUND);
         let sent = draw_frame(&scene, &mut renderer, &mut pump, background, 1);
@@ -92,15 +86,4 @@ fn main() -> ! {
         spinner::count_frame();
     }
     unreachable!("it turns for ever")
-}
-
-fn scene() -> Scene<'static, Look> {
-    Scene::new(
-        Screen::new(WIDTH as u16, HEIGHT as u16).expect("a size within the limits"),
-        SceneMemory {
-            vertices: lend!(VertexOf<Look>, OBJECTS, SceneVertex::empty()),
-            objects: lend!(ObjectOf<Look>, OBJECTS, Object::default()),
-            buckets: lend!(Link, HEIGHT, Link::NONE),
-        },
-    )
 }

@@ -18,7 +18,7 @@ pub struct FirmwareArgs {
     /// Instead: build each preset for each core, draw the teapot by it, and print what it takes
     #[arg(long, conflicts_with_all = ["bench", "output"])]
     pub sizes: bool,
-    /// Write the table of sizes into README.md, between its markers
+    /// Write the table of sizes into host-tests/figures/tables.md, between its markers
     #[arg(long, requires = "sizes")]
     pub markdown: bool,
     /// With the sizes also the largest functions of each preset's firmware
@@ -59,7 +59,7 @@ pub struct BenchArgs {
     /// Also build and measure other renderers of the registry, here and on Cortex-M in QEMU
     #[arg(long)]
     pub peers: bool,
-    /// Write the tables into README.md, between their markers; also that of `firmware --sizes`
+    /// Write the tables into host-tests/figures/tables.md, between their markers; also that of `firmware --sizes`
     #[arg(long)]
     pub markdown: bool,
 }

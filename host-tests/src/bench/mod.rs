@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `boards.rs` | the same programs on Cortex-M |
 //! | `scene.rs` | the scenes as numbers, for renderers that take any mesh |
-//! | `table.rs` | the tables of the README |
+//! | `table.rs` | the tables of `host-tests/figures/tables.md` |
 //!
 //! The programs that are measured are crates of their own, `host-tests/bench/ours` and
 //! `host-tests/bench/peers`, built here with the profile of the firmware, for this machine and for
@@ -126,9 +126,9 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
         tell!("note: not measured: {reason}");
     }
     if args.markdown {
-        let readme = workspace().join("README.md");
-        table::write(&readme, &rows)?;
-        preset_sizes::write(&readme, &preset_sizes::measure()?)?;
+        let tables = table::page();
+        table::write(&tables, &rows)?;
+        preset_sizes::write(&tables, &preset_sizes::measure()?)?;
     }
     Ok(())
 }

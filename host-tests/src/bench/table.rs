@@ -1,4 +1,4 @@
-//! The figures as a table for people, and as tables of the README between two markers.
+//! The figures as a table for people, and as tables of `host-tests/figures/tables.md` between two markers.
 
 use super::{OnBoard, Row, missing};
 use crate::figures::gate::Record;
@@ -6,15 +6,20 @@ use crate::firmware::BOARDS;
 use crate::image_out::write_atomically;
 use std::error::Error;
 use std::fmt::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
-/// What stands before and after the tables in the README.
+/// The page that the tables are on.
+pub(crate) fn page() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("figures/tables.md")
+}
+
+/// What stands before and after the tables there.
 const MARKERS: [&str; 2] = [
     "<!-- bench: written by `bench --markdown` -->",
     "<!-- /bench -->",
 ];
 
-/// Frames of the README, as the record and as people call them.
+/// Frames, as the record and as people call them.
 const FRAMES: [(&str, &str); 5] = [
     ("sphere", "A: sphere of 2,048 triangles"),
     ("c_f2n", "C: 16 quads over the picture, far to near"),
@@ -210,7 +215,7 @@ mod tests {
         assert!(new.contains("| other | 3.00 | 2.0 | 2.5 |"), "{new}");
         assert_eq!(between(&new, MARKERS, &inner).unwrap(), new);
         assert!(between("nothing", MARKERS, &inner).is_err());
-        let readme = include_str!("../../../README.md");
+        let readme = include_str!("../../figures/tables.md");
         assert!(between(readme, MARKERS, &inner).is_ok());
     }
 

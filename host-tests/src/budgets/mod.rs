@@ -201,7 +201,7 @@ pub fn of_source() -> Result<Figures, Box<dyn Error>> {
     Ok(figures.into_iter().map(owned).collect())
 }
 
-/// A program of `examples/qemu`, its features, and what it is called here.
+/// A program of `host-tests/firmware`, its features, and what it is called here.
 const PROGRAMS: [(&str, &[&str], &str); 3] = [
     ("preset", &["sized", "gouraud-depth"], "smooth with depth"),
     (

@@ -4,9 +4,11 @@
 //! |---|---|
 //! | `gate.rs` | the record of figures, and what is slower than it |
 //! | `growth.rs` | cost against triangles, as a plot |
+//! | `suite.rs` | the suite beside the best of others, as a table |
 
 pub mod gate;
 pub mod growth;
+pub mod suite;
 
 use crate::accuracy::solve;
 use crate::firmware::{KernelRun, LinesRun, Output, Sections};

@@ -97,7 +97,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// Reads the lines that `examples/qemu` documents, of which the last is `done`.
+    /// Reads the lines that `host-tests/firmware` documents, of which the last is `done`.
     ///
     /// # Errors
     ///

@@ -3,7 +3,7 @@
 //! QEMU steps through the firmware one instruction at a time and logs where each lies. The log of a
 //! frame is hundreds of megabytes, so it is read from a pipe as it comes and only counted. What
 //! the firmware does before and after the frame lies outside its two marks
-//! (`examples/qemu/src/profile.rs`).
+//! (`host-tests/firmware/src/profile.rs`).
 
 use super::{
     Board, COMPARER, FirmwareError, Profile, QEMU, Symbol, Symbols, Toolchain, build, collect,

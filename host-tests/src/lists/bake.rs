@@ -15,12 +15,13 @@ use super::strips::strips_of;
 use super::tables::{Table, tables};
 use super::texels::{Picture, Texels};
 use crate::image_out::{read_image, write_atomically};
+use crate::lists::writer::{FieldPacker, Form, ListWriter, WriteError};
 use crate::model::Model;
 use crate::texture_file;
 use scanbeam::Affine;
 use scanbeam::list::{
-    Bounds, Field, FieldForm, FieldPacker, Flow, Form, Head, Header, Id, ListWriter, Material,
-    Matrix, State, VertexFormat, WriteError, parameter,
+    Bounds, Field, FieldForm, Flow, Head, Header, Id, Material, Matrix, State, VertexFormat,
+    parameter,
 };
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::error::Error;

@@ -12,6 +12,7 @@
 //! | `gltf.rs` | glTF 2.0 into a model |
 //! | `print.rs` | a list as text |
 //! | `run.rs` | a list into a picture |
+//! | `writer.rs` | blocks into words |
 
 pub mod args;
 pub mod bake;
@@ -23,6 +24,7 @@ pub mod sizes;
 pub mod strips;
 mod tables;
 pub mod texels;
+pub mod writer;
 
 use crate::stdio;
 use std::error::Error;

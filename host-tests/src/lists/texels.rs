@@ -6,8 +6,9 @@
 //! of the texels that are nearest to it, a few times. With enough colours for all it is exact.
 
 use crate::image_out::Frame;
+use crate::lists::writer::{ListWriter, WriteError};
 use crate::texture_file::TextureImage;
-use scanbeam::list::{ListWriter, Palette, State, TexelForm, Texture, WriteError};
+use scanbeam::list::{Palette, State, TexelForm, Texture};
 use scanbeam::texture::{Rgba8871, TexelFormat, TextureError};
 use std::collections::BTreeMap;
 

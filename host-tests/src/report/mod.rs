@@ -12,6 +12,7 @@ use crate::args::{PixelFormatArg, ReportArgs};
 use crate::bench::OnBoard;
 use crate::draw::{CrewSettings, Drawn, draw, draw_model};
 use crate::figures::gate::Record;
+use crate::figures::suite;
 use crate::firmware::BOARDS;
 use crate::firmware_report::{picture, picture_b, picture_suite};
 use crate::image_out::{Frame, make_folder, write_atomically};
@@ -20,7 +21,7 @@ use crate::reference::{Cull, Reference, Shade, View, compare, render};
 use crate::{accuracy, bench, cache_report};
 use page::Page;
 use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
-use scenes::{HEIGHT, LEAN, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
+use scenes::{HEIGHT, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
 use std::error::Error;
 use std::path::Path;
 
@@ -225,43 +226,20 @@ fn costs(page: &mut Page) -> Result<(), Box<dyn Error>> {
         rows.push(row);
     }
     page.table(&rows);
-    suite(page, &record);
+    suite_table(page, &record);
     Ok(())
 }
 
-/// What the best of other renderers take for a scene of the suite, in million instructions: with
-/// floating point on an M4F, in integers on an M3 and in M0+ code. Their pictures are less exact.
-const BEST_PEERS: [(&str, [f64; 3]); 7] = [
-    ("a", [1.83, 2.99, 7.21]),
-    ("b", [2.66, 3.95, 9.07]),
-    ("b_unlit", [1.97, 3.59, 12.7]),
-    ("c_f2n", [34.0, 34.3, 57.1]),
-    ("c_n2f", [16.7, 15.9, 25.5]),
-    ("f", [2.43, 4.08, 8.96]),
-    ("g", [4.33, 7.14, 18.2]),
-];
-
 /// The suite on every board, beside the best of others.
-fn suite(page: &mut Page, record: &Record) {
+fn suite_table(page: &mut Page, record: &Record) {
     page.paragraph(
-        "The suite with 64 slots and a line a transfer, in million instructions, and in brackets \
-         those of the best other renderer (TGX, TinyGL or small3dlib). Rows `lean` are drawn by the new rooms.",
+        "The suite with 64 slots and a line a transfer, in million instructions: in the rooms `scene`, \
+         `look` and `frame`, with the presets, and with the best other renderer (TGX, TinyGL or \
+         small3dlib).",
     );
-    let mut rows = vec![vec!["scene".to_owned()]];
-    rows[0].extend(BOARDS.map(|board| board.name.to_owned()));
-    let lean = LEAN.map(|(name, suite)| (name, suite.name()));
-    for (scene, of) in SUITE.map(|s| (s.name(), s.name())).into_iter().chain(lean) {
-        let mut row = vec![scene.to_owned()];
-        let peers = BEST_PEERS.iter().find(|(name, _)| *name == of);
-        row.extend((0..).zip(BOARDS).map(|(at, board)| {
-            let figure = record.latest(board.name, &format!("frame {scene}"));
-            let ours = figure.map_or_else(|| "-".to_owned(), |n| format!("{:.2}", n / 1e6));
-            peers.map_or_else(
-                || ours.clone(),
-                |(_, best)| format!("{ours} ({})", best[at]),
-            )
-        }));
-        rows.push(row);
+    let mut rows = suite::rows(record);
+    for cell in rows.iter_mut().flatten() {
+        *cell = cell.replace("**", "");
     }
     page.table(&rows);
 }

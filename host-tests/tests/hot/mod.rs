@@ -59,7 +59,8 @@ smooth!(
     Gouraud<Rgb565>,
     Gouraud<Rgb565Be>,
     Gouraud<Rgb888>,
-    Textured<Rgb565Be>
+    Textured<Rgb565Be>,
+    Textured<Rgb565>
 );
 
 /// What a scene is lent.
@@ -75,7 +76,7 @@ impl SceneRooms {
     pub fn new(vertices: usize, objects: usize, bins: usize, draws: usize) -> Self {
         Self {
             vertices: vec![Vertex::EMPTY; vertices],
-            places: Vec::new(),
+            places: vec![TexturePlace::EMPTY; vertices],
             objects: vec![Object::EMPTY; objects],
             bins: vec![0; bins],
             draws: vec![DrawState::EMPTY; draws],

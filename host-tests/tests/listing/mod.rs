@@ -1,11 +1,12 @@
 //! What tests of lists share: clouds of vertices in every form, and rooms to run lists in.
 
 use crate::common::{Rng, SceneRooms, frame};
+use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::{EightLights, ListCoordinate, ListMemory, ListRunner, ListSettings};
 use scanbeam::list::{
-    Budget, Field, FieldForm, FieldPacker, Halt, Header, Id, ListWriter, Matrix, OverlaySlot,
-    State, TextureSlot, VertexFormat, parameter,
+    Budget, Field, FieldForm, Halt, Header, Id, Matrix, OverlaySlot, State, TextureSlot,
+    VertexFormat, parameter,
 };
 use scanbeam::mesh::Vertices;
 use scanbeam::pipeline::{FlatDepth, GouraudDepth, Pipeline, WordOf};

@@ -1,10 +1,38 @@
 //! What is known of faces before there are objects: their indices, and which of them can be seen.
 
+use super::super::camera::Screen;
 use super::super::mesh::{Faces, Mesh, QuadSplit};
 use super::super::object::SceneVertex;
-use super::{Cull, MeshError};
+use super::MeshError;
 use crate::num::{first_at, turn};
 use core::ops::Range;
+
+/// Which faces are dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Cull {
+    /// Those seen from behind.
+    #[default]
+    Back,
+    /// None.
+    None,
+}
+
+/// The part of guard space that is the picture.
+pub(super) struct Picture {
+    pub(super) columns: Range<i32>,
+    pub(super) lines: Range<i32>,
+}
+
+impl Picture {
+    /// These lines of a screen.
+    pub(super) fn new(screen: Screen, lines: Range<u16>) -> Self {
+        let (left, top) = (screen.left(), screen.top());
+        Self {
+            columns: left..left + i32::from(screen.width()),
+            lines: top + i32::from(lines.start)..top + i32::from(lines.end),
+        }
+    }
+}
 
 /// How many triangles there are.
 pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
@@ -112,11 +140,7 @@ pub(crate) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u
 /// The first line on which a triangle can be seen; `None` when it faces away, or covers no
 /// pixel centre's line or column of the picture.
 #[inline]
-pub(super) fn first_line(
-    p: [(u16, u16); 3],
-    cull: Cull,
-    picture: (&Range<i32>, &Range<i32>),
-) -> Option<i32> {
+pub(super) fn first_line(p: [(u16, u16); 3], cull: Cull, picture: &Picture) -> Option<i32> {
     is_seen(p, cull).then(|| first_of(p, picture)).flatten()
 }
 
@@ -133,10 +157,8 @@ pub(super) fn is_seen(p: [(u16, u16); 3], cull: Cull) -> bool {
 
 /// [`first_line`] of a triangle that does not face away.
 #[inline(always)]
-pub(super) fn first_of(
-    p: [(u16, u16); 3],
-    (columns, lines): (&Range<i32>, &Range<i32>),
-) -> Option<i32> {
+pub(super) fn first_of(p: [(u16, u16); 3], picture: &Picture) -> Option<i32> {
+    let Picture { columns, lines } = picture;
     let least = |a: u16, b: u16, c: u16| a.min(b).min(c);
     let most = |a: u16, b: u16, c: u16| a.max(b).max(c);
     let first = first_at(least(p[0].1, p[1].1, p[2].1)).max(lines.start);

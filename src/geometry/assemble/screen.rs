@@ -6,13 +6,16 @@
 //! centre of that pixel and no other.
 
 use super::super::camera::Screen;
-use super::super::colour::{Colour, Scale};
+use super::super::colour::Colour;
 use super::super::light::ModelLight;
 use super::super::mesh::{Coordinate, Faces, Mesh};
 use super::super::object::{Object, SceneVertex};
 use super::super::project::{DEPTH_MAX, DEPTH_MIN};
 use super::super::shading::Shading;
-use super::{Assembled, Assembler, Cull, Dropped, MeshError, Room, Store, check_known, first_line};
+use super::faces::Picture;
+use super::{
+    Assembled, Assembler, Cull, Dropped, MeshError, Room, Store, Surfaced, check_known, first_line,
+};
 use core::ops::Range;
 
 /// A vertex that was set up beforehand.
@@ -37,6 +40,22 @@ fn guarded(v: i32) -> u16 {
     v.clamp(RIM, 0xFFFF - RIM) as u16
 }
 
+/// Triangles of vertices that are on the screen already.
+pub(crate) struct ScreenMesh<'v> {
+    pub(crate) vertices: &'v [ScreenVertex],
+    pub(crate) faces: &'v [[u16; 3]],
+    pub(crate) cull: Cull,
+}
+
+/// A point as it is kept: what all of its corners have in common.
+struct Point<S: Shading> {
+    /// Index of its vertex.
+    number: u32,
+    depth: u32,
+    attribute: S::Vertex,
+    face: S::Face,
+}
+
 /// Takes triangles of vertices that are on the screen already; `file` as in
 /// [`Assembler::mesh`].
 ///
@@ -44,12 +63,18 @@ fn guarded(v: i32) -> u16 {
 /// When an index or the skin does not fit; then nothing has been kept.
 pub(crate) fn on_screen<S: Shading>(
     store: &mut Store<'_, S>,
-    (screen, lines): (Screen, Range<u16>),
-    cull: Cull,
-    (scale, skin): (&Scale, S::Skin<'_>),
-    (vertices, faces): (&[ScreenVertex], &[[u16; 3]]),
+    screen: Screen,
+    lines: Range<u16>,
+    surface: Surfaced<'_, '_, S>,
+    mesh: ScreenMesh<'_>,
     mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
 ) -> Result<Assembled, MeshError> {
+    let Surfaced { scale, skin } = surface;
+    let ScreenMesh {
+        vertices,
+        faces,
+        cull,
+    } = mesh;
     if !S::fits(&skin, vertices.len()) {
         return Err(MeshError::AttributeLength);
     }
@@ -58,8 +83,7 @@ pub(crate) fn on_screen<S: Shading>(
         return Err(MeshError::Index { face: face as u32 });
     }
     let (left, top) = (screen.left(), screen.top());
-    let columns = left..left + i32::from(screen.width());
-    let lines = top + i32::from(lines.start)..top + i32::from(lines.end);
+    let picture = Picture::new(screen, lines);
     let set_up = |i: usize, v: &ScreenVertex| {
         let mut attribute = S::Vertex::default();
         if !S::PER_FACE {
@@ -100,7 +124,7 @@ pub(crate) fn on_screen<S: Shading>(
             continue;
         };
         let place = [a, b, c].map(|v| (v.x, v.y));
-        let Some(first) = first_line(place, cull, (&columns, &lines)) else {
+        let Some(first) = first_line(place, cull, &picture) else {
             done.culled += 1;
             continue;
         };
@@ -207,12 +231,13 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
             }
             S::dress(&mut attribute, &self.skin, i);
             S::dress_face(&mut face_colour, &self.skin);
-            self.point(
-                (i as u32, faces),
-                place,
-                (at.depth, attribute, face_colour),
-                &mut file,
-            );
+            let point = Point {
+                number: i as u32,
+                depth: at.depth,
+                attribute,
+                face: face_colour,
+            };
+            self.point(point, faces, place, &mut file);
         }
         Ok(self.done)
     }
@@ -220,9 +245,9 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
     /// One point.
     fn point(
         &mut self,
-        (number, faces): (u32, &[[usize; 3]]),
+        point: Point<S>,
+        faces: &[[usize; 3]],
         place: [(u16, u16); 4],
-        (depth, attribute, face_colour): (u32, S::Vertex, S::Face),
         file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
     ) {
         let (before, kept) = (self.vertices.len(), self.done.kept);
@@ -232,14 +257,14 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
             let vertex = SceneVertex {
                 x,
                 y,
-                depth,
-                attribute,
+                depth: point.depth,
+                attribute: point.attribute,
             };
             match self.vertices.push(vertex) {
                 Some(at) => *slot = at,
                 None => {
                     self.vertices.truncate(before);
-                    self.dropped(Room::Vertices, number);
+                    self.dropped(Room::Vertices, point.number);
                     self.count_lost();
                     return;
                 }
@@ -248,9 +273,9 @@ impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
         for &[a, b, c] in faces {
             match self.first_line([place[a], place[b], place[c]]) {
                 Some(first) => {
-                    let object = Object::new([index[a], index[b], index[c]], face_colour);
+                    let object = Object::new([index[a], index[b], index[c]], point.face);
                     let kept = self.done.kept;
-                    self.keep(object, first, number, file);
+                    self.keep(object, first, point.number, file);
                     self.settle(kept);
                 }
                 None => self.done.culled += 1,

@@ -12,7 +12,8 @@
 //! | `select` | which of these keeps an error budget | X2 |
 //! | `format` | texel formats and their expansion | H7 |
 //! | `tlut` | texels in memory: whole words, and 1 to 8 bits through a lookup table | H7 |
-//! | `sample` | textures: size, wrap, mirror, clamp, nearest, bilinear | H6 |
+//! | `sample` | textures: size, wrap, mirror, clamp, nearest | H6 |
+//! | `bilinear` | the four nearest texels | H6 |
 //! | `lod` | four levels of detail, built | H6 |
 //! | `block` | layouts of texture memory, runs inside a block | B1, B5 |
 //! | `cache` | a small cache of blocks, with counters | B5 |
@@ -21,6 +22,7 @@
 //! Everything that can vary is a type, so what a pipeline does not name has no code: a texture is
 //! anything that is [`Texels`].
 
+mod bilinear;
 mod block;
 mod cache;
 mod format;
@@ -37,6 +39,7 @@ pub use crate::geometry::texturing::{
     Budget, Corner, Corners, Detail, FRACTION, Homogeneous, LEVELS, LevelEnds, Period, Quality,
     Skin, TexturePlanes, Textured, Uv,
 };
+pub use bilinear::Bilinear;
 pub use block::{BlockRun, BlockRuns, Blocked, Layout, Linear};
 pub use cache::{BlockCache, CacheError, CacheReads};
 pub use format::{Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Texel, TexelFormat};
@@ -44,8 +47,8 @@ pub use lod::{Level, Levels, build_level, level_words};
 pub use perspective::{AllSeen, PaintRun, PerspectiveSpan, Stride};
 pub use procedural::{Checker, Gradient};
 pub use sample::{
-    Address, Bilinear, Clamp, Fetch, MAX_SIDE, Mirror, Size, Square, Square64, Square128,
-    Square256, Texture, TextureError, Whole, Wrap,
+    Address, Clamp, Fetch, MAX_SIDE, Mirror, Size, Square, Square64, Square128, Square256, Texture,
+    TextureError, Whole, Wrap,
 };
 pub use tlut::{Indexed, Store, Words};
 

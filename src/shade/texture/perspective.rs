@@ -6,7 +6,7 @@
 //! taken as linear. A span's first and last pixel are exact in every way of drawing, the last one
 //! but for the rounding of its run's step (2^-18 texel a pixel); so neighbours fit together.
 //!
-//! Instructions on a Cortex-M4 (rustc 1.95, `bench_texture` of `examples/qemu`), spans of 320
+//! Instructions on a Cortex-M4 (rustc 1.95, `bench_texture` of `host-tests/firmware`), spans of 320
 //! pixels, texel fetched and stored; a span takes 75 to 130 more.
 //!
 //! | [`Stride`] | divisions | a square of 128 | of any size |

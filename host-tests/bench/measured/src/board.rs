@@ -1,7 +1,7 @@
 //! A Cortex-M in QEMU: words and files come and go by semihosting, what things cost is counted in
 //! instructions, and a heap lies in external RAM.
 //!
-//! The counter and the console are those of `examples/qemu`.
+//! The counter and the console are those of `host-tests/firmware`.
 
 use crate::Failure;
 use alloc::{borrow::ToOwned, format, string::String, vec, vec::Vec};
@@ -13,9 +13,9 @@ use cortex_m::Peripherals;
 use cortex_m_semihosting::{nr, syscall};
 use embedded_alloc::TlsfHeap;
 
-#[path = "../../../../examples/qemu/src/console.rs"]
+#[path = "../../../firmware/src/console.rs"]
 mod console;
-#[path = "../../../../examples/qemu/src/count.rs"]
+#[path = "../../../firmware/src/count.rs"]
 mod count;
 
 use console::Console;

@@ -2,17 +2,13 @@
 //!
 //! Nothing is written of a block that does not fit or contradicts itself.
 
-use super::block::{
-    Bounds, CameraWords, Flow, Head, LightWords, MAGIC, Matrix, Overlay, Palette, State, Texture,
-    Window,
+use scanbeam::list::{
+    Bounds, CameraWords, FieldForm, Flow, Head, Header, Id, LightWords, MAGIC, Matrix, Overlay,
+    Palette, SEPARATE, State, Texture, VertexFormat, WIDE, Window, long_words,
 };
-use super::format::{FieldForm, VertexFormat, column_words};
-use super::header::{Header, Id, SEPARATE, WIDE};
-use super::reader::long_words;
 
 /// Why a block was not written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum WriteError {
     /// The slice is too short.
@@ -35,8 +31,8 @@ pub enum WriteError {
     Place,
 }
 
-impl core::fmt::Display for WriteError {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+impl std::fmt::Display for WriteError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Full { need, have } => {
                 write!(f, "list: {need} words are needed, {have} are left")
@@ -53,7 +49,7 @@ impl core::fmt::Display for WriteError {
     }
 }
 
-impl core::error::Error for WriteError {}
+impl std::error::Error for WriteError {}
 
 /// How triangles are made of vertices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +110,7 @@ impl<'m> ListWriter<'m> {
         let block = rest
             .get_mut(..need as usize)
             .ok_or(WriteError::Full { need, have })?;
-        for (slot, word) in block.iter_mut().zip(core::iter::once(header).chain(data)) {
+        for (slot, word) in block.iter_mut().zip(std::iter::once(header).chain(data)) {
             *slot = word.to_le();
         }
         self.len += need as usize;
@@ -462,10 +458,4 @@ impl<F: FnMut(u32)> FieldPacker<F> {
             self.push(0, 32 - self.have);
         }
     }
-}
-
-/// Words of a column of a table.
-#[must_use]
-pub const fn words_of_column(form: FieldForm, count: u16) -> u32 {
-    column_words(form, count)
 }

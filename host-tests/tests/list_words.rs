@@ -1,7 +1,7 @@
 //! What is written is read back; what is damaged is refused or bounded.
 
-use super::*;
-use std::vec::Vec;
+use host_tests::lists::writer::{FieldPacker, Form, ListWriter, WriteError};
+use scanbeam::list::*;
 
 /// A small generator with no dependency: the same numbers everywhere.
 struct Random(u64);
@@ -495,7 +495,7 @@ fn columns_hold_what_was_packed() {
                 packer.field(form, [v[0], v[1], v[2], 0]);
                 packer.align();
             }
-            assert_eq!(column.len() as u32, words_of_column(form, count));
+            assert_eq!(column.len() as u32, form.column_words(count));
             assert_eq!(vertices.len() as u32, form.words() * u32::from(count));
             let slot = Slot { form, word: 0 };
             let mut got = std::vec![[0; 3]; usize::from(count)];

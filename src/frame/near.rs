@@ -1,0 +1,522 @@
+//! Spans that meet others, from the nearest on: each is coloured where nobody is before (X3, K8).
+//!
+//! Spans are sorted by the nearest depth that they have on the line, from the last line's order on. A span is
+//! coloured where the mask is free, and not where one that comes later is seen before it: that can be only one that
+//! reaches nearer than its farthest pixel, and as depth is linear along both, their values at either end of what
+//! they share tell where. So no depth is kept, and a pixel has the nearest span, of equals the one submitted
+//! last, in whatever order spans come.
+//!
+//! Where most spans met others on the last line, all are sorted; else those that meet others.
+//! Of 13,136 spans of a room with a teapot, 9,664 find all of their columns free, 3,170 none, and 259 have to be
+//! compared with one that comes later.
+
+use super::renderer::Renderer;
+use super::rival::{CELLS, Guest, Rival, Slope, find_depth, rival_of, slope_of, thin_slope};
+use super::slot::{Active, Flags};
+use super::spans::{Drawn, Line, Span, colour_run, colour_slot, columns_of};
+use super::thin::depth_plane;
+use crate::active::{Cache, CacheSlot, CacheUse};
+use crate::look::{Look, WordOf};
+use crate::num::{bit, take_first};
+use crate::span::Way;
+use crate::visible::{Mask, Part};
+
+/// The lowest bits of a key: a slot's number.
+const NUMBER: u32 = 0xFF;
+
+/// What is sorted: so many slots, and what has no slot in cells of depth.
+struct Field<'a, L: Look, const WORDS: usize> {
+    cache: &'a Cache<Active<L::Planes>, WORDS>,
+    keys: &'a [u32],
+    cells: &'a [u32],
+    guests: usize,
+}
+
+/// How many spans have been taken from a field.
+#[derive(Clone, Copy)]
+struct Taken {
+    slots: usize,
+    guests: usize,
+}
+
+impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
+    /// The nearest depth of a guest; 0 where there is none.
+    #[inline(always)]
+    fn guest_key(&self, at: usize) -> u32 {
+        if at >= self.guests {
+            return 0;
+        }
+        Guest::of(self.cells, at).map_or(0, |guest| guest.key)
+    }
+
+    /// The span of a slot.
+    #[inline(always)]
+    fn span(&self, key: u32) -> Span {
+        let spans = self.cache.spans.as_flattened();
+        let span = spans.get((key & NUMBER) as usize).copied();
+        Span::of(span.unwrap_or_default())
+    }
+
+    /// Whether a slot that comes later shares columns with a span, and may be nearer than `far`.
+    #[inline(always)]
+    fn is_contested(&self, span: Span, far: u32, after: usize) -> bool {
+        let later = self.keys.get(after..).unwrap_or_default();
+        for &key in later {
+            if key | NUMBER < far {
+                break;
+            }
+            if self.span(key).meets(span) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Adds to a mask the columns in which something that comes later is seen before `rival`.
+    #[inline(never)]
+    fn hide(
+        &self,
+        rival: Rival,
+        far: u32,
+        after: Taken,
+        out: &Line<'_, '_, WordOf<L>>,
+        mask: &mut Mask,
+    ) {
+        let mut hide = |other: Rival| {
+            if let Some(hidden) = other.hidden_of(rival) {
+                mask.cover(hidden.start, hidden.end);
+            }
+        };
+        for &key in self.keys.get(after.slots..).unwrap_or_default() {
+            if key | NUMBER < far {
+                break;
+            }
+            let slots = self.cache.slots.as_flattened();
+            if let Some(slot) = slots.get((key & NUMBER) as usize) {
+                hide(rival_of::<L>(slot, self.span(key), out));
+            }
+        }
+        for k in after.guests..self.guests {
+            match Guest::of(self.cells, k) {
+                Some(guest) if guest.key >= far => hide(guest.rival),
+                _ => break,
+            }
+        }
+    }
+
+    /// Draws a span before what comes later, of which some may be seen before it.
+    #[inline(never)]
+    fn draw_contested(
+        &self,
+        slot: &CacheSlot<Active<L::Planes>>,
+        span: Span,
+        far: u32,
+        taken: Taken,
+        drawing: &mut Drawing<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
+        let mut mask = *drawing.mask;
+        let rival = rival_of::<L>(slot, span, out);
+        self.hide(rival, far, taken, out, &mut mask);
+        colour_free::<L>(drawing.mask, &mut mask, Drawn::of(slot), span, out);
+    }
+
+    /// Draws the guest that comes next; the key of the one after it.
+    #[inline(never)]
+    fn next_guest(
+        &self,
+        taken: &mut Taken,
+        drawing: &mut Drawing<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> u32 {
+        let guest = Guest::of(self.cells, taken.guests);
+        taken.guests += 1;
+        if let Some(guest) = guest {
+            self.draw_guest(guest, *taken, drawing, out);
+        }
+        self.guest_key(taken.guests)
+    }
+
+    /// Draws a guest before what comes later.
+    #[inline(never)]
+    fn draw_guest(
+        &self,
+        guest: Guest,
+        after: Taken,
+        drawing: &mut Drawing<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
+        let rival = guest.rival;
+        let [_, far] = rival.slope.range(rival.span);
+        let Span { start, end } = rival.span;
+        if drawing.mask.has_all(start, end) {
+            drawing.hidden += 1;
+            return;
+        }
+        if !self.is_contested(rival.span, far, after.slots) && self.guest_key(after.guests) < far {
+            return colour_guest::<L>(rival, None, drawing, out);
+        }
+        let mut taken = *drawing.mask;
+        self.hide(rival, far, after, out, &mut taken);
+        if !taken.has_all(start, end) {
+            colour_guest::<L>(rival, Some(&mut taken), drawing, out);
+        }
+    }
+}
+
+/// What drawing changes.
+struct Drawing<'a> {
+    mask: &'a mut Mask,
+    counts: &'a mut CacheUse,
+    /// How many spans found columns that were covered.
+    hidden: u32,
+}
+
+/// Colours what has no slot, where nobody is and but for columns that are taken.
+#[inline(never)]
+fn colour_guest<L: Look>(
+    rival: Rival,
+    taken: Option<&mut Mask>,
+    drawing: &mut Drawing<'_>,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let Some(triangle) = out.view.triangle_of::<L>(rival.object) else {
+        return;
+    };
+    let area = triangle.area();
+    let size = triangle.size(area);
+    let mut planes = L::EMPTY;
+    let (object, draws) = (rival.object, out.view.draws);
+    let fill = L::set_up(&triangle, object, size, area, draws, &mut planes);
+    drawing.counts.set_ups += 1;
+    let drawn = Drawn {
+        planes: &planes,
+        flags: Flags::new(fill, Way::PLAIN),
+        object,
+    };
+    if let Some(taken) = taken {
+        return colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
+    }
+    let Span { start, end } = rival.span;
+    drawing.mask.cover_free(start, end, |start, end| {
+        colour_run::<L>(drawn, rival.span, Span { start, end }, out);
+    });
+}
+
+/// Colours what is free of the span of a slot.
+#[inline(never)]
+fn colour_rest<L: Look>(
+    mask: &mut Mask,
+    slot: &CacheSlot<Active<L::Planes>>,
+    span: u32,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let (drawn, span) = (Drawn::of(slot), Span::of(span));
+    mask.cover_free(span.start, span.end, |start, end| {
+        colour_run::<L>(drawn, span, Span { start, end }, out);
+    });
+}
+
+/// Colours a span but for columns that are taken.
+#[inline(never)]
+fn colour_free<L: Look>(
+    mask: &mut Mask,
+    taken: &mut Mask,
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    taken.cover_free(span.start, span.end, |start, end| {
+        mask.cover(start, end);
+        colour_run::<L>(drawn, span, Span { start, end }, out);
+    });
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Keeps a span of what has no slot, for [`draw_near`](Renderer::draw_near).
+    #[inline(always)]
+    pub(super) fn keep_guest(&mut self, object: u16, span: Span) {
+        if L::ANY_RUNS {
+            let slope = Slope { at: 0, step: 0 };
+            let rival = Rival {
+                span,
+                slope,
+                object,
+            };
+            Guest { key: 0, rival }.keep(self.depth, self.guests);
+        }
+        self.guests += 1;
+    }
+
+    /// Whether what has no slot on this line can be sorted.
+    #[inline(always)]
+    fn has_room(&self) -> bool {
+        L::ANY_RUNS && !self.depth.is_empty() && CELLS * self.guests <= self.depth.len()
+    }
+
+    /// Draws all spans, where most met others on the last line; `false`, and nothing drawn, where that cannot be.
+    #[inline(never)]
+    pub(super) fn draw_crowded(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+        if !self.crowded || !self.has_room() {
+            return false;
+        }
+        // Masks are for spans that are drawn.
+        self.over = Mask::EMPTY;
+        self.covered = Mask::EMPTY;
+        self.ordered = 0;
+        self.cache.listed = self.cache.used;
+        let slots = self.sort_slots::<true>(out);
+        let guests = self.sort_guests::<true>(out);
+        let hidden = self.draw_sorted(slots, guests, out);
+        self.covered = core::mem::replace(&mut self.written, Mask::EMPTY);
+        self.met = hidden > 0;
+        self.crowded = 8 * hidden as usize > slots;
+        true
+    }
+
+    /// Draws what was found; `false`, and nothing drawn, where that cannot be.
+    #[inline(never)]
+    pub(super) fn draw_near(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+        if !self.has_room() {
+            self.nearest = 0;
+            return false;
+        }
+        self.ordered = 0;
+        let alone = self.colour_alone(out);
+        let slots = self.sort_slots::<false>(out);
+        let guests = self.sort_guests::<false>(out);
+        self.draw_sorted(slots, guests, out);
+        self.crowded = slots > alone as usize;
+        true
+    }
+
+    /// Colours spans that meet nobody, and lists the others; how many were coloured.
+    #[inline(never)]
+    fn colour_alone(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> u32 {
+        let mut alone = 0;
+        for word in 0..WORDS {
+            let (slots, spans) = (&self.cache.slots[word], &self.cache.spans[word]);
+            let mut used = self.cache.used[word];
+            let mut listed = used;
+            while used != 0 {
+                let i = take_first(&mut used) as usize & 31;
+                let span = Span::of(spans[i]);
+                if span.start < span.end {
+                    if self.over.meets(span.start, span.end) {
+                        continue;
+                    }
+                    colour_slot::<L>(&slots[i], spans[i], out);
+                    alone += 1;
+                }
+                listed &= !bit(i as u32);
+            }
+            self.cache.listed[word] = listed;
+        }
+        alone
+    }
+
+    /// Sorts the slots that are listed, from the last line's order on; how many they are.
+    #[inline(never)]
+    fn sort_slots<const FIND: bool>(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
+        let mut count = 0;
+        let mut last = u32::MAX;
+        for k in 0..usize::from(self.nearest) {
+            let key = self.cache.order.as_flattened().get(k).copied();
+            let key = key.unwrap_or_default();
+            let number = (key & NUMBER) as usize;
+            let Some(listed) = self.cache.listed.get_mut(number >> 5) else {
+                break;
+            };
+            let one = bit(number as u32 & 31);
+            if *listed & one != 0 {
+                *listed &= !one;
+                self.insert_slot::<FIND>(key, count, &mut last, out);
+                count += 1;
+            }
+        }
+        for word in 0..WORDS {
+            let mut listed = self.cache.listed[word];
+            while listed != 0 {
+                let key = word as u32 * 32 + take_first(&mut listed);
+                self.insert_slot::<FIND>(key, count, &mut last, out);
+                count += 1;
+            }
+        }
+        self.nearest = count as u16;
+        count
+    }
+
+    /// Puts a slot into its place among so many that are sorted, its span found or to be found; one without
+    /// pixels keeps its key.
+    #[inline(always)]
+    fn insert_slot<const FIND: bool>(
+        &mut self,
+        mut key: u32,
+        count: usize,
+        last: &mut u32,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
+        let number = (key & NUMBER) as usize;
+        let slots = self.cache.slots.as_flattened_mut();
+        let spans = self.cache.spans.as_flattened_mut();
+        let fars = self.cache.far.as_flattened_mut();
+        let (Some(slot), Some(word), Some(farthest), Some(deep)) = (
+            slots.get_mut(number),
+            spans.get_mut(number),
+            fars.get_mut(number),
+            self.cache.deep.get_mut(number >> 5),
+        ) else {
+            return;
+        };
+        let span = if FIND {
+            columns_of::<L>(slot, out)
+        } else {
+            Span::of(*word)
+        };
+        if FIND && span.start >= span.end {
+            *word = 0;
+        } else {
+            let one = bit(number as u32 & 31);
+            if *deep & one == 0 {
+                *deep |= one;
+                find_depth::<L>(slot, out.view);
+            }
+            let [near, far] = slope_of::<L>(slot, span, out).range(span);
+            if FIND {
+                *word = span.start << 16 | span.end;
+            }
+            *farthest = far;
+            key = near & !NUMBER | number as u32;
+        }
+        if key > *last {
+            insert_falling(self.cache.order.as_flattened_mut(), count, key);
+        } else if let Some(to) = self.cache.order.as_flattened_mut().get_mut(count) {
+            (*to, *last) = (key, key);
+        }
+    }
+
+    /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.
+    #[inline(never)]
+    fn sort_guests<const ALL: bool>(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
+        let mut count = 0;
+        for k in 0..core::mem::take(&mut self.guests) {
+            let Some(mut guest) = Guest::of(self.depth, k) else {
+                break;
+            };
+            let Rival { span, object, .. } = guest.rival;
+            if !ALL && !self.over.meets(span.start, span.end) {
+                let mut mask = Mask::EMPTY;
+                let mut drawing = Drawing {
+                    mask: &mut mask,
+                    counts: &mut self.counts,
+                    hidden: 0,
+                };
+                colour_guest::<L>(guest.rival, None, &mut drawing, out);
+                continue;
+            }
+            let triangle = out.view.triangle_of::<L>(object);
+            guest.rival.slope = match triangle.and_then(|t| depth_plane(&t)) {
+                Some([at, step, down]) => Slope {
+                    at: at.wrapping_add(down.wrapping_mul(out.number)),
+                    step,
+                },
+                None => thin_slope::<L>(object, span, out),
+            };
+            [guest.key, _] = guest.rival.slope.range(span);
+            let mut at = count;
+            while at > 0 {
+                match Guest::of(self.depth, at - 1) {
+                    Some(before) if before.key < guest.key => before.keep(self.depth, at),
+                    _ => break,
+                }
+                at -= 1;
+            }
+            guest.keep(self.depth, at);
+            count += 1;
+        }
+        count
+    }
+
+    /// Draws what is sorted; how many spans found columns that were covered.
+    #[inline(never)]
+    fn draw_sorted(
+        &mut self,
+        slots: usize,
+        guests: usize,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> u32 {
+        let cache = &*self.cache;
+        let field = Field::<L, WORDS> {
+            cache,
+            keys: cache.order.as_flattened().get(..slots).unwrap_or_default(),
+            cells: self.depth,
+            guests,
+        };
+        let mut drawing = Drawing {
+            mask: &mut self.written,
+            counts: &mut self.counts,
+            hidden: 0,
+        };
+        let (all, spans) = (cache.slots.as_flattened(), cache.spans.as_flattened());
+        let fars = cache.far.as_flattened();
+        let mut taken = Taken {
+            slots: 0,
+            guests: 0,
+        };
+        let mut guest_key = field.guest_key(0);
+        for &key in field.keys {
+            while guest_key > key {
+                guest_key = field.next_guest(&mut taken, &mut drawing, out);
+            }
+            taken.slots += 1;
+            let number = (key & NUMBER) as usize;
+            let (Some(slot), Some(&span), Some(&far)) =
+                (all.get(number), spans.get(number), fars.get(number))
+            else {
+                break;
+            };
+            let Span { start, end } = Span::of(span);
+            if end == 0 {
+                continue;
+            }
+            let next = field.keys.get(taken.slots).copied().unwrap_or_default();
+            if guest_key >= far
+                || next | NUMBER >= far && field.is_contested(Span { start, end }, far, taken.slots)
+            {
+                field.draw_contested(slot, Span { start, end }, far, taken, &mut drawing, out);
+                continue;
+            }
+            match drawing.mask.cover_new(start, end) {
+                Part::None => colour_slot::<L>(slot, span, out),
+                Part::Some => {
+                    drawing.hidden += 1;
+                    colour_rest::<L>(drawing.mask, slot, span, out);
+                }
+                Part::All => drawing.hidden += 1,
+            }
+        }
+        while taken.guests < guests {
+            field.next_guest(&mut taken, &mut drawing, out);
+        }
+        drawing.hidden
+    }
+}
+
+/// Inserts a key among the first `count`, which fall.
+#[inline(never)]
+fn insert_falling(keys: &mut [u32], count: usize, key: u32) {
+    let Some(keys) = keys.get_mut(..=count) else {
+        return;
+    };
+    let mut after = keys.iter_mut().rev();
+    if let Some(mut to) = after.next() {
+        for from in after {
+            if *from > key {
+                break;
+            }
+            *to = *from;
+            to = from;
+        }
+        *to = key;
+    }
+}

@@ -1,0 +1,256 @@
+//! Spans that compete for columns: their depth along the line, and who of two is seen.
+
+use super::renderer::View;
+use super::slot::{Active, Flags};
+use super::spans::{Line, Span, thin_depth};
+use super::thin::depth_plane;
+use crate::active::CacheSlot;
+use crate::look::{Look, WordOf};
+
+/// The depth of a span: its value at the picture's first column, and its step.
+#[derive(Clone, Copy)]
+pub(super) struct Slope {
+    pub(super) at: u32,
+    pub(super) step: u32,
+}
+
+/// A span that competes for its columns.
+#[derive(Clone, Copy)]
+pub(super) struct Rival {
+    pub(super) span: Span,
+    pub(super) slope: Slope,
+    pub(super) object: u16,
+}
+
+/// A span of what has no slot, as it lies in the cells of depth: `CELLS` of them.
+#[derive(Clone, Copy)]
+pub(super) struct Guest {
+    /// Its nearest depth.
+    pub(super) key: u32,
+    pub(super) rival: Rival,
+}
+
+impl Slope {
+    #[inline(always)]
+    fn at(self, column: u32) -> u32 {
+        self.at.wrapping_add(self.step.wrapping_mul(column))
+    }
+
+    /// The nearest and the farthest depth of a span that is not empty.
+    #[inline(always)]
+    pub(super) fn range(self, span: Span) -> [u32; 2] {
+        let (first, last) = (self.at(span.start), self.at(span.end - 1));
+        [first.max(last), first.min(last)]
+    }
+}
+
+impl Rival {
+    /// Whether this is seen in a column that both have, and not the other.
+    fn hides(self, other: Self, column: u32) -> bool {
+        let of = |rival: Self| (rival.slope.at(column), rival.object);
+        of(self) > of(other)
+    }
+
+    /// The columns in which both are and this is seen: they begin or end with what both have, as both depths are
+    /// linear.
+    pub(super) fn hidden_of(self, other: Self) -> Option<Span> {
+        if !self.span.meets(other.span) {
+            return None;
+        }
+        let start = self.span.start.max(other.span.start);
+        let end = self.span.end.min(other.span.end);
+        let first = self.hides(other, start);
+        if first == self.hides(other, end - 1) {
+            return first.then_some(Span { start, end });
+        }
+        // From `same` on it is as in the first column, from `turned` on as in the last.
+        let (mut same, mut turned) = (start, end - 1);
+        while turned - same > 1 {
+            let middle = (same + turned) / 2;
+            if self.hides(other, middle) == first {
+                same = middle;
+            } else {
+                turned = middle;
+            }
+        }
+        Some(if first {
+            Span { start, end: turned }
+        } else {
+            Span { start: turned, end }
+        })
+    }
+}
+
+/// Cells of depth that a guest takes.
+pub(super) const CELLS: usize = 5;
+
+impl Guest {
+    #[inline(always)]
+    pub(super) fn of(cells: &[u32], number: usize) -> Option<Self> {
+        let cells = cells.get(CELLS * number..CELLS * (number + 1))?;
+        let &[key, object, span, at, step] = cells else {
+            return None;
+        };
+        let slope = Slope { at, step };
+        let rival = Rival {
+            span: Span::of(span),
+            slope,
+            object: object as u16,
+        };
+        Some(Self { key, rival })
+    }
+
+    /// Keeps it, where there are enough cells.
+    #[inline(always)]
+    pub(super) fn keep(self, cells: &mut [u32], number: usize) {
+        let Some(cells) = cells.get_mut(CELLS * number..CELLS * (number + 1)) else {
+            return;
+        };
+        let Rival {
+            span,
+            slope,
+            object,
+        } = self.rival;
+        let words = [
+            self.key,
+            u32::from(object),
+            span.start << 16 | span.end,
+            slope.at,
+            slope.step,
+        ];
+        cells.copy_from_slice(&words);
+    }
+}
+
+/// The plane of depth of what is in a slot, from now on.
+#[inline(never)]
+pub(super) fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
+    let triangle = view.triangle_of::<L>(slot.object);
+    let plane = triangle.and_then(|t| depth_plane(&t));
+    slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
+    slot.item.depth = plane.unwrap_or_default();
+}
+
+/// The depth of what is in a slot, along a span.
+#[inline(always)]
+pub(super) fn slope_of<L: Look>(
+    slot: &CacheSlot<Active<L::Planes>>,
+    span: Span,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> Slope {
+    if Flags(slot.flags).lacks_depth() {
+        return thin_slope::<L>(slot.object, span, out);
+    }
+    let [at, step, down] = slot.item.depth;
+    Slope {
+        at: at.wrapping_add(down.wrapping_mul(out.number)),
+        step,
+    }
+}
+
+#[cold]
+#[inline(never)]
+pub(super) fn thin_slope<L: Look>(object: u16, span: Span, out: &Line<'_, '_, WordOf<L>>) -> Slope {
+    let [first, step] = thin_depth::<L>(object, span, out);
+    Slope {
+        at: first.wrapping_sub(step.wrapping_mul(span.start)),
+        step,
+    }
+}
+
+/// What is in a slot as a rival.
+pub(super) fn rival_of<L: Look>(
+    slot: &CacheSlot<Active<L::Planes>>,
+    span: Span,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> Rival {
+    Rival {
+        span,
+        slope: slope_of::<L>(slot, span, out),
+        object: slot.object,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    #[test]
+    fn who_is_seen_is_told_for_each_column() {
+        let mut rng = Rng(11);
+        let (mut crossed, mut equal) = (0, 0);
+        for round in 0..40_000 {
+            let rival = |rng: &mut Rng, object: u16| {
+                let start = rng.below(60);
+                let span = Span {
+                    start,
+                    end: start + 1 + rng.below([3, 40][round % 2]),
+                };
+                let slope = Slope {
+                    at: (1 << 20) + rng.below(64),
+                    step: rng.below(7).wrapping_sub(3),
+                };
+                Rival {
+                    span,
+                    slope,
+                    object,
+                }
+            };
+            let mut pair = [rival(&mut rng, 5), rival(&mut rng, 9)];
+            if round % 5 == 0 {
+                pair[1].slope = pair[0].slope;
+            }
+            if round % 3 == 0 {
+                pair.swap(0, 1);
+            }
+            let [a, b] = pair;
+            let of = |r: Rival, c: u32| r.slope.at.wrapping_add(r.slope.step.wrapping_mul(c));
+            let both: Vec<u32> = (a.span.start..a.span.end)
+                .filter(|c| (b.span.start..b.span.end).contains(c))
+                .collect();
+            let want: Vec<u32> = both
+                .iter()
+                .copied()
+                .filter(|&c| match of(a, c).cmp(&of(b, c)) {
+                    std::cmp::Ordering::Equal => a.object > b.object,
+                    order => order.is_gt(),
+                })
+                .collect();
+            let hidden = a.hidden_of(b);
+            let got: Vec<u32> = hidden.map_or(Vec::new(), |s| (s.start..s.end).collect());
+            assert_eq!(got, want);
+            crossed += u32::from(!want.is_empty() && want.len() < both.len());
+            equal += u32::from(both.iter().any(|&c| of(a, c) == of(b, c)));
+        }
+        assert!(crossed > 1_000 && equal > 1_000, "{crossed}, {equal}");
+    }
+
+    #[test]
+    fn what_lies_in_cells_comes_back() {
+        let rival = Rival {
+            span: Span {
+                start: 3,
+                end: 1016,
+            },
+            slope: Slope {
+                at: 0x8123_4567,
+                step: 0xFFFF_FF00,
+            },
+            object: 61_439,
+        };
+        let guest = Guest { key: 77, rival };
+        let mut cells = [0; 3 * CELLS - 1];
+        guest.keep(&mut cells, 1);
+        let back = Guest::of(&cells, 1).unwrap();
+        assert_eq!((back.key, back.rival.object), (77, 61_439));
+        assert_eq!(back.rival.slope.at(5), rival.slope.at(5));
+        assert_eq!(back.rival.slope.at(0), rival.slope.at(0));
+        assert_eq!((back.rival.span.start, back.rival.span.end), (3, 1016));
+        guest.keep(&mut cells, 2);
+        assert!(Guest::of(&cells, 2).is_none());
+        assert_eq!(cells[..CELLS], [0; CELLS]);
+        assert_eq!(cells[2 * CELLS..], [0; CELLS - 1]);
+    }
+}
