@@ -101,12 +101,10 @@ pub mod stats;
 pub mod texture;
 mod visible;
 
-pub use geometry::{
-    Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen, ScreenError,
-};
+pub use geometry::{Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen};
 pub use link::Link;
 pub use renderer::{
-    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, PassOne, RendererError,
-    Scene, SceneError, SceneMemory, draw_frame,
+    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, RendererError, Scene,
+    SceneError, SceneMemory, draw_frame,
 };
 pub use shade::Quality;

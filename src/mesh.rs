@@ -1,8 +1,9 @@
-//! What a [`Mesh`](crate::Mesh) is made of, and what became of it when it was drawn.
+//! What a [`Mesh`](crate::Mesh) is made of, what became of it when it was drawn, and which screens
+//! there cannot be.
 
 pub use crate::geometry::{
-    Assembled, Colour, Coordinate, Dropped, Material, MatrixRange, QuadSplit, Room, ScreenVertex,
-    Sphere,
+    Assembled, Colour, Coordinate, Dropped, Material, MatrixRange, QuadSplit, Room, ScreenError,
+    ScreenVertex, Sphere,
 };
-pub use crate::num::{I2F14, I2F30, U1F15};
+pub use crate::num::{I2F14, U1F15};
 pub use crate::renderer::Vertices;

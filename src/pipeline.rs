@@ -30,7 +30,7 @@ pub use crate::geometry::{
     Clip, Empty, Filed, Flat, Gouraud, Kept, Mark, Marked, Object, Priority, Scale, SceneVertex,
     Shading,
 };
-pub use crate::num::{BlockFix16, U13F3};
+pub use crate::num::BlockFix16;
 pub use crate::renderer::DepthUse;
 pub use crate::shade::{
     Auto, Forward, HalfRate, Interpolation, Levels, Lirp10, Lirp12, Lirp16, LirpPacked, Method,

@@ -1,4 +1,5 @@
-//! Counters of what was done and of what was skipped (M4), and of the object cache (C8).
+//! Counters of what was done and of what was skipped (M4), in pass one and along spans, and of the
+//! object cache (C8).
 
 use crate::link::Link;
 
@@ -192,6 +193,37 @@ impl core::ops::AddAssign for CacheCounts {
         self.link_reads += other.link_reads;
         self.peak_slots = self.peak_slots.max(other.peak_slots);
     }
+}
+
+/// What pass one has done since the scene was begun.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct PassOne {
+    /// Triangles submitted.
+    pub triangles: u32,
+    /// Triangles that cannot be seen, and never cost anything again.
+    pub culled: u32,
+    /// Triangles that crossed a near, far or guard plane.
+    pub clipped: u32,
+    /// Objects in the arena.
+    pub objects: u32,
+    /// Vertices in the arena.
+    pub vertices: u32,
+    /// Triangles that found no room.
+    pub dropped: u32,
+    /// Triangles that are drawn without their texture, as they stretch over more of its texels than
+    /// a [`Skin`](crate::texture::Skin) may say.
+    pub untextured: u32,
+    /// Meshes wholly outside the view, which were not looked at (M4). Their triangles are among
+    /// the culled.
+    pub meshes_skipped: u32,
+    /// Triangles of these meshes.
+    pub triangles_skipped: u32,
+    /// Vertices of these meshes: neither transformed nor lit.
+    pub vertices_skipped: u32,
+    /// Triangles, or pieces of clipped ones, that have nothing in what a window keeps (H15). The
+    /// triangles are among the culled.
+    pub outside_window: u32,
 }
 
 /// Adds, up to the maximum.

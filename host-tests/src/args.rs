@@ -18,9 +18,10 @@ pub use view::ViewArgs;
 
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use clap::error::ErrorKind;
-use clap::{Args, Parser, Subcommand};
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Longest side of a rendered picture, in pixels, inclusive.
 pub const MAX_SIDE: u32 = 8192;
@@ -56,10 +57,10 @@ const RENDER_LIMITS: &str = "Limits: coordinates below 2^90; on one line of the 
 /// What is to be done.
 #[derive(Debug, Clone, PartialEq, Subcommand)]
 pub enum Command {
-    /// Draw an OBJ model to a picture
+    /// Draw an OBJ model, or a scene file, to a picture
     #[command(after_help = RENDER_LIMITS)]
     Render(RenderArgs),
-    /// Show an OBJ model that turns, live in the terminal
+    /// Show an OBJ model, or a scene file, that turns, live in the terminal
     View(ViewArgs),
     /// Draw the Utah teapot: frames, a strip, an animated picture (the default)
     Demo(DemoArgs),
@@ -109,6 +110,9 @@ impl TraceArgs {
             .map_err(|error| error.to_string())?;
         if self.picture.shade == ShadeArg::Phong {
             return Err("the hardware model has no --shade phong".into());
+        }
+        if self.picture.format != PixelFormatArg::Rgb888 {
+            return Err("trace has no --format but rgb888: tokens come before pixels".into());
         }
         let height = self.picture.size.height;
         if u32::from(self.line) >= height {
@@ -194,12 +198,21 @@ where
     I: IntoIterator,
     I::Item: Into<OsString> + Clone,
 {
-    let cli = Cli::try_parse_from(words).map_err(|error| match error.kind() {
+    let stop = |error: clap::Error| match error.kind() {
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Stop::Text(error.to_string()),
         _ => Stop::Refused(one_line(&error.to_string())),
-    })?;
+    };
+    let matches = Cli::command().try_get_matches_from(words).map_err(stop)?;
+    let cli = Cli::from_arg_matches(&matches).map_err(stop)?;
     let command = cli.command.unwrap_or(Command::Demo(DemoArgs::default()));
     let checked = match &command {
+        Command::Render(args) if is_scene(&args.model) => beside_scene(&matches, &OF_RENDER),
+        Command::View(args) if args.model.as_deref().is_some_and(is_scene) => {
+            beside_scene(&matches, &OF_VIEW)
+        }
+        _ => Ok(()),
+    };
+    let checked = checked.and_then(|()| match &command {
         Command::Render(render) => render.check(),
         Command::View(view) => view.check(),
         Command::Trace(trace) => trace.check(),
@@ -214,9 +227,60 @@ where
         | Command::Bench(_)
         | Command::Report(_)
         | Command::Disassemble(_) => Ok(()),
-    };
+    });
     checked.map_err(|reason| Stop::Refused(format!("error: {}", plain(&reason))))?;
     Ok(command)
+}
+
+/// Flags that `render` has beside a scene file.
+const OF_RENDER: [&str; 7] = [
+    "model",
+    "output",
+    "quality",
+    "cache",
+    "renderers",
+    "prefetch",
+    "stats",
+];
+/// Flags that `view` has beside one.
+const OF_VIEW: [&str; 8] = [
+    "model",
+    "frames",
+    "size",
+    "colours",
+    "quality",
+    "cache",
+    "renderers",
+    "window",
+];
+
+/// Whether a file is a scene, not a model.
+#[must_use]
+pub fn is_scene(file: &Path) -> bool {
+    file.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("json"))
+}
+
+/// Refuses flags that say what the scene file says.
+fn beside_scene(matches: &ArgMatches, allowed: &[&str]) -> Result<(), String> {
+    let Some((name, given)) = matches.subcommand() else {
+        return Ok(());
+    };
+    let all = Cli::command();
+    let flags = all.find_subcommand(name).into_iter();
+    let mut flags = flags.flat_map(|command| command.get_arguments());
+    let is_said = |id: &str| given.value_source(id) == Some(ValueSource::CommandLine);
+    match flags
+        .find(|flag| !allowed.contains(&flag.get_id().as_str()) && is_said(flag.get_id().as_str()))
+    {
+        Some(flag) => {
+            let flag = flag.get_long().unwrap_or_default();
+            Err(format!(
+                "--{flag} goes with a model: a scene file says it all"
+            ))
+        }
+        None => Ok(()),
+    }
 }
 
 /// The first paragraph of clap's message (then come usage and tips) as one line.

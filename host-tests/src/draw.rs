@@ -5,12 +5,14 @@ mod effects;
 mod formats;
 mod interp;
 mod prepared;
+mod scenes;
 mod textured;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
 pub use interp::{draw_by, draw_prepared};
 pub use prepared::Prepared;
+pub use scenes::{SceneParts, draw_scene_file};
 pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
 
 use crate::args::{DEFAULT_SLOTS, PixelFormatArg};
@@ -24,9 +26,10 @@ use scanbeam::blend::{Compositing, ShadowError};
 use scanbeam::pipeline::{DepthUse, FlatDepth, GouraudDepth, Pipeline, WordOf};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
+use scanbeam::stats::PassOne;
 use scanbeam::{
-    Camera, DrawError, Faces, FrameError, FrameStats, Instance, Light, Link, Mesh, PassOne,
-    Quality, Scene, Screen,
+    Camera, DrawError, Faces, FrameError, FrameStats, Instance, Light, Link, Mesh, Quality, Scene,
+    Screen,
 };
 use scanbeam_model::{
     CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,
@@ -261,12 +264,17 @@ fn draw_with<P: Pipeline<Textures: Sync>>(
         done.map_err(ShadowError::Draw)
     };
     let steps = prepared.chunks.len();
-    draw_scenes::<P>((prepared, &setting, rooms), (view, crew), (steps, build))
+    draw_scenes::<P>(
+        (Some(prepared), &setting, rooms),
+        (view, crew),
+        (steps, build),
+    )
 }
 
-/// Draws the scenes that `build` makes, step by step, of a prepared model.
+/// Draws the scenes that `build` makes, step by step; of one prepared model, its triangles are
+/// counted once.
 fn draw_scenes<P: Pipeline<Textures: Sync>>(
-    (prepared, setting, mut rooms): (&Prepared, &Setting, SceneRooms<P>),
+    (prepared, setting, mut rooms): (Option<&Prepared>, &Setting, SceneRooms<P>),
     (view, crew): (&View, CrewSettings),
     (steps, build): (
         usize,
@@ -293,7 +301,7 @@ fn draw_scenes<P: Pipeline<Textures: Sync>>(
         slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
-    if bands.count > 1 || P::Compositing::BLENDS {
+    if let Some(prepared) = prepared.filter(|_| bands.count > 1 || P::Compositing::BLENDS) {
         // Volumes, and what is drawn twice, are none of the model's triangles.
         setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
     }

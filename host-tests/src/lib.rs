@@ -32,6 +32,7 @@ pub mod preset_sizes;
 pub mod profile_report;
 pub mod reference;
 pub mod report;
+pub mod scene_file;
 pub mod texture_file;
 pub mod texture_report;
 pub mod trace;

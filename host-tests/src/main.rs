@@ -7,6 +7,7 @@ use host_tests::draw::TextureSet;
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
+use host_tests::scene_file::Loaded;
 use host_tests::{
     accuracy, bench, boards, budgets, cache_report, demo, draw, firmware_report, report, stdio,
     tell, trace, view,
@@ -71,16 +72,58 @@ fn ended(done: Result<ExitCode, Box<dyn Error>>) -> ExitCode {
     })
 }
 
-/// Draws a model to a picture.
-fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
-    let model = Model::load(&args.model)?;
-    let crew = draw::CrewSettings {
+/// Who draws.
+fn crew(args: &RenderArgs) -> draw::CrewSettings {
+    draw::CrewSettings {
         renderers: args.renderers,
         slots: usize::from(args.cache),
         prefetch: args.prefetch,
         quality: args.quality.map(QualityArg::quality).unwrap_or_default(),
         depth_use: args.depth.depth_use(),
-    };
+    }
+}
+
+/// Writes a picture and, where they are asked for, its figures: both files, or none.
+fn write(args: &RenderArgs, drawn: &draw::Drawn) -> Result<(), Box<dyn Error>> {
+    let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
+    if let Some(path) = &args.stats {
+        let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
+        text.push('\n');
+        Staged::new(path, text.as_bytes())?.commit()?;
+    }
+    Ok(picture.commit()?)
+}
+
+/// Draws a scene file to a picture.
+fn render_scene(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
+    let loaded = Loaded::load(&args.model)?;
+    let file = args.model.display();
+    if loaded.scene.has_palettes() && args.renderers > 1 {
+        return Err(format!("{file}: `palettes` and --renderers cannot be had together").into());
+    }
+    let parts = draw::SceneParts::new(&loaded);
+    let drawn = parts.and_then(|parts| {
+        let view = loaded.scene.view();
+        draw::draw_scene_file(&parts, &view, loaded.scene.pixel_format(), crew(args))
+    });
+    let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
+    write(args, &drawn)?;
+    if let Some(overfull) = &drawn.overfull {
+        tell!("warning: {file}: {overfull}");
+    }
+    for note in loaded.notes() {
+        tell!("note: {note}");
+    }
+    Ok(())
+}
+
+/// Draws a model to a picture.
+fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
+    if args::is_scene(&args.model) {
+        return render_scene(args);
+    }
+    let model = Model::load(&args.model)?;
+    let crew = crew(args);
     let (view, format) = (args.view(), args.format());
     let textures = match args.method() {
         // The hardware model has none.
@@ -119,14 +162,7 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         draw::draw_textured(&model, &textures, how, &view, format, crew)
     };
     let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
-    let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
-    if let Some(path) = &args.stats {
-        let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
-        text.push('\n');
-        // Both files, or none.
-        Staged::new(path, text.as_bytes())?.commit()?;
-    }
-    picture.commit()?;
+    write(args, &drawn)?;
     // Last, so that a refusal is one line alone.
     model.print_warnings();
     if let Some(overfull) = &drawn.overfull {

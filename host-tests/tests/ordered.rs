@@ -4,7 +4,7 @@
 //! towards each other, and through each other, so that some lines can be ordered and some cannot.
 
 use crate::common::{Rng, SceneRooms};
-use scanbeam::mesh::QuadSplit;
+use scanbeam::mesh::{QuadSplit, ScreenVertex};
 use scanbeam::pipeline::{
     Counted, Deferred, DepthUse, FlatDepth, GouraudDepth, Interpolated, LineDepth, Pipeline,
     QuarterRate, WordOf,
@@ -201,4 +201,60 @@ fn of_layers_at_the_same_depth_the_last_is_seen() {
 fn leaning_layers_are_ordered_where_they_can_be() {
     let (frames, without) = compare::<GouraudDepth<Rgb565Be>>(Layers::Leaning, 0..600);
     assert!(without > 0 && without < frames, "{without} of {frames}");
+}
+
+/// A triangle of the screen whose corners have these depths.
+fn leaf(rng: &mut Rng, screen: Screen, depths: [u32; 3]) -> [ScreenVertex; 3] {
+    let colour = [(); 3].map(|()| rng.below(256) as u8);
+    depths.map(|depth| ScreenVertex {
+        x: rng.below(8 * u32::from(screen.width())) as i16,
+        y: rng.below(8 * u32::from(screen.height())) as i16,
+        depth,
+        colour,
+    })
+}
+
+/// Two triangles of which one ends where the other begins, but for one unit of depth: their planes
+/// are rounded, so that at a pixel the farther may have come out nearer. Such are compared.
+#[test]
+fn depths_that_all_but_touch_are_compared() {
+    type P = FlatDepth<Rgb888>;
+    let mut rng = Rng::new(52);
+    let screen = Screen::new(2048, 24).unwrap();
+    let mut seen = 0;
+    for round in 0..400 {
+        let edge = (1 + rng.below(60_000)) << 15;
+        let mut away = || {
+            let bits = rng.below(31);
+            rng.below(1 << bits)
+        };
+        let front = [
+            edge,
+            edge.saturating_add(away()),
+            edge.saturating_add(away()),
+        ];
+        let front = front.map(|depth| depth.min(1 << 31));
+        let back = [edge - 1, (edge - 1).saturating_sub(away()), edge - 1];
+        let mut leaves = [front, back].map(|depths| leaf(&mut rng, screen, depths));
+        // They meet where they all but touch.
+        (leaves[1][0].x, leaves[1][0].y) = (leaves[0][0].x, leaves[0][0].y);
+        if rng.below(2) == 0 {
+            leaves.reverse();
+        }
+        let mut rooms = SceneRooms::<Counted<P>>::new(8, 4, 24);
+        let mut scene = rooms.scene(screen);
+        let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+        let camera = Camera::look_at([0.0; 3], ahead, up, 100.0, 1.0, 60.0);
+        scene.begin(&camera.unwrap()).unwrap();
+        for leaf in &leaves {
+            scene
+                .draw_screen(leaf, &[[0, 1, 2]], (), Cull::None)
+                .unwrap();
+        }
+        let (by_depth, counts) = draw(&scene, 4, DepthUse::Always);
+        let (fast, _) = draw(&scene, 4, DepthUse::WhereNeeded);
+        assert!(by_depth == fast, "round {round}: {leaves:?}");
+        seen += u32::from(counts.pixels_hidden > 0);
+    }
+    assert!(seen > 50, "{seen} of 400 pairs overlap");
 }

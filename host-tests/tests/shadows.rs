@@ -180,13 +180,24 @@ fn camera() -> Camera {
     .unwrap()
 }
 
-fn world(rng: &mut Rng, lights: u8, eye_in_shadow: bool) -> World {
+/// Where the light comes from.
+#[derive(Clone, Copy, PartialEq)]
+enum From {
+    /// From above.
+    Above,
+    /// From behind the eye, with a body between it and the eye.
+    Behind,
+    /// From the side, along the near plane, with a body beside the eye.
+    Beside,
+}
+
+fn world(rng: &mut Rng, lights: u8, from: From) -> World {
     let lights: Vec<ShadowLight> = (0..lights)
         .map(|light| {
-            let towards = if eye_in_shadow {
-                [rng.signed() * 0.2, 0.3 + rng.signed() * 0.2, 1.0]
-            } else {
-                [0.7 * rng.signed(), 0.8, 0.7 * rng.signed()]
+            let towards = match from {
+                From::Above => [0.7 * rng.signed(), 0.8, 0.7 * rng.signed()],
+                From::Behind => [rng.signed() * 0.2, 0.3 + rng.signed() * 0.2, 1.0],
+                From::Beside => [1.0, 0.3 * rng.signed(), 0.004 * rng.signed()],
             };
             ShadowLight {
                 light: light * 3,
@@ -204,7 +215,7 @@ fn world(rng: &mut Rng, lights: u8, eye_in_shadow: bool) -> World {
             ball(rng, scale, offset)
         })
         .collect();
-    if eye_in_shadow {
+    if from != From::Above {
         let l = towards(&lights[0]);
         let off = [rng.signed() * 0.4, rng.signed() * 0.4, rng.signed() * 0.4];
         bodies.push(ball(rng, 0.9, along(l.map(|c| c * 1.6), off, 1.0)));
@@ -317,12 +328,12 @@ fn compare(world: &World) -> (u32, u32) {
     (compared, shadows)
 }
 
-fn many(seed: u64, lights: u8, eye_in_shadow: bool) {
+fn many(seed: u64, lights: u8, from: From) {
     let mut rng = Rng::new(seed);
     let (mut compared, mut shadows) = (0, 0);
     let rounds = 40;
     for _ in 0..rounds {
-        let (c, s) = compare(&world(&mut rng, lights, eye_in_shadow));
+        let (c, s) = compare(&world(&mut rng, lights, from));
         compared += c;
         shadows += s;
     }
@@ -333,24 +344,34 @@ fn many(seed: u64, lights: u8, eye_in_shadow: bool) {
 
 #[test]
 fn shadows_of_random_closed_meshes_are_those_of_rays() {
-    many(41, 1, false);
+    many(41, 1, From::Above);
 }
 
 #[test]
 fn several_lights_each_have_their_shadows() {
-    many(43, 2, false);
+    many(43, 2, From::Above);
 }
 
 #[test]
 fn the_eye_may_be_in_a_shadow() {
-    many(47, 1, true);
+    many(47, 1, From::Behind);
+}
+
+/// Both ends of a volume cross the near plane: the lit faces, and their copies far away.
+#[test]
+fn the_far_end_of_a_shadow_may_be_cut_too() {
+    many(78, 1, From::Beside);
 }
 
 #[test]
 fn any_cache_and_any_lines_give_the_same_shadows() {
     let mut rng = Rng::new(5);
     for round in 0..6 {
-        let world = world(&mut rng, 1 + round % 2, round % 3 == 0);
+        let world = world(
+            &mut rng,
+            1 + round % 2,
+            [From::Behind, From::Above, From::Beside][round as usize % 3],
+        );
         let mut memory = rooms();
         let mut scene = memory.scene(screen());
         build(&mut scene, &world, true);
@@ -374,7 +395,7 @@ fn any_cache_and_any_lines_give_the_same_shadows() {
 #[test]
 fn lines_without_volumes_pay_nothing() {
     let mut rng = Rng::new(9);
-    let world = world(&mut rng, 1, false);
+    let world = world(&mut rng, 1, From::Above);
     let counts = |shadows: bool| {
         let mut memory = rooms();
         let mut scene = memory.scene(screen());
@@ -413,7 +434,7 @@ fn again(body: &Body) -> Body {
 #[test]
 fn memory_that_is_too_short_is_named() {
     let mut rng = Rng::new(2);
-    let world = world(&mut rng, 1, false);
+    let world = world(&mut rng, 1, From::Above);
     let mut memory = rooms();
     let mut scene = memory.scene(screen());
     scene.begin(&camera()).unwrap();

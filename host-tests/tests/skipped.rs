@@ -4,7 +4,8 @@ use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::mesh::Sphere;
 use scanbeam::pipeline::{GouraudDepth, WordOf};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, PassOne, Scene, Screen};
+use scanbeam::stats::PassOne;
+use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
 
 type Look = GouraudDepth<Rgb888>;
 
@@ -136,4 +137,51 @@ fn a_ring_around_the_eye_counts_what_is_not_looked_at() {
     assert_eq!(done.triangles_skipped, 11 * triangles);
     let vertices = scenes::CUBE.positions.len() as u32;
     assert_eq!(done.vertices_skipped, 11 * vertices);
+}
+
+/// Specks a few units of clip space before or behind the near and the far plane: a vertex may be
+/// rounded that far, and what would be drawn is not given up.
+#[test]
+fn specks_at_the_rim_of_the_view_are_drawn() {
+    let mut rng = Rng::new(94);
+    let screen = Screen::new(24, 24).unwrap();
+    // Of coordinates of 2^-30, the planes at 2^14 and 2^15 of them.
+    let unit = 2f32.powi(-30);
+    let (near, far) = (2f32.powi(-16), 2f32.powi(-15));
+    let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+    let camera = Camera::look_at([0.0; 3], ahead, up, 12_000.0, near, far).unwrap();
+    let (mut seen, mut unseen) = (0, 0);
+    for case in 0..4000 {
+        // 16 of them are a unit of clip space.
+        let plane = rng.pick(&[near, far]) / unit;
+        let depth = plane as i32 + rng.within(-480, 480);
+        let positions = [0, 1, 2].map(|_| {
+            let mut aside = || rng.within(-24, 24);
+            [aside(), aside(), -depth]
+        });
+        let mesh = Mesh {
+            positions: &positions,
+            normals: &[],
+            colours: &[[200, 100, 50]; 3],
+            faces: Faces::Triangles(&[[0, 1, 2]]),
+        };
+        let instance = Instance {
+            cull: Cull::None,
+            ..Instance::default()
+        };
+        let sphere = Sphere::around(&positions);
+        let (whole, want) = drawn(screen, |scene| {
+            scene.begin(&camera).unwrap();
+            scene.draw(&mesh, &instance).unwrap();
+        });
+        let (within, got) = drawn(screen, |scene| {
+            scene.begin(&camera).unwrap();
+            scene.draw_within(&mesh, &instance, &sphere).unwrap();
+        });
+        assert!(want == got, "case {case}: {positions:?}");
+        assert_eq!(whole.objects, within.objects, "case {case}");
+        seen += u32::from(whole.objects > 0);
+        unseen += within.meshes_skipped;
+    }
+    assert!(seen > 500 && unseen > 200, "{seen} seen, {unseen} given up");
 }

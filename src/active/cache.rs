@@ -1,36 +1,37 @@
 //! The object cache: slots in fast memory, found by sets, and when each changes (C1, C2, C3, C7).
 //!
-//! What is active is a bit of a set, so nothing is walked to be found; the line on which a slot changes
-//! next (a side turns, or the triangle ends) is a chain a line in a ring of 64, so nothing is asked on the
-//! lines between. What found no slot is a chain in slow memory by number, through the renderer's own column of
+//! What is active is a bit of a set, so nothing is walked to be found; what changes on a line (a side turns, or
+//! the triangle ends) is a set in a ring of 32 lines, so nothing is asked on the lines between, and all that ends
+//! on a line leaves in one operation a word. What changes farther down goes around the ring. What found no slot is a chain in slow memory by number, through the renderer's own column of
 //! links; a link that leads to a slot lies in a range of its own, so one comparison tells a hit.
 
 use crate::link::Link;
 use crate::num::{bit, take_first};
 
-/// A slot: what is kept of an object, and when it changes.
+/// A slot: what is kept of an object.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Slot<T> {
     pub(crate) item: T,
     /// The object's number.
     pub(crate) object: u16,
-    /// The line of the next change.
-    pub(crate) event: u16,
-    /// The line after the last.
-    pub(crate) end: u16,
-    /// The next slot that changes on a line of the same place in the ring.
-    next: u8,
     /// What the owner of the slots wants to know of an object.
     pub(crate) flags: u8,
 }
 
-/// No slot.
-const NONE: u8 = 0xFF;
-/// Lines of the ring. What changes farther down goes around.
-const RING: usize = 64;
+/// When an object in a slot changes next, and how.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Change {
+    pub(crate) line: u16,
+    /// Whether a side turns; it ends otherwise.
+    pub(crate) turns: bool,
+}
 
-/// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is.
+/// Lines of the ring. What changes farther down goes around.
+const RING: u16 = 32;
+
+/// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is. Sets come first, where a
+/// processor reaches them without reckoning an address.
 #[derive(Debug)]
 #[repr(C)]
 pub struct Cache<T, const WORDS: usize> {
@@ -38,23 +39,41 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) used: [u32; WORDS],
     /// Of these, those that are drawn in the commonest way.
     pub(crate) plain: [u32; WORDS],
+    /// Of these, those whose next change is the turn of a side.
+    turning: [u32; WORDS],
+    /// Of these, those whose next change was farther away than the ring is long.
+    distant: [u32; WORDS],
     /// Of these, those whose depth is known.
     pub(crate) deep: [u32; WORDS],
-    /// The columns of each slot on this line: the first in the upper half, the one after the last below.
-    pub(crate) spans: [[u32; 32]; WORDS],
     /// Slots of spans that meet others, as a set.
     pub(crate) listed: [u32; WORDS],
-    /// The same, and all slots, from the nearest on or by number of object.
-    pub(crate) order: [[u32; 32]; WORDS],
-    /// The farthest depth of each slot's span on this line.
-    pub(crate) far: [[u32; 32]; WORDS],
-    ring: [u8; RING],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
     /// How many slots may be used.
     limit: u16,
+    /// The line whose changes were taken last.
+    line: u16,
+    /// What changes on each line of the ring.
+    ring: [[u32; WORDS]; RING as usize],
+    /// The columns of each slot on this line: the first in the upper half, the one after the last below.
+    pub(crate) spans: [[u32; 32]; WORDS],
+    /// Slots of spans that meet others, and all slots, from the nearest on or by number of object.
+    pub(crate) order: [[u32; 32]; WORDS],
+    /// The farthest depth of each slot's span on this line.
+    pub(crate) far: [[u32; 32]; WORDS],
     /// The last, so that all else lies within the reach of one instruction.
     pub(crate) slots: [[Slot<T>; 32]; WORDS],
+}
+
+/// Slots of a word that a line changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Changes {
+    /// They have ended, and are free.
+    pub(crate) ended: u32,
+    /// A side turns.
+    pub(crate) turning: u32,
+    /// A side turns, or the triangle ends, here or farther down.
+    pub(crate) far: [u32; 2],
 }
 
 /// What the cache has done since it was cleared (C8).
@@ -84,22 +103,22 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         let slot = Slot {
             item,
             object: 0,
-            event: 0,
-            end: 0,
-            next: NONE,
             flags: 0,
         };
-        const { assert!(32 * WORDS < NONE as usize, "at most 224 slots") };
+        const { assert!(32 * WORDS < 0xFF, "at most 224 slots") };
         Self {
             slots: [[slot; 32]; WORDS],
             used: [0; WORDS],
             plain: [0; WORDS],
             deep: [0; WORDS],
+            turning: [0; WORDS],
+            distant: [0; WORDS],
             spans: [[0; 32]; WORDS],
             listed: [0; WORDS],
             order: [[0; 32]; WORDS],
             far: [[0; 32]; WORDS],
-            ring: [NONE; RING],
+            line: 0,
+            ring: [[0; WORDS]; RING as usize],
             spilled: Link::NONE,
             limit: 32 * WORDS as u16,
         }
@@ -116,7 +135,9 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.used = [0; WORDS];
         self.plain = [0; WORDS];
         self.deep = [0; WORDS];
-        self.ring = [NONE; RING];
+        self.turning = [0; WORDS];
+        self.distant = [0; WORDS];
+        self.ring = [[0; WORDS]; RING as usize];
         self.spilled = Link::NONE;
     }
 
@@ -147,60 +168,69 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     /// The slot of a number; there is one for each number below `32 WORDS`.
     #[inline(always)]
     pub(crate) fn slot(&mut self, slot: usize) -> Option<&mut Slot<T>> {
-        Some(&mut self.slots.get_mut(slot >> 5)?[slot & 31])
+        self.slots.as_flattened_mut().get_mut(slot)
     }
 
     /// Says that a slot is in use from now on, and when it changes.
     #[inline(always)]
-    pub(crate) fn keep(&mut self, slot: usize, plain: bool, event: u16) {
+    pub(crate) fn keep(&mut self, slot: usize, plain: bool, change: Change) {
         let word = slot >> 5;
+        if word >= WORDS {
+            return;
+        }
         let one = bit(slot as u32);
-        if let (Some(used), Some(set), Some(deep)) = (
-            self.used.get_mut(word),
-            self.plain.get_mut(word),
-            self.deep.get_mut(word),
-        ) {
-            *used |= one;
-            *deep &= !one;
-            if plain {
-                *set |= one;
-            }
+        self.used[word] |= one;
+        if plain {
+            self.plain[word] |= one;
         }
-        self.await_event(slot, event);
+        self.await_change(word, one, change);
     }
 
-    /// Chains a slot to those that change on a line.
+    /// Puts a slot among those that change on a line farther down.
     #[inline(always)]
-    pub(crate) fn await_event(&mut self, slot: usize, event: u16) {
-        let head = core::mem::replace(&mut self.ring[usize::from(event) % RING], slot as u8);
-        if let Some(slot) = self.slot(slot) {
-            slot.event = event;
-            slot.next = head;
+    pub(crate) fn await_change(&mut self, word: usize, one: u32, change: Change) {
+        self.ring[usize::from(change.line % RING)][word] |= one;
+        if change.turns {
+            self.turning[word] |= one;
+        }
+        if change.line.wrapping_sub(self.line) > RING {
+            self.distant[word] |= one;
         }
     }
 
-    /// Frees a slot.
+    /// Frees slots of a word.
     #[inline(always)]
-    pub(crate) fn free_slot(&mut self, slot: usize) {
-        let word = slot >> 5;
-        let one = bit(slot as u32);
-        for set in [&mut self.used, &mut self.plain] {
-            if let Some(word) = set.get_mut(word) {
-                *word &= !one;
-            }
+    pub(crate) fn free_slots(&mut self, word: usize, slots: u32) {
+        self.used[word] &= !slots;
+        self.plain[word] &= !slots;
+        self.deep[word] &= !slots;
+    }
+
+    /// The line whose changes were taken last.
+    #[inline(always)]
+    pub(crate) fn line(&self) -> u16 {
+        self.line
+    }
+
+    /// Frees what ends on `line` among the slots of a word, and says what else may change.
+    #[inline(always)]
+    pub(crate) fn take_changes(&mut self, word: usize, line: u16) -> Changes {
+        self.line = line;
+        let due = core::mem::take(&mut self.ring[usize::from(line % RING)][word]);
+        if due == 0 {
+            return Changes::default();
         }
-    }
-
-    /// The slots that change on `line`: the first of them, to go on with [`after`](Cache::after).
-    #[inline(always)]
-    pub(crate) fn events(&mut self, line: u16) -> u8 {
-        core::mem::replace(&mut self.ring[usize::from(line) % RING], NONE)
-    }
-
-    /// The slot after another in a chain of events; `None` where the chain has ended.
-    #[inline(always)]
-    pub(crate) fn after(&self, slot: u8) -> Option<u8> {
-        Some(self.slots.get(usize::from(slot >> 5))?[usize::from(slot & 31)].next)
+        let far = due & self.distant[word];
+        self.distant[word] &= !far;
+        let turning = due & self.turning[word];
+        self.turning[word] &= !turning;
+        let ended = due & !turning & !far;
+        self.free_slots(word, ended);
+        Changes {
+            ended,
+            turning: turning & !far,
+            far: [far & turning, far & !turning],
+        }
     }
 
     /// Puts an object that found no slot into its place among the others.
@@ -236,4 +266,103 @@ pub(crate) fn next(links: &[Link], at: Link) -> Link {
         .get(usize::from(at.object()))
         .copied()
         .unwrap_or(Link::NONE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    /// Of a slot that begins on line 0, turns and ends: the lines on which the ring says so.
+    fn changes_of(turn: u16, end: u16) -> [Option<u16>; 2] {
+        let mut cache = Cache::<(), 2>::with(());
+        let (word, one) = (1, bit(9));
+        let change = |line: u16, turns: bool| Change { line, turns };
+        let _ = cache.take_changes(word, 0);
+        cache.keep(word * 32 + 9, true, change(turn, true));
+        let mut seen = [None; 2];
+        for line in 1..=end + 40 {
+            assert_eq!(cache.take_changes(0, line), Changes::default());
+            let changes = cache.take_changes(word, line);
+            let [turns, ends] = changes.far;
+            let due = |at: u16, set: u32| set & one != 0 && at == line;
+            if changes.turning & one != 0 || due(turn, turns) {
+                seen[0] = Some(line);
+                cache.await_change(word, one, change(end, false));
+            } else if changes.ended & one != 0 || due(end, ends) {
+                seen[1] = Some(line);
+                cache.free_slots(word, one);
+            } else if turns & one != 0 {
+                cache.await_change(word, one, change(turn, true));
+            } else if ends & one != 0 {
+                cache.await_change(word, one, change(end, false));
+            }
+            assert_eq!(cache.used[word] & one != 0, seen[1].is_none(), "{line}");
+        }
+        assert!(cache.is_empty());
+        seen
+    }
+
+    #[test]
+    fn slots_turn_and_end_on_their_lines_however_far_they_are() {
+        for turn in [1, 2, 31, 32, 33, 64, 65, 200] {
+            for height in [1, 31, 32, 33, 64, 97, 500] {
+                let end = turn + height;
+                assert_eq!(changes_of(turn, end), [Some(turn), Some(end)]);
+            }
+        }
+    }
+
+    #[test]
+    fn what_ends_is_neither_plain_nor_deep_any_more() {
+        let mut cache = Cache::<(), 1>::with(());
+        let _ = cache.take_changes(0, 7);
+        for (slot, line) in [(0, 9), (3, 9), (4, 10)] {
+            cache.keep(slot, slot != 3, Change { line, turns: false });
+            cache.deep[0] |= bit(slot as u32);
+        }
+        assert_eq!((cache.in_use(), cache.free()), (3, Some(1)));
+        let changes = cache.take_changes(0, 9);
+        assert_eq!(changes.ended, bit(0) | bit(3));
+        let left = [cache.used[0], cache.plain[0], cache.deep[0]];
+        assert_eq!(left, [bit(4); 3]);
+    }
+
+    /// Objects without a slot are in the order of their numbers, however they come and go.
+    #[test]
+    fn spilled_objects_are_a_sorted_list() {
+        let mut rng = Rng(12);
+        let mut cache = Cache::<(), 1>::with(());
+        let mut links = [Link::NONE; 50];
+        let mut model: Vec<u16> = Vec::new();
+        for _ in 0..4000 {
+            let object = rng.below(50) as u16;
+            match model.binary_search(&object) {
+                Err(at) => {
+                    cache.spill(object, &mut links);
+                    model.insert(at, object);
+                }
+                Ok(at) => {
+                    let link = |at: usize| model.get(at).map_or(Link::NONE, |o| Link::slow(*o));
+                    let before = at.checked_sub(1).map_or(Link::NONE, link);
+                    cache.relink(before, link(at + 1), &mut links);
+                    model.remove(at);
+                }
+            }
+            let mut found = Vec::new();
+            let mut at = cache.spilled;
+            while at.is_some() {
+                found.push(at.object());
+                at = next(&links, at);
+            }
+            assert_eq!(found, model);
+            assert_eq!(cache.is_empty(), model.is_empty());
+        }
+        // A column of links that is too short loses objects, and nothing else.
+        let mut cache = Cache::<(), 1>::with(());
+        cache.spill(7, &mut [Link::NONE; 3]);
+        assert_eq!(cache.spilled.object(), 7);
+        assert!(!next(&[Link::NONE; 3], cache.spilled).is_some());
+    }
 }

@@ -11,8 +11,8 @@ mod slot;
 
 pub use bucket::Buckets;
 pub use cache::Slot as CacheSlot;
-pub(crate) use cache::next;
 pub use cache::{Cache, CacheUse};
+pub(crate) use cache::{Change, next};
 pub use interleave::Interleave;
 pub use list::ActiveList;
 pub use slot::{Member, Slot, Visitor};

@@ -3,10 +3,12 @@
 use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::slot::Flags;
-use crate::active::next;
+use crate::active::{Change, next};
 use crate::link::Link;
 use crate::look::Look;
+use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object, Scene};
+use crate::span::{Way, end_line};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Brings the cache to a line of the picture.
@@ -41,26 +43,66 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What turns or ends on a line.
     #[inline(never)]
     fn change(&mut self, view: &View<'_>, line: u16) {
-        let mut at = self.cache.events(line);
-        while let Some(after) = self.cache.after(at) {
-            let number = usize::from(at);
-            at = after;
-            let Some(slot) = self.cache.slot(number) else {
-                continue;
-            };
-            if slot.event == line && slot.end == line {
-                self.cache.free_slot(number);
-                self.changed = true;
-                continue;
+        for word in 0..WORDS {
+            let changes = self.cache.take_changes(word, line);
+            self.changed |= changes.ended != 0;
+            let mut turning = changes.turning;
+            while turning != 0 {
+                self.turn(view, word, take_first(&mut turning));
             }
-            let mut event = slot.event;
-            if event == line {
-                event = slot.end;
-                if let Some(triangle) = view.triangle_of::<L>(slot.object) {
-                    slot.item.sides.turn(&triangle, Flags(slot.flags).way());
+            for (mut far, turns) in changes.far.into_iter().zip([true, false]) {
+                while far != 0 {
+                    self.change_far(view, word, take_first(&mut far), turns);
                 }
             }
-            self.cache.await_event(number, event);
+        }
+    }
+
+    /// A side of a slot gives way to the third one.
+    #[inline(always)]
+    fn turn(&mut self, view: &View<'_>, word: usize, i: u32) {
+        let slot = &mut self.cache.slots[word][i as usize & 31];
+        let Some(object) = view.objects.get(usize::from(slot.object)) else {
+            return;
+        };
+        let way = Flags(slot.flags).way();
+        let end = if way == Way::PLAIN {
+            let [_, b, c] = object.corner;
+            let at = |i: u16| view.vertices.get(usize::from(i)).map(|v| v.place);
+            let (Some(b), Some(c)) = (at(b), at(c)) else {
+                return;
+            };
+            end_line(slot.item.sides.turn_plain([b, c]))
+        } else {
+            let Some(triangle) = view.triangle(object) else {
+                return;
+            };
+            slot.item.sides.turn(&triangle, way);
+            triangle.lines().end as u16
+        };
+        let turns = false;
+        self.cache
+            .await_change(word, bit(i), Change { line: end, turns });
+    }
+
+    /// What has gone around the ring once or more: a side turns or the triangle ends, here or farther down.
+    #[cold]
+    #[inline(never)]
+    fn change_far(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
+        let slot = &self.cache.slots[word][i as usize & 31];
+        let Some(triangle) = view.triangle_of(slot.object) else {
+            return;
+        };
+        let lines = triangle.lines();
+        let at = if turns { lines.turn } else { lines.end } as u16;
+        if at != self.cache.line() {
+            self.cache
+                .await_change(word, bit(i), Change { line: at, turns });
+        } else if turns {
+            self.turn(view, word, i);
+        } else {
+            self.cache.free_slots(word, bit(i));
+            self.changed = true;
         }
     }
 
@@ -79,10 +121,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 self.take_in(view, slot, number, object, line);
             }
         }
-        let mut at = head;
+        let (mut at, mut hits) = (head, 0);
         while let Some(object) = view.objects.get(usize::from(at)) {
             if let Some(slot) = self.cache.free() {
-                self.counts.hits += 1;
+                hits += 1;
                 self.take_in(view, slot, at, object, line);
             } else {
                 self.counts.spilled += 1;
@@ -90,41 +132,39 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
             at = object.next;
         }
+        self.counts.hits += hits;
         self.counts.peak = self.counts.peak.max(self.cache.in_use());
     }
 
     /// An object into a slot; its link leads there from now on (C3).
     #[inline(never)]
     fn take_in(&mut self, view: &View<'_>, slot: usize, number: u16, object: &Object, line: u16) {
-        let (Some(triangle), Some(kept)) = (view.triangle::<L>(object), self.cache.slot(slot))
-        else {
+        let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot)) else {
             return;
         };
-        let lines = triangle.lines();
-        if lines.end <= i32::from(line) {
+        let entry = triangle.enter(line, &mut kept.item.sides);
+        if entry.change() == 0 {
             return;
         }
-        let area = triangle.area();
-        let size = triangle.size(area);
-        let way = triangle.way(size);
-        kept.item.sides = triangle.sides(way, i32::from(line), lines.turn);
+        let planes = &mut kept.item.planes;
         let fill = L::set_up(
             &triangle,
             number,
-            size,
-            area,
+            entry.size(),
+            entry.area,
             view.draws,
-            &mut kept.item.planes,
+            planes,
         );
-        let flags = Flags::new(fill, way);
+        let flags = Flags::new(fill, entry.way());
         kept.object = number;
         kept.flags = flags.0;
-        kept.end = lines.end as u16;
-        let turns = lines.turn > i32::from(line);
-        let event = if turns { lines.turn } else { lines.end };
-        let lacks = L::lacks_texture(&kept.item.planes, view.draws);
+        let lacks = L::lacks_texture(planes, view.draws);
         self.counts.untextured += u32::from(lacks);
-        self.cache.keep(slot, flags.is_plain(), event as u16);
+        let change = Change {
+            line: entry.change(),
+            turns: entry.turns(),
+        };
+        self.cache.keep(slot, flags.is_plain(), change);
         self.counts.set_ups += 1;
         if let Some(link) = self.links.get_mut(usize::from(number)) {
             *link = Link::cached(slot);

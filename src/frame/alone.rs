@@ -34,10 +34,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         object: u16,
         out: &Line<'_, '_, WordOf<L>>,
     ) -> Option<Alone<L::Planes>> {
-        let triangle = out.view.triangle_of::<L>(object)?;
+        let triangle = out.view.triangle_of(object)?;
         let area = triangle.area();
         let size = triangle.size(area);
-        let way = triangle.way(size);
+        let way = triangle.way();
         let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
         let (start, end) = sides.columns(way, out.number, out.view.frame);
         if start >= end {
@@ -57,7 +57,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// The plane of depth of what has no slot.
     #[inline(always)]
     pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) -> [u32; 3] {
-        let triangle = view.triangle_of::<L>(alone.object);
+        let triangle = view.triangle_of(alone.object);
         let plane = triangle.and_then(|t| depth_plane(&t));
         alone.flags = alone.flags.without_depth(plane.is_none());
         plane.unwrap_or_default()

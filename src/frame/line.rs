@@ -208,7 +208,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let line = out.number as i32;
         let (mut before, mut at) = (Link::NONE, self.cache.spilled);
         while at.is_some() {
-            let Some(triangle) = out.view.triangle_of::<L>(at.object()) else {
+            let Some(triangle) = out.view.triangle_of(at.object()) else {
                 break;
             };
             let after = next(self.links, at);
@@ -216,7 +216,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if lines.end <= line {
                 self.cache.relink(before, after, self.links);
             } else {
-                let way = triangle.way(triangle.size(triangle.area()));
+                let way = triangle.way();
                 let sides = triangle.sides(way, line, lines.turn);
                 let (start, end) = sides.columns(way, out.number, out.view.frame);
                 if start < end {
@@ -355,7 +355,7 @@ pub(super) fn deepen<L: Look>(
 ) {
     if *deep & one == 0 {
         *deep |= one;
-        let triangle = view.triangle_of::<L>(slot.object);
+        let triangle = view.triangle_of(slot.object);
         let plane = triangle.and_then(|t| depth_plane(&t));
         slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
         slot.item.depth = plane.unwrap_or_default();

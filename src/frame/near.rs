@@ -180,7 +180,7 @@ fn colour_guest<L: Look>(
     drawing: &mut Drawing<'_>,
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
-    let Some(triangle) = out.view.triangle_of::<L>(rival.object) else {
+    let Some(triangle) = out.view.triangle_of(rival.object) else {
         return;
     };
     let area = triangle.area();
@@ -414,7 +414,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 colour_guest::<L>(guest.rival, None, &mut drawing, out);
                 continue;
             }
-            let triangle = out.view.triangle_of::<L>(object);
+            let triangle = out.view.triangle_of(object);
             guest.rival.slope = match triangle.and_then(|t| depth_plane(&t)) {
                 Some([at, step, down]) => Slope {
                     at: at.wrapping_add(down.wrapping_mul(out.number)),

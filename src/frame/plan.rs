@@ -106,7 +106,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// The farthest and the nearest depth of a triangle in a slot.
     fn range(&self, view: &View<'_>, number: u32) -> Option<[u32; 2]> {
         let slot = &self.cache.slots.get(number as usize >> 5)?[number as usize & 31];
-        let [a, b, c] = view.triangle_of::<L>(slot.object)?.vertex.map(|v| v.depth);
+        let [a, b, c] = view.triangle_of(slot.object)?.vertex.map(|v| v.depth);
         Some([a.min(b).min(c), a.max(b).max(c)])
     }
 

@@ -262,25 +262,20 @@ impl<'a> View<'a> {
 
     /// The corners of a triangle.
     #[inline(always)]
-    pub(super) fn triangle<L: Look>(&self, object: &Object) -> Option<Triangle<'a>> {
+    pub(super) fn triangle(&self, object: &'a Object) -> Option<Triangle<'a>> {
         let [a, b, c] = object.corner;
         let at = |i: u16| self.vertices.get(usize::from(i));
-        let vertex = [at(a)?, at(b)?, at(c)?];
-        let mut texture = [TexturePlace::EMPTY; 3];
-        if L::TEXTURED {
-            let place = |i: u16| self.places.get(usize::from(i)).copied();
-            texture = [place(a)?, place(b)?, place(c)?];
-        }
         Some(Triangle {
-            vertex,
-            texture,
+            vertex: [at(a)?, at(b)?, at(c)?],
+            object,
+            places: self.places,
             frame: self.frame,
         })
     }
 
     /// The corners of a triangle by its number.
     #[inline(always)]
-    pub(super) fn triangle_of<L: Look>(&self, object: u16) -> Option<Triangle<'a>> {
-        self.triangle::<L>(self.objects.get(usize::from(object))?)
+    pub(super) fn triangle_of(&self, object: u16) -> Option<Triangle<'a>> {
+        self.triangle(self.objects.get(usize::from(object))?)
     }
 }

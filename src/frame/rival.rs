@@ -125,7 +125,7 @@ impl Guest {
 /// The plane of depth of what is in a slot, from now on.
 #[inline(never)]
 pub(super) fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
-    let triangle = view.triangle_of::<L>(slot.object);
+    let triangle = view.triangle_of(slot.object);
     let plane = triangle.and_then(|t| depth_plane(&t));
     slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
     slot.item.depth = plane.unwrap_or_default();

@@ -92,7 +92,7 @@ pub(super) fn thin_depth<L: Look>(
     span: Span,
     out: &Line<'_, '_, WordOf<L>>,
 ) -> [u32; 2] {
-    let Some(triangle) = out.view.triangle_of::<L>(object) else {
+    let Some(triangle) = out.view.triangle_of(object) else {
         return [0; 2];
     };
     let ends = thin_span(&triangle, span, out.number);
@@ -111,7 +111,7 @@ pub(super) fn thin_planes<L: Look>(
     view: &View<'_>,
 ) -> L::Planes {
     let mut planes = L::EMPTY;
-    if let Some(triangle) = view.triangle_of::<L>(object) {
+    if let Some(triangle) = view.triangle_of(object) {
         let ends = thin_span(&triangle, span, line);
         L::set_up_thin(&ends, object, view.draws, &mut planes);
     }

@@ -10,6 +10,7 @@
 //! | [`two_cores`] | alternate lines on two cores or threads |
 //! | [`quality`] | what is paid for how exact a picture |
 //! | [`figures`] | what a frame did, and what it was spared |
+//! | [`scene_files`] | a scene as a file that the tool draws and shows |
 //! | [`rows`] | each requirement with its code and its test |
 //!
 //! All examples are compiled, and those that can are run, by the tests.
@@ -37,6 +38,9 @@ pub mod quality {}
 
 #[doc = include_str!("figures.md")]
 pub mod figures {}
+
+#[doc = include_str!("scene_files.md")]
+pub mod scene_files {}
 
 #[doc = include_str!("rows.md")]
 pub mod rows {}

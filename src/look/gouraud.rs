@@ -13,7 +13,7 @@ use super::ramp::{self, Packed, Pair};
 use super::{Depths, Fill, Paint, Place, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
-use crate::scene::DrawState;
+use crate::scene::{DrawState, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle};
 use core::marker::PhantomData;
 
@@ -42,9 +42,9 @@ pub(super) fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
 impl<F: Pixel> Gouraud<F> {
     /// One word of three fields.
     #[inline(never)]
-    fn packed_planes(triangle: &Triangle<'_>, area: u32, planes: &mut Planes) {
-        let shares = triangle.shares(area).cut::<5>();
-        let [a, b, c] = triangle.vertex.map(|v| v.colour);
+    fn packed_planes(vertex: [&Vertex; 3], area: u32, planes: &mut Planes) {
+        let shares = Shares::new(area, vertex.map(|v| v.place)).cut::<5>();
+        let [a, b, c] = vertex.map(|v| v.colour);
         let rise = |shift: u32, bits: u32| {
             let field = |w: u32| (w >> shift & bits) as i32;
             shares.rise::<5, 0>(field(b) - field(a), field(c) - field(a))
@@ -58,6 +58,22 @@ impl<F: Pixel> Gouraud<F> {
         planes[0] = a.wrapping_add(join(|r| r.at));
         planes[1] = join(|r| r.dx);
         planes[2] = join(|r| r.dy);
+    }
+
+    /// Planes of all that are not tiny, or not in one word.
+    #[inline(never)]
+    fn other_planes(triangle: &Triangle<'_>, size: Size, area: u32, planes: &mut Planes) -> Fill {
+        let colour = triangle.vertex.map(|v| v.colour);
+        if size == Size::Sharp && F::PACKED && is_flat(colour) {
+            Self::packed_planes(triangle.vertex, area, planes);
+            return Fill::Plain;
+        }
+        if matches!(size, Size::Sharp | Size::Thin) {
+            if let Some(fill) = Self::even_planes(colour, planes) {
+                return fill;
+            }
+        }
+        plane_shades(triangle, size, area, planes)
     }
 
     /// One colour for a thin triangle whose corners differ by less than a step.
@@ -309,21 +325,11 @@ impl<F: Pixel> Paint for Gouraud<F> {
         _: &[DrawState<'_>],
         planes: &mut Planes,
     ) -> Fill {
-        let colour = triangle.vertex.map(|v| v.colour);
         if size == Size::Tiny && F::PACKED {
-            Self::packed_planes(triangle, area, planes);
+            Self::packed_planes(triangle.vertex, area, planes);
             return Fill::Plain;
         }
-        if size == Size::Sharp && F::PACKED && is_flat(colour) {
-            Self::packed_planes(triangle, area, planes);
-            return Fill::Plain;
-        }
-        if matches!(size, Size::Sharp | Size::Thin) {
-            if let Some(fill) = Self::even_planes(colour, planes) {
-                return fill;
-            }
-        }
-        plane_shades(triangle, size, area, planes)
+        Self::other_planes(triangle, size, area, planes)
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {

@@ -83,7 +83,7 @@ impl<F: Texel> Textured<F> {
     fn corners(triangle: &Triangle<'_>) -> [Corner; 3] {
         const FIRST: i32 = 64 * ORIGIN + 32;
         let corner = |i: usize| {
-            let (vertex, texture) = (triangle.vertex[i], triangle.texture[i]);
+            let (vertex, texture) = (triangle.vertex[i], triangle.texture(i));
             let fine = texture.fine();
             Corner {
                 x: 8 * (vertex.place & 0xFFFF) as i32 + fine[0] - FIRST,
@@ -97,9 +97,8 @@ impl<F: Texel> Textured<F> {
 
     /// The same as [`Near`] has them.
     #[inline(always)]
-    fn near<'a>(triangle: &'a Triangle<'_>) -> Near<'a> {
+    fn near<'a>(triangle: &Triangle<'_>, texture: &'a [TexturePlace; 3]) -> Near<'a> {
         let [a, b, c] = triangle.vertex;
-        let texture = triangle.texture;
         let fine = texture.map(TexturePlace::fine);
         let way = |vertex: &Vertex| vertex.place.wrapping_sub(a.place);
         let (d1, d2) = (way(b), way(c));
@@ -111,7 +110,7 @@ impl<F: Texel> Textured<F> {
             dx: [side(across(d1), 1, 0), side(across(d2), 2, 0)],
             dy: [side(down(d1), 1, 1), side(down(d2), 2, 1)],
             depth: [a.depth, b.depth, c.depth],
-            texture: &triangle.texture,
+            texture,
         }
     }
 
@@ -241,7 +240,8 @@ impl<F: Texel> Paint for Textured<F> {
         let mut thin = planes.shaded == Some(Fill::Thin);
         let state = draws.get(usize::from(planes.draw));
         if let Some((texture, budget)) = state.and_then(DrawState::texture) {
-            let near = Self::near(triangle);
+            let places = triangle.textures();
+            let near = Self::near(triangle, &places);
             if let Some(plane) = near.word_plane(texture, budget) {
                 planes.mapping.method = Method::Word;
                 planes.mapping.quick = 0;

@@ -11,24 +11,44 @@ use super::short::SHORT;
 #[must_use]
 pub const fn bit(member: u32) -> u32 {
     if SHORT {
-        1 << (member & 31)
+        low_bit(member)
     } else {
-        0x8000_0000 >> (member & 31)
+        top_bit(member)
     }
+}
+
+/// [`bit`] where the first member is the lowest bit.
+#[inline(always)]
+const fn low_bit(member: u32) -> u32 {
+    1 << (member & 31)
+}
+
+/// [`bit`] where the first member is the top bit.
+#[inline(always)]
+const fn top_bit(member: u32) -> u32 {
+    0x8000_0000 >> (member & 31)
 }
 
 /// Takes the lowest member out of a set that is not empty.
 #[inline(always)]
 pub fn take_first(set: &mut u32) -> u32 {
-    if SHORT {
-        let low = *set & set.wrapping_neg();
-        *set ^= low;
-        number_of(low)
-    } else {
-        let first = set.leading_zeros();
-        *set &= !(0x8000_0000u32 >> (first & 31));
-        first
-    }
+    if SHORT { take_low(set) } else { take_top(set) }
+}
+
+/// [`take_first`] of a set of [`low_bit`]s.
+#[inline(always)]
+fn take_low(set: &mut u32) -> u32 {
+    let low = *set & set.wrapping_neg();
+    *set ^= low;
+    number_of(low)
+}
+
+/// [`take_first`] of a set of [`top_bit`]s.
+#[inline(always)]
+fn take_top(set: &mut u32) -> u32 {
+    let first = set.leading_zeros();
+    *set &= !top_bit(first);
+    first
 }
 
 /// The number of the one bit of a word, by a de Bruijn sequence.
@@ -50,15 +70,33 @@ fn number_of(low: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    /// All sets of members of which each is in one of four, whichever end they begin at.
+    fn come_out(bit: impl Fn(u32) -> u32, take: impl Fn(&mut u32) -> u32) {
+        let mut rng = Rng(4);
+        for _ in 0..10_000 {
+            let members = rng.bits() & rng.bits();
+            let members: Vec<u32> = (0..32).filter(|i| members >> i & 1 != 0).collect();
+            let mut set = members.iter().fold(0, |set, i| set | bit(*i));
+            assert_eq!(set.count_ones() as usize, members.len());
+            let mut out = Vec::new();
+            while set != 0 {
+                out.push(take(&mut set));
+            }
+            assert_eq!(out, members);
+        }
+        // Of a number beyond the last the rest by 32 counts, as the shift would have it.
+        assert_eq!(bit(32 + 7), bit(7));
+    }
 
     #[test]
     fn members_come_out_in_rising_order() {
-        let mut set = bit(31) | bit(0) | bit(17) | bit(4);
-        let mut out = std::vec::Vec::new();
-        while set != 0 {
-            out.push(take_first(&mut set));
-        }
-        assert_eq!(out, [0, 4, 17, 31]);
+        come_out(bit, take_first);
+        come_out(low_bit, take_low);
+        come_out(top_bit, take_top);
+        assert_eq!((low_bit(0), top_bit(0)), (1, 1 << 31));
     }
 
     #[test]

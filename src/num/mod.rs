@@ -1,16 +1,21 @@
 //! The one home of fixed point (S4, K3, K4, K5).
 //!
-//! Formats come from the `fixed` crate; hot loops work on their raw bits with wrapping adds and
-//! widening products only, so the same input gives the same bits on every target. Where a
-//! processor has no widening product, the same bits come in pieces. Nothing in here knows what a
-//! number means.
+//! Numbers are integers with a binary point that their place in a program fixes; hot loops add them
+//! wrapping and multiply them widening only, so the same input gives the same bits on every target.
+//! Where a processor has no widening product, the same bits come in pieces. Nothing in here knows
+//! what a number means.
+//!
+//! What an application hands over as a number of its own is a type of the `fixed` crate, which
+//! brings its conversions; whole arrays, and all that is reckoned with, are the integers alone.
 //!
 //! | format | type | range | used for |
 //! |---|---|---|---|
-//! | 13.3 unsigned | [`U13F3`] | 0 ..= 8191.875 | screen coordinates in guard space |
-//! | 2.14 signed | [`I2F14`] | -2 ..< 2 | model coordinates, normals |
-//! | 2.30 signed | [`I2F30`] | -2 ..< 2 | exact model coordinates, matrix mantissas |
-//! | 1.15 unsigned | [`U1F15`] | 0 ..< 2 | light levels |
+//! | 2.14 signed | [`I2F14`] | -2 ..< 2 | directions of lights |
+//! | 1.15 unsigned | [`U1F15`] | 0 ..< 2 | levels of light and materials |
+//! | 8.8 unsigned | `U8F8` | 0 ..< 256 | how far colours and texels may be off |
+//! | 2.14 signed | `i16` | -2 ..< 2 | model coordinates, normals |
+//! | 2.30 signed | `i32` | -2 ..< 2 | exact model coordinates, matrix mantissas |
+//! | 13.3 unsigned | `i32` | 0 ..= 8191.875 | screen coordinates in guard space |
 //! | 16.16 signed | `i32` | modulo 2^32 | planes of colour |
 //! | 1.31 unsigned | `u32` | 0 ..= 1 | depth, 1/w with the near plane at 1 |
 //! | 2 + 14 | [`BlockFix16`] | 0 ..< 1 | depth in 16 bits |
@@ -36,7 +41,7 @@ pub(crate) use block::shift_round_inline;
 pub use block::{Block, shift_round};
 pub use block_fix::BlockFix16;
 pub use edge::{Edge, column_exact, first_at};
-pub use fixed::types::{I2F14, I2F30, U1F15, U13F3};
+pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;
 pub use plane::{InverseArea, Plane};
 pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned, turn};

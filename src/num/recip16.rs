@@ -76,11 +76,17 @@ pub fn of_height(height: u32) -> u32 {
 #[must_use]
 pub const fn mul_16_unsigned(a: i32, b: u32) -> i32 {
     if SHORT {
-        let low = (a as u32 & 0xFFFF).wrapping_mul(b) >> 16;
-        (a >> 16).wrapping_mul(b as i32).wrapping_add(low as i32)
+        mul_16_in_pieces(a, b)
     } else {
         ((a as i64 * b as i32 as i64) >> 16) as i32
     }
+}
+
+/// [`mul_16_unsigned`] without a long product.
+#[inline(always)]
+const fn mul_16_in_pieces(a: i32, b: u32) -> i32 {
+    let low = (a as u32 & 0xFFFF).wrapping_mul(b) >> 16;
+    (a >> 16).wrapping_mul(b as i32).wrapping_add(low as i32)
 }
 
 /// `floor(a b / 2^17)`, `b` of 16 bits without a sign.
@@ -88,10 +94,16 @@ pub const fn mul_16_unsigned(a: i32, b: u32) -> i32 {
 #[must_use]
 pub const fn mul_17(a: i32, b: u32) -> i32 {
     if SHORT {
-        mul_16_unsigned(a, b) >> 1
+        mul_17_in_pieces(a, b)
     } else {
         mul_high(a, (b << 15) as i32)
     }
+}
+
+/// [`mul_17`] without a long product.
+#[inline(always)]
+const fn mul_17_in_pieces(a: i32, b: u32) -> i32 {
+    mul_16_in_pieces(a, b) >> 1
 }
 
 /// `round(dx r / 2^12)` for `dx` of 10 bits and a sign, and `r` below 2^31.
@@ -99,12 +111,18 @@ pub const fn mul_17(a: i32, b: u32) -> i32 {
 #[must_use]
 pub const fn slope_of(dx: i32, r: u32) -> i32 {
     if SHORT {
-        let (high, low) = ((r >> 12) as i32, (r & 0xFFF) as i32);
-        dx.wrapping_mul(high)
-            .wrapping_add(dx.wrapping_mul(low).wrapping_add(1 << 11) >> 12)
+        slope_in_pieces(dx, r)
     } else {
         (((dx << 20) as i64 * r as i32 as i64 + 0x8000_0000) >> 32) as i32
     }
+}
+
+/// [`slope_of`] without a long product.
+#[inline(always)]
+const fn slope_in_pieces(dx: i32, r: u32) -> i32 {
+    let (high, low) = ((r >> 12) as i32, (r & 0xFFF) as i32);
+    dx.wrapping_mul(high)
+        .wrapping_add(dx.wrapping_mul(low).wrapping_add(1 << 11) >> 12)
 }
 
 #[cfg(test)]
@@ -118,7 +136,10 @@ mod tests {
             assert_eq!(by_seed(n), 0x7FFF_FFFF / n, "{n}");
             assert_eq!(recip_16(n), 0x7FFF_FFFF / n);
         }
-        assert_eq!((of_height(0), of_height(3)), (0, 0x7FFF_FFFF / 3));
+        assert_eq!(of_height(0), 0);
+        for height in 1..=HEIGHTS {
+            assert_eq!(of_height(height), 0x7FFF_FFFF / height);
+        }
     }
 
     #[test]
@@ -126,17 +147,18 @@ mod tests {
         let mut rng = Rng(11);
         for _ in 0..200_000 {
             let (a, b) = (rng.below(u32::MAX) as i32, rng.below(1 << 16));
-            let low = (a as u32 & 0xFFFF).wrapping_mul(b) >> 16;
-            let pieces = (a >> 16).wrapping_mul(b as i32).wrapping_add(low as i32);
-            assert_eq!(pieces, ((i64::from(a) * i64::from(b)) >> 16) as i32);
-            assert_eq!(pieces >> 1, ((i64::from(a) * i64::from(b)) >> 17) as i32);
-            assert_eq!(mul_17(a, b), pieces >> 1);
-            let (dx, r) = (rng.below(1023) as i32 - 511, rng.below(1 << 31));
-            let (high, low) = ((r >> 12) as i32, (r & 0xFFF) as i32);
-            let pieces = dx * high + ((dx * low + (1 << 11)) >> 12);
+            let exact = i64::from(a) * i64::from(b);
+            for product in [mul_16_unsigned(a, b), mul_16_in_pieces(a, b)] {
+                assert_eq!(product, (exact >> 16) as i32, "{a} {b}");
+            }
+            for product in [mul_17(a, b), mul_17_in_pieces(a, b)] {
+                assert_eq!(i64::from(product), exact >> 17, "{a} {b}");
+            }
+            let (dx, r) = (rng.below(2047) as i32 - 1023, rng.below(1 << 31));
             let exact = (i64::from(dx) * i64::from(r) + (1 << 11)) >> 12;
-            assert_eq!(i64::from(pieces), exact);
-            assert_eq!(slope_of(dx, r), pieces);
+            for slope in [slope_of(dx, r), slope_in_pieces(dx, r)] {
+                assert_eq!(i64::from(slope), exact, "{dx} {r}");
+            }
         }
     }
 }

@@ -14,7 +14,9 @@ pub use crate::composite::{
     Rgb888, Threshold, TwoWords, Xrgb8888, expand_indices, mono_page, mono_row,
 };
 
-/// How a pixel is made of a colour.
+mod mix;
+
+/// How a pixel is made of a colour, and of other pixels.
 pub trait Pixel: PixelFormat {
     /// Whether a word of colour keeps enough of it over 25 pixels.
     const PACKED: bool;
@@ -29,6 +31,22 @@ pub trait Pixel: PixelFormat {
     #[inline(always)]
     fn of_words(words: [u32; 2]) -> [Self::Word; 2] {
         words.map(Self::of_word)
+    }
+
+    /// The fields of a pixel, each with four bits free above it.
+    fn widen(word: Self::Word) -> [u32; 2];
+
+    /// The pixel of fields of 16 times its steps, to the nearest step, halves up.
+    fn narrow(fields: [u32; 2]) -> Self::Word;
+
+    /// A line that is sent of a picture with half as many lines and columns: from the drawn line
+    /// that it lies in and the one on its other side, for
+    /// [`send_doubled`](crate::scan_out::send_doubled).
+    fn mix_lines(near: &[Self::Word], far: &[Self::Word], sent: &mut [Self::Word])
+    where
+        Self: Sized,
+    {
+        mix::mix::<Self>(near, far, sent);
     }
 }
 
@@ -72,6 +90,16 @@ impl Pixel for Rgb565 {
     fn of_words(words: [u32; 2]) -> [u16; 2] {
         halves(pair_565(words))
     }
+
+    #[inline(always)]
+    fn widen(word: u16) -> [u32; 2] {
+        mix::widen_565(word)
+    }
+
+    #[inline(always)]
+    fn narrow(fields: [u32; 2]) -> u16 {
+        mix::narrow_565(fields)
+    }
 }
 
 impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
@@ -92,14 +120,54 @@ impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
             halves(swapped_halves(pair))
         }
     }
+
+    #[inline(always)]
+    fn widen(word: u16) -> [u32; 2] {
+        mix::widen_565(if BIG {
+            u16::from_be(word)
+        } else {
+            u16::from_le(word)
+        })
+    }
+
+    #[inline(always)]
+    fn narrow(fields: [u32; 2]) -> u16 {
+        let word = mix::narrow_565(fields);
+        if BIG { word.to_be() } else { word.to_le() }
+    }
 }
 
 impl Pixel for Rgb888 {
     const PACKED: bool = false;
+
+    #[inline(always)]
+    fn widen([red, green, blue]: [u8; 3]) -> [u32; 2] {
+        [u32::from(red) << 16 | u32::from(blue), green.into()]
+    }
+
+    #[inline(always)]
+    fn narrow([red_blue, green]: [u32; 2]) -> [u8; 3] {
+        let (red_blue, green) = (red_blue + 0x8_0008, green + 8);
+        [
+            (red_blue >> 20) as u8,
+            (green >> 4) as u8,
+            (red_blue >> 4) as u8,
+        ]
+    }
 }
 
 impl Pixel for Xrgb8888 {
     const PACKED: bool = false;
+
+    #[inline(always)]
+    fn widen(word: u32) -> [u32; 2] {
+        [word & 0xFF_00FF, word >> 8 & 0xFF]
+    }
+
+    #[inline(always)]
+    fn narrow([red_blue, green]: [u32; 2]) -> u32 {
+        (red_blue + 0x8_0008) >> 4 & 0xFF_00FF | (green + 8) << 4 & 0xFF00
+    }
 }
 
 #[cfg(test)]

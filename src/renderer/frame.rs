@@ -1,7 +1,6 @@
 //! A whole frame: every line drawn and sent while the one before is on its way (K12).
 
 use super::error::RendererError;
-use super::instance::PassOne;
 use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::active::Interleave;
@@ -12,6 +11,7 @@ use crate::scan_out::{
     ScanoutDma, ShownLines, ShownRuns, Window, feed_frame,
 };
 use crate::stats::CacheCounts;
+use crate::stats::PassOne;
 use crate::stats::SpanCounts;
 
 /// Why a frame was not finished. The pump has its buffers back, and the next frame is whole.

@@ -44,7 +44,7 @@ pub use frame::{
 pub use frame_async::{draw_frame_async, send_frame_async};
 pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
-pub use instance::{Instance, PassOne};
+pub use instance::Instance;
 pub use lights::{EightLights, ListLights, OneLight};
 pub use lines::{DepthUse, LineMemory, LineRenderer};
 pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};

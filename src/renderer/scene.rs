@@ -4,7 +4,7 @@ mod read;
 
 use super::error::{DrawError, SceneError};
 use super::filing::Filing;
-use super::instance::{Instance, PassOne};
+use super::instance::Instance;
 use super::spans::scale;
 use crate::active::Buckets;
 use crate::arena::Arena;
@@ -16,6 +16,7 @@ use crate::geometry::{
 };
 use crate::link::Link;
 use crate::pipeline::{MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
+use crate::stats::PassOne;
 use core::ops::Range;
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.

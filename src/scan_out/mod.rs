@@ -7,6 +7,7 @@
 //! - [`ShownLines`] and [`ShownRuns`], which know what the display shows, so that lines, or runs of pixels
 //!   within them, which stay are not sent (X4).
 //! - [`LineWriter`] and [`Blocking`], which make a sink of three functions that block.
+//! - [`send_doubled`], which sends four pixels for each that is drawn, interpolated between.
 //! - [`feed_line`] and [`ContinuousPanel`], for panels that read on their own clock.
 //!
 //! | sink | for | feature |
@@ -28,6 +29,7 @@ mod async_out;
 mod changed;
 mod continuous;
 mod dma;
+mod doubled;
 #[cfg(feature = "embedded-graphics")]
 mod draw_target;
 mod frame_buffer;
@@ -43,6 +45,7 @@ pub use async_out::{AsyncLineWriter, AsyncPump, AsyncSpiPanel};
 pub use changed::{LineWord, ShownLines};
 pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
 pub use dma::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
+pub use doubled::send_doubled;
 #[cfg(feature = "embedded-graphics")]
 pub use draw_target::{DrawTargetError, DrawTargetLines, DrawTargetSink};
 pub use frame_buffer::{FrameBuffer, FrameBufferError, FrameBufferSink, SwapFlag};

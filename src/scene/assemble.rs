@@ -13,6 +13,7 @@ use crate::geometry::{
     Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Tint, check_mesh, each_triangle,
     triangles,
 };
+use core::cell::Cell;
 use core::ops::Range;
 
 /// The lines and columns of guard space that are drawn.
@@ -76,12 +77,13 @@ impl<'t, L> Scene<'_, 't, L> {
             cull: draw.cull,
             texels,
             base: self.vertices.len(),
-            shared: false,
+            shared: 0,
+            within: false,
             culled: 0,
             clipped: 0,
             lost: Lost::default(),
         };
-        pass.shared = self.share(mesh, &pass);
+        self.share(mesh, &mut pass);
         let before = self.objects.len();
         if is_flat {
             self.file_flat(mesh, &mut pass);
@@ -91,6 +93,8 @@ impl<'t, L> Scene<'_, 't, L> {
         }
         if self.objects.len() == before {
             self.vertices.truncate(pass.base);
+        } else if !is_flat {
+            self.light(mesh, &pass);
         }
         self.assembled.triangles += submitted;
         self.assembled.culled += pass.culled;
@@ -106,22 +110,38 @@ impl<'t, L> Scene<'_, 't, L> {
         }
     }
 
-    /// Takes all vertices of a mesh into memory; whether there was room for them.
-    fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &Pass<'_>) -> bool {
+    /// Takes all vertices of a mesh into memory, if there is room for them.
+    fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &mut Pass<'_>) {
         let count = mesh.positions.len();
         let end = pass.base + count;
         let has_places = pass.texels.is_empty() || self.places.len() >= end;
         let Some(vertices) = has_places.then(|| self.vertices.append(count)).flatten() else {
-            return false;
+            return;
         };
+        pass.shared = count;
         if pass.texels.is_empty() {
-            project_all(&pass.view, mesh.positions, vertices);
+            pass.within = project_all(&pass.view, mesh.positions, vertices);
         } else if let Some(places) = self.places.get_mut(pass.base..end) {
-            project_textured(&pass.view, mesh.positions, pass.texels, vertices, places);
+            let (positions, texels) = (mesh.positions, pass.texels);
+            pass.within = project_textured(&pass.view, positions, texels, vertices, places);
         }
+    }
+
+    /// The vertices of the mesh, if they are in memory.
+    #[inline(always)]
+    fn shared(&mut self, pass: &Pass<'_>) -> &mut [Vertex] {
+        let all = self.vertices.as_mut_slice();
+        let mesh = all.get_mut(pass.base..pass.base + pass.shared);
+        mesh.unwrap_or_default()
+    }
+
+    /// Gives those vertices their colours that triangles have.
+    fn light<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &Pass<'_>) {
+        let scale = self.scale;
+        let vertices = self.shared(pass);
         match &pass.light {
             Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
-                light_all(light, &pass.tint, &self.scale, mesh.normals, vertices);
+                light_all(light, &pass.tint, &scale, mesh.normals, vertices);
             }
             None if pass.lamps.is_none() && mesh.colours.is_empty() => {
                 let colour = pass.tint.lit(1 << 15).word();
@@ -131,11 +151,12 @@ impl<'t, L> Scene<'_, 't, L> {
             }
             _ => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {
-                    vertex.colour = colour_of(mesh, i, pass, &self.scale);
+                    if vertex.is_used() {
+                        vertex.colour = colour_of(mesh, i, pass, &scale);
+                    }
                 }
             }
         }
-        true
     }
 
     fn picture(&self) -> Picture {
@@ -154,7 +175,7 @@ impl<'t, L> Scene<'_, 't, L> {
     ) -> Result<(), MeshError> {
         let Faces::Triangles(faces) = mesh.faces else {
             each_triangle(mesh.faces, |face, corners, _| {
-                let filed = pass.shared && self.file_known(corners, pass);
+                let filed = pass.shared > 0 && self.file_known(corners, pass);
                 if !filed {
                     self.file_one(mesh, face, corners, None, pass);
                 }
@@ -163,7 +184,7 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         let mut from = 0;
         while from < faces.len() {
-            if pass.shared {
+            if pass.shared > 0 {
                 let rest = faces.get(from..).unwrap_or_default();
                 from += self.file_run(rest, pass);
             }
@@ -200,43 +221,53 @@ impl<'t, L> Scene<'_, 't, L> {
     #[inline(never)]
     fn file_culled<const CULLS: bool>(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
         let picture = self.picture();
-        let base = pass.base;
-        let vertices = self.vertices.as_slice().get(base..).unwrap_or_default();
-        let mut filed = self.objects.len();
-        let Some(mut room) = self.objects.rest() else {
+        let (base, within) = (pass.base, pass.within);
+        let first = self.objects.len();
+        let vertices = self.vertices.as_mut_slice();
+        let (Some(vertices), Some(mut room)) = (
+            vertices.get_mut(base..base + pass.shared),
+            self.objects.rest(),
+        ) else {
             return 0;
         };
+        // Cells, since a face may have a corner twice.
+        let vertices = Cell::from_mut(vertices).as_slice_of_cells();
         let bins = &mut *self.bins;
-        let (mut done, mut kept) = (0, 0);
-        for &[i, j, k] in faces {
-            let at = |i: u16| vertices.get(usize::from(i)).map(|v| v.place);
-            let (Some(a), Some(b), Some(c)) = (at(i), at(j), at(k)) else {
-                break;
+        let (mut rest, mut filed) = (faces.iter(), first);
+        let done = loop {
+            let left = rest.len();
+            let Some(&[i, j, k]) = rest.next() else {
+                break faces.len();
             };
-            if a == Vertex::OUTSIDE || b == Vertex::OUTSIDE || c == Vertex::OUTSIDE {
-                break;
+            let at = |i: u16| vertices.get(usize::from(i));
+            let (Some(a), Some(b), Some(c)) = (at(i), at(j), at(k)) else {
+                break faces.len() - left;
+            };
+            let place = [a.get().place, b.get().place, c.get().place];
+            if !within && place.contains(&Vertex::OUTSIDE) {
+                break faces.len() - left;
             }
-            done += 1;
-            let Some((corner, places)) = top_first::<CULLS>([i, j, k], [a, b, c]) else {
+            let Some((corner, places)) = top_first::<CULLS>([i, j, k], place) else {
                 continue;
             };
             let Some(bin) = bin_of(places, &picture) else {
                 continue;
             };
             let (Some(head), Some(object)) = (bins.get_mut(bin), room.next()) else {
-                done -= 1;
-                break;
+                break faces.len() - left;
             };
+            for vertex in [a, b, c] {
+                vertex.set(vertex.get().used());
+            }
             *object = Object {
                 corner: corner.map(|c| c + base as u16),
                 next: *head,
             };
             *head = filed as u16;
             filed += 1;
-            kept += 1;
-        }
-        self.objects.take(kept);
-        pass.culled += done as u32 - kept as u32;
+        };
+        self.objects.take(filed - first);
+        pass.culled += (done + first - filed) as u32;
         done
     }
 

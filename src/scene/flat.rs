@@ -38,7 +38,7 @@ impl<L> Scene<'_, '_, L> {
     fn copies(&self, corners: [u16; 3], pass: &Pass<'_>) -> Option<[Own; 3]> {
         let vertices = self.vertices.as_slice().get(pass.base..)?;
         let copy = |i: u16| {
-            let vertex = vertices.get(usize::from(i)).filter(|_| pass.shared)?;
+            let vertex = vertices.get(usize::from(i)).filter(|_| pass.shared > 0)?;
             let place = self.places.get(pass.base + usize::from(i)).copied();
             (vertex.place != Vertex::OUTSIDE).then_some(Own {
                 vertex: *vertex,

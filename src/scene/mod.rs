@@ -27,6 +27,8 @@ mod pass;
 mod project;
 mod record;
 mod scissor;
+#[cfg(test)]
+mod tests;
 mod texture;
 
 pub use crate::geometry::DepthFunction;

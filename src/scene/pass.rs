@@ -44,8 +44,10 @@ pub(super) struct Pass<'a> {
     pub(super) texels: &'a [[i32; 2]],
     /// The first of the mesh's vertices in memory.
     pub(super) base: usize,
-    /// Whether they are all there.
-    pub(super) shared: bool,
+    /// How many of them are there: all or none.
+    pub(super) shared: usize,
+    /// Whether they all lie within the planes.
+    pub(super) within: bool,
     pub(super) culled: u32,
     pub(super) clipped: u32,
     pub(super) lost: Lost,
@@ -84,7 +86,7 @@ pub(super) fn top_first<const CULLS: bool>(
     }
 }
 
-/// Colours of vertices by one light and one colour.
+/// Colours of those vertices that triangles have, by one light and one colour.
 #[inline(never)]
 pub(super) fn light_all(
     light: &Light,
@@ -95,6 +97,9 @@ pub(super) fn light_all(
 ) {
     let (light, tint) = (*light, *tint);
     for (vertex, &normal) in vertices.iter_mut().zip(normals) {
+        if !vertex.is_used() {
+            continue;
+        }
         let lit = light.lit::<i16>(&tint, scale, normal, || [0; 3]);
         vertex.colour = lit.word();
     }

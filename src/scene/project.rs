@@ -115,6 +115,16 @@ impl View {
     #[inline(always)]
     fn is_within(&self, p: Point) -> bool {
         let guard = guard(p.z);
+        // Most points lie well within: the bits of both magnitudes together are below the guard band.
+        let most = (p.x ^ (p.x >> 31)) | (p.y ^ (p.y >> 31));
+        let range = p.z.wrapping_sub(self.near) | self.far.wrapping_sub(p.z);
+        range | !most.wrapping_sub(guard) >= 0 || self.is_just_within(p)
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn is_just_within(&self, p: Point) -> bool {
+        let guard = guard(p.z);
         (p.z.wrapping_sub(self.near)
             | self.far.wrapping_sub(p.z)
             | guard.wrapping_sub(p.x)
@@ -191,26 +201,29 @@ impl View {
     }
 }
 
-/// Positions into vertices; the colours are left alone. Where `texels` has places, these go along.
+/// Positions into vertices, which are not lit yet; whether all of them lie within the planes.
 #[inline(never)]
 pub(super) fn project_all<C: Coordinate>(
     view: &View,
     positions: &[[C; 3]],
     vertices: &mut [Vertex],
-) {
+) -> bool {
     let view = *view;
+    let mut all = true;
     for (vertex, &position) in vertices.iter_mut().zip(positions) {
         let p = view.point(position);
         if view.is_within(p) {
             let on = view.project(p);
-            (vertex.place, vertex.depth) = (on.place, on.depth);
+            *vertex = Vertex::unused(on.place, on.depth);
         } else {
-            (vertex.place, vertex.depth) = (Vertex::OUTSIDE, view.beyond(p));
+            *vertex = Vertex::unused(Vertex::OUTSIDE, view.beyond(p));
+            all = false;
         }
     }
+    all
 }
 
-/// The same with texture places.
+/// [`project_all`] with texture places.
 #[inline(never)]
 pub(super) fn project_textured<C: Coordinate>(
     view: &View,
@@ -218,20 +231,23 @@ pub(super) fn project_textured<C: Coordinate>(
     texels: &[[i32; 2]],
     vertices: &mut [Vertex],
     places: &mut [TexturePlace],
-) {
+) -> bool {
     let view = *view;
+    let mut all = true;
     let out = vertices.iter_mut().zip(places);
     for ((vertex, place), (&position, &texel)) in out.zip(positions.iter().zip(texels)) {
         let p = view.point(position);
         if view.is_within(p) {
             let on = view.project(p);
-            (vertex.place, vertex.depth) = (on.place, on.depth);
+            *vertex = Vertex::unused(on.place, on.depth);
             *place = TexturePlace::new(texel, on.fine);
         } else {
-            (vertex.place, vertex.depth) = (Vertex::OUTSIDE, view.beyond(p));
+            *vertex = Vertex::unused(Vertex::OUTSIDE, view.beyond(p));
             *place = TexturePlace::new(texel, [0; 2]);
+            all = false;
         }
     }
+    all
 }
 
 #[cfg(test)]

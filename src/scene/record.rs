@@ -28,6 +28,34 @@ impl Vertex {
         colour: 0,
     };
 
+    /// The colour of a vertex that no triangle has used, and of one that waits to be lit.
+    const UNUSED: u32 = 0;
+    const USED: u32 = 1;
+
+    /// A vertex on the screen, which no triangle has used.
+    #[inline(always)]
+    pub(super) fn unused(place: u32, depth: u32) -> Self {
+        let colour = Self::UNUSED;
+        Self {
+            place,
+            depth,
+            colour,
+        }
+    }
+
+    /// The same for a triangle that is kept.
+    #[inline(always)]
+    pub(super) fn used(self) -> Self {
+        let colour = Self::USED;
+        Self { colour, ..self }
+    }
+
+    /// Whether a triangle that is kept has the vertex.
+    #[inline(always)]
+    pub(super) fn is_used(self) -> bool {
+        self.colour != Self::UNUSED
+    }
+
     /// The place of a vertex that has to be clipped. No place on the screen is as far down.
     pub(crate) const OUTSIDE: u32 = u32::MAX;
 }

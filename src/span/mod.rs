@@ -11,9 +11,10 @@ mod plane;
 mod triangle;
 
 pub(crate) use edge::first_line;
-pub use edge::{Edge, Frame, Kind};
+pub use edge::{Edge, Frame};
 pub(crate) use edge::{across, down};
 pub use plane::{Rise, Shares};
+pub(crate) use triangle::end_line;
 pub use triangle::{Sides, Size, Triangle, Way};
 
 /// The pixels of one object on one line, clipped to the picture.

@@ -3,14 +3,15 @@
 use super::edge::{Edge, Frame, Kind, across, down, first_line};
 use super::plane::Shares;
 use crate::num::{InverseArea, Plane};
-use crate::scene::{ORIGIN, TexturePlace, Vertex};
+use crate::scene::{ORIGIN, Object, TexturePlace, Vertex};
 
 /// Corners of a triangle, the topmost first, clockwise, with a doubled area above 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle<'a> {
     pub(crate) vertex: [&'a Vertex; 3],
-    /// Empty where the look has no textures.
-    pub(crate) texture: [TexturePlace; 3],
+    /// The numbers of the corners, and the texture places of all vertices: looked up where a look asks.
+    pub(crate) object: &'a Object,
+    pub(crate) places: &'a [TexturePlace],
     pub(crate) frame: Frame,
 }
 
@@ -38,25 +39,83 @@ pub struct Lines {
     pub(crate) end: i32,
 }
 
-/// How sides are evaluated.
+/// How sides are evaluated, in three bits: 0 and 1 say the [`Kind`], 2 whether columns may lie beside the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
-    pub(crate) kind: Kind,
-    /// Whether columns may lie beside the picture.
-    pub(crate) crosses: bool,
-}
+pub struct Way(pub(crate) u8);
 
 impl Way {
     /// Sides within the picture by one multiply-add.
-    pub(crate) const PLAIN: Self = Self {
-        kind: Kind::Short,
-        crosses: false,
-    };
+    pub(crate) const PLAIN: Self = Self(0);
+    /// The bits of all ways.
+    pub(crate) const BITS: u8 = 7;
+    /// Bits of which none is set where columns need no look at the picture's border.
+    pub(crate) const INDIRECT: u8 = Self::CROSSES | Kind::Divided as u8;
+    const CROSSES: u8 = 4;
+
+    const fn new(kind: Kind, crosses: bool) -> Self {
+        Self(kind as u8 | if crosses { Self::CROSSES } else { 0 })
+    }
+
+    #[inline(always)]
+    pub(crate) fn kind(self) -> Kind {
+        match self.0 & 3 {
+            0 => Kind::Short,
+            1 => Kind::Tall,
+            _ => Kind::Divided,
+        }
+    }
+
+    #[inline(always)]
+    fn crosses(self) -> bool {
+        self.0 & Self::CROSSES != 0
+    }
 
     /// Whether columns need no look at the picture's border.
     #[inline(always)]
     pub(crate) fn is_direct(self) -> bool {
-        !self.crosses && self.kind != Kind::Divided
+        self.0 & Self::INDIRECT == 0
+    }
+}
+
+/// What a triangle is found to be as it begins: in two words, so that it comes back in registers.
+#[derive(Clone, Copy, Debug)]
+pub struct Entry {
+    /// The doubled area, units of 1/64 pixel.
+    pub(crate) area: u32,
+    /// From the lowest bit on: 8 of the size, 8 of the way, 15 of the line of the next change, 1 whether a side
+    /// turns on it. All are 0 where the triangle ends above.
+    bits: u32,
+}
+
+impl Entry {
+    const TURNS: u32 = 1 << 31;
+
+    #[inline(always)]
+    pub(crate) fn size(self) -> Size {
+        match self.bits & 0xFF {
+            0 => Size::Tiny,
+            1 => Size::Small,
+            2 => Size::Sharp,
+            3 => Size::Thin,
+            _ => Size::Large,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn way(self) -> Way {
+        Way((self.bits >> 8) as u8)
+    }
+
+    /// The line on which a side turns, or that after the last; 0 where the triangle ends above.
+    #[inline(always)]
+    pub(crate) fn change(self) -> u16 {
+        (self.bits >> 16) as u16 & 0x7FFF
+    }
+
+    /// Whether a side turns on it.
+    #[inline(always)]
+    pub(crate) fn turns(self) -> bool {
+        self.bits & Self::TURNS != 0
     }
 }
 
@@ -74,6 +133,19 @@ impl Triangle<'_> {
         self.vertex[corner].place
     }
 
+    /// Where a corner lies on its texture.
+    #[inline(always)]
+    pub(crate) fn texture(&self, corner: usize) -> TexturePlace {
+        let number = usize::from(self.object.corner[corner]);
+        self.places.get(number).copied().unwrap_or_default()
+    }
+
+    /// Where the corners lie on their texture.
+    #[inline(always)]
+    pub(crate) fn textures(&self) -> [TexturePlace; 3] {
+        [0, 1, 2].map(|i| self.texture(i))
+    }
+
     #[inline(always)]
     fn places(&self) -> [u32; 3] {
         self.vertex.map(|v| v.place)
@@ -88,14 +160,30 @@ impl Triangle<'_> {
         plus.wrapping_sub(across(d2).wrapping_mul(down(d1))) as u32
     }
 
+    /// How the sides are evaluated.
+    #[inline(always)]
+    pub(crate) fn way(&self) -> Way {
+        let (area, far) = (self.area(), self.reach());
+        self.way_of(self.size_of(area, far), far)
+    }
+
     /// How planes are made; `area` is the triangle's.
     #[inline(always)]
     pub(crate) fn size(&self, area: u32) -> Size {
+        self.size_of(area, self.reach())
+    }
+
+    /// The farthest way from the first corner to another, across and down.
+    #[inline(always)]
+    fn reach(&self) -> i32 {
         let [a, b, c] = self.places();
-        let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
         let magnitude = |d: i32| d ^ (d >> 31);
         let way = |d: u32| magnitude(across(d)) + down(d);
-        let far = way(d1).max(way(d2));
+        way(b.wrapping_sub(a)).max(way(c.wrapping_sub(a)))
+    }
+
+    #[inline(always)]
+    fn size_of(&self, area: u32, far: i32) -> Size {
         if far < 224 && area >= 256 || far < 200 && area >= 128 {
             return Size::Tiny;
         }
@@ -120,10 +208,10 @@ impl Triangle<'_> {
     /// The turn and the end.
     #[inline(always)]
     pub(crate) fn lines(&self) -> Lines {
-        let (b, c) = (first_line(self.place(1)), first_line(self.place(2)));
+        let (b, c) = (self.place(1), self.place(2));
         Lines {
-            turn: b.min(c) - ORIGIN,
-            end: b.max(c) - ORIGIN,
+            turn: first_line(b.min(c)) - ORIGIN,
+            end: first_line(b.max(c)) - ORIGIN,
         }
     }
 
@@ -145,12 +233,42 @@ impl Triangle<'_> {
         }
     }
 
+    /// Measures a triangle, and sets its sides for `line` and below, up to the turn or the end.
+    #[inline(never)]
+    pub(crate) fn enter(&self, line: u16, sides: &mut Sides) -> Entry {
+        let (line, lines) = (i32::from(line), self.lines());
+        if lines.end <= line {
+            return Entry { area: 0, bits: 0 };
+        }
+        let (area, far) = (self.area(), self.reach());
+        let size = self.size_of(area, far);
+        let way = self.way_of(size, far);
+        *sides = self.upper_sides(way);
+        let mut change = lines.end as u32;
+        if line >= lines.turn {
+            self.turn_sides(way, sides);
+        } else if lines.turn < lines.end {
+            change = lines.turn as u32 | Entry::TURNS >> 16;
+        }
+        let bits = size as u32 | u32::from(way.0) << 8 | change << 16;
+        Entry { area, bits }
+    }
+
+    #[inline(always)]
+    fn turn_sides(&self, way: Way, sides: &mut Sides) {
+        if way == Way::PLAIN {
+            sides.turn_plain([self.place(1), self.place(2)]);
+        } else {
+            sides.turn(self, way);
+        }
+    }
+
     /// The sides on `line` and below, up to the turn or the end.
     #[inline(always)]
     pub(crate) fn sides(&self, way: Way, line: i32, turn: i32) -> Sides {
         let mut sides = self.upper_sides(way);
         if line >= turn {
-            sides.turn(self, way);
+            self.turn_sides(way, &mut sides);
         }
         sides
     }
@@ -159,29 +277,33 @@ impl Triangle<'_> {
     #[inline(always)]
     fn upper_sides(&self, way: Way) -> Sides {
         let [a, b, c] = self.places();
-        let origin = self.origin(way);
-        if way.kind == Kind::Short {
+        if way == Way::PLAIN {
             let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
             return Sides {
-                left: Edge::short(a, across(d2), down(d2), origin),
-                right: Edge::short(a, across(d1), down(d1), origin),
+                left: Edge::short(a, across(d2), down(d2), ORIGIN),
+                right: Edge::short(a, across(d1), down(d1), ORIGIN),
             };
         }
+        self.upper_sides_of_any(way)
+    }
+
+    #[inline(never)]
+    fn upper_sides_of_any(&self, way: Way) -> Sides {
+        let [a, b, c] = self.places();
+        let origin = self.origin(way);
         Sides {
-            left: Edge::of_kind(way.kind, a, c, origin),
-            right: Edge::of_kind(way.kind, a, b, origin),
+            left: Edge::of_kind(way.kind(), a, c, origin),
+            right: Edge::of_kind(way.kind(), a, b, origin),
         }
     }
 
     /// How the sides are evaluated.
     #[inline(always)]
-    pub(crate) fn way(&self, size: Size) -> Way {
-        let (low, high) = (8 * ORIGIN, 8 * (ORIGIN + self.frame.width));
-        let x = self.places().map(|p| (p & 0xFFFF) as i32);
-        let inside = x.map(|x| (x - low) | (high - x));
+    fn way_of(&self, size: Size, far: i32) -> Way {
+        let x = (self.place(0) & 0xFFFF) as i32 - 8 * ORIGIN;
         // Tiny and small triangles have short sides.
         let is_short = matches!(size, Size::Tiny | Size::Sharp | Size::Small);
-        if is_short && inside[0] | inside[1] | inside[2] >= 0 {
+        if is_short && (x - far) | (8 * self.frame.width - x - far) >= 0 {
             return Way::PLAIN;
         }
         self.way_of_any()
@@ -196,15 +318,14 @@ impl Triangle<'_> {
         let crosses = low < 8 * ORIGIN || high > 8 * (ORIGIN + frame.width);
         let wide = 8 * frame.wide_left();
         if crosses && (low < wide || high >= wide + 8 * 1023) {
-            let kind = Kind::Divided;
-            return Way { kind, crosses };
+            return Way::new(Kind::Divided, crosses);
         }
-        Way { kind, crosses }
+        Way::new(kind, crosses)
     }
 
     #[inline(always)]
     fn origin(&self, way: Way) -> i32 {
-        if way.crosses {
+        if way.crosses() {
             self.frame.wide_left()
         } else {
             ORIGIN
@@ -224,15 +345,36 @@ impl Triangle<'_> {
     }
 }
 
+/// The line after the last of a triangle that ends at a place, counted from the picture's first.
+#[inline(always)]
+pub(crate) fn end_line(place: u32) -> u16 {
+    (first_line(place) - ORIGIN) as u16
+}
+
 impl Sides {
-    /// The third side, in place of the one that ends at the middle corner.
+    /// The third side of [`Way::PLAIN`], in place of the one that ends at the middle corner; the place where it
+    /// ends.
     #[inline(always)]
+    pub(crate) fn turn_plain(&mut self, [b, c]: [u32; 2]) -> u32 {
+        let d = c.wrapping_sub(b);
+        let (dx, dy) = (across(d), down(d));
+        if dy > 0 {
+            self.right = Edge::short(b, dx, dy, ORIGIN);
+            c
+        } else {
+            self.left = Edge::short(c, -dx, -dy, ORIGIN);
+            b
+        }
+    }
+
+    /// The third side, in place of the one that ends at the middle corner.
+    #[inline(never)]
     pub(crate) fn turn(&mut self, triangle: &Triangle<'_>, way: Way) {
         let [_, b, c] = triangle.places();
         let origin = triangle.origin(way);
         let d = c.wrapping_sub(b);
         let to_right = down(d) > 0;
-        let side = match (way.kind, to_right) {
+        let side = match (way.kind(), to_right) {
             (Kind::Short, true) => Edge::short(b, across(d), down(d), origin),
             (Kind::Short, false) => Edge::short(c, -across(d), -down(d), origin),
             (kind, true) => Edge::of_kind(kind, b, c, origin),
@@ -258,7 +400,7 @@ impl Sides {
     #[inline(never)]
     pub(crate) fn clipped(&self, way: Way, line: u32, frame: Frame) -> (u32, u32) {
         let of = |edge: Edge| {
-            let column = if way.kind == Kind::Divided {
+            let column = if way.kind() == Kind::Divided {
                 edge.divided(line as i32 + ORIGIN) - ORIGIN
             } else {
                 edge.column(line) as i32 + frame.wide_left() - ORIGIN

@@ -115,7 +115,7 @@ impl SwitchArg {
 /// Flags of `render`.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct RenderArgs {
-    /// Model to draw
+    /// Model to draw, or a scene, .json, which says what most flags say
     #[arg(value_name = "MODEL.obj")]
     pub model: PathBuf,
     /// Picture to write, .png or .ppm

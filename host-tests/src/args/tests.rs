@@ -344,6 +344,56 @@ fn refusals_say_what_is_wrong() {
 }
 
 #[test]
+fn flags_that_would_do_nothing_are_refused() {
+    let refusal = |line: &str| match words(line) {
+        Err(Stop::Refused(line)) => line,
+        other => panic!("{line}: {other:?}"),
+    };
+    for format in ["rgb565", "xrgb8888", "grey8", "mono"] {
+        assert_eq!(
+            refusal(&format!("run-list m.list -o o.png --format {format}")),
+            "error: run-list has no --format but rgb888"
+        );
+        assert_eq!(
+            refusal(&format!("trace m.obj --line 3 --format {format}")),
+            "error: trace has no --format but rgb888: tokens come before pixels"
+        );
+    }
+    assert_eq!(
+        refusal("run-list m.list -o o.png --shade phong"),
+        "error: run-list has no --shade phong: lists are lit at corners"
+    );
+    // What prints a list draws nothing.
+    for flag in [
+        "--budget 3",
+        "--size 3x3",
+        "--eye 1,2,3",
+        "--at 1,2,3",
+        "--up 0,0,1",
+        "--fov 50",
+        "--near 1",
+        "--far 9",
+        "--light 1,2,3",
+        "--ambient 0.1",
+        "--shade flat",
+        "--cull back",
+        "--format rgb888",
+        "--background 1,2,3",
+    ] {
+        let line = refusal(&format!("run-list m.list --print {flag}"));
+        let name = flag.split(' ').next().unwrap();
+        assert!(line.contains("--print") && line.contains(name), "{line}");
+    }
+    for line in [
+        "run-list m.list --print",
+        "run-list m.list -o o.png --format rgb888 --shade gouraud",
+        "trace m.obj --line 3 --format rgb888",
+    ] {
+        assert!(words(line).is_ok(), "{line}");
+    }
+}
+
+#[test]
 fn help_is_text_not_a_refusal() {
     for line in ["--help", "render --help", "--version", "help"] {
         assert!(matches!(words(line), Err(Stop::Text(_))), "{line}");

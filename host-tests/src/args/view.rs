@@ -15,7 +15,7 @@ const MAX_VIEW_SIDE: u32 = 1024;
 /// Flags of `view`.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct ViewArgs {
-    /// Model to show; the teapot when there is none
+    /// Model to show, or a scene, .json; the teapot when there is none
     #[arg(value_name = "MODEL.obj")]
     pub model: Option<PathBuf>,
     /// Print so many frames and stop, without a terminal

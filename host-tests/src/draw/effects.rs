@@ -403,7 +403,7 @@ impl Task<'_> {
         rooms.textures = textures;
         rooms.lights = lights;
         draw_scenes::<P>(
-            (self.prepared, &setting, rooms),
+            (Some(self.prepared), &setting, rooms),
             (self.view, self.crew),
             (steps.len(), build),
         )

@@ -164,6 +164,13 @@ impl Prepared {
         prepared
     }
 
+    /// Gives all vertices one colour.
+    pub(super) fn paint(&mut self, colour: [u8; 3]) {
+        for chunk in &mut self.chunks {
+            chunk.colours.fill(colour);
+        }
+    }
+
     fn q30(&self, position: [f64; 3]) -> [i32; 3] {
         let q30 = |v: f64| (v * f64::from(1 << 30)).round() as i32;
         [0, 1, 2].map(|i| q30((position[i] - self.centre[i]) / self.scale))

@@ -1,6 +1,6 @@
 //! Flags of `bake`, `run-list` and `disassemble`.
 
-use crate::args::PictureArgs;
+use crate::args::{PictureArgs, PixelFormatArg, ShadeArg};
 use crate::image_out::ImageFormat;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -55,6 +55,25 @@ pub enum Pictures {
     Drop,
 }
 
+/// Flags that say what is drawn and how, for what draws nothing.
+const DRAWING: [&str; 15] = [
+    "output",
+    "budget",
+    "size",
+    "eye",
+    "at",
+    "up",
+    "fov",
+    "near",
+    "far",
+    "light",
+    "ambient",
+    "shade",
+    "cull",
+    "format",
+    "background",
+];
+
 /// Flags of `run-list`.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct RunListArgs {
@@ -70,7 +89,7 @@ pub struct RunListArgs {
     )]
     pub output: Option<PathBuf>,
     /// Print the list, block by block, instead
-    #[arg(long, conflicts_with = "output")]
+    #[arg(long, conflicts_with_all = DRAWING)]
     pub print: bool,
     /// Most blocks, most vertices and indices, and most jumps
     #[arg(long, value_name = "N", default_value_t = 1 << 24)]
@@ -108,6 +127,12 @@ impl RunListArgs {
     pub(crate) fn check(&self) -> Result<(), String> {
         let view = self.picture.view();
         view.check().map_err(|error| error.to_string())?;
+        if self.picture.shade == ShadeArg::Phong {
+            return Err("run-list has no --shade phong: lists are lit at corners".into());
+        }
+        if self.picture.format != PixelFormatArg::Rgb888 {
+            return Err("run-list has no --format but rgb888".into());
+        }
         let Some(output) = &self.output else {
             return Ok(());
         };

@@ -23,9 +23,10 @@ pub use blocks::{Colours, half_blocks, nearest};
 pub use show::{Scenery, Shown};
 pub use state::{KEYS, State, Step};
 
-use crate::args::ViewArgs;
+use crate::args::{ViewArgs, is_scene};
 use crate::draw::DrawFailure;
 use crate::model::{Model, obj_text};
+use crate::scene_file::Loaded;
 use std::error::Error;
 use std::path::Path;
 
@@ -34,6 +35,9 @@ use std::path::Path;
 /// # Errors
 /// A model that cannot be read or drawn; no terminal to show it on, unless `--frames` is given.
 pub fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
+    if let Some(file) = args.model.as_ref().filter(|file| is_scene(file)) {
+        return run_scene(args, file);
+    }
     let model = match &args.model {
         Some(file) => Model::load(file)?,
         None => {
@@ -43,19 +47,41 @@ pub fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
     };
     let scenery = Scenery::new(&model)?;
     let state = State::new(args);
-    show(args, &scenery, state).map_err(|error| -> Box<dyn Error> {
-        match (error.downcast::<DrawFailure>(), &args.model) {
-            (Ok(failure), Some(file)) => format!("{}: {failure}", file.display()).into(),
-            (Ok(failure), None) => failure.to_string().into(),
-            (Err(error), _) => error,
-        }
-    })?;
+    show_named(args, &scenery, state)?;
     // Last: a terminal shows its own screen until then.
     model.print_warnings();
     for note in scenery.notes() {
         tell!("note: {note}");
     }
     Ok(())
+}
+
+/// Shows a scene, from its camera at first.
+fn run_scene(args: &ViewArgs, file: &Path) -> Result<(), Box<dyn Error>> {
+    let loaded = Loaded::load(file)?;
+    if loaded.scene.has_palettes() && args.renderers > 1 {
+        let file = file.display();
+        return Err(format!("{file}: `palettes` and --renderers cannot be had together").into());
+    }
+    let named = |failure: DrawFailure| format!("{}: {failure}", file.display());
+    let scenery = Scenery::of_scene(&loaded).map_err(named)?;
+    let state = State::of_scene(args, &loaded.scene);
+    show_named(args, &scenery, state)?;
+    for note in scenery.notes() {
+        tell!("note: {note}");
+    }
+    Ok(())
+}
+
+/// Shows it; what cannot be drawn is named by its file.
+fn show_named(args: &ViewArgs, scenery: &Scenery<'_>, state: State) -> Result<(), Box<dyn Error>> {
+    show(args, scenery, state).map_err(|error| -> Box<dyn Error> {
+        match (error.downcast::<DrawFailure>(), &args.model) {
+            (Ok(failure), Some(file)) => format!("{}: {failure}", file.display()).into(),
+            (Ok(failure), None) => failure.to_string().into(),
+            (Err(error), _) => error,
+        }
+    })
 }
 
 fn show(args: &ViewArgs, scenery: &Scenery<'_>, state: State) -> Result<(), Box<dyn Error>> {

@@ -3,18 +3,32 @@
 use super::State;
 use crate::args::QualityArg;
 use crate::draw::{
-    CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, TextureSet, TextureSetError,
-    draw_prepared, draw_textured,
+    CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, TextureSet, TextureSetError,
+    draw_prepared, draw_scene_file, draw_textured,
 };
 use crate::model::Model;
+use crate::reference::View;
+use crate::scene_file::{Loaded, SceneFile};
 use scanbeam::texture;
 use std::time::{Duration, Instant};
 
-/// A model and what all its frames share.
+/// What is shown.
+enum What<'m> {
+    Model {
+        model: &'m Model,
+        prepared: Prepared,
+        textures: TextureSet,
+    },
+    Scene {
+        scene: &'m SceneFile,
+        parts: SceneParts<'m>,
+        notes: Vec<String>,
+    },
+}
+
+/// A model or a scene, and what all its frames share.
 pub struct Scenery<'m> {
-    model: &'m Model,
-    prepared: Prepared,
-    textures: TextureSet,
+    what: What<'m>,
     /// The middle of the model's box.
     pub(super) centre: [f64; 3],
     /// From there to the farthest vertex; 1 for a model without any size.
@@ -34,17 +48,47 @@ impl<'m> Scenery<'m> {
             most.max(off.fold(0.0, |sum: f64, (at, centre)| sum.hypot(at - centre)))
         });
         Ok(Self {
-            model,
-            prepared: Prepared::new(model),
-            textures: TextureSet::load(model, None)?.with_levels(true),
+            what: What::Model {
+                model,
+                prepared: Prepared::new(model),
+                textures: TextureSet::load(model, None)?.with_levels(true),
+            },
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
         })
     }
 
-    /// What of the textures is not drawn as it is in the files, a line each.
-    pub fn notes(&self) -> impl Iterator<Item = &str> {
-        self.textures.notes()
+    /// A scene of a file, about the place that its camera looks at.
+    ///
+    /// # Errors
+    /// An object that is too large or too far away.
+    pub fn of_scene(loaded: &'m Loaded) -> Result<Self, DrawFailure> {
+        Ok(Self {
+            what: What::Scene {
+                scene: &loaded.scene,
+                parts: SceneParts::new(loaded)?,
+                notes: loaded.notes(),
+            },
+            centre: loaded.scene.camera.at,
+            radius: 1.0,
+        })
+    }
+
+    /// The view that a scene's file says.
+    pub(super) fn own_view(&self) -> Option<View> {
+        match &self.what {
+            What::Scene { scene, .. } => Some(scene.view()),
+            What::Model { .. } => None,
+        }
+    }
+
+    /// What is not drawn as it is in the files, a line each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        match &self.what {
+            What::Model { textures, .. } => textures.notes().map(str::to_owned).collect(),
+            What::Scene { notes, .. } => notes.clone(),
+        }
     }
 
     /// Draws a frame of so many pixels.
@@ -61,16 +105,24 @@ impl<'m> Scenery<'m> {
             quality: state.quality.quality(),
             ..CrewSettings::default()
         };
-        let drawn = if self.textures.is_empty() {
-            draw_prepared(&self.prepared, &view, state.format, crew)?
-        } else {
-            let quality = match state.quality {
-                QualityArg::Fast => texture::Quality::Fast,
-                QualityArg::Balanced => texture::Quality::Balanced,
-                QualityArg::Exact => texture::Quality::Exact,
-            };
-            let how = (FilterArg::Nearest, quality);
-            draw_textured(self.model, &self.textures, how, &view, state.format, crew)?
+        let drawn = match &self.what {
+            What::Scene { scene, parts, .. } => {
+                draw_scene_file(parts, &view, scene.in_format(state.format), crew)?
+            }
+            What::Model {
+                prepared, textures, ..
+            } if textures.is_empty() => draw_prepared(prepared, &view, state.format, crew)?,
+            What::Model {
+                model, textures, ..
+            } => {
+                let quality = match state.quality {
+                    QualityArg::Fast => texture::Quality::Fast,
+                    QualityArg::Balanced => texture::Quality::Balanced,
+                    QualityArg::Exact => texture::Quality::Exact,
+                };
+                let how = (FilterArg::Nearest, quality);
+                draw_textured(model, textures, how, &view, state.format, crew)?
+            }
         };
         Ok(Shown {
             drawn,

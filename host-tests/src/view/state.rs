@@ -3,6 +3,7 @@
 use super::Scenery;
 use crate::args::{PixelFormatArg, QualityArg, ViewArgs};
 use crate::reference::{Cull, Shade, View};
+use crate::scene_file::{Format, SceneFile};
 use crossterm::event::KeyCode;
 use std::f64::consts::TAU;
 
@@ -69,6 +70,19 @@ impl State {
             slots: args.cache,
             renderers: args.renderers,
             format: args.format,
+        }
+    }
+
+    /// From where a scene's camera is, turning, in the scene's format.
+    #[must_use]
+    pub fn of_scene(args: &ViewArgs, scene: &SceneFile) -> Self {
+        Self {
+            pitch: 0.0,
+            format: match scene.format {
+                Format::Rgb888 => PixelFormatArg::Rgb888,
+                Format::Rgb565 => PixelFormatArg::Rgb565,
+            },
+            ..Self::new(args)
         }
     }
 
@@ -140,6 +154,15 @@ impl State {
     /// The view of so many pixels. The light comes from the left above the eye.
     #[must_use]
     pub fn view(&self, scenery: &Scenery<'_>, width: u32, height: u32) -> View {
+        if let Some(own) = scenery.own_view() {
+            let eye = self.around(&own);
+            return View {
+                width,
+                height,
+                eye,
+                ..own
+            };
+        }
         let (sin, cos) = self.yaw.sin_cos();
         let turned = |[x, y, z]: [f64; 3]| [x * cos + z * sin, y, z * cos - x * sin];
         // A narrow picture is left by the model at the sides first.
@@ -160,6 +183,31 @@ impl State {
             background: [24, 32, 48],
             ..View::default()
         }
+    }
+}
+
+impl State {
+    /// Where the eye of a scene's camera has gone: on the sphere around the place that it looks
+    /// at, about what is up, by yaw; to its poles, by pitch; nearer or farther.
+    fn around(&self, own: &View) -> [f64; 3] {
+        let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+        let times = |a: [f64; 3], by: f64| a.map(|c| c * by);
+        let unit = |a: [f64; 3]| times(a, 1.0 / dot(a, a).sqrt());
+        let away: [f64; 3] = std::array::from_fn(|i| own.eye[i] - own.at[i]);
+        let up = unit(own.up);
+        let rise = dot(unit(away), up);
+        let ahead = unit(std::array::from_fn(|i| away[i] - dot(away, up) * up[i]));
+        let aside = [
+            up[1] * ahead[2] - up[2] * ahead[1],
+            up[2] * ahead[0] - up[0] * ahead[2],
+            up[0] * ahead[1] - up[1] * ahead[0],
+        ];
+        let pitch = (rise.asin() + self.pitch).clamp(-STEEPEST, STEEPEST);
+        let (level, far) = (pitch.cos(), dot(away, away).sqrt() * self.distance);
+        std::array::from_fn(|i| {
+            let turned = ahead[i] * self.yaw.cos() + aside[i] * self.yaw.sin();
+            own.at[i] + far * (level * turned + pitch.sin() * up[i])
+        })
     }
 }
 

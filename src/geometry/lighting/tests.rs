@@ -2,8 +2,8 @@
 //! rounded.
 
 use super::*;
-use crate::num::I2F30;
 use crate::num::random::Rng;
+use fixed::types::I2F30;
 use std::vec::Vec;
 
 impl Rng {

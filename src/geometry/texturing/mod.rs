@@ -34,7 +34,7 @@ pub struct Skin<'a> {
     /// in texels with 8 fraction bits; any number of repeats. Empty, or as long as the positions.
     ///
     /// A triangle may stretch over 4096 texels, wherever it begins. One that is wider is drawn
-    /// untextured, and counted in [`PassOne::untextured`](crate::PassOne::untextured); so is one on
+    /// untextured, and counted in [`PassOne::untextured`](crate::stats::PassOne::untextured); so is one on
     /// a texture whose rim goes on ([`Clamp`](crate::texture::Clamp)) that lies across it and has
     /// a corner below -4096 texels or from 4096 on.
     pub places: &'a [[i32; 2]],

@@ -1,11 +1,11 @@
 //! What is read of a scene once it is assembled: by the lines, and by who looks at it.
 
-use super::super::instance::PassOne;
 use super::super::spans::scale;
 use super::Scene;
 use crate::geometry::{Filed, Screen};
 use crate::link::Link;
 use crate::pipeline::{DrawableOf, FiledOf, ObjectOf, Pipeline, VertexOf};
+use crate::stats::PassOne;
 use core::ops::Range;
 
 impl<P: Pipeline> Scene<'_, P> {

@@ -1,0 +1,115 @@
+//! The models and pictures that a scene names.
+
+use super::{Item, SceneFile};
+use crate::draw::{TextureSet, TextureSetError};
+use crate::model::{Model, ModelError};
+use std::path::{Path, PathBuf};
+
+/// Why a scene cannot be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneFileError {
+    /// The file itself.
+    #[error("{}: {reason}", file.display())]
+    File {
+        /// Its path.
+        file: PathBuf,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A model.
+    #[error("{0}")]
+    Model(#[from] ModelError),
+    /// The textures of a model.
+    #[error("{}: {error}", file.display())]
+    Textures {
+        /// The model.
+        file: PathBuf,
+        /// What is wrong.
+        error: TextureSetError,
+    },
+}
+
+/// An object of a scene with its model.
+#[derive(Debug)]
+pub struct Part {
+    /// What the file says of it.
+    pub item: Item,
+    /// Its model.
+    pub model: Model,
+    /// The model's textures, of the file or of its materials.
+    pub textures: TextureSet,
+}
+
+/// A scene with all that it names.
+#[derive(Debug)]
+pub struct Loaded {
+    /// What the file says.
+    pub scene: SceneFile,
+    /// Its objects.
+    pub parts: Vec<Part>,
+}
+
+impl Loaded {
+    /// Reads a scene, and what it names from the folder that it is in.
+    ///
+    /// # Errors
+    /// The first file that cannot be read or is not what it should be.
+    pub fn load(file: &Path) -> Result<Self, SceneFileError> {
+        let wrong = |reason: String| SceneFileError::File {
+            file: file.to_path_buf(),
+            reason,
+        };
+        let text = std::fs::read_to_string(file).map_err(|error| wrong(error.to_string()))?;
+        let scene = SceneFile::parse(&text).map_err(wrong)?;
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let parts: Result<Vec<Part>, SceneFileError> = scene
+            .objects
+            .iter()
+            .map(|item| Part::load(item, folder, scene.has_palettes()))
+            .collect();
+        let parts = parts?;
+        Ok(Self { scene, parts })
+    }
+
+    /// What is not as in the files, or is left out of them, a line each.
+    #[must_use]
+    pub fn notes(&self) -> Vec<String> {
+        let mut notes: Vec<String> = Vec::new();
+        for part in &self.parts {
+            let of_model = part.model.warnings.iter().map(ToString::to_string);
+            let of_textures = part.textures.notes().map(str::to_owned);
+            let shines = |m: &crate::model::Material| m.ks != [0.0; 3] || m.d < 1.0;
+            let left_out = part.model.materials.iter().any(shines).then(|| {
+                let file = part.item.model.display();
+                format!(
+                    "{file}: highlights and transparency of materials are left out: say `blend`"
+                )
+            });
+            for note in of_model.chain(of_textures).chain(left_out) {
+                if !notes.contains(&note) {
+                    notes.push(note);
+                }
+            }
+        }
+        notes
+    }
+}
+
+impl Part {
+    fn load(item: &Item, folder: &Path, indexed: bool) -> Result<Self, SceneFileError> {
+        let file = folder.join(&item.model);
+        let model = Model::load(&file)?;
+        let picture = item.texture.as_ref().map(|picture| folder.join(picture));
+        let textures = if indexed {
+            Ok(TextureSet::default())
+        } else {
+            TextureSet::load(&model, picture.as_deref())
+        };
+        let textures = textures.map_err(|error| SceneFileError::Textures { file, error })?;
+        Ok(Self {
+            item: item.clone(),
+            model,
+            textures: textures.with_levels(true),
+        })
+    }
+}
