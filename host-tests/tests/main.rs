@@ -39,6 +39,7 @@ mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_errors;
 mod hot_path_ground;
+mod hot_path_shading;
 mod hot_path_shared;
 mod hot_path_texels;
 mod hot_path_values;

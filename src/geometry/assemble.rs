@@ -19,6 +19,7 @@ mod outcome;
 mod screen;
 
 use colours::Colours;
+pub(crate) use colours::face_normal;
 
 pub use faces::Cull;
 use faces::{Picture, check_known, first_line, first_of, is_seen, leading};

@@ -29,8 +29,8 @@ mod transform;
 
 pub use assemble::{Assembled, Cull, Dropped, MeshError, Room, ScreenVertex};
 pub(crate) use assemble::{
-    Assembler, Looks, ScreenMesh, Store, Surfaced, check, check_mesh, each_triangle, on_screen,
-    triangles,
+    Assembler, Looks, ScreenMesh, Store, Surfaced, check, check_mesh, each_triangle, face_normal,
+    on_screen, triangles,
 };
 pub use blended::{Blended, BlendedLevels, ObjectFinish, Surface};
 pub use bounds::Sphere;

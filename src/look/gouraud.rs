@@ -154,6 +154,22 @@ impl Course {
         }
     }
 
+    /// Whether the colour does not step.
+    #[inline(always)]
+    fn is_even(&self) -> bool {
+        self.step[0] | self.step[1] | self.step[2] == 0
+    }
+
+    /// The pixel of a colour that does not step.
+    #[inline(always)]
+    fn even<F: Pixel>(&self) -> F::Word {
+        if F::PACKED {
+            return F::of_word(self.packed(0).word);
+        }
+        let [at, _] = self.pair(0);
+        F::pack_words(at.red_blue, at.green)
+    }
+
     /// The word of colour so many pixels on from an anchor.
     #[inline(always)]
     fn packed(&self, off: u32) -> Packed {
@@ -333,6 +349,9 @@ impl<F: Pixel> Paint for Gouraud<F> {
         let off = place.column.wrapping_sub(place.span) & 15;
         let column = place.column.wrapping_sub(off);
         let mut course = course(fill, planes, Place { column, ..place });
+        if course.is_even() {
+            return F::fill(run, course.even::<F>());
+        }
         let mut off = off;
         let mut rest = run;
         if F::PACKED && off == 0 {

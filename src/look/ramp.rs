@@ -55,12 +55,21 @@ macro_rules! straight {
 #[inline(always)]
 pub(super) fn fill<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
     let start = ramp;
-    let long = |run: &mut [F::Word]| fill_long::<F>(run, start);
+    let long = |run: &mut [F::Word]| fill_any::<F>(run, start);
     straight!(run, next::<F>(&mut ramp), long,
         [a] [a, b] [a, b, c] [a, b, c, d] [a, b, c, d, e] [a, b, c, d, e, f] [a, b, c, d, e, f, g]
         [a, b, c, d, e, f, g, h] [a, b, c, d, e, f, g, h, i] [a, b, c, d, e, f, g, h, i, j]
         [a, b, c, d, e, f, g, h, i, j, k] [a, b, c, d, e, f, g, h, i, j, k, l]
     );
+}
+
+/// Colours a run of any length, which may be of one colour.
+#[inline(always)]
+fn fill_any<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
+    if ramp.step == 0 {
+        return F::fill(run, F::of_word(ramp.word));
+    }
+    fill_long::<F>(run, ramp);
 }
 
 /// Colours a run of any length.

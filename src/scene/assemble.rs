@@ -4,41 +4,17 @@
 //! face brings its own. Triangles keep the order in which they were submitted.
 
 use super::cut::{Corner, cut_all};
+use super::pass::{Lost, Own, Pass, colour_of, light_all, top_first};
 use super::project::{View, project_all, project_textured};
-use super::{Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, TexturePlace, Vertex};
+use super::{
+    Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading, TexturePlace, Vertex,
+};
 use crate::geometry::{
-    Colour, Coordinate, Cull, Faces, Light, LightingModel, Mesh, MeshError, ModelLight, Scale,
-    Tint, check_mesh, each_triangle, triangles,
+    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Tint, check_mesh, each_triangle,
+    triangles,
 };
 use core::cell::Cell;
 use core::ops::Range;
-
-/// What of a mesh found no room.
-#[derive(Clone, Copy, Default)]
-struct Lost {
-    triangles: u32,
-    first: Option<(Full, u32)>,
-}
-
-/// What is known of a draw call while its faces are filed.
-struct Pass<'a> {
-    view: View,
-    /// The light in model space.
-    light: Option<Light>,
-    tint: Tint,
-    cull: Cull,
-    /// Texture places of the mesh's vertices; empty without a texture.
-    texels: &'a [[i32; 2]],
-    /// The first of the mesh's vertices in memory.
-    base: usize,
-    /// How many of them are there: all or none.
-    shared: usize,
-    /// Whether they all lie within the planes.
-    within: bool,
-    culled: u32,
-    clipped: u32,
-    lost: Lost,
-}
 
 /// The lines and columns of guard space that are drawn.
 #[derive(Clone)]
@@ -64,7 +40,12 @@ impl<'t, L> Scene<'_, 't, L> {
         let mesh = &draw.mesh;
         // Indices of triangles are looked at on the way.
         let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
-        let below = if is_looked_at { 0 } else { usize::MAX };
+        let is_flat = draw.shading == Shading::Flat;
+        let below = if is_looked_at && !is_flat {
+            0
+        } else {
+            usize::MAX
+        };
         check_mesh(mesh, below).map_err(DrawError::Mesh)?;
         let skin = draw.texture.filter(|_| textured);
         let texels = skin.map_or(&[][..], |skin| skin.places);
@@ -83,9 +64,15 @@ impl<'t, L> Scene<'_, 't, L> {
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.generation = self.generation.wrapping_add(1);
+        let lamps = draw.lights.map(|l| l.in_model(&draw.model, camera.view()));
+        let light = match lamps {
+            Some(_) => None,
+            None => draw.light.map(|l| l.in_model(&draw.model, camera.view())),
+        };
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
-            light: draw.light.map(|l| l.in_model(&draw.model, camera.view())),
+            light,
+            lamps: lamps.as_ref(),
             tint: Tint::new(draw.colour, &self.scale),
             cull: draw.cull,
             texels,
@@ -98,13 +85,15 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         self.share(mesh, &mut pass);
         let before = self.objects.len();
-        if let Err(error) = self.file_faces(mesh, &mut pass) {
+        if is_flat {
+            self.file_flat(mesh, &mut pass);
+        } else if let Err(error) = self.file_faces(mesh, &mut pass) {
             self.forget_from(before, pass.base);
             return Err(DrawError::Mesh(error));
         }
         if self.objects.len() == before {
             self.vertices.truncate(pass.base);
-        } else {
+        } else if !is_flat {
             self.light(mesh, &pass);
         }
         self.assembled.triangles += submitted;
@@ -154,6 +143,12 @@ impl<'t, L> Scene<'_, 't, L> {
             Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
                 light_all(light, &pass.tint, &scale, mesh.normals, vertices);
             }
+            None if pass.lamps.is_none() && mesh.colours.is_empty() => {
+                let colour = pass.tint.lit(1 << 15).word();
+                for vertex in vertices {
+                    vertex.colour = colour;
+                }
+            }
             _ => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {
                     if vertex.is_used() {
@@ -182,7 +177,7 @@ impl<'t, L> Scene<'_, 't, L> {
             each_triangle(mesh.faces, |face, corners, _| {
                 let filed = pass.shared > 0 && self.file_known(corners, pass);
                 if !filed {
-                    self.file_one(mesh, face, corners, pass);
+                    self.file_one(mesh, face, corners, None, pass);
                 }
             });
             return Ok(());
@@ -200,7 +195,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 {
                     return Err(MeshError::Index { face: from as u32 });
                 }
-                self.file_one(mesh, from as u32, corners, pass);
+                self.file_one(mesh, from as u32, corners, None, pass);
             }
             from += 1;
         }
@@ -276,21 +271,22 @@ impl<'t, L> Scene<'_, 't, L> {
         done
     }
 
-    /// A face that brings its own vertices, and is cut where needed.
+    /// A face that brings its own vertices, and is cut where needed; of one colour, if it has one.
     #[cold]
     #[inline(never)]
-    fn file_one<C: Coordinate>(
+    pub(super) fn file_one<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
         face: u32,
         corners: [u16; 3],
+        colour: Option<u32>,
         pass: &mut Pass<'_>,
     ) {
         let corners = corners.map(|i| {
             let i = usize::from(i);
             Corner {
                 point: pass.view.point(mesh.positions[i]),
-                colour: colour_of(mesh, i, pass, &self.scale),
+                colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, &self.scale)),
                 texel: pass.texels.get(i).copied().unwrap_or_default(),
             }
         });
@@ -311,8 +307,7 @@ impl<'t, L> Scene<'_, 't, L> {
             }
         }
         if let Some(memory) = lost {
-            pass.lost.triangles += 1;
-            pass.lost.first.get_or_insert((memory, face));
+            pass.lost.lose(memory, face);
         } else if self.objects.len() == before {
             pass.culled += 1;
         }
@@ -320,37 +315,44 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// A triangle within all planes; an error names the memory that is full.
     fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        let on = corners.map(|c| pass.view.project(c.point));
-        let order = match pass.cull {
-            Cull::Back => top_first::<true>([0, 1, 2], on.map(|o| o.place)),
-            Cull::None => top_first::<false>([0, 1, 2], on.map(|o| o.place)),
-        };
-        let Some((order, places)) = order else {
+        let own = corners.map(|c| {
+            let on = pass.view.project(c.point);
+            Own {
+                vertex: Vertex {
+                    place: on.place,
+                    depth: on.depth,
+                    colour: c.colour,
+                },
+                place: TexturePlace::new(c.texel, on.fine),
+            }
+        });
+        self.file_own(own, pass)
+    }
+
+    /// A triangle with vertices of its own; an error names the memory that is full.
+    pub(super) fn file_own(&mut self, own: [Own; 3], pass: &Pass<'_>) -> Result<(), Full> {
+        let places = own.map(|own| own.vertex.place);
+        let Some((order, places)) = pass.order(places) else {
             return Ok(());
         };
         let Some(bin) = bin_of(places, &self.picture()) else {
             return Ok(());
         };
+        let own = order.map(|i| own[usize::from(i) % 3]);
         let base = self.vertices.len();
         let Some(vertices) = self.vertices.append(3) else {
             return Err(Full::Vertices);
         };
-        for (vertex, &i) in vertices.iter_mut().zip(&order) {
-            let i = usize::from(i) % 3;
-            *vertex = Vertex {
-                place: on[i].place,
-                depth: on[i].depth,
-                colour: corners[i].colour,
-            };
+        for (vertex, own) in vertices.iter_mut().zip(own) {
+            *vertex = own.vertex;
         }
         if !pass.texels.is_empty() {
             let Some(places) = self.places.get_mut(base..base + 3) else {
                 self.vertices.truncate(base);
                 return Err(Full::Vertices);
             };
-            for (place, &i) in places.iter_mut().zip(&order) {
-                let i = usize::from(i) % 3;
-                *place = TexturePlace::new(corners[i].texel, on[i].fine);
+            for (place, own) in places.iter_mut().zip(own) {
+                *place = own.place;
             }
         }
         let next = self.bins.get(bin).copied().unwrap_or(NONE);
@@ -397,39 +399,6 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 }
 
-/// The corners from the topmost on (of two the left one), clockwise; `None` where nothing is covered or the
-/// face is seen from behind and `CULLS`.
-#[inline(always)]
-fn top_first<const CULLS: bool>(
-    corner: [u16; 3],
-    [a, mut b, mut c]: [u32; 3],
-) -> Option<([u16; 3], [u32; 3])> {
-    let [i, mut j, mut k] = corner;
-    let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
-    let x = |d: u32| i32::from(d as i16);
-    let y = |d: u32| d.wrapping_add(0x8000) as i32 >> 16;
-    // Faces go counter-clockwise seen from outside, and clockwise in a picture whose lines go down.
-    let (one, other) = (x(d1).wrapping_mul(y(d2)), x(d2).wrapping_mul(y(d1)));
-    if one >= other {
-        if CULLS || one == other {
-            return None;
-        }
-    } else {
-        (b, c, j, k) = (c, b, k, j);
-    }
-    if a < b {
-        if a < c {
-            Some(([i, j, k], [a, b, c]))
-        } else {
-            Some(([k, i, j], [c, a, b]))
-        }
-    } else if b < c {
-        Some(([j, k, i], [b, c, a]))
-    } else {
-        Some(([k, i, j], [c, a, b]))
-    }
-}
-
 /// The bin of a triangle by its places, the topmost first; `None` where it lies between the lines, or
 /// beside the picture.
 #[inline(always)]
@@ -450,36 +419,4 @@ fn bin_of([a, b, c]: [u32; 3], picture: &Picture) -> Option<usize> {
         return None;
     }
     Some((first - picture.lines.start) as usize)
-}
-
-/// Colours of those vertices that triangles have, by one light and one colour.
-#[inline(never)]
-fn light_all(
-    light: &Light,
-    tint: &Tint,
-    scale: &Scale,
-    normals: &[[i16; 3]],
-    vertices: &mut [Vertex],
-) {
-    let (light, tint) = (*light, *tint);
-    for (vertex, &normal) in vertices.iter_mut().zip(normals) {
-        if !vertex.is_used() {
-            continue;
-        }
-        let lit = light.lit::<i16>(&tint, scale, normal, || [0; 3]);
-        vertex.colour = lit.word();
-    }
-}
-
-/// The colour of a vertex, lit if it is to be.
-fn colour_of<C>(mesh: &Mesh<'_, C>, i: usize, pass: &Pass<'_>, scale: &Scale) -> u32 {
-    let tint = match mesh.colours.get(i) {
-        Some(&colour) => Tint::new(colour, scale),
-        None => pass.tint,
-    };
-    let colour: Colour = match (&pass.light, mesh.normals.get(i)) {
-        (Some(light), Some(&normal)) => light.lit::<i16>(&tint, scale, normal, || [0; 3]),
-        _ => tint.lit(1 << 15),
-    };
-    colour.word()
 }

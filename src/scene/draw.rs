@@ -2,7 +2,7 @@
 
 use super::texture::Square;
 use super::{Blend, Budget, DepthTest, Scissor, Texture};
-use crate::geometry::{Affine, Cull, Light, Mesh};
+use crate::geometry::{Affine, Cull, Light, Lighting, Mesh};
 use core::ops::Range;
 
 /// One draw call: a mesh, where it stands and how it looks.
@@ -18,6 +18,10 @@ pub struct Draw<'a, 't, C = i16> {
     pub cull: Cull,
     /// The light, where the mesh is to be lit; it needs normals.
     pub light: Option<Light>,
+    /// Several lights and the material that they fall on, in place of the one.
+    pub lights: Option<Lighting<'a>>,
+    /// Where a face's colour comes from.
+    pub shading: Shading,
     /// Colour of vertices that have none of their own.
     pub colour: [u8; 3],
     /// The texture, for looks that have any; colours and light are multiplied with it.
@@ -31,6 +35,19 @@ pub struct Draw<'a, 't, C = i16> {
     /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
     /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
     pub priority: u8,
+}
+
+/// Where the colour of a face comes from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// From its vertices, and linear between them.
+    #[default]
+    Smooth,
+    /// One colour: that of its first vertex, or of the call, lit by the normal of the face itself, which the mesh
+    /// need not have.
+    ///
+    /// Each face that is kept takes three vertices of its own in memory, beside those of the mesh.
+    Flat,
 }
 
 /// How a texture lies on a mesh.
@@ -57,6 +74,8 @@ impl<'a, C> Draw<'a, '_, C> {
             model: Affine::IDENTITY,
             cull: Cull::Back,
             light: None,
+            lights: None,
+            shading: Shading::Smooth,
             colour: [255; 3],
             texture: None,
             scissor: None,

@@ -6,6 +6,8 @@
 //! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
+//! | `pass` | a draw call while its faces are filed: its view and its lights |
+//! | `flat` | faces of one colour each |
 //! | `cut` | triangles that cross a plane |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
@@ -20,6 +22,8 @@ mod cut;
 mod depth;
 mod draw;
 mod error;
+mod flat;
+mod pass;
 mod project;
 mod record;
 mod scissor;
@@ -31,7 +35,7 @@ pub use crate::geometry::DepthFunction;
 pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
-pub use draw::{Draw, DrawState, Skin};
+pub use draw::{Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub(crate) use record::{NONE, ORIGIN};
 pub use record::{Object, TexturePlace, Vertex};

@@ -83,7 +83,7 @@ impl<L: ModelLight> Colours<'_, L> {
 }
 
 /// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
-fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
+pub(crate) fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
     let d = |a: usize, i: usize| i64::from(p[a][i]) - i64::from(p[0][i]);
     // Shifted together until they have 30 bits, so that the products fit, and small faces keep
     // all of theirs.

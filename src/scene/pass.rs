@@ -1,0 +1,148 @@
+//! What is known of a draw call while its faces are filed: how they are seen, and what falls on them (K1, K10).
+
+use super::project::View;
+use super::{Full, TexturePlace, Vertex};
+use crate::geometry::{
+    Colour, Coordinate, Cull, Light, Lighting, LightingModel, Mesh, ModelLight, Scale, Tint,
+};
+
+/// What of a mesh found no room.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Lost {
+    pub(super) triangles: u32,
+    pub(super) first: Option<(Full, u32)>,
+}
+
+impl Lost {
+    /// A triangle of this face found no room.
+    pub(super) fn lose(&mut self, memory: Full, face: u32) {
+        self.triangles += 1;
+        self.first.get_or_insert((memory, face));
+    }
+}
+
+/// A corner of a triangle that has vertices of its own.
+#[derive(Clone, Copy)]
+pub(super) struct Own {
+    pub(super) vertex: Vertex,
+    pub(super) place: TexturePlace,
+}
+
+/// Several lights in model space.
+pub(super) type Lamps = <Lighting<'static> as LightingModel>::InModel;
+
+/// What is known of a draw call while its faces are filed.
+pub(super) struct Pass<'a> {
+    pub(super) view: View,
+    /// The light in model space.
+    pub(super) light: Option<Light>,
+    /// Several lights, likewise, in place of the one.
+    pub(super) lamps: Option<&'a Lamps>,
+    pub(super) tint: Tint,
+    pub(super) cull: Cull,
+    /// Texture places of the mesh's vertices; empty without a texture.
+    pub(super) texels: &'a [[i32; 2]],
+    /// The first of the mesh's vertices in memory.
+    pub(super) base: usize,
+    /// How many of them are there: all or none.
+    pub(super) shared: usize,
+    /// Whether they all lie within the planes.
+    pub(super) within: bool,
+    pub(super) culled: u32,
+    pub(super) clipped: u32,
+    pub(super) lost: Lost,
+}
+
+/// The corners from the topmost on (of two the left one), clockwise; `None` where nothing is covered or the
+/// face is seen from behind and `CULLS`.
+#[inline(always)]
+pub(super) fn top_first<const CULLS: bool>(
+    corner: [u16; 3],
+    [a, mut b, mut c]: [u32; 3],
+) -> Option<([u16; 3], [u32; 3])> {
+    let [i, mut j, mut k] = corner;
+    let (d1, d2) = (b.wrapping_sub(a), c.wrapping_sub(a));
+    let x = |d: u32| i32::from(d as i16);
+    let y = |d: u32| d.wrapping_add(0x8000) as i32 >> 16;
+    // Faces go counter-clockwise seen from outside, and clockwise in a picture whose lines go down.
+    let (one, other) = (x(d1).wrapping_mul(y(d2)), x(d2).wrapping_mul(y(d1)));
+    if one >= other {
+        if CULLS || one == other {
+            return None;
+        }
+    } else {
+        (b, c, j, k) = (c, b, k, j);
+    }
+    if a < b {
+        if a < c {
+            Some(([i, j, k], [a, b, c]))
+        } else {
+            Some(([k, i, j], [c, a, b]))
+        }
+    } else if b < c {
+        Some(([j, k, i], [b, c, a]))
+    } else {
+        Some(([k, i, j], [c, a, b]))
+    }
+}
+
+/// Colours of those vertices that triangles have, by one light and one colour.
+#[inline(never)]
+pub(super) fn light_all(
+    light: &Light,
+    tint: &Tint,
+    scale: &Scale,
+    normals: &[[i16; 3]],
+    vertices: &mut [Vertex],
+) {
+    let (light, tint) = (*light, *tint);
+    for (vertex, &normal) in vertices.iter_mut().zip(normals) {
+        if !vertex.is_used() {
+            continue;
+        }
+        let lit = light.lit::<i16>(&tint, scale, normal, || [0; 3]);
+        vertex.colour = lit.word();
+    }
+}
+
+/// The colour of a vertex, lit if it is to be.
+pub(super) fn colour_of<C: Coordinate>(
+    mesh: &Mesh<'_, C>,
+    i: usize,
+    pass: &Pass<'_>,
+    scale: &Scale,
+) -> u32 {
+    let normal = mesh.normals.get(i).copied();
+    pass.lit(mesh, i, normal, scale)
+}
+
+impl Pass<'_> {
+    /// The order of corners from the topmost on, and their places in it; `None` where the face is not seen.
+    pub(super) fn order(&self, places: [u32; 3]) -> Option<([u16; 3], [u32; 3])> {
+        match self.cull {
+            Cull::Back => top_first::<true>([0, 1, 2], places),
+            Cull::None => top_first::<false>([0, 1, 2], places),
+        }
+    }
+
+    /// The colour of a vertex, lit if there is a normal.
+    pub(super) fn lit<C: Coordinate>(
+        &self,
+        mesh: &Mesh<'_, C>,
+        i: usize,
+        normal: Option<[i16; 3]>,
+        scale: &Scale,
+    ) -> u32 {
+        let tint = match mesh.colours.get(i) {
+            Some(&colour) => Tint::new(colour, scale),
+            None => self.tint,
+        };
+        let place = || mesh.positions[i];
+        let colour: Colour = match (normal, self.lamps, &self.light) {
+            (Some(normal), Some(lamps), _) => lamps.lit(&tint, scale, normal, place),
+            (Some(normal), None, Some(light)) => light.lit(&tint, scale, normal, place),
+            _ => tint.lit(1 << 15),
+        };
+        colour.word()
+    }
+}
