@@ -37,7 +37,7 @@ pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
-pub(crate) use record::{NONE, ORIGIN};
+pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use scissor::Scissor;
 pub(crate) use texture::{Form, Square};
@@ -46,7 +46,6 @@ pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 use crate::arena::Arena;
 use crate::geometry::{Camera, Scale, Screen};
 use crate::link::Link;
-use crate::span::first_line;
 use core::marker::PhantomData;
 use core::ops::Range;
 

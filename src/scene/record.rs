@@ -91,6 +91,12 @@ impl TexturePlace {
     }
 }
 
+/// The first line whose centre lies at or below a place, in guard space.
+#[inline(always)]
+pub(crate) fn first_line(place: u32) -> i32 {
+    (place.wrapping_add(4 << 16) >> 19) as i32
+}
+
 /// A triangle in slow memory, and the next one that begins on the same line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(C)]

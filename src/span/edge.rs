@@ -65,12 +65,6 @@ pub(crate) fn parts(place: u32) -> (u16, u16) {
     (place as u16, (place >> 16) as u16)
 }
 
-/// The first line whose centre lies at or below a place, in guard space.
-#[inline(always)]
-pub(crate) fn first_line(place: u32) -> i32 {
-    (place.wrapping_add(4 << 16) >> 19) as i32
-}
-
 impl Edge {
     /// A side that is never asked.
     pub(crate) const NONE: Self = Self { at: 0, slope: 0 };
@@ -128,6 +122,7 @@ impl Edge {
 mod tests {
     use super::*;
     use crate::num::random::Rng;
+    use crate::scene::first_line;
 
     fn exact(a: (u16, u16), b: (u16, u16), line: i32) -> i64 {
         let dy = i64::from(b.1) - i64::from(a.1);

@@ -10,7 +10,6 @@ mod edge;
 mod plane;
 mod triangle;
 
-pub(crate) use edge::first_line;
 pub use edge::{Edge, Frame};
 pub(crate) use edge::{across, down};
 pub use plane::{Rise, Shares};

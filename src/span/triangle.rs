@@ -1,9 +1,9 @@
 //! A triangle on its way into a slot: how large it is decides how it is set up (B).
 
-use super::edge::{Edge, Frame, Kind, across, down, first_line};
+use super::edge::{Edge, Frame, Kind, across, down};
 use super::plane::Shares;
 use crate::num::{InverseArea, Plane};
-use crate::scene::{ORIGIN, Object, TexturePlace, Vertex};
+use crate::scene::{ORIGIN, Object, TexturePlace, Vertex, first_line};
 
 /// Corners of a triangle, the topmost first, clockwise, with a doubled area above 0.
 #[derive(Clone, Copy, Debug)]
