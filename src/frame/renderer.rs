@@ -2,7 +2,7 @@
 
 use super::plan::Plan;
 use super::slot::Active;
-use crate::active::{Cache, CacheUse};
+use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
 use crate::look::Look;
 use crate::scene::{Content, DrawState, Object, Scene, TexturePlace, Vertex};
@@ -18,6 +18,9 @@ use core::fmt;
 pub struct FastMemory<L: Look, const WORDS: usize = 2>(pub(super) Cache<Active<L::Planes>, WORDS>);
 
 impl<L: Look, const WORDS: usize> FastMemory<L, WORDS> {
+    /// Bytes of a slot.
+    pub const SLOT_BYTES: usize = size_of::<CacheSlot<Active<L::Planes>>>();
+
     /// Empty slots.
     #[must_use]
     pub const fn new() -> Self {

@@ -18,9 +18,10 @@ use crate::firmware::{self, BOARDS, Profile, Sections, Toolchain, workspace};
 use crate::image_out::write_atomically;
 use crate::stdio;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
+use scanbeam::frame::FastMemory;
 use scanbeam::pipeline::{GouraudDepth, ObjectOf, SlotOf};
 use scanbeam::pixel::Rgb565Be;
-use scenes::LookB;
+use scenes::{LeanLook, LeanTextured, LookB};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -196,13 +197,27 @@ pub fn of_source() -> Result<Figures, Box<dyn Error>> {
         ("record object, textured", size_of::<ObjectOf<LookB>>()),
         ("record slot, smooth", size_of::<SlotOf<Smooth>>()),
         ("record slot, textured", size_of::<SlotOf<LookB>>()),
+        (
+            "record slot in the rooms, smooth",
+            <FastMemory<LeanLook>>::SLOT_BYTES,
+        ),
+        (
+            "record slot in the rooms, textured",
+            <FastMemory<LeanTextured>>::SLOT_BYTES,
+        ),
     ];
     let owned = |(name, value): (&str, usize)| (name.to_owned(), value as u64);
     Ok(figures.into_iter().map(owned).collect())
 }
 
 /// A program of `host-tests/firmware`, its features, and what it is called here.
-const PROGRAMS: [(&str, &[&str], &str); 3] = [
+const PROGRAMS: [(&str, &[&str], &str); 5] = [
+    ("small-rooms", &[], "smooth with depth in the rooms"),
+    (
+        "small-rooms",
+        &["rooms-textured"],
+        "textured with depth in the rooms",
+    ),
     ("preset", &["sized", "gouraud-depth"], "smooth with depth"),
     (
         "preset",
