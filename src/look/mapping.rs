@@ -412,6 +412,9 @@ struct Large {
 }
 
 impl Large {
+    /// Fraction bits of steps on the way from a corner to the picture, which may be 2,048 pixels long.
+    const FINER: u32 = 10;
+
     fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
         let (dx1, dy1) = (
             i64::from(b.x) - i64::from(a.x),
@@ -439,13 +442,13 @@ impl Large {
         })
     }
 
-    /// `64 (a b + c d) / area`, rounded; `None` where 32 bits do not hold it.
-    fn step(&self, a: i64, b: i64, c: i64, d: i64) -> Option<i32> {
+    /// `64 (a b + c d) / area` with [`Self::FINER`] fraction bits, rounded down; `None` where 32 bits do not hold it.
+    fn step(&self, a: i64, b: i64, c: i64, d: i64) -> Option<i64> {
         let sum = a * b + c * d;
         let down = 33u32.saturating_sub(sum.unsigned_abs().leading_zeros());
         let product = (sum >> down) * i64::from(self.mantissa);
-        let shift = (88 - self.up - down).min(63);
-        i32::try_from(((product >> (shift - 1)) + 1) >> 1).ok()
+        let step = product >> (88 - Self::FINER - self.up - down).min(63);
+        i32::try_from(step >> Self::FINER).ok().map(|_| step)
     }
 
     fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
@@ -454,9 +457,10 @@ impl Large {
         let [y2, y1, x1, x2] = self.side;
         let dx = self.step(e1, y2, e2, y1)?;
         let dy = self.step(e2, x1, e1, x2)?;
-        let way = i64::from(dx) * i64::from(self.x) + i64::from(dy) * i64::from(self.y);
-        let at = i64::from(value[0]) - ((way + 32) >> 6);
-        Some([at as u32, dx as u32, dy as u32])
+        let way = (dx * i64::from(self.x) + dy * i64::from(self.y)) >> (6 + Self::FINER);
+        let rounded = |step: i64| ((step + (1 << Self::FINER >> 1)) >> Self::FINER) as u32;
+        let at = (i64::from(value[0]) - way) as u32;
+        Some([at, rounded(dx), rounded(dy)])
     }
 }
 
