@@ -2,7 +2,7 @@
 //!
 //! | [`Method`] | where | off by at most |
 //! |---|---|---|
-//! | `Word` | within 50 pixels, or 25 for sides of 256, less than 128 texels wide, affine | 1/16 texel |
+//! | `Word`, from [`word_plane`](super::word_plane) | within 50 pixels, or 25 for sides of 256, less than 128 texels wide, affine | 1/16 texel |
 //! | `Wide` | any triangle that is affine within the budget | 2^-15 of its width |
 //! | `Perspective` | all others | see [`Perspective`] |
 //!
@@ -20,9 +20,12 @@
 use super::Place;
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Homogeneous, Perspective, Range, Stride, reach};
-use crate::num::{leading_zeros, mul_16, mul_high, mul_high_unsigned, recip, recip_16};
-use crate::scene::Budget;
-use crate::scene::{Texture, TexturePlace, Wrap};
+#[cfg(test)]
+use super::word_plane::Near;
+use crate::num::{leading_zeros, mul_high, mul_high_unsigned, recip, recip_16};
+#[cfg(test)]
+use crate::scene::TexturePlace;
+use crate::scene::{Budget, Texture, Wrap};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -116,116 +119,6 @@ pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
     let off = mul_high_unsigned(width << 11, (most - least) << up);
     let may = mul_high_unsigned(budget.for_curves() << 13, least << up);
     most == least || off < may
-}
-
-/// What [`Method::Word`] asks of a triangle: corners as differences from the first one's, which is kept whole.
-#[derive(Clone, Copy, Debug)]
-pub struct Near<'a> {
-    /// The first corner, as in [`Corner`].
-    pub x: i32,
-    pub y: i32,
-    /// From there to the second and to the third.
-    pub dx: [i32; 2],
-    pub dy: [i32; 2],
-    pub depth: [u32; 3],
-    /// Of the corners.
-    pub texture: &'a [TexturePlace; 3],
-}
-
-impl<'a> Near<'a> {
-    #[cfg(test)]
-    #[must_use]
-    pub fn of(corners: &[Corner; 3], texture: &'a [TexturePlace; 3]) -> Self {
-        let [a, b, c] = corners;
-        Self {
-            x: a.x,
-            y: a.y,
-            dx: [b, c].map(|p| p.x.wrapping_sub(a.x)),
-            dy: [b, c].map(|p| p.y.wrapping_sub(a.y)),
-            depth: corners.map(|c| c.depth),
-            texture,
-        }
-    }
-
-    /// [`Method::Word`]'s plane, where a triangle may have it: the places of both axes at the picture's first pixel,
-    /// and their steps.
-    #[inline(always)]
-    #[must_use]
-    pub fn word_plane(&self, texture: &Texture<'_>, budget: Budget) -> Option<[u32; 3]> {
-        let Self { x, y, dx, dy, .. } = *self;
-        let way = |i: usize| {
-            let magnitude = |d: i32| d ^ (d >> 31);
-            magnitude(dx[i]).saturating_add(magnitude(dy[i]))
-        };
-        // Rounded steps stay within 1/20 texel of the place.
-        let pixels = if texture.is_tiny() { 50 } else { 25 };
-        if way(0).max(way(1)) >= pixels << 6 || !texture.is_small() || !budget.is_coarse() {
-            return None;
-        }
-        let area = dx[0] * dy[1] - dx[1] * dy[0];
-        let texel = self.texture.map(TexturePlace::texel);
-        let first = texel[0];
-        let rise = |i: usize, axis: usize| texel[i][axis].wrapping_sub(first[axis]);
-        let rises = [0, 1].map(|axis| [rise(1, axis), rise(2, axis)]);
-        let width = |[e1, e2]: [i32; 2]| (e1.max(e2).max(0)).wrapping_sub(e1.min(e2).min(0)) as u32;
-        let width = width(rises[0]).max(width(rises[1]));
-        // Two pixels; on thinner ones steps grow.
-        if area < 4 << 12
-            || width >= 128 << 8
-            || !is_affine(width, self.depth, budget)
-            || texture.wrap() != Wrap::Repeat && !lies_inside(self.texture, texture)
-        {
-            return None;
-        }
-        let up = leading_zeros(area as u32);
-        let r = recip_16((area as u32) << up >> 16) as i32;
-        // Sides times 64 / area are these times 2^(up - 44).
-        let share = |d: i32| (d * r) << 3;
-        let (y2, y1, x1, x2) = (share(dy[1]), share(-dy[0]), share(dx[0]), share(-dx[1]));
-        let shares = [y2, y1, x1, x2];
-        let at = [x & 63, y & 63];
-        let u = one_axis(first[0], rises[0], texture.log_width(), up, shares, at);
-        let v = one_axis(first[1], rises[1], texture.log_height(), up, shares, at);
-        let both = |i: usize| (v[i] << 16).wrapping_add(u[i]) as u32;
-        let (right, below) = (both(1), both(2));
-        let at = both(0)
-            .wrapping_sub(right.wrapping_mul((x >> 6) as u32))
-            .wrapping_sub(below.wrapping_mul((y >> 6) as u32));
-        Some([at, right, below])
-    }
-}
-
-/// The place of one axis at the first corner's pixel, and its steps, with `16 - log` fraction bits.
-#[inline(always)]
-fn one_axis(
-    first: i32,
-    rise: [i32; 2],
-    log: u32,
-    up: u32,
-    [y2, y1, x1, x2]: [i32; 4],
-    [x, y]: [i32; 2],
-) -> [i32; 3] {
-    let [e1, e2] = rise.map(|e| e as i16);
-    // Of 8 fraction bits in a rise; rounded.
-    let down = (20 + log).wrapping_sub(up) & 31;
-    let half = 1 << down >> 1;
-    let right = (half + mul_16(y2, e1) + mul_16(y1, e2)) >> down;
-    let below = (half + mul_16(x2, e1) + mul_16(x1, e2)) >> down;
-    // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
-    let rest = 32 - right.wrapping_mul(x) - below.wrapping_mul(y);
-    let at = ((first << (8 - log)) & 0xFFFF) + (rest >> 6);
-    [at, right, below]
-}
-
-/// Whether no place of a triangle comes within 1/8 texel of the texture's rim.
-#[inline(never)]
-fn lies_inside(places: &[TexturePlace; 3], texture: &Texture<'_>) -> bool {
-    let within = |at: i32, side: u32| at >= 32 && at <= (side << 8) as i32 - 32;
-    let sides = [texture.width(), texture.height()];
-    places
-        .iter()
-        .map(|place| place.texel())
-        .all(|[u, v]| within(u, sides[0]) && within(v, sides[1]))
 }
 
 impl Values {
@@ -412,6 +305,9 @@ struct Large {
 }
 
 impl Large {
+    /// Fraction bits of steps on the way from a corner to the picture, which may be 2,048 pixels long.
+    const FINER: u32 = 10;
+
     fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
         let (dx1, dy1) = (
             i64::from(b.x) - i64::from(a.x),
@@ -439,13 +335,13 @@ impl Large {
         })
     }
 
-    /// `64 (a b + c d) / area`, rounded; `None` where 32 bits do not hold it.
-    fn step(&self, a: i64, b: i64, c: i64, d: i64) -> Option<i32> {
+    /// `64 (a b + c d) / area` with [`Self::FINER`] fraction bits, rounded down; `None` where 32 bits do not hold it.
+    fn step(&self, a: i64, b: i64, c: i64, d: i64) -> Option<i64> {
         let sum = a * b + c * d;
         let down = 33u32.saturating_sub(sum.unsigned_abs().leading_zeros());
         let product = (sum >> down) * i64::from(self.mantissa);
-        let shift = (88 - self.up - down).min(63);
-        i32::try_from(((product >> (shift - 1)) + 1) >> 1).ok()
+        let step = product >> (88 - Self::FINER - self.up - down).min(63);
+        i32::try_from(step >> Self::FINER).ok().map(|_| step)
     }
 
     fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
@@ -454,9 +350,10 @@ impl Large {
         let [y2, y1, x1, x2] = self.side;
         let dx = self.step(e1, y2, e2, y1)?;
         let dy = self.step(e2, x1, e1, x2)?;
-        let way = i64::from(dx) * i64::from(self.x) + i64::from(dy) * i64::from(self.y);
-        let at = i64::from(value[0]) - ((way + 32) >> 6);
-        Some([at as u32, dx as u32, dy as u32])
+        let way = (dx * i64::from(self.x) + dy * i64::from(self.y)) >> (6 + Self::FINER);
+        let rounded = |step: i64| ((step + (1 << Self::FINER >> 1)) >> Self::FINER) as u32;
+        let at = (i64::from(value[0]) - way) as u32;
+        Some([at, rounded(dx), rounded(dy)])
     }
 }
 

@@ -7,8 +7,9 @@
 //! | `textured` | texels times such colours |
 //! | `ramp` | the loops over pixels that all looks share, with depth and without |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
+//! | `word_plane` | both coordinates of a small affine triangle in one word |
 //! | `fetch` | texels along a way that is linear on the texture |
-//! | `perspective` | a span in perspective: exact places every 16 to 1 pixels, fetched between |
+//! | `perspective` | a span in perspective: exact places at its ends or every 16 to 1 pixels, fetched between |
 //! | `tint` | texels times a shade, in place |
 //!
 //! A textured span is a sum of two passes over its pixels: a fetcher writes plain texels, then a
@@ -25,6 +26,7 @@ mod ramp;
 mod tests;
 mod textured;
 mod tint;
+mod word_plane;
 
 pub use gouraud::Gouraud;
 pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};

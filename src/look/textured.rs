@@ -11,9 +11,10 @@
 
 use super::fetch::copy_from;
 use super::gouraud::{Course, Planes as Shades, at, course, fields, plane_shades, thin_shades};
-use super::mapping::{Corner, Mapping, Method, Near, Values, word_at};
+use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::ramp::nearer_bits;
 use super::tint::{Shade, tint, tint_swapped};
+use super::word_plane::Near;
 use super::{Depths, Fill, Paint, Place, ThinSpan};
 use crate::composite::{Rgb565, Rgb565Bytes};
 use crate::geometry::Scale;
