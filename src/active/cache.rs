@@ -2,8 +2,9 @@
 //!
 //! What is active is a bit of a set, so nothing is walked to be found; what changes on a line (a side turns, or
 //! the triangle ends) is a set in a ring of 32 lines, so nothing is asked on the lines between, and all that ends
-//! on a line leaves in one operation a word. What changes farther down goes around the ring. What found no slot is a chain in slow memory by number, through the renderer's own column of
-//! links; a link that leads to a slot lies in a range of its own, so one comparison tells a hit.
+//! on a line leaves in one operation a word. What changes farther down waits in a ring of 8 blocks of 32 lines, and
+//! is put among the lines of its block as that begins. What found no slot is a chain in slow memory by number,
+//! through the renderer's own column of links; a link that leads to a slot lies in a range of its own, so one comparison tells a hit.
 
 use crate::link::Link;
 use crate::num::{bit, take_first};
@@ -27,8 +28,11 @@ pub struct Change {
     pub(crate) turns: bool,
 }
 
-/// Lines of the ring. What changes farther down goes around.
+/// Lines of the ring, and of a block.
 const RING: u16 = 32;
+
+/// Blocks of lines. What changes farther down goes around.
+const BLOCKS: u16 = 8;
 
 /// `32 WORDS` slots and what finds them, to be placed in the fastest memory there is. Sets come first, where a
 /// processor reaches them without reckoning an address.
@@ -41,8 +45,6 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) plain: [u32; WORDS],
     /// Of these, those whose next change is the turn of a side.
     turning: [u32; WORDS],
-    /// Of these, those whose next change was farther away than the ring is long.
-    distant: [u32; WORDS],
     /// Of these, those whose depth is known.
     pub(crate) deep: [u32; WORDS],
     /// Slots of spans that meet others, as a set.
@@ -55,6 +57,8 @@ pub struct Cache<T, const WORDS: usize> {
     line: u16,
     /// What changes on each line of the ring.
     ring: [[u32; WORDS]; RING as usize],
+    /// What changes in each block of lines, farther away than the ring is long, and perhaps a turn of blocks later.
+    blocks: [[u32; WORDS]; BLOCKS as usize],
     /// The columns of each slot on this line: the first in the upper half, the one after the last below.
     pub(crate) spans: [[u32; 32]; WORDS],
     /// Slots of spans that meet others, and all slots, from the nearest on or by number of object.
@@ -72,8 +76,6 @@ pub struct Changes {
     pub(crate) ended: u32,
     /// A side turns.
     pub(crate) turning: u32,
-    /// A side turns, or the triangle ends, here or farther down.
-    pub(crate) far: [u32; 2],
 }
 
 /// What the cache has done since it was cleared (C8).
@@ -112,13 +114,13 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             plain: [0; WORDS],
             deep: [0; WORDS],
             turning: [0; WORDS],
-            distant: [0; WORDS],
             spans: [[0; 32]; WORDS],
             listed: [0; WORDS],
             order: [[0; 32]; WORDS],
             far: [[0; 32]; WORDS],
             line: 0,
             ring: [[0; WORDS]; RING as usize],
+            blocks: [[0; WORDS]; BLOCKS as usize],
             spilled: Link::NONE,
             limit: 32 * WORDS as u16,
         }
@@ -136,8 +138,8 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.plain = [0; WORDS];
         self.deep = [0; WORDS];
         self.turning = [0; WORDS];
-        self.distant = [0; WORDS];
         self.ring = [[0; WORDS]; RING as usize];
+        self.blocks = [[0; WORDS]; BLOCKS as usize];
         self.spilled = Link::NONE;
     }
 
@@ -189,12 +191,13 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     /// Puts a slot among those that change on a line farther down.
     #[inline(always)]
     pub(crate) fn await_change(&mut self, word: usize, one: u32, change: Change) {
-        self.ring[usize::from(change.line % RING)][word] |= one;
         if change.turns {
             self.turning[word] |= one;
         }
         if change.line.wrapping_sub(self.line) > RING {
-            self.distant[word] |= one;
+            self.blocks[usize::from(change.line / RING % BLOCKS)][word] |= one;
+        } else {
+            self.ring[usize::from(change.line % RING)][word] |= one;
         }
     }
 
@@ -206,31 +209,35 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.deep[word] &= !slots;
     }
 
-    /// The line whose changes were taken last.
+    /// Goes on to a line; whether something changes there, or a block of lines begins.
     #[inline(always)]
-    pub(crate) fn line(&self) -> u16 {
-        self.line
+    pub(crate) fn enter_line(&mut self, line: u16) -> bool {
+        self.line = line;
+        let due = self.ring[usize::from(line % RING)];
+        line.is_multiple_of(RING) || due.iter().fold(0, |any, word| any | word) != 0
     }
 
-    /// Frees what ends on `line` among the slots of a word, and says what else may change.
-    #[inline(always)]
-    pub(crate) fn take_changes(&mut self, word: usize, line: u16) -> Changes {
-        self.line = line;
-        let due = core::mem::take(&mut self.ring[usize::from(line % RING)][word]);
-        if due == 0 {
-            return Changes::default();
+    /// What waits for the block that begins on this line; nothing where none does. Each has to be told again when
+    /// it changes.
+    pub(crate) fn take_block(&mut self, word: usize) -> [u32; 2] {
+        if !self.line.is_multiple_of(RING) {
+            return [0; 2];
         }
-        let far = due & self.distant[word];
-        self.distant[word] &= !far;
+        let block = &mut self.blocks[usize::from(self.line / RING % BLOCKS)][word];
+        let waiting = core::mem::take(block);
+        let turning = waiting & self.turning[word];
+        [turning, waiting & !turning]
+    }
+
+    /// Frees what ends on this line among the slots of a word, and says what else changes.
+    #[inline(always)]
+    pub(crate) fn take_changes(&mut self, word: usize) -> Changes {
+        let due = core::mem::take(&mut self.ring[usize::from(self.line % RING)][word]);
         let turning = due & self.turning[word];
         self.turning[word] &= !turning;
-        let ended = due & !turning & !far;
+        let ended = due & !turning;
         self.free_slots(word, ended);
-        Changes {
-            ended,
-            turning: turning & !far,
-            far: [far & turning, far & !turning],
-        }
+        Changes { ended, turning }
     }
 
     /// Puts an object that found no slot into its place among the others.
@@ -274,42 +281,54 @@ mod tests {
     use crate::num::random::Rng;
     use std::vec::Vec;
 
-    /// Of a slot that begins on line 0, turns and ends: the lines on which the ring says so.
-    fn changes_of(turn: u16, end: u16) -> [Option<u16>; 2] {
+    /// Of a slot that begins on line 0, turns and ends: the lines on which the rings say so, and how often it was
+    /// asked when it changes.
+    fn changes_of(first: u16, turn: u16, end: u16) -> ([Option<u16>; 2], u32) {
         let mut cache = Cache::<(), 2>::with(());
         let (word, one) = (1, bit(9));
-        let change = |line: u16, turns: bool| Change { line, turns };
-        let _ = cache.take_changes(word, 0);
-        cache.keep(word * 32 + 9, true, change(turn, true));
-        let mut seen = [None; 2];
-        for line in 1..=end + 40 {
-            assert_eq!(cache.take_changes(0, line), Changes::default());
-            let changes = cache.take_changes(word, line);
-            let [turns, ends] = changes.far;
-            let due = |at: u16, set: u32| set & one != 0 && at == line;
-            if changes.turning & one != 0 || due(turn, turns) {
-                seen[0] = Some(line);
-                cache.await_change(word, one, change(end, false));
-            } else if changes.ended & one != 0 || due(end, ends) {
-                seen[1] = Some(line);
-                cache.free_slots(word, one);
-            } else if turns & one != 0 {
-                cache.await_change(word, one, change(turn, true));
-            } else if ends & one != 0 {
-                cache.await_change(word, one, change(end, false));
+        let change = |turns: bool| Change {
+            line: if turns { turn } else { end },
+            turns,
+        };
+        cache.enter_line(first);
+        cache.keep(word * 32 + 9, true, change(true));
+        let (mut seen, mut asked) = ([None; 2], 0);
+        for line in first + 1..=end + 300 {
+            let due = cache.enter_line(line);
+            assert_eq!(cache.take_block(0), [0; 2]);
+            assert_eq!(cache.take_changes(0), Changes::default());
+            let waiting = cache.take_block(word);
+            for (waits, turns) in waiting.into_iter().zip([true, false]) {
+                if waits & one != 0 {
+                    asked += 1;
+                    cache.await_change(word, one, change(turns));
+                }
+            }
+            let changes = cache.take_changes(word);
+            assert!(due || changes == Changes::default() && waiting == [0; 2]);
+            if changes.turning & one != 0 {
+                assert_eq!(seen[0].replace(line), None);
+                cache.await_change(word, one, change(false));
+            }
+            if changes.ended & one != 0 {
+                assert_eq!(seen[1].replace(line), None);
             }
             assert_eq!(cache.used[word] & one != 0, seen[1].is_none(), "{line}");
         }
         assert!(cache.is_empty());
-        seen
+        (seen, asked)
     }
 
     #[test]
     fn slots_turn_and_end_on_their_lines_however_far_they_are() {
-        for turn in [1, 2, 31, 32, 33, 64, 65, 200] {
-            for height in [1, 31, 32, 33, 64, 97, 500] {
-                let end = turn + height;
-                assert_eq!(changes_of(turn, end), [Some(turn), Some(end)]);
+        for first in [0, 5, 31, 32, 255] {
+            for turn in [1, 2, 31, 32, 33, 64, 65, 200, 255, 256, 257, 600] {
+                for height in [1, 31, 32, 33, 64, 97, 256, 288, 500] {
+                    let (turn, end) = (first + turn, first + turn + height);
+                    let (seen, asked) = changes_of(first, turn, end);
+                    assert_eq!(seen, [Some(turn), Some(end)]);
+                    assert!(asked <= u32::from(end - first) / 256 + 2, "{asked}");
+                }
             }
         }
     }
@@ -317,13 +336,14 @@ mod tests {
     #[test]
     fn what_ends_is_neither_plain_nor_deep_any_more() {
         let mut cache = Cache::<(), 1>::with(());
-        let _ = cache.take_changes(0, 7);
+        cache.enter_line(7);
         for (slot, line) in [(0, 9), (3, 9), (4, 10)] {
             cache.keep(slot, slot != 3, Change { line, turns: false });
             cache.deep[0] |= bit(slot as u32);
         }
         assert_eq!((cache.in_use(), cache.free()), (3, Some(1)));
-        let changes = cache.take_changes(0, 9);
+        cache.enter_line(9);
+        let changes = cache.take_changes(0);
         assert_eq!(changes.ended, bit(0) | bit(3));
         let left = [cache.used[0], cache.plain[0], cache.deep[0]];
         assert_eq!(left, [bit(4); 3]);

@@ -27,7 +27,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         self.changed = false;
         for now in from..=line {
-            self.change(view, now);
+            if self.cache.enter_line(now) {
+                self.change(view);
+            }
             let bin = usize::from(now - first);
             let head = scene.bins.get(bin).copied().unwrap_or(NONE);
             if head != NONE || self.cache.spilled.is_some() {
@@ -42,18 +44,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// What turns or ends on a line.
     #[inline(never)]
-    fn change(&mut self, view: &View<'_>, line: u16) {
+    fn change(&mut self, view: &View<'_>) {
         for word in 0..WORDS {
-            let changes = self.cache.take_changes(word, line);
+            let waiting = self.cache.take_block(word);
+            for (mut slots, turns) in waiting.into_iter().zip([true, false]) {
+                while slots != 0 {
+                    self.ask_change(view, word, take_first(&mut slots), turns);
+                }
+            }
+            let changes = self.cache.take_changes(word);
             self.changed |= changes.ended != 0;
             let mut turning = changes.turning;
             while turning != 0 {
                 self.turn(view, word, take_first(&mut turning));
-            }
-            for (mut far, turns) in changes.far.into_iter().zip([true, false]) {
-                while far != 0 {
-                    self.change_far(view, word, take_first(&mut far), turns);
-                }
             }
         }
     }
@@ -85,24 +88,16 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             .await_change(word, bit(i), Change { line: end, turns });
     }
 
-    /// What has gone around the ring once or more: a side turns or the triangle ends, here or farther down.
+    /// A slot whose side turns, or that ends, far down: asks its triangle for the line.
     #[cold]
     #[inline(never)]
-    fn change_far(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
+    fn ask_change(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
         let slot = &self.cache.slots[word][i as usize & 31];
-        let Some(triangle) = view.triangle_of(slot.object) else {
-            return;
-        };
-        let lines = triangle.lines();
-        let at = if turns { lines.turn } else { lines.end } as u16;
-        if at != self.cache.line() {
+        if let Some(triangle) = view.triangle_of(slot.object) {
+            let lines = triangle.lines();
+            let line = if turns { lines.turn } else { lines.end } as u16;
             self.cache
-                .await_change(word, bit(i), Change { line: at, turns });
-        } else if turns {
-            self.turn(view, word, i);
-        } else {
-            self.cache.free_slots(word, bit(i));
-            self.changed = true;
+                .await_change(word, bit(i), Change { line, turns });
         }
     }
 

@@ -11,6 +11,7 @@
 //! | `thin` | planes of depth, and what is too thin for planes |
 //! | `plan` | the order in which a line is drawn |
 //! | `near` | spans that meet others, from the nearest on |
+//! | `guests` | of these, what has no slot |
 //! | `rival` | who of two spans is seen |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
@@ -22,6 +23,7 @@
 
 mod advance;
 mod alone;
+mod guests;
 mod line;
 mod near;
 mod plan;

@@ -10,45 +10,35 @@
 //! Of 13,136 spans of a room with a teapot, 9,664 find all of their columns free, 3,170 none, and 259 have to be
 //! compared with one that comes later.
 
+use super::guests::Guest;
 use super::renderer::Renderer;
-use super::rival::{CELLS, Guest, Rival, Slope, find_depth, rival_of, slope_of, thin_slope};
-use super::slot::{Active, Flags};
+use super::rival::{Rival, find_depth, rival_of, slope_of};
+use super::slot::Active;
 use super::spans::{Drawn, Line, Span, colour_run, colour_slot, columns_of};
-use super::thin::depth_plane;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
-use crate::span::Way;
 use crate::visible::{Mask, Part};
 
 /// The lowest bits of a key: a slot's number.
 const NUMBER: u32 = 0xFF;
 
 /// What is sorted: so many slots, and what has no slot in cells of depth.
-struct Field<'a, L: Look, const WORDS: usize> {
+pub(super) struct Field<'a, L: Look, const WORDS: usize> {
     cache: &'a Cache<Active<L::Planes>, WORDS>,
     keys: &'a [u32],
-    cells: &'a [u32],
-    guests: usize,
+    pub(super) cells: &'a [u32],
+    pub(super) guests: usize,
 }
 
 /// How many spans have been taken from a field.
 #[derive(Clone, Copy)]
-struct Taken {
-    slots: usize,
-    guests: usize,
+pub(super) struct Taken {
+    pub(super) slots: usize,
+    pub(super) guests: usize,
 }
 
 impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
-    /// The nearest depth of a guest; 0 where there is none.
-    #[inline(always)]
-    fn guest_key(&self, at: usize) -> u32 {
-        if at >= self.guests {
-            return 0;
-        }
-        Guest::of(self.cells, at).map_or(0, |guest| guest.key)
-    }
-
     /// The span of a slot.
     #[inline(always)]
     fn span(&self, key: u32) -> Span {
@@ -59,7 +49,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
 
     /// Whether a slot that comes later shares columns with a span, and may be nearer than `far`.
     #[inline(always)]
-    fn is_contested(&self, span: Span, far: u32, after: usize) -> bool {
+    pub(super) fn is_contested(&self, span: Span, far: u32, after: usize) -> bool {
         let later = self.keys.get(after..).unwrap_or_default();
         for &key in later {
             if key | NUMBER < far {
@@ -74,7 +64,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
 
     /// Adds to a mask the columns in which something that comes later is seen before `rival`.
     #[inline(never)]
-    fn hide(
+    pub(super) fn hide(
         &self,
         rival: Rival,
         far: u32,
@@ -104,6 +94,42 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         }
     }
 
+    /// Draws the span of a slot before what comes later.
+    #[inline(always)]
+    fn draw_slot(
+        &self,
+        key: u32,
+        taken: Taken,
+        guest_key: u32,
+        drawing: &mut Drawing<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
+        let number = (key & NUMBER) as usize;
+        let (Some(slot), Some(&word), Some(&far)) = (
+            self.cache.slots.as_flattened().get(number),
+            self.cache.spans.as_flattened().get(number),
+            self.cache.far.as_flattened().get(number),
+        ) else {
+            return;
+        };
+        let span = Span::of(word);
+        if span.end == 0 {
+            return;
+        }
+        let next = self.keys.get(taken.slots).copied().unwrap_or_default();
+        if guest_key >= far || next | NUMBER >= far && self.is_contested(span, far, taken.slots) {
+            return self.draw_contested(slot, span, far, taken, drawing, out);
+        }
+        match drawing.mask.cover_new(span.start, span.end) {
+            Part::None => colour_slot::<L>(slot, word, out),
+            Part::Some => {
+                drawing.hidden += 1;
+                colour_rest::<L>(drawing.mask, slot, word, out);
+            }
+            Part::All => drawing.hidden += 1,
+        }
+    }
+
     /// Draws a span before what comes later, of which some may be seen before it.
     #[inline(never)]
     fn draw_contested(
@@ -120,87 +146,14 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         self.hide(rival, far, taken, out, &mut mask);
         colour_free::<L>(drawing.mask, &mut mask, Drawn::of(slot), span, out);
     }
-
-    /// Draws the guest that comes next; the key of the one after it.
-    #[inline(never)]
-    fn next_guest(
-        &self,
-        taken: &mut Taken,
-        drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) -> u32 {
-        let guest = Guest::of(self.cells, taken.guests);
-        taken.guests += 1;
-        if let Some(guest) = guest {
-            self.draw_guest(guest, *taken, drawing, out);
-        }
-        self.guest_key(taken.guests)
-    }
-
-    /// Draws a guest before what comes later.
-    #[inline(never)]
-    fn draw_guest(
-        &self,
-        guest: Guest,
-        after: Taken,
-        drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) {
-        let rival = guest.rival;
-        let [_, far] = rival.slope.range(rival.span);
-        let Span { start, end } = rival.span;
-        if drawing.mask.has_all(start, end) {
-            drawing.hidden += 1;
-            return;
-        }
-        if !self.is_contested(rival.span, far, after.slots) && self.guest_key(after.guests) < far {
-            return colour_guest::<L>(rival, None, drawing, out);
-        }
-        let mut taken = *drawing.mask;
-        self.hide(rival, far, after, out, &mut taken);
-        if !taken.has_all(start, end) {
-            colour_guest::<L>(rival, Some(&mut taken), drawing, out);
-        }
-    }
 }
 
 /// What drawing changes.
-struct Drawing<'a> {
-    mask: &'a mut Mask,
-    counts: &'a mut CacheUse,
+pub(super) struct Drawing<'a> {
+    pub(super) mask: &'a mut Mask,
+    pub(super) counts: &'a mut CacheUse,
     /// How many spans found columns that were covered.
-    hidden: u32,
-}
-
-/// Colours what has no slot, where nobody is and but for columns that are taken.
-#[inline(never)]
-fn colour_guest<L: Look>(
-    rival: Rival,
-    taken: Option<&mut Mask>,
-    drawing: &mut Drawing<'_>,
-    out: &mut Line<'_, '_, WordOf<L>>,
-) {
-    let Some(triangle) = out.view.triangle_of(rival.object) else {
-        return;
-    };
-    let area = triangle.area();
-    let size = triangle.size(area);
-    let mut planes = L::EMPTY;
-    let (object, draws) = (rival.object, out.view.draws);
-    let fill = L::set_up(&triangle, object, size, area, draws, &mut planes);
-    drawing.counts.set_ups += 1;
-    let drawn = Drawn {
-        planes: &planes,
-        flags: Flags::new(fill, Way::PLAIN),
-        object,
-    };
-    if let Some(taken) = taken {
-        return colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
-    }
-    let Span { start, end } = rival.span;
-    drawing.mask.cover_free(start, end, |start, end| {
-        colour_run::<L>(drawn, rival.span, Span { start, end }, out);
-    });
+    pub(super) hidden: u32,
 }
 
 /// Colours what is free of the span of a slot.
@@ -219,7 +172,7 @@ fn colour_rest<L: Look>(
 
 /// Colours a span but for columns that are taken.
 #[inline(never)]
-fn colour_free<L: Look>(
+pub(super) fn colour_free<L: Look>(
     mask: &mut Mask,
     taken: &mut Mask,
     drawn: Drawn<'_, L::Planes>,
@@ -233,27 +186,6 @@ fn colour_free<L: Look>(
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Keeps a span of what has no slot, for [`draw_near`](Renderer::draw_near).
-    #[inline(always)]
-    pub(super) fn keep_guest(&mut self, object: u16, span: Span) {
-        if L::ANY_RUNS {
-            let slope = Slope { at: 0, step: 0 };
-            let rival = Rival {
-                span,
-                slope,
-                object,
-            };
-            Guest { key: 0, rival }.keep(self.depth, self.guests);
-        }
-        self.guests += 1;
-    }
-
-    /// Whether what has no slot on this line can be sorted.
-    #[inline(always)]
-    fn has_room(&self) -> bool {
-        L::ANY_RUNS && !self.depth.is_empty() && CELLS * self.guests <= self.depth.len()
-    }
-
     /// Draws all spans, where most met others on the last line; `false`, and nothing drawn, where that cannot be.
     #[inline(never)]
     pub(super) fn draw_crowded(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
@@ -395,48 +327,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.
-    #[inline(never)]
-    fn sort_guests<const ALL: bool>(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
-        let mut count = 0;
-        for k in 0..core::mem::take(&mut self.guests) {
-            let Some(mut guest) = Guest::of(self.depth, k) else {
-                break;
-            };
-            let Rival { span, object, .. } = guest.rival;
-            if !ALL && !self.over.meets(span.start, span.end) {
-                let mut mask = Mask::EMPTY;
-                let mut drawing = Drawing {
-                    mask: &mut mask,
-                    counts: &mut self.counts,
-                    hidden: 0,
-                };
-                colour_guest::<L>(guest.rival, None, &mut drawing, out);
-                continue;
-            }
-            let triangle = out.view.triangle_of(object);
-            guest.rival.slope = match triangle.and_then(|t| depth_plane(&t)) {
-                Some([at, step, down]) => Slope {
-                    at: at.wrapping_add(down.wrapping_mul(out.number)),
-                    step,
-                },
-                None => thin_slope::<L>(object, span, out),
-            };
-            [guest.key, _] = guest.rival.slope.range(span);
-            let mut at = count;
-            while at > 0 {
-                match Guest::of(self.depth, at - 1) {
-                    Some(before) if before.key < guest.key => before.keep(self.depth, at),
-                    _ => break,
-                }
-                at -= 1;
-            }
-            guest.keep(self.depth, at);
-            count += 1;
-        }
-        count
-    }
-
     /// Draws what is sorted; how many spans found columns that were covered.
     #[inline(never)]
     fn draw_sorted(
@@ -457,8 +347,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             counts: &mut self.counts,
             hidden: 0,
         };
-        let (all, spans) = (cache.slots.as_flattened(), cache.spans.as_flattened());
-        let fars = cache.far.as_flattened();
         let mut taken = Taken {
             slots: 0,
             guests: 0,
@@ -469,31 +357,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 guest_key = field.next_guest(&mut taken, &mut drawing, out);
             }
             taken.slots += 1;
-            let number = (key & NUMBER) as usize;
-            let (Some(slot), Some(&span), Some(&far)) =
-                (all.get(number), spans.get(number), fars.get(number))
-            else {
-                break;
-            };
-            let Span { start, end } = Span::of(span);
-            if end == 0 {
-                continue;
-            }
-            let next = field.keys.get(taken.slots).copied().unwrap_or_default();
-            if guest_key >= far
-                || next | NUMBER >= far && field.is_contested(Span { start, end }, far, taken.slots)
-            {
-                field.draw_contested(slot, Span { start, end }, far, taken, &mut drawing, out);
-                continue;
-            }
-            match drawing.mask.cover_new(start, end) {
-                Part::None => colour_slot::<L>(slot, span, out),
-                Part::Some => {
-                    drawing.hidden += 1;
-                    colour_rest::<L>(drawing.mask, slot, span, out);
-                }
-                Part::All => drawing.hidden += 1,
-            }
+            field.draw_slot(key, taken, guest_key, &mut drawing, out);
         }
         while taken.guests < guests {
             field.next_guest(&mut taken, &mut drawing, out);

@@ -22,14 +22,6 @@ pub(super) struct Rival {
     pub(super) object: u16,
 }
 
-/// A span of what has no slot, as it lies in the cells of depth: `CELLS` of them.
-#[derive(Clone, Copy)]
-pub(super) struct Guest {
-    /// Its nearest depth.
-    pub(super) key: u32,
-    pub(super) rival: Rival,
-}
-
 impl Slope {
     #[inline(always)]
     fn at(self, column: u32) -> u32 {
@@ -78,47 +70,6 @@ impl Rival {
         } else {
             Span { start: turned, end }
         })
-    }
-}
-
-/// Cells of depth that a guest takes.
-pub(super) const CELLS: usize = 5;
-
-impl Guest {
-    #[inline(always)]
-    pub(super) fn of(cells: &[u32], number: usize) -> Option<Self> {
-        let cells = cells.get(CELLS * number..CELLS * (number + 1))?;
-        let &[key, object, span, at, step] = cells else {
-            return None;
-        };
-        let slope = Slope { at, step };
-        let rival = Rival {
-            span: Span::of(span),
-            slope,
-            object: object as u16,
-        };
-        Some(Self { key, rival })
-    }
-
-    /// Keeps it, where there are enough cells.
-    #[inline(always)]
-    pub(super) fn keep(self, cells: &mut [u32], number: usize) {
-        let Some(cells) = cells.get_mut(CELLS * number..CELLS * (number + 1)) else {
-            return;
-        };
-        let Rival {
-            span,
-            slope,
-            object,
-        } = self.rival;
-        let words = [
-            self.key,
-            u32::from(object),
-            span.start << 16 | span.end,
-            slope.at,
-            slope.step,
-        ];
-        cells.copy_from_slice(&words);
     }
 }
 
@@ -225,32 +176,5 @@ mod tests {
             equal += u32::from(both.iter().any(|&c| of(a, c) == of(b, c)));
         }
         assert!(crossed > 150 && equal > 1_000, "{crossed}, {equal}");
-    }
-
-    #[test]
-    fn what_lies_in_cells_comes_back() {
-        let rival = Rival {
-            span: Span {
-                start: 3,
-                end: 1016,
-            },
-            slope: Slope {
-                at: 0x8123_4567,
-                step: 0xFFFF_FF00,
-            },
-            object: 61_439,
-        };
-        let guest = Guest { key: 77, rival };
-        let mut cells = [0; 3 * CELLS - 1];
-        guest.keep(&mut cells, 1);
-        let back = Guest::of(&cells, 1).unwrap();
-        assert_eq!((back.key, back.rival.object), (77, 61_439));
-        assert_eq!(back.rival.slope.at(5), rival.slope.at(5));
-        assert_eq!(back.rival.slope.at(0), rival.slope.at(0));
-        assert_eq!((back.rival.span.start, back.rival.span.end), (3, 1016));
-        guest.keep(&mut cells, 2);
-        assert!(Guest::of(&cells, 2).is_none());
-        assert_eq!(cells[..CELLS], [0; CELLS]);
-        assert_eq!(cells[2 * CELLS..], [0; CELLS - 1]);
     }
 }
