@@ -40,6 +40,7 @@ mod texels;
 mod words;
 mod xrgb;
 
+pub(crate) use blend::mix_pair_565;
 pub use blend::{Blender, Mix, PixelAlpha};
 #[cfg(feature = "embedded-graphics")]
 pub use canvas::{Canvas, DrawnLines};

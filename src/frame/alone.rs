@@ -54,8 +54,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         })
     }
 
+    /// [`set_up_alone`](Renderer::set_up_alone) for lines with values, which few scenes have: one copy of it.
+    #[inline(never)]
+    pub(super) fn set_up_rare(
+        &mut self,
+        object: u16,
+        out: &Line<'_, '_, WordOf<L>>,
+    ) -> Option<Alone<L::Planes>> {
+        self.set_up_alone(object, out)
+    }
+
     /// The plane of depth of what has no slot.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) -> [u32; 3] {
         let triangle = view.triangle_of(alone.object);
         let plane = triangle.and_then(|t| depth_plane(&t));

@@ -9,9 +9,9 @@
 
 use super::plan::Plan;
 use super::renderer::{LineError, Renderer, View};
-use super::slot::{Active, Flags};
+use super::rival::find_depth;
+use super::slot::Active;
 use super::spans::{Drawn, Known, Line, Span, colour, colour_run, columns_of, nearer};
-use super::thin::depth_plane;
 use crate::active::{CacheSlot, next};
 use crate::composite::PixelFormat;
 use crate::link::Link;
@@ -357,10 +357,7 @@ pub(super) fn deepen<L: Look>(
 ) {
     if *deep & one == 0 {
         *deep |= one;
-        let triangle = view.triangle_of(slot.object);
-        let plane = triangle.and_then(|t| depth_plane(&t));
-        slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
-        slot.item.depth = plane.unwrap_or_default();
+        find_depth::<L>(slot, view);
     }
 }
 

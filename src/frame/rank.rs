@@ -6,6 +6,7 @@
 //! has no slot, and in looks whose pixels depend on their runs, it goes from the lowest on.
 
 use super::line::insert;
+use super::near::insert_falling;
 use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
@@ -19,6 +20,12 @@ use crate::visible::Mask;
 /// A slot in its order: priority, number of the object, number of the slot.
 fn key(view: &View<'_>, object: u16, slot: usize) -> u32 {
     view.rank(object) << 24 | u32::from(object) << 8 | slot as u32
+}
+
+/// [`insert`], one copy of it.
+#[inline(never)]
+fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
+    insert(keys, count, key);
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -61,12 +68,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             while used != 0 {
                 let i = take_first(&mut used) as usize & 31;
                 let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
-                insert(self.cache.order.as_flattened_mut(), count, key);
+                insert_falling(self.cache.order.as_flattened_mut(), count, key);
                 count += 1;
             }
-        }
-        if let Some(order) = self.cache.order.as_flattened_mut().get_mut(..count) {
-            order.reverse();
         }
         self.forget_order();
         count as u16
@@ -109,7 +113,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let span = Span::of(self.cache.spans[word][i]);
                 if span.start < span.end {
                     let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
-                    insert(self.cache.order.as_flattened_mut(), count, key);
+                    insert_rising(self.cache.order.as_flattened_mut(), count, key);
                     count += 1;
                 }
             }

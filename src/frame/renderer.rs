@@ -221,8 +221,10 @@ pub struct View<'a> {
     pub(super) objects: &'a [Object],
     pub(super) draws: &'a [DrawState<'a>],
     pub(super) frame: Frame,
-    /// Whether a draw call has values that few have.
+    /// Whether a draw call has values that few have, or a priority.
     pub(super) values: bool,
+    /// Whether a draw call has such values beyond its priority.
+    pub(super) ruled: bool,
     /// Whether the scene is drawn by priority.
     pub(super) ranked: bool,
 }
@@ -240,6 +242,7 @@ impl<'a> View<'a> {
                 width: i32::from(screen.width()),
             },
             values: scene.has_values || scene.is_ranked,
+            ruled: scene.has_values,
             ranked: scene.is_ranked,
         }
     }
@@ -251,16 +254,16 @@ impl<'a> View<'a> {
 
     /// The priority of an object's draw call, if the scene is drawn by it.
     pub(super) fn rank(&self, object: u16) -> u32 {
-        match self.state(object) {
-            Some(state) if self.ranked => state.priority.into(),
-            _ => 0,
+        if !self.ranked {
+            return 0;
         }
+        self.state(object).map_or(0, |state| state.priority.into())
     }
 
     /// Whether an object's draw call has values that few have.
     #[inline(always)]
     pub(super) fn has_values(&self, object: u16) -> bool {
-        self.values && self.state(object).is_some_and(DrawState::has_values)
+        self.ruled && self.state(object).is_some_and(DrawState::has_values)
     }
 
     /// The corners of a triangle.

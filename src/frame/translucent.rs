@@ -139,8 +139,14 @@ impl Pile {
             let Some(first) = rest.iter().position(is_first) else {
                 return false;
             };
-            rest.swap(0, first);
-            rest = rest.get_mut(1..).unwrap_or_default();
+            // Not `swap` of a slice, which allows for one pane twice and takes a function of 1.5 KB for it.
+            let Some((head, others)) = core::mem::take(&mut rest).split_first_mut() else {
+                return true;
+            };
+            if let Some(pane) = first.checked_sub(1).and_then(|i| others.get_mut(i)) {
+                core::mem::swap(head, pane);
+            }
+            rest = others;
         }
         true
     }
@@ -183,7 +189,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Calls `f` with each pane of the line.
-    fn each_pane(&mut self, count: usize, out: &Line<'_, '_, WordOf<L>>, mut f: impl FnMut(Pane)) {
+    #[inline(never)]
+    fn each_pane(&mut self, count: usize, out: &Line<'_, '_, WordOf<L>>, f: &mut dyn FnMut(Pane)) {
         for k in 0..count {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize;
@@ -206,7 +213,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let object = at.object();
             let state = out.view.state(object);
             if state.is_some_and(DrawState::is_translucent) {
-                if let Some(mut alone) = self.set_up_alone(object, out) {
+                if let Some(mut alone) = self.set_up_rare(object, out) {
                     let plane = Self::find_depth(&mut alone, out.view);
                     f(Pane {
                         span: alone.span,
@@ -228,7 +235,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         out: &Line<'_, '_, WordOf<L>>,
     ) -> Option<Span> {
         let (mut start, mut end) = (u32::MAX, 0);
-        self.each_pane(count, out, |pane| {
+        self.each_pane(count, out, &mut |pane| {
             if pane.span.end > from {
                 start = start.min(pane.span.start.max(from));
                 end = end.max(pane.span.end);
@@ -272,7 +279,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     fn pile(&mut self, count: usize, take: Take, out: &Line<'_, '_, WordOf<L>>) -> Pile {
         let mut pile = Pile::EMPTY;
-        self.each_pane(count, out, |pane| pile.add(pane, take));
+        self.each_pane(count, out, &mut |pane| pile.add(pane, take));
         pile
     }
 
@@ -292,7 +299,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 written: &mut self.written,
             };
             draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
-        } else if let Some(mut alone) = self.set_up_alone(pane.object, out) {
+        } else if let Some(mut alone) = self.set_up_rare(pane.object, out) {
             let plane = Self::find_depth(&mut alone, out.view);
             let drawn = alone.drawn();
             let known = Known {

@@ -26,10 +26,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         out: &mut Line<'_, '_, WordOf<L>>,
         background: WordOf<L>,
     ) -> bool {
-        if self.changed {
+        let ruled = out.view.ruled;
+        if ruled && self.changed {
             self.mark_values(out.view);
         }
-        if !self.has_values(out.view) {
+        if !(ruled && self.has_values(out.view)) {
             return out.view.ranked && self.draw_ranked(out, background);
         }
         L::Pixel::fill(out.pixels, background);
@@ -123,7 +124,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             let state = out.view.state(at.object());
             if state.is_some_and(DrawState::compares) {
-                if let Some(alone) = self.set_up_alone(at.object(), out) {
+                if let Some(alone) = self.set_up_rare(at.object(), out) {
                     self.over.cover(alone.span.start, alone.span.end);
                 }
             }
@@ -177,7 +178,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.met && state.is_translucent() {
             return after;
         }
-        let Some(mut alone) = self.set_up_alone(at.object(), out) else {
+        let Some(mut alone) = self.set_up_rare(at.object(), out) else {
             return after;
         };
         let span = alone.span;

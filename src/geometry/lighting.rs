@@ -20,7 +20,7 @@ use super::colour::{Colour, Scale, Tint};
 use super::light::{LightingModel, ModelLight, direction};
 use super::mesh::Coordinate;
 use super::transform::Affine;
-use crate::num::{Block, I2F14, U1F15, inverse_root, shift_round, shift_round_inline};
+use crate::num::{Block, I2F14, U1F15, inverse_root, shift_round};
 
 /// A light from infinitely far, with a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -311,7 +311,10 @@ pub(super) fn fifteen_bits(v: [i32; 3]) -> [i32; 3] {
     if bits == 0 {
         return [0; 3];
     }
-    v.map(|c| shift_round_inline(i64::from(c), shift) as i32)
+    if shift >= 0 {
+        return v.map(|c| c << shift);
+    }
+    v.map(|c| ((c >> (-shift - 1)) + 1) >> 1)
 }
 
 impl LightingModel for Lighting<'_> {

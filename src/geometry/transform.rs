@@ -219,6 +219,7 @@ pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
 }
 
 /// `v` (each below 2^32 in magnitude) with 30 bits in its largest, and its length then.
+#[inline(never)]
 fn with_length(v: [i64; 3]) -> ([i64; 3], i64) {
     let [x, y, z] = v;
     let bits = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();

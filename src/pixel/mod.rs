@@ -9,7 +9,7 @@ mod blend;
 pub(crate) use blend::blend;
 
 pub use crate::composite::{
-    Cut, CutOff, Dithered, Grey8, Index4, Index8, Indexed, LinePalettes, OneWord, Ordered,
+    Cut, CutOff, Dithered, Grey8, Index4, Index8, Indexed, LinePalettes, Mix, OneWord, Ordered,
     PaletteTable, PixelFormat, Pixels, Ramp, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le,
     Rgb888, Threshold, TwoWords, Xrgb8888, expand_indices, mono_page, mono_row,
 };
@@ -38,6 +38,15 @@ pub trait Pixel: PixelFormat {
 
     /// The pixel of fields of 16 times its steps, to the nearest step, halves up.
     fn narrow(fields: [u32; 2]) -> Self::Word;
+
+    /// Blends `new` pixels over `old` ones, as many as both have: the same bits as
+    /// [`mix`](PixelFormat::mix), and where that has loops for each mode, in one small loop.
+    fn mix_few(old: &mut [Self::Word], new: &[Self::Word], mix: Mix)
+    where
+        Self: Sized,
+    {
+        Self::mix(old, new, mix);
+    }
 
     /// A line that is sent of a picture with half as many lines and columns: from the drawn line
     /// that it lies in and the one on its other side, for
@@ -96,6 +105,10 @@ impl Pixel for Rgb565 {
         mix::widen_565(word)
     }
 
+    fn mix_few(old: &mut [u16], new: &[u16], mix: Mix) {
+        blend::mix_565(old, new, |pair| pair, mix);
+    }
+
     #[inline(always)]
     fn narrow(fields: [u32; 2]) -> u16 {
         mix::narrow_565(fields)
@@ -128,6 +141,14 @@ impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
         } else {
             u16::from_le(word)
         })
+    }
+
+    fn mix_few(old: &mut [u16], new: &[u16], mix: Mix) {
+        if BIG == cfg!(target_endian = "big") {
+            blend::mix_565(old, new, |pair| pair, mix);
+        } else {
+            blend::mix_565(old, new, swapped_halves, mix);
+        }
     }
 
     #[inline(always)]

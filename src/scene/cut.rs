@@ -60,12 +60,12 @@ fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
         }
         if (within < 0) != (next_within < 0) {
             let guard = plane > beyond::FAR;
-            let new = if within < 0 {
-                between(next, this, [next_within, within], guard)
+            let (inner, outer, far) = if within < 0 {
+                (next, this, [next_within, within])
             } else {
-                between(this, next, [within, next_within], guard)
+                (this, next, [within, next_within])
             };
-            let _ = kept.push(new);
+            let _ = kept.push(between(inner, outer, far, guard));
         }
     }
     kept

@@ -133,6 +133,7 @@ impl<'t> DrawState<'t> {
     }
 
     /// The state of an object: that of the last call that began at it or before.
+    #[inline(never)]
     pub(crate) fn of(object: u16, draws: &[Self]) -> Option<&Self> {
         let after = draws.partition_point(|draw| draw.first <= object);
         draws.get(after.checked_sub(1)?)

@@ -17,6 +17,7 @@ mod tests;
 
 pub(super) use bytes::mix_bytes;
 pub(super) use packed::mix_565;
+pub(crate) use packed::mix_pair_565;
 
 use super::PixelFormat;
 use crate::geometry::{Blend, Factor, Finish};

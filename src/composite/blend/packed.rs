@@ -102,6 +102,21 @@ fn each<const SWAP: bool>(old: &mut [u16], new: &[u16], f: impl Fn(u32, u32) -> 
     }
 }
 
+/// Two pixels over two others, both in the order of numbers: what [`mix_565`] does, in one small function
+/// that looks at the mode for each pair.
+#[inline(never)]
+pub(crate) fn mix_pair_565(old: u32, new: u32, mix: Mix) -> u32 {
+    let (alpha, flip) = match mix {
+        Mix::Filter(alpha) => return filter(old, new, of_32(alpha)),
+        Mix::Half => return half(old, new),
+        Mix::Add(alpha) => (alpha, 0),
+        // What is missing to full grows.
+        Mix::Subtract(alpha) => (alpha, u32::MAX),
+    };
+    // All of 32 parts are the pixel itself.
+    flip ^ add(flip ^ old, filter(0, new, of_32(alpha)))
+}
+
 /// Blends `new` pixels over `old` ones; `SWAP` says that their bytes are not in the order of
 /// numbers.
 #[inline(never)]

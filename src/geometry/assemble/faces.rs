@@ -91,6 +91,12 @@ fn all_below(faces: Faces<'_>, count: usize) -> bool {
         Faces::Quads(faces, _) => faces.as_flattened(),
         Faces::QuadStrip(strip, _) => strip,
     };
+    are_below(indices, count)
+}
+
+/// One copy of the loop, whatever the faces are.
+#[inline(never)]
+fn are_below(indices: &[u16], count: usize) -> bool {
     let last = count.min(1 << 16) as i32 - 1;
     // The sign of the least distance from the last.
     indices
