@@ -266,7 +266,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.ordered = 0;
         self.cache.listed = self.cache.used;
         let slots = self.sort_slots::<true>(out);
-        let guests = self.sort_guests(true, out);
+        let guests = self.sort_guests::<true>(out);
         let hidden = self.draw_sorted(slots, guests, out);
         self.covered = core::mem::replace(&mut self.written, Mask::EMPTY);
         self.met = hidden > 0;
@@ -284,7 +284,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.ordered = 0;
         let alone = self.colour_alone(out);
         let slots = self.sort_slots::<false>(out);
-        let guests = self.sort_guests(false, out);
+        let guests = self.sort_guests::<false>(out);
         self.draw_sorted(slots, guests, out);
         self.crowded = slots > alone as usize;
         true
@@ -397,14 +397,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.
     #[inline(never)]
-    fn sort_guests(&mut self, all: bool, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
+    fn sort_guests<const ALL: bool>(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
         let mut count = 0;
         for k in 0..core::mem::take(&mut self.guests) {
             let Some(mut guest) = Guest::of(self.depth, k) else {
                 break;
             };
             let Rival { span, object, .. } = guest.rival;
-            if !all && !self.over.meets(span.start, span.end) {
+            if !ALL && !self.over.meets(span.start, span.end) {
                 let mut mask = Mask::EMPTY;
                 let mut drawing = Drawing {
                     mask: &mut mask,
