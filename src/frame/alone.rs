@@ -28,7 +28,7 @@ impl<P> Alone<P> {
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What has no slot, set up for one line; `None` where it has no pixels there.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn set_up_alone(
         &mut self,
         object: u16,
@@ -52,16 +52,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             object,
             span: Span { start, end },
         })
-    }
-
-    /// [`set_up_alone`](Renderer::set_up_alone) for lines with values, which few scenes have: one copy of it.
-    #[inline(never)]
-    pub(super) fn set_up_rare(
-        &mut self,
-        object: u16,
-        out: &Line<'_, '_, WordOf<L>>,
-    ) -> Option<Alone<L::Planes>> {
-        self.set_up_alone(object, out)
     }
 
     /// The plane of depth of what has no slot.

@@ -44,7 +44,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let view = View::of(scene);
         self.advance(scene, &view, line);
         if self.cache.is_empty() {
-            L::Pixel::fill(pixels, background);
+            fill_line::<L>(pixels, background);
             return Ok(false);
         }
         let mut out = Line {
@@ -345,6 +345,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         after
     }
+}
+
+/// A whole line of one colour: one copy of the loop.
+#[inline(never)]
+pub(super) fn fill_line<L: Look>(pixels: &mut [WordOf<L>], colour: WordOf<L>) {
+    L::Pixel::fill(pixels, colour);
 }
 
 /// Finds the depth of a slot, unless it is among those whose depth is known.

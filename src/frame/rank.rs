@@ -5,13 +5,12 @@
 //! triangles begin or end: from the highest on, each where nobody has been before. Where something is blended or
 //! has no slot, and in looks whose pixels depend on their runs, it goes from the lowest on.
 
-use super::line::insert;
+use super::line::{fill_line, insert};
 use super::near::insert_falling;
 use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
 use crate::active::next;
-use crate::composite::PixelFormat;
 use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::num::take_first;
@@ -50,7 +49,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 return false;
             }
         }
-        L::Pixel::fill(out.pixels, background);
+        fill_line::<L>(out.pixels, background);
         self.find_all(out);
         self.met = false;
         self.draw_in_order(out);

@@ -213,7 +213,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let object = at.object();
             let state = out.view.state(object);
             if state.is_some_and(DrawState::is_translucent) {
-                if let Some(mut alone) = self.set_up_rare(object, out) {
+                if let Some(mut alone) = self.set_up_alone(object, out) {
                     let plane = Self::find_depth(&mut alone, out.view);
                     f(Pane {
                         span: alone.span,
@@ -299,7 +299,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 written: &mut self.written,
             };
             draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
-        } else if let Some(mut alone) = self.set_up_rare(pane.object, out) {
+        } else if let Some(mut alone) = self.set_up_alone(pane.object, out) {
             let plane = Self::find_depth(&mut alone, out.view);
             let drawn = alone.drawn();
             let known = Known {

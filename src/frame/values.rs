@@ -4,14 +4,13 @@
 //! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
 //! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
-use super::line::deepen;
+use super::line::{deepen, fill_line};
 use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour};
 use crate::active::next;
-use crate::composite::PixelFormat;
 use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
@@ -33,7 +32,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if !(ruled && self.has_values(out.view)) {
             return out.view.ranked && self.draw_ranked(out, background);
         }
-        L::Pixel::fill(out.pixels, background);
+        fill_line::<L>(out.pixels, background);
         self.find_all(out);
         // Where this is so, `over` says where depth is compared.
         self.met = !self.depth.is_empty() && !out.view.ranked;
@@ -124,7 +123,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             let state = out.view.state(at.object());
             if state.is_some_and(DrawState::compares) {
-                if let Some(alone) = self.set_up_rare(at.object(), out) {
+                if let Some(alone) = self.set_up_alone(at.object(), out) {
                     self.over.cover(alone.span.start, alone.span.end);
                 }
             }
@@ -178,7 +177,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.met && state.is_translucent() {
             return after;
         }
-        let Some(mut alone) = self.set_up_rare(at.object(), out) else {
+        let Some(mut alone) = self.set_up_alone(at.object(), out) else {
             return after;
         };
         let span = alone.span;
