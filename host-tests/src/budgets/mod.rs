@@ -100,22 +100,24 @@ pub fn write(path: &Path, budgets: &Budgets) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// What does not hold: figures above their limits, and those that have no limit. Code of another
-/// compiler than `COMPILER` may be larger by `TOLERANCE_OTHER`.
+/// Bytes that code may differ by from one folder to another: the compiler orders some symbols by names that have it in
+/// them. A program of 106,056 bytes was seen with 4 less.
+const FOLDER: u64 = 16;
+
+/// What does not hold: figures above their limits, and those that have no limit. Code may be larger by `FOLDER`, that
+/// of another compiler than `COMPILER` by `TOLERANCE_OTHER`.
 #[must_use]
 pub fn broken(budgets: &Budgets, figures: &Figures, compiler: &str) -> Vec<String> {
     let is_other = !compiler.is_empty() && release(compiler) != COMPILER;
-    let most = |name: &str, limit: u64| {
-        if is_other && name.starts_with("text ") {
-            (limit as f64 * (1.0 + TOLERANCE_OTHER)) as u64
-        } else {
-            limit
-        }
+    let most = |name: &str, limit: u64| match name.starts_with("text ") {
+        true if is_other => (limit as f64 * (1.0 + TOLERANCE_OTHER)) as u64,
+        true => limit + FOLDER,
+        false => limit,
     };
     let wrong = |(name, &figure): (&String, &u64)| match budgets.get(name) {
         Some(budget) if figure > most(name, budget.limit) => Some(format!(
             "{name}: {figure}, where {} is the limit",
-            most(name, budget.limit)
+            budget.limit
         )),
         Some(_) => None,
         None => Some(format!("{name}: {figure}, and there is no limit")),
@@ -276,11 +278,12 @@ mod tests {
         let mut budgets = read(&path).unwrap();
         let figures = |a, b| Figures::from([("text a, m4".into(), a), ("source b".into(), b)]);
         let (own, other) = ("rustc 1.95.2 (x 2026-01-01)", "rustc 1.90.0 (x 2025-01-01)");
-        assert!(broken(&budgets, &figures(100, 7), own).is_empty());
+        assert!(broken(&budgets, &figures(100 + FOLDER, 7), own).is_empty());
         assert_eq!(
-            broken(&budgets, &figures(101, 7), own),
-            ["text a, m4: 101, where 100 is the limit"]
+            broken(&budgets, &figures(101 + FOLDER, 7), own),
+            ["text a, m4: 117, where 100 is the limit"]
         );
+        assert_eq!(broken(&budgets, &figures(100, 8), own).len(), 1);
         // Another compiler's code may be larger; the source is the same.
         assert!(broken(&budgets, &figures(110, 7), other).is_empty());
         assert_eq!(broken(&budgets, &figures(112, 8), other).len(), 2);
