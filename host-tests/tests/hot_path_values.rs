@@ -338,6 +338,14 @@ fn shuffled<L: Smooth>(
     lines
 }
 
+/// [`hold`], of even rounds in one format and of odd ones in another.
+fn hold_by_turns(rng: &mut Rng, screen: Screen, calls: &[Call], round: u32) -> [usize; 2] {
+    match round % 2 {
+        0 => hold::<Gouraud<Rgb888>>(rng, screen, calls, OF_888),
+        _ => hold::<Gouraud<Rgb565Be>>(rng, screen, calls, OF_565),
+    }
+}
+
 /// Holds pictures of calls against the reference: with and without depth, any number of slots, any order of lines. How
 /// many pixels were compared, and how many were left out.
 fn hold<L: Smooth>(rng: &mut Rng, screen: Screen, calls: &[Call], rounding: Rounding) -> [usize; 2]
@@ -391,11 +399,7 @@ fn scissors_keep_what_is_inside_or_outside() {
                 call
             })
             .collect();
-        let here = if round % 2 == 0 {
-            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888)
-        } else {
-            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565)
-        };
+        let here = hold_by_turns(&mut rng, screen, &calls, round);
         counts = [0, 1].map(|i| counts[i] + here[i]);
     }
     assert!(
@@ -426,11 +430,7 @@ fn depth_functions_decide_on_colour_and_on_depth() {
             call.cut = (rng.below(4) == 0).then(|| Cut::new(&mut rng, screen));
             calls.push(call);
         }
-        let here = if round % 2 == 0 {
-            hold::<Gouraud<Rgb888>>(&mut rng, screen, &calls, OF_888)
-        } else {
-            hold::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls, OF_565)
-        };
+        let here = hold_by_turns(&mut rng, screen, &calls, round);
         counts = [0, 1].map(|i| counts[i] + here[i]);
     }
     assert!(

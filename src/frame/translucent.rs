@@ -290,24 +290,23 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let span = pane.span;
         let number = usize::from(pane.slot);
-        if let Some(slots) = self.cache.slots.get(number >> 5) {
+        let mut alone;
+        let (drawn, plane) = if let Some(slots) = self.cache.slots.get(number >> 5) {
             let slot = &slots[number & 31];
-            let drawn = Drawn::of(slot);
-            let known = Known {
-                plane: slot.item.depth,
-                cells: self.depth,
-                written: &mut self.written,
+            (Drawn::of(slot), slot.item.depth)
+        } else {
+            let Some(found) = self.set_up_alone(pane.object, out) else {
+                return;
             };
-            draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
-        } else if let Some(mut alone) = self.set_up_alone(pane.object, out) {
+            alone = found;
             let plane = Self::find_depth(&mut alone, out.view);
-            let drawn = alone.drawn();
-            let known = Known {
-                plane,
-                cells: self.depth,
-                written: &mut self.written,
-            };
-            draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
-        }
+            (alone.drawn(), plane)
+        };
+        let known = Known {
+            plane,
+            cells: self.depth,
+            written: &mut self.written,
+        };
+        draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
     }
 }

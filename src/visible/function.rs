@@ -76,24 +76,11 @@ impl Rule {
 
 #[cfg(test)]
 mod tests {
+    use super::super::functions::FUNCTIONS;
     use super::super::{Depth32, ShadowCell, ShadowDepth32};
     use super::*;
     use crate::num::random::Rng;
     use std::vec::Vec;
-
-    /// A function, and what it is of two depths, the new one first.
-    type Named = (DepthFunction, fn(u32, u32) -> bool);
-
-    const FUNCTIONS: [Named; 8] = [
-        (DepthFunction::NEVER, |_, _| false),
-        (DepthFunction::ALWAYS, |_, _| true),
-        (DepthFunction::NEARER, |new, old| new > old),
-        (DepthFunction::NEARER_OR_EQUAL, |new, old| new >= old),
-        (DepthFunction::EQUAL, |new, old| new == old),
-        (DepthFunction::FARTHER_OR_EQUAL, |new, old| new <= old),
-        (DepthFunction::FARTHER, |new, old| new < old),
-        (DepthFunction::DIFFERENT, |new, old| new != old),
-    ];
 
     /// Random spans of all pairs of functions, against one pixel after the other.
     #[test]

@@ -7,6 +7,8 @@ mod block_fix;
 mod cell;
 mod cover;
 mod function;
+#[cfg(test)]
+mod functions;
 mod mask;
 mod named;
 mod placed;

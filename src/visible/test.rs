@@ -23,23 +23,9 @@ pub(crate) fn test(cells: &mut [u32], at: u32, step: u32, test: DepthTest) -> u3
 
 #[cfg(test)]
 mod tests {
+    use super::super::functions::FUNCTIONS;
     use super::*;
-    use crate::geometry::DepthFunction;
     use crate::num::random::Rng;
-
-    /// A function, and what it is of two depths, the new one first.
-    type Named = (DepthFunction, fn(u32, u32) -> bool);
-
-    const FUNCTIONS: [Named; 8] = [
-        (DepthFunction::NEVER, |_, _| false),
-        (DepthFunction::ALWAYS, |_, _| true),
-        (DepthFunction::NEARER, |new, old| new > old),
-        (DepthFunction::NEARER_OR_EQUAL, |new, old| new >= old),
-        (DepthFunction::EQUAL, |new, old| new == old),
-        (DepthFunction::FARTHER_OR_EQUAL, |new, old| new <= old),
-        (DepthFunction::FARTHER, |new, old| new < old),
-        (DepthFunction::DIFFERENT, |new, old| new != old),
-    ];
 
     #[test]
     fn every_pair_of_functions_does_what_its_name_says() {

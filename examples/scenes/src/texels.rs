@@ -127,8 +127,7 @@ impl Swatch {
             Self::Details => return details(emit),
             Self::Blocks => return blocks(emit),
             Self::Scene(quality) => {
-                // A test says that its memory suffices.
-                let _ = textured(quality, emit);
+                textured(quality, emit).expect("its memory suffices");
                 return;
             }
             _ => {}

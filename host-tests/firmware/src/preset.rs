@@ -8,11 +8,13 @@
 #![no_main]
 
 mod lend;
+mod preset_room;
 mod small;
 
 use cortex_m_rt::entry;
+use preset_room::{room, teapot};
 use scanbeam::pipeline::DepthCell;
-use small::{buffers, display, exit, room, say, teapot};
+use small::{buffers, display, exit, say};
 
 #[cfg(not(feature = "sized"))]
 type Look = scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>;

@@ -6,16 +6,18 @@
 #![no_main]
 
 mod lend;
+mod preset_room;
 mod small;
 
 use cortex_m_rt::entry;
 use lend::lend;
+use preset_room::{Room, room, teapot};
 use scanbeam::pipeline::{FlatDepth, FlatPainter, GouraudDepth, GouraudPainter};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::{Scene, SceneMemory};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{Shot, WIDTH};
-use small::{Display, Room, buffers, display, exit, room, say, teapot};
+use small::{Display, buffers, display, exit, say};
 
 #[entry]
 fn main() -> ! {

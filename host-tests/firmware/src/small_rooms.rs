@@ -7,8 +7,6 @@
 #![no_main]
 
 mod lend;
-// The rooms of presets lie there too.
-#[allow(dead_code, unused_macros, unused_imports)]
 mod small;
 
 use cortex_m_rt::entry;

@@ -45,7 +45,7 @@ impl Cell {
         let mut out = format!("**{}** / {}", some(self.rooms), some(self.preset));
         if let Some(peer) = self.peer {
             // Writing to a string cannot fail.
-            let _ = write!(out, " / {peer}");
+            let _ = write!(out, " / {peer:?}");
         }
         out
     }
