@@ -11,9 +11,10 @@ mod render;
 mod tests;
 mod view;
 
+pub use crate::choice::{DEFAULT_SLOTS, DepthArg, InterpArg, MAX_SIDE, PixelFormatArg};
 pub use bench::{BenchArgs, BoardsArgs, BudgetsArgs, FirmwareArgs};
-pub use picture::{PictureArgs, PixelFormatArg, ShadeArg, Size};
-pub use render::{DepthArg, InterpArg, QualityArg, RenderArgs, SwitchArg};
+pub use picture::{PictureArgs, ShadeArg, Size};
+pub use render::{QualityArg, RenderArgs, SwitchArg};
 pub use view::ViewArgs;
 
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
@@ -23,12 +24,8 @@ use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand}
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// Longest side of a rendered picture, in pixels, inclusive.
-pub const MAX_SIDE: u32 = 8192;
 /// Most frames of a demo, inclusive.
 pub const MAX_DEMO_FRAMES: u32 = 1000;
-/// Slots of the object cache when nothing else is asked.
-pub const DEFAULT_SLOTS: u16 = 64;
 /// Most slots of an object cache, inclusive.
 pub const MAX_SLOTS: u16 = 4095;
 /// Most line renderers, inclusive.

@@ -21,8 +21,8 @@ pub mod frames;
 pub mod list;
 // What the reader of models says, where it says something.
 #[macro_use]
-#[path = "../../src/stdio.rs"]
+#[path = "../../support/src/stdio.rs"]
 pub mod stdio;
 // The file itself, not the package: its dependencies would take longer to build than the rest.
-#[path = "../../src/model/mod.rs"]
+#[path = "../../support/src/model/mod.rs"]
 pub mod model;

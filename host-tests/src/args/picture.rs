@@ -1,29 +1,9 @@
 //! What picture is to be drawn: the flags that `render` and `trace` share.
 
 use super::MAX_SIDE;
+use crate::choice::PixelFormatArg;
 use crate::reference::{Cull, Shade, View};
 use clap::{Args, ValueEnum};
-
-/// How a pixel is sent to the display.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum PixelFormatArg {
-    /// 24 bits
-    Rgb888,
-    /// 16 bits
-    Rgb565,
-    /// 24 bits in a word of 32
-    Xrgb8888,
-    /// 8 bits of grey
-    Grey8,
-    /// 1 bit, dithered, 8 pixels a byte
-    Mono,
-    /// 16 bits, dithered: --dither on
-    #[value(skip)]
-    Dithered565,
-    /// 24 bits, dithered
-    #[value(skip)]
-    Dithered888,
-}
 
 /// How light is applied.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

@@ -1,76 +1,14 @@
 //! Flags of `render`.
 
-use super::picture::{PictureArgs, PixelFormatArg, ShadeArg, parse_number};
+use super::picture::{PictureArgs, ShadeArg, parse_number};
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS};
+use crate::choice::{DepthArg, InterpArg, PixelFormatArg};
 use crate::draw::{Effects, FilterArg};
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
 use scanbeam::Quality;
-use std::fmt;
 use std::path::PathBuf;
-
-/// How colours are taken from pixel to pixel of a line, and with the model also depth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum InterpArg {
-    /// Planes stepped forward as they are
-    Plane,
-    /// Packed channels, anchored anew every 8 pixels
-    Packed8,
-    /// Packed channels, anchored anew every 16 pixels
-    Packed16,
-    /// One colour for 2 pixels
-    Half,
-    /// One colour for 4 pixels
-    Quarter,
-    /// LIRP from end to end, 10 bits of W
-    Lirp10,
-    /// LIRP from end to end, 12 bits of W
-    Lirp12,
-    /// LIRP from end to end, 16 bits of W
-    Lirp16,
-    /// LIRP from end to end, two channels a multiplication
-    LirpPacked,
-    /// For each span the cheapest that keeps the budget of --quality
-    Auto,
-    /// The hardware model: 12-bit weights down edges, 10-bit weights along spans
-    Model,
-}
-
-/// How what is seen is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DepthArg {
-    /// For each line the cheapest that shows the same: none where spans do not overlap, from front
-    /// to back where there is an order, else 32 bits
-    Auto,
-    /// 32 bits of 1/w on every line
-    Z32,
-    /// 16 bits of block-fix 1/w
-    BlockFix,
-    /// 16 bits of 1/w, in RGB565 in one word with the pixel
-    Word,
-    /// First whose each pixel is, then colours: the same picture, no pixel shaded twice
-    Id,
-    /// None: what comes later in the model is in front
-    Priority,
-}
-
-impl DepthArg {
-    /// Whether it is a pipeline of its own.
-    #[must_use]
-    pub fn is_a_pipeline(self) -> bool {
-        !matches!(self, Self::Auto | Self::Z32)
-    }
-}
-
-impl fmt::Display for DepthArg {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.to_possible_value() {
-            Some(value) => f.write_str(value.get_name()),
-            None => Ok(()),
-        }
-    }
-}
 
 /// How far a picture may be off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

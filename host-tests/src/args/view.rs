@@ -1,7 +1,8 @@
 //! Flags of `view`.
 
-use super::picture::{PixelFormatArg, Size, parse_size};
+use super::picture::{Size, parse_size};
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS, QualityArg};
+use crate::choice::PixelFormatArg;
 use crate::reference::Shade;
 use crate::view::Colours;
 use clap::Args;

@@ -7,23 +7,20 @@
 //! texture places are moved by whole sides to where 2x16U holds them. Materials keep opacity and
 //! highlights. HEAD says what memory the list needs, BOUNDS where it is.
 
+mod plan;
+
 use super::args::{BakeArgs, Normals, Pictures};
-use super::fields::{Grid, Packed, Places, degrees_between, normal_fields};
+use super::fields::{Grid, Packed, degrees_between, normal_fields};
 use super::gltf::{self, Loaded};
 use super::sizes;
-use super::strips::strips_of;
-use super::tables::{Table, tables};
 use super::texels::{Picture, Texels};
 use crate::image_out::{read_image, write_atomically};
-use crate::lists::writer::{FieldPacker, Form, ListWriter, WriteError};
+use crate::lists::writer::ListWriter;
 use crate::model::Model;
 use crate::texture_file;
-use scanbeam::Affine;
-use scanbeam::list::{
-    Bounds, Field, FieldForm, Flow, Head, Header, Id, Material, Matrix, State, VertexFormat,
-    parameter,
-};
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use plan::Plan;
+use scanbeam::list::FieldForm;
+use std::collections::BTreeSet;
 use std::error::Error;
 
 /// What is to be kept.
@@ -167,26 +164,6 @@ fn of_materials(model: &Model) -> Result<Vec<Option<Picture>>, Box<dyn Error>> {
     Ok(images.map(|image| image.map(picture)).collect())
 }
 
-/// Triangles that share a material.
-struct Group {
-    material: Material,
-    /// Their colours differ from vertex to vertex.
-    coloured: bool,
-    triangles: Vec<usize>,
-}
-
-impl Group {
-    fn header(&self, id: Id, count: usize) -> Header {
-        let textured = self.material.texture.is_some();
-        Header {
-            shade: true,
-            prsp: textured,
-            text: textured,
-            ..Header::of(id, count as u16)
-        }
-    }
-}
-
 /// Makes a list of a model without textures.
 ///
 /// # Errors
@@ -301,264 +278,4 @@ pub fn bake_textured(
     writer.write(&mut out, &mut baked, reach)?;
     baked.words = out.words().to_vec();
     Ok(baked)
-}
-
-/// What is to be written.
-struct Plan<'a> {
-    grid: Grid,
-    normal: Option<FieldForm>,
-    packed: &'a [Packed],
-    model: &'a Model,
-    /// Numbers of the materials' textures.
-    textures: &'a [Option<u8>],
-}
-
-impl Plan<'_> {
-    fn groups(&self) -> Vec<Group> {
-        let model = self.model;
-        let mut by_material: BTreeMap<Option<u32>, Vec<usize>> = BTreeMap::new();
-        for (n, material) in model.triangle_materials.iter().enumerate() {
-            by_material.entry(*material).or_default().push(n);
-        }
-        let mut groups: Vec<Group> = Vec::new();
-        for (material, triangles) in by_material {
-            let corners = triangles.iter().flat_map(|n| model.triangles[*n]);
-            let mut colours = corners.map(|v| self.packed[v as usize].colour);
-            let first = colours.next().unwrap_or([255; 3]);
-            let coloured = colours.any(|c| c != first);
-            let texture = material.and_then(|m| *self.textures.get(m as usize)?);
-            let of = material.map(|m| &model.materials[m as usize]);
-            let d = of.map_or(1.0, |m| m.d);
-            // Highlights need normals.
-            let shiny = of.filter(|_| self.normal.is_some());
-            let specular = shiny.map_or([0.0; 3], |m| m.ks);
-            let material = Material {
-                diffuse: if coloured { [255; 3] } else { first },
-                opacity: (d * 255.0).round() as u8,
-                specular: specular.map(|k| (k.clamp(0.0, 1.0) * 255.0).round() as u8),
-                exponent: shiny.map_or(0.0, |m| m.ns.clamp(0.0, 255.0).round()) as u8,
-                texture,
-                ..Material::default()
-            };
-            let same = |g: &&mut Group| g.material == material && g.coloured == coloured;
-            match groups.iter_mut().find(same) {
-                Some(group) => group.triangles.extend(triangles),
-                None => groups.push(Group {
-                    material,
-                    coloured,
-                    triangles,
-                }),
-            }
-        }
-        groups
-    }
-
-    fn write(
-        &self,
-        out: &mut ListWriter<'_>,
-        baked: &mut Baked,
-        reach: f64,
-    ) -> Result<(), Box<dyn Error>> {
-        out.state(&State::Head(Head::default()))?;
-        // Before BOUNDS, so that what it lets pass over sets none of them.
-        for (number, texels) in baked.textures.iter().enumerate() {
-            texels.write(out, number as u8)?;
-        }
-        let matrix = Affine::placed(self.grid.scale, self.grid.centre)
-            .and_then(|m| Matrix::try_from(&m).ok())
-            .ok_or("it is too large")?;
-        let bounds_at = out.position();
-        let bounds = self.bounds(&matrix, reach)?;
-        out.state(&State::Bounds(bounds))?;
-        let behind = out.position();
-        out.state(&State::Matrix(matrix))?;
-        for group in self.groups() {
-            out.state(&State::Material(group.material))?;
-            let format = self.format(&group);
-            out.state(&State::Format(format))?;
-            self.group(out, baked, &group, &format)?;
-        }
-        let bounds = Bounds {
-            words: out.position() - behind,
-            ..bounds
-        };
-        out.rewrite(bounds_at, &State::Bounds(bounds))?;
-        out.flow(Flow::End)?;
-        // Now that all is known: the head again, in its place.
-        let head = Head {
-            words: out.position(),
-            table: baked.table as u32,
-            triangles: baked.triangles as u32,
-        };
-        out.rewrite(0, &State::Head(head))?;
-        Ok(())
-    }
-
-    /// A sphere around the middle, a little larger than need be.
-    fn bounds(&self, matrix: &Matrix, reach: f64) -> Result<Bounds, Box<dyn Error>> {
-        let centre = self.grid.centre.map(f64::from);
-        let radius = self.packed.iter().fold(0.0f64, |r, v| {
-            let p = self.grid.place(v.place);
-            let d = [0, 1, 2].map(|i| p[i] - centre[i]);
-            r.max((d[0] * d[0] + d[1] * d[1] + d[2] * d[2]).sqrt())
-        });
-        let largest = centre.iter().fold(radius.max(reach), |m, c| m.max(c.abs()));
-        let exponent = if largest > 0.0 {
-            largest.log2().floor() as i32 + 2
-        } else {
-            i32::from(matrix.offset_exponent)
-        };
-        let unit = 2f64.powi(30 - exponent);
-        Ok(Bounds {
-            centre: centre.map(|c| (c * unit).round() as i32),
-            radius: (radius * unit).ceil() as i32 + 2,
-            exponent: exponent.clamp(-128, 96) as i16,
-            words: 0,
-        })
-    }
-
-    fn format(&self, group: &Group) -> VertexFormat {
-        let mut fields = vec![Field {
-            parameter: parameter::PLACE,
-            form: self.grid.form,
-        }];
-        fields.extend(self.normal.map(|form| Field {
-            parameter: parameter::NORMAL,
-            form,
-        }));
-        fields.extend(group.coloured.then_some(Field {
-            parameter: parameter::DIFFUSE,
-            form: FieldForm::U8x3,
-        }));
-        fields.extend(group.material.texture.map(|_| Field {
-            parameter: parameter::TEXTURE,
-            form: FieldForm::U16x2,
-        }));
-        // A place, and each parameter once.
-        VertexFormat::new(&fields).unwrap_or_default()
-    }
-
-    fn group(
-        &self,
-        out: &mut ListWriter<'_>,
-        baked: &mut Baked,
-        group: &Group,
-        format: &VertexFormat,
-    ) -> Result<(), Box<dyn Error>> {
-        // Vertices that became the same are one.
-        let mut known: HashMap<Packed, u32> = HashMap::new();
-        let mut vertices: Vec<Packed> = Vec::new();
-        let mut triangles = Vec::new();
-        let textured = group.material.texture.is_some();
-        let clamped = group
-            .material
-            .texture
-            .is_some_and(|t| baked.textures[usize::from(t)].clamped);
-        let places = Places::of(self.model, &group.triangles, clamped);
-        for &n in &group.triangles {
-            let corners = self.model.triangles[n];
-            let moved = places.moved(corners.map(|v| self.model.vertices[v as usize].uv));
-            let mut at = 0..3;
-            let triangle = corners.map(|v| {
-                let mut packed = self.packed[v as usize];
-                if !group.coloured {
-                    packed.colour = [0; 3];
-                }
-                let corner = at.next().unwrap_or_default();
-                if textured {
-                    let (uv, cut) = moved[corner];
-                    packed.uv = uv;
-                    baked.places_cut += usize::from(cut);
-                }
-                *known.entry(packed).or_insert_with(|| {
-                    vertices.push(packed);
-                    vertices.len() as u32 - 1
-                })
-            });
-            let [a, b, c] = triangle.map(|v| vertices[v as usize].place);
-            if a == b || b == c || c == a {
-                baked.dropped += 1;
-            } else {
-                triangles.push(triangle);
-            }
-        }
-        let runs = strips_of(&triangles);
-        baked.triangles += triangles.len();
-        let narrow = tables(&runs, 255);
-        let wide = tables(&runs, 65_535);
-        let vertex_bytes: u32 = format.fields().iter().map(|f| f.form.column_bytes()).sum();
-        let bytes = |tables: &[Table], each: usize| -> usize {
-            let table =
-                |t: &Table| t.vertices.len() * vertex_bytes as usize + each * t.indices() + 16;
-            tables.iter().map(table).sum()
-        };
-        let (tables, is_wide) = if bytes(&narrow, 1) <= bytes(&wide, 2) {
-            (narrow, false)
-        } else {
-            (wide, true)
-        };
-        for table in &tables {
-            baked.table = baked.table.max(table.vertices.len());
-            baked.vertices += table.vertices.len();
-            let counts = [table.strips.len(), table.fans.len(), table.separate.len()];
-            for (sum, n) in baked.runs.iter_mut().zip(counts) {
-                *sum += n;
-            }
-            self.table(out, (group, table), &vertices, format, is_wide)?;
-        }
-        Ok(())
-    }
-
-    fn table(
-        &self,
-        out: &mut ListWriter<'_>,
-        (group, table): (&Group, &Table),
-        vertices: &[Packed],
-        format: &VertexFormat,
-        wide: bool,
-    ) -> Result<(), WriteError> {
-        let header = group.header(Id::Table, table.vertices.len());
-        let mut words = Vec::new();
-        let mut packer = FieldPacker::new(|w| words.push(w));
-        for field in format.fields() {
-            for &v in &table.vertices {
-                let Packed {
-                    place,
-                    normal,
-                    colour,
-                    uv,
-                } = vertices[v as usize];
-                let [x, y, z] = match field.parameter {
-                    parameter::PLACE => place,
-                    parameter::NORMAL => normal,
-                    parameter::TEXTURE => [i32::from(uv[0]), i32::from(uv[1]), 0],
-                    _ => colour.map(i32::from),
-                };
-                packer.field(field.form, [x, y, z, 255]);
-            }
-            packer.align();
-        }
-        out.vertices(header, &words)?;
-        for (runs, form) in [(&table.strips, Form::Strip), (&table.fans, Form::Fan)] {
-            // Blocks of at most 65,535 indices, broken between strips.
-            let mut block: Vec<Option<u16>> = Vec::new();
-            for run in runs {
-                if block.len() + run.len() >= 65_535 {
-                    out.indexed(Some(form), wide, std::mem::take(&mut block).into_iter())?;
-                }
-                if !block.is_empty() {
-                    block.push(None);
-                }
-                block.extend(run.iter().map(|i| Some(*i)));
-            }
-            if !block.is_empty() {
-                out.indexed(Some(form), wide, block.into_iter())?;
-            }
-        }
-        for part in table.separate.chunks(65_535 / 3) {
-            let indices: Vec<_> = part.iter().flatten().map(|i| Some(*i)).collect();
-            out.indexed(None, wide, indices.into_iter())?;
-        }
-        Ok(())
-    }
 }

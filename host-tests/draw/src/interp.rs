@@ -1,9 +1,9 @@
 //! The pipeline of each interpolation method.
 
 use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw, draw_as, draw_model};
-use crate::args::{InterpArg, PixelFormatArg};
-use crate::model::Model;
-use crate::reference::{Shade, View};
+use crate::choice::{InterpArg, PixelFormatArg};
+use host_support::model::Model;
+use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{
     Auto, Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12,
     Lirp16, LirpPacked, Packed16, QuarterRate,

@@ -1,11 +1,11 @@
 //! Models with textures: one file for all of it, or those that its materials name.
 
 use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_with};
-use crate::args::PixelFormatArg;
-use crate::model::Model;
-use crate::reference::{Shade, View};
-use crate::texture_file::{TextureFileError, TextureImage, of_materials};
+use crate::choice::PixelFormatArg;
 use clap::ValueEnum;
+use host_support::model::Model;
+use host_support::reference::{Shade, View};
+use host_support::texture_file::{TextureFileError, TextureImage, of_materials};
 use scanbeam::pipeline::{Counted, Depth32, Flat, Gouraud, Packed8, Parts, Shading};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::texture::{

@@ -5,13 +5,11 @@
 //! The guide's page `scene_files` has every field.
 
 mod load;
-#[cfg(test)]
-mod tests;
 
 pub use load::{Loaded, Part, SceneFileError};
 
-use crate::args::{MAX_SIDE, PixelFormatArg};
-use crate::reference::{Cull, View};
+use crate::choice::{MAX_SIDE, PixelFormatArg};
+use host_support::reference::{Cull, View};
 use serde::Deserialize;
 use std::path::PathBuf;
 

@@ -1,8 +1,8 @@
 //! The models and pictures that a scene names.
 
 use super::{Item, SceneFile};
-use crate::draw::{TextureSet, TextureSetError};
-use crate::model::{Model, ModelError};
+use crate::{TextureSet, TextureSetError};
+use host_support::model::{Model, ModelError};
 use std::path::{Path, PathBuf};
 
 /// Why a scene cannot be loaded.
@@ -78,7 +78,7 @@ impl Loaded {
         for part in &self.parts {
             let of_model = part.model.warnings.iter().map(ToString::to_string);
             let of_textures = part.textures.notes().map(str::to_owned);
-            let shines = |m: &crate::model::Material| m.ks != [0.0; 3] || m.d < 1.0;
+            let shines = |m: &host_support::model::Material| m.ks != [0.0; 3] || m.d < 1.0;
             let left_out = part.model.materials.iter().any(shines).then(|| {
                 let file = part.item.model.display();
                 format!(

@@ -1,7 +1,7 @@
 //! A model rounded to the crate's number formats, in parts that fit a mesh.
 
 use super::TextureSet;
-use crate::model::Model;
+use host_support::model::Model;
 use scanbeam::blend::{Blended, ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
 use scanbeam::light::LightingModel;
 use scanbeam::mesh::Sphere;

@@ -3,9 +3,9 @@
 //! Threads share the scene by reference and nothing else; what each draws comes back through a
 //! relay, and this thread sends it in order.
 
-use crate::draw::CrewSettings;
-use crate::lent::LineRooms;
-use crate::mock::HostLine;
+use crate::CrewSettings;
+use host_support::lent::LineRooms;
+use host_support::mock::HostLine;
 use scanbeam::parallel::{Crew, Interleave, Relay};
 use scanbeam::pipeline::{Pipeline, WordOf};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};

@@ -13,12 +13,12 @@ use super::{
     Bands, CrewSettings, DrawFailure, Drawn, FilterArg, LINES_PER_TRANSFER, Setting, add,
     draw_scenes,
 };
-use crate::args::PixelFormatArg;
-use crate::image_out::Frame;
-use crate::lent::{LineRooms, SceneRooms};
-use crate::mock::{HostLine, MockFrameBuffer};
-use crate::reference::{Cull, View};
+use crate::choice::PixelFormatArg;
 use crate::scene_file::{BlendKind, DepthKind, Item, Loaded, SceneFile};
+use host_support::image_out::Frame;
+use host_support::lent::{LineRooms, SceneRooms};
+use host_support::mock::{HostLine, MockFrameBuffer};
+use host_support::reference::{Cull, View};
 use scanbeam::blend::{DepthFunction, Finish, ShadowError, Surface};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::list::Window;

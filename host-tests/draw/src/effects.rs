@@ -10,9 +10,9 @@ use super::textured::{HostTexture, textures};
 use super::{
     CrewSettings, DrawFailure, Drawn, FilterArg, Setting, TextureSet, draw_scenes, rooms_for,
 };
-use crate::args::PixelFormatArg;
-use crate::model::{Material, Model};
-use crate::reference::{Shade, View};
+use crate::choice::PixelFormatArg;
+use host_support::model::{Material, Model};
+use host_support::reference::{Shade, View};
 use scanbeam::blend::{Blended, Finish, ShadowError, ShadowLight, Surface};
 use scanbeam::light::{DirectionalLight, Lamplight, Lighting, LitSkin, Phong, PixelLamps};
 use scanbeam::mesh::U1F15;
@@ -398,7 +398,11 @@ impl Task<'_> {
         let mut rooms = rooms_for::<P>(self.prepared, height);
         if !self.shadows.is_empty() {
             // Each opaque part twice, and volumes of unknown size.
-            rooms = crate::lent::SceneRooms::new(1 << 16, usize::from(Link::CACHED), height.into());
+            rooms = host_support::lent::SceneRooms::new(
+                1 << 16,
+                usize::from(Link::CACHED),
+                height.into(),
+            );
         }
         rooms.textures = textures;
         rooms.lights = lights;

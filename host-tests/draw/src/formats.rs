@@ -1,9 +1,9 @@
 //! Formats of pixels beside the two common ones: 32 bits, grey, one bit, and dithered.
 
 use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as};
-use crate::args::PixelFormatArg;
-use crate::image_out::Frame;
-use crate::reference::{Shade, View};
+use crate::choice::PixelFormatArg;
+use host_support::image_out::Frame;
+use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{Counted, FlatDepth, GouraudDepth};
 use scanbeam::pixel::{Dithered, Grey8, PixelFormat, Rgb565Be, Rgb888, Xrgb8888, mono_row};
 

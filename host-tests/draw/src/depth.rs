@@ -1,12 +1,12 @@
 //! The pipeline of each way to find what is seen.
 
 use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as, formats};
-use crate::args::{DepthArg, PixelFormatArg};
-use crate::model::Model;
-use crate::reference::{Shade, View};
+use crate::choice::{DepthArg, PixelFormatArg};
+use host_support::model::Model;
+use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{
-    BlockFixDepth, Counted, DepthAndColour, DepthAndId, DepthUse, FlatDepth, GouraudDepth,
-    LineDepth, WithDepth,
+    BlockFixDepth, Counted, DepthAndColour, DepthAndId, FlatDepth, GouraudDepth, LineDepth,
+    WithDepth,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 
@@ -31,17 +31,6 @@ pub fn draw_by_depth(
         DepthArg::Word => seen_by::<DepthAndColour>(model, view, format, crew),
         DepthArg::Id => seen_by::<DepthAndId>(model, view, format, crew),
         DepthArg::Priority => seen_by::<()>(model, view, format, crew),
-    }
-}
-
-impl DepthArg {
-    /// What a renderer is told.
-    #[must_use]
-    pub fn depth_use(self) -> DepthUse {
-        match self {
-            Self::Z32 => DepthUse::Always,
-            _ => DepthUse::WhereNeeded,
-        }
     }
 }
 

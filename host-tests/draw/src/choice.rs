@@ -1,0 +1,102 @@
+//! What a picture is drawn as and by which methods, by the names that the command line has for it.
+
+use clap::ValueEnum;
+use scanbeam::pipeline::DepthUse;
+use std::fmt;
+
+/// Longest side of a picture that is drawn, in pixels, inclusive.
+pub const MAX_SIDE: u32 = 8192;
+/// Slots of the object cache when nothing else is asked.
+pub const DEFAULT_SLOTS: u16 = 64;
+
+/// How a pixel is sent to the display.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum PixelFormatArg {
+    /// 24 bits
+    Rgb888,
+    /// 16 bits
+    Rgb565,
+    /// 24 bits in a word of 32
+    Xrgb8888,
+    /// 8 bits of grey
+    Grey8,
+    /// 1 bit, dithered, 8 pixels a byte
+    Mono,
+    /// 16 bits, dithered: --dither on
+    #[value(skip)]
+    Dithered565,
+    /// 24 bits, dithered
+    #[value(skip)]
+    Dithered888,
+}
+
+/// How colours are taken from pixel to pixel of a line, and with the model also depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum InterpArg {
+    /// Planes stepped forward as they are
+    Plane,
+    /// Packed channels, anchored anew every 8 pixels
+    Packed8,
+    /// Packed channels, anchored anew every 16 pixels
+    Packed16,
+    /// One colour for 2 pixels
+    Half,
+    /// One colour for 4 pixels
+    Quarter,
+    /// LIRP from end to end, 10 bits of W
+    Lirp10,
+    /// LIRP from end to end, 12 bits of W
+    Lirp12,
+    /// LIRP from end to end, 16 bits of W
+    Lirp16,
+    /// LIRP from end to end, two channels a multiplication
+    LirpPacked,
+    /// For each span the cheapest that keeps the budget of --quality
+    Auto,
+    /// The hardware model: 12-bit weights down edges, 10-bit weights along spans
+    Model,
+}
+
+/// How what is seen is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DepthArg {
+    /// For each line the cheapest that shows the same: none where spans do not overlap, from front
+    /// to back where there is an order, else 32 bits
+    Auto,
+    /// 32 bits of 1/w on every line
+    Z32,
+    /// 16 bits of block-fix 1/w
+    BlockFix,
+    /// 16 bits of 1/w, in RGB565 in one word with the pixel
+    Word,
+    /// First whose each pixel is, then colours: the same picture, no pixel shaded twice
+    Id,
+    /// None: what comes later in the model is in front
+    Priority,
+}
+
+impl DepthArg {
+    /// Whether it is a pipeline of its own.
+    #[must_use]
+    pub fn is_a_pipeline(self) -> bool {
+        !matches!(self, Self::Auto | Self::Z32)
+    }
+
+    /// What a renderer is told.
+    #[must_use]
+    pub fn depth_use(self) -> DepthUse {
+        match self {
+            Self::Z32 => DepthUse::Always,
+            _ => DepthUse::WhereNeeded,
+        }
+    }
+}
+
+impl fmt::Display for DepthArg {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.to_possible_value() {
+            Some(value) => f.write_str(value.get_name()),
+            None => Ok(()),
+        }
+    }
+}

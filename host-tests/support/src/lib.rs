@@ -1,0 +1,13 @@
+//! What the tool and the tests stand on: models and pictures from files and to files, the mocked frame buffer, the
+//! memory that is lent, the reference in f64, and what is said on standard output.
+
+// First: its macros are everybody's.
+#[macro_use]
+pub mod stdio;
+
+pub mod image_out;
+pub mod lent;
+pub mod mock;
+pub mod model;
+pub mod reference;
+pub mod texture_file;
