@@ -6,7 +6,7 @@ use crate::figures::{Bench, Figure, Size, growth, suite};
 use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
-use crate::host_frames::{draw, host_counts, host_frames};
+use crate::frames::{draw, host_counts, host_frames};
 use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::{preset_sizes, profile_report};
 use scanbeam::FrameStats;

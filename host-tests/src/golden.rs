@@ -7,7 +7,7 @@
 //! same, so that a blessing is never taken for a pass.
 //!
 //! A picture is added by its name, wherever the others are drawn: a frame in
-//! [`host_frames`](crate::host_frames::host_frames), a picture of the tool in
+//! [`host_frames`](crate::frames::host_frames), a picture of the tool in
 //! `tests/golden.rs`. Then the record is blessed.
 
 use crate::image_out::write_atomically;

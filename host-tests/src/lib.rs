@@ -5,6 +5,7 @@
 extern crate host_support;
 
 pub use host_draw::{self as draw, choice, crew};
+pub use host_frames as frames;
 pub use host_support::{image_out, lent, mock, model, reference, say, stdio, tell, texture_file};
 
 pub mod accuracy;
@@ -14,16 +15,12 @@ pub mod boards;
 pub mod budgets;
 pub mod cache_report;
 pub mod demo;
-pub mod effect_frames;
 pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
 pub mod golden;
-pub mod host_frames;
-mod lean_frames;
 pub mod lists;
 pub mod memory_model;
-pub mod method_frames;
 pub mod places;
 pub mod plot;
 pub mod preset_sizes;

@@ -10,7 +10,7 @@ use crate::bench::table::{between, page};
 use crate::firmware::{
     self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain,
 };
-use crate::host_frames::draw;
+use crate::frames::draw;
 use crate::image_out::write_atomically;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::Link;

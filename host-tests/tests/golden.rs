@@ -2,8 +2,8 @@
 //! `figures/golden.txt` keeps, so that a change of meaning is seen where firmware and host change alike.
 
 use crate::command_line::Desk;
+use host_tests::frames::host_frames;
 use host_tests::golden::{self, BLESS_VARIABLE, Pictures};
-use host_tests::host_frames::host_frames;
 use host_tests::image_out::{Frame, write_image};
 use host_tests::model::obj_text;
 use std::fs;

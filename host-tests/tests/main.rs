@@ -32,6 +32,7 @@ mod findings;
 mod findings_effects;
 mod findings_textures;
 mod formats;
+mod frames;
 mod fuzz;
 mod golden;
 mod hot_path_colours;

@@ -1,7 +1,7 @@
 //! Scene B, the textured sphere of the benchmark, against `f64`; and the frames that are drawn
 //! with other depths beside those with 32 bits (H2, H3, H5, X3).
 
-use host_tests::host_frames::{draw_keeping, drawn_b, picture};
+use host_tests::frames::{draw_keeping, drawn_b, picture};
 use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{
     Cull, NO_OBJECT, Options, Reference, Shade, TextureMap, Textures, View, render_textured,

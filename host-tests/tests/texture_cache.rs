@@ -2,7 +2,7 @@
 //! picture is that of the same texture in rows, and the counts are those of a model that follows
 //! every read.
 
-use host_tests::host_frames::textured_b;
+use host_tests::frames::textured_b;
 use scanbeam::pipeline::{Counted, TexturedDepth};
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::texture::{

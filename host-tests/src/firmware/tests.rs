@@ -74,7 +74,7 @@ fn built() -> Result<Toolchain, FirmwareError> {
 #[test]
 fn firmware_runs_the_same_everywhere() -> Result<(), Box<dyn std::error::Error>> {
     let toolchain = built()?;
-    let host = crate::host_frames::host_frames()?;
+    let host = crate::frames::host_frames()?;
     let mut released = None;
     for (board, profile) in [
         (M4, Profile::Release),

@@ -3,7 +3,7 @@
 use super::Page;
 use crate::args::PixelFormatArg;
 use crate::draw::{CrewSettings, Effects, FilterArg, TextureSet, draw_effects};
-use crate::effect_frames::effect_pictures;
+use crate::frames::effect_pictures;
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
 use scanbeam::texture::Quality;

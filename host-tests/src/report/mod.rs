@@ -14,7 +14,7 @@ use crate::draw::{CrewSettings, Drawn, draw, draw_model};
 use crate::figures::gate::Record;
 use crate::figures::suite;
 use crate::firmware::BOARDS;
-use crate::host_frames::{picture, picture_b, picture_suite};
+use crate::frames::{picture, picture_b, picture_suite};
 use crate::image_out::{Frame, make_folder, write_atomically};
 use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};

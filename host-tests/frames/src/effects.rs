@@ -1,9 +1,9 @@
 //! The small frame of each effect, as this machine draws it.
 
-use crate::image_out::Frame;
-use crate::lent::{LineRooms, SceneRooms};
-use crate::method_frames::MethodFrame;
-use crate::mock::{HostLine, MockFrameBuffer};
+use crate::MethodFrame;
+use host_support::image_out::Frame;
+use host_support::lent::{LineRooms, SceneRooms};
+use host_support::mock::{HostLine, MockFrameBuffer};
 use scanbeam::light::Lamplight;
 use scanbeam::pipeline::{Pipeline, WordOf};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
@@ -159,23 +159,4 @@ pub fn effect_pictures() -> Result<Vec<(&'static str, Frame)>, Box<dyn Error>> {
         Ok((name, frame.ok_or("a frame of another size")?))
     });
     frames.collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use std::collections::BTreeSet;
-
-    #[test]
-    fn frames_are_full_of_colours_and_the_same_with_any_cache() {
-        let frames = effect_frames(64).unwrap();
-        for (name, words) in &frames {
-            let colours: BTreeSet<u16> = words.iter().copied().collect();
-            // Sides of cubes have one colour each, lit or in shadow.
-            let least = if *name == "effect_shadows" { 6 } else { 25 };
-            assert!(colours.len() > least, "{name}: {}", colours.len());
-        }
-        assert!(effect_frames(0).unwrap() == frames);
-        assert!(effect_frames(5).unwrap() == frames);
-    }
 }

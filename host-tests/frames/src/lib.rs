@@ -1,12 +1,17 @@
 //! The frames of the firmware as this machine draws them: their checksums, what they have, and pictures of them.
 
-use crate::draw::ModelLines;
-use crate::effect_frames::effect_frames;
-use crate::image_out::Frame;
-use crate::lean_frames::lean_frame;
-use crate::lent::{LineRooms, SceneRooms};
-use crate::method_frames::method_frames;
-use crate::mock::{HostLine, MockFrameBuffer};
+mod effects;
+mod lean;
+mod methods;
+
+pub use effects::{effect_frames, effect_pictures};
+pub use methods::{MethodFrame, method_frames};
+
+use host_draw::ModelLines;
+use host_support::image_out::Frame;
+use host_support::lent::{LineRooms, SceneRooms};
+use host_support::mock::{HostLine, MockFrameBuffer};
+use lean::lean_frame;
 use scanbeam::input::ListMemory;
 use scanbeam::list::TextureSlot;
 use scanbeam::pipeline::{
@@ -136,7 +141,10 @@ fn framed(bytes: &[u8]) -> Result<Frame, Box<dyn Error>> {
 }
 
 /// The bytes of a shot in scan-out order.
-pub(crate) fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
+///
+/// # Errors
+/// When a shot does not fit the arenas that it asks for.
+pub fn draw<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
     drawn::<P>(shot).map(|(bytes, _)| bytes)
 }
 
