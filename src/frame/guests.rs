@@ -149,22 +149,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Keeps a span of what has no slot, for [`draw_near`](Renderer::draw_near).
     #[inline(always)]
     pub(super) fn keep_guest(&mut self, object: u16, span: Span) {
-        if L::ANY_RUNS {
-            let slope = Slope { at: 0, step: 0 };
-            let rival = Rival {
-                span,
-                slope,
-                object,
-            };
-            Guest { key: 0, rival }.keep(self.depth, self.guests);
-        }
+        let slope = Slope { at: 0, step: 0 };
+        let rival = Rival {
+            span,
+            slope,
+            object,
+        };
+        Guest { key: 0, rival }.keep(self.depth, self.guests);
         self.guests += 1;
     }
 
     /// Whether what has no slot on this line can be sorted.
     #[inline(always)]
     pub(super) fn has_room(&self) -> bool {
-        L::ANY_RUNS && !self.depth.is_empty() && CELLS * self.guests <= self.depth.len()
+        !self.depth.is_empty() && CELLS * self.guests <= self.depth.len()
     }
 
     /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.

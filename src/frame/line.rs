@@ -176,6 +176,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             let at = Place {
                 span: column,
+                end,
                 column,
                 line,
             };

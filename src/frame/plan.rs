@@ -31,7 +31,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.plan != Plan::Changed || self.depth.is_empty() || self.cache.spilled.is_some() {
             return;
         }
-        if self.changed || !L::ANY_RUNS {
+        if self.changed {
             return;
         }
         self.plan = match self.near_first(view) {

@@ -44,10 +44,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 return true;
             }
             self.covered = Mask::EMPTY;
-            if L::ANY_RUNS {
-                self.plan = Plan::NearFirst(self.highest_first(out.view));
-                return false;
-            }
+            self.plan = Plan::NearFirst(self.highest_first(out.view));
+            return false;
         }
         fill_line::<L>(out.pixels, background);
         self.find_all(out);

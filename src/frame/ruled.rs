@@ -22,8 +22,7 @@ pub(super) struct Ruled<'a, P> {
 struct Ink<'a, P> {
     fill: Fill,
     planes: &'a P,
-    /// The span's first column.
-    span: u32,
+    span: Span,
     blend: Option<Blend>,
 }
 
@@ -40,7 +39,7 @@ pub(super) fn draw_ruled<L: Look>(
     let mut ink = Ink {
         fill: drawn.flags.fill(),
         planes: drawn.planes,
-        span: span.start,
+        span,
         blend: state.blend,
     };
     if ink.fill == Fill::Thin {
@@ -131,7 +130,8 @@ fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, Word
         return;
     };
     let mut at = Place {
-        span: ink.span,
+        span: ink.span.start,
+        end: ink.span.end,
         column: run.start,
         line: out.number,
     };

@@ -72,6 +72,7 @@ pub(super) fn nearer<L: Look>(
     }
     let at = Place {
         span: column,
+        end: span.end,
         column,
         line,
     };
@@ -152,6 +153,7 @@ pub(super) fn colour_slot<L: Look>(
     };
     let at = Place {
         span: span.start,
+        end: span.end,
         column: span.start,
         line: out.number,
     };
@@ -181,6 +183,7 @@ pub(super) fn colour_run<L: Look>(
     };
     let at = Place {
         span: span.start,
+        end: span.end,
         column: run.start,
         line: out.number,
     };

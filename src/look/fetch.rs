@@ -88,6 +88,16 @@ pub struct Way {
 }
 
 impl Way {
+    /// The way from so many pixels on.
+    #[inline(always)]
+    #[must_use]
+    pub const fn skip(self, pixels: usize) -> Self {
+        Self {
+            at: self.at.plus(self.step.times(pixels)),
+            ..self
+        }
+    }
+
     /// The first place modulo 8192 texels, as it is on a texture that repeats.
     #[inline(always)]
     const fn repeated(&self) -> Uv {
@@ -108,7 +118,7 @@ pub(super) fn texel<const N: usize>(t: &[[u16; N]; N], at: u32) -> u16 {
 
 /// The texels of `N` pixels, without an end test.
 #[inline(always)]
-pub(super) fn straight<const N: usize, const SIDE: usize>(
+fn straight<const N: usize, const SIDE: usize>(
     pixels: &mut [u16; N],
     t: &[[u16; SIDE]; SIDE],
     at: &mut u32,
@@ -122,12 +132,7 @@ pub(super) fn straight<const N: usize, const SIDE: usize>(
 
 /// [`copy`] from a square.
 #[inline(always)]
-pub(super) fn copy_square<const SIDE: usize>(
-    run: &mut [u16],
-    t: &[[u16; SIDE]; SIDE],
-    at: u32,
-    step: u32,
-) {
+fn copy_square<const SIDE: usize>(run: &mut [u16], t: &[[u16; SIDE]; SIDE], at: u32, step: u32) {
     if run.len() >= 8 {
         copy_long(run, t, at, step);
     } else {
@@ -145,7 +150,10 @@ fn copy_long<const SIDE: usize>(run: &mut [u16], t: &[[u16; SIDE]; SIDE], mut at
             straight(eight, t, &mut at, unknown(step));
         }
     }
-    copy_short(eights.into_remainder(), t, at, step);
+    let rest = eights.into_remainder();
+    if !rest.is_empty() {
+        copy_short(rest, t, at, step);
+    }
 }
 
 /// Up to 7 pixels in straight code: 4, 2 and 1.
@@ -195,6 +203,12 @@ pub fn copy_from(run: &mut [u16], square: Square<'_>, at: u32, step: u32) {
 #[inline(never)]
 pub(super) fn copy_part(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
     copy(run, texture, at, step);
+}
+
+/// [`copy_from`], called.
+#[inline(never)]
+pub(super) fn copy_piece(run: &mut [u16], square: Square<'_>, at: u32, step: u32) {
+    copy_from(run, square, at, step);
 }
 
 /// [`copy`] from any form and size.
@@ -262,21 +276,32 @@ pub fn copy_exact(run: &mut [u16], texture: &Texture<'_>, way: Way) {
     }
 }
 
-/// [`copy_exact`], faster on squares of 32 to 256 words that repeat: there places may be off by 1/24
-/// texel; by 1/10 where steps are longer than a quarter of the side.
+/// [`copy_exact`] of a run so many pixels from the beginning of `way`, faster on squares of 32 to 256 words that
+/// repeat: there places may be off by 1/24 texel; by 1/10 where steps are longer than a quarter of the side.
 #[inline(never)]
-pub fn copy_wide(run: &mut [u16], texture: &Texture<'_>, way: Way) {
+pub fn copy_wide(run: &mut [u16], skipped: usize, texture: &Texture<'_>, way: Way) {
     if texture.wrap() != Wrap::Repeat || !texture.is_square() {
-        copy_exact(run, texture, way);
+        copy_exact(run, texture, way.skip(skipped));
         return;
     }
     // Rounded steps stay within 1/32 texel of the way, and carries of u within another one.
     let log = texture.log_width();
-    let (mut at, length) = (way.repeated(), 16usize << (8 - log));
-    for part in run.chunks_mut(length) {
-        copy_part(part, texture, packed(at, log), packed_step(way.step, log));
+    let (length, step) = (16usize << (8 - log), packed_step(way.step, log));
+    let mut skipped_here = skipped & (length - 1);
+    let mut at = way.skip(skipped - skipped_here).repeated();
+    let mut rest = run;
+    while !rest.is_empty() {
+        let (part, more) = rest.split_at_mut((length - skipped_here).min(rest.len()));
+        copy_part(part, texture, packed_on(at, step, skipped_here, log), step);
         at = at.plus(way.step.times(length));
+        (rest, skipped_here) = (more, 0);
     }
+}
+
+/// A place in one word, so many packed steps on.
+#[inline(always)]
+pub(super) fn packed_on(at: Uv, step: u32, pixels: usize, log: u32) -> u32 {
+    packed(at, log).wrapping_add(step.wrapping_mul(pixels as u32))
 }
 
 /// A place in one word, rounded down, for a square of `2^log` texels a side.

@@ -313,7 +313,6 @@ impl<F: Pixel> Paint for Gouraud<F> {
     type Planes = Planes;
     const EMPTY: Planes = [0; 9];
     const TEXTURED: bool = false;
-    const ANY_RUNS: bool = true;
     const SCALE: Scale = Scale::new(F::STEPS);
 
     #[inline(always)]

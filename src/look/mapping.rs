@@ -19,7 +19,8 @@
 
 use super::Place;
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
-use super::perspective::{Homogeneous, Perspective, Range, Stride, reach};
+use super::perspective::{Homogeneous, Perspective, Within};
+use super::stride::{Range, Stride, reach};
 #[cfg(test)]
 use super::word_plane::Near;
 use crate::num::{leading_zeros, mul_high, mul_high_unsigned, recip, recip_16};
@@ -391,17 +392,19 @@ impl Mapping {
             .then_some(mapping)
     }
 
-    /// Copies texels into `run`, whose first pixel is at `column` and `line` of the picture.
+    /// Copies texels into `run`, which begins at `place` of the picture.
     #[inline(always)]
     pub fn draw(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
-        if run.len() <= usize::from(self.quick) {
-            return self.span(place).between(run, texture);
+        if place.pixels() <= u32::from(self.quick) {
+            return self.span(place).between(run, place.within(), texture);
         }
         self.draw_any(run, place, texture, budget);
     }
 
+    /// The whole span of a run.
     #[inline(always)]
     fn span(&self, place: Place) -> Perspective {
+        let place = place.first();
         let [s, t, q] = [0, 1, 2].map(|i| word_at(&self.planes[i], place));
         let [ds, dt, dq] = self.planes.map(|[_, right, _]| right);
         let of = |q, s: u32, t: u32| Homogeneous {
@@ -428,16 +431,16 @@ impl Mapping {
                     u: u as i32,
                     v: v as i32,
                 };
-                let [u, v] = [0, 1].map(|i| word_at(&self.planes[i], place));
+                let [u, v] = [0, 1].map(|i| word_at(&self.planes[i], place.first()));
                 let way = Way {
                     base: self.base,
                     at: uv(u, v),
                     step: uv(self.planes[0][1], self.planes[1][1]),
                 };
                 if budget.is_coarse() {
-                    copy_wide(run, texture, way);
+                    copy_wide(run, place.within().skipped, texture, way);
                 } else {
-                    copy_exact(run, texture, way);
+                    copy_exact(run, texture, way.skip(place.within().skipped));
                 }
             }
             Method::Perspective => self.draw_long(run, place, texture, budget),
@@ -446,19 +449,30 @@ impl Mapping {
 
     #[inline(always)]
     fn draw_long(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
-        let span = self.span(place);
-        if run.len() < 2 * usize::from(self.quick) {
-            return span.between_three(run, texture);
+        let (span, within) = (self.span(place), place.within());
+        if within.pixels < 2 * usize::from(self.quick) {
+            return span.between_three(run, within, texture);
         }
         // Far from the triangle's nearest corner longer strides may do: long spans repay the question.
         let long = (8 * usize::from(self.reach)).max(24);
-        let stride = if run.len() > long {
-            span.stride(run.len(), budget)
+        let stride = if within.pixels > long {
+            span.stride(within.pixels, budget)
         } else if budget.is_coarse() {
             Stride::within(self.reach)
         } else {
             Stride::within(self.reach.min(4))
         };
-        span.draw(run, texture, stride);
+        span.draw(run, within, texture, stride);
+    }
+}
+
+impl Place {
+    /// Which pixels of its span a run has.
+    #[inline(always)]
+    fn within(self) -> Within {
+        Within {
+            skipped: self.skipped() as usize,
+            pixels: self.pixels() as usize,
+        }
     }
 }

@@ -10,6 +10,7 @@
 //! | `word_plane` | both coordinates of a small affine triangle in one word |
 //! | `fetch` | texels along a way that is linear on the texture |
 //! | `perspective` | a span in perspective: exact places at its ends or every 16 to 1 pixels, fetched between |
+//! | `stride` | how far these exact places may be apart |
 //! | `tint` | texels times a shade, in place |
 //!
 //! A textured span is a sum of two passes over its pixels: a fetcher writes plain texels, then a
@@ -22,6 +23,7 @@ mod mapping;
 mod paint;
 mod perspective;
 mod ramp;
+mod stride;
 #[cfg(test)]
 mod tests;
 mod textured;

@@ -28,8 +28,6 @@ pub trait Paint: Sized {
     const EMPTY: Self::Planes;
     /// Whether vertices have texture places.
     const TEXTURED: bool;
-    /// Whether a pixel has the same bits in whatever runs its span is coloured.
-    const ANY_RUNS: bool;
     /// How levels of light become colours of vertices.
     const SCALE: Scale;
 
@@ -89,15 +87,41 @@ pub trait Paint: Sized {
 /// A pixel of a line buffer.
 pub type WordOf<L> = <<L as Paint>::Pixel as crate::composite::PixelFormat>::Word;
 
-/// Where a run of pixels begins: the first column of its span, its own, and the line.
+/// Where a run of pixels begins: the columns of its span, its own first one, and the line.
 ///
-/// Colours are reckoned from the span's first column on, so that a pixel has the same bits in whatever runs its
-/// span is coloured.
+/// Colours are reckoned from the ends of the span, so that a pixel has the same bits in whatever runs its span is
+/// coloured.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
+    /// The first column of the span.
     pub span: u32,
+    /// The column after its last.
+    pub end: u32,
     pub column: u32,
     pub line: u32,
+}
+
+impl Place {
+    /// The span's first pixel.
+    #[inline(always)]
+    pub fn first(self) -> Self {
+        Self {
+            column: self.span,
+            ..self
+        }
+    }
+
+    /// Pixels of the span before the run.
+    #[inline(always)]
+    pub fn skipped(self) -> u32 {
+        self.column.wrapping_sub(self.span)
+    }
+
+    /// Pixels of the span.
+    #[inline(always)]
+    pub fn pixels(self) -> u32 {
+        self.end.wrapping_sub(self.span)
+    }
 }
 
 /// The depth of a run of pixels: its cells, its value at the first pixel, and its step.

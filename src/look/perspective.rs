@@ -2,7 +2,7 @@
 //!
 //! | span of | exact places | by |
 //! |---|---|---|
-//! | squares that repeat, at a coarse budget, up to the triangle's [`reach`] | at both ends | [`Perspective::between`] |
+//! | squares that repeat, at a coarse budget, up to the triangle's [`reach`](super::stride::reach) | at both ends | [`Perspective::between`] |
 //! | likewise, up to twice that | at both ends and the middle | [`Perspective::between_three`] |
 //! | all others | every [`Stride`] pixels, and at the end | [`Perspective::draw`] |
 //!
@@ -31,12 +31,13 @@
 //! Between two pixels with 1/w of `q0` and `q1`, u is off from the straight way by at most
 //! `|du| |dq| / (4 min q)`. In a span of `n` steps with that bound `e` for the whole, a part of `m`
 //! steps has `dq m / n`, and a `du` of at most `m / n max q / min q` of the whole's. So its error is
-//! at most `e (m / n)² max q / min q`. [`Perspective::stride`] asks so for a long span; [`reach`] asks once a triangle, for
+//! at most `e (m / n)² max q / min q`. [`Perspective::stride`] asks so for a long span; [`reach`](super::stride::reach) asks once a triangle, for
 //! all of its spans.
 
 use super::fetch::{
-    FRACTION, Uv, Way, copy, copy_exact, copy_part, copy_square, packed, packed_step, straight,
+    FRACTION, Uv, Way, copy, copy_exact, copy_part, copy_piece, packed_on, packed_step,
 };
+use super::stride::Stride;
 use crate::num::{leading_zeros, mul_17, mul_high, mul_high_unsigned, recip_16};
 use crate::scene::{Budget, Square, Texture, Wrap};
 
@@ -58,15 +59,15 @@ pub struct Homogeneous {
 
 /// About `2^(47 - shift) / q`, in 2^15 ..< 2^16.
 #[derive(Clone, Copy)]
-struct Reciprocal {
-    mantissa: u32,
-    shift: u32,
+pub(super) struct Reciprocal {
+    pub(super) mantissa: u32,
+    pub(super) shift: u32,
 }
 
 impl Reciprocal {
     /// Within 2^-15 of itself, for `q` above 0.
     #[inline(always)]
-    fn of(q: u32) -> Self {
+    pub(super) fn of(q: u32) -> Self {
         let shift = leading_zeros(q) & 31;
         // The top bit is set but where q is 0, where any number will do.
         let upper = (q << shift) >> 16 | 0x8000;
@@ -114,112 +115,6 @@ impl Homogeneous {
     }
 }
 
-/// Pixels from one exact place to the next.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[repr(u8)]
-pub enum Stride {
-    /// Each pixel has its own.
-    One,
-    /// Every 2nd.
-    Two,
-    /// Every 4th.
-    Four,
-    /// Every 8th.
-    Eight,
-    /// Every 16th.
-    Sixteen,
-}
-
-impl Stride {
-    /// All of them, the most exact one first.
-    #[cfg(test)]
-    pub const ALL: [Self; 5] = [Self::One, Self::Two, Self::Four, Self::Eight, Self::Sixteen];
-
-    /// The power of two that it is.
-    #[inline(always)]
-    const fn log(self) -> u32 {
-        self as u32
-    }
-
-    /// Pixels from one exact place to the next.
-    #[inline(always)]
-    #[must_use]
-    pub const fn pixels(self) -> usize {
-        1 << self.log()
-    }
-
-    /// The longest of at most so many steps.
-    #[inline(always)]
-    #[must_use]
-    pub const fn within(steps: u8) -> Self {
-        match steps {
-            16.. => Self::Sixteen,
-            8.. => Self::Eight,
-            4.. => Self::Four,
-            2.. => Self::Two,
-            _ => Self::One,
-        }
-    }
-}
-
-/// Most steps from one exact place to the next.
-const LONGEST: u8 = 64;
-
-/// How many steps from one exact place to the next keep `budget` anywhere in a triangle: 1 to 64.
-///
-/// `least` is its least 1/w, whose step is `step`. With `K = d(u/w) - u d(1/w)`, u changes by `K / q` a pixel, and `K` is
-/// extreme at a corner. The second derivative is `2 dq K / q^2`, so over `m` steps u is off from the straight way by
-/// `m^2 |dq K| / (4 q^2)` at most.
-#[inline(always)]
-#[must_use]
-pub fn reach(least: u32, step: i32, ways: [Range; 2], budget: Budget) -> u8 {
-    let r = Reciprocal::of(least);
-    let of = |range: &Range| {
-        let turned = |place: i32| range.step.wrapping_sub(mul_high(place, step) << 2);
-        let (low, high) = (turned(range.low), turned(range.high));
-        (low ^ low >> 31).max(high ^ high >> 31) as u32 + 1
-    };
-    let most = of(&ways[0]).max(of(&ways[1]));
-    let step = (step ^ step >> 31) as u32 + 1;
-    if step > least >> 2 || most > least {
-        return 1;
-    }
-    // Each by 1/w, times 2^30 and more by what the reciprocal may lack.
-    let of = |value: u32| {
-        let part = (mul_17(value as i32, r.mantissa) as u32) << r.shift;
-        part + (part >> 14) + 1
-    };
-    // The product in units of 2^-19 texel, of which the budget has 2^11.
-    let worst = mul_high_unsigned(of(step), of(most)) + 1;
-    let twice = halvings(budget.for_curves() << 11, worst).min(12);
-    ROOTS[twice as usize & 15]
-}
-
-/// How often `most` may be halved and be at least `least`, which is above 0.
-#[inline(always)]
-fn halvings(most: u32, least: u32) -> u32 {
-    if most < least {
-        return 0;
-    }
-    let times = leading_zeros(least) - leading_zeros(most);
-    if most >> (times & 31) >= least {
-        times
-    } else {
-        times - 1
-    }
-}
-
-/// `floor(2^(i / 2))`.
-static ROOTS: [u8; 16] = [1, 1, 2, 2, 4, 5, 8, 11, 16, 22, 32, 45, LONGEST, 0, 0, 0];
-
-/// The least and the most of the places on one axis, as in [`Uv`], and the step of them over w to the next pixel.
-#[derive(Clone, Copy, Debug)]
-pub struct Range {
-    pub low: i32,
-    pub high: i32,
-    pub step: i32,
-}
-
 /// A span of a triangle in perspective.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Perspective {
@@ -244,7 +139,7 @@ static PARTS: [i32; 128] = {
     parts
 };
 
-/// One step of a way of `steps` of them, at most [`LONGEST`]; rounded down.
+/// One step of a way of `steps` of them, at most 64; rounded down.
 #[inline(always)]
 fn nth(way: Uv, steps: usize) -> Uv {
     let n = PARTS[steps & 127];
@@ -288,115 +183,139 @@ impl Perspective {
         }
     }
 
-    /// Copies a square's texels into `run`, of 1 to [`LONGEST`] + 1 pixels, with exact places at both ends.
+    /// Copies a square's texels into a run of a span of 1 to 65 pixels, with exact places at both ends.
     #[inline(always)]
-    pub fn between(&self, run: &mut [u16], texture: &Texture<'_>) {
-        let steps = run.len().saturating_sub(1);
+    pub fn between(&self, run: &mut [u16], within: Within, texture: &Texture<'_>) {
+        let steps = within.steps();
         let from = self.at.place();
         let way = self.at.plus(self.step.times(steps)).place().minus(from);
         let side = texture.log_width();
-        let (at, step) = (packed(from, side), packed_step(nth(way, steps), side));
+        let step = packed_step(nth(way, steps), side);
+        let at = packed_on(from, step, within.skipped, side);
         copy(run, texture, at, step);
     }
 
-    /// Copies a square's texels into `run`, of 3 to 129 pixels, with exact places at both ends and at the middle one.
+    /// Copies a square's texels into a run of a span of 3 to 129 pixels, with exact places at both ends and at the
+    /// middle one.
     #[inline(always)]
-    pub fn between_three(&self, run: &mut [u16], texture: &Texture<'_>) {
-        let steps = run.len().saturating_sub(1);
+    pub fn between_three(&self, run: &mut [u16], within: Within, texture: &Texture<'_>) {
+        let steps = within.steps();
         let half = steps >> 1;
         let from = self.at.place();
         let middle = self.at.plus(self.step.times(half)).place();
         let to = self.at.plus(self.step.times(steps)).place();
         let side = texture.log_width();
-        let (first, second) = run.split_at_mut(half);
+        let before = half.saturating_sub(within.skipped).min(run.len());
+        let (first, second) = run.split_at_mut(before);
         let step = packed_step(nth(middle.minus(from), half), side);
-        copy_part(first, texture, packed(from, side), step);
+        let at = packed_on(from, step, within.skipped, side);
+        copy_part(first, texture, at, step);
         let step = packed_step(nth(to.minus(middle), steps - half), side);
-        copy_part(second, texture, packed(middle, side), step);
+        let at = packed_on(middle, step, within.skipped.saturating_sub(half), side);
+        copy_part(second, texture, at, step);
     }
 
-    /// Copies the span's texels into `run`, with exact places at every `stride` pixels and at the
+    /// Copies texels into a run of the span, with exact places at every `stride` pixels and at the
     /// last one. What is no square that repeats has one at each pixel where others have one at
     /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
-    pub fn draw(&self, run: &mut [u16], texture: &Texture<'_>, stride: Stride) {
+    pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
         let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
         match (square, stride) {
-            (Some(Square::Side32(t)), _) => self.square(run, t, stride),
-            (Some(Square::Side64(t)), _) => self.square(run, t, stride),
-            (Some(Square::Side128(t)), _) => self.square(run, t, stride),
-            (Some(Square::Side256(t)), _) => self.square(run, t, stride),
-            (None, Stride::Eight | Stride::Sixteen) => self.any(run, texture, stride),
-            (None, _) => self.singly(run, texture),
+            (Some(square), Stride::Sixteen | Stride::Eight) => {
+                self.eights(run, within, square, stride);
+            }
+            (Some(Square::Side32(t)), _) => self.few(run, within, t, stride),
+            (Some(Square::Side64(t)), _) => self.few(run, within, t, stride),
+            (Some(Square::Side128(t)), _) => self.few(run, within, t, stride),
+            (Some(Square::Side256(t)), _) => self.few(run, within, t, stride),
+            (None, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
+            (None, _) => self.singly(run, within, texture),
         }
     }
 
-    /// [`draw`](Self::draw) from a square that repeats, whose side divides the base.
+    /// Calls `draw` for each part of a run that lies between two exact places `2^log` pixels from each other: with
+    /// its pixels, the first of these places, the step, and how many of its pixels lie before the run. What is left of
+    /// the run is at the end of the span.
     #[inline(always)]
-    fn square<const N: usize>(&self, run: &mut [u16], t: &[[u16; N]; N], stride: Stride) {
-        match stride {
-            Stride::Sixteen | Stride::Eight => self.eights(run, t, stride),
-            Stride::Four => self.few::<2, N>(run, t),
-            Stride::Two => self.few::<1, N>(run, t),
-            Stride::One => self.exact(run, t),
+    fn pieces<'r>(
+        &self,
+        run: &'r mut [u16],
+        within: Within,
+        log: u32,
+        mut draw: impl FnMut(&mut [u16], Uv, Uv, usize),
+    ) -> Rest<'r> {
+        let length = 1usize << log;
+        let first = within.skipped >> log << log;
+        let ahead = self.step.times(length);
+        let mut at = self.at.plus(self.step.times(first));
+        let mut rest = Rest {
+            run,
+            skipped: within.skipped - first,
+            steps: within.steps() - first,
+            from: at.place(),
+            at,
+        };
+        while rest.steps >= length && !rest.run.is_empty() {
+            at = at.plus(ahead);
+            let to = at.place();
+            let pixels = (length - rest.skipped).min(rest.run.len());
+            let (now, more) = rest.run.split_at_mut(pixels);
+            draw(now, rest.from, to.minus(rest.from).part(log), rest.skipped);
+            rest = Rest {
+                run: more,
+                skipped: 0,
+                steps: rest.steps - length,
+                from: to,
+                at,
+            };
         }
+        rest
     }
 
     /// Places every 8 or 16 pixels, between them in one word.
     #[inline(never)]
-    fn eights<const N: usize>(&self, run: &mut [u16], t: &[[u16; N]; N], stride: Stride) {
-        let (log, side) = (stride.log(), N.trailing_zeros());
-        let (runs, rest) = whole_runs(run, log);
-        let ahead = self.step.times(stride.pixels());
-        let (mut at, mut from) = (self.at, self.at.place());
-        let (mut place, mut step, mut is_second) = (0, 0, false);
-        for eight in runs.chunks_exact_mut(8) {
-            if !is_second {
-                at = at.plus(ahead);
-                let to = at.place();
-                place = packed(from, side);
-                step = packed_step(to.minus(from).part(log), side);
-                from = to;
-            }
-            if let Ok(eight) = <&mut [u16; 8]>::try_from(eight) {
-                straight(eight, t, &mut place, step);
-            }
-            is_second = stride == Stride::Sixteen && !is_second;
-        }
-        if let Some(steps) = rest.len().checked_sub(1) {
-            let to = at.plus(self.step.times(steps)).place();
-            let step = nth(to.minus(from), steps);
-            copy_square(rest, t, packed(from, side), packed_step(step, side));
+    fn eights(&self, run: &mut [u16], within: Within, square: Square<'_>, stride: Stride) {
+        let side = square.log();
+        let copy = |run: &mut [u16], from: Uv, step: Uv, skipped: usize| {
+            let step = packed_step(step, side);
+            copy_piece(run, square, packed_on(from, step, skipped, side), step);
+        };
+        let rest = self.pieces(run, within, stride.log(), copy);
+        if !rest.run.is_empty() {
+            let step = rest.step(self.step);
+            copy(rest.run, rest.from, step, rest.skipped);
         }
     }
 
-    /// Places every `2^LOG` pixels, between them in two words; the last ones each have their own.
+    /// Places every pixel, or every 2nd or 4th, between them in two words; the last ones each have their own.
     #[inline(never)]
-    fn few<const LOG: u32, const N: usize>(&self, run: &mut [u16], t: &[[u16; N]; N]) {
-        let (runs, rest) = whole_runs(run, LOG);
-        let ahead = self.step.times(1 << LOG);
-        let (mut at, mut from) = (self.at, self.at.place());
-        for run in runs.chunks_exact_mut(1 << LOG) {
-            at = at.plus(ahead);
-            if at.q == 0 {
-                // As in `exact`.
-                return;
-            }
-            let to = at.place();
-            let step = to.minus(from).part(LOG);
-            for pixel in run {
-                *pixel = texel(t, from);
-                from = from.plus(step);
-            }
-            from = to;
+    fn few<const N: usize>(
+        &self,
+        run: &mut [u16],
+        within: Within,
+        t: &[[u16; N]; N],
+        stride: Stride,
+    ) {
+        if stride == Stride::One {
+            return self.exact(run, within.skipped, t);
         }
-        Self { at, ..*self }.exact(rest, t);
+        let copy = |run: &mut [u16], from: Uv, step: Uv, skipped: usize| {
+            let mut at = from.plus(step.times(skipped));
+            for pixel in run {
+                *pixel = texel(t, at);
+                at = at.plus(step);
+            }
+        };
+        let rest = self.pieces(run, within, stride.log(), copy);
+        let at = rest.at;
+        Self { at, ..*self }.exact(rest.run, rest.skipped, t);
     }
 
     /// A place at each pixel.
     #[inline(never)]
-    fn exact<const N: usize>(&self, run: &mut [u16], t: &[[u16; N]; N]) {
-        let mut at = self.at;
+    fn exact<const N: usize>(&self, run: &mut [u16], skipped: usize, t: &[[u16; N]; N]) {
+        let mut at = self.at.plus(self.step.times(skipped));
         for pixel in run {
             if at.q == 0 {
                 // Outside of the triangle. The compiler makes shorter code of what is not 0.
@@ -409,8 +328,8 @@ impl Perspective {
 
     /// A place at each pixel, from any form and size, with any wrap.
     #[inline(never)]
-    fn singly(&self, run: &mut [u16], texture: &Texture<'_>) {
-        let mut at = self.at;
+    fn singly(&self, run: &mut [u16], within: Within, texture: &Texture<'_>) {
+        let mut at = self.at.plus(self.step.times(within.skipped));
         for pixel in run {
             let Some(texel) = texture.at(self.base, at.place()) else {
                 return;
@@ -422,34 +341,61 @@ impl Perspective {
 
     /// Places every 8 or 16 pixels, from any form and size, with any wrap.
     #[inline(never)]
-    fn any(&self, run: &mut [u16], texture: &Texture<'_>, stride: Stride) {
-        let ahead = self.step.times(stride.pixels());
-        let (mut at, mut rest) = (self.at, run);
-        let mut from = at.place();
-        let copy = |run: &mut [u16], at: Uv, step: Uv| {
+    fn any(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
+        let copy = |run: &mut [u16], at: Uv, step: Uv, skipped: usize| {
             let base = self.base;
-            copy_exact(run, texture, Way { base, at, step });
+            copy_exact(run, texture, Way { base, at, step }.skip(skipped));
         };
-        while rest.len() > stride.pixels() {
-            at = at.plus(ahead);
-            let to = at.place();
-            let (now, more) = rest.split_at_mut(stride.pixels());
-            copy(now, from, to.minus(from).part(stride.log()));
-            (rest, from) = (more, to);
-        }
-        if let Some(steps) = rest.len().checked_sub(1) {
-            let to = at.plus(self.step.times(steps)).place();
-            copy(rest, from, nth(to.minus(from), steps));
+        let rest = self.pieces(run, within, stride.log(), copy);
+        if !rest.run.is_empty() {
+            let step = rest.step(self.step);
+            copy(rest.run, rest.from, step, rest.skipped);
         }
     }
 }
 
-/// The runs of `2^log` pixels that have a pixel behind them, and the rest: at least 1, if there are
-/// any.
-#[inline(always)]
-fn whole_runs(run: &mut [u16], log: u32) -> (&mut [u16], &mut [u16]) {
-    let whole = run.len().saturating_sub(1) >> log << log;
-    run.split_at_mut(whole)
+/// What of a run lies behind the last whole piece of its span, or the beginning of that.
+struct Rest<'r> {
+    run: &'r mut [u16],
+    /// Pixels from `at` to the run.
+    skipped: usize,
+    /// Pixels from `at` to the last one of the span.
+    steps: usize,
+    from: Uv,
+    at: Homogeneous,
+}
+
+impl Rest<'_> {
+    /// The step from here to the span's last pixel.
+    #[inline(always)]
+    fn step(&self, step: Homogeneous) -> Uv {
+        let to = self.at.plus(step.times(self.steps)).place();
+        nth(to.minus(self.from), self.steps)
+    }
+}
+
+/// Which pixels of a span a run has: those behind so many, of so many.
+#[derive(Clone, Copy, Debug)]
+pub struct Within {
+    pub skipped: usize,
+    pub pixels: usize,
+}
+
+impl Within {
+    /// All of a span.
+    #[cfg(test)]
+    pub fn whole(run: &[u16]) -> Self {
+        Self {
+            skipped: 0,
+            pixels: run.len(),
+        }
+    }
+
+    /// From the span's first pixel to its last one.
+    #[inline(always)]
+    fn steps(self) -> usize {
+        self.pixels.saturating_sub(1)
+    }
 }
 
 /// A texel of a square that repeats.

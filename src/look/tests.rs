@@ -1,9 +1,11 @@
 //! Textured looks against plain references: f64, or integers of any width.
 
+mod runs;
 mod triangles;
 
 use super::fetch::{FRACTION, Uv, Way, copy, copy_exact, copy_wide};
-use super::perspective::{Homogeneous, Perspective, Stride};
+use super::perspective::{Homogeneous, Perspective, Within};
+use super::stride::Stride;
 use crate::num::random::Rng;
 use crate::scene::Budget;
 use crate::scene::{Texture, TextureError, Wrap};
@@ -180,7 +182,7 @@ fn wide_ways_show_their_texels_with_any_wrap() {
         if is_exact {
             copy_exact(&mut run, &texture, way);
         } else {
-            copy_wide(&mut run, &texture, way);
+            copy_wide(&mut run, 0, &texture, way);
         }
         for (x, &got) in run.iter().enumerate() {
             let at = way.at.plus(way.step.times(x));
@@ -218,7 +220,7 @@ fn far_places_of_what_does_not_repeat_are_not_brought_nearer() {
             },
             step,
         };
-        copy_wide(&mut run, &texture, way);
+        copy_wide(&mut run, 0, &texture, way);
         run.to_vec()
     };
     assert_eq!(row(8, Wrap::Clamp, -4, 12), [0, 0, 1, 3, 5, 7, 7, 7]);
@@ -327,7 +329,8 @@ fn strides_keep_the_budget_and_are_as_long_as_it_allows() {
         let budget = [Budget::FAST, Budget::BALANCED, Budget::EXACT][i % 3];
         let wrap = WRAPS[i / 3 % 3];
         let stride = span.stride(run.len(), budget);
-        span.draw(&mut run, &square.wrapping(wrap), stride);
+        let within = Within::whole(&run);
+        span.draw(&mut run, within, &square.wrapping(wrap), stride);
         chosen[stride as usize] += 1;
         let (mut q, mut reach) = ([f64::MAX, 0.0], 0f64);
         for (x, &texel) in run.iter().enumerate() {
@@ -386,8 +389,10 @@ fn every_form_is_drawn_alike_in_perspective() {
         let span = some_span(&mut rng, run.len());
         let budget = [Budget::FAST, Budget::BALANCED, Budget::EXACT][i % 3];
         let stride = span.stride(run.len(), budget);
-        span.draw(&mut run, &square, stride);
-        span.draw(&mut other, &columns, stride);
+        let within = Within::whole(&run);
+        span.draw(&mut run, within, &square, stride);
+        let within = Within::whole(&other);
+        span.draw(&mut other, within, &columns, stride);
         for (x, (&a, &b)) in run.iter().zip(&other).enumerate() {
             // Places are off by less than half a texel, each.
             let apart = (a & 255).wrapping_sub(b) & 255;

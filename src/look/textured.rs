@@ -22,6 +22,7 @@ use crate::pixel::Pixel;
 use crate::scene::{Budget, DrawState, ORIGIN, Texture, TexturePlace, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle, across, down};
 use core::marker::PhantomData;
+use core::slice::from_mut;
 
 /// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`] or
 /// [`Rgb565Be`](crate::pixel::Rgb565Be). Texels have the same order of bytes.
@@ -66,7 +67,7 @@ pub struct Planes {
 }
 
 /// Pixels between two evaluations of the shade's planes: steps are rounded to 2^-15 of full light.
-const SHADE_RUN: usize = 64;
+const SHADE_RUN: u32 = 64;
 
 impl<F: Texel> Textured<F> {
     /// The draw state of an object: that of the last call that began at it or before.
@@ -163,16 +164,50 @@ impl<F: Texel> Textured<F> {
             red_blue: at(planes, 0, place),
             green: at(planes, 3, place),
         };
-        F::tint(run, at, step);
+        if run.len() as u32 == place.pixels() {
+            return F::tint(run, at, step);
+        }
+        Self::shade_part(run, place, [at, step]);
     }
 
     /// Multiplies a run by the shade.
     #[inline(never)]
     fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
-        let columns = (place.column..).step_by(SHADE_RUN);
-        for (run, column) in run.chunks_mut(SHADE_RUN).zip(columns) {
-            let [shade, step] = shade_at(&course(fill, planes, Place { column, ..place }));
-            F::tint(run, shade, step);
+        let mut at = place;
+        let mut rest = run;
+        while !rest.is_empty() {
+            let skipped = at.skipped() % SHADE_RUN;
+            let pixels = rest.len().min((SHADE_RUN - skipped) as usize);
+            let (run, more) = rest.split_at_mut(pixels);
+            let column = at.column - skipped;
+            let [shade, step] = shade_at(&course(fill, planes, Place { column, ..at }));
+            let shade = shade.plus(step.times(skipped as usize));
+            Self::shade_part(run, at, [shade, step]);
+            at.column += pixels as u32;
+            rest = more;
+        }
+    }
+
+    /// Multiplies a run by a shade, two pixels from an even number of pixels behind the span's first one alike.
+    #[inline(never)]
+    fn shade_part(run: &mut [u16], place: Place, [mut shade, step]: [Shade; 2]) {
+        let pixels = run.len() as u32;
+        let mut rest = run;
+        if place.skipped() & 1 != 0 {
+            let Some((one, more)) = rest.split_first_mut() else {
+                return;
+            };
+            F::tint(from_mut(one), shade.minus(step), Shade::default());
+            shade = shade.plus(step);
+            rest = more;
+        }
+        let ends = place.column + pixels == place.end;
+        let pairs = if ends { rest.len() } else { rest.len() & !1 };
+        let (pairs, one) = rest.split_at_mut(pairs);
+        F::tint(pairs, shade, step);
+        if !one.is_empty() {
+            let shade = shade.plus(step.times(pairs.len()));
+            F::tint(one, shade, Shade::default());
         }
     }
 }
@@ -222,7 +257,6 @@ impl<F: Texel> Paint for Textured<F> {
         mapped: false,
     };
     const TEXTURED: bool = true;
-    const ANY_RUNS: bool = false;
     const SCALE: Scale = Scale::SHADE;
 
     #[inline(never)]

@@ -75,6 +75,16 @@ impl Shade {
         }
     }
 
+    /// The shade that is `by` back.
+    #[inline(always)]
+    #[must_use]
+    pub const fn minus(self, by: Self) -> Self {
+        Self {
+            red_blue: self.red_blue.wrapping_sub(by.red_blue),
+            green: self.green.wrapping_sub(by.green),
+        }
+    }
+
     /// `pixels` times this step.
     #[inline(always)]
     #[must_use]

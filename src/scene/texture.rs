@@ -126,6 +126,19 @@ pub(crate) enum Square<'t> {
     Side256(&'t [[u16; 256]; 256]),
 }
 
+impl Square<'_> {
+    /// The power of two that its side is.
+    #[inline(always)]
+    pub(crate) const fn log(self) -> u32 {
+        match self {
+            Self::Side32(_) => 5,
+            Self::Side64(_) => 6,
+            Self::Side128(_) => 7,
+            Self::Side256(_) => 8,
+        }
+    }
+}
+
 /// The powers of two that the sides are.
 #[derive(Clone, Copy)]
 struct Sides {

@@ -8,7 +8,7 @@ use crate::scene::{Budget, Texture};
 use std::vec::Vec;
 
 /// A triangle of so many pixels each way, and so many texels, clockwise, at random.
-fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[Corner; 3]> {
+pub(super) fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[Corner; 3]> {
     let spread = f64::from(1 << 27) * 0.9 * rng.unit().powi(5);
     let mut axis = |size: f64, from: f64| (size * f64::from(rng.signed()) + from) as i32;
     let middle = [axis(80_000.0, 0.0) * 256, axis(200.0, 0.0) * 256];
@@ -24,16 +24,18 @@ fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[Corner; 3]>
     (area > 1 << 14).then_some(c)
 }
 
-fn pixel(column: u32, line: u32) -> Place {
+/// A span of so many pixels.
+fn span(column: u32, pixels: usize, line: u32) -> Place {
     Place {
         span: column,
+        end: column.wrapping_add(pixels as u32),
         column,
         line,
     }
 }
 
 /// The place at a pixel in exact perspective, if its centre is inside.
-fn inside(c: &[Corner; 3], column: i32, line: i32) -> Option<[f64; 2]> {
+pub(super) fn inside(c: &[Corner; 3], column: i32, line: i32) -> Option<[f64; 2]> {
     let (x, y) = (64 * column, 64 * line);
     let edge = |a: &Corner, b: &Corner| {
         i64::from(b.x - a.x) * i64::from(y - a.y) - i64::from(b.y - a.y) * i64::from(x - a.x)
@@ -83,7 +85,8 @@ fn triangles_show_the_texels_of_exact_perspective_within_the_budget() {
                 continue;
             };
             let mut run = std::vec![0; (last - first) as usize + 1];
-            mapping.draw(&mut run, pixel(first as u32, line as u32), &texture, budget);
+            let place = span(first as u32, run.len(), line as u32);
+            mapping.draw(&mut run, place, &texture, budget);
             for (x, &texel) in (first..).zip(&run) {
                 let [u, v] = inside(&corners, x, line).unwrap();
                 let off = off(u, texel, wrap).max(off(v, texel >> 8, wrap));
@@ -175,7 +178,8 @@ fn any_numbers_are_drawn_without_a_panic() {
         let corners = [corner(), corner(), corner()];
         let budget = Budget::new(bits() as u16);
         let mut mapping = Mapping::new(&corners, &texture, budget).unwrap_or_default();
-        let (at, pixels) = (pixel(bits(), bits()), bits() as usize % run.len());
+        let pixels = bits() as usize % run.len();
+        let at = span(bits(), pixels, bits());
         mapping.draw(&mut run[..pixels], at, &texture, budget);
         for method in [Method::Word, Method::Wide, Method::Perspective] {
             mapping.method = method;
