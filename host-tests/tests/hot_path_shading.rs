@@ -183,9 +183,10 @@ fn several_lights_add_up_at_each_vertex_and_at_each_face() {
             .collect::<Vec<_>>()
             .leak();
         let lighting = Lighting::new(lights, [Default::default(); 3], Material::default());
+        let lighting: &'static _ = Box::leak(Box::new(lighting.expect("few lights")));
         let is_flat = round % 2 == 0;
         let (lines, _) = picture(mesh, 4, |call| {
-            call.lights = lighting;
+            call.lights = Some(lighting);
             // In place of it.
             call.light = Light::new([0.0, 0.0, 1.0], 1.0);
             call.colour = [220, 180, 140];

@@ -7,6 +7,7 @@ use crate::common::Rng;
 use crate::hot::exact::within;
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use crate::hot_path_depth::{bound, exact};
+use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
@@ -558,4 +559,72 @@ fn calls_are_drawn_by_priority_where_any_has_one() {
         counts = [0, 1].map(|i| counts[i] + here[i]);
     }
     assert!(counts[0] > 500_000 && counts[1] == 0, "{counts:?}");
+}
+
+/// Draws calls with a plain renderer: the same lines as any other draws, or none, and nothing written, where a call has
+/// values. Whether it was refused.
+fn is_refused<L: Smooth>(rng: &mut Rng, screen: Screen, calls: &[Call]) -> bool
+where
+    WordOf<L>: PartialEq + std::fmt::Debug,
+{
+    let has_values = calls.iter().any(|call| {
+        let test = call.test.map(|(function, _)| function);
+        let compares = DepthTest::HIDES
+            != DepthTest {
+                colour_if: test[0],
+                depth_if: test[1],
+            };
+        call.cut.is_some() || compares || call.blend.is_some() || call.priority > 0
+    });
+    let background = L::Format::from_rgb8(BACKGROUND);
+    let other = L::Format::from_rgb8([90, 200, 10]);
+    with_calls::<L, _>(screen, calls, |scene| {
+        let has_depth = rng.below(2) == 0;
+        let slots = rng.pick(&[0, 2, 128]);
+        let want = frame(scene, slots, has_depth, background);
+        let mut rooms = LineRooms::fitting(scene, slots, has_depth);
+        let mut renderer = rooms.plain();
+        let refused = has_values.then_some(LineError::Values);
+        assert_eq!(renderer.check(scene).err(), refused);
+        for (y, want) in (0..).zip(want) {
+            let mut pixels = vec![other; screen.width().into()];
+            let drawn = L::draw_line(&mut renderer, scene, y, &mut pixels, background);
+            assert_eq!(drawn.err(), refused);
+            let want = match refused {
+                Some(_) => vec![other; pixels.len()],
+                None => want,
+            };
+            assert_eq!(pixels, want, "line {y}, {slots} slots, depth: {has_depth}");
+        }
+        has_values
+    })
+}
+
+/// Each value alone is refused by a renderer without their code, before anything is written.
+#[test]
+fn plain_renderers_refuse_values_and_draw_the_rest_alike() {
+    let mut rng = Rng::new(1_607);
+    let screen = Screen::new(70, 40).unwrap();
+    for round in 0..80 {
+        let mut calls: Vec<_> = (0..1 + rng.below(9))
+            .map(|_| Call::new(&mut rng, screen))
+            .collect();
+        let at = rng.below(calls.len() as u32) as usize;
+        let call = &mut calls[at];
+        let kind = round % 6;
+        match kind {
+            0 => call.cut = Some(Cut::new(&mut rng, screen)),
+            1 => call.test[(rng.below(2)) as usize].0 = DepthFunction::NEVER,
+            2 => call.blend = Some((BlendMode::Replace, [true, true, false])),
+            3 => call.blend = Some((BlendMode::Filter(100), [true; 3])),
+            4 => call.priority = 1 + rng.below(255) as u8,
+            _ => {}
+        }
+        let refused = match round / 6 % 3 {
+            0 => is_refused::<Gouraud<Rgb888>>(&mut rng, screen, &calls),
+            1 => is_refused::<Gouraud<Rgb565Be>>(&mut rng, screen, &calls),
+            _ => is_refused::<Textured<Rgb565Be>>(&mut rng, screen, &calls),
+        };
+        assert_eq!(refused, kind < 5);
+    }
 }

@@ -25,7 +25,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// written.
     ///
     /// # Errors
-    /// When the memory does not suffice for the scene, or the line is not of the scene.
+    /// When the renderer cannot draw the scene (see [`check`](Renderer::check)), or the line is not of the scene.
     pub fn draw_line(
         &mut self,
         scene: &Scene<'_, '_, L>,
@@ -33,7 +33,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         pixels: &mut [WordOf<L>],
         background: WordOf<L>,
     ) -> Result<bool, LineError> {
-        self.check(scene)?;
+        self.check_memory(scene)?;
         let (needed, have) = (usize::from(scene.screen().width()), pixels.len());
         if have != needed {
             return Err(LineError::Pixels { needed, have });
@@ -42,6 +42,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return Err(LineError::Line { line });
         }
         let view = View::of(scene);
+        let draw_values = match self.values {
+            _ if !view.values => None,
+            None => return Err(LineError::Values),
+            some => some,
+        };
         self.advance(scene, &view, line);
         if self.cache.is_empty() {
             fill_line::<L>(pixels, background);
@@ -52,7 +57,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
-        if view.values && self.draw_values(&mut out, background) {
+        if draw_values.is_some_and(|draw| draw(self, &mut out, background)) {
             return Ok(true);
         }
         let spilled = self.cache.spilled.is_some();

@@ -2,9 +2,10 @@
 
 use super::plan::Plan;
 use super::slot::Active;
+use super::spans::Line;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
-use crate::look::Look;
+use crate::look::{Look, WordOf};
 use crate::scene::{Content, DrawState, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::visible::Mask;
@@ -89,6 +90,9 @@ pub enum LineError {
         /// The line.
         line: u16,
     },
+    /// A draw call has a value that few have: a scissor, a depth test, a blend or a priority. Only a renderer that
+    /// was made by [`Renderer::new`] draws it.
+    Values,
     /// The wait for the other core was given up.
     Stopped {
         /// The line that was awaited.
@@ -116,6 +120,9 @@ impl fmt::Display for LineError {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
+            Self::Values => f.write_str(
+                "renderer: a draw call has a scissor, a depth test, a blend or a priority: use Renderer::new",
+            ),
             Self::Stopped { line } => {
                 write!(f, "renderer: the wait for line {line} was given up")
             }
@@ -127,6 +134,10 @@ impl fmt::Display for LineError {
 }
 
 impl core::error::Error for LineError {}
+
+/// Draws a line with values that few have over a background; `false` where no draw call on it has any.
+pub(super) type DrawValues<L, const WORDS: usize> =
+    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>, WordOf<L>) -> bool;
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the scene with any
 /// number of others (K16, X6).
@@ -159,12 +170,26 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) changed: bool,
     pub(super) plan: Plan,
     pub(super) counts: CacheUse,
+    /// What draws lines with values that few have. A program that names it nowhere does not have its code.
+    pub(super) values: Option<DrawValues<L, WORDS>>,
 }
 
 impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
-    /// A renderer that has drawn nothing.
+    /// A renderer that has drawn nothing, for any scene.
     #[must_use]
     pub fn new(memory: Memory<'m, L, WORDS>) -> Self {
+        Self {
+            values: Some(|renderer, out, background| renderer.draw_values(out, background)),
+            ..Self::plain(memory)
+        }
+    }
+
+    /// The same, for scenes whose draw calls have neither a scissor nor a depth test, a blend or a priority of their
+    /// own: the program is smaller by the code for them, some 10 KB on a Cortex-M4.
+    ///
+    /// It refuses other scenes with [`LineError::Values`].
+    #[must_use]
+    pub fn plain(memory: Memory<'m, L, WORDS>) -> Self {
         Self {
             cache: &mut memory.cache.0,
             links: memory.links,
@@ -181,6 +206,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             changed: true,
             plan: Plan::Changed,
             counts: CacheUse::default(),
+            values: None,
         }
     }
 
@@ -196,11 +222,20 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         self.counts
     }
 
-    /// Whether the memory suffices for `scene`.
+    /// Whether the renderer can draw `scene`.
     ///
     /// # Errors
-    /// What is too short.
+    /// What is too short, or that a draw call has values and the renderer is [`plain`](Renderer::plain).
     pub fn check(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
+        if scene.has_values || scene.is_ranked {
+            self.values.ok_or(LineError::Values)?;
+        }
+        self.check_memory(scene)
+    }
+
+    /// Whether the memory suffices for a scene.
+    #[inline(always)]
+    pub(super) fn check_memory(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
         let (needed, have) = (scene.objects(), self.links.len());
         if have < needed {
             return Err(LineError::Links { needed, have });

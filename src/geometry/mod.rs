@@ -40,6 +40,7 @@ pub use colour::{Colour, Scale};
 pub use finish::{Blend, DepthFunction, Factor, Finish, Role, Shadow};
 pub(crate) use light::ModelLight;
 pub use light::{Light, LightingModel};
+pub(crate) use lighting::LampsInModel;
 pub use lighting::{DirectionalLight, Lighting, Material};
 pub use listed::{ListLamps, ListLighting, MatrixRange};
 pub use marks::{Clip, Kept, Mark, Marked, Part, Priority};

@@ -4,6 +4,7 @@
 //! face brings its own. Triangles keep the order in which they were submitted.
 
 use super::cut::{Corner, cut_all};
+use super::lights::Lamps;
 use super::pass::{Lost, Own, Pass, colour_of, light_all, top_first};
 use super::project::{View, project_all, project_textured};
 use super::{
@@ -64,7 +65,7 @@ impl<'t, L> Scene<'_, 't, L> {
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.generation = self.generation.wrapping_add(1);
-        let lamps = draw.lights.map(|l| l.in_model(&draw.model, camera.view()));
+        let lamps = (draw.lights).map(|lights| Lamps::new(lights, &draw.model, camera.view()));
         let light = match lamps {
             Some(_) => None,
             None => draw.light.map(|l| l.in_model(&draw.model, camera.view())),

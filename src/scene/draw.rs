@@ -1,8 +1,8 @@
 //! What a draw call says, and what pass two needs of it.
 
 use super::texture::Square;
-use super::{Blend, Budget, DepthTest, Scissor, Texture};
-use crate::geometry::{Affine, Cull, Light, Lighting, Mesh};
+use super::{Blend, Budget, DepthTest, Lights, Scissor, Texture};
+use crate::geometry::{Affine, Cull, Light, Mesh};
 use core::ops::Range;
 
 /// One draw call: a mesh, where it stands and how it looks.
@@ -18,8 +18,8 @@ pub struct Draw<'a, 't, C = i16> {
     pub cull: Cull,
     /// The light, where the mesh is to be lit; it needs normals.
     pub light: Option<Light>,
-    /// Several lights and the material that they fall on, in place of the one.
-    pub lights: Option<Lighting<'a>>,
+    /// Several lights and the material that they fall on, in place of the one: a [`Lighting`](crate::light::Lighting).
+    pub lights: Option<&'a dyn Lights>,
     /// Where a face's colour comes from.
     pub shading: Shading,
     /// Colour of vertices that have none of their own.

@@ -7,6 +7,7 @@
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
+//! | `lights` | several lights, whose code only a call that has them brings in |
 //! | `flat` | faces of one colour each |
 //! | `cut` | triangles that cross a plane |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
@@ -23,6 +24,7 @@ mod depth;
 mod draw;
 mod error;
 mod flat;
+mod lights;
 mod pass;
 mod project;
 mod record;
@@ -37,6 +39,7 @@ pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
+pub use lights::Lights;
 pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use scissor::Scissor;

@@ -1,10 +1,9 @@
 //! What is known of a draw call while its faces are filed: how they are seen, and what falls on them (K1, K10).
 
+use super::lights::{Lamps, sealed};
 use super::project::View;
 use super::{Full, TexturePlace, Vertex};
-use crate::geometry::{
-    Colour, Coordinate, Cull, Light, Lighting, LightingModel, Mesh, ModelLight, Scale, Tint,
-};
+use crate::geometry::{Colour, Coordinate, Cull, Light, Mesh, ModelLight, Scale, Tint};
 
 /// What of a mesh found no room.
 #[derive(Clone, Copy, Default)]
@@ -28,16 +27,13 @@ pub(super) struct Own {
     pub(super) place: TexturePlace,
 }
 
-/// Several lights in model space.
-pub(super) type Lamps = <Lighting<'static> as LightingModel>::InModel;
-
 /// What is known of a draw call while its faces are filed.
 pub(super) struct Pass<'a> {
     pub(super) view: View,
     /// The light in model space.
     pub(super) light: Option<Light>,
     /// Several lights, likewise, in place of the one.
-    pub(super) lamps: Option<&'a Lamps>,
+    pub(super) lamps: Option<&'a Lamps<'a>>,
     pub(super) tint: Tint,
     pub(super) cull: Cull,
     /// Texture places of the mesh's vertices; empty without a texture.
@@ -137,10 +133,14 @@ impl Pass<'_> {
             Some(&colour) => Tint::new(colour, scale),
             None => self.tint,
         };
-        let place = || mesh.positions[i];
         let colour: Colour = match (normal, self.lamps, &self.light) {
-            (Some(normal), Some(lamps), _) => lamps.lit(&tint, scale, normal, place),
-            (Some(normal), None, Some(light)) => light.lit(&tint, scale, normal, place),
+            (Some(normal), Some(lamps), _) => lamps.lit(sealed::Vertex {
+                tint: &tint,
+                scale,
+                normal,
+                place: mesh.positions[i].map(C::to_q30),
+            }),
+            (Some(normal), None, Some(light)) => light.lit::<i16>(&tint, scale, normal, || [0; 3]),
             _ => tint.lit(1 << 15),
         };
         colour.word()

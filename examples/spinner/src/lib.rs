@@ -156,7 +156,7 @@ pub fn renderer_in<L: Look>(
     links: &'static mut [Link],
     depth: &'static mut [u32],
 ) -> Renderer<'static, L> {
-    Renderer::new(LineMemory {
+    Renderer::plain(LineMemory {
         cache,
         links,
         depth,

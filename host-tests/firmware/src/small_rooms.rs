@@ -46,7 +46,7 @@ fn main() -> ! {
     let Some(cache) = cache.first_mut() else {
         exit(false)
     };
-    let mut renderer = Renderer::new(LineMemory {
+    let mut renderer = Renderer::plain(LineMemory {
         cache,
         links: lend!(".slow", Link, OBJECTS, Link::NONE),
         depth: lend!(".fast", u32, WIDTH as usize, 0),

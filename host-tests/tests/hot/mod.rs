@@ -123,11 +123,20 @@ impl<L: Look> LineRooms<L> {
     }
 
     pub fn renderer(&mut self) -> Renderer<'_, L, 4> {
-        Renderer::new(Lent {
+        Renderer::new(self.lent())
+    }
+
+    /// One that refuses draw calls with values that few have.
+    pub fn plain(&mut self) -> Renderer<'_, L, 4> {
+        Renderer::plain(self.lent())
+    }
+
+    fn lent(&mut self) -> Lent<'_, L, 4> {
+        Lent {
             cache: &mut self.cache,
             links: &mut self.links,
             depth: &mut self.depth,
-        })
+        }
     }
 }
 

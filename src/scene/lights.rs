@@ -1,0 +1,68 @@
+//! Several lights in a draw call (K10). Their code is in a program only where a call has them.
+
+use crate::geometry::{
+    Affine, Colour, LampsInModel, Lighting, LightingModel, ModelLight, Scale, Tint,
+};
+use core::fmt;
+
+/// What may stand in [`Draw::lights`](super::Draw::lights): a [`Lighting`].
+///
+/// It is named through a reference, so that a program whose draw calls have one light, or none, does not have the
+/// code of several: some 5 KB on a Cortex-M4.
+pub trait Lights: fmt::Debug + sealed::Several {}
+
+impl Lights for Lighting<'_> {}
+
+pub(super) mod sealed {
+    use super::*;
+
+    /// What pass one asks of several lights.
+    pub trait Several {
+        /// Taken to the space of a model, by the maps from there to the world and on to the camera.
+        fn to_model(&self, model: &Affine, view: &Affine) -> LampsInModel;
+
+        /// The colour of a vertex with this normal at this place, 1 being 2^30.
+        fn colour(&self, lamps: &LampsInModel, vertex: Vertex<'_>) -> Colour;
+    }
+
+    /// A vertex that is lit.
+    #[derive(Clone, Copy)]
+    pub struct Vertex<'a> {
+        pub(in super::super) tint: &'a Tint,
+        pub(in super::super) scale: &'a Scale,
+        pub(in super::super) normal: [i16; 3],
+        pub(in super::super) place: [i32; 3],
+    }
+
+    impl Several for Lighting<'_> {
+        fn to_model(&self, model: &Affine, view: &Affine) -> LampsInModel {
+            self.in_model(model, view)
+        }
+
+        fn colour(&self, lamps: &LampsInModel, vertex: Vertex<'_>) -> Colour {
+            lamps.lit(vertex.tint, vertex.scale, vertex.normal, || vertex.place)
+        }
+    }
+}
+
+/// Several lights in the space of a model.
+#[derive(Clone, Copy)]
+pub(super) struct Lamps<'a> {
+    lights: &'a dyn Lights,
+    in_model: LampsInModel,
+}
+
+impl<'a> Lamps<'a> {
+    /// Taken to the space of a model.
+    pub(super) fn new(lights: &'a dyn Lights, model: &Affine, view: &Affine) -> Self {
+        Self {
+            lights,
+            in_model: lights.to_model(model, view),
+        }
+    }
+
+    /// The colour of a vertex.
+    pub(super) fn lit(&self, vertex: sealed::Vertex<'_>) -> Colour {
+        self.lights.colour(&self.in_model, vertex)
+    }
+}
