@@ -101,6 +101,60 @@ impl<F: Pixel> Gouraud<F> {
         Some(Fill::Small)
     }
 
+    /// A run of [`Fill::Small`], packed anew every 16 pixels from its span's first on.
+    #[inline(always)]
+    fn fill_small(planes: &Planes, place: Place, run: &mut [F::Word]) {
+        let mut off = place.column.wrapping_sub(place.span) & 15;
+        let column = place.column.wrapping_sub(off);
+        let place = Place { column, ..place };
+        let (red_blue, green) = (at(planes, 0, place), at(planes, 3, place));
+        let mut at = Pair { red_blue, green };
+        if planes[1] | planes[4] == 0 {
+            return ramp::fill_even::<F>(run, F::of_word(at.word()));
+        }
+        let sixteen = Pair {
+            red_blue: planes[1] << 4,
+            green: planes[4] << 4,
+        };
+        let step = planes[6];
+        let mut rest = run;
+        loop {
+            let word = at.word().wrapping_add(step.wrapping_mul(off));
+            let pixels = rest.len().min(16 - off as usize);
+            let (run, after) = rest.split_at_mut(pixels);
+            ramp::fill::<F>(run, Packed { word, step });
+            if after.is_empty() {
+                return;
+            }
+            at = at.plus(sixteen);
+            (rest, off) = (after, 0);
+        }
+    }
+
+    /// A run of what keeps more bits, likewise.
+    #[inline(never)]
+    fn fill_wide(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
+        let mut off = place.column.wrapping_sub(place.span) & 15;
+        let column = place.column.wrapping_sub(off);
+        let mut course = course(fill, planes, Place { column, ..place });
+        if course.is_even() {
+            return ramp::fill_even::<F>(run, course.even::<F>());
+        }
+        let mut rest = run;
+        while !rest.is_empty() {
+            let pixels = rest.len().min(16 - off as usize);
+            let (run, after) = rest.split_at_mut(pixels);
+            if F::PACKED {
+                ramp::fill::<F>(run, course.packed(off));
+            } else {
+                let [at, step] = course.pair(off);
+                ramp::fill_pair::<F>(run, at, step);
+            }
+            course.skip(16);
+            (rest, off) = (after, 0);
+        }
+    }
+
     #[inline(always)]
     fn packed(planes: &Planes, place: Place) -> Packed {
         Packed {
@@ -342,38 +396,10 @@ impl<F: Pixel> Paint for Gouraud<F> {
 
     #[inline(never)]
     fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
-        if fill == Fill::Plain {
-            return ramp::fill::<F>(run, Self::packed(planes, place));
-        }
-        let off = place.column.wrapping_sub(place.span) & 15;
-        let column = place.column.wrapping_sub(off);
-        let mut course = course(fill, planes, Place { column, ..place });
-        if course.is_even() {
-            return F::fill(run, course.even::<F>());
-        }
-        let mut off = off;
-        let mut rest = run;
-        if F::PACKED && off == 0 {
-            let mut chunks = rest.chunks_exact_mut(16);
-            for chunk in chunks.by_ref() {
-                if let Ok(chunk) = <&mut [F::Word; 16]>::try_from(chunk) {
-                    ramp::fill_16::<F>(chunk, course.packed(0));
-                }
-                course.skip(16);
-            }
-            rest = chunks.into_remainder();
-        }
-        while !rest.is_empty() {
-            let pixels = rest.len().min(16 - off as usize);
-            let (run, after) = rest.split_at_mut(pixels);
-            if F::PACKED {
-                ramp::fill_long::<F>(run, course.packed(off));
-            } else {
-                let [at, step] = course.pair(off);
-                ramp::fill_pair::<F>(run, at, step);
-            }
-            course.skip(16);
-            (rest, off) = (after, 0);
+        match fill {
+            Fill::Plain => ramp::fill::<F>(run, Self::packed(planes, place)),
+            Fill::Small if F::PACKED => Self::fill_small(planes, place, run),
+            _ => Self::fill_wide(fill, planes, place, run),
         }
     }
 

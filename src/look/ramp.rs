@@ -1,8 +1,9 @@
 //! The loops over pixels: colour alone, colour and depth (B, K8).
 //!
-//! Runs of up to 12 pixels are straight code behind a jump by length: 4 instructions a pixel on a
-//! Cortex-M4, 5 on a Cortex-M0+; longer ones go in chunks of 8 without an end test, 4.7 a pixel. The loop
-//! with depth keeps its two steps from being multiplied out by `black_box`, once a chunk: 12 a pixel.
+//! Runs of up to 16 pixels are straight code behind a jump by length: 4 instructions a pixel on a Cortex-M4, 5
+//! where the bytes are swapped, and 16 for the call; longer ones go in chunks of 8 without an end test, 5.4 a pixel.
+//! All have their step kept from being multiplied out by `black_box`, once a chunk, as have the loops with depth: 12 a
+//! pixel.
 
 use super::Depths;
 use crate::num::leading_zeros;
@@ -24,6 +25,12 @@ pub(super) struct Pair {
 }
 
 impl Pair {
+    /// The upper bits of the fields, in one word of colour.
+    #[inline(always)]
+    pub(super) fn word(self) -> u32 {
+        self.red_blue & 0xFFE0_0000 | (self.red_blue & 0xFFC0) << 5 | self.green >> 21
+    }
+
     #[inline(always)]
     pub(super) fn plus(self, step: Self) -> Self {
         Self {
@@ -43,64 +50,68 @@ fn next<F: Pixel>(ramp: &mut Packed) -> F::Word {
 
 /// Straight code for so many pixels.
 macro_rules! straight {
-    ($run:ident, $next:expr, $other:expr, $([$($p:ident),+])+) => {
-        match $run {
-            $([$($p),+] => { $(*$p = $next;)+ })+
-            run => $other(run),
+    ($run:ident, $ramp:ident, $($pixels:literal)+) => {
+        match $run.len() {
+            $($pixels => fill_first::<F, $pixels>($run, &mut $ramp),)+
+            _ => fill_any::<F>($run, $ramp),
         }
     };
 }
 
-/// Colours a run, short ones in straight code.
-#[inline(always)]
+/// Colours a run, short ones in straight code. One copy for all: it needs no register that a caller keeps.
+#[inline(never)]
 pub(super) fn fill<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
-    let start = ramp;
-    let long = |run: &mut [F::Word]| fill_any::<F>(run, start);
-    straight!(run, next::<F>(&mut ramp), long,
-        [a] [a, b] [a, b, c] [a, b, c, d] [a, b, c, d, e] [a, b, c, d, e, f] [a, b, c, d, e, f, g]
-        [a, b, c, d, e, f, g, h] [a, b, c, d, e, f, g, h, i] [a, b, c, d, e, f, g, h, i, j]
-        [a, b, c, d, e, f, g, h, i, j, k] [a, b, c, d, e, f, g, h, i, j, k, l]
-    );
+    straight!(run, ramp, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
+}
+
+/// Colours the first pixels of a run, if it has as many.
+#[inline(always)]
+fn fill_first<F: Pixel, const N: usize>(run: &mut [F::Word], ramp: &mut Packed) {
+    if let Some(run) = run.first_chunk_mut::<N>() {
+        fill_chunk::<F, N>(run, ramp);
+    }
 }
 
 /// Colours a run of any length, which may be of one colour.
-#[inline(always)]
+#[inline(never)]
 fn fill_any<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
     if ramp.step == 0 {
-        return F::fill(run, F::of_word(ramp.word));
+        return fill_even::<F>(run, F::of_word(ramp.word));
     }
     fill_long::<F>(run, ramp);
 }
 
-/// Colours a run of any length.
+/// Colours a run alike.
 #[inline(never)]
-pub(super) fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
+pub(crate) fn fill_even<F: Pixel>(run: &mut [F::Word], pixel: F::Word) {
+    F::fill(run, pixel);
+}
+
+/// Colours a run of any length.
+#[inline(always)]
+fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
+    let step = ramp.step;
     let mut chunks = run.chunks_exact_mut(8);
     for chunk in chunks.by_ref() {
+        ramp.step = black_box(step);
         if let Ok(chunk) = <&mut [F::Word; 8]>::try_from(chunk) {
             fill_chunk::<F, 8>(chunk, &mut ramp);
         }
     }
-    for pixel in chunks.into_remainder() {
-        *pixel = next::<F>(&mut ramp);
-    }
+    ramp.step = step;
+    let rest = chunks.into_remainder();
+    let (four, rest) = rest.split_at_mut(rest.len() & 4);
+    fill_first::<F, 4>(four, &mut ramp);
+    let (two, one) = rest.split_at_mut(rest.len() & 2);
+    fill_first::<F, 2>(two, &mut ramp);
+    fill_first::<F, 1>(one, &mut ramp);
 }
 
-/// Colours 16 pixels.
-#[inline(always)]
-pub(super) fn fill_16<F: Pixel>(run: &mut [F::Word; 16], mut ramp: Packed) {
-    ramp.step = black_box(ramp.step);
-    fill_chunk::<F, 16>(run, &mut ramp);
-}
-
-/// Colours an even number of pixels, two at a time.
+/// Colours so many pixels in straight code.
 #[inline(always)]
 fn fill_chunk<F: Pixel, const N: usize>(run: &mut [F::Word; N], ramp: &mut Packed) {
-    for two in run.chunks_exact_mut(2) {
-        let first = ramp.word;
-        let second = first.wrapping_add(ramp.step);
-        ramp.word = second.wrapping_add(ramp.step);
-        two.copy_from_slice(&F::of_words([first, second]));
+    for pixel in run {
+        *pixel = next::<F>(ramp);
     }
 }
 
