@@ -5,18 +5,18 @@
 
 use crate::common::Rng;
 use crate::hot::exact::within;
+use crate::hot::values::{Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, blended, passes, some_mode};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::frame::LineError;
-use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
-    Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Factor, Scene, Scissor, Skin,
-    Texture, TexturePlace, Wrap,
+    Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Scene, Skin, Texture, TexturePlace,
+    Wrap,
 };
 use scanbeam::{Cull, Screen};
 use std::cmp::Ordering;
-use std::ops::Range;
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
 
@@ -28,66 +28,6 @@ static WHITE: Texture<'static> = {
         Err(_) => panic!("8 x 8 texels"),
     }
 };
-
-/// A rectangle, and whether what is outside of it is kept.
-#[derive(Clone, Debug)]
-struct Cut {
-    columns: Range<u16>,
-    lines: Range<u16>,
-    outside: bool,
-}
-
-impl Cut {
-    fn new(rng: &mut Rng, screen: Screen) -> Self {
-        let mut range = |end: u16| {
-            let [a, b] = [(); 2].map(|()| rng.below(u32::from(end) + 20) as u16);
-            a.min(b)..a.max(b)
-        };
-        Self {
-            columns: range(screen.width()),
-            lines: range(screen.height()),
-            outside: rng.below(2) == 0,
-        }
-    }
-
-    fn keeps(&self, x: u16, y: u16) -> bool {
-        (self.columns.contains(&x) && self.lines.contains(&y)) != self.outside
-    }
-
-    fn scissor(&self) -> Scissor {
-        let (columns, lines) = (self.columns.clone(), self.lines.clone());
-        if self.outside {
-            Scissor::outside(columns, lines)
-        } else {
-            Scissor::inside(columns, lines)
-        }
-    }
-}
-
-/// A function, and whether it lets nearer, equal and farther depths pass.
-type Function = (DepthFunction, [bool; 3]);
-
-const NEARER_OR_EQUAL: Function = (DepthFunction::NEARER_OR_EQUAL, [true, true, false]);
-
-const FUNCTIONS: [Function; 8] = [
-    NEARER_OR_EQUAL,
-    (DepthFunction::NEVER, [false; 3]),
-    (DepthFunction::ALWAYS, [true; 3]),
-    (DepthFunction::NEARER, [true, false, false]),
-    (DepthFunction::EQUAL, [false, true, false]),
-    (DepthFunction::FARTHER_OR_EQUAL, [false, true, true]),
-    (DepthFunction::FARTHER, [false, false, true]),
-    (DepthFunction::DIFFERENT, [true, false, true]),
-];
-
-/// Whether a depth that compares so passes.
-fn passes((_, passing): Function, order: Ordering) -> bool {
-    match order {
-        Ordering::Greater => passing[0],
-        Ordering::Equal => passing[1],
-        Ordering::Less => passing[2],
-    }
-}
 
 /// A draw call of one triangle of one colour, and its values.
 #[derive(Clone, Debug)]
@@ -127,12 +67,13 @@ impl Call {
         }
     }
 
-    fn dress(&self, call: &mut Draw<'_, '_, i32>) {
-        call.texture = Some(Skin {
+    fn dress(&self, call: &mut Draw<'_, '_, i32>, is_textured: bool) {
+        let skin = Skin {
             texture: &WHITE,
             places: &[[0, 0], [60 << 8, 0], [0, 40 << 8]],
             budget: Budget::BALANCED,
-        });
+        };
+        call.texture = is_textured.then_some(skin);
         call.cull = Cull::None;
         call.scissor = self.cut.as_ref().map(Cut::scissor);
         let [colour_if, depth_if] = self.test.map(|(function, _)| function);
@@ -204,31 +145,6 @@ const OF_TEXELS: Rounding = Rounding {
     written: 9.0,
     blended: 8.8,
 };
-
-/// What a mode makes of a level that is there, and what becomes of its error.
-fn blended(mode: BlendMode, old: f64, new: f64) -> [f64; 2] {
-    let part = |alpha: u8| f64::from(alpha) / 255.0;
-    let [level, of_old] = match mode {
-        BlendMode::Replace => [new, 0.0],
-        BlendMode::Filter(alpha) => [old + (new - old) * part(alpha), 1.0 - part(alpha)],
-        BlendMode::Half => [(old + new) / 2.0, 0.5],
-        BlendMode::Add(alpha) => [old + new * part(alpha), 1.0],
-        BlendMode::Subtract(alpha) => [old - new * part(alpha), 1.0],
-        BlendMode::Factors {
-            source,
-            destination,
-        } => {
-            let factor = |factor: Factor| match factor {
-                Factor::Constant(value) => [part(value), 0.0],
-                Factor::Destination => [old / 255.0, 1.0 / 255.0],
-                Factor::InverseDestination => [1.0 - old / 255.0, -1.0 / 255.0],
-            };
-            let [[s, ds], [d, dd]] = [factor(source), factor(destination)];
-            [new * s + old * d, (new * ds + old * dd + d).abs()]
-        }
-    };
-    [level.clamp(0.0, 255.0), of_old]
-}
 
 impl Levels {
     fn lay(&mut self, call: &Call, rounding: Rounding) {
@@ -304,7 +220,7 @@ fn pixel(
 }
 
 /// Draws calls, and hands the scene to `see`.
-fn with_calls<L: Look, R>(
+fn with_calls<L: Smooth, R>(
     screen: Screen,
     calls: &[Call],
     see: impl FnOnce(&Scene<'_, '_, L>) -> R,
@@ -314,7 +230,10 @@ fn with_calls<L: Look, R>(
     let mut scene = rooms.scene::<L>(screen);
     scene.begin(&camera()).expect("the rooms are large enough");
     for call in calls {
-        draw_with(&mut scene, &[call.corners], |draw| call.dress(draw)).expect("there is room");
+        draw_with(&mut scene, &[call.corners], |draw| {
+            call.dress(draw, L::TEXTURED);
+        })
+        .expect("there is room");
     }
     see(&scene)
 }
@@ -438,30 +357,6 @@ fn depth_functions_decide_on_colour_and_on_depth() {
         counts[0] > 1_000_000 && counts[1] < counts[0] / 100,
         "{counts:?}"
     );
-}
-
-/// Modes of which no error grows.
-fn some_mode(rng: &mut Rng) -> BlendMode {
-    let alpha = rng.below(256) as u8;
-    match rng.below(9) {
-        0 => BlendMode::Half,
-        1 => BlendMode::Add(alpha),
-        2 => BlendMode::Subtract(alpha),
-        3 => BlendMode::Factors {
-            source: Factor::Destination,
-            destination: Factor::ZERO,
-        },
-        4 => BlendMode::Factors {
-            source: Factor::InverseDestination,
-            destination: Factor::ONE,
-        },
-        5 => BlendMode::Factors {
-            source: Factor::Constant(alpha),
-            destination: Factor::Constant(rng.below(256) as u8),
-        },
-        6 => BlendMode::Replace,
-        _ => BlendMode::Filter(alpha),
-    }
 }
 
 /// K11, H8, P5: all modes, among what is opaque, with scissors and functions; more of them over each other than a pile

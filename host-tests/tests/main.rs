@@ -62,6 +62,7 @@ mod model_trace;
 mod one_way;
 mod ordered;
 mod output;
+mod pairs;
 mod palette;
 mod phong;
 mod priority;

@@ -303,17 +303,20 @@ fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
 
 /// Planes of the two ways that keep 16 bits a channel or more.
 #[inline(always)]
-pub(super) fn plane_shades(
-    triangle: &Triangle<'_>,
-    size: Size,
-    area: u32,
-    planes: &mut Planes,
-) -> Fill {
+fn plane_shades(triangle: &Triangle<'_>, size: Size, area: u32, planes: &mut Planes) -> Fill {
     if matches!(size, Size::Tiny | Size::Small) {
         let colour = triangle.vertex.map(|v| v.colour);
         pair_planes(&triangle.shares(area), colour, planes);
         Fill::Small
-    } else if wide_planes(triangle, planes) {
+    } else {
+        wide_shades(triangle, planes)
+    }
+}
+
+/// Planes of the way that keeps most bits, if the triangle has any.
+#[inline(always)]
+pub(super) fn wide_shades(triangle: &Triangle<'_>, planes: &mut Planes) -> Fill {
+    if wide_planes(triangle, planes) {
         Fill::Wide
     } else {
         Fill::Thin

@@ -10,7 +10,7 @@
 //! | thin | from both ends of each span | likewise |
 
 use super::fetch::copy_from;
-use super::gouraud::{Course, Planes as Shades, at, course, fields, plane_shades, thin_shades};
+use super::gouraud::{Course, Planes as Shades, at, course, fields, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::ramp::nearer_bits;
 use super::tint::{Shade, tint, tint_swapped};
@@ -130,11 +130,11 @@ impl<F: Texel> Textured<F> {
         if a | b | c == 0 {
             return None;
         }
-        if matches!(size, Size::Tiny | Size::Small) {
-            shade_planes(&triangle.shares(area), colour, planes);
+        let is_small = matches!(size, Size::Tiny | Size::Small);
+        if is_small && shade_planes(&triangle.shares(area), colour, planes) {
             return Some(Fill::Small);
         }
-        Some(plane_shades(triangle, size, area, planes))
+        Some(wide_shades(triangle, planes))
     }
 
     /// The mapping of a triangle that [`Near`] does not serve; whether the triangle is too thin for planes.
@@ -180,7 +180,8 @@ impl<F: Texel> Textured<F> {
             let pixels = rest.len().min((SHADE_RUN - skipped) as usize);
             let (run, more) = rest.split_at_mut(pixels);
             let column = at.column - skipped;
-            let [shade, step] = shade_at(&course(fill, planes, Place { column, ..at }));
+            let course = course(fill, planes, Place { column, ..at });
+            let [shade, step] = shade_at(&course, SHADE_RUN.min(at.end - column));
             let shade = shade.plus(step.times(skipped as usize));
             Self::shade_part(run, at, [shade, step]);
             at.column += pixels as u32;
@@ -212,9 +213,14 @@ impl<F: Texel> Textured<F> {
     }
 }
 
-/// Planes of a shade half a pixel beyond each pixel, of a triangle within 64 pixels: red and blue, then green.
+/// Half of full light: where a shade rises by as much in a pixel, half of a step is not told from another, and spans
+/// have one pixel or two.
+const STEEP: i32 = 1 << 14;
+
+/// Planes of a shade half a pixel beyond each pixel, of a triangle within 64 pixels: red and blue, then green. Whether
+/// it is not too steep for them.
 #[inline(always)]
-fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) {
+fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) -> bool {
     let shares = shares.cut::<6>();
     let [a, b, c] = colour.map(fields);
     let red = shares.rise::<6, 5>(b[0] - a[0], c[0] - a[0]);
@@ -228,13 +234,22 @@ fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) {
     planes[3] = (first(&green, a[1] << 5) << 16) as u32;
     planes[4] = (green.dx << 16) as u32;
     planes[5] = (green.dy << 16) as u32;
+    let raised = |rise: &Rise| rise.dx.wrapping_add(STEEP) as u32;
+    raised(&red) | raised(&green) | raised(&blue) < 2 * STEEP as u32
 }
 
-/// The shade half a pixel beyond a place, and its step.
+/// The shade half a pixel beyond a place, and its step, for a part of a span with so many pixels. A pixel alone in a steep shade has
+/// that of its own place.
 #[inline(always)]
-fn shade_at(course: &Course) -> [Shade; 2] {
-    let half = |i: usize| course.value[i].wrapping_add((course.step[i] >> 1) as u32);
-    let rounded = |i: usize| (course.step[i] + (1 << 14)) >> 15;
+fn shade_at(course: &Course, pixels: u32) -> [Shade; 2] {
+    let is_alone = pixels == 1
+        && course
+            .step
+            .iter()
+            .any(|step| (step ^ step >> 31) >> 15 >= STEEP);
+    let step = if is_alone { [0; 3] } else { course.step };
+    let half = |i: usize| course.value[i].wrapping_add((step[i] >> 1) as u32);
+    let rounded = |i: usize| step[i].wrapping_add(1 << 14) >> 15;
     let shade = Shade {
         red_blue: half(0) << 1 & 0xFFFF_0000 | half(2) >> 15 & 0xFFFF,
         green: half(1) << 1 & 0xFFFF_0000,

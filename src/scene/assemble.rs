@@ -26,7 +26,7 @@ struct Picture {
 }
 
 impl<'t, L> Scene<'_, 't, L> {
-    /// Draws a mesh, with its texture if `textured`.
+    /// Draws a mesh, with its texture, which only a look that is `textured` has.
     ///
     /// # Errors
     /// What is wrong with the mesh, or which memory is full.
@@ -48,7 +48,10 @@ impl<'t, L> Scene<'_, 't, L> {
             usize::MAX
         };
         check_mesh(mesh, below).map_err(DrawError::Mesh)?;
-        let skin = draw.texture.filter(|_| textured);
+        let skin = draw.texture;
+        if skin.is_some() && !textured {
+            return Err(DrawError::Untextured);
+        }
         let texels = skin.map_or(&[][..], |skin| skin.places);
         if skin.is_some() && texels.len() != mesh.positions.len() {
             return Err(DrawError::Mesh(MeshError::AttributeLength));

@@ -24,7 +24,8 @@ pub struct Draw<'a, 't, C = i16> {
     pub shading: Shading,
     /// Colour of vertices that have none of their own.
     pub colour: [u8; 3],
-    /// The texture, for looks that have any; colours and light are multiplied with it.
+    /// The texture, which other looks than [`Textured`](crate::look::Textured) refuse; colours and light are multiplied
+    /// with it.
     pub texture: Option<Skin<'a, 't>>,
     /// The rectangle that it is cut to, or that is cut out of it.
     pub scissor: Option<Scissor>,

@@ -79,6 +79,8 @@ pub enum DrawError {
     NotBegun,
     /// The mesh contradicts itself; nothing of it is drawn.
     Mesh(MeshError),
+    /// The call has a texture, and the scene's look draws none; nothing of it is drawn.
+    Untextured,
     /// Memory is full; what was kept is drawn.
     Full {
         /// Which memory.
@@ -102,6 +104,9 @@ impl fmt::Display for DrawError {
             }
             Self::Mesh(MeshError::StripLength) => {
                 f.write_str("mesh: a quad strip needs an even number of indices, and not two")
+            }
+            Self::Untextured => {
+                f.write_str("scene: a texture is drawn, and the look of the scene has none")
             }
             Self::Full {
                 memory,

@@ -2,10 +2,11 @@
 //! corners lie on chosen 1/8 pixels at chosen distances, and what is exact at a pixel.
 
 pub mod exact;
+pub mod values;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
 use scanbeam::look::{Gouraud, Look, Textured};
-use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 
@@ -58,8 +59,11 @@ macro_rules! smooth {
 smooth!(
     Gouraud<Rgb565>,
     Gouraud<Rgb565Be>,
+    Gouraud<Rgb565Le>,
     Gouraud<Rgb888>,
+    Gouraud<Xrgb8888>,
     Textured<Rgb565Be>,
+    Textured<Rgb565Le>,
     Textured<Rgb565>
 );
 

@@ -1,0 +1,121 @@
+//! Values of draw calls, and what they mean to a reference: rectangles, functions of depth, modes of blending.
+
+use crate::common::Rng;
+use scanbeam::Screen;
+use scanbeam::scene::{BlendMode, DepthFunction, Factor, Scissor};
+use std::cmp::Ordering;
+use std::ops::Range;
+
+/// A rectangle, and whether what is outside of it is kept.
+#[derive(Clone, Debug)]
+pub struct Cut {
+    columns: Range<u16>,
+    lines: Range<u16>,
+    outside: bool,
+}
+
+impl Cut {
+    pub fn new(rng: &mut Rng, screen: Screen) -> Self {
+        let mut range = |end: u16| {
+            let [a, b] = [(); 2].map(|()| rng.below(u32::from(end) + 20) as u16);
+            a.min(b)..a.max(b)
+        };
+        Self {
+            columns: range(screen.width()),
+            lines: range(screen.height()),
+            outside: rng.below(2) == 0,
+        }
+    }
+
+    /// Keeps what is outside of the rectangle, or what is inside.
+    pub fn set_outside(&mut self, outside: bool) {
+        self.outside = outside;
+    }
+
+    pub fn keeps(&self, x: u16, y: u16) -> bool {
+        (self.columns.contains(&x) && self.lines.contains(&y)) != self.outside
+    }
+
+    pub fn scissor(&self) -> Scissor {
+        let (columns, lines) = (self.columns.clone(), self.lines.clone());
+        if self.outside {
+            Scissor::outside(columns, lines)
+        } else {
+            Scissor::inside(columns, lines)
+        }
+    }
+}
+
+/// A function, and whether it lets nearer, equal and farther depths pass.
+pub type Function = (DepthFunction, [bool; 3]);
+
+pub const NEARER_OR_EQUAL: Function = (DepthFunction::NEARER_OR_EQUAL, [true, true, false]);
+
+pub const FUNCTIONS: [Function; 8] = [
+    NEARER_OR_EQUAL,
+    (DepthFunction::NEVER, [false; 3]),
+    (DepthFunction::ALWAYS, [true; 3]),
+    (DepthFunction::NEARER, [true, false, false]),
+    (DepthFunction::EQUAL, [false, true, false]),
+    (DepthFunction::FARTHER_OR_EQUAL, [false, true, true]),
+    (DepthFunction::FARTHER, [false, false, true]),
+    (DepthFunction::DIFFERENT, [true, false, true]),
+];
+
+/// Whether a depth that compares so passes.
+pub fn passes((_, passing): Function, order: Ordering) -> bool {
+    match order {
+        Ordering::Greater => passing[0],
+        Ordering::Equal => passing[1],
+        Ordering::Less => passing[2],
+    }
+}
+
+/// What a mode makes of a level that is there, and what becomes of its error.
+pub fn blended(mode: BlendMode, old: f64, new: f64) -> [f64; 2] {
+    let part = |alpha: u8| f64::from(alpha) / 255.0;
+    let [level, of_old] = match mode {
+        BlendMode::Replace => [new, 0.0],
+        BlendMode::Filter(alpha) => [old + (new - old) * part(alpha), 1.0 - part(alpha)],
+        BlendMode::Half => [(old + new) / 2.0, 0.5],
+        BlendMode::Add(alpha) => [old + new * part(alpha), 1.0],
+        BlendMode::Subtract(alpha) => [old - new * part(alpha), 1.0],
+        BlendMode::Factors {
+            source,
+            destination,
+        } => {
+            let factor = |factor: Factor| match factor {
+                Factor::Constant(value) => [part(value), 0.0],
+                Factor::Destination => [old / 255.0, 1.0 / 255.0],
+                Factor::InverseDestination => [1.0 - old / 255.0, -1.0 / 255.0],
+            };
+            let [[s, ds], [d, dd]] = [factor(source), factor(destination)];
+            [new * s + old * d, (new * ds + old * dd + d).abs()]
+        }
+    };
+    [level.clamp(0.0, 255.0), of_old]
+}
+
+/// Modes of which no error grows.
+pub fn some_mode(rng: &mut Rng) -> BlendMode {
+    let alpha = rng.below(256) as u8;
+    match rng.below(9) {
+        0 => BlendMode::Half,
+        1 => BlendMode::Add(alpha),
+        2 => BlendMode::Subtract(alpha),
+        3 => BlendMode::Factors {
+            source: Factor::Destination,
+            destination: Factor::ZERO,
+        },
+        4 => BlendMode::Factors {
+            source: Factor::InverseDestination,
+            destination: Factor::ONE,
+        },
+        5 => BlendMode::Factors {
+            source: Factor::Constant(alpha),
+            destination: Factor::Constant(rng.below(256) as u8),
+        },
+        6 => BlendMode::Replace,
+        _ => BlendMode::Filter(alpha),
+    }
+}

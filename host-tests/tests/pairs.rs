@@ -1,0 +1,608 @@
+//! X12: every pair of what a draw call and a renderer may have draws the right picture, or is refused.
+//!
+//! Small scenes of all pairs, and larger ones of any combination, against f64 pixel by pixel (see `reference`), and
+//! against each other: by any number of slots and of renderers, and in any order of lines, the same bits.
+
+mod reference;
+
+use crate::common::Rng;
+use crate::hot::values::{Cut, FUNCTIONS};
+use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, line};
+use reference::{Call, Light64, Range, Rounding, Skin64, Texels, V3, World, covering, pixel, unit};
+use scanbeam::light::{DirectionalLight, Lighting};
+use scanbeam::look::{Gouraud, Textured};
+use scanbeam::mesh::Material;
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
+use scanbeam::scene::{
+    Blend, BlendMode, Budget, DepthTest, Draw, DrawError, Factor, Scene, Shading, Skin, Texture,
+    Wrap,
+};
+use scanbeam::{Cull, Light, Screen};
+use std::sync::OnceLock;
+
+const BACKGROUND: [u8; 3] = [40, 0, 120];
+
+/// What is combined.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[repr(usize)]
+enum Axis {
+    Look,
+    Form,
+    Wrap,
+    Budget,
+    Blend,
+    Channels,
+    ColourIf,
+    DepthIf,
+    Scissor,
+    Priority,
+    Shading,
+    Light,
+    Renderers,
+    Slots,
+    Depth,
+}
+
+/// How many choices each has.
+const CHOICES: [usize; 15] = [8, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2];
+
+/// The first look that has textures.
+const TEXTURED: usize = 5;
+
+/// A choice on each axis.
+type Choices = [usize; 15];
+
+/// Sides and bits a texel of the forms; the first choice is none. 16 bits are words of the panel.
+const FORMS: [(i32, i32, u32); 9] = [
+    (32, 32, 16),
+    (64, 64, 16),
+    (128, 128, 16),
+    (256, 256, 16),
+    (16, 64, 16),
+    (64, 64, 8),
+    (8, 32, 4),
+    (64, 16, 2),
+    (32, 32, 1),
+];
+
+/// Steps of 5, 6 and 5 bits.
+type Steps = [u16; 3];
+
+/// A texel: red and green tell where it is, blue differs from all around.
+fn steps(form: usize, u: i32, v: i32) -> Steps {
+    let (width, height, bits) = FORMS[form];
+    let (r, g) = (u * 31 / (width - 1), v * 63 / (height - 1));
+    let blue = (u * 7 + v * 13) % 32;
+    match bits {
+        16 => [r as u16, g as u16, blue as u16],
+        // As many colours as an index can name.
+        8 => [(u / 4 * 2) as u16, (v / 4 * 4) as u16, 9],
+        _ => {
+            let index = (u + 3 * v) % (1 << bits);
+            let level = index as u16 * 31 / ((1 << bits) - 1);
+            [level, 63 - 2 * level, level / 2]
+        }
+    }
+}
+
+/// All textures, in the byte order of the panel or the other, by form and wrap.
+struct Textures {
+    native: Vec<[Texture<'static>; 3]>,
+    swapped: Vec<[Texture<'static>; 3]>,
+    texels: Vec<Texels>,
+}
+
+fn texture(form: usize, is_swapped: bool) -> Texture<'static> {
+    let (width, height, bits) = FORMS[form];
+    let word = |[r, g, b]: Steps| {
+        let word = r << 11 | g << 5 | b;
+        if is_swapped { word.swap_bytes() } else { word }
+    };
+    let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
+    let texels: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
+    let (wide, high) = (width as u32, height as u32);
+    if bits == 16 {
+        let words: Vec<_> = texels.into_iter().map(word).collect();
+        return Texture::words(words.leak(), wide, high).expect("sides are powers of two");
+    }
+    let mut colours: Vec<Steps> = Vec::new();
+    let mut bytes = vec![0u8; texels.len() * bits as usize / 8];
+    for (i, texel) in texels.into_iter().enumerate() {
+        let index = colours.iter().position(|c| *c == texel);
+        let index = index.unwrap_or_else(|| {
+            colours.push(texel);
+            colours.len() - 1
+        });
+        let each = (8 / bits) as usize;
+        bytes[i / each] |= (index << (bits as usize * (i % each))) as u8;
+    }
+    let mut palette: Vec<_> = colours.into_iter().map(word).collect();
+    assert!(palette.len() <= 1 << bits);
+    palette.resize(1 << bits, 0);
+    let (bytes, palette) = (bytes.leak(), palette.leak());
+    match bits {
+        8 => Texture::index8(bytes, palette, wide, high),
+        4 => Texture::index4(bytes, palette, wide, high),
+        2 => Texture::index2(bytes, palette, wide, high),
+        _ => Texture::index1(bytes, palette, wide, high),
+    }
+    .expect("sides are powers of two")
+}
+
+const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
+
+fn textures() -> &'static Textures {
+    static ALL: OnceLock<Textures> = OnceLock::new();
+    ALL.get_or_init(|| {
+        let of = |is_swapped| {
+            let forms = (0..FORMS.len()).map(|form| texture(form, is_swapped));
+            forms.map(|t| WRAPS.map(|wrap| t.wrapping(wrap))).collect()
+        };
+        let level = |[r, g, b]: Steps| {
+            let of = |step: u16, most: f64| f64::from(step) * 255.0 / most;
+            [of(r, 31.0), of(g, 63.0), of(b, 31.0)]
+        };
+        let texels = (0..FORMS.len()).map(|form| {
+            let (width, height, _) = FORMS[form];
+            let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
+            let rgb = places.map(|(u, v)| level(steps(form, u, v))).collect();
+            Texels { width, height, rgb }
+        });
+        Textures {
+            native: of(false),
+            swapped: of(true),
+            texels: texels.collect(),
+        }
+    })
+}
+
+fn some_direction(rng: &mut Rng) -> V3 {
+    loop {
+        let v = [(); 3].map(|()| rng.signed());
+        let square: f64 = v.iter().map(|c| c * c).sum();
+        if square > 0.1 {
+            return unit(v);
+        }
+    }
+}
+
+/// A direction that 14 bits hold.
+fn some_normal(rng: &mut Rng) -> V3 {
+    some_direction(rng).map(|c| (c * 16_384.0).round() / 16_384.0)
+}
+
+/// A call of these choices.
+fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
+    let of = |axis: Axis| choices[axis as usize];
+    let size = rng.pick(&[40, 200, 600, 3_000]);
+    let middle = [screen.width(), screen.height()].map(|side| rng.within(0, 8 * i32::from(side)));
+    let w = 1.0 + 7.0 * rng.unit();
+    let slant = rng.pick(&[1.0, 1.0, 1.2, 3.0]);
+    let corners = [(); 3].map(|()| Corner {
+        at: (
+            middle[0] + rng.within(-size, size),
+            middle[1] + rng.within(-size, size),
+        ),
+        w: w * rng.between(1.0, slant),
+        colour: [(); 3].map(|()| rng.below(256) as u8),
+    });
+    let light = match of(Axis::Light) {
+        0 => Light64::None,
+        1 => Light64::One(some_direction(rng), rng.unit()),
+        _ => {
+            let lights = (0..2 + rng.below(3)).map(|_| {
+                let colour = [(); 3].map(|()| rng.unit());
+                (some_direction(rng), colour)
+            });
+            let lights = lights.collect();
+            Light64::Several(lights, rng.pick(&[0.0, 0.6]), rng.pick(&[1, 8]))
+        }
+    };
+    let alpha = rng.below(256) as u8;
+    let mode = match of(Axis::Blend) {
+        0 => None,
+        1 => Some(BlendMode::Replace),
+        2 => Some(BlendMode::Filter(alpha)),
+        3 => Some(BlendMode::Half),
+        4 => Some(BlendMode::Add(alpha)),
+        5 => Some(BlendMode::Subtract(alpha)),
+        6 => Some(BlendMode::Factors {
+            source: Factor::Destination,
+            destination: Factor::Constant(alpha),
+        }),
+        _ => Some(BlendMode::Factors {
+            source: Factor::InverseDestination,
+            destination: Factor::ONE,
+        }),
+    };
+    let rgb = match of(Axis::Channels) {
+        0 => [true; 3],
+        _ => [(); 3].map(|()| rng.below(2) == 0),
+    };
+    let skin = of(Axis::Form).checked_sub(1).map(|form| Skin64 {
+        form,
+        wrap: WRAPS[of(Axis::Wrap)],
+        places: [(); 3].map(|()| [(); 2].map(|()| rng.within(-20_000, 20_000))),
+        budget: [Budget::FAST, Budget::BALANCED, Budget::EXACT][of(Axis::Budget)],
+    });
+    let cut = (of(Axis::Scissor) > 0).then(|| {
+        let mut cut = Cut::new(rng, screen);
+        cut.set_outside(of(Axis::Scissor) == 2);
+        cut
+    });
+    Call {
+        corners,
+        colour: (rng.below(3) == 0).then(|| [(); 3].map(|()| rng.below(256) as u8)),
+        normals: [(); 3].map(|()| some_normal(rng)),
+        is_flat: of(Axis::Shading) == 1,
+        light,
+        skin,
+        cut,
+        test: [FUNCTIONS[of(Axis::ColourIf)], FUNCTIONS[of(Axis::DepthIf)]],
+        blend: mode.map(|mode| (mode, rgb)),
+        priority: of(Axis::Priority) as u8 * (1 + rng.below(3) as u8),
+    }
+}
+
+/// A scene: what its calls are, and how it is drawn.
+struct Case {
+    choices: Choices,
+    calls: Vec<Call>,
+    screen: Screen,
+}
+
+impl Case {
+    /// A call of these choices among `others` of any.
+    fn new(rng: &mut Rng, choices: Choices, others: u32) -> Self {
+        let screen = Screen::new(rng.pick(&[33, 48]), 20).expect("a screen");
+        let mut calls = vec![call(rng, screen, &choices)];
+        for _ in 0..others {
+            let mut any = some_choices(rng);
+            // Most calls hide, so that there is something to compare with.
+            if rng.below(2) == 0 {
+                (any[Axis::ColourIf as usize], any[Axis::DepthIf as usize]) = (0, 0);
+                any[Axis::Blend as usize] = 0;
+            }
+            any[Axis::Priority as usize] *= choices[Axis::Priority as usize];
+            if choices[Axis::Look as usize] < TEXTURED {
+                any[Axis::Form as usize] = 0;
+            }
+            let mut other = call(rng, screen, &any);
+            if rng.below(4) == 0 {
+                let same = &calls[rng.below(calls.len() as u32) as usize];
+                for (corner, &old) in other.corners.iter_mut().zip(&same.corners) {
+                    (corner.at, corner.w) = (old.at, old.w);
+                }
+            }
+            calls.push(other);
+        }
+        rng.shuffle(&mut calls);
+        Self {
+            choices,
+            calls,
+            screen,
+        }
+    }
+
+    fn of(&self, axis: Axis) -> usize {
+        self.choices[axis as usize]
+    }
+
+    /// Whether the look of the scene has what a call asks for.
+    fn is_meant(&self) -> bool {
+        self.of(Axis::Look) >= TEXTURED || self.of(Axis::Form) == 0
+    }
+
+    fn is_ranked(&self) -> bool {
+        self.calls.iter().any(|call| call.priority > 0)
+    }
+
+    fn hold(&self, rng: &mut Rng) -> Count {
+        match self.of(Axis::Look) {
+            0 => self.hold_as::<Gouraud<Rgb565>>(rng, OF_565),
+            1 => self.hold_as::<Gouraud<Rgb565Be>>(rng, OF_565),
+            2 => self.hold_as::<Gouraud<Rgb565Le>>(rng, OF_565),
+            3 => self.hold_as::<Gouraud<Rgb888>>(rng, OF_888),
+            4 => self.hold_as::<Gouraud<Xrgb8888>>(rng, OF_888),
+            5 => self.hold_as::<Textured<Rgb565>>(rng, OF_TEXELS),
+            6 => self.hold_as::<Textured<Rgb565Be>>(rng, OF_TEXELS),
+            _ => self.hold_as::<Textured<Rgb565Le>>(rng, OF_TEXELS),
+        }
+    }
+
+    /// Draws all calls, and hands the scene to `see`; whether a call was refused instead.
+    fn draw<L: Smooth>(&self, see: impl FnOnce(&Scene<'_, '_, L>)) -> bool {
+        // A flat face has vertices of its own, beside those of its mesh.
+        let count = self.calls.len();
+        let mut rooms = SceneRooms::new(6 * count, count, self.screen.height().into(), count);
+        let mut scene = rooms.scene::<L>(self.screen);
+        scene.begin(&camera()).expect("the rooms are large enough");
+        // Of looks with textures, the one whose bytes are in the order that this machine's are not in.
+        let is_swapped =
+            self.of(Axis::Look) == TEXTURED + 1 + usize::from(cfg!(target_endian = "big"));
+        for call in &self.calls {
+            let before = (scene.objects(), scene.vertices());
+            let drawn = draw_with(&mut scene, &[call.corners], |draw| {
+                dress(call, draw, is_swapped);
+            });
+            if L::TEXTURED || call.skin.is_none() {
+                drawn.expect("there is room");
+                continue;
+            }
+            assert_eq!(drawn, Err(DrawError::Untextured));
+            assert_eq!((scene.objects(), scene.vertices()), before);
+            return true;
+        }
+        see(&scene);
+        false
+    }
+
+    /// Holds pictures against the reference, and those by other slots and renderers against the first.
+    fn hold_as<L: Smooth>(&self, rng: &mut Rng, rounding: Rounding) -> Count
+    where
+        WordOf<L>: PartialEq + std::fmt::Debug,
+    {
+        let mut count = Count::default();
+        let has_depth = self.of(Axis::Depth) == 0;
+        let mut order: Vec<_> = self.calls.iter().collect();
+        order.sort_by_key(|call| call.priority);
+        let world = World {
+            screen: self.screen,
+            texels: &textures().texels,
+            background: BACKGROUND,
+            rounding,
+            by_depth: has_depth && !self.is_ranked(),
+        };
+        let is_refused = self.draw::<L>(|scene| {
+            let first = picture(scene, &[128], has_depth, &mut None);
+            let slots = [0, 2, 5, 64][self.of(Axis::Slots)];
+            let renderers = vec![slots; 1 + self.of(Axis::Renderers)];
+            let other = picture(scene, &renderers, has_depth, &mut Some(rng));
+            assert_eq!(first, other, "{renderers:?} slots: {:?}", self.choices);
+            for (y, words) in (0..).zip(&first) {
+                for (x, &word) in (0..).zip(words) {
+                    let Some(want) = pixel(&order, [x, y], &world) else {
+                        count.open += 1;
+                        continue;
+                    };
+                    count.held += 1;
+                    let got = L::Format::to_rgb8(word);
+                    assert!(
+                        is_within(got, want),
+                        "{got:?} for {want:?} at {x}, {y}: {:?} {:#?}",
+                        self.choices,
+                        covering(&order, [x, y], &world)
+                    );
+                }
+            }
+        });
+        assert_eq!(is_refused, !self.is_meant());
+        count.refused = usize::from(is_refused);
+        count
+    }
+}
+
+fn is_within(got: [u8; 3], want: [Range; 3]) -> bool {
+    let mut levels = got.into_iter().zip(want);
+    levels.all(|(got, [low, high])| (low..=high).contains(&f64::from(got)))
+}
+
+/// What was compared, what was left open, and how many scenes were refused.
+#[derive(Clone, Copy, Debug, Default)]
+struct Count {
+    held: usize,
+    open: usize,
+    refused: usize,
+}
+
+impl Count {
+    fn add(&mut self, other: Self) {
+        self.held += other.held;
+        self.open += other.open;
+        self.refused += other.refused;
+    }
+}
+
+/// Half a step of 5 bits, and half of one of blue where one word of colour steps; alpha of 5 bits.
+const OF_565: Rounding = Rounding {
+    written: 4.7,
+    sloped: 8.8,
+    blended: 8.8,
+    by_twos: false,
+};
+/// Half a level, what light rounds, and half a level of two words of colour.
+const OF_888: Rounding = Rounding {
+    written: 0.9,
+    sloped: 1.4,
+    blended: 1.01,
+    by_twos: false,
+};
+/// The texel times the shade is rounded to steps of 5 bits; where the shade changes it is off by one more.
+const OF_TEXELS: Rounding = Rounding {
+    written: 5.4,
+    sloped: 13.3,
+    blended: 8.8,
+    by_twos: true,
+};
+
+fn some_choices(rng: &mut Rng) -> Choices {
+    CHOICES.map(|choices| rng.below(choices as u32) as usize)
+}
+
+/// Sets the values of a call.
+fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
+    let q14 = |v: V3| v.map(|c| (c * 16_384.0).round() as i16);
+    // A call may outlive its scene, as the compiler sees it.
+    let normals: &'static [_] = call.normals.map(q14).to_vec().leak();
+    draw.mesh.normals = normals;
+    if let Some(colour) = call.colour {
+        (draw.mesh.colours, draw.colour) = (&[], colour);
+    }
+    let f32s = |v: V3| v.map(|c| c as f32);
+    match &call.light {
+        Light64::None => {}
+        Light64::One(towards, ambient) => {
+            draw.light = Light::new(f32s(*towards), *ambient as f32);
+        }
+        Light64::Several(lights, specular, power) => {
+            let light = |&(towards, colour): &(V3, V3)| {
+                DirectionalLight::new(f32s(towards), f32s(colour)).expect("a direction")
+            };
+            let lights: &'static [_] = lights.iter().map(light).collect::<Vec<_>>().leak();
+            let material = Material::shiny(*specular as f32, *power);
+            let lighting = Lighting::new(lights, [Default::default(); 3], material);
+            let lighting: &'static Lighting<'_> = Box::leak(Box::new(lighting.expect("lights")));
+            draw.lights = Some(lighting);
+        }
+    }
+    draw.texture = call.skin.as_ref().map(|skin| {
+        let all = textures();
+        let forms = if is_swapped {
+            &all.swapped
+        } else {
+            &all.native
+        };
+        let wrap = WRAPS.iter().position(|wrap| *wrap == skin.wrap);
+        let places: &'static [_] = skin.places.to_vec().leak();
+        Skin {
+            texture: &forms[skin.form][wrap.expect("one of them")],
+            places,
+            budget: skin.budget,
+        }
+    });
+    draw.cull = Cull::None;
+    draw.shading = if call.is_flat {
+        Shading::Flat
+    } else {
+        Shading::Smooth
+    };
+    draw.scissor = call.cut.as_ref().map(Cut::scissor);
+    let [colour_if, depth_if] = call.test.map(|(function, _)| function);
+    draw.depth = DepthTest {
+        colour_if,
+        depth_if,
+    };
+    draw.blend = call.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
+    draw.priority = call.priority;
+}
+
+/// All lines, by renderers in turns, each with so many slots; in order, or in any.
+fn picture<L: Smooth>(
+    scene: &Scene<'_, '_, L>,
+    slots: &[u16],
+    has_depth: bool,
+    shuffled: &mut Option<&mut Rng>,
+) -> Vec<Vec<WordOf<L>>> {
+    let mut rooms: Vec<_> = slots
+        .iter()
+        .map(|&slots| LineRooms::fitting(scene, slots, has_depth))
+        .collect();
+    let mut renderers: Vec<_> = rooms.iter_mut().map(LineRooms::renderer).collect();
+    let height = scene.screen().height();
+    let mut order: Vec<_> = (0..height).collect();
+    if let Some(rng) = shuffled {
+        if rng.below(3) == 0 {
+            rng.shuffle(&mut order);
+        }
+    }
+    let background = L::Format::from_rgb8(BACKGROUND);
+    let mut lines = vec![Vec::new(); height.into()];
+    for y in order {
+        let number = usize::from(y) % renderers.len();
+        lines[usize::from(y)] = line(&mut renderers[number], scene, y, background);
+    }
+    lines
+}
+
+/// Two choices on different axes.
+type Pair = [(usize, usize); 2];
+
+/// All pairs of choices that have not been drawn; they are taken away.
+struct Pairs(Vec<Pair>);
+
+/// Whether a scene of these choices shows what a pair does: where no texture is drawn, how it is drawn is not seen, and
+/// of what is refused nothing is.
+fn shows(choices: &Choices, pair: &Pair) -> bool {
+    let has = |axis: Axis| pair.iter().any(|&(a, _)| a == axis as usize);
+    let of = |axis: Axis| choices[axis as usize];
+    let is_meant = of(Axis::Look) >= TEXTURED || of(Axis::Form) == 0;
+    let is_seen = if has(Axis::Look) && has(Axis::Form) {
+        true
+    } else if has(Axis::Wrap) || has(Axis::Budget) {
+        is_meant && (of(Axis::Form) > 0 || has(Axis::Form) || has(Axis::Look))
+    } else {
+        is_meant
+    };
+    is_seen && pair.iter().all(|&(a, choice)| choices[a] == choice)
+}
+
+impl Pairs {
+    fn all() -> Self {
+        let choices = |axis: usize| (0..CHOICES[axis]).map(move |choice| (axis, choice));
+        let mut pairs = Vec::new();
+        for a in 0..CHOICES.len() {
+            for b in a + 1..CHOICES.len() {
+                let both = |one| choices(b).map(move |other| [one, other]);
+                pairs.extend(choices(a).flat_map(both));
+            }
+        }
+        Self(pairs)
+    }
+
+    /// Of many choices that show the first pair that is left, those that show most of the others.
+    fn next(&mut self, rng: &mut Rng) -> Option<Choices> {
+        let first = *self.0.last()?;
+        let mut candidates = Vec::new();
+        while candidates.len() < 20 {
+            let mut choices = some_choices(rng);
+            for (axis, choice) in first {
+                choices[axis] = choice;
+            }
+            if shows(&choices, &first) {
+                candidates.push(choices);
+            }
+        }
+        let news = |choices: &Choices| self.0.iter().filter(|pair| shows(choices, pair)).count();
+        let best = candidates.into_iter().max_by_key(news)?;
+        self.0.retain(|pair| !shows(&best, pair));
+        Some(best)
+    }
+}
+
+/// Every pair, as a call alone and among others.
+#[test]
+fn every_pair_is_drawn_right_or_refused() {
+    let mut rng = Rng::new(1_701);
+    let (mut count, mut scenes) = (Count::default(), 0);
+    for round in 0..3 {
+        let mut pairs = Pairs::all();
+        while let Some(choices) = pairs.next(&mut rng) {
+            let others = round * (1 + rng.below(2));
+            let case = Case::new(&mut rng, choices, others);
+            count.add(case.hold(&mut rng));
+            scenes += 1;
+        }
+    }
+    println!("{scenes} scenes, {count:?}");
+    assert!(scenes > 300 && count.refused >= 3 * TEXTURED * FORMS.len());
+    assert!(count.held > 100_000 && count.open < count.held / 50);
+}
+
+/// Larger scenes of any combination.
+#[test]
+fn any_combination_is_drawn_right() {
+    let mut rng = Rng::new(1_702);
+    let mut count = Count::default();
+    for _ in 0..2_000 {
+        let mut choices = some_choices(&mut rng);
+        if choices[Axis::Look as usize] < TEXTURED {
+            choices[Axis::Form as usize] = 0;
+        }
+        let others = rng.pick(&[2, 5, 12]);
+        let case = Case::new(&mut rng, choices, others);
+        count.add(case.hold(&mut rng));
+    }
+    println!("{count:?}");
+    assert!(count.refused == 0);
+    assert!(count.held > 1_000_000 && count.open < count.held / 20);
+}

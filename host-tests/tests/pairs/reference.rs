@@ -1,0 +1,358 @@
+//! A picture of draw calls in f64, pixel by pixel and call by call: no planes, no spans, no slots.
+//!
+//! A level is a range, from the least to the most that the documented errors allow: of the texel, any within the
+//! budget of its place. Where two depths are nearer to each other than depth may err, a pixel is left out.
+
+use crate::hot::Corner;
+use crate::hot::exact::{weights, within};
+use crate::hot::values::{Cut, Function, blended, passes};
+use crate::hot_path_depth::{bound, exact};
+use scanbeam::Screen;
+use scanbeam::scene::{BlendMode, Budget, Wrap};
+use std::cmp::Ordering;
+
+pub type V3 = [f64; 3];
+
+/// The least and the most.
+pub type Range = [f64; 2];
+
+/// Texels of a texture by their places: red, green and blue, 0 to 255.
+#[derive(Debug)]
+pub struct Texels {
+    pub width: i32,
+    pub height: i32,
+    pub rgb: Vec<V3>,
+}
+
+/// A texture on a triangle, its places in texels.
+#[derive(Clone, Debug)]
+pub struct Skin64 {
+    pub form: usize,
+    pub wrap: Wrap,
+    pub places: [[i32; 2]; 3],
+    pub budget: Budget,
+}
+
+/// Where light comes from, and its level.
+#[derive(Clone, Debug)]
+pub enum Light64 {
+    None,
+    /// Towards it, and the level where it does not reach.
+    One(V3, f64),
+    /// Towards each, and its colour; what is mirrored in white, and its power.
+    Several(Vec<(V3, V3)>, f64, u16),
+}
+
+/// A draw call of one triangle, and its values.
+#[derive(Clone, Debug)]
+pub struct Call {
+    pub corners: [Corner; 3],
+    /// The colour of the call, where corners have none of their own.
+    pub colour: Option<[u8; 3]>,
+    pub normals: [V3; 3],
+    pub is_flat: bool,
+    pub light: Light64,
+    pub skin: Option<Skin64>,
+    pub cut: Option<Cut>,
+    /// Where it is seen, and where its depth is kept.
+    pub test: [Function; 2],
+    /// What becomes of colours that are there, and the channels that are written.
+    pub blend: Option<(BlendMode, [bool; 3])>,
+    pub priority: u8,
+}
+
+/// What rounding may add to a level: where a colour is written, where it changes along a span, and where it is blended.
+#[derive(Clone, Copy, Debug)]
+pub struct Rounding {
+    pub written: f64,
+    pub sloped: f64,
+    pub blended: f64,
+    /// Whether two pixels are shaded by the place between them.
+    pub by_twos: bool,
+}
+
+/// From how many levels a pixel on a shade serves two pixels: 1/70 of full light.
+const STEEP: f64 = 255.0 / 70.0;
+
+/// What pictures are drawn with.
+pub struct World<'a> {
+    pub screen: Screen,
+    pub texels: &'a [Texels],
+    pub background: [u8; 3],
+    pub rounding: Rounding,
+    /// Whether depth is compared.
+    pub by_depth: bool,
+}
+
+fn dot(a: V3, b: V3) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+pub fn unit(v: V3) -> V3 {
+    v.map(|c| c / dot(v, v).sqrt())
+}
+
+/// Where a corner is, seen from the eye, in units of its distance.
+fn position(corner: &Corner, screen: Screen) -> V3 {
+    let middle = [screen.width(), screen.height()].map(|side| 4 * i32::from(side));
+    let (x, y) = (corner.at.0 - middle[0], corner.at.1 - middle[1]);
+    let at = |d: i32| f64::from(d) / 32_768.0 * corner.w;
+    [at(x), -at(y), -corner.w]
+}
+
+impl Call {
+    /// Red, green and blue of the corners, lit, 0 to 255.
+    fn colours(&self, screen: Screen) -> [V3; 3] {
+        let at = self.corners.each_ref().map(|c| position(c, screen));
+        let side = |i: usize| [0, 1, 2].map(|k| at[i][k] - at[0][k]);
+        let (a, b) = (side(1), side(2));
+        let standing = unit([
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]);
+        [0, 1, 2].map(|i| {
+            let from = if self.is_flat { 0 } else { i };
+            let own = self.colour.unwrap_or(self.corners[from].colour);
+            let normal = if self.is_flat {
+                standing
+            } else {
+                self.normals[i]
+            };
+            // The eye is where all is seen from.
+            self.lit(own.map(f64::from), normal, unit(at[from].map(|c| -c)))
+        })
+    }
+
+    fn lit(&self, own: V3, normal: V3, eye: V3) -> V3 {
+        match &self.light {
+            Light64::None => own,
+            Light64::One(towards, ambient) => {
+                let level = ambient + (1.0 - ambient) * dot(normal, *towards).max(0.0);
+                own.map(|c| c * level)
+            }
+            Light64::Several(lights, specular, power) => {
+                let mut sum = [0.0; 3];
+                for (towards, colour) in lights {
+                    let falls = dot(normal, *towards);
+                    if falls <= 0.0 {
+                        continue;
+                    }
+                    let mirrored = [0, 1, 2].map(|k| 2.0 * falls * normal[k] - towards[k]);
+                    let shine = specular * dot(mirrored, eye).max(0.0).powi((*power).into());
+                    for i in 0..3 {
+                        sum[i] += colour[i] * (own[i] * falls + 255.0 * shine);
+                    }
+                }
+                sum.map(|c| c.min(255.0))
+            }
+        }
+    }
+
+    fn covers(&self, x: u16, y: u16, screen: Screen) -> bool {
+        let columns = within(self.corners.map(|c| c.at), y.into(), screen.width());
+        columns.contains(&usize::from(x)) && self.cut.as_ref().is_none_or(|cut| cut.keeps(x, y))
+    }
+
+    fn is_translucent(&self) -> bool {
+        self.blend
+            .is_some_and(|(mode, _)| mode != BlendMode::Replace)
+    }
+
+    /// The place on the texture, in texels.
+    fn place(&self, skin: &Skin64, x: i32, y: i32) -> [f64; 2] {
+        let (part, _) = weights(self.corners.map(|c| c.at), x, y);
+        let near = [0, 1, 2].map(|k| part[k] / self.corners[k].w);
+        let whole: f64 = near.iter().sum();
+        [0, 1].map(|axis| {
+            let texel = |k: usize| f64::from(skin.places[k][axis]) / 256.0;
+            (0..3).map(|k| near[k] * texel(k)).sum::<f64>() / whole
+        })
+    }
+
+    /// The levels of the texels that may be shown at a pixel; `None` where they are many.
+    fn texels(&self, skin: &Skin64, [x, y]: [u16; 2], all: &[Texels]) -> Option<[Range; 3]> {
+        let (x, y) = (i32::from(x), i32::from(y));
+        let at = self.place(skin, x, y);
+        let steps = [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(dx, dy)| {
+            let there = self.place(skin, x + dx, y + dy);
+            [0, 1].map(|k| (there[k] - at[k]).abs())
+        });
+        // The budget, 1/16 texel of fixed point, and 1/32 pixel of corners that are rounded.
+        let reach = [0, 1].map(|k| {
+            let step = steps.iter().fold(0.0f64, |most, step| most.max(step[k]));
+            f64::from(skin.budget.texels()) / 256.0 + 1.0 / 16.0 + step / 16.0
+        });
+        let span = [0, 1].map(|k| [at[k] - reach[k], at[k] + reach[k]].map(|c| c.floor() as i32));
+        if span.iter().any(|[low, high]| high - low > 8) {
+            return None;
+        }
+        let texels = &all[skin.form];
+        let mut levels = [[255.0f64, 0.0f64]; 3];
+        for v in span[1][0]..=span[1][1] {
+            for u in span[0][0]..=span[0][1] {
+                let rgb = texels.at(skin.wrap, u, v);
+                for i in 0..3 {
+                    levels[i] = [levels[i][0].min(rgb[i]), levels[i][1].max(rgb[i])];
+                }
+            }
+        }
+        Some(levels)
+    }
+
+    /// The levels that a pixel may get; `None` where too many texels may be shown.
+    fn levels(&self, at: [u16; 2], world: &World<'_>) -> Option<[Range; 3]> {
+        let colours = self.colours(world.screen);
+        let places = self.corners.map(|c| c.at);
+        let (part, step) = weights(places, at[0].into(), at[1].into());
+        let of = |part: V3| [0, 1, 2].map(|i| (0..3).map(|k| part[k] * colours[k][i]).sum());
+        let (level, step): (V3, V3) = (of(part), of(step));
+        let is_even = colours.iter().all(|c| *c == colours[0]);
+        let Rounding {
+            written, sloped, ..
+        } = world.rounding;
+        let off = if is_even { written } else { sloped };
+        let texels = match &self.skin {
+            Some(skin) => self.texels(skin, at, world.texels)?,
+            None => [[255.0; 2]; 3],
+        };
+        Some([0, 1, 2].map(|i| {
+            // Where it changes fast, a shade may be that half a pixel away.
+            let half = if world.rounding.by_twos && step[i].abs() > STEEP {
+                step[i].abs() / 2.0
+            } else {
+                0.0
+            };
+            let (least, most) = (level[i] - half, level[i] + half);
+            let shade = |level: f64| level.clamp(0.0, 255.0) / 255.0;
+            [
+                texels[i][0] * shade(least) - off,
+                texels[i][1] * shade(most) + off,
+            ]
+        }))
+    }
+}
+
+impl Texels {
+    /// The texel of a place, which may lie beyond the sides.
+    fn at(&self, wrap: Wrap, u: i32, v: i32) -> V3 {
+        let folded = |at: i32, side: i32| match wrap {
+            Wrap::Repeat => at.rem_euclid(side),
+            Wrap::Clamp => at.clamp(0, side - 1),
+            Wrap::Mirror => {
+                let there = at.rem_euclid(2 * side);
+                there.min(2 * side - 1 - there)
+            }
+        };
+        let (u, v) = (folded(u, self.width), folded(v, self.height));
+        self.rgb[(v * self.width + u) as usize]
+    }
+}
+
+/// A depth that is there: nothing, or that of a triangle.
+#[derive(Clone, Copy)]
+struct There<'a> {
+    of: Option<&'a [Corner; 3]>,
+    depth: f64,
+    off: f64,
+}
+
+impl<'a> There<'a> {
+    const FARTHEST: Self = Self {
+        of: None,
+        depth: 0.0,
+        off: 0.0,
+    };
+
+    fn of(call: &'a Call, [x, y]: [u16; 2]) -> Self {
+        Self {
+            of: Some(&call.corners),
+            depth: exact(&call.corners, x.into(), y),
+            off: bound(&call.corners),
+        }
+    }
+
+    /// How it compares with what is there; `None` where that is not known. A triangle is as far as itself.
+    fn compare(self, there: Self) -> Option<Ordering> {
+        let same = |a: &[Corner; 3], b: &[Corner; 3]| {
+            (0..3).all(|i| a[i].at == b[i].at && a[i].w == b[i].w)
+        };
+        if let (Some(a), Some(b)) = (self.of, there.of) {
+            if same(a, b) {
+                return Some(Ordering::Equal);
+            }
+        }
+        let apart = self.depth - there.depth;
+        (apart.abs() > self.off + there.off).then(|| apart.total_cmp(&0.0))
+    }
+}
+
+/// Lays what a call may have over what may be there.
+fn lay(levels: &mut [Range; 3], call: &Call, at: [u16; 2], world: &World<'_>) -> Option<()> {
+    let new = call.levels(at, world)?;
+    let (mode, rgb) = call.blend.unwrap_or((BlendMode::Replace, [true; 3]));
+    for i in (0..3).filter(|&i| rgb[i]) {
+        let clamped = |range: Range| range.map(|c| c.clamp(0.0, 255.0));
+        let (old, new) = (clamped(levels[i]), clamped(new[i]));
+        // Each mode is linear in both, so its least and its most are at the ends.
+        let ends = [0, 1, 2, 3].map(|k| blended(mode, old[k & 1], new[k >> 1])[0]);
+        let off = match mode {
+            BlendMode::Replace => 0.0,
+            _ => world.rounding.blended,
+        };
+        let fold = |f: fn(f64, f64) -> f64| ends.into_iter().reduce(f).unwrap_or_default();
+        levels[i] = [fold(f64::min) - off, fold(f64::max) + off];
+    }
+    Some(())
+}
+
+/// The levels that a pixel may have; `None` where they hang on what depth or a texture may err. Calls come in order of
+/// priority.
+pub fn pixel(calls: &[&Call], at: [u16; 2], world: &World<'_>) -> Option<[Range; 3]> {
+    let off = world.rounding.written;
+    let mut levels = world
+        .background
+        .map(|level| [-off, off].map(|off| f64::from(level) + off));
+    let mut there = There::FARTHEST;
+    let mut waiting: Vec<(&Call, There<'_>)> = Vec::new();
+    for &call in calls {
+        if !call.covers(at[0], at[1], world.screen) {
+            continue;
+        }
+        if !world.by_depth {
+            lay(&mut levels, call, at, world)?;
+            continue;
+        }
+        let here = There::of(call, at);
+        if call.is_translucent() {
+            // From far to near; what is as far as another comes after it.
+            let mut place = waiting.len();
+            for (i, (_, other)) in waiting.iter().enumerate().rev() {
+                if here.compare(*other)? == Ordering::Less {
+                    place = i;
+                }
+            }
+            waiting.insert(place, (call, here));
+            continue;
+        }
+        let order = here.compare(there)?;
+        if passes(call.test[0], order) {
+            lay(&mut levels, call, at, world)?;
+        }
+        if passes(call.test[1], order) {
+            there = here;
+        }
+    }
+    for (call, here) in waiting {
+        if passes(call.test[0], here.compare(there)?) {
+            lay(&mut levels, call, at, world)?;
+        }
+    }
+    Some(levels)
+}
+
+/// The calls that have a pixel, to be told.
+pub fn covering<'a>(calls: &[&'a Call], [x, y]: [u16; 2], world: &World<'_>) -> Vec<&'a Call> {
+    let covers = |call: &&&Call| call.covers(x, y, world.screen);
+    calls.iter().filter(covers).copied().collect()
+}
