@@ -13,9 +13,8 @@ use super::rival::find_depth;
 use super::slot::Active;
 use super::spans::{Drawn, Known, Line, Span, colour, colour_run, columns_of, nearer};
 use crate::active::{CacheSlot, next};
-use crate::composite::PixelFormat;
 use crate::link::Link;
-use crate::look::{Look, Place, WordOf};
+use crate::look::{Look, Place, WordOf, fill_even};
 use crate::num::{bit, take_first};
 use crate::scene::Scene;
 use crate::visible::Mask;
@@ -132,7 +131,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
             if let Some(run) = pixels.get_mut(from as usize..to as usize) {
-                L::Pixel::fill(run, background);
+                fill_even::<L::Pixel>(run, background);
             }
         });
     }
@@ -353,10 +352,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-/// A whole line of one colour: one copy of the loop.
-#[inline(never)]
+/// A whole line of one colour.
 pub(super) fn fill_line<L: Look>(pixels: &mut [WordOf<L>], colour: WordOf<L>) {
-    L::Pixel::fill(pixels, colour);
+    fill_even::<L::Pixel>(pixels, colour);
 }
 
 /// Finds the depth of a slot, unless it is among those whose depth is known.

@@ -2,6 +2,7 @@
 
 use super::spans::Span;
 use crate::look::{Parts, ThinSpan};
+use crate::num::divide;
 use crate::scene::ORIGIN;
 use crate::span::{Size, Triangle};
 
@@ -77,5 +78,5 @@ fn part_of(part: u32, whole: u32) -> u32 {
     if whole < 1 << 10 {
         return ((part << 21) / whole.max(1)) << 9;
     }
-    ((u64::from(part) << 30) / u64::from(whole)) as u32
+    divide(u64::from(part) << 30, whole)
 }

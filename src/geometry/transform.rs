@@ -4,7 +4,7 @@
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
 //! and no float is touched after set-up.
 
-use crate::num::{Block, I2F14, shift_round, shift_round_inline};
+use crate::num::{Block, I2F14, divide, root, shift_round};
 use micromath::F32Ext;
 
 /// An affine map `p -> linear p + offset`.
@@ -148,6 +148,7 @@ impl Affine {
     /// A direction of world space seen from model space, as a unit vector.
     ///
     /// Right for rotations and uniform scales: the transpose stands in for the inverse.
+    #[inline(never)]
     pub(super) fn direction_to_model(&self, direction: [I2F14; 3]) -> [I2F14; 3] {
         unit(self.transposed_times(direction))
     }
@@ -158,7 +159,6 @@ impl Affine {
     }
 
     /// The transpose of the linear part times a direction, of any length below 2^32.
-    #[inline(always)]
     fn transposed_times(&self, direction: [I2F14; 3]) -> [i64; 3] {
         let m = &self.linear.mantissa;
         let mut v = [0i64; 3];
@@ -210,12 +210,20 @@ impl Affine {
 
 /// The unit vector along `v` (each below 2^32 in magnitude) in Q1.14, each within 2^-15, negative
 /// ones within 2^-14; zero stays zero.
+#[inline(never)]
 pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
     let (v, length) = with_length(v);
     if length == 0 {
         return [I2F14::ZERO; 3];
     }
-    v.map(|c| I2F14::from_bits((((c << 15) / length + 1) >> 1) as i16))
+    let mut unit = [I2F14::ZERO; 3];
+    for (unit, c) in unit.iter_mut().zip(v) {
+        // No component is longer than the whole.
+        let part = divide(c.unsigned_abs() << 15, length as u32) as i32;
+        let part = if c < 0 { -part } else { part };
+        *unit = I2F14::from_bits(((part + 1) >> 1) as i16);
+    }
+    unit
 }
 
 /// `v` (each below 2^32 in magnitude) with 30 bits in its largest, and its length then.
@@ -225,9 +233,13 @@ fn with_length(v: [i64; 3]) -> ([i64; 3], i64) {
     let bits = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();
     // 30 bits each: the sum of squares fits 62 bits, and the root has 30 of its own.
     let shift = bits.leading_zeros() as i32 - 34;
-    let v = v.map(|c| shift_round_inline(c, shift));
-    let square: i64 = v.iter().map(|c| c * c).sum();
-    (v, square.unsigned_abs().isqrt() as i64)
+    let mut square = 0;
+    let v = v.map(|c| {
+        let c = shift_round(c, shift);
+        square += c * c;
+        c
+    });
+    (v, root(square.unsigned_abs()).into())
 }
 
 /// The unit vector along `v` in Q1.30, 2^-28 off at most; `None` for zero.

@@ -32,7 +32,7 @@ mod word_plane;
 
 pub use gouraud::Gouraud;
 pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
-pub(crate) use ramp::write_depth;
+pub(crate) use ramp::{fill_even, write_depth};
 pub use textured::Textured;
 
 /// How the triangles of a scene look: [`Gouraud`] or [`Textured`].

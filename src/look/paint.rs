@@ -158,8 +158,10 @@ impl ThinSpan<'_> {
             a + ((rise + (1 << 29)) >> 30)
         };
         let (first, last) = (at(self.parts[0]), at(self.parts[1]));
-        let step = (last - first) / i64::from(self.pixels.saturating_sub(1).max(1));
-        let step = step as u32;
+        // Values lie between those of the corners, so they differ by less than 2^32.
+        let rise = last - first;
+        let step = rise.unsigned_abs() as u32 / self.pixels.saturating_sub(1).max(1);
+        let step = if rise < 0 { step.wrapping_neg() } else { step };
         [
             (first as u32).wrapping_sub(step.wrapping_mul(self.start)),
             step,

@@ -1,9 +1,9 @@
 //! The loops over pixels: colour alone, colour and depth (B, K8).
 //!
-//! Runs of up to 16 pixels are straight code behind a jump by length: 4 instructions a pixel on a Cortex-M4, 5
-//! where the bytes are swapped, and 16 for the call; longer ones go in chunks of 8 without an end test, 5.4 a pixel.
-//! All have their step kept from being multiplied out by `black_box`, once a chunk, as have the loops with depth: 12 a
-//! pixel.
+//! Runs of up to 16 pixels are straight code, entered behind a jump by length as far from its end as there are pixels:
+//! 4 instructions a pixel on a Cortex-M4, 5 where the bytes are swapped, and some 20 for the call; longer ones go in
+//! chunks of 8 without an end test, 5.4 a pixel. `black_box`, once a chunk, keeps loops from being unrolled and their
+//! steps from being multiplied out; with depth they take 12 a pixel.
 
 use super::Depths;
 use crate::num::leading_zeros;
@@ -48,48 +48,62 @@ fn next<F: Pixel>(ramp: &mut Packed) -> F::Word {
     pixel
 }
 
-/// Straight code for so many pixels.
-macro_rules! straight {
-    ($run:ident, $ramp:ident, $($pixels:literal)+) => {
-        match $run.len() {
-            $($pixels => fill_first::<F, $pixels>($run, &mut $ramp),)+
-            _ => fill_any::<F>($run, $ramp),
-        }
+/// A jump into straight code: after `$jump` has left the block of a label, what stands at that label is done and then
+/// all that stands after it.
+macro_rules! fall {
+    ($put:ident, $jump:block) => { $jump };
+    ($put:ident, $jump:block [$label:lifetime $k:literal] $($rest:tt)*) => {
+        fall!($put, { $label: { $jump } $put($k); } $($rest)*)
     };
 }
 
-/// Colours a run, short ones in straight code. One copy for all: it needs no register that a caller keeps.
+/// Colours a run: short ones in straight code from the last pixel to the first. One copy for all: it needs no register
+/// that a caller keeps.
 #[inline(never)]
-pub(super) fn fill<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
-    straight!(run, ramp, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
-}
-
-/// Colours the first pixels of a run, if it has as many.
-#[inline(always)]
-fn fill_first<F: Pixel, const N: usize>(run: &mut [F::Word], ramp: &mut Packed) {
-    if let Some(run) = run.first_chunk_mut::<N>() {
-        fill_chunk::<F, N>(run, ramp);
+pub(super) fn fill<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
+    // None, which wraps, is as rare as more than 16.
+    let last = (run.len() as u32).wrapping_sub(1);
+    if last >= 16 {
+        return fill_long::<F>(run, ramp);
     }
+    let way = ramp.step.wrapping_mul(last);
+    let mut word = ramp.word.wrapping_add(way);
+    let mut put = |k: usize| {
+        if let Some(pixel) = run.get_mut(k) {
+            *pixel = F::of_word(word);
+        }
+        word = word.wrapping_sub(ramp.step);
+    };
+    fall!(put, {
+        match last {
+            0 => break 'a,
+            1 => break 'b,
+            2 => break 'c,
+            3 => break 'd,
+            4 => break 'e,
+            5 => break 'f,
+            6 => break 'g,
+            7 => break 'h,
+            8 => break 'i,
+            9 => break 'j,
+            10 => break 'k,
+            11 => break 'l,
+            12 => break 'm,
+            13 => break 'n,
+            14 => break 'o,
+            15 => break 'p,
+            _ => return,
+        }
+    } ['p 15] ['o 14] ['n 13] ['m 12] ['l 11] ['k 10] ['j 9] ['i 8] ['h 7] ['g 6] ['f 5] ['e 4] ['d 3] ['c 2] ['b 1]
+        ['a 0]);
 }
 
 /// Colours a run of any length, which may be of one colour.
 #[inline(never)]
-fn fill_any<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
+fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
     if ramp.step == 0 {
         return fill_even::<F>(run, F::of_word(ramp.word));
     }
-    fill_long::<F>(run, ramp);
-}
-
-/// Colours a run alike.
-#[inline(never)]
-pub(crate) fn fill_even<F: Pixel>(run: &mut [F::Word], pixel: F::Word) {
-    F::fill(run, pixel);
-}
-
-/// Colours a run of any length.
-#[inline(always)]
-fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
     let step = ramp.step;
     let mut chunks = run.chunks_exact_mut(8);
     for chunk in chunks.by_ref() {
@@ -98,13 +112,13 @@ fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
             fill_chunk::<F, 8>(chunk, &mut ramp);
         }
     }
-    ramp.step = step;
-    let rest = chunks.into_remainder();
-    let (four, rest) = rest.split_at_mut(rest.len() & 4);
-    fill_first::<F, 4>(four, &mut ramp);
-    let (two, one) = rest.split_at_mut(rest.len() & 2);
-    fill_first::<F, 2>(two, &mut ramp);
-    fill_first::<F, 1>(one, &mut ramp);
+    fill::<F>(chunks.into_remainder(), Packed { step, ..ramp });
+}
+
+/// A run of one colour: one copy of the loop.
+#[inline(never)]
+pub(crate) fn fill_even<F: Pixel>(run: &mut [F::Word], word: F::Word) {
+    F::fill(run, word);
 }
 
 /// Colours so many pixels in straight code.

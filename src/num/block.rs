@@ -2,6 +2,8 @@
 //!
 //! Matrices and planes of a camera span many magnitudes; a shared power of two keeps every
 //! product exact in 64 bits and needs no float.
+//!
+//! This is set-up, so its size counts: loops have a second way out, which keeps compilers from unrolling them.
 
 /// `N` numbers `mantissa[i] 2^(exponent - 30)`.
 ///
@@ -88,7 +90,10 @@ fn normalise(value: &[i64], mantissa: &mut [i32]) -> Option<i32> {
 #[inline(never)]
 fn shift_all(value: &[i64], shift: i32, mantissa: &mut [i32]) -> u32 {
     let mut bits = 0;
-    for (m, &v) in mantissa.iter_mut().zip(value) {
+    for (i, m) in mantissa.iter_mut().enumerate() {
+        let Some(&v) = value.get(i) else {
+            break;
+        };
         *m = if shift >= 0 {
             (v as i32) << shift
         } else {
@@ -106,15 +111,18 @@ fn widen(value: &[f32], wide: &mut [i64]) -> Option<i32> {
     let mut largest = 0;
     for v in value {
         largest = largest.max(v.to_bits() & 0x7FFF_FFFF);
+        if largest >> 23 > 96 + 126 {
+            return None;
+        }
     }
     let exponent = (largest >> 23) as i32 - 126;
-    if exponent > 96 {
-        return None;
-    }
     if exponent >= -90 {
         // A power of two, so each product is exact.
         let scale = f32::from_bits(((127 + 30 - exponent) as u32) << 23);
-        for (w, v) in wide.iter_mut().zip(value) {
+        for (i, w) in wide.iter_mut().enumerate() {
+            let Some(v) = value.get(i) else {
+                break;
+            };
             *w = i64::from((v * scale) as i32);
         }
     }

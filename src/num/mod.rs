@@ -28,6 +28,7 @@ mod edge;
 mod inverse_root;
 mod plane;
 mod product;
+mod quotient;
 #[cfg(test)]
 pub(crate) mod random;
 mod recip;
@@ -45,6 +46,7 @@ pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;
 pub use plane::{InverseArea, Plane};
 pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned, turn};
+pub use quotient::{divide, root};
 pub use recip::recip;
 pub use recip_table::Reciprocal;
 pub use recip16::{mul_16_unsigned, mul_17, of_height, recip_16, slope_of};

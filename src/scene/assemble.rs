@@ -11,8 +11,8 @@ use super::{
     Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading, TexturePlace, Vertex,
 };
 use crate::geometry::{
-    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Tint, check_mesh, each_triangle,
-    triangles,
+    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Scale, Tint, check_mesh,
+    each_triangle, triangles,
 };
 use core::cell::Cell;
 use core::ops::Range;
@@ -65,8 +65,6 @@ impl<'t, L> Scene<'_, 't, L> {
                 first_face: 0,
             });
         }
-        self.has_values |= state.has_values();
-        self.is_ranked |= state.priority != 0;
         self.generation = self.generation.wrapping_add(1);
         let lamps = (draw.lights).map(|lights| Lamps::new(lights, &draw.model, camera.view()));
         let light = match lamps {
@@ -95,6 +93,8 @@ impl<'t, L> Scene<'_, 't, L> {
             self.forget_from(before, pass.base);
             return Err(DrawError::Mesh(error));
         }
+        self.has_values |= state.has_values();
+        self.is_ranked |= state.priority != 0;
         if self.objects.len() == before {
             self.vertices.truncate(pass.base);
         } else if !is_flat {
@@ -286,14 +286,7 @@ impl<'t, L> Scene<'_, 't, L> {
         colour: Option<u32>,
         pass: &mut Pass<'_>,
     ) {
-        let corners = corners.map(|i| {
-            let i = usize::from(i);
-            Corner {
-                point: pass.view.point(mesh.positions[i]),
-                colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, &self.scale)),
-                texel: pass.texels.get(i).copied().unwrap_or_default(),
-            }
-        });
+        let corners = corners.map(|i| corner_of(mesh, i.into(), colour, pass, &self.scale));
         let beyond = corners.map(|c| pass.view.beyond(c.point));
         let any = beyond[0] | beyond[1] | beyond[2];
         let before = self.objects.len();
@@ -319,18 +312,7 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// A triangle within all planes; an error names the memory that is full.
     fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        let own = corners.map(|c| {
-            let on = pass.view.project(c.point);
-            Own {
-                vertex: Vertex {
-                    place: on.place,
-                    depth: on.depth,
-                    colour: c.colour,
-                },
-                place: TexturePlace::new(c.texel, on.fine),
-            }
-        });
-        self.file_own(own, pass)
+        self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
     }
 
     /// A triangle with vertices of its own; an error names the memory that is full.
@@ -374,32 +356,46 @@ impl<'t, L> Scene<'_, 't, L> {
     /// Takes back a mesh that turned out to contradict itself.
     #[cold]
     fn forget_from(&mut self, objects: usize, vertices: usize) {
-        let picture = self.picture();
-        while let Some((index, &object)) = self
-            .objects
-            .as_slice()
-            .iter()
-            .enumerate()
-            .next_back()
-            .filter(|(index, _)| *index >= objects)
-        {
-            let at = |i: u16| {
-                self.vertices
-                    .as_slice()
-                    .get(usize::from(i))
-                    .map(|v| v.place)
-            };
-            let bin = match object.corner.map(at) {
-                [Some(a), Some(b), Some(c)] => bin_of([a, b, c], &picture),
-                _ => None,
-            };
-            if let Some(head) = bin.and_then(|bin| self.bins.get_mut(bin)) {
-                *head = object.next;
+        // The triangles of a line are chained from the last one on.
+        for head in self.bins.iter_mut().take(self.lines.len()) {
+            while *head != NONE && usize::from(*head) >= objects {
+                let object = self.objects.as_slice().get(usize::from(*head));
+                *head = object.map_or(NONE, |object| object.next);
             }
-            self.objects.truncate(index);
         }
+        self.objects.truncate(objects);
         self.vertices.truncate(vertices);
         self.draws.truncate(self.draws.len().saturating_sub(1));
+    }
+}
+
+/// A corner of a face as the camera sees it, of a colour, or lit; out of line, since a face has three.
+#[inline(never)]
+fn corner_of<C: Coordinate>(
+    mesh: &Mesh<'_, C>,
+    i: usize,
+    colour: Option<u32>,
+    pass: &Pass<'_>,
+    scale: &Scale,
+) -> Corner {
+    Corner {
+        point: pass.view.point(mesh.positions[i]),
+        colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
+        texel: pass.texels.get(i).copied().unwrap_or_default(),
+    }
+}
+
+/// A corner within all planes as a vertex; out of line, since a triangle has three.
+#[inline(never)]
+fn own_of(corner: Corner, pass: &Pass<'_>) -> Own {
+    let on = pass.view.project(corner.point);
+    Own {
+        vertex: Vertex {
+            place: on.place,
+            depth: on.depth,
+            colour: corner.colour,
+        },
+        place: TexturePlace::new(corner.texel, on.fine),
     }
 }
 

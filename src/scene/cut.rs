@@ -7,6 +7,7 @@
 
 use super::project::{Point, View, beyond};
 use crate::geometry::Colour;
+use crate::num::divide;
 use heapless::Vec;
 
 /// A corner on its way through the planes.
@@ -76,11 +77,9 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
     // t = near / (near - far) in 2^-30; both are below 2^33.
     let whole = near.unsigned_abs() + far.unsigned_abs();
     let down = 31u32.saturating_sub(whole.leading_zeros());
-    let t = ((near.unsigned_abs() >> down) << 30) / (whole >> down).max(1);
-    let t = (t as i64).min(1 << 30);
-    let mix = |a: i32, b: i32| {
-        (i64::from(a) + (((i64::from(b) - i64::from(a)) * t + (1 << 29)) >> 30)) as i32
-    };
+    let whole = ((whole >> down) as u32).max(1);
+    let t = divide((near.unsigned_abs() >> down) << 30, whole);
+    let mix = |a: i32, b: i32| mix(a, b, t);
     let (a, b) = (inner.point, outer.point);
     let point = Point {
         x: mix(a.x, b.x),
@@ -89,14 +88,25 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
     };
     // On the screen the same point is at t zb / z of the projected edge.
     let along = if on_screen && point.z > 0 {
-        ((((t >> 1) * i64::from(b.z)) / i64::from(point.z)) << 1).clamp(0, 1 << 30)
+        let part = u64::from(t >> 1) * u64::from(b.z.max(0) as u32);
+        let z = point.z as u32;
+        // Whole at most, but for what the point was rounded by.
+        divide(part, z).min(1 << 29) << 1
     } else {
         t
     };
-    let colour = Colour::from_word(inner.colour).lerp(Colour::from_word(outer.colour), along);
+    let colour =
+        Colour::from_word(inner.colour).lerp(Colour::from_word(outer.colour), along.into());
     Corner {
         point,
         colour: colour.word(),
         texel: [0, 1].map(|i| mix(inner.texel[i], outer.texel[i])),
     }
+}
+
+/// The value so far from one to another, in 2^-30.
+#[inline(never)]
+fn mix(a: i32, b: i32, t: u32) -> i32 {
+    let rise = (i64::from(b) - i64::from(a)) * i64::from(t);
+    (i64::from(a) + ((rise + (1 << 29)) >> 30)) as i32
 }

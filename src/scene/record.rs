@@ -21,9 +21,9 @@ pub struct Vertex {
 }
 
 impl Vertex {
-    /// What fresh memory is filled with.
+    /// What fresh memory is filled with: zeros, so that a static takes no flash.
     pub const EMPTY: Self = Self {
-        place: Self::OUTSIDE,
+        place: 0,
         depth: 0,
         colour: 0,
     };
@@ -108,10 +108,10 @@ pub struct Object {
 }
 
 impl Object {
-    /// What fresh memory is filled with.
+    /// What fresh memory is filled with: zeros, so that a static takes no flash.
     pub const EMPTY: Self = Self {
         corner: [0; 3],
-        next: NONE,
+        next: 0,
     };
 }
 

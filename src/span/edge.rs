@@ -14,7 +14,7 @@
 //! 0.63 units of 2^-22 column off; after 511 units it is 322 off, the bias is 512, and the truth a
 //! multiple of 1,024 of them.
 
-use crate::num::{self, column_exact, of_height, slope_of};
+use crate::num::{self, of_height, slope_of};
 use crate::scene::ORIGIN;
 
 /// What the picture's place in guard space is to edges and planes: it begins at [`ORIGIN`], either way.
@@ -110,11 +110,16 @@ impl Edge {
 
     /// The first column of guard space right of a divided side.
     pub(crate) fn divided(self, line: i32) -> i32 {
-        let (a, b) = (parts(self.at), parts(self.slope));
-        if a.1 >= b.1 {
+        let (a, d) = (self.at, self.slope.wrapping_sub(self.at));
+        let dy = down(d);
+        if dy <= 0 {
             return 0;
         }
-        column_exact(a, b, line)
+        // Units of the way, rounded down: what is cut off cannot reach the next column's centre. A line that the side
+        // is on is fewer than 2^15 units below its upper end, and neither end is farther across.
+        let below = 8 * line + 4 - (a >> 16) as i32;
+        let way = below.wrapping_mul(across(d)).div_euclid(dy);
+        ((a & 0xFFFF) as i32 + 4 + way) >> 3
     }
 }
 

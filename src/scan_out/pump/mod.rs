@@ -420,6 +420,8 @@ impl<D: ScanoutDma> Pump<D> {
     }
 
     /// Ends the frame after `error`, which is handed through.
+    #[cold]
+    #[inline(never)]
     fn fail(&mut self, error: ScanError<D::Error>) -> ScanError<D::Error> {
         match error {
             // A wait has just been in vain. `begin` and `release` will wait again.
@@ -439,6 +441,7 @@ impl<D: ScanoutDma> Pump<D> {
     ///
     /// Each running transfer may fail once more on its way, which no longer matters. A sink that goes on failing is
     /// not asked for ever: its error is returned.
+    #[inline(never)]
     fn recover(&mut self) -> Result<(), ScanError<D::Error>> {
         self.put_back_filling();
         self.window = None;
