@@ -26,7 +26,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         };
         self.changed = false;
-        for now in from..=line {
+        let mut next = from;
+        while next <= line {
+            let now = next;
+            next += 1;
             if self.cache.enter_line(now) {
                 self.change(view);
             }
@@ -45,6 +48,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What turns or ends on a line.
     #[inline(never)]
     fn change(&mut self, view: &View<'_>) {
+        if self.cache.begins_block() {
+            self.ask_changes(view);
+        }
+        for word in 0..WORDS {
+            let changes = self.cache.take_changes(word);
+            self.changed |= changes.ended != 0;
+            if changes.turning != 0 {
+                self.turn_all(view, word, changes.turning);
+            }
+        }
+    }
+
+    /// What changes in a block of lines that begins, line by line.
+    #[inline(never)]
+    fn ask_changes(&mut self, view: &View<'_>) {
         for word in 0..WORDS {
             let waiting = self.cache.take_block(word);
             for (mut slots, turns) in waiting.into_iter().zip([true, false]) {
@@ -52,12 +70,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     self.ask_change(view, word, take_first(&mut slots), turns);
                 }
             }
-            let changes = self.cache.take_changes(word);
-            self.changed |= changes.ended != 0;
-            let mut turning = changes.turning;
-            while turning != 0 {
-                self.turn(view, word, take_first(&mut turning));
-            }
+        }
+    }
+
+    /// Slots of a word of which a side turns.
+    #[inline(never)]
+    fn turn_all(&mut self, view: &View<'_>, word: usize, mut turning: u32) {
+        while turning != 0 {
+            self.turn(view, word, take_first(&mut turning));
         }
     }
 
@@ -89,8 +109,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// A slot whose side turns, or that ends, far down: asks its triangle for the line.
-    #[cold]
-    #[inline(never)]
+    #[inline(always)]
     fn ask_change(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
         let slot = &self.cache.slots[word][i as usize & 31];
         if let Some(triangle) = view.triangle_of(slot.object) {

@@ -32,7 +32,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         pixels: &mut [WordOf<L>],
         background: WordOf<L>,
     ) -> Result<bool, LineError> {
-        self.check_memory(scene)?;
+        self.check(scene)?;
         let (needed, have) = (usize::from(scene.screen().width()), pixels.len());
         if have != needed {
             return Err(LineError::Pixels { needed, have });
@@ -40,30 +40,38 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if !scene.lines().contains(&line) {
             return Err(LineError::Line { line });
         }
-        let view = View::of(scene);
-        let draw_values = match self.values {
-            _ if !view.values => None,
-            None => return Err(LineError::Values),
-            some => some,
-        };
-        self.advance(scene, &view, line);
+        Ok(self.draw_known(scene, &View::of(scene), line, pixels, background))
+    }
+
+    /// [`draw_line`](Renderer::draw_line) of a line of the scene, into as many pixels as it has, where the memory
+    /// suffices.
+    #[inline(never)]
+    pub(super) fn draw_known(
+        &mut self,
+        scene: &Scene<'_, '_, L>,
+        view: &View<'_>,
+        line: u16,
+        pixels: &mut [WordOf<L>],
+        background: WordOf<L>,
+    ) -> bool {
+        self.advance(scene, view, line);
         if self.cache.is_empty() {
             fill_line::<L>(pixels, background);
-            return Ok(false);
+            return false;
         }
         let mut out = Line {
-            view: &view,
+            view,
             number: u32::from(line),
             pixels,
         };
-        if draw_values.is_some_and(|draw| draw(self, &mut out, background)) {
-            return Ok(true);
+        if view.values && self.values.is_some_and(|draw| draw(self, &mut out, background)) {
+            return true;
         }
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
             if self.draw_near_first(usize::from(slots), &mut out) {
                 self.covered = Mask::EMPTY;
-                return Ok(true);
+                return true;
             }
         } else {
             self.guests = 0;
@@ -77,7 +85,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         self.fill_rest(out.pixels, background);
-        Ok(true)
+        true
     }
 
     /// Draws all spans where some meet, or some have no slot, which `met` others.
@@ -131,39 +139,36 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
             if let Some(run) = pixels.get_mut(from as usize..to as usize) {
-                fill_even::<L::Pixel>(run, background);
+                fill_line::<L>(run, background);
             }
         });
     }
 
     /// Colours spans as they are found; `false` as soon as two meet.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
         for word in 0..WORDS {
-            if !self.draw_plain(out, word) {
+            let plain = self.cache.plain[word];
+            if plain != 0 && self.draw_plain(out, word, plain) != 0 {
                 return false;
             }
-            let mut others = self.cache.used[word] & !self.cache.plain[word];
-            while others != 0 {
-                let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
-                let Span { start, end } = columns_of::<L>(slot, out);
-                if start >= end {
-                    continue;
-                }
-                if self.covered.cover(start, end) {
-                    return false;
-                }
-                colour::<L>(Drawn::of(slot), Span { start, end }, out);
+            let others = self.cache.used[word] & !plain;
+            if others != 0 && self.draw_others(out, word, others) != 0 {
+                return false;
             }
         }
         true
     }
 
-    /// The commonest spans of a word of slots.
+    /// The commonest spans of a word of slots; not 0 as soon as one meets another.
     #[inline(never)]
-    fn draw_plain(&mut self, out: &mut Line<'_, '_, WordOf<L>>, word: usize) -> bool {
+    fn draw_plain(
+        &mut self,
+        out: &mut Line<'_, '_, WordOf<L>>,
+        word: usize,
+        mut plain: u32,
+    ) -> u32 {
         let slots = &self.cache.slots[word];
-        let mut plain = self.cache.plain[word];
         let line = out.number;
         while plain != 0 {
             let slot = &slots[take_first(&mut plain) as usize & 31];
@@ -172,11 +177,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if column >= end {
                 continue;
             }
-            if self.covered.cover(column, end) {
-                return false;
+            let met = self.covered.cover(column, end);
+            if met != 0 {
+                return met;
             }
             let Some(run) = out.pixels.get_mut(column as usize..end as usize) else {
-                return false;
+                continue;
             };
             let at = Place {
                 span: column,
@@ -186,7 +192,29 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             L::fill_plain(&slot.item.planes, at, out.view.draws, run);
         }
-        true
+        0
+    }
+
+    /// The other spans of a word of slots; not 0 as soon as one meets another.
+    #[inline(never)]
+    fn draw_others(
+        &mut self,
+        out: &mut Line<'_, '_, WordOf<L>>,
+        word: usize,
+        mut others: u32,
+    ) -> u32 {
+        while others != 0 {
+            let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
+            let Span { start, end } = columns_of::<L>(slot, out);
+            if start < end {
+                let met = self.covered.cover(start, end);
+                if met != 0 {
+                    return met;
+                }
+                colour::<L>(Drawn::of(slot), Span { start, end }, out);
+            }
+        }
+        0
     }
 
     /// The columns of all spans; whether two meet.
@@ -352,7 +380,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-/// A whole line of one colour.
+/// Pixels of one colour.
+#[inline(always)]
 pub(super) fn fill_line<L: Look>(pixels: &mut [WordOf<L>], colour: WordOf<L>) {
     fill_even::<L::Pixel>(pixels, colour);
 }

@@ -230,12 +230,6 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         if scene.has_values || scene.is_ranked {
             self.values.ok_or(LineError::Values)?;
         }
-        self.check_memory(scene)
-    }
-
-    /// Whether the memory suffices for a scene.
-    #[inline(always)]
-    pub(super) fn check_memory(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
         let (needed, have) = (scene.objects(), self.links.len());
         if have < needed {
             return Err(LineError::Links { needed, have });

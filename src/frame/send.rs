@@ -1,6 +1,6 @@
 //! All lines of a frame, each drawn while the one before is on its way (K12, X5).
 
-use super::renderer::{LineError, Renderer};
+use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
 use crate::look::{Look, WordOf};
 #[cfg(feature = "async")]
@@ -69,8 +69,14 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
+    let view = View::of(scene);
+    let needed = usize::from(scene.screen().width());
     let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
-        renderer.draw_line(scene, line, pixels, background)
+        let have = pixels.len();
+        if have != needed {
+            return Err(LineError::Pixels { needed, have });
+        }
+        Ok(renderer.draw_known(scene, &view, line, pixels, background))
     };
     send(scene, renderer, pump, lines_per_transfer, draw)
 }

@@ -49,7 +49,7 @@ pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned, turn};
 pub use quotient::{divide, root};
 pub use recip::recip;
 pub use recip_table::Reciprocal;
-pub use recip16::{mul_16_unsigned, mul_17, of_height, recip_16, slope_of};
+pub use recip16::{mul_17, mul_recip_16, of_height, recip_16, slope_of};
 pub use short::SHORT;
 pub use small::SmallArea;
 

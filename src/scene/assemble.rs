@@ -14,7 +14,6 @@ use crate::geometry::{
     Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Scale, Tint, check_mesh,
     each_triangle, triangles,
 };
-use core::cell::Cell;
 use core::ops::Range;
 
 /// The lines and columns of guard space that are drawn.
@@ -234,8 +233,6 @@ impl<'t, L> Scene<'_, 't, L> {
         ) else {
             return 0;
         };
-        // Cells, since a face may have a corner twice.
-        let vertices = Cell::from_mut(vertices).as_slice_of_cells();
         let bins = &mut *self.bins;
         let (mut rest, mut filed) = (faces.iter(), first);
         let done = loop {
@@ -243,11 +240,18 @@ impl<'t, L> Scene<'_, 't, L> {
             let Some(&[i, j, k]) = rest.next() else {
                 break faces.len();
             };
-            let at = |i: u16| vertices.get(usize::from(i));
-            let (Some(a), Some(b), Some(c)) = (at(i), at(j), at(k)) else {
+            let at = |i: u16| Some(vertices.get(usize::from(i))?.place);
+            // One after the other: together they are looked up twice.
+            let Some(a) = at(i) else {
                 break faces.len() - left;
             };
-            let place = [a.get().place, b.get().place, c.get().place];
+            let Some(b) = at(j) else {
+                break faces.len() - left;
+            };
+            let Some(c) = at(k) else {
+                break faces.len() - left;
+            };
+            let place = [a, b, c];
             if !within && place.contains(&Vertex::OUTSIDE) {
                 break faces.len() - left;
             }
@@ -260,8 +264,10 @@ impl<'t, L> Scene<'_, 't, L> {
             let (Some(head), Some(object)) = (bins.get_mut(bin), room.next()) else {
                 break faces.len() - left;
             };
-            for vertex in [a, b, c] {
-                vertex.set(vertex.get().used());
+            for i in [i, j, k] {
+                if let Some(vertex) = vertices.get_mut(usize::from(i)) {
+                    vertex.mark_used();
+                }
             }
             *object = Object {
                 corner: corner.map(|c| c + base as u16),

@@ -10,7 +10,7 @@
 
 use super::record::{ORIGIN, TexturePlace, Vertex};
 use crate::geometry::{Affine, Camera, Coordinate, Projection, Screen};
-use crate::num::{SHORT, leading_zeros, mul_16_unsigned, recip_16, shift_round};
+use crate::num::{SHORT, leading_zeros, mul_recip_16, recip_16, shift_round};
 
 /// `x / z` in units of 1/8 pixel is `2^17` of the rows' ratio.
 const FOCAL_BITS: i32 = 17;
@@ -118,20 +118,21 @@ impl View {
         // Most points lie well within: the bits of both magnitudes together are below the guard band.
         let most = (p.x ^ (p.x >> 31)) | (p.y ^ (p.y >> 31));
         let range = p.z.wrapping_sub(self.near) | self.far.wrapping_sub(p.z);
-        range | !most.wrapping_sub(guard) >= 0 || self.is_just_within(p)
+        range | !most.wrapping_sub(guard) >= 0 || self.is_just_within(p.x, p.y, p.z)
     }
 
+    /// By numbers alone, so that no point lies in memory.
     #[cold]
     #[inline(never)]
-    fn is_just_within(&self, p: Point) -> bool {
-        let guard = guard(p.z);
-        (p.z.wrapping_sub(self.near)
-            | self.far.wrapping_sub(p.z)
-            | guard.wrapping_sub(p.x)
-            | guard.wrapping_add(p.x)
-            | guard.wrapping_sub(p.y)
-            | guard.wrapping_add(p.y))
-            >= 0
+    fn is_just_within(&self, x: i32, y: i32, z: i32) -> bool {
+        self.beyond(Point { x, y, z }) == 0
+    }
+
+    /// The vertex of a point that is not within, likewise.
+    #[cold]
+    #[inline(never)]
+    fn outside(&self, x: i32, y: i32, z: i32) -> Vertex {
+        Vertex::unused(Vertex::OUTSIDE, self.beyond(Point { x, y, z }))
     }
 
     /// The planes that a point lies beyond.
@@ -167,7 +168,7 @@ impl View {
     /// A point within all planes to the screen.
     #[inline(always)]
     pub(super) fn project(&self, p: Point) -> OnScreen {
-        let (mut x, mut y, mut z, mut up) = (p.x, p.y, p.z.max(1), 0);
+        let (mut x, mut y, mut z, mut up) = (p.x, p.y, p.z, 0);
         if SHORT {
             // One or two rounds: cheaper than a count of zeros.
             while z > 0 {
@@ -181,7 +182,7 @@ impl View {
         let r = recip_16(z >> 16);
         let miss = (z >> 3).wrapping_mul(r).wrapping_neg() as i32 >> 16;
         let coordinate = |v: i32, centre: i32| {
-            let q = mul_16_unsigned(v, r);
+            let q = mul_recip_16(v, r);
             q.wrapping_add((q >> 14).wrapping_mul(miss) >> 14)
                 .wrapping_add(centre)
         };
@@ -216,7 +217,7 @@ pub(super) fn project_all<C: Coordinate>(
             let on = view.project(p);
             *vertex = Vertex::unused(on.place, on.depth);
         } else {
-            *vertex = Vertex::unused(Vertex::OUTSIDE, view.beyond(p));
+            *vertex = view.outside(p.x, p.y, p.z);
             all = false;
         }
     }
@@ -242,7 +243,7 @@ pub(super) fn project_textured<C: Coordinate>(
             *vertex = Vertex::unused(on.place, on.depth);
             *place = TexturePlace::new(texel, on.fine);
         } else {
-            *vertex = Vertex::unused(Vertex::OUTSIDE, view.beyond(p));
+            *vertex = view.outside(p.x, p.y, p.z);
             *place = TexturePlace::new(texel, [0; 2]);
             all = false;
         }

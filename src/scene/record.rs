@@ -43,11 +43,10 @@ impl Vertex {
         }
     }
 
-    /// The same for a triangle that is kept.
+    /// Says that a triangle that is kept has the vertex.
     #[inline(always)]
-    pub(super) fn used(self) -> Self {
-        let colour = Self::USED;
-        Self { colour, ..self }
+    pub(super) fn mark_used(&mut self) {
+        self.colour = Self::USED;
     }
 
     /// Whether a triangle that is kept has the vertex.

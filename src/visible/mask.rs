@@ -54,27 +54,27 @@ impl Mask {
     /// No column.
     pub(crate) const EMPTY: Self = Self([0; 32]);
 
-    /// Covers `start .. end`; whether one of them was covered already.
+    /// Covers `start .. end`; not 0 where one of them was covered already.
     #[inline(always)]
-    pub(crate) fn cover(&mut self, start: u32, end: u32) -> bool {
+    pub(crate) fn cover(&mut self, start: u32, end: u32) -> u32 {
         if is_in_one(start, end) {
             let bits = between(start, end);
             let word = &mut self.0[word_of(start)];
             let hit = *word & bits;
             *word |= bits;
-            return hit != 0;
+            return hit;
         }
         self.cover_words(start, end)
     }
 
     #[inline(never)]
-    fn cover_words(&mut self, start: u32, end: u32) -> bool {
+    fn cover_words(&mut self, start: u32, end: u32) -> u32 {
         let mut hit = 0;
         each_word(start, end, |word, bits| {
             hit |= self.0[word] & bits;
             self.0[word] |= bits;
         });
-        hit != 0
+        hit
     }
 
     /// Covers `start .. end`, and in `over` those that were covered already; whether any was.
@@ -208,25 +208,28 @@ impl Mask {
         const COVERED: u32 = u32::MAX;
         // Where the run that is open began, if one is.
         let mut from = COVERED;
-        let mut before = 1;
+        // A word whose columns are all like the one before them.
+        let mut like = u32::MAX;
         let mut base = 0;
         let words = width.div_ceil(32) as usize;
         for word in self.0.get_mut(..words).unwrap_or_default() {
             let bits = core::mem::take(word);
-            // Columns that differ from the one before them.
-            let mut ends = bits ^ (bits >> 1 | before << 31);
-            before = bits & 1;
-            while ends != 0 {
-                let first = leading_zeros(ends);
-                ends &= !(0x8000_0000 >> (first & 31));
-                let column = (base + first).min(width);
-                if from == COVERED {
-                    from = column;
-                } else {
-                    if from < column {
-                        run(from, column);
+            if bits != like {
+                // Columns that differ from the one before them.
+                let mut ends = bits ^ (bits >> 1 | like << 31);
+                like = (bits & 1).wrapping_neg();
+                while ends != 0 {
+                    let first = leading_zeros(ends);
+                    ends &= !(0x8000_0000 >> (first & 31));
+                    let column = (base + first).min(width);
+                    if from == COVERED {
+                        from = column;
+                    } else {
+                        if from < column {
+                            run(from, column);
+                        }
+                        from = COVERED;
                     }
-                    from = COVERED;
                 }
             }
             base += 32;
@@ -306,7 +309,7 @@ mod tests {
                 assert_eq!(mask.meets(start, end), hits > 0);
                 let mut other = mask;
                 assert_eq!(mask.has_all(start, end), old.is_empty());
-                assert_eq!(other.cover(start, end), hits > 0);
+                assert_eq!(other.cover(start, end) != 0, hits > 0);
                 assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);
                 assert_eq!(mask, other);
                 let mut new = Vec::new();
