@@ -14,8 +14,8 @@ use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::Material;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use scanbeam::scene::{
-    Blend, BlendMode, Budget, DepthTest, Draw, DrawError, Factor, Scene, Shading, Skin, Texture,
-    Wrap,
+    Application, Blend, BlendMode, Budget, DepthTest, Draw, DrawError, Factor, Scene, Shading,
+    Skin, Texture, Wrap,
 };
 use scanbeam::{Cull, Light, Screen};
 use std::sync::OnceLock;
@@ -41,16 +41,18 @@ enum Axis {
     Renderers,
     Slots,
     Depth,
+    Key,
+    Application,
 }
 
 /// How many choices each has.
-const CHOICES: [usize; 15] = [8, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2];
+const CHOICES: [usize; 17] = [8, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3];
 
 /// The first look that has textures.
 const TEXTURED: usize = 5;
 
 /// A choice on each axis.
-type Choices = [usize; 15];
+type Choices = [usize; 17];
 
 /// Sides and bits a texel of the forms; the first choice is none. 16 bits are words of the panel.
 const FORMS: [(i32, i32, u32); 9] = [
@@ -68,36 +70,43 @@ const FORMS: [(i32, i32, u32); 9] = [
 /// Steps of 5, 6 and 5 bits.
 type Steps = [u16; 3];
 
-/// A texel: red and green tell where it is, blue differs from all around.
+/// The texel that is transparent where a call says so.
+const KEY: Steps = [31, 0, 31];
+
+/// A texel: red and green tell where it is, blue differs from all around; with islands of the key.
 fn steps(form: usize, u: i32, v: i32) -> Steps {
     let (width, height, bits) = FORMS[form];
+    if (u / 8 + v / 8) % 3 == 0 {
+        return KEY;
+    }
     let (r, g) = (u * 31 / (width - 1), v * 63 / (height - 1));
     let blue = (u * 7 + v * 13) % 32;
     match bits {
         16 => [r as u16, g as u16, blue as u16],
-        // As many colours as an index can name.
+        // As many colours as an index can name, or one less.
         8 => [(u / 4 * 2) as u16, (v / 4 * 4) as u16, 9],
         _ => {
-            let index = (u + 3 * v) % (1 << bits);
+            let index = (u / 2 + 3 * v) % ((1 << bits) - 1);
             let level = index as u16 * 31 / ((1 << bits) - 1);
             [level, 63 - 2 * level, level / 2]
         }
     }
 }
 
-/// All textures, in the byte order of the panel or the other, by form and wrap.
+/// All textures by form and wrap, in the byte order of this machine or the other; without a key, and with.
 struct Textures {
-    native: Vec<[Texture<'static>; 3]>,
-    swapped: Vec<[Texture<'static>; 3]>,
+    of: [[Vec<[Texture<'static>; 3]>; 2]; 2],
     texels: Vec<Texels>,
+}
+
+fn word([r, g, b]: Steps, is_swapped: bool) -> u16 {
+    let word = r << 11 | g << 5 | b;
+    if is_swapped { word.swap_bytes() } else { word }
 }
 
 fn texture(form: usize, is_swapped: bool) -> Texture<'static> {
     let (width, height, bits) = FORMS[form];
-    let word = |[r, g, b]: Steps| {
-        let word = r << 11 | g << 5 | b;
-        if is_swapped { word.swap_bytes() } else { word }
-    };
+    let word = |texel: Steps| word(texel, is_swapped);
     let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
     let texels: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
     let (wide, high) = (width as u32, height as u32);
@@ -129,14 +138,34 @@ fn texture(form: usize, is_swapped: bool) -> Texture<'static> {
     .expect("sides are powers of two")
 }
 
+/// How far a texel may be from its place, in texels.
+const BUDGETS: [(Budget, f64); 3] = [
+    (Budget::FAST, 0.5),
+    (Budget::BALANCED, 0.25),
+    (Budget::EXACT, 0.01),
+];
+
+const APPLICATIONS: [Application; 3] = [
+    Application::Product,
+    Application::Replace,
+    Application::Decal,
+];
+
 const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
 
 fn textures() -> &'static Textures {
     static ALL: OnceLock<Textures> = OnceLock::new();
     ALL.get_or_init(|| {
         let of = |is_swapped| {
-            let forms = (0..FORMS.len()).map(|form| texture(form, is_swapped));
-            forms.map(|t| WRAPS.map(|wrap| t.wrapping(wrap))).collect()
+            let forms: Vec<_> = (0..FORMS.len())
+                .map(|form| texture(form, is_swapped))
+                .collect();
+            let key = word(KEY, is_swapped);
+            let wrapped = |t: Texture<'static>| WRAPS.map(|wrap| t.wrapping(wrap));
+            [
+                forms.iter().map(|&t| wrapped(t)).collect(),
+                forms.iter().map(|t| wrapped(t.keyed(key))).collect(),
+            ]
         };
         let level = |[r, g, b]: Steps| {
             let of = |step: u16, most: f64| f64::from(step) * 255.0 / most;
@@ -145,12 +174,16 @@ fn textures() -> &'static Textures {
         let texels = (0..FORMS.len()).map(|form| {
             let (width, height, _) = FORMS[form];
             let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
-            let rgb = places.map(|(u, v)| level(steps(form, u, v))).collect();
-            Texels { width, height, rgb }
+            let steps: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
+            Texels {
+                width,
+                height,
+                rgb: steps.iter().map(|&texel| level(texel)).collect(),
+                is_key: steps.iter().map(|texel| *texel == KEY).collect(),
+            }
         });
         Textures {
-            native: of(false),
-            swapped: of(true),
+            of: [of(false), of(true)],
             texels: texels.collect(),
         }
     })
@@ -223,7 +256,9 @@ fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
         form,
         wrap: WRAPS[of(Axis::Wrap)],
         places: [(); 3].map(|()| [(); 2].map(|()| rng.within(-20_000, 20_000))),
-        budget: [Budget::FAST, Budget::BALANCED, Budget::EXACT][of(Axis::Budget)],
+        budget: BUDGETS[of(Axis::Budget)],
+        is_keyed: of(Axis::Key) == 1,
+        application: APPLICATIONS[of(Axis::Application)],
     });
     let cut = (of(Axis::Scissor) > 0).then(|| {
         let mut cut = Cut::new(rng, screen);
@@ -457,19 +492,19 @@ fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
     }
     draw.texture = call.skin.as_ref().map(|skin| {
         let all = textures();
-        let forms = if is_swapped {
-            &all.swapped
-        } else {
-            &all.native
-        };
+        let forms = &all.of[usize::from(is_swapped)][usize::from(skin.is_keyed)];
         let wrap = WRAPS.iter().position(|wrap| *wrap == skin.wrap);
         let places: &'static [_] = skin.places.to_vec().leak();
         Skin {
             texture: &forms[skin.form][wrap.expect("one of them")],
             places,
-            budget: skin.budget,
+            budget: skin.budget.0,
         }
     });
+    draw.application = call
+        .skin
+        .as_ref()
+        .map_or_else(Default::default, |skin| skin.application);
     draw.cull = Cull::None;
     draw.shading = if call.is_flat {
         Shading::Flat
@@ -528,7 +563,10 @@ fn shows(choices: &Choices, pair: &Pair) -> bool {
     let is_meant = of(Axis::Look) >= TEXTURED || of(Axis::Form) == 0;
     let is_seen = if has(Axis::Look) && has(Axis::Form) {
         true
-    } else if has(Axis::Wrap) || has(Axis::Budget) {
+    } else if [Axis::Wrap, Axis::Budget, Axis::Key, Axis::Application]
+        .into_iter()
+        .any(has)
+    {
         is_meant && (of(Axis::Form) > 0 || has(Axis::Form) || has(Axis::Look))
     } else {
         is_meant

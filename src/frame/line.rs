@@ -64,7 +64,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             number: u32::from(line),
             pixels,
         };
-        if view.values && self.values.is_some_and(|draw| draw(self, &mut out, background)) {
+        if view.values
+            && self
+                .values
+                .is_some_and(|draw| draw(self, &mut out, background))
+        {
             return true;
         }
         let spilled = self.cache.spilled.is_some();

@@ -1,7 +1,8 @@
 //! The pixels of a span whose draw call has values that few have (H9, H15, K11).
 //!
 //! What the scissor keeps is compared 32 pixels at a time, and what is seen of that is coloured in runs, or blended over what is there. So a
-//! triangle has the same columns, depths and planes as without such values.
+//! triangle has the same columns, depths and planes as without such values. Where the texture has holes, texels come
+//! first, 32 at a time, and what they leave is compared.
 
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
@@ -59,8 +60,14 @@ pub(super) fn draw_ruled<L: Look>(
         if run.start >= run.end {
             continue;
         }
+        if L::TEXTURED && state.holes.is_some() {
+            lay_holed::<L>(&ink, run, state, depth, out, &mut known);
+            continue;
+        }
         match &mut known {
-            Some(known) => compare::<L>(&ink, run, state, depth, out, known),
+            Some(known) => compare(run, state, depth, known, &mut |seen| {
+                lay::<L>(&ink, seen, out);
+            }),
             None => lay::<L>(&ink, run, out),
         }
     }
@@ -82,14 +89,14 @@ pub(super) fn depth_on_line<L: Look>(
     [at.wrapping_add(down.wrapping_mul(out.number)), step]
 }
 
-/// Colours those pixels of a run that pass the test.
-fn compare<L: Look>(
-    ink: &Ink<'_, L::Planes>,
+/// Calls `f` with each run of pixels that pass the test.
+#[inline(never)]
+fn compare(
     run: Span,
     state: &DrawState<'_>,
     [at, step]: [u32; 2],
-    out: &mut Line<'_, '_, WordOf<L>>,
     known: &mut Known<'_>,
+    f: &mut dyn FnMut(Span),
 ) {
     // What nobody has written is farthest away.
     let part = known.written.cover_part(run.start, run.end, |column| {
@@ -106,21 +113,72 @@ fn compare<L: Look>(
     let firsts = (run.start..).step_by(MOST_TESTED);
     for (cells, first) in cells.chunks_mut(MOST_TESTED).zip(firsts) {
         let depth = at.wrapping_add(step.wrapping_mul(first));
-        let mut seen = test(cells, depth, step, state.depth).reverse_bits();
-        let mut start = first;
-        while seen != 0 {
-            let skipped = leading_zeros(seen);
-            let pixels = leading_zeros(!(seen << (skipped & 31))).min(32 - skipped);
-            start += skipped;
-            let end = start + pixels;
-            lay::<L>(ink, Span { start, end }, out);
-            start = end;
-            seen = if skipped + pixels < 32 {
-                seen << (skipped + pixels)
-            } else {
-                0
+        let seen = test(cells, depth, step, state.depth).reverse_bits();
+        each_run(seen, first, f);
+    }
+}
+
+/// Calls `f` with each run of bits that are set; the top one is the pixel at `start`.
+fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
+    while bits != 0 {
+        let skipped = leading_zeros(bits);
+        let pixels = leading_zeros(!(bits << (skipped & 31))).min(32 - skipped);
+        start += skipped;
+        let end = start + pixels;
+        f(Span { start, end });
+        start = end;
+        bits = if skipped + pixels < 32 {
+            bits << (skipped + pixels)
+        } else {
+            0
+        };
+    }
+}
+
+/// Colours a run, or blends it, where the texture has no holes. Texels are found before depth is asked, and once: holes
+/// keep none.
+#[inline(never)]
+fn lay_holed<L: Look>(
+    ink: &Ink<'_, L::Planes>,
+    run: Span,
+    state: &DrawState<'_>,
+    depth: [u32; 2],
+    out: &mut Line<'_, '_, WordOf<L>>,
+    known: &mut Option<Known<'_>>,
+) {
+    let mut colours = [WordOf::<L>::default(); MOST_TESTED];
+    let mut start = run.start;
+    while start < run.end {
+        let end = run.end.min(start + MOST_TESTED as u32);
+        let (from, pixels) = (start, end - start);
+        let Some(new) = colours.get_mut(..pixels as usize) else {
+            return;
+        };
+        let at = Place {
+            span: ink.span.start,
+            end: ink.span.end,
+            column: from,
+            line: out.number,
+        };
+        let opaque = L::fill_holed(ink.fill, ink.planes, at, out.view.draws, new);
+        let mut put = |seen: Span| {
+            let columns = |from: u32| (seen.start - from) as usize..(seen.end - from) as usize;
+            let (Some(old), Some(new)) = (out.pixels.get_mut(columns(0)), new.get(columns(from)))
+            else {
+                return;
             };
-        }
+            match ink.blend {
+                None => old.copy_from_slice(new),
+                Some(how) => blend::<L::Pixel>(old, new, how),
+            }
+        };
+        // Of a shorter run the lower bits say nothing.
+        let opaque = opaque & u32::MAX << (32 - pixels);
+        each_run(opaque, from, &mut |run| match known {
+            Some(known) => compare(run, state, depth, known, &mut put),
+            None => put(run),
+        });
+        start = end;
     }
 }
 

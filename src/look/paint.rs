@@ -76,6 +76,19 @@ pub trait Paint: Sized {
         depth: Depths<'_>,
     );
 
+    /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels; a bit for each pixel that
+    /// is not a hole, the first the top one.
+    fn fill_holed(
+        fill: Fill,
+        planes: &Self::Planes,
+        at: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [WordOf<Self>],
+    ) -> u32 {
+        Self::fill(fill, planes, at, draws, run);
+        u32::MAX
+    }
+
     /// Whether a triangle was to have a texture, and has none.
     #[inline(always)]
     fn lacks_texture(planes: &Self::Planes, draws: &[DrawState<'_>]) -> bool {

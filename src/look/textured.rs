@@ -170,7 +170,17 @@ impl<F: Texel> Textured<F> {
         Self::shade_part(run, place, [at, step]);
     }
 
-    /// Multiplies a run by the shade.
+    /// Multiplies a run by the shade of a triangle.
+    #[inline(always)]
+    fn shade(planes: &Planes, place: Place, run: &mut [u16]) {
+        match planes.shaded {
+            Some(Fill::Small) => Self::shade_small(&planes.shade, place, run),
+            Some(fill) => Self::shade_long(fill, &planes.shade, place, run),
+            None => {}
+        }
+    }
+
+    /// Multiplies a run by the shade of a triangle that is not within 64 pixels.
     #[inline(never)]
     fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
         let mut at = place;
@@ -357,11 +367,43 @@ impl<F: Texel> Paint for Textured<F> {
             }
             _ => run.fill(0xFFFF),
         }
-        match planes.shaded {
-            Some(Fill::Small) => Self::shade_small(&planes.shade, place, run),
-            Some(fill) => Self::shade_long(fill, &planes.shade, place, run),
-            None => {}
+        Self::shade(planes, place, run);
+    }
+
+    #[inline(never)]
+    fn fill_holed(
+        fill: Fill,
+        planes: &Planes,
+        place: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [u16],
+    ) -> u32 {
+        let Some((texture, budget, holes)) =
+            draws.get(usize::from(planes.draw)).and_then(|state| {
+                let (texture, budget) = state.texture().filter(|_| planes.mapped)?;
+                Some((texture, budget, state.holes?))
+            })
+        else {
+            Self::fill(fill, planes, place, draws, run);
+            return u32::MAX;
+        };
+        planes.mapping.draw(run, place, texture, budget);
+        if holes.are_filled {
+            let mut colours = [0xFFFF; 32];
+            let count = run.len().min(colours.len());
+            Self::shade(planes, place, &mut colours[..count]);
+            for (texel, colour) in run.iter_mut().zip(colours) {
+                if *texel == holes.key {
+                    *texel = colour;
+                }
+            }
+            return u32::MAX;
         }
+        let opaque = run.iter().rev().fold(0, |bits, &texel| {
+            bits >> 1 | u32::from(texel != holes.key) << 31
+        });
+        Self::shade(planes, place, run);
+        opaque
     }
 
     #[inline(never)]

@@ -8,7 +8,8 @@ use super::lights::Lamps;
 use super::pass::{Lost, Own, Pass, colour_of, light_all, top_first};
 use super::project::{View, project_all, project_textured};
 use super::{
-    Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading, TexturePlace, Vertex,
+    Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading,
+    TexturePlace, Vertex,
 };
 use crate::geometry::{
     Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Scale, Tint, check_mesh,
@@ -65,16 +66,27 @@ impl<'t, L> Scene<'_, 't, L> {
             });
         }
         self.generation = self.generation.wrapping_add(1);
-        let lamps = (draw.lights).map(|lights| Lamps::new(lights, &draw.model, camera.view()));
-        let light = match lamps {
-            Some(_) => None,
-            None => draw.light.map(|l| l.in_model(&draw.model, camera.view())),
+        // Where texels are drawn as they are, nobody sees colours or light.
+        let is_plain = draw.applied() == Some(Application::Replace);
+        let plain = Mesh {
+            normals: &[],
+            colours: &[],
+            ..*mesh
         };
+        let (mesh, colour) = match is_plain {
+            true => (&plain, [255; 3]),
+            false => (mesh, draw.colour),
+        };
+        let (model, view) = (&draw.model, camera.view());
+        let lights = draw.lights.filter(|_| !is_plain);
+        let lamps = lights.map(|lights| Lamps::new(lights, model, view));
+        let light = draw.light.filter(|_| !is_plain && lamps.is_none());
+        let light = light.map(|light| light.in_model(model, view));
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
             light,
             lamps: lamps.as_ref(),
-            tint: Tint::new(draw.colour, &self.scale),
+            tint: Tint::new(colour, &self.scale),
             cull: draw.cull,
             texels,
             base: self.vertices.len(),
@@ -85,20 +97,9 @@ impl<'t, L> Scene<'_, 't, L> {
             lost: Lost::default(),
         };
         self.share(mesh, &mut pass);
-        let before = self.objects.len();
-        if is_flat {
-            self.file_flat(mesh, &mut pass);
-        } else if let Err(error) = self.file_faces(mesh, &mut pass) {
-            self.forget_from(before, pass.base);
-            return Err(DrawError::Mesh(error));
-        }
+        self.file(is_flat, mesh, &mut pass)?;
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
-        if self.objects.len() == before {
-            self.vertices.truncate(pass.base);
-        } else if !is_flat {
-            self.light(mesh, &pass);
-        }
         self.assembled.triangles += submitted;
         self.assembled.culled += pass.culled;
         self.assembled.clipped += pass.clipped;
@@ -111,6 +112,28 @@ impl<'t, L> Scene<'_, 't, L> {
                 first_face,
             }),
         }
+    }
+
+    /// Files the faces of a mesh, and lights its vertices.
+    fn file<C: Coordinate>(
+        &mut self,
+        is_flat: bool,
+        mesh: &Mesh<'_, C>,
+        pass: &mut Pass<'_>,
+    ) -> Result<(), DrawError> {
+        let before = self.objects.len();
+        if is_flat {
+            self.file_flat(mesh, pass);
+        } else if let Err(error) = self.file_faces(mesh, pass) {
+            self.forget_from(before, pass.base);
+            return Err(DrawError::Mesh(error));
+        }
+        if self.objects.len() == before {
+            self.vertices.truncate(pass.base);
+        } else if !is_flat {
+            self.light(mesh, pass);
+        }
+        Ok(())
     }
 
     /// Takes all vertices of a mesh into memory, if there is room for them.

@@ -27,6 +27,8 @@ pub struct Draw<'a, 't, C = i16> {
     /// The texture, which other looks than [`Textured`](crate::look::Textured) refuse; colours and light are multiplied
     /// with it.
     pub texture: Option<Skin<'a, 't>>,
+    /// What the texture does to the colours.
+    pub application: Application,
     /// The rectangle that it is cut to, or that is cut out of it.
     pub scissor: Option<Scissor>,
     /// Where it is seen and where its depth is kept, by how that compares.
@@ -49,6 +51,21 @@ pub enum Shading {
     ///
     /// Each face that is kept takes three vertices of its own in memory, beside those of the mesh.
     Flat,
+}
+
+/// What a texture does to the colours of a mesh (H8).
+///
+/// Texels that are [transparent](Texture::keyed) are holes, in which what is behind is seen and no depth is kept; but
+/// for [`Decal`](Application::Decal), which has none.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Application {
+    /// The texel times the colour, which light has fallen on.
+    #[default]
+    Product,
+    /// The texel as it is: colours and light do nothing.
+    Replace,
+    /// The texel as it is, and the colour where the texel is transparent.
+    Decal,
 }
 
 /// How a texture lies on a mesh.
@@ -79,10 +96,20 @@ impl<'a, C> Draw<'a, '_, C> {
             shading: Shading::Smooth,
             colour: [255; 3],
             texture: None,
+            application: Application::Product,
             scissor: None,
             depth: DepthTest::HIDES,
             blend: None,
             priority: 0,
+        }
+    }
+
+    /// What the texture does to the colours, if it has one: a decal without transparent texels hides them.
+    pub(crate) fn applied(&self) -> Option<Application> {
+        let key = self.texture?.texture.key();
+        match (self.application, key) {
+            (Application::Decal, None) => Some(Application::Replace),
+            (application, _) => Some(application),
         }
     }
 }
@@ -98,8 +125,29 @@ pub struct DrawState<'t> {
     pub(crate) depth: DepthTest,
     pub(crate) blend: Option<Blend>,
     pub(crate) priority: u8,
+    /// What transparent texels are, if there may be any.
+    pub(crate) holes: Option<Holes>,
     /// The texture's rows, if it is one of the squares that have loops of their own.
     square: Option<Square<'t>>,
+}
+
+/// The texels of a draw call that are transparent.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Holes {
+    /// Their word.
+    pub(crate) key: u16,
+    /// Whether the colour of the triangle fills them, and is seen nowhere else.
+    pub(crate) are_filled: bool,
+}
+
+impl Holes {
+    fn of(texture: &Texture<'_>, application: Application) -> Option<Self> {
+        let key = texture.key()?;
+        Some(Self {
+            key,
+            are_filled: application == Application::Decal,
+        })
+    }
 }
 
 impl<'t> DrawState<'t> {
@@ -112,6 +160,7 @@ impl<'t> DrawState<'t> {
         depth: DepthTest::HIDES,
         blend: None,
         priority: 0,
+        holes: None,
         square: None,
     };
 
@@ -129,6 +178,7 @@ impl<'t> DrawState<'t> {
             },
             blend: draw.blend,
             priority: draw.priority,
+            holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
             square: texture.and_then(Texture::square),
         }
     }
@@ -142,12 +192,13 @@ impl<'t> DrawState<'t> {
 
     /// Whether its triangles are drawn in another way than most.
     pub(crate) fn has_values(&self) -> bool {
-        self.scissor.is_some() || self.compares()
+        self.scissor.is_some() || self.compares() || self.holes.is_some()
     }
 
     /// Whether its pixels do anything else than hide what is behind them.
     pub(crate) fn compares(&self) -> bool {
-        self.blend.is_some() || self.depth != DepthTest::HIDES
+        let has_holes = self.holes.is_some_and(|holes| !holes.are_filled);
+        self.blend.is_some() || self.depth != DepthTest::HIDES || has_holes
     }
 
     /// Whether what is behind shines through.

@@ -37,7 +37,7 @@ pub use crate::geometry::DepthFunction;
 pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
-pub use draw::{Draw, DrawState, Shading, Skin};
+pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub use lights::Lights;
 pub(crate) use record::{NONE, ORIGIN, first_line};

@@ -111,6 +111,7 @@ pub struct Texture<'t> {
     /// The power of two of both sides of a [`Square`]; else 0.
     square: u8,
     wrap: Wrap,
+    key: Option<u16>,
 }
 
 /// Rows of a square of words, whose side is known to the compiler, so that no index needs a check.
@@ -212,6 +213,7 @@ impl<'t> Texture<'t> {
             log_height: sides.log_height,
             square,
             wrap: Wrap::Repeat,
+            key: None,
         }
     }
 
@@ -258,6 +260,25 @@ impl<'t> Texture<'t> {
     #[must_use]
     pub const fn wrapping(self, wrap: Wrap) -> Self {
         Self { wrap, ..self }
+    }
+
+    /// The same texture, whose texels of this word of the panel are transparent (H7): holes, or where the colour of a
+    /// triangle is seen, as [`Application`](super::Application) says.
+    ///
+    /// Of indices the word is that of the palette: one that stands for nothing else is an index that is transparent.
+    /// Where fixed point is between two texels, it is one of them, so no colour is between a texel and the key.
+    #[must_use]
+    pub const fn keyed(self, key: u16) -> Self {
+        Self {
+            key: Some(key),
+            ..self
+        }
+    }
+
+    /// The word of texels that are transparent.
+    #[must_use]
+    pub const fn key(&self) -> Option<u16> {
+        self.key
     }
 
     /// What lies beyond the sides.

@@ -8,7 +8,7 @@ use crate::hot::exact::{weights, within};
 use crate::hot::values::{Cut, Function, blended, passes};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::Screen;
-use scanbeam::scene::{BlendMode, Budget, Wrap};
+use scanbeam::scene::{Application, BlendMode, Budget, Wrap};
 use std::cmp::Ordering;
 
 pub type V3 = [f64; 3];
@@ -22,6 +22,8 @@ pub struct Texels {
     pub width: i32,
     pub height: i32,
     pub rgb: Vec<V3>,
+    /// Which are transparent where a call says so.
+    pub is_key: Vec<bool>,
 }
 
 /// A texture on a triangle, its places in texels.
@@ -30,7 +32,10 @@ pub struct Skin64 {
     pub form: usize,
     pub wrap: Wrap,
     pub places: [[i32; 2]; 3],
-    pub budget: Budget,
+    /// And how far a texel may be from its place, in texels.
+    pub budget: (Budget, f64),
+    pub is_keyed: bool,
+    pub application: Application,
 }
 
 /// Where light comes from, and its level.
@@ -73,6 +78,12 @@ pub struct Rounding {
 
 /// From how many levels a pixel on a shade serves two pixels: 1/70 of full light.
 const STEEP: f64 = 255.0 / 70.0;
+
+/// What of a texture is shown at a pixel.
+enum Shown {
+    Nothing,
+    Texel([Range; 3]),
+}
 
 /// What pictures are drawn with.
 pub struct World<'a> {
@@ -170,8 +181,8 @@ impl Call {
         })
     }
 
-    /// The levels of the texels that may be shown at a pixel; `None` where they are many.
-    fn texels(&self, skin: &Skin64, [x, y]: [u16; 2], all: &[Texels]) -> Option<[Range; 3]> {
+    /// What of the texture may be shown at a pixel; `None` where that is a lot, or not told from a transparent texel.
+    fn texels(&self, skin: &Skin64, [x, y]: [u16; 2], all: &[Texels]) -> Option<Shown> {
         let (x, y) = (i32::from(x), i32::from(y));
         let at = self.place(skin, x, y);
         let steps = [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(dx, dy)| {
@@ -181,7 +192,7 @@ impl Call {
         // The budget, 1/16 texel of fixed point, and 1/32 pixel of corners that are rounded.
         let reach = [0, 1].map(|k| {
             let step = steps.iter().fold(0.0f64, |most, step| most.max(step[k]));
-            f64::from(skin.budget.texels()) / 256.0 + 1.0 / 16.0 + step / 16.0
+            skin.budget.1 + 1.0 / 16.0 + step / 16.0
         });
         let span = [0, 1].map(|k| [at[k] - reach[k], at[k] + reach[k]].map(|c| c.floor() as i32));
         if span.iter().any(|[low, high]| high - low > 8) {
@@ -189,15 +200,36 @@ impl Call {
         }
         let texels = &all[skin.form];
         let mut levels = [[255.0f64, 0.0f64]; 3];
+        let (mut keys, mut others) = (0, 0);
         for v in span[1][0]..=span[1][1] {
             for u in span[0][0]..=span[0][1] {
-                let rgb = texels.at(skin.wrap, u, v);
+                let at = texels.at(skin.wrap, u, v);
+                let rgb = texels.rgb[at];
+                if skin.is_keyed && texels.is_key[at] {
+                    keys += 1;
+                    continue;
+                }
+                others += 1;
                 for i in 0..3 {
                     levels[i] = [levels[i][0].min(rgb[i]), levels[i][1].max(rgb[i])];
                 }
             }
         }
-        Some(levels)
+        match (keys, others) {
+            (0, _) => Some(Shown::Texel(levels)),
+            (_, 0) => Some(Shown::Nothing),
+            _ => None,
+        }
+    }
+
+    /// Whether a pixel that is covered is a hole; `None` where that is not known.
+    fn is_hole(&self, at: [u16; 2], world: &World<'_>) -> Option<bool> {
+        match &self.skin {
+            Some(skin) if skin.is_keyed && skin.application != Application::Decal => Some(
+                matches!(self.texels(skin, at, world.texels)?, Shown::Nothing),
+            ),
+            _ => Some(false),
+        }
     }
 
     /// The levels that a pixel may get; `None` where too many texels may be shown.
@@ -212,9 +244,16 @@ impl Call {
             written, sloped, ..
         } = world.rounding;
         let off = if is_even { written } else { sloped };
+        let white = [[255.0; 2]; 3];
         let texels = match &self.skin {
-            Some(skin) => self.texels(skin, at, world.texels)?,
-            None => [[255.0; 2]; 3],
+            None => white,
+            Some(skin) => match (self.texels(skin, at, world.texels)?, skin.application) {
+                (Shown::Nothing, _) => white,
+                (Shown::Texel(texels), Application::Product) => texels,
+                (Shown::Texel(texels), _) => {
+                    return Some(texels.map(|[low, high]| [low - written, high + written]));
+                }
+            },
         };
         Some([0, 1, 2].map(|i| {
             // Where it changes fast, a shade may be that half a pixel away.
@@ -234,8 +273,8 @@ impl Call {
 }
 
 impl Texels {
-    /// The texel of a place, which may lie beyond the sides.
-    fn at(&self, wrap: Wrap, u: i32, v: i32) -> V3 {
+    /// The number of the texel at a place, which may lie beyond the sides.
+    fn at(&self, wrap: Wrap, u: i32, v: i32) -> usize {
         let folded = |at: i32, side: i32| match wrap {
             Wrap::Repeat => at.rem_euclid(side),
             Wrap::Clamp => at.clamp(0, side - 1),
@@ -245,7 +284,7 @@ impl Texels {
             }
         };
         let (u, v) = (folded(u, self.width), folded(v, self.height));
-        self.rgb[(v * self.width + u) as usize]
+        (v * self.width + u) as usize
     }
 }
 
@@ -317,6 +356,9 @@ pub fn pixel(calls: &[&Call], at: [u16; 2], world: &World<'_>) -> Option<[Range;
     let mut waiting: Vec<(&Call, There<'_>)> = Vec::new();
     for &call in calls {
         if !call.covers(at[0], at[1], world.screen) {
+            continue;
+        }
+        if call.is_hole(at, world)? {
             continue;
         }
         if !world.by_depth {
