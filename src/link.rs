@@ -14,6 +14,8 @@ impl Link {
     pub const CACHED: u16 = 0xF000;
     /// The end of a list.
     pub const NONE: Self = Self(0xFFFF);
+    /// What fresh memory is filled with: zeros, so that a static takes no flash. Nothing reads a link before it is written.
+    pub const EMPTY: Self = Self(0);
     /// How many slots a cache can have: 4,095.
     pub const SLOTS: usize = (0xFFFF - Self::CACHED) as usize;
 

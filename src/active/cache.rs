@@ -51,8 +51,8 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) listed: [u32; WORDS],
     /// The first object that found no slot.
     pub(crate) spilled: Link,
-    /// How many slots may be used.
-    limit: u16,
+    /// Slots that are never used.
+    unused: u16,
     /// The line whose changes were taken last.
     line: u16,
     /// What changes on each line of the ring.
@@ -99,7 +99,8 @@ pub struct CacheUse {
 }
 
 impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
-    /// A cache of empty slots.
+    /// A cache of empty slots, all zeros but for what the item has, so that a static takes no flash. It has to be
+    /// [cleared](Cache::clear) before it is used.
     #[must_use]
     pub(crate) const fn with(item: T) -> Self {
         let slot = Slot {
@@ -121,14 +122,14 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             line: 0,
             ring: [[0; WORDS]; RING as usize],
             blocks: [[0; WORDS]; BLOCKS as usize],
-            spilled: Link::NONE,
-            limit: 32 * WORDS as u16,
+            spilled: Link::EMPTY,
+            unused: 0,
         }
     }
 
     /// Uses no more than so many slots. The picture is the same.
     pub fn set_limit(&mut self, slots: u16) {
-        self.limit = slots.min(32 * WORDS as u16);
+        self.unused = (32 * WORDS as u16).saturating_sub(slots);
         self.clear();
     }
 
@@ -161,7 +162,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             let mut free = !used;
             if free != 0 {
                 let slot = word * 32 + take_first(&mut free) as usize;
-                return (slot < usize::from(self.limit)).then_some(slot);
+                return (slot + usize::from(self.unused) < 32 * WORDS).then_some(slot);
             }
         }
         None
@@ -292,6 +293,7 @@ mod tests {
     /// asked when it changes.
     fn changes_of(first: u16, turn: u16, end: u16) -> ([Option<u16>; 2], u32) {
         let mut cache = Cache::<(), 2>::with(());
+        cache.clear();
         let (word, one) = (1, bit(9));
         let change = |turns: bool| Change {
             line: if turns { turn } else { end },
@@ -346,6 +348,7 @@ mod tests {
     #[test]
     fn what_ends_is_neither_plain_nor_deep_any_more() {
         let mut cache = Cache::<(), 1>::with(());
+        cache.clear();
         cache.enter_line(7);
         for (slot, line) in [(0, 9), (3, 9), (4, 10)] {
             cache.keep(slot, slot != 3, Change { line, turns: false });
@@ -364,6 +367,7 @@ mod tests {
     fn spilled_objects_are_a_sorted_list() {
         let mut rng = Rng(12);
         let mut cache = Cache::<(), 1>::with(());
+        cache.clear();
         let mut links = [Link::NONE; 50];
         let mut model: Vec<u16> = Vec::new();
         for _ in 0..4000 {
@@ -391,6 +395,7 @@ mod tests {
         }
         // A column of links that is too short loses objects, and nothing else.
         let mut cache = Cache::<(), 1>::with(());
+        cache.clear();
         cache.spill(7, &mut [Link::NONE; 3]);
         assert_eq!(cache.spilled.object(), 7);
         assert!(!next(&[Link::NONE; 3], cache.spilled).is_some());

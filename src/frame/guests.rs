@@ -167,17 +167,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.
     #[inline(never)]
-    pub(super) fn sort_guests<const ALL: bool>(
-        &mut self,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) -> usize {
+    pub(super) fn sort_guests(&mut self, all: bool, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
         let mut count = 0;
         for k in 0..core::mem::take(&mut self.guests) {
             let Some(mut guest) = Guest::of(self.depth, k) else {
                 break;
             };
             let Rival { span, object, .. } = guest.rival;
-            if !ALL && !self.over.meets(span.start, span.end) {
+            if !all && !self.over.meets(span.start, span.end) {
                 let mut mask = Mask::EMPTY;
                 let mut drawing = Drawing {
                     mask: &mut mask,

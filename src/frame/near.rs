@@ -198,7 +198,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.ordered = 0;
         self.cache.listed = self.cache.used;
         let slots = self.sort_slots::<true>(out);
-        let guests = self.sort_guests::<true>(out);
+        let guests = self.sort_guests(true, out);
         let hidden = self.draw_sorted(slots, guests, out);
         self.covered = core::mem::replace(&mut self.written, Mask::EMPTY);
         self.met = hidden > 0;
@@ -216,7 +216,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.ordered = 0;
         let alone = self.colour_alone(out);
         let slots = self.sort_slots::<false>(out);
-        let guests = self.sort_guests::<false>(out);
+        let guests = self.sort_guests(false, out);
         self.draw_sorted(slots, guests, out);
         self.crowded = slots > alone as usize;
         true

@@ -164,6 +164,7 @@ pub struct Parts {
 impl ThinSpan<'_> {
     /// The value at column 0 and the step of what has these values, within 2^32, at the corners: exact in the
     /// span's first pixel and in its last, linear between them.
+    #[inline(never)]
     pub fn line(&self, value: [i64; 3]) -> [u32; 2] {
         let [a, b, c] = value;
         let at = |parts: Parts| {

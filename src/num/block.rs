@@ -43,9 +43,13 @@ impl<const N: usize> Block<N> {
     /// Converts floats; `None` when one is not finite or beyond 2^96 in magnitude.
     #[must_use]
     pub fn from_f32(value: [f32; N]) -> Option<Self> {
-        let mut wide = [0i64; N];
-        let exponent = widen(&value, &mut wide)?;
-        Some(Self::new(wide, exponent))
+        let mut mantissa = [0; N];
+        let exponent = mantissas(&value, &mut mantissa)?;
+        Some(if exponent < LEAST {
+            Self::ZERO
+        } else {
+            Self { mantissa, exponent }
+        })
     }
 
     /// The number at `i` times 2^`shift`, rounded to an integer.
@@ -105,9 +109,13 @@ fn shift_all(value: &[i64], shift: i32, mantissa: &mut [i32]) -> u32 {
     bits
 }
 
-/// Floats as integers below 2^30 in magnitude with a common exponent; all 0 when they are tiny.
+/// Floats below this power of two are 0.
+const LEAST: i32 = -90;
+
+/// Floats as mantissas with a common exponent: the largest has a leading bit, so they are normalised as they are.
+/// Left as they are when all are tiny.
 #[inline(never)]
-fn widen(value: &[f32], wide: &mut [i64]) -> Option<i32> {
+fn mantissas(value: &[f32], mantissa: &mut [i32]) -> Option<i32> {
     let mut largest = 0;
     for v in value {
         largest = largest.max(v.to_bits() & 0x7FFF_FFFF);
@@ -116,14 +124,14 @@ fn widen(value: &[f32], wide: &mut [i64]) -> Option<i32> {
         }
     }
     let exponent = (largest >> 23) as i32 - 126;
-    if exponent >= -90 {
+    if exponent >= LEAST {
         // A power of two, so each product is exact.
         let scale = f32::from_bits(((127 + 30 - exponent) as u32) << 23);
-        for (i, w) in wide.iter_mut().enumerate() {
+        for (i, m) in mantissa.iter_mut().enumerate() {
             let Some(v) = value.get(i) else {
                 break;
             };
-            *w = i64::from((v * scale) as i32);
+            *m = (v * scale) as i32;
         }
     }
     Some(exponent)
@@ -136,13 +144,6 @@ fn widen(value: &[f32], wide: &mut [i64]) -> Option<i32> {
 #[inline(never)]
 #[must_use]
 pub const fn shift_round(value: i64, shift: i32) -> i64 {
-    shift_round_inline(value, shift)
-}
-
-/// [`shift_round`] in place, for what is done for each triangle.
-#[inline(always)]
-#[must_use]
-pub(crate) const fn shift_round_inline(value: i64, shift: i32) -> i64 {
     if shift >= 0 {
         if value == 0 {
             0

@@ -38,7 +38,6 @@ mod short;
 mod small;
 
 pub use bits::{bit, take_first};
-pub(crate) use block::shift_round_inline;
 pub use block::{Block, shift_round};
 pub use block_fix::BlockFix16;
 pub use edge::{Edge, column_exact, first_at};

@@ -4,7 +4,7 @@
 //! on the way; the value at a covered pixel is right because the true value fits. Nothing is
 //! accumulated down the object, so any line can be evaluated alone (K5).
 
-use super::{recip, shift_round_inline};
+use super::recip;
 
 /// A plane: value at column 0 and line 0, and the steps to the next column and line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -107,7 +107,7 @@ impl InverseArea {
     /// `None` when the triangle is so thin that a plane would err by more than 2^13 units (and
     /// half a unit a pixel for the rounding of the steps): then a plane is the wrong tool, and
     /// weights have to be taken for each pixel.
-    #[inline]
+    #[inline(never)]
     #[must_use]
     pub fn plane(&self, value: [i32; 3]) -> Option<Plane> {
         let d1 = i64::from(value[1]) - i64::from(value[0]);
@@ -138,23 +138,31 @@ impl InverseArea {
     }
 
     /// Step per pixel, and the step over `sub` units of 1/8 pixel, of `numerator / area`.
-    #[inline]
+    #[inline(never)]
     fn gradient(&self, numerator: i64, sub: i32) -> Option<(i32, i32)> {
         // |numerator| < 2^50: keep 31 significant bits.
         let down = 33u32.saturating_sub(numerator.unsigned_abs().leading_zeros());
         let n = numerator >> down;
         let product = n * i64::from(self.recip);
         let product = if self.negative { -product } else { product };
-        // numerator / area = product 2^(down - 62 - exponent) per unit, 8 units a pixel.
+        // numerator / area = product 2^(down - 62 - exponent) per unit, 8 units a pixel. The area is at least 1, so
+        // the exponent is at least -31, and this is always a shift down.
         let shift = 62 + self.exponent - down as i32 - 3;
-        let step = shift_round_inline(product, -shift);
+        let step = shift_down(product, shift);
         let bits = 64 - step.unsigned_abs().leading_zeros();
         if bits + self.extent_bits > 41 || bits > 30 {
             return None;
         }
-        let off = shift_round_inline((product >> 3) * i64::from(sub), -shift);
+        let off = shift_down((product >> 3) * i64::from(sub), shift);
         Some((step as i32, off as i32))
     }
+}
+
+/// `value 2^-shift` for a shift of 1 to 63, rounded to nearest, half up.
+#[inline(always)]
+fn shift_down(value: i64, shift: i32) -> i64 {
+    let before = (shift - 1).clamp(0, 62);
+    ((value >> before) + 1) >> 1
 }
 
 #[cfg(test)]

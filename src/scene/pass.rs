@@ -50,9 +50,10 @@ pub(super) struct Pass<'a> {
 }
 
 /// The corners from the topmost on (of two the left one), clockwise; `None` where nothing is covered or the
-/// face is seen from behind and `CULLS`.
+/// face is seen from behind and `culls`.
 #[inline(always)]
-pub(super) fn top_first<const CULLS: bool>(
+pub(super) fn top_first(
+    culls: bool,
     corner: [u16; 3],
     [a, mut b, mut c]: [u32; 3],
 ) -> Option<([u16; 3], [u32; 3])> {
@@ -63,7 +64,7 @@ pub(super) fn top_first<const CULLS: bool>(
     // Faces go counter-clockwise seen from outside, and clockwise in a picture whose lines go down.
     let (one, other) = (x(d1).wrapping_mul(y(d2)), x(d2).wrapping_mul(y(d1)));
     if one >= other {
-        if CULLS || one == other {
+        if culls || one == other {
             return None;
         }
     } else {
@@ -115,10 +116,7 @@ pub(super) fn colour_of<C: Coordinate>(
 impl Pass<'_> {
     /// The order of corners from the topmost on, and their places in it; `None` where the face is not seen.
     pub(super) fn order(&self, places: [u32; 3]) -> Option<([u16; 3], [u32; 3])> {
-        match self.cull {
-            Cull::Back => top_first::<true>([0, 1, 2], places),
-            Cull::None => top_first::<false>([0, 1, 2], places),
-        }
+        top_first(self.cull == Cull::Back, [0, 1, 2], places)
     }
 
     /// The colour of a vertex, lit if there is a normal.

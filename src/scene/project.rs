@@ -136,6 +136,7 @@ impl View {
     }
 
     /// The planes that a point lies beyond.
+    #[inline(never)]
     pub(super) fn beyond(&self, p: Point) -> u32 {
         let guard = i64::from(guard(p.z));
         let (x, y) = (i64::from(p.x), i64::from(p.y));

@@ -127,7 +127,7 @@ macro_rules! renderer {
         static CACHE: $crate::Cell<$crate::Cache<$look>> = $crate::Cell::new($crate::Cache::new());
         $crate::renderer_in::<$look>(
             CACHE.take(),
-            $crate::lend!($crate::Link, $crate::OBJECTS, $crate::Link::NONE),
+            $crate::lend!($crate::Link, $crate::OBJECTS, $crate::Link::EMPTY),
             $crate::lend!(u32, $crate::WIDTH, 0),
         )
     }};

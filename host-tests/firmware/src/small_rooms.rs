@@ -48,7 +48,7 @@ fn main() -> ! {
     };
     let mut renderer = Renderer::plain(LineMemory {
         cache,
-        links: lend!(".slow", Link, OBJECTS, Link::NONE),
+        links: lend!(".slow", Link, OBJECTS, Link::EMPTY),
         depth: lend!(".fast", u32, WIDTH as usize, 0),
     });
     let background = Rgb565Be::from_rgb8(suite.background());

@@ -121,7 +121,7 @@ impl<L: Look> LineRooms<L> {
         let cells = usize::from(scene.screen().width()) * usize::from(depth);
         Self {
             cache,
-            links: vec![Link::NONE; scene.objects()],
+            links: vec![Link::EMPTY; scene.objects()],
             depth: vec![0; cells],
         }
     }
