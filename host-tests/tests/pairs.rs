@@ -43,16 +43,17 @@ enum Axis {
     Depth,
     Key,
     Application,
+    Dither,
 }
 
 /// How many choices each has.
-const CHOICES: [usize; 17] = [8, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3];
+const CHOICES: [usize; 18] = [8, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3, 2];
 
 /// The first look that has textures.
 const TEXTURED: usize = 5;
 
 /// A choice on each axis.
-type Choices = [usize; 17];
+type Choices = [usize; 18];
 
 /// Sides and bits a texel of the forms; the first choice is none. 16 bits are words of the panel.
 const FORMS: [(i32, i32, u32); 9] = [
@@ -275,6 +276,7 @@ fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
         cut,
         test: [FUNCTIONS[of(Axis::ColourIf)], FUNCTIONS[of(Axis::DepthIf)]],
         blend: mode.map(|mode| (mode, rgb)),
+        dithers: of(Axis::Dither) == 1,
         priority: of(Axis::Priority) as u8 * (1 + rng.below(3) as u8),
     }
 }
@@ -443,6 +445,7 @@ const OF_565: Rounding = Rounding {
     written: 4.7,
     sloped: 8.8,
     blended: 8.8,
+    dithered: 4.2,
     by_twos: false,
 };
 /// Half a level, what light rounds, and half a level of two words of colour.
@@ -450,6 +453,7 @@ const OF_888: Rounding = Rounding {
     written: 0.9,
     sloped: 1.4,
     blended: 1.01,
+    dithered: 0.0,
     by_twos: false,
 };
 /// The texel times the shade is rounded to steps of 5 bits; where the shade changes it is off by one more.
@@ -457,6 +461,7 @@ const OF_TEXELS: Rounding = Rounding {
     written: 5.4,
     sloped: 13.3,
     blended: 8.8,
+    dithered: 4.2,
     by_twos: true,
 };
 
@@ -518,6 +523,7 @@ fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
         depth_if,
     };
     draw.blend = call.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
+    draw.dither = call.dithers;
     draw.priority = call.priority;
 }
 

@@ -19,10 +19,12 @@
 //! | `ruled` | pixels of such a span |
 //! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
+//! | `changed` | likewise with overlays, or what has changed alone |
 //! | `relay` | a frame of two cores |
 
 mod advance;
 mod alone;
+mod changed;
 mod guests;
 mod line;
 mod near;
@@ -40,6 +42,7 @@ mod thin;
 mod translucent;
 mod values;
 
+pub use changed::{draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid};
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
 #[cfg(feature = "async")]

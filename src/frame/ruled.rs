@@ -4,6 +4,7 @@
 //! triangle has the same columns, depths and planes as without such values. Where the texture has holes, texels come
 //! first, 32 at a time, and what they leave is compared.
 
+use super::renderer::View;
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::leading_zeros;
@@ -25,6 +26,7 @@ struct Ink<'a, P> {
     planes: &'a P,
     span: Span,
     blend: Option<Blend>,
+    dithers: bool,
 }
 
 /// Colours those pixels between `from` and `to` that the values let through; without depth nothing is compared.
@@ -36,13 +38,18 @@ pub(super) fn draw_ruled<L: Look>(
     mut known: Option<Known<'_>>,
 ) {
     let Ruled { drawn, span, state } = ruled;
-    let thin;
+    let (thin, finer);
     let mut ink = Ink {
         fill: drawn.flags.fill(),
         planes: drawn.planes,
         span,
         blend: state.blend,
+        dithers: state.dithers,
     };
+    if let Some((fill, planes)) = dithered_planes::<L>(&ink, drawn.object, out.view) {
+        finer = planes;
+        (ink.fill, ink.planes) = (fill, &finer);
+    }
     if ink.fill == Fill::Thin {
         thin = thin_planes::<L>(drawn.object, span, out.number, out.view);
         (ink.fill, ink.planes) = (Fill::Wide, &thin);
@@ -71,6 +78,21 @@ pub(super) fn draw_ruled<L: Look>(
             None => lay::<L>(&ink, run, out),
         }
     }
+}
+
+/// Planes that keep enough for a dither, where those that a triangle has do not.
+#[inline(always)]
+fn dithered_planes<L: Look>(
+    ink: &Ink<'_, L::Planes>,
+    object: u16,
+    view: &View<'_>,
+) -> Option<(Fill, L::Planes)> {
+    if !ink.dithers || ink.fill != Fill::Plain {
+        return None;
+    }
+    let mut planes = L::EMPTY;
+    let fill = L::set_up_dithered(&view.triangle_of(object)?, &mut planes)?;
+    Some((fill, planes))
 }
 
 /// The depth of a span at the picture's first column, and its step.
@@ -193,15 +215,24 @@ fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, Word
         column: run.start,
         line: out.number,
     };
+    // Called, not pointed at: what others call would have to take all that a pointer hands over.
+    let fill = |at: Place, run: &mut [WordOf<L>]| {
+        let draws = out.view.draws;
+        if ink.dithers {
+            L::fill_dithered(ink.fill, ink.planes, at, draws, run);
+        } else {
+            L::fill(ink.fill, ink.planes, at, draws, run);
+        }
+    };
     let Some(how) = ink.blend else {
-        return L::fill(ink.fill, ink.planes, at, out.view.draws, pixels);
+        return fill(at, pixels);
     };
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     for pixels in pixels.chunks_mut(MOST_TESTED) {
         let Some(new) = colours.get_mut(..pixels.len()) else {
             return;
         };
-        L::fill(ink.fill, ink.planes, at, out.view.draws, new);
+        fill(at, new);
         blend::<L::Pixel>(pixels, new, how);
         at.column += pixels.len() as u32;
     }

@@ -17,6 +17,6 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// What is wrong with the mesh, after which nothing of it is drawn; or which memory is full, after which the rest
     /// is drawn.
     pub fn draw<C: Coordinate>(&mut self, draw: &Draw<'_, 't, C>) -> Result<(), DrawError> {
-        self.assemble(draw, L::TEXTURED)
+        self.assemble(draw, L::TEXTURED, L::LIT_AT_PIXELS)
     }
 }

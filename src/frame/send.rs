@@ -168,7 +168,7 @@ where
 }
 
 /// The part of the display that a scene fills.
-fn window<L>(scene: &Scene<'_, '_, L>) -> Window {
+pub(super) fn window<L>(scene: &Scene<'_, '_, L>) -> Window {
     let lines = scene.lines();
     Window {
         x: 0,
@@ -180,7 +180,7 @@ fn window<L>(scene: &Scene<'_, '_, L>) -> Window {
 
 impl FrameUse {
     /// What a frame took; the log gets it at trace level.
-    fn told<L: Look, const WORDS: usize>(
+    pub(super) fn told<L: Look, const WORDS: usize>(
         scene: &Scene<'_, '_, L>,
         renderer: &Renderer<'_, L, WORDS>,
         lines_skipped: u32,

@@ -2,17 +2,16 @@
 //!
 //! [`Phong`] is a shading around another one, which gives the colours that are lit. A vertex has
 //! its normal in the camera's space, 3 x 12 bits; planes take it along the line with 16 bits more,
-//! and at a pixel it is made unit length again. What falls on it there is [`Lamps`]' formula, the
+//! and at a pixel it is made unit length again. What falls on it there is [`PixelLamps`]' formula, the
 //! same as at vertices. The way to the eye is the ray through the pixel, so no depth is needed.
 
-use super::camera::{Camera, Screen};
 use super::colour::{Colour, Scale};
 use super::finish::Finish;
-use super::lighting::{Lamps, Lighting, fifteen_bits};
+use super::pixel_lamps::unit_normal;
 use super::shading::{Empty, Shading};
 use super::texturing;
 use super::transform::{Affine, unit};
-use crate::num::{Block, I2F14, InverseArea, Plane, SmallArea, inverse_root, shift_round};
+use crate::num::{I2F14, InverseArea, Plane, SmallArea};
 use core::marker::PhantomData;
 
 /// What a mesh brings so that it can be lit at each pixel; `I` is what the shading inside wants.
@@ -102,12 +101,7 @@ impl<L> PhongLevels<L> {
     #[inline]
     #[must_use]
     pub fn normal(&self, column: i32, line: i32) -> [i16; 3] {
-        let wide = self.normal.map(|plane| plane.at(column, line));
-        let v = fifteen_bits(wide);
-        let square = v.iter().map(|c| (c * c) as u32).sum();
-        let (root, half) = inverse_root(square);
-        // Q14 of v times root 2^(half - 46).
-        v.map(|c| shift_round(i64::from(c) * i64::from(root), half as i32 - 32) as i16)
+        unit_normal(self.normal.map(|plane| plane.at(column, line)))
     }
 }
 
@@ -282,62 +276,5 @@ impl<S: Shading> Shading for Phong<S> {
         }
     }
 }
-
-/// Lights and a material, as a camera sees them: what shines on pixels.
-#[derive(Clone, Copy, Debug)]
-pub struct PixelLamps {
-    lamps: Lamps,
-    /// The middle of the picture, 1/8 pixels of guard space.
-    centre: [i32; 2],
-    /// The focal length in 1/256 pixel.
-    focal: i32,
-}
-
-impl PixelLamps {
-    /// As `camera` sees them on a picture of the size of `screen`: to be made anew when the camera
-    /// turns.
-    #[must_use]
-    pub fn new(lighting: &Lighting<'_>, camera: &Camera, screen: Screen) -> Self {
-        let focal: Block<1> = camera.focal;
-        let [focal] = focal.mantissa.map(|f| {
-            // In 1/8 pixels, below 2^23.
-            shift_round(i64::from(f), focal.exponent - 30 + 5)
-        });
-        Self {
-            lamps: Lamps::new(lighting, |l| camera.view.direction_from_model_q30(l)),
-            centre: screen.centre(),
-            focal: focal.clamp(1, 1 << 29) as i32,
-        }
-    }
-
-    /// Colours of a pixel of guard space in this light: 16.16 steps plus one half, of formats with
-    /// so many steps a channel; none above the full step.
-    #[inline]
-    #[must_use]
-    pub fn lit(
-        &self,
-        normal: [i16; 3],
-        (column, line): (i32, i32),
-        colour: [i32; 3],
-        steps: [u16; 3],
-    ) -> [i32; 3] {
-        let to_eye = || {
-            let from = |at: i32, centre: i32| (centre - (8 * at + 4)) << 5;
-            let [x, y] = self.centre;
-            fifteen_bits([from(column, x), from(line, y), -self.focal])
-        };
-        let shine = self.lamps.shine(normal, to_eye);
-        [0, 1, 2].map(|i| {
-            let full = u64::from(steps[i]) << 16;
-            let own = (colour[i] - HALF).max(0) as u64;
-            // 24 and 21 bits.
-            let sum = own * u64::from(shine.factor[i]) + full * u64::from(shine.more[i]);
-            (((sum + (1 << 14)) >> 15).min(full)) as i32 + HALF
-        })
-    }
-}
-
-/// Half a step, which colours in planes carry for rounding.
-const HALF: i32 = 1 << 15;
 
 const _: () = assert!(size_of::<PhongVertex<Colour>>() == 12);

@@ -12,7 +12,7 @@
 use super::ramp::{self, Packed, Pair};
 use super::{Depths, Fill, Paint, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::pixel::Pixel;
+use crate::pixel::{Pixel, threshold};
 use crate::scene::{DrawState, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle};
 use core::marker::PhantomData;
@@ -200,9 +200,18 @@ pub(super) struct Course {
 }
 
 impl Course {
+    /// The colour here, without a step.
+    #[inline(always)]
+    pub(super) fn still(&self) -> Self {
+        Self {
+            step: [0; 3],
+            ..*self
+        }
+    }
+
     /// So many pixels on.
     #[inline(always)]
-    fn skip(&mut self, pixels: u32) {
+    pub(super) fn skip(&mut self, pixels: u32) {
         for (value, step) in self.value.iter_mut().zip(self.step) {
             *value = value.wrapping_add((step as u32).wrapping_mul(pixels));
         }
@@ -255,6 +264,13 @@ impl Course {
         };
         [at.plus(on), step]
     }
+}
+
+/// A channel of 16 bits, of which a format keeps so many steps, raised by so many of 32 parts of one.
+#[inline(always)]
+pub(super) fn dithered(channel: u32, parts: i32, steps: u16) -> u32 {
+    let step = 1 << steps.leading_zeros();
+    (channel as i32 + ((parts * step) >> 5)).clamp(0, 0xFFFF) as u32
 }
 
 /// Two words with 16 bits a channel.
@@ -403,6 +419,35 @@ impl<F: Pixel> Paint for Gouraud<F> {
             Fill::Plain => ramp::fill::<F>(run, Self::packed(planes, place)),
             Fill::Small if F::PACKED => Self::fill_small(planes, place, run),
             _ => Self::fill_wide(fill, planes, place, run),
+        }
+    }
+
+    fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {
+        let area = triangle.area();
+        Some(plane_shades(triangle, triangle.size(area), area, planes))
+    }
+
+    #[inline(never)]
+    fn fill_dithered(
+        fill: Fill,
+        planes: &Planes,
+        place: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [F::Word],
+    ) {
+        if !F::PACKED || fill == Fill::Plain {
+            return Self::fill(fill, planes, place, draws, run);
+        }
+        let Course {
+            mut value, step, ..
+        } = course(fill, planes, place);
+        for (pixel, column) in run.iter_mut().zip(place.column..) {
+            let raised =
+                |i: usize| dithered(value[i] >> 15, threshold(column, place.line), F::STEPS[i]);
+            *pixel = F::pack_words(raised(0) << 16 | raised(2), raised(1) << 16);
+            for (value, step) in value.iter_mut().zip(step) {
+                *value = value.wrapping_add(step as u32);
+            }
         }
     }
 

@@ -5,6 +5,7 @@
 //! | `paint` | what a look does, and what it is told |
 //! | `gouraud` | colours linear between vertices |
 //! | `textured` | texels times such colours |
+//! | `phong` | normals linear between vertices, lit at each pixel |
 //! | `ramp` | the loops over pixels that all looks share, with depth and without |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
 //! | `word_plane` | both coordinates of a small affine triangle in one word |
@@ -22,6 +23,7 @@ mod gouraud;
 mod mapping;
 mod paint;
 mod perspective;
+mod phong;
 mod ramp;
 mod stride;
 #[cfg(test)]
@@ -32,10 +34,11 @@ mod word_plane;
 
 pub use gouraud::Gouraud;
 pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
+pub use phong::Phong;
 pub(crate) use ramp::{fill_even, write_depth};
 pub use textured::Textured;
 
-/// How the triangles of a scene look: [`Gouraud`] or [`Textured`].
+/// How the triangles of a scene look: [`Gouraud`], [`Textured`] or [`Phong`].
 pub trait Look: Paint {}
 
 impl<T: Paint> Look for T {}

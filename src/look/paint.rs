@@ -2,7 +2,7 @@
 
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
-use crate::scene::DrawState;
+use crate::scene::{DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
 
 /// How the planes of a triangle are evaluated; each look says what is where in its planes.
@@ -28,6 +28,8 @@ pub trait Paint: Sized {
     const EMPTY: Self::Planes;
     /// Whether vertices have texture places.
     const TEXTURED: bool;
+    /// How a normal becomes the word of a vertex, where light falls on pixels.
+    const LIT_AT_PIXELS: Option<WordOfNormal> = None;
     /// How levels of light become colours of vertices.
     const SCALE: Scale;
 
@@ -88,6 +90,21 @@ pub trait Paint: Sized {
         Self::fill(fill, planes, at, draws, run);
         u32::MAX
     }
+
+    /// Planes that keep enough of a triangle's colour for a dither, where those it has do not.
+    fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Self::Planes) -> Option<Fill> {
+        let _ = (triangle, planes);
+        None
+    }
+
+    /// [`fill`](Paint::fill), dithered where pixels have 16 bits.
+    fn fill_dithered(
+        fill: Fill,
+        planes: &Self::Planes,
+        at: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [WordOf<Self>],
+    );
 
     /// Whether a triangle was to have a texture, and has none.
     #[inline(always)]

@@ -13,7 +13,7 @@ use super::fetch::copy_from;
 use super::gouraud::{Course, Planes as Shades, at, course, fields, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::ramp::nearer_bits;
-use super::tint::{Shade, tint, tint_swapped};
+use super::tint::{Shade, tint, tint_ordered, tint_swapped};
 use super::word_plane::Near;
 use super::{Depths, Fill, Paint, Place, ThinSpan};
 use crate::composite::{Rgb565, Rgb565Bytes};
@@ -33,12 +33,20 @@ pub struct Textured<F>(PhantomData<F>);
 pub trait Texel: Pixel<Word = u16> {
     /// Multiplies a run by a shade, which is that of the place half a pixel beyond the first.
     fn tint(run: &mut [u16], shade: Shade, step: Shade);
+
+    /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]);
 }
 
 impl Texel for Rgb565 {
     #[inline(always)]
     fn tint(run: &mut [u16], shade: Shade, step: Shade) {
         tint(run, shade, step);
+    }
+
+    #[inline(never)]
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
+        tint_ordered(run, shade, step, at, |word| word);
     }
 }
 
@@ -50,6 +58,12 @@ impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
         } else {
             tint_swapped(run, shade, step);
         }
+    }
+
+    #[inline(never)]
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
+        let order = |word: u16| if BIG { word.to_be() } else { word.to_le() };
+        tint_ordered(run, shade, step, at, order);
     }
 }
 
@@ -156,6 +170,16 @@ impl<F: Texel> Textured<F> {
     /// Multiplies a run by the shade of a triangle within 64 pixels.
     #[inline(always)]
     fn shade_small(planes: &Shades, place: Place, run: &mut [u16]) {
+        let [at, step] = Self::small_shade(planes, place);
+        if run.len() as u32 == place.pixels() {
+            return F::tint(run, at, step);
+        }
+        Self::shade_part(run, place, [at, step]);
+    }
+
+    /// The shade of a triangle within 64 pixels half a pixel beyond a place, and its step.
+    #[inline(always)]
+    fn small_shade(planes: &Shades, place: Place) -> [Shade; 2] {
         let step = Shade {
             red_blue: planes[1],
             green: planes[4],
@@ -164,10 +188,28 @@ impl<F: Texel> Textured<F> {
             red_blue: at(planes, 0, place),
             green: at(planes, 3, place),
         };
-        if run.len() as u32 == place.pixels() {
-            return F::tint(run, at, step);
+        [at, step]
+    }
+
+    /// [`shade`](Textured::shade), dithered.
+    #[inline(never)]
+    fn shade_dithered(planes: &Planes, place: Place, run: &mut [u16]) {
+        let Some(fill) = planes.shaded else {
+            return;
+        };
+        let at = [place.column, place.line];
+        if fill == Fill::Small {
+            let [shade, step] = Self::small_shade(&planes.shade, place);
+            let first = shade.minus_quarter(step.times(2));
+            return F::tint_dithered(run, first, step, at);
         }
-        Self::shade_part(run, place, [at, step]);
+        let mut course = course(fill, &planes.shade, place);
+        for (pixel, column) in run.chunks_mut(1).zip(place.column..) {
+            // A pixel alone has the shade of its own place.
+            let [shade, _] = shade_at(&course.still(), 1);
+            F::tint_dithered(pixel, shade, Shade::default(), [column, place.line]);
+            course.skip(1);
+        }
     }
 
     /// Multiplies a run by the shade of a triangle.
@@ -370,6 +412,21 @@ impl<F: Texel> Paint for Textured<F> {
         Self::shade(planes, place, run);
     }
 
+    fn fill_dithered(
+        fill: Fill,
+        planes: &Planes,
+        place: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [u16],
+    ) {
+        let texels = Planes {
+            shaded: None,
+            ..*planes
+        };
+        Self::fill(fill, &texels, place, draws, run);
+        Self::shade_dithered(planes, place, run);
+    }
+
     #[inline(never)]
     fn fill_holed(
         fill: Fill,
@@ -378,20 +435,27 @@ impl<F: Texel> Paint for Textured<F> {
         draws: &[DrawState<'_>],
         run: &mut [u16],
     ) -> u32 {
-        let Some((texture, budget, holes)) =
+        let Some((texture, budget, holes, dithers)) =
             draws.get(usize::from(planes.draw)).and_then(|state| {
                 let (texture, budget) = state.texture().filter(|_| planes.mapped)?;
-                Some((texture, budget, state.holes?))
+                Some((texture, budget, state.holes?, state.dithers))
             })
         else {
             Self::fill(fill, planes, place, draws, run);
             return u32::MAX;
         };
+        let shade = |run: &mut [u16]| {
+            if dithers {
+                Self::shade_dithered(planes, place, run);
+            } else {
+                Self::shade(planes, place, run);
+            }
+        };
         planes.mapping.draw(run, place, texture, budget);
         if holes.are_filled {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());
-            Self::shade(planes, place, &mut colours[..count]);
+            shade(&mut colours[..count]);
             for (texel, colour) in run.iter_mut().zip(colours) {
                 if *texel == holes.key {
                     *texel = colour;
@@ -402,7 +466,7 @@ impl<F: Texel> Paint for Textured<F> {
         let opaque = run.iter().rev().fold(0, |bits, &texel| {
             bits >> 1 | u32::from(texel != holes.key) << 31
         });
-        Self::shade(planes, place, run);
+        shade(run);
         opaque
     }
 

@@ -16,6 +16,7 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
+use crate::pixel::threshold;
 use core::hint::black_box as unknown;
 
 /// Light of a pixel, or its step, in two words: 16 bits a channel, full light is 2^15.
@@ -97,7 +98,7 @@ impl Shade {
 
     /// A quarter of `step` back.
     #[inline(always)]
-    const fn minus_quarter(self, step: Self) -> Self {
+    pub const fn minus_quarter(self, step: Self) -> Self {
         let blue = step.red_blue as i16 as i32;
         let red = step.red_blue.wrapping_sub(blue as u32) as i32 >> 16;
         let quarter = ((red >> 2 << 16) as u32).wrapping_add((blue >> 2) as u32);
@@ -217,6 +218,36 @@ fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: S
     if let [a, ..] = one {
         let by = shade.minus_quarter(step).channels();
         *a = tinted::<SWAPPED>(u32::from(*a), by, m) as u16;
+    }
+}
+
+/// A texel times a shade, each channel raised by so many of 32 parts of a step before it is cut to one.
+#[inline(always)]
+fn product_raised(texel: u16, by: [u32; 3], parts: i32) -> u16 {
+    const HALF: i32 = 1 << 9;
+    // Full light may be a little more, which with nearly a step would be one beyond the texel.
+    let raised = |field: u16, by: u32| {
+        let product = u32::from(field) * by;
+        (product.wrapping_add_signed(HALF + 32 * parts) >> 10).min(field.into()) as u16
+    };
+    let [red, green, blue] = by;
+    raised(texel >> 11, red) << 11 | raised(texel >> 5 & 63, green) << 5 | raised(texel & 31, blue)
+}
+
+/// Multiplies 565 pixels by a shade, which is that of the first one's centre, dithered by where they are on the picture;
+/// `order` brings a pixel to the order of numbers, and back.
+#[inline(always)]
+pub fn tint_ordered(
+    run: &mut [u16],
+    mut shade: Shade,
+    step: Shade,
+    [column, line]: [u32; 2],
+    order: impl Fn(u16) -> u16,
+) {
+    for (pixel, column) in run.iter_mut().zip(column..) {
+        let parts = threshold(column, line);
+        *pixel = order(product_raised(order(*pixel), shade.channels(), parts));
+        shade = shade.plus(step);
     }
 }
 

@@ -105,8 +105,7 @@ mod tests {
     #[test]
     fn roots_are_rounded_down() {
         let mut rng = Rng(52);
-        let mut hold =
-            |square: u64| assert_eq!(u64::from(root(square)), square.isqrt(), "{square}");
+        let hold = |square: u64| assert_eq!(u64::from(root(square)), square.isqrt(), "{square}");
         for square in [0, 1, 2, 3, 4, u64::MAX, u64::MAX - 1, 1 << 62, 1 << 63] {
             hold(square);
         }

@@ -15,6 +15,9 @@ pub use crate::composite::{
 };
 
 mod mix;
+mod ordered;
+
+pub(crate) use ordered::threshold;
 
 /// How a pixel is made of a colour, and of other pixels.
 pub trait Pixel: PixelFormat {

@@ -5,7 +5,7 @@
 
 use super::cut::{Corner, cut_all};
 use super::lights::Lamps;
-use super::pass::{Lost, Own, Pass, colour_of, light_all, top_first};
+use super::pass::{Lost, Normals, Own, Pass, WordOfNormal, colour_of, light_all, top_first};
 use super::project::{View, project_all, project_textured};
 use super::{
     Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading,
@@ -26,7 +26,8 @@ struct Picture {
 }
 
 impl<'t, L> Scene<'_, 't, L> {
-    /// Draws a mesh, with its texture, which only a look that is `textured` has.
+    /// Draws a mesh, with its texture, which only a look that is `textured` has. Where light falls on pixels, vertices
+    /// have words of normals.
     ///
     /// # Errors
     /// What is wrong with the mesh, or which memory is full.
@@ -34,6 +35,7 @@ impl<'t, L> Scene<'_, 't, L> {
         &mut self,
         draw: &Draw<'_, 't, C>,
         textured: bool,
+        word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
@@ -51,6 +53,11 @@ impl<'t, L> Scene<'_, 't, L> {
         let skin = draw.texture;
         if skin.is_some() && !textured {
             return Err(DrawError::Untextured);
+        }
+        let at_corners =
+            draw.light.is_some() || draw.lights.is_some() || !draw.mesh.colours.is_empty();
+        if word_of.is_some() && at_corners || word_of.is_none() && draw.lamps.is_some() {
+            return Err(DrawError::Light);
         }
         let texels = skin.map_or(&[][..], |skin| skin.places);
         if skin.is_some() && texels.len() != mesh.positions.len() {
@@ -86,6 +93,10 @@ impl<'t, L> Scene<'_, 't, L> {
             view: View::new(&camera, self.screen, &draw.model),
             light,
             lamps: lamps.as_ref(),
+            normals: word_of.map(|word| Normals {
+                turn: draw.model.then(camera.view()),
+                word,
+            }),
             tint: Tint::new(colour, &self.scale),
             cull: draw.cull,
             texels,
@@ -169,7 +180,7 @@ impl<'t, L> Scene<'_, 't, L> {
             Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
                 light_all(light, &pass.tint, &scale, mesh.normals, vertices);
             }
-            None if pass.lamps.is_none() && mesh.colours.is_empty() => {
+            None if pass.has_one_colour() && mesh.colours.is_empty() => {
                 let colour = pass.tint.lit(1 << 15).word();
                 for vertex in vertices {
                     vertex.colour = colour;

@@ -2,7 +2,7 @@
 
 use super::texture::Square;
 use super::{Blend, Budget, DepthTest, Lights, Scissor, Texture};
-use crate::geometry::{Affine, Cull, Light, Mesh};
+use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
 use core::ops::Range;
 
 /// One draw call: a mesh, where it stands and how it looks.
@@ -20,6 +20,9 @@ pub struct Draw<'a, 't, C = i16> {
     pub light: Option<Light>,
     /// Several lights and the material that they fall on, in place of the one: a [`Lighting`](crate::light::Lighting).
     pub lights: Option<&'a dyn Lights>,
+    /// What shines on pixels, for [`Phong`](crate::look::Phong) alone, which refuses the other two and colours of
+    /// corners. It is what the camera sees: to be made anew when that moves, and the scene with it.
+    pub lamps: Option<&'t PixelLamps>,
     /// Where a face's colour comes from.
     pub shading: Shading,
     /// Colour of vertices that have none of their own.
@@ -35,6 +38,9 @@ pub struct Draw<'a, 't, C = i16> {
     pub depth: DepthTest,
     /// What becomes of the colours that are there; `None` hides them.
     pub blend: Option<Blend>,
+    /// Whether its colours are dithered to pixels of 16 bits, by a 4 x 4 order over the picture: their mean over 16 pixels
+    /// is nearer to the colour than a pixel can be. Pixels of 24 and 32 bits are not, nor are texels in full light.
+    pub dither: bool,
     /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
     /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
     pub priority: u8,
@@ -93,6 +99,7 @@ impl<'a, C> Draw<'a, '_, C> {
             cull: Cull::Back,
             light: None,
             lights: None,
+            lamps: None,
             shading: Shading::Smooth,
             colour: [255; 3],
             texture: None,
@@ -100,6 +107,7 @@ impl<'a, C> Draw<'a, '_, C> {
             scissor: None,
             depth: DepthTest::HIDES,
             blend: None,
+            dither: false,
             priority: 0,
         }
     }
@@ -124,7 +132,11 @@ pub struct DrawState<'t> {
     pub(crate) scissor: Option<Scissor>,
     pub(crate) depth: DepthTest,
     pub(crate) blend: Option<Blend>,
+    pub(crate) dithers: bool,
     pub(crate) priority: u8,
+    /// The colour that light at pixels falls on, and that light.
+    pub(crate) colour: [u8; 3],
+    pub(crate) lamps: Option<&'t PixelLamps>,
     /// What transparent texels are, if there may be any.
     pub(crate) holes: Option<Holes>,
     /// The texture's rows, if it is one of the squares that have loops of their own.
@@ -159,7 +171,10 @@ impl<'t> DrawState<'t> {
         scissor: None,
         depth: DepthTest::HIDES,
         blend: None,
+        dithers: false,
         priority: 0,
+        colour: [0; 3],
+        lamps: None,
         holes: None,
         square: None,
     };
@@ -177,7 +192,10 @@ impl<'t> DrawState<'t> {
                 _ => draw.depth,
             },
             blend: draw.blend,
+            dithers: draw.dither,
             priority: draw.priority,
+            colour: draw.colour,
+            lamps: draw.lamps,
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
             square: texture.and_then(Texture::square),
         }
@@ -192,13 +210,12 @@ impl<'t> DrawState<'t> {
 
     /// Whether its triangles are drawn in another way than most.
     pub(crate) fn has_values(&self) -> bool {
-        self.scissor.is_some() || self.compares() || self.holes.is_some()
+        self.scissor.is_some() || self.compares() || self.holes.is_some() || self.dithers
     }
 
     /// Whether its pixels do anything else than hide what is behind them.
     pub(crate) fn compares(&self) -> bool {
-        let has_holes = self.holes.is_some_and(|holes| !holes.are_filled);
-        self.blend.is_some() || self.depth != DepthTest::HIDES || has_holes
+        self.blend.is_some() || self.depth != DepthTest::HIDES
     }
 
     /// Whether what is behind shines through.

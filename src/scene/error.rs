@@ -79,6 +79,8 @@ pub enum DrawError {
     NotBegun,
     /// The mesh contradicts itself; nothing of it is drawn.
     Mesh(MeshError),
+    /// Light falls on corners where the scene's look is lit at pixels, or the other way; nothing of it is drawn.
+    Light,
     /// The call has a texture, and the scene's look draws none; nothing of it is drawn.
     Untextured,
     /// Memory is full; what was kept is drawn.
@@ -105,6 +107,9 @@ impl fmt::Display for DrawError {
             Self::Mesh(MeshError::StripLength) => {
                 f.write_str("mesh: a quad strip needs an even number of indices, and not two")
             }
+            Self::Light => f.write_str(
+                "scene: the light is for pixels and the look of the scene for corners, or the other way",
+            ),
             Self::Untextured => {
                 f.write_str("scene: a texture is drawn, and the look of the scene has none")
             }

@@ -40,6 +40,7 @@ pub use depth::DepthTest;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub use lights::Lights;
+pub(crate) use pass::WordOfNormal;
 pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use scissor::Scissor;

@@ -3,7 +3,7 @@
 use super::lights::{Lamps, sealed};
 use super::project::View;
 use super::{Full, TexturePlace, Vertex};
-use crate::geometry::{Colour, Coordinate, Cull, Light, Mesh, ModelLight, Scale, Tint};
+use crate::geometry::{Affine, Colour, Coordinate, Cull, Light, Mesh, ModelLight, Scale, Tint};
 
 /// What of a mesh found no room.
 #[derive(Clone, Copy, Default)]
@@ -27,6 +27,16 @@ pub(super) struct Own {
     pub(super) place: TexturePlace,
 }
 
+/// The word of a normal, turned from its model to the camera; and of what has none.
+pub(crate) type WordOfNormal = fn(&Affine, Option<[i16; 3]>) -> u32;
+
+/// How normals become words of vertices, for light at pixels.
+pub(super) struct Normals {
+    /// From the model to the camera.
+    pub(super) turn: Affine,
+    pub(super) word: WordOfNormal,
+}
+
 /// What is known of a draw call while its faces are filed.
 pub(super) struct Pass<'a> {
     pub(super) view: View,
@@ -34,6 +44,8 @@ pub(super) struct Pass<'a> {
     pub(super) light: Option<Light>,
     /// Several lights, likewise, in place of the one.
     pub(super) lamps: Option<&'a Lamps<'a>>,
+    /// Normals in place of colours.
+    pub(super) normals: Option<Normals>,
     pub(super) tint: Tint,
     pub(super) cull: Cull,
     /// Texture places of the mesh's vertices; empty without a texture.
@@ -119,7 +131,12 @@ impl Pass<'_> {
         top_first(self.cull == Cull::Back, [0, 1, 2], places)
     }
 
-    /// The colour of a vertex, lit if there is a normal.
+    /// Whether vertices without colours of their own all have the same one.
+    pub(super) fn has_one_colour(&self) -> bool {
+        self.lamps.is_none() && self.normals.is_none()
+    }
+
+    /// The word of a vertex: its colour, lit if there is a normal; or the normal itself.
     pub(super) fn lit<C: Coordinate>(
         &self,
         mesh: &Mesh<'_, C>,
@@ -127,6 +144,9 @@ impl Pass<'_> {
         normal: Option<[i16; 3]>,
         scale: &Scale,
     ) -> u32 {
+        if let Some(Normals { turn, word }) = &self.normals {
+            return word(turn, normal);
+        }
         let tint = match mesh.colours.get(i) {
             Some(&colour) => Tint::new(colour, scale),
             None => self.tint,

@@ -44,6 +44,7 @@ fn drawn(faces: &[[u16; 3]]) -> (Result<(), DrawError>, [Vertex; 24], Assembled)
             })
         },
         false,
+        None,
     );
     let assembled = scene.assembled();
     if done.is_err() {

@@ -5,7 +5,7 @@ pub mod exact;
 pub mod values;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
-use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
@@ -62,6 +62,8 @@ smooth!(
     Gouraud<Rgb565Le>,
     Gouraud<Rgb888>,
     Gouraud<Xrgb8888>,
+    Phong<Rgb565Be>,
+    Phong<Rgb888>,
     Textured<Rgb565Be>,
     Textured<Rgb565Le>,
     Textured<Rgb565>

@@ -63,6 +63,7 @@ pub struct Call {
     pub test: [Function; 2],
     /// What becomes of colours that are there, and the channels that are written.
     pub blend: Option<(BlendMode, [bool; 3])>,
+    pub dithers: bool,
     pub priority: u8,
 }
 
@@ -72,6 +73,8 @@ pub struct Rounding {
     pub written: f64,
     pub sloped: f64,
     pub blended: f64,
+    /// By how much a dither may raise or lower it: half a step.
+    pub dithered: f64,
     /// Whether two pixels are shaded by the place between them.
     pub by_twos: bool,
 }
@@ -243,7 +246,10 @@ impl Call {
         let Rounding {
             written, sloped, ..
         } = world.rounding;
-        let off = if is_even { written } else { sloped };
+        let mut off = if is_even { written } else { sloped };
+        if self.dithers {
+            off += world.rounding.dithered;
+        }
         let white = [[255.0; 2]; 3];
         let texels = match &self.skin {
             None => white,

@@ -1,0 +1,286 @@
+//! K10: light at each pixel, as a look: against the formulae in f64 at every pixel of any triangles.
+//!
+//! A normal is linear between the corners and made unit length at the pixel. Its bits turn it by 1/2000 of its length
+//! across and down and 1/1000 ahead, more where corners differ and what is between them is short; what that does to
+//! the level is the bound, and what rounding does.
+
+use crate::common::Rng;
+use crate::hot::exact::{weights, within};
+use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
+use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
+use scanbeam::look::{Gouraud, Phong};
+use scanbeam::mesh::{Material, U1F15};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::scene::{Draw, DrawError, Shading};
+use scanbeam::{Cull, Light, Screen};
+
+type V3 = [f64; 3];
+
+fn dot(a: V3, b: V3) -> f64 {
+    (0..3).map(|i| a[i] * b[i]).sum()
+}
+
+fn unit(v: V3) -> V3 {
+    v.map(|c| c / dot(v, v).sqrt())
+}
+
+fn some_direction(rng: &mut Rng) -> V3 {
+    loop {
+        let v = [(); 3].map(|()| rng.signed());
+        if dot(v, v) > 0.1 && dot(v, v) < 1.0 {
+            return unit(v);
+        }
+    }
+}
+
+/// Lights and a material, in f64.
+struct Shine {
+    lights: Vec<(V3, V3)>,
+    ambient: V3,
+    material: Material,
+}
+
+fn real(level: [U1F15; 3]) -> V3 {
+    level.map(|c| f64::from(c.to_bits()) / 32_768.0)
+}
+
+impl Shine {
+    fn new(rng: &mut Rng, count: u32) -> Self {
+        let mut levels = |most: u32| [(); 3].map(|()| U1F15::from_bits(rng.below(most) as u16));
+        let material = Material {
+            ambient: levels(1 << 15),
+            diffuse: levels(1 << 15),
+            specular: levels(1 << 15),
+            emission: levels(1 << 12),
+            shininess: 1,
+        };
+        let ambient = real(levels(1 << 14));
+        let shininess = rng.pick(&[1, 4, 16, 40]);
+        let lights = (0..count).map(|_| (some_direction(rng), [(); 3].map(|()| rng.unit())));
+        Self {
+            lights: lights.collect(),
+            ambient,
+            material: Material {
+                shininess,
+                ..material
+            },
+        }
+    }
+
+    fn lamps(&self, screen: Screen) -> PixelLamps {
+        let f32s = |v: V3| v.map(|c| c as f32);
+        let light = |&(towards, colour): &(V3, V3)| {
+            DirectionalLight::new(f32s(towards), f32s(colour)).expect("a direction")
+        };
+        let lights: Vec<_> = self.lights.iter().map(light).collect();
+        let ambient = self
+            .ambient
+            .map(|c| U1F15::from_bits((c * 32_768.0) as u16));
+        let lighting = Lighting::new(&lights, ambient, self.material).expect("not too many");
+        PixelLamps::new(&lighting, &camera(), screen)
+    }
+
+    /// The least and the most level of a channel, of a normal that may be turned by an angle.
+    fn level(&self, i: usize, own: f64, normal: V3, eye: V3, turned: f64) -> [f64; 2] {
+        let of = |levels: [U1F15; 3]| real(levels)[i];
+        let Material {
+            ambient,
+            diffuse,
+            specular,
+            emission,
+            shininess,
+        } = self.material;
+        // Between what is behind and what faces the light nothing jumps but what is mirrored.
+        let mut sum = [own * self.ambient[i] * of(ambient) + of(emission); 2];
+        for (towards, colour) in &self.lights {
+            let falls = dot(normal, *towards);
+            let angle = falls.clamp(-1.0, 1.0).acos();
+            let mirrored = [0, 1, 2].map(|k| 2.0 * falls * normal[k] - towards[k]);
+            let glance = dot(mirrored, eye).clamp(-1.0, 1.0).acos();
+            for (sum, side) in sum.iter_mut().zip([1.0, -1.0]) {
+                let lit = (angle + side * turned).max(0.0).cos().max(0.0);
+                let near = (glance + side * 2.0 * turned).max(0.0).cos().max(0.0);
+                let shine = if lit > 0.0 {
+                    near.powi(shininess.into())
+                } else {
+                    0.0
+                };
+                *sum += colour[i] * (own * of(diffuse) * lit + of(specular) * shine);
+            }
+        }
+        sum.map(|level| 255.0 * level.min(1.0))
+    }
+}
+
+/// A triangle and its normals.
+struct Facet {
+    corners: [Corner; 3],
+    normals: [V3; 3],
+}
+
+impl Facet {
+    fn new(rng: &mut Rng, screen: Screen) -> Self {
+        let size = rng.pick(&[20, 60, 300, 2_000]);
+        let middle =
+            [screen.width(), screen.height()].map(|side| rng.within(0, 8 * i32::from(side)));
+        let w = 1.0 + 3.0 * rng.unit();
+        let slant = rng.pick(&[1.0, 2.0]);
+        let towards = some_direction(rng);
+        Self {
+            corners: [(); 3].map(|()| Corner {
+                at: (
+                    middle[0] + rng.within(-size, size),
+                    middle[1] + rng.within(-size, size),
+                ),
+                w: w * rng.between(1.0, slant),
+                colour: [0; 3],
+            }),
+            normals: [(); 3].map(|()| {
+                let to = some_direction(rng);
+                let mean = unit([0, 1, 2].map(|k| towards[k] + 0.8 * to[k]));
+                mean.map(|c| (c * 16_384.0).round() / 16_384.0)
+            }),
+        }
+    }
+
+    fn normal(&self, x: u16, y: u16) -> V3 {
+        let (part, _) = weights(self.corners.map(|c| c.at), x.into(), y.into());
+        [0, 1, 2].map(|i| (0..3).map(|k| part[k] * self.normals[k][i]).sum())
+    }
+
+    fn dress<'t>(&self, draw: &mut Draw<'_, 't, i32>, lamps: &'t PixelLamps, colour: [u8; 3]) {
+        let q14 = |v: V3| v.map(|c| (c * 16_384.0).round() as i16);
+        // A call may outlive this one, as the compiler sees it.
+        let normals: &'static [_] = self.normals.map(q14).to_vec().leak();
+        (draw.mesh.normals, draw.mesh.colours) = (normals, &[]);
+        (draw.colour, draw.lamps, draw.cull) = (colour, Some(lamps), Cull::None);
+    }
+}
+
+/// From the pixel to the eye.
+fn eye(screen: Screen, x: u16, y: u16) -> V3 {
+    let from = |at: u16, side: u16| (f64::from(at) + 0.5 - f64::from(side) / 2.0) / 4096.0;
+    unit([-from(x, screen.width()), from(y, screen.height()), 1.0])
+}
+
+/// Kills: fields in another order, a middle that is off by a unit, planes that are taken a column too late, normals that
+/// are not made unit length.
+fn pixels_are_the_formula<L: Smooth>(seed: u64, off: f64) -> usize {
+    let mut rng = Rng::new(seed);
+    let mut pixels = 0;
+    for round in 0..400 {
+        let screen = Screen::new(rng.pick(&[40, 64]), 24).expect("a screen");
+        let facet = Facet::new(&mut rng, screen);
+        let shine = Shine::new(&mut rng, round % 9);
+        let lamps: &'static _ = Box::leak(Box::new(shine.lamps(screen)));
+        let colour = [(); 3].map(|()| rng.below(256) as u8);
+        let mut rooms = SceneRooms::of_triangles(1, screen);
+        let mut scene = rooms.scene::<L>(screen);
+        scene.begin(&camera()).expect("the rooms are large enough");
+        draw_with(&mut scene, &[facet.corners], |draw| {
+            facet.dress(draw, lamps, colour)
+        })
+        .expect("there is room");
+        let slots = rng.pick(&[0, 4]);
+        let lines = frame(&scene, slots, true, L::Format::from_rgb8([0; 3]));
+        for (y, words) in (0..).zip(&lines) {
+            let columns = within(facet.corners.map(|c| c.at), y.into(), screen.width());
+            for x in columns {
+                let normal = facet.normal(x as u16, y);
+                let length = dot(normal, normal).sqrt();
+                let turned = 0.0013 / length;
+                let got = L::Format::to_rgb8(words[x]);
+                for i in 0..3 {
+                    let own = f64::from(colour[i]) / 255.0;
+                    let eye = eye(screen, x as u16, y);
+                    let [least, most] = shine.level(i, own, unit(normal), eye, turned);
+                    let got = f64::from(got[i]);
+                    assert!(
+                        least - off <= got && got <= most + off,
+                        "{got} for {least} to {most} at {x}, {y}, length {length}, {slots} slots: {:?}",
+                        facet.corners.map(|c| c.at)
+                    );
+                }
+                pixels += 1;
+            }
+        }
+    }
+    pixels
+}
+
+#[test]
+fn every_pixel_is_lit_by_its_own_normal() {
+    let pixels = pixels_are_the_formula::<Phong<Rgb888>>(1_801, 1.0);
+    assert!(pixels > 40_000, "{pixels}");
+    // Half a step of 5 bits.
+    let pixels = pixels_are_the_formula::<Phong<Rgb565Be>>(1_802, 4.7);
+    assert!(pixels > 40_000, "{pixels}");
+}
+
+/// Many triangles across each other, by depth: any cache gives the same bits.
+#[test]
+fn pictures_lit_at_pixels_do_not_depend_on_the_cache() {
+    let mut rng = Rng::new(1_803);
+    let screen = Screen::new(64, 24).expect("a screen");
+    for _ in 0..40 {
+        let shine = Shine::new(&mut rng, 2);
+        let lamps: &'static _ = Box::leak(Box::new(shine.lamps(screen)));
+        let mut rooms = SceneRooms::new(6 * 12, 12, 24, 12);
+        let mut scene = rooms.scene::<Phong<Rgb888>>(screen);
+        scene.begin(&camera()).expect("the rooms are large enough");
+        for i in 0..12 {
+            let facet = Facet::new(&mut rng, screen);
+            draw_with(&mut scene, &[facet.corners], |draw| {
+                facet.dress(draw, lamps, [200, 20 * i, 90]);
+                if i % 3 == 0 {
+                    draw.shading = Shading::Flat;
+                }
+            })
+            .expect("there is room");
+        }
+        let all = frame(&scene, 64, true, [0; 3]);
+        let seen = |lines: &[Vec<WordOf<Phong<Rgb888>>>]| {
+            lines.iter().flatten().filter(|&&p| p != [0; 3]).count()
+        };
+        assert!(seen(&all) > 0);
+        for slots in [0, 1, 5] {
+            assert_eq!(frame(&scene, slots, true, [0; 3]), all, "{slots} slots");
+        }
+    }
+}
+
+/// Light of the other kind is refused, and nothing is drawn.
+#[test]
+fn light_that_a_look_does_not_know_is_refused() {
+    let mut rng = Rng::new(1_804);
+    let screen = Screen::new(40, 24).expect("a screen");
+    let lamps: &'static _ = Box::leak(Box::new(Shine::new(&mut rng, 1).lamps(screen)));
+    let facet = Facet::new(&mut rng, screen);
+    let light = Light::new([0.0, 0.0, 1.0], 0.5);
+    let several = Lighting::new(&[], [Default::default(); 3], Material::default());
+    let several: &'static Lighting<'_> = Box::leak(Box::new(several.expect("no light")));
+    let mut rooms = SceneRooms::of_triangles(1, screen);
+    let mut scene = rooms.scene::<Phong<Rgb888>>(screen);
+    scene.begin(&camera()).expect("the rooms are large enough");
+    for which in 0..3 {
+        let drawn = draw_with(&mut scene, &[facet.corners], |draw| {
+            let colours = draw.mesh.colours;
+            facet.dress(draw, lamps, [90; 3]);
+            match which {
+                0 => draw.light = light,
+                1 => draw.lights = Some(several),
+                _ => draw.mesh.colours = colours,
+            }
+        });
+        assert_eq!(drawn, Err(DrawError::Light), "{which}");
+    }
+    assert_eq!((scene.objects(), scene.vertices()), (0, 0));
+    let mut rooms = SceneRooms::of_triangles(1, screen);
+    let mut scene = rooms.scene::<Gouraud<Rgb888>>(screen);
+    scene.begin(&camera()).expect("the rooms are large enough");
+    let drawn = draw_with(&mut scene, &[facet.corners], |draw| {
+        facet.dress(draw, lamps, [90; 3])
+    });
+    assert_eq!(drawn, Err(DrawError::Light));
+    assert_eq!((scene.objects(), scene.vertices()), (0, 0));
+}

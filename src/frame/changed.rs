@@ -1,0 +1,122 @@
+//! Frames with what lies over them, and frames of which what the display shows already is not sent (K14, X4).
+//!
+//! An overlay paints over each line between drawing and sending, so what counts as changed is a line with all that is
+//! over it. `()` is no overlay.
+
+use super::renderer::Renderer;
+use super::send::{FrameError, FrameUse, send, window};
+use crate::composite::LineOverlay;
+use crate::look::{Look, WordOf};
+use crate::scan_out::{ErrorType, LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
+use crate::scene::Scene;
+
+/// Draws and sends all lines of `scene` as [`draw_frame`](super::draw_frame) does, with `overlay` over them.
+///
+/// # Errors
+/// When the sink fails, naming the line, or the renderer has too little memory.
+pub fn draw_frame_overlaid<L, D, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    pump: &mut Pump<D>,
+    background: WordOf<L>,
+    lines_per_transfer: u16,
+    mut overlay: impl LineOverlay<L::Pixel>,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
+{
+    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
+        let drawn = renderer.draw_line(scene, line, pixels, background)?;
+        overlay.paint(line, pixels);
+        Ok(drawn)
+    };
+    send(scene, renderer, pump, lines_per_transfer, draw)
+}
+
+/// Draws all lines of `scene` with `overlay` over them, and sends those that differ from what `shown` knows the
+/// display to show. [`ScanStats`](crate::scan_out::ScanStats) counts the others, and the bytes not sent.
+///
+/// # Errors
+/// Those of [`draw_frame_overlaid`]; the lines that were reached count as not shown then.
+pub fn draw_frame_changed<L, D, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    pump: &mut Pump<D>,
+    background: WordOf<L>,
+    lines_per_transfer: u16,
+    shown: &mut ShownLines<'_>,
+    mut overlay: impl LineOverlay<L::Pixel>,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look,
+    WordOf<L>: LineWord,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
+{
+    renderer.check(scene).map_err(FrameError::Line)?;
+    renderer.restart();
+    let (mut end, mut skipped) = (scene.lines().start, 0);
+    let mut send = || {
+        pump.take_stats();
+        pump.begin_in_parts(window(scene), lines_per_transfer)?;
+        for line in scene.lines() {
+            let pixels = pump.line()?;
+            let drawn = renderer.draw_line(scene, line, pixels, background);
+            skipped += u32::from(!drawn.map_err(FrameError::Line)?);
+            overlay.paint(line, pixels);
+            end = line + 1;
+            if shown.replace(line, pixels) {
+                pump.line_done()?;
+            } else {
+                pump.line_left_out()?;
+            }
+        }
+        pump.finish()?;
+        Ok(pump.stats())
+    };
+    match send() {
+        Ok(sent) => Ok(FrameUse::told(scene, renderer, skipped, sent)),
+        Err(error) => {
+            for line in scene.lines().start..end {
+                shown.forget_line(line);
+            }
+            Err(error)
+        }
+    }
+}
+
+/// The same for the cells of lines that differ. Rectangles that are sent begin and end at edges of cells, whose size
+/// `shown` sets.
+///
+/// # Errors
+/// Those of [`draw_frame_changed`], and [`ScanError::Misaligned`](crate::scan_out::ScanError::Misaligned) when the
+/// scene's lines do not begin at the edge of a cell. What an unfinished frame has reached counts as not shown.
+pub fn draw_frame_changed_runs<L, D, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    pump: &mut Pump<D>,
+    background: WordOf<L>,
+    lines_per_transfer: u16,
+    shown: &mut ShownRuns<'_>,
+    mut overlay: impl LineOverlay<L::Pixel>,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look,
+    WordOf<L>: LineWord,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
+{
+    renderer.check(scene).map_err(FrameError::Line)?;
+    renderer.restart();
+    let mut skipped = 0;
+    pump.take_stats();
+    let mut frame = pump.begin_in_runs(window(scene), lines_per_transfer, shown)?;
+    for line in scene.lines() {
+        let pixels = frame.line()?;
+        let drawn = renderer.draw_line(scene, line, pixels, background);
+        skipped += u32::from(!drawn.map_err(FrameError::Line)?);
+        overlay.paint(line, pixels);
+        frame.line_done()?;
+    }
+    frame.finish()?;
+    Ok(FrameUse::told(scene, renderer, skipped, pump.stats()))
+}

@@ -1,0 +1,102 @@
+//! What shines on pixels: lights and a material as a camera sees them, and normals of unit length (K10).
+
+use super::camera::{Camera, Screen};
+use super::lighting::{Lamps, Lighting, fifteen_bits};
+use super::transform::{Affine, unit};
+use crate::num::{Block, I2F14, inverse_root, shift_round};
+
+/// A normal of any length as about unit length in Q1.14; no component reaches 2^31.
+#[inline]
+pub(crate) fn unit_normal(wide: [i32; 3]) -> [i16; 3] {
+    let v = fifteen_bits(wide);
+    let square = v.iter().map(|c| (c * c) as u32).sum();
+    let (root, half) = inverse_root(square);
+    // Q14 of v times root 2^(half - 46).
+    v.map(|c| shift_round(i64::from(c) * i64::from(root), half as i32 - 32) as i16)
+}
+
+impl Affine {
+    /// The normal of a surface that is moved by this, about unit length in Q1.14.
+    pub(crate) fn unit_normal(&self, normal: [i16; 3]) -> [i16; 3] {
+        unit(self.turned(normal.map(I2F14::from_bits))).map(I2F14::to_bits)
+    }
+}
+
+/// Lights and a material, as a camera sees them: what shines on pixels.
+#[derive(Clone, Copy, Debug)]
+pub struct PixelLamps {
+    lamps: Lamps,
+    /// The middle of the picture, 1/8 pixels of guard space.
+    centre: [i32; 2],
+    /// The focal length in 1/256 pixel.
+    focal: i32,
+    /// The picture's first column and line in guard space.
+    first: [i32; 2],
+}
+
+impl PixelLamps {
+    /// As `camera` sees them on a picture of the size of `screen`: to be made anew when the camera
+    /// turns.
+    #[must_use]
+    pub fn new(lighting: &Lighting<'_>, camera: &Camera, screen: Screen) -> Self {
+        let focal: Block<1> = camera.focal;
+        let [focal] = focal.mantissa.map(|f| {
+            // In 1/8 pixels, below 2^23.
+            shift_round(i64::from(f), focal.exponent - 30 + 5)
+        });
+        Self {
+            lamps: Lamps::new(lighting, |l| camera.view.direction_from_model_q30(l)),
+            centre: screen.centre(),
+            focal: focal.clamp(1, 1 << 29) as i32,
+            first: [screen.left(), screen.top()],
+        }
+    }
+
+    /// [`lit`](PixelLamps::lit) of a pixel of the picture.
+    #[inline]
+    #[must_use]
+    pub(crate) fn lit_in_picture(
+        &self,
+        normal: [i16; 3],
+        [column, line]: [u32; 2],
+        colour: [i32; 3],
+        steps: [u16; 3],
+    ) -> [i32; 3] {
+        let [left, top] = self.first;
+        self.lit(
+            normal,
+            (left + column as i32, top + line as i32),
+            colour,
+            steps,
+        )
+    }
+
+    /// Colours of a pixel of guard space in this light: 16.16 steps plus one half, of formats with
+    /// so many steps a channel; none above the full step.
+    #[inline]
+    #[must_use]
+    pub fn lit(
+        &self,
+        normal: [i16; 3],
+        (column, line): (i32, i32),
+        colour: [i32; 3],
+        steps: [u16; 3],
+    ) -> [i32; 3] {
+        let to_eye = || {
+            let from = |at: i32, centre: i32| (centre - (8 * at + 4)) << 5;
+            let [x, y] = self.centre;
+            fifteen_bits([from(column, x), from(line, y), -self.focal])
+        };
+        let shine = self.lamps.shine(normal, to_eye);
+        [0, 1, 2].map(|i| {
+            let full = u64::from(steps[i]) << 16;
+            let own = (colour[i] - HALF).max(0) as u64;
+            // 24 and 21 bits.
+            let sum = own * u64::from(shine.factor[i]) + full * u64::from(shine.more[i]);
+            (((sum + (1 << 14)) >> 15).min(full)) as i32 + HALF
+        })
+    }
+}
+
+/// Half a step, which colours in planes carry for rounding.
+const HALF: i32 = 1 << 15;
