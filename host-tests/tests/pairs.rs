@@ -3,11 +3,14 @@
 //! Small scenes of all pairs, and larger ones of any combination, against f64 pixel by pixel (see `reference`), and
 //! against each other: by any number of slots and of renderers, and in any order of lines, the same bits.
 
+mod cover;
 mod reference;
+mod textures;
 
 use crate::common::Rng;
 use crate::hot::values::{Cut, FUNCTIONS};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, line};
+use cover::Pairs;
 use reference::{Call, Light64, Range, Rounding, Skin64, Texels, V3, World, covering, pixel, unit};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Textured};
@@ -19,6 +22,7 @@ use scanbeam::scene::{
 };
 use scanbeam::{Cull, Light, Screen};
 use std::sync::OnceLock;
+use textures::{APPLICATIONS, BUDGETS, FORMS, WRAPS, textures};
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
 
@@ -54,141 +58,6 @@ const TEXTURED: usize = 5;
 
 /// A choice on each axis.
 type Choices = [usize; 18];
-
-/// Sides and bits a texel of the forms; the first choice is none. 16 bits are words of the panel.
-const FORMS: [(i32, i32, u32); 9] = [
-    (32, 32, 16),
-    (64, 64, 16),
-    (128, 128, 16),
-    (256, 256, 16),
-    (16, 64, 16),
-    (64, 64, 8),
-    (8, 32, 4),
-    (64, 16, 2),
-    (32, 32, 1),
-];
-
-/// Steps of 5, 6 and 5 bits.
-type Steps = [u16; 3];
-
-/// The texel that is transparent where a call says so.
-const KEY: Steps = [31, 0, 31];
-
-/// A texel: red and green tell where it is, blue differs from all around; with islands of the key.
-fn steps(form: usize, u: i32, v: i32) -> Steps {
-    let (width, height, bits) = FORMS[form];
-    if (u / 8 + v / 8) % 3 == 0 {
-        return KEY;
-    }
-    let (r, g) = (u * 31 / (width - 1), v * 63 / (height - 1));
-    let blue = (u * 7 + v * 13) % 32;
-    match bits {
-        16 => [r as u16, g as u16, blue as u16],
-        // As many colours as an index can name, or one less.
-        8 => [(u / 4 * 2) as u16, (v / 4 * 4) as u16, 9],
-        _ => {
-            let index = (u / 2 + 3 * v) % ((1 << bits) - 1);
-            let level = index as u16 * 31 / ((1 << bits) - 1);
-            [level, 63 - 2 * level, level / 2]
-        }
-    }
-}
-
-/// All textures by form and wrap, in the byte order of this machine or the other; without a key, and with.
-struct Textures {
-    of: [[Vec<[Texture<'static>; 3]>; 2]; 2],
-    texels: Vec<Texels>,
-}
-
-fn word([r, g, b]: Steps, is_swapped: bool) -> u16 {
-    let word = r << 11 | g << 5 | b;
-    if is_swapped { word.swap_bytes() } else { word }
-}
-
-fn texture(form: usize, is_swapped: bool) -> Texture<'static> {
-    let (width, height, bits) = FORMS[form];
-    let word = |texel: Steps| word(texel, is_swapped);
-    let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
-    let texels: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
-    let (wide, high) = (width as u32, height as u32);
-    if bits == 16 {
-        let words: Vec<_> = texels.into_iter().map(word).collect();
-        return Texture::words(words.leak(), wide, high).expect("sides are powers of two");
-    }
-    let mut colours: Vec<Steps> = Vec::new();
-    let mut bytes = vec![0u8; texels.len() * bits as usize / 8];
-    for (i, texel) in texels.into_iter().enumerate() {
-        let index = colours.iter().position(|c| *c == texel);
-        let index = index.unwrap_or_else(|| {
-            colours.push(texel);
-            colours.len() - 1
-        });
-        let each = (8 / bits) as usize;
-        bytes[i / each] |= (index << (bits as usize * (i % each))) as u8;
-    }
-    let mut palette: Vec<_> = colours.into_iter().map(word).collect();
-    assert!(palette.len() <= 1 << bits);
-    palette.resize(1 << bits, 0);
-    let (bytes, palette) = (bytes.leak(), palette.leak());
-    match bits {
-        8 => Texture::index8(bytes, palette, wide, high),
-        4 => Texture::index4(bytes, palette, wide, high),
-        2 => Texture::index2(bytes, palette, wide, high),
-        _ => Texture::index1(bytes, palette, wide, high),
-    }
-    .expect("sides are powers of two")
-}
-
-/// How far a texel may be from its place, in texels.
-const BUDGETS: [(Budget, f64); 3] = [
-    (Budget::FAST, 0.5),
-    (Budget::BALANCED, 0.25),
-    (Budget::EXACT, 0.01),
-];
-
-const APPLICATIONS: [Application; 3] = [
-    Application::Product,
-    Application::Replace,
-    Application::Decal,
-];
-
-const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
-
-fn textures() -> &'static Textures {
-    static ALL: OnceLock<Textures> = OnceLock::new();
-    ALL.get_or_init(|| {
-        let of = |is_swapped| {
-            let forms: Vec<_> = (0..FORMS.len())
-                .map(|form| texture(form, is_swapped))
-                .collect();
-            let key = word(KEY, is_swapped);
-            let wrapped = |t: Texture<'static>| WRAPS.map(|wrap| t.wrapping(wrap));
-            [
-                forms.iter().map(|&t| wrapped(t)).collect(),
-                forms.iter().map(|t| wrapped(t.keyed(key))).collect(),
-            ]
-        };
-        let level = |[r, g, b]: Steps| {
-            let of = |step: u16, most: f64| f64::from(step) * 255.0 / most;
-            [of(r, 31.0), of(g, 63.0), of(b, 31.0)]
-        };
-        let texels = (0..FORMS.len()).map(|form| {
-            let (width, height, _) = FORMS[form];
-            let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
-            let steps: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
-            Texels {
-                width,
-                height,
-                rgb: steps.iter().map(|&texel| level(texel)).collect(),
-                is_key: steps.iter().map(|texel| *texel == KEY).collect(),
-            }
-        });
-        Textures {
-            of: [of(false), of(true)],
-            texels: texels.collect(),
-        }
-    })
-}
 
 fn some_direction(rng: &mut Rng) -> V3 {
     loop {
@@ -553,64 +422,6 @@ fn picture<L: Smooth>(
         lines[usize::from(y)] = line(&mut renderers[number], scene, y, background);
     }
     lines
-}
-
-/// Two choices on different axes.
-type Pair = [(usize, usize); 2];
-
-/// All pairs of choices that have not been drawn; they are taken away.
-struct Pairs(Vec<Pair>);
-
-/// Whether a scene of these choices shows what a pair does: where no texture is drawn, how it is drawn is not seen, and
-/// of what is refused nothing is.
-fn shows(choices: &Choices, pair: &Pair) -> bool {
-    let has = |axis: Axis| pair.iter().any(|&(a, _)| a == axis as usize);
-    let of = |axis: Axis| choices[axis as usize];
-    let is_meant = of(Axis::Look) >= TEXTURED || of(Axis::Form) == 0;
-    let is_seen = if has(Axis::Look) && has(Axis::Form) {
-        true
-    } else if [Axis::Wrap, Axis::Budget, Axis::Key, Axis::Application]
-        .into_iter()
-        .any(has)
-    {
-        is_meant && (of(Axis::Form) > 0 || has(Axis::Form) || has(Axis::Look))
-    } else {
-        is_meant
-    };
-    is_seen && pair.iter().all(|&(a, choice)| choices[a] == choice)
-}
-
-impl Pairs {
-    fn all() -> Self {
-        let choices = |axis: usize| (0..CHOICES[axis]).map(move |choice| (axis, choice));
-        let mut pairs = Vec::new();
-        for a in 0..CHOICES.len() {
-            for b in a + 1..CHOICES.len() {
-                let both = |one| choices(b).map(move |other| [one, other]);
-                pairs.extend(choices(a).flat_map(both));
-            }
-        }
-        Self(pairs)
-    }
-
-    /// Of many choices that show the first pair that is left, those that show most of the others.
-    fn next(&mut self, rng: &mut Rng) -> Option<Choices> {
-        let first = *self.0.last()?;
-        let mut candidates = Vec::new();
-        while candidates.len() < 20 {
-            let mut choices = some_choices(rng);
-            for (axis, choice) in first {
-                choices[axis] = choice;
-            }
-            if shows(&choices, &first) {
-                candidates.push(choices);
-            }
-        }
-        let news = |choices: &Choices| self.0.iter().filter(|pair| shows(choices, pair)).count();
-        let best = candidates.into_iter().max_by_key(news)?;
-        self.0.retain(|pair| !shows(&best, pair));
-        Some(best)
-    }
 }
 
 /// Every pair, as a call alone and among others.
