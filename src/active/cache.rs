@@ -13,11 +13,12 @@ use crate::num::{bit, take_first};
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Slot<T> {
-    pub(crate) item: T,
     /// The object's number.
     pub(crate) object: u16,
     /// What the owner of the slots wants to know of an object.
     pub(crate) flags: u8,
+    /// Not at the beginning: what lies there is loaded from an address of its own.
+    pub(crate) item: T,
 }
 
 /// When an object in a slot changes next, and how.
@@ -196,9 +197,16 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             self.turning[word] |= one;
         }
         if change.line.wrapping_sub(self.line) > RING {
-            self.blocks[usize::from(change.line / RING % BLOCKS)][word] |= one;
-        } else {
-            self.ring[usize::from(change.line % RING)][word] |= one;
+            return self.await_block(word, one, change.line);
+        }
+        self.ring[usize::from(change.line % RING)][word] |= one;
+    }
+
+    /// The same of a line beyond the ring.
+    #[inline(never)]
+    fn await_block(&mut self, word: usize, one: u32, line: u16) {
+        if let Some(slots) = self.blocks[usize::from(line / RING % BLOCKS)].get_mut(word) {
+            *slots |= one;
         }
     }
 

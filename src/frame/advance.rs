@@ -7,34 +7,25 @@ use crate::active::{Change, next};
 use crate::link::Link;
 use crate::look::Look;
 use crate::num::{bit, take_first};
-use crate::scene::{NONE, Object, Scene};
+use crate::scene::{NONE, Object};
 use crate::span::{Way, end_line};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Brings the cache to a line of the picture.
     #[inline(always)]
-    pub(super) fn advance(&mut self, scene: &Scene<'_, '_, L>, view: &View<'_>, line: u16) {
-        let first = scene.lines().start;
-        let from = match self.place {
-            Some((content, next)) if content == scene.content() && next <= line + 1 => next,
-            _ => {
-                self.cache.clear();
-                self.met = false;
-                self.ordered = 0;
-                self.plan = Plan::Changed;
-                first
-            }
-        };
+    pub(super) fn advance(&mut self, view: &View<'_>, line: u16) {
+        if self.content != Some(view.content) || self.next > line + 1 {
+            self.start_anew(view);
+        }
         self.changed = false;
-        let mut next = from;
-        while next <= line {
-            let now = next;
-            next += 1;
+        while self.next <= line {
+            let now = self.next;
+            self.next = now + 1;
             if self.cache.enter_line(now) {
                 self.change(view);
             }
-            let bin = usize::from(now - first);
-            let head = scene.bins.get(bin).copied().unwrap_or(NONE);
+            let bin = usize::from(now.wrapping_sub(view.first));
+            let head = view.bins.get(bin).copied().unwrap_or(NONE);
             if head != NONE || self.cache.spilled.is_some() {
                 self.begin(view, head, line);
             }
@@ -42,7 +33,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.changed {
             self.plan = Plan::Changed;
         }
-        self.place = Some((scene.content(), line + 1));
+    }
+
+    /// Forgets all lines, to begin at the first.
+    #[inline(never)]
+    fn start_anew(&mut self, view: &View<'_>) {
+        self.cache.clear();
+        self.met = false;
+        self.ordered = 0;
+        self.plan = Plan::Changed;
+        self.content = Some(view.content);
+        self.next = view.first;
     }
 
     /// What turns or ends on a line.

@@ -2,8 +2,10 @@
 
 use super::renderer::{Renderer, View};
 use super::slot::Flags;
-use super::spans::{Drawn, Line, Span};
+use super::spans::{Drawn, Line, Span, colour};
 use super::thin::depth_plane;
+use crate::active::next;
+use crate::link::Link;
 use crate::look::{Look, WordOf};
 
 /// A triangle without a slot, set up for one line.
@@ -52,6 +54,35 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             object,
             span: Span { start, end },
         })
+    }
+
+    /// Colours what has no slot, where nobody is yet; `false` as soon as one meets another. What has ended leaves the
+    /// chain.
+    #[inline(never)]
+    pub(super) fn draw_all_alone(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+        let (mut before, mut at) = (Link::NONE, self.cache.spilled);
+        let mut misses = 0;
+        while at.is_some() {
+            let after = next(self.links, at);
+            let Some(triangle) = out.view.triangle_of(at.object()) else {
+                break;
+            };
+            if triangle.lines().end <= out.number as i32 {
+                self.cache.relink(before, after, self.links);
+            } else {
+                if let Some(alone) = self.set_up_alone(at.object(), out) {
+                    if self.covered.cover(alone.span.start, alone.span.end) != 0 {
+                        return false;
+                    }
+                    colour::<L>(alone.drawn(), alone.span, out);
+                }
+                misses += 1;
+                before = at;
+            }
+            at = after;
+        }
+        self.counts.misses += misses;
+        true
     }
 
     /// The plane of depth of what has no slot.

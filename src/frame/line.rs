@@ -17,7 +17,7 @@ use crate::link::Link;
 use crate::look::{Look, Place, WordOf, fill_even};
 use crate::num::{bit, take_first};
 use crate::scene::Scene;
-use crate::visible::Mask;
+use core::hint::black_box;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws a line of the picture over a background; `false` where nothing is active on it. Every pixel is
@@ -40,7 +40,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if !scene.lines().contains(&line) {
             return Err(LineError::Line { line });
         }
-        Ok(self.draw_known(scene, &View::of(scene), line, pixels, background))
+        Ok(self.draw_known(&View::of(scene), line, pixels, background))
     }
 
     /// [`draw_line`](Renderer::draw_line) of a line of the scene, into as many pixels as it has, where the memory
@@ -48,13 +48,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn draw_known(
         &mut self,
-        scene: &Scene<'_, '_, L>,
         view: &View<'_>,
         line: u16,
         pixels: &mut [WordOf<L>],
         background: WordOf<L>,
     ) -> bool {
-        self.advance(scene, view, line);
+        self.advance(view, line);
         if self.cache.is_empty() {
             fill_line::<L>(pixels, background);
             return false;
@@ -74,19 +73,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let spilled = self.cache.spilled.is_some();
         if let (Plan::NearFirst(slots), false) = (self.plan, spilled) {
             if self.draw_near_first(usize::from(slots), &mut out) {
-                self.covered = Mask::EMPTY;
+                self.covered.clear();
                 return true;
             }
         } else {
             self.guests = 0;
-            let met = spilled && self.find_spilled(&mut out);
-            let tries = !spilled && !self.met;
-            if tries && !self.draw_calm(&mut out) {
-                self.covered = Mask::EMPTY;
-                self.draw_meeting_spans(false, &mut out);
-            } else if !tries {
-                self.draw_meeting_spans(met, &mut out);
+            if !self.met {
+                if self.draw_calm(&mut out) && (!spilled || self.draw_all_alone(&mut out)) {
+                    self.fill_rest(out.pixels, background);
+                    return true;
+                }
+                self.covered.clear();
             }
+            let met = spilled && self.find_spilled(&mut out);
+            self.draw_meeting_spans(met, &mut out);
         }
         self.fill_rest(out.pixels, background);
         true
@@ -99,8 +99,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if !self.met || !self.draw_near(out) {
                 self.draw_found(out);
             }
-            self.over = Mask::EMPTY;
-            self.written = Mask::EMPTY;
+            self.over.clear();
+            self.written.clear();
         }
         if self.met {
             self.find_plan(out.view);
@@ -172,7 +172,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         word: usize,
         mut plain: u32,
     ) -> u32 {
-        let slots = &self.cache.slots[word];
+        // Unknown to the compiler, which would else reckon from the cache's beginning, and load word by word.
+        let slots = black_box(&self.cache.slots[word]);
         let line = out.number;
         while plain != 0 {
             let slot = &slots[take_first(&mut plain) as usize & 31];
@@ -207,8 +208,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         word: usize,
         mut others: u32,
     ) -> u32 {
+        let slots = black_box(&self.cache.slots[word]);
         while others != 0 {
-            let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
+            let slot = &slots[take_first(&mut others) as usize & 31];
             let Span { start, end } = columns_of::<L>(slot, out);
             if start < end {
                 let met = self.covered.cover(start, end);

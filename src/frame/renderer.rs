@@ -149,8 +149,10 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) cache: &'m mut Cache<Active<L::Planes>, WORDS>,
     pub(super) links: &'m mut [Link],
     pub(super) depth: &'m mut [u32],
-    /// What the scene had, and the first line whose triangles have not begun; `None` at first.
-    pub(super) place: Option<(Content, u16)>,
+    /// What the scene had; `None` at first.
+    pub(super) content: Option<Content>,
+    /// The first line whose triangles have not begun.
+    pub(super) next: u16,
     /// Columns that are covered on this line, that spans meet on, whose depth is written. All are empty between
     /// lines.
     pub(super) covered: Mask,
@@ -194,7 +196,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             cache: &mut memory.cache.0,
             links: memory.links,
             depth: memory.depth,
-            place: None,
+            content: None,
+            next: 0,
             covered: Mask::EMPTY,
             over: Mask::EMPTY,
             written: Mask::EMPTY,
@@ -212,7 +215,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
 
     /// Forgets the lines drawn so far and starts counting anew.
     pub fn restart(&mut self) {
-        self.place = None;
+        self.content = None;
         self.counts = CacheUse::default();
     }
 
@@ -250,6 +253,10 @@ pub struct View<'a> {
     pub(super) objects: &'a [Object],
     pub(super) draws: &'a [DrawState<'a>],
     pub(super) frame: Frame,
+    pub(super) content: Content,
+    /// The first line, and what begins on it and each below.
+    pub(super) first: u16,
+    pub(super) bins: &'a [u16],
     /// Whether a draw call has values that few have, or a priority.
     pub(super) values: bool,
     /// Whether a draw call has such values beyond its priority.
@@ -270,6 +277,9 @@ impl<'a> View<'a> {
             frame: Frame {
                 width: i32::from(screen.width()),
             },
+            content: scene.content(),
+            first: scene.lines().start,
+            bins: scene.bins,
             values: scene.has_values || scene.is_ranked,
             ruled: scene.has_values,
             ranked: scene.is_ranked,

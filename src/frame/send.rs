@@ -76,7 +76,7 @@ where
         if have != needed {
             return Err(LineError::Pixels { needed, have });
         }
-        Ok(renderer.draw_known(scene, &view, line, pixels, background))
+        Ok(renderer.draw_known(&view, line, pixels, background))
     };
     send(scene, renderer, pump, lines_per_transfer, draw)
 }

@@ -101,14 +101,35 @@ impl<F: Pixel> Gouraud<F> {
         Some(Fill::Small)
     }
 
+    /// A run of what is not in one word.
+    #[inline(never)]
+    fn fill_other(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
+        if fill == Fill::Small && F::PACKED {
+            return Self::fill_small(planes, place, run);
+        }
+        Self::fill_wide(fill, planes, place, run);
+    }
+
     /// A run of [`Fill::Small`], packed anew every 16 pixels from its span's first on.
     #[inline(always)]
     fn fill_small(planes: &Planes, place: Place, run: &mut [F::Word]) {
+        let off = place.column.wrapping_sub(place.span) & 15;
+        if run.len() > 16 - off as usize {
+            return Self::fill_small_long(planes, place, run);
+        }
+        let column = place.column.wrapping_sub(off);
+        let at = Self::pair_at(planes, Place { column, ..place });
+        let step = planes[6];
+        let word = at.word().wrapping_add(step.wrapping_mul(off));
+        ramp::fill::<F>(run, Packed { word, step });
+    }
+
+    /// The same of more than one part.
+    #[inline(never)]
+    fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
         let mut off = place.column.wrapping_sub(place.span) & 15;
         let column = place.column.wrapping_sub(off);
-        let place = Place { column, ..place };
-        let (red_blue, green) = (at(planes, 0, place), at(planes, 3, place));
-        let mut at = Pair { red_blue, green };
+        let mut at = Self::pair_at(planes, Place { column, ..place });
         if planes[1] | planes[4] == 0 {
             return ramp::fill_even::<F>(run, F::of_word(at.word()));
         }
@@ -118,16 +139,22 @@ impl<F: Pixel> Gouraud<F> {
         };
         let step = planes[6];
         let mut rest = run;
-        loop {
+        while !rest.is_empty() {
             let word = at.word().wrapping_add(step.wrapping_mul(off));
             let pixels = rest.len().min(16 - off as usize);
             let (run, after) = rest.split_at_mut(pixels);
             ramp::fill::<F>(run, Packed { word, step });
-            if after.is_empty() {
-                return;
-            }
             at = at.plus(sixteen);
             (rest, off) = (after, 0);
+        }
+    }
+
+    /// Both words of [`Fill::Small`] at a place.
+    #[inline(always)]
+    fn pair_at(planes: &Planes, place: Place) -> Pair {
+        Pair {
+            red_blue: at(planes, 0, place),
+            green: at(planes, 3, place),
         }
     }
 
@@ -413,13 +440,12 @@ impl<F: Pixel> Paint for Gouraud<F> {
         ramp::fill::<F>(run, Self::packed(planes, place));
     }
 
-    #[inline(never)]
+    #[inline(always)]
     fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
-        match fill {
-            Fill::Plain => ramp::fill::<F>(run, Self::packed(planes, place)),
-            Fill::Small if F::PACKED => Self::fill_small(planes, place, run),
-            _ => Self::fill_wide(fill, planes, place, run),
+        if fill == Fill::Plain {
+            return ramp::fill::<F>(run, Self::packed(planes, place));
         }
+        Self::fill_other(fill, planes, place, run);
     }
 
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {

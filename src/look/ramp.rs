@@ -288,3 +288,40 @@ fn nearer_word(cells: &mut [u32], at: &mut u32, step: u32) -> u32 {
     *at = z;
     bits << (32u32.wrapping_sub(count) & 31)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+    use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
+    use std::vec;
+
+    /// Runs of any length and alignment, of colours that step or do not, with nothing beside them.
+    fn runs_are_pixels_one_by_one<F: Pixel<Word: PartialEq + core::fmt::Debug>>() {
+        let mut rng = Rng(21);
+        for round in 0..2000 {
+            let (from, pixels) = (rng.below(3) as usize, round % 45);
+            let step = if round % 7 == 0 { 0 } else { rng.bits() };
+            let ramp = Packed {
+                word: rng.bits(),
+                step,
+            };
+            let beside = F::from_rgb8([1, 200, 3]);
+            let mut line = vec![beside; 50];
+            fill::<F>(&mut line[from..from + pixels], ramp);
+            for (i, &got) in line.iter().enumerate() {
+                let k = i.wrapping_sub(from);
+                let word = ramp.word.wrapping_add(step.wrapping_mul(k as u32));
+                let want = if k < pixels { F::of_word(word) } else { beside };
+                assert_eq!(got, want, "{i} of {from} and {pixels}");
+            }
+        }
+    }
+
+    #[test]
+    fn straight_code_and_loops_give_the_pixels_of_their_words() {
+        runs_are_pixels_one_by_one::<Rgb565>();
+        runs_are_pixels_one_by_one::<Rgb565Be>();
+        runs_are_pixels_one_by_one::<Rgb888>();
+    }
+}

@@ -83,7 +83,7 @@ pub struct Entry {
     /// The doubled area, units of 1/64 pixel.
     pub(crate) area: u32,
     /// From the lowest bit on: 8 of the size, 8 of the way, 15 of the line of the next change, 1 whether a side
-    /// turns on it. All are 0 where the triangle ends above.
+    /// turns on it. All are 0 where the triangle ends above, or has no pixel on its only line.
     bits: u32,
 }
 
@@ -106,7 +106,7 @@ impl Entry {
         Way((self.bits >> 8) as u8)
     }
 
-    /// The line on which a side turns, or that after the last; 0 where the triangle ends above.
+    /// The line on which a side turns, or that after the last; 0 where nothing is left of the triangle.
     #[inline(always)]
     pub(crate) fn change(self) -> u16 {
         (self.bits >> 16) as u16 & 0x7FFF
@@ -236,17 +236,21 @@ impl Triangle<'_> {
     /// Measures a triangle, and sets its sides for `line` and below, up to the turn or the end.
     #[inline(never)]
     pub(crate) fn enter(&self, line: u16, sides: &mut Sides) -> Entry {
-        let (line, lines) = (i32::from(line), self.lines());
-        if lines.end <= line {
-            return Entry { area: 0, bits: 0 };
-        }
         let (area, far) = (self.area(), self.reach());
         let size = self.size_of(area, far);
         let way = self.way_of(size, far);
         *sides = self.upper_sides(way);
+        // Later than it could be known, so that it keeps no register.
+        let (line, lines) = (i32::from(line), self.lines());
         let mut change = lines.end as u32;
         if line >= lines.turn {
+            if lines.end <= line {
+                return Entry { area: 0, bits: 0 };
+            }
             self.turn_sides(way, sides);
+            if lines.end == line + 1 && way == Way::PLAIN && sides.is_empty(line as u32) {
+                return Entry { area: 0, bits: 0 };
+            }
         } else if lines.turn < lines.end {
             change = lines.turn as u32 | Entry::TURNS >> 16;
         }
@@ -385,6 +389,12 @@ impl Sides {
         } else {
             self.left = side;
         }
+    }
+
+    /// Whether sides of [`Way::PLAIN`] have no column between them on a line.
+    #[inline(always)]
+    fn is_empty(&self, line: u32) -> bool {
+        self.left.column(line) >= self.right.column(line)
     }
 
     /// The columns of the picture on a line of it: from the first to before the second.
