@@ -294,7 +294,6 @@ mod tests {
     use super::*;
     use crate::num::random::Rng;
     use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
-    use std::vec;
 
     /// Runs of any length and alignment, of colours that step or do not, with nothing beside them.
     fn runs_are_pixels_one_by_one<F: Pixel<Word: PartialEq + core::fmt::Debug>>() {
@@ -307,7 +306,7 @@ mod tests {
                 step,
             };
             let beside = F::from_rgb8([1, 200, 3]);
-            let mut line = vec![beside; 50];
+            let mut line = [beside; 50];
             fill::<F>(&mut line[from..from + pixels], ramp);
             for (i, &got) in line.iter().enumerate() {
                 let k = i.wrapping_sub(from);
