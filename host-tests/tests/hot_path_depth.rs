@@ -10,15 +10,16 @@
 
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
-use crate::hot::{Corner, LineRooms, Place, Smooth, WordOf, frame, line, with_scene};
-use scanbeam::Screen;
-use scanbeam::look::{Gouraud, Textured};
+use crate::hot::{
+    Corner, LineRooms, Place, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line,
+    with_scene,
+};
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
-use scanbeam::scene::Scene;
+use scanbeam::scene::{Scene, Scissor};
+use scanbeam::{Cull, Screen};
 
 type L = Gouraud<Rgb888>;
-/// A look that keeps the depth of what meets; others ask it at the ends of spans alone.
-type Kept = Textured<Rgb565>;
 /// Depth where w is 1.
 const ONE: f64 = (1u32 << 30) as f64;
 /// What all depths are raised by.
@@ -41,6 +42,21 @@ fn seen<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, depth: bool) -> Vec<Vec
     lines
         .map(|line| line.into_iter().map(id).collect())
         .collect()
+}
+
+/// A triangle drawn twice, so that it meets itself, by calls that have a value: only there all depth is kept.
+fn with_kept(screen: Screen, one: [Corner; 3], see: impl FnOnce(&Scene<'_, '_, L>)) {
+    let mut rooms = SceneRooms::of_triangles(2, screen);
+    let mut scene = rooms.scene::<L>(screen);
+    scene.begin(&camera()).unwrap();
+    for _ in 0..2 {
+        let all = Scissor::inside(0..screen.width(), 0..screen.height());
+        draw_with(&mut scene, &[one], |call| {
+            (call.cull, call.scissor) = (Cull::None, Some(all));
+        })
+        .unwrap();
+    }
+    see(&scene);
 }
 
 fn distance(rng: &mut Rng, bits: f64) -> f64 {
@@ -94,7 +110,6 @@ fn triangle(rng: &mut Rng, bits: f64, away: f64, id: usize) -> [Corner; 3] {
     })
 }
 
-/// A triangle drawn twice meets itself, so all of its depth is kept.
 #[test]
 fn depth_is_within_its_bound_of_1_over_w() {
     let mut rng = Rng::new(341);
@@ -112,7 +127,7 @@ fn depth_is_within_its_bound_of_1_over_w() {
         let one = triangle(&mut rng, bits, away, 0);
         let at = one.map(|c| c.at);
         let bound = bound(&one);
-        with_scene::<Kept, _>(screen, &[one; 2], |scene| {
+        with_kept(screen, one, |scene| {
             let slots = rng.pick(&[0, 1, 4]);
             for y in 0..screen.height() {
                 let columns = within(at, y.into(), screen.width());
@@ -120,7 +135,7 @@ fn depth_is_within_its_bound_of_1_over_w() {
                     continue;
                 }
                 let mut rooms = LineRooms::fitting(scene, slots, true);
-                line(&mut rooms.renderer(), scene, y, 0);
+                line(&mut rooms.renderer(), scene, y, [0; 3]);
                 for x in columns {
                     let want = exact(&one, x, y) + RAISED;
                     let off = (f64::from(rooms.depth[x]) - want).abs();
@@ -154,13 +169,13 @@ fn depth_never_wraps() {
             w: rng.pick(&[1.0, 1.0, 4_000.0, 65_400.0]),
             colour: [200, 0, 0],
         });
-        with_scene::<Kept, _>(screen, &[one; 2], |scene| {
+        with_kept(screen, one, |scene| {
             let slots = rng.pick(&[0, 4]);
             let mut rooms = LineRooms::fitting(scene, slots, true);
             let mut cells = Vec::new();
             for y in (0..screen.height()).step_by(3) {
                 rooms.depth.fill(u32::MAX);
-                line(&mut rooms.renderer(), scene, y, 0);
+                line(&mut rooms.renderer(), scene, y, [0; 3]);
                 cells.extend(rooms.depth.iter().filter(|&&cell| cell != u32::MAX));
             }
             for cell in cells {

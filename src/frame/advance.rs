@@ -1,6 +1,5 @@
 //! From line to line: triangles begin, turn and end (K1, C1-C5).
 
-use super::plan::Plan;
 use super::renderer::{Renderer, View};
 use super::slot::Flags;
 use crate::active::{Change, next};
@@ -30,9 +29,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 self.begin(view, head, line);
             }
         }
-        if self.changed {
-            self.plan = Plan::Changed;
-        }
     }
 
     /// Forgets all lines, to begin at the first.
@@ -40,8 +36,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn start_anew(&mut self, view: &View<'_>) {
         self.cache.clear();
         self.met = false;
-        self.ordered = 0;
-        self.plan = Plan::Changed;
         self.content = Some(view.content);
         self.next = view.first;
     }

@@ -1,6 +1,7 @@
 //! What has no slot, where spans meet: guests, which lie in the cells of depth while a line is drawn (X3, C5).
 //!
-//! A guest is set up for its line alone, and only where some of it is seen.
+//! A guest is set up for its line alone, and only where some of it is seen. Where there are more than the cells have
+//! room for, the line is drawn in parts with fewer guests each; of those on one column only the nearest counts.
 
 use super::near::{Drawing, Field, Taken, colour_free};
 use super::renderer::Renderer;
@@ -8,6 +9,8 @@ use super::rival::{Rival, Slope, thin_slope};
 use super::slot::Flags;
 use super::spans::{Drawn, Line, Span, colour_run};
 use super::thin::depth_plane;
+use crate::active::next;
+use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::span::Way;
 use crate::visible::Mask;
@@ -37,6 +40,28 @@ impl Guest {
             object: object as u16,
         };
         Some(Self { key, rival })
+    }
+
+    fn of_rival(rival: Rival) -> Self {
+        let [key, _] = rival.slope.range(rival.span);
+        Self { key, rival }
+    }
+
+    /// Puts it into its place among so many, whose keys fall.
+    #[inline(always)]
+    fn insert(self, cells: &mut [u32], count: usize) {
+        let mut at = count;
+        while at > 0 {
+            let before = CELLS * (at - 1);
+            if cells.get(before).is_none_or(|&key| key >= self.key) {
+                break;
+            }
+            if let Some(two) = cells.get_mut(before..before + 2 * CELLS) {
+                two.copy_within(..CELLS, CELLS);
+            }
+            at -= 1;
+        }
+        self.keep(cells, at);
     }
 
     /// Keeps it, where there are enough cells.
@@ -145,66 +170,167 @@ fn colour_guest<L: Look>(
     });
 }
 
+/// A walk over what has no slot: what is next, and what was before.
+pub(super) struct Walk {
+    before: Link,
+    at: Link,
+}
+
+impl Walk {
+    pub(super) fn of(first: Link) -> Self {
+        Self {
+            before: Link::NONE,
+            at: first,
+        }
+    }
+}
+
+/// A triangle without a slot that has pixels on a line.
+pub(super) struct Stray {
+    pub(super) object: u16,
+    pub(super) span: Span,
+}
+
+/// A depth that hardly any span has.
+const FARTHEST: u32 = 0xFFFF;
+
+/// Guests that find room where fewer cells of depth are lent.
+const FEW: usize = 16;
+
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Keeps a span of what has no slot, for [`draw_near`](Renderer::draw_near).
-    #[inline(always)]
-    pub(super) fn keep_guest(&mut self, object: u16, span: Span) {
-        let slope = Slope { at: 0, step: 0 };
-        let rival = Rival {
-            span,
-            slope,
-            object,
-        };
-        Guest { key: 0, rival }.keep(self.depth, self.guests);
-        self.guests += 1;
-    }
-
-    /// Whether what has no slot on this line can be sorted.
-    #[inline(always)]
-    pub(super) fn has_room(&self) -> bool {
-        !self.depth.is_empty() && CELLS * self.guests <= self.depth.len()
-    }
-
-    /// Sorts what has no slot, all of it or what meets others, and colours the rest; how many are sorted.
+    /// What comes next of what has no slot and has pixels on the line; what has ended leaves the chain.
     #[inline(never)]
-    pub(super) fn sort_guests(&mut self, all: bool, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
-        let mut count = 0;
-        for k in 0..core::mem::take(&mut self.guests) {
-            let Some(mut guest) = Guest::of(self.depth, k) else {
-                break;
-            };
-            let Rival { span, object, .. } = guest.rival;
-            if !all && !self.over.meets(span.start, span.end) {
-                let mut mask = Mask::EMPTY;
-                let mut drawing = Drawing {
-                    mask: &mut mask,
-                    counts: &mut self.counts,
-                    hidden: 0,
-                };
-                colour_guest::<L>(guest.rival, None, &mut drawing, out);
+    pub(super) fn next_stray(
+        &mut self,
+        walk: &mut Walk,
+        out: &Line<'_, '_, WordOf<L>>,
+    ) -> Option<Stray> {
+        let line = out.number as i32;
+        while walk.at.is_some() {
+            let object = walk.at.object();
+            let triangle = out.view.triangle_of(object)?;
+            let (lines, after) = (triangle.lines(), next(self.links, walk.at));
+            if lines.end <= line {
+                self.cache.relink(walk.before, after, self.links);
+                walk.at = after;
                 continue;
             }
-            let triangle = out.view.triangle_of(object);
-            guest.rival.slope = match triangle.and_then(|t| depth_plane(&t)) {
-                Some([at, step, down]) => Slope {
-                    at: at.wrapping_add(down.wrapping_mul(out.number)),
-                    step,
-                },
-                None => thin_slope::<L>(object, span, out),
-            };
-            [guest.key, _] = guest.rival.slope.range(span);
-            let mut at = count;
-            while at > 0 {
-                match Guest::of(self.depth, at - 1) {
-                    Some(before) if before.key < guest.key => before.keep(self.depth, at),
-                    _ => break,
-                }
-                at -= 1;
+            (walk.before, walk.at) = (walk.at, after);
+            let way = triangle.way();
+            let sides = triangle.sides(way, line, lines.turn);
+            let (start, end) = sides.columns(way, out.number, out.view.frame);
+            if start < end {
+                let span = Span { start, end };
+                return Some(Stray { object, span });
             }
-            guest.keep(self.depth, at);
+        }
+        None
+    }
+
+    /// Draws so many slots that are sorted, and what has no slot, of which all or those on columns where spans meet are
+    /// compared; how many spans met others.
+    #[inline(never)]
+    pub(super) fn draw_with_guests(
+        &mut self,
+        slots: usize,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> usize {
+        let depth = core::mem::take(&mut self.depth);
+        let mut few = [0; FEW * CELLS];
+        let cells = if depth.len() < few.len() {
+            &mut few[..]
+        } else {
+            &mut *depth
+        };
+        let width = out.pixels.len() as u32;
+        let (mut start, mut hidden, mut drawn) = (0, 0, Mask::EMPTY);
+        while start < width {
+            let mut part = Span { start, end: width };
+            let guests = loop {
+                if let Some(guests) = self.sort_guests(part, cells, out) {
+                    break guests;
+                }
+                part.end -= (part.end - part.start) / 2;
+            };
+            // Other parts of the line are as if covered.
+            self.covered = Mask::EMPTY;
+            self.covered.cover(0, part.start);
+            self.covered.cover(part.end, width);
+            hidden += self.draw_field(slots, cells, guests, out);
+            drawn.add(&self.covered, part.start, part.end);
+            start = part.end;
+        }
+        self.depth = depth;
+        self.covered = drawn;
+        hidden
+    }
+
+    /// Sorts what has no slot and pixels on a part of the line; how many that are, or `None` where the cells do not
+    /// hold them.
+    #[inline(never)]
+    fn sort_guests(
+        &mut self,
+        part: Span,
+        cells: &mut [u32],
+        out: &Line<'_, '_, WordOf<L>>,
+    ) -> Option<usize> {
+        let (mut count, room) = (0, cells.len() / CELLS);
+        let columns = part.end - part.start;
+        let is_first = columns == out.pixels.len() as u32;
+        let mut walk = Walk::of(self.cache.spilled);
+        while let Some(stray) = self.next_stray(&mut walk, out) {
+            self.counts.misses += u32::from(is_first);
+            let span = stray.span;
+            if !span.meets(part) {
+                continue;
+            }
+            // What meets nobody may come at any time: behind all others, and no two are compared.
+            let is_compared = self.crowded || self.over.meets(span.start, span.end);
+            let slope = if is_compared {
+                stray.slope::<L>(out)
+            } else {
+                Slope::even(FARTHEST.saturating_sub(count as u32))
+            };
+            let rival = stray.rival(slope);
+            if columns == 1 {
+                let other = Guest::of(cells, 0).filter(|_| count > 0);
+                if other.is_some_and(|other| other.rival.hides(rival, part.start)) {
+                    continue;
+                }
+                count = 0;
+            } else if count == room {
+                return None;
+            }
+            Guest::of_rival(rival).insert(cells, count);
             count += 1;
         }
-        count
+        Some(count)
+    }
+}
+
+impl Stray {
+    /// As one of those that compete for columns.
+    fn rival(&self, slope: Slope) -> Rival {
+        Rival {
+            span: self.span,
+            slope,
+            object: self.object,
+        }
+    }
+
+    /// Its depth, or what stands for it.
+    fn slope<L: Look>(&self, out: &Line<'_, '_, WordOf<L>>) -> Slope {
+        if !out.deep {
+            return Slope::of_place(out.view, self.object);
+        }
+        let triangle = out.view.triangle_of(self.object);
+        match triangle.and_then(|t| depth_plane(&t)) {
+            Some([at, step, down]) => Slope {
+                at: at.wrapping_add(down.wrapping_mul(out.number)),
+                step,
+            },
+            None => thin_slope::<L>(self.object, self.span, out),
+        }
     }
 }
 

@@ -9,13 +9,14 @@
 //! | `scene` | a scene made for a look |
 //! | `slot` | a triangle in a slot of the cache |
 //! | `thin` | planes of depth, and what is too thin for planes |
-//! | `plan` | the order in which a line is drawn |
 //! | `near` | spans that meet others, from the nearest on |
+//! | `meet` | where spans meet |
+//! | `plan` | an order that lasts from line to line |
 //! | `guests` | of these, what has no slot |
 //! | `rival` | who of two spans is seen |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
-//! | `rank` | lines that are drawn by priority |
+//! | `rank` | the order of their spans |
 //! | `ruled` | pixels of such a span |
 //! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
@@ -27,6 +28,7 @@ mod alone;
 mod changed;
 mod guests;
 mod line;
+mod meet;
 mod near;
 mod plan;
 mod rank;
@@ -38,6 +40,8 @@ mod scene;
 mod send;
 mod slot;
 mod spans;
+#[cfg(test)]
+mod tests;
 mod thin;
 mod translucent;
 mod values;

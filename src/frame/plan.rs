@@ -1,129 +1,89 @@
-//! The order in which a line is drawn, kept while nothing begins or ends (X3, P1).
+//! An order that lasts while no triangle begins or ends (X3, P1).
 //!
-//! Where spans are wide, and no two triangles on the line have ranges of depth that meet, they are drawn from the
-//! nearest on, each where nobody has been before: no depth is compared, and a line that is full ends there. Whether
-//! that is so is found out once, on the first line that keeps the triangles of the one before.
+//! Where no two triangles in slots have ranges of depth that meet, or there is no depth, the order of a line is that of
+//! the lines to come: each is drawn where nobody has been before, nothing is compared or sorted, and a line that is full ends there.
 
 use super::renderer::{Renderer, View};
-use crate::look::Look;
-use crate::num::take_first;
-
-/// How the next line is drawn, if it has the triangles of the last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Plan {
-    /// Nobody has asked: triangles have begun or ended on the last line.
-    Changed,
-    /// In order of submission, by depth where spans meet.
-    BySubmission,
-    /// So many slots from the nearest on.
-    NearFirst(u16),
-}
-
-/// Pixels that the spans of a line have at least, on average, for the order to be worth finding.
-const WIDE: u32 = 16;
-/// What depths of two planes may err together: ranges that are nearer to each other are taken to meet.
-const APART: u32 = 1 << 15;
+use super::spans::{Drawn, Line, Span, colour_run, columns_of};
+use super::thin::MARGIN;
+use crate::look::{Look, WordOf};
+use crate::visible::Mask;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Finds the plan for lines to come, after a line on which spans met.
+    /// Colours spans in the order of the last line, where nobody has been before, up to a line that is full; whether
+    /// it is.
     #[inline(never)]
-    pub(super) fn find_plan(&mut self, view: &View<'_>) {
-        if self.plan != Plan::Changed || self.depth.is_empty() || self.cache.spilled.is_some() {
-            return;
-        }
-        if self.changed {
-            return;
-        }
-        self.plan = match self.near_first(view) {
-            Some(slots) => Plan::NearFirst(slots),
-            None => Plan::BySubmission,
-        };
-    }
-
-    /// Sorts the slots in use by their nearest depth; how many there are, if no two ranges meet.
-    fn near_first(&mut self, view: &View<'_>) -> Option<u16> {
-        let (mut count, mut pixels) = (0usize, 0);
-        for word in 0..WORDS {
-            let mut used = self.cache.used[word];
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
-                let span = self.cache.spans[word][i];
-                pixels += (span & 0xFFFF).saturating_sub(span >> 16);
-                count += 1;
-            }
-        }
-        if pixels < WIDE * count as u32 {
-            return None;
-        }
-        count = 0;
-        self.nearest = 0;
-        self.ordered = 0;
-        for word in 0..WORDS {
-            let mut used = self.cache.used[word];
-            while used != 0 {
-                let number = word as u32 * 32 + take_first(&mut used);
-                // What is nearer comes first: keys fall.
-                let key = self.range(view, number)?[1] & !0xFF | number;
-                let mut at = count;
-                let keys = self.cache.order.as_flattened_mut();
-                while at > 0 && *keys.get(at - 1)? < key {
-                    *keys.get_mut(at)? = *keys.get(at - 1)?;
-                    at -= 1;
-                }
-                *keys.get_mut(at)? = key;
-                count += 1;
-            }
-        }
-        self.is_sorted(view, count).then_some(count as u16)
-    }
-
-    /// Whether of the first so many slots in order each lies behind all before it, but for a neighbour just
-    /// before it.
-    fn is_sorted(&self, view: &View<'_>, count: usize) -> bool {
-        let keys = self
-            .cache
-            .order
-            .as_flattened()
-            .get(..count)
-            .unwrap_or_default();
-        // The farthest depth of all but the last one.
-        let mut farthest = u32::MAX;
-        for pair in keys.windows(2) {
-            let pair = [pair[0] & 0xFF, pair[1] & 0xFF];
-            let (Some(front), Some(back)) = (self.range(view, pair[0]), self.range(view, pair[1]))
-            else {
+    pub(super) fn draw_as_before(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+        let mut left = out.pixels.len() as u32;
+        for k in 0..usize::from(self.nearest) {
+            let number = self.number_at(k);
+            let Some(slots) = self.cache.slots.get(number >> 5) else {
                 return false;
             };
-            let limit = back[1].saturating_add(APART);
-            if farthest < limit || front[0] < limit && !self.is_one_surface(view, pair) {
+            let slot = &slots[number & 31];
+            let span = columns_of::<L>(slot, out);
+            if span.start >= span.end {
+                continue;
+            }
+            let drawn = Drawn::of(slot);
+            left -= self.covered.cover_free(span.start, span.end, |start, end| {
+                colour_run::<L>(drawn, span, Span { start, end }, out);
+            });
+            if left == 0 {
+                self.covered = Mask::EMPTY;
+                return true;
+            }
+        }
+        false
+    }
+
+    /// The slot that is so many places from the front.
+    #[inline(always)]
+    fn number_at(&self, at: usize) -> usize {
+        let key = self.cache.order.as_flattened().get(at).copied();
+        key.unwrap_or_default() as usize & 0xFF
+    }
+
+    /// Whether of the slots in order each lies behind all before it, but for a neighbour just before it.
+    #[inline(never)]
+    pub(super) fn lasts(&self, out: &Line<'_, '_, WordOf<L>>) -> bool {
+        if !out.deep {
+            return true;
+        }
+        // The farthest depth of all but the last one, and of that.
+        let (mut farthest, mut front) = (u32::MAX, u32::MAX);
+        let mut before = 0;
+        for k in 0..usize::from(self.nearest) {
+            let Some(slot) = self.cache.slots.as_flattened().get(self.number_at(k)) else {
+                return false;
+            };
+            let Some(triangle) = out.view.triangle_of(slot.object) else {
+                return false;
+            };
+            let [a, b, c] = triangle.vertex.map(|v| v.depth);
+            // Planes are raised by a margin, and err by less.
+            let limit = a.max(b).max(c) + 2 * MARGIN;
+            let meets = front < limit && !is_one_surface(out.view, before, slot.object);
+            if farthest < limit || meets {
                 return false;
             }
-            farthest = farthest.min(front[0]);
+            farthest = farthest.min(front);
+            (front, before) = (a.min(b).min(c), slot.object);
         }
         true
     }
+}
 
-    /// The farthest and the nearest depth of a triangle in a slot.
-    fn range(&self, view: &View<'_>, number: u32) -> Option<[u32; 2]> {
-        let slot = &self.cache.slots.get(number as usize >> 5)?[number as usize & 31];
-        let [a, b, c] = view.triangle_of(slot.object)?.vertex.map(|v| v.depth);
-        Some([a.min(b).min(c), a.max(b).max(c)])
-    }
-
-    /// Whether two triangles share a side and lie on either side of it, so that no pixel has both.
-    fn is_one_surface(&self, view: &View<'_>, pair: [u32; 2]) -> bool {
-        let object = |number: u32| {
-            let slot = &self.cache.slots.get(number as usize >> 5)?[number as usize & 31];
-            view.objects.get(usize::from(slot.object))
-        };
-        let (Some(a), Some(b)) = (object(pair[0]), object(pair[1])) else {
-            return false;
-        };
-        // Both go clockwise: a side that they share is walked either way.
-        let sides = |c: [u16; 3]| [(c[0], c[1]), (c[1], c[2]), (c[2], c[0])];
-        let others = sides(b.corner);
-        sides(a.corner)
-            .iter()
-            .any(|&(from, to)| others.contains(&(to, from)))
-    }
+/// Whether two triangles share a side and lie on either side of it, so that no pixel has both.
+fn is_one_surface(view: &View<'_>, a: u16, b: u16) -> bool {
+    let object = |number: u16| view.objects.get(usize::from(number));
+    let (Some(a), Some(b)) = (object(a), object(b)) else {
+        return false;
+    };
+    // Both go clockwise: a side that they share is walked either way.
+    let sides = |c: [u16; 3]| [(c[0], c[1]), (c[1], c[2]), (c[2], c[0])];
+    let others = sides(b.corner);
+    sides(a.corner)
+        .iter()
+        .any(|&(from, to)| others.contains(&(to, from)))
 }

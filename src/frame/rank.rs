@@ -1,78 +1,40 @@
-//! The order in which a line with values or priorities is drawn (P1).
+//! The order in which a line with values is drawn (P1).
 //!
 //! By priority no depth is kept: what is higher is drawn over what is lower, and among equal ones what was submitted
-//! later over what was before. A line on which no spans meet needs no order. On others that is a plan, found when
-//! triangles begin or end: from the highest on, each where nobody has been before. Where something is blended or
-//! has no slot, and in looks whose pixels depend on their runs, it goes from the lowest on.
+//! later over what was before.
 
-use super::line::{fill_line, insert};
-use super::near::insert_falling;
-use super::plan::Plan;
+use super::near::place_of;
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
 use crate::active::next;
 use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::num::take_first;
-use crate::visible::Mask;
 
 /// A slot in its order: priority, number of the object, number of the slot.
 fn key(view: &View<'_>, object: u16, slot: usize) -> u32 {
-    view.rank(object) << 24 | u32::from(object) << 8 | slot as u32
+    place_of(view, object) | slot as u32
 }
 
-/// [`insert`], one copy of it.
+/// Inserts a key among the first `count`, which rise.
 #[inline(never)]
 fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
-    insert(keys, count, key);
+    if let Some(run) = keys.get_mut(..=count) {
+        let mut after = run.iter_mut().rev();
+        if let Some(mut to) = after.next() {
+            for from in after {
+                if *from < key {
+                    break;
+                }
+                *to = *from;
+                to = from;
+            }
+            *to = key;
+        }
+    }
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Draws a line without values by priority; `false` where there is a plan for it.
-    #[inline(never)]
-    pub(super) fn draw_ranked(
-        &mut self,
-        out: &mut Line<'_, '_, WordOf<L>>,
-        background: WordOf<L>,
-    ) -> bool {
-        if !self.cache.spilled.is_some() {
-            if matches!(self.plan, Plan::NearFirst(_)) {
-                return false;
-            }
-            if self.draw_calm(out) {
-                self.fill_rest(out.pixels, background);
-                return true;
-            }
-            self.covered = Mask::EMPTY;
-            self.plan = Plan::NearFirst(self.highest_first(out.view));
-            return false;
-        }
-        fill_line::<L>(out.pixels, background);
-        self.find_all(out);
-        self.met = false;
-        self.draw_in_order(out);
-        self.covered = Mask::EMPTY;
-        self.over = Mask::EMPTY;
-        self.forget_order();
-        true
-    }
-
-    /// Sorts the slots in use from the highest priority on; how many there are.
-    fn highest_first(&mut self, view: &View<'_>) -> u16 {
-        let mut count = 0;
-        for word in 0..WORDS {
-            let mut used = self.cache.used[word];
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
-                let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
-                insert_falling(self.cache.order.as_flattened_mut(), count, key);
-                count += 1;
-            }
-        }
-        self.forget_order();
-        count as u16
-    }
-
     /// Draws all spans from the lowest priority on, or in order of submission, what has no slot between the others.
     pub(super) fn draw_in_order(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
         let count = self.lowest_first(out.view);

@@ -1,6 +1,5 @@
 //! What draws lines of a scene, and what it has to be lent.
 
-use super::plan::Plan;
 use super::slot::Active;
 use super::spans::Line;
 use crate::active::{Cache, CacheSlot, CacheUse};
@@ -153,24 +152,21 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) content: Option<Content>,
     /// The first line whose triangles have not begun.
     pub(super) next: u16,
-    /// Columns that are covered on this line, that spans meet on, whose depth is written. All are empty between
-    /// lines.
+    /// Columns that are covered on this line, that spans meet on, and on lines with values whose depth is written. All
+    /// are empty between lines.
     pub(super) covered: Mask,
     pub(super) over: Mask,
     pub(super) written: Mask,
     /// Whether spans met on the last line.
     pub(super) met: bool,
-    /// How many spans met on the last line that was drawn in order.
-    pub(super) ordered: u16,
     /// How many slots the last line had in order from the nearest on.
     pub(super) nearest: u16,
-    /// How many spans of this line have no slot; as many as find room lie in the cells of depth.
-    pub(super) guests: usize,
     /// Whether most spans of the last line met others.
     pub(super) crowded: bool,
+    /// Whether the order of the last line is that of the next, if it has the same triangles.
+    pub(super) lasting: bool,
     /// Whether triangles began or ended on this line.
     pub(super) changed: bool,
-    pub(super) plan: Plan,
     pub(super) counts: CacheUse,
     /// What draws lines with values that few have. A program that names it nowhere does not have its code.
     pub(super) values: Option<DrawValues<L, WORDS>>,
@@ -202,12 +198,10 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             over: Mask::EMPTY,
             written: Mask::EMPTY,
             met: false,
-            ordered: 0,
             nearest: 0,
-            guests: 0,
             crowded: false,
+            lasting: false,
             changed: true,
-            plan: Plan::Changed,
             counts: CacheUse::default(),
             values: None,
         }
@@ -230,7 +224,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     /// # Errors
     /// What is too short, or that a draw call has values and the renderer is [`plain`](Renderer::plain).
     pub fn check(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
-        if scene.has_values || scene.is_ranked {
+        if scene.has_values {
             self.values.ok_or(LineError::Values)?;
         }
         let (needed, have) = (scene.objects(), self.links.len());
@@ -257,9 +251,7 @@ pub struct View<'a> {
     /// The first line, and what begins on it and each below.
     pub(super) first: u16,
     pub(super) bins: &'a [u16],
-    /// Whether a draw call has values that few have, or a priority.
-    pub(super) values: bool,
-    /// Whether a draw call has such values beyond its priority.
+    /// Whether a draw call has values that few have.
     pub(super) ruled: bool,
     /// Whether the scene is drawn by priority.
     pub(super) ranked: bool,
@@ -280,7 +272,6 @@ impl<'a> View<'a> {
             content: scene.content(),
             first: scene.lines().start,
             bins: scene.bins,
-            values: scene.has_values || scene.is_ranked,
             ruled: scene.has_values,
             ranked: scene.is_ranked,
         }

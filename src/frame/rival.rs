@@ -1,5 +1,6 @@
 //! Spans that compete for columns: their depth along the line, and who of two is seen.
 
+use super::near::place_of;
 use super::renderer::View;
 use super::slot::{Active, Flags};
 use super::spans::{Line, Span, thin_depth};
@@ -23,6 +24,18 @@ pub(super) struct Rival {
 }
 
 impl Slope {
+    /// What stands for a depth where there is none: its place in the order of all triangles.
+    #[inline(always)]
+    pub(super) fn of_place(view: &View<'_>, object: u16) -> Self {
+        Self::even(place_of(view, object))
+    }
+
+    /// The same in all columns.
+    #[inline(always)]
+    pub(super) fn even(at: u32) -> Self {
+        Self { at, step: 0 }
+    }
+
     #[inline(always)]
     fn at(self, column: u32) -> u32 {
         self.at.wrapping_add(self.step.wrapping_mul(column))
@@ -38,7 +51,7 @@ impl Slope {
 
 impl Rival {
     /// Whether this is seen in a column that both have, and not the other.
-    fn hides(self, other: Self, column: u32) -> bool {
+    pub(super) fn hides(self, other: Self, column: u32) -> bool {
         let of = |rival: Self| (rival.slope.at(column), rival.object);
         of(self) > of(other)
     }
@@ -75,11 +88,25 @@ impl Rival {
 
 /// The plane of depth of what is in a slot, from now on.
 #[inline(never)]
-pub(super) fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
+fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
     let triangle = view.triangle_of(slot.object);
     let plane = triangle.and_then(|t| depth_plane(&t));
     slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
     slot.item.depth = plane.unwrap_or_default();
+}
+
+/// Finds the depth of a slot, unless it is among those whose depth is known.
+#[inline(always)]
+pub(super) fn deepen<L: Look>(
+    slot: &mut CacheSlot<Active<L::Planes>>,
+    deep: &mut u32,
+    one: u32,
+    view: &View<'_>,
+) {
+    if *deep & one == 0 {
+        *deep |= one;
+        find_depth::<L>(slot, view);
+    }
 }
 
 /// The depth of what is in a slot, along a span.
@@ -89,6 +116,9 @@ pub(super) fn slope_of<L: Look>(
     span: Span,
     out: &Line<'_, '_, WordOf<L>>,
 ) -> Slope {
+    if !out.deep {
+        return Slope::of_place(out.view, slot.object);
+    }
     if Flags(slot.flags).lacks_depth() {
         return thin_slope::<L>(slot.object, span, out);
     }

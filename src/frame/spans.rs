@@ -1,17 +1,19 @@
-//! The pixels of a span, and those of them that are nearest.
+//! The pixels of a span.
 
 use super::renderer::View;
 use super::slot::{Active, Flags};
 use super::thin::{MARGIN, thin_span};
 use crate::active::CacheSlot;
-use crate::look::{Depths, Fill, Look, Place, WordOf, write_depth};
-use crate::visible::{Mask, Part};
+use crate::look::{Fill, Look, Place, WordOf};
+use crate::visible::Mask;
 
 /// A line that is drawn.
 pub(super) struct Line<'a, 'v, W> {
     pub(super) view: &'a View<'v>,
     pub(super) number: u32,
     pub(super) pixels: &'a mut [W],
+    /// Whether the nearest span is seen; otherwise the one of the highest priority, of equals the one submitted last.
+    pub(super) deep: bool,
 }
 
 /// The columns of a span.
@@ -35,54 +37,6 @@ pub(super) struct Drawn<'a, P> {
     pub(super) planes: &'a P,
     pub(super) flags: Flags,
     pub(super) object: u16,
-}
-
-/// Colours those pixels of a span that are at least as near as what is there.
-#[inline(never)]
-pub(super) fn nearer<L: Look>(
-    drawn: Drawn<'_, L::Planes>,
-    span: Span,
-    out: &mut Line<'_, '_, WordOf<L>>,
-    known: Known<'_>,
-) {
-    let (column, line) = (span.start, out.number);
-    let [mut at, mut step, down] = known.plane;
-    at = at
-        .wrapping_add(step.wrapping_mul(column))
-        .wrapping_add(down.wrapping_mul(line));
-    if drawn.flags.lacks_depth() {
-        [at, step] = thin_depth::<L>(drawn.object, span, out);
-    }
-    let part = known.written.cover_part(span.start, span.end, |column| {
-        if let Some(cell) = known.cells.get_mut(column) {
-            *cell = 0;
-        }
-    });
-    let columns = span.start as usize..span.end as usize;
-    let (Some(cells), Some(run)) = (
-        known.cells.get_mut(columns.clone()),
-        out.pixels.get_mut(columns),
-    ) else {
-        return;
-    };
-    let mut depth = Depths { cells, at, step };
-    if part == Part::None {
-        write_depth(&mut depth);
-        return colour::<L>(drawn, span, out);
-    }
-    let at = Place {
-        span: column,
-        end: span.end,
-        column,
-        line,
-    };
-    let draws = out.view.draws;
-    let fill = drawn.flags.fill();
-    if fill == Fill::Thin {
-        let planes = thin_planes::<L>(drawn.object, span, line, out.view);
-        return L::fill_nearer(Fill::Wide, &planes, at, draws, run, depth);
-    }
-    L::fill_nearer(fill, drawn.planes, at, draws, run, depth);
 }
 
 /// The depth of a thin triangle at a span's first pixel, and its step.

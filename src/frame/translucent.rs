@@ -7,8 +7,8 @@
 //!
 //! No memory is lent for this: a pile lies on the stack.
 
-use super::line::deepen;
 use super::renderer::Renderer;
+use super::rival::deepen;
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span};

@@ -4,9 +4,9 @@
 //! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
 //! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
-use super::line::{deepen, fill_line};
-use super::plan::Plan;
+use super::line::fill_line;
 use super::renderer::{Renderer, View};
+use super::rival::deepen;
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour};
@@ -30,12 +30,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.mark_values(out.view);
         }
         if !(ruled && self.has_values(out.view)) {
-            return out.view.ranked && self.draw_ranked(out, background);
+            return false;
         }
         fill_line::<L>(out.pixels, background);
         self.find_all(out);
         // Where this is so, `over` says where depth is compared.
-        self.met = !self.depth.is_empty() && !out.view.ranked;
+        self.met = out.deep;
         if self.met {
             self.find_compared(out);
         }
@@ -51,21 +51,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         true
     }
 
-    /// The columns of all spans, with a slot or without.
-    pub(super) fn find_all(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
-        self.guests = 0;
-        if self.cache.spilled.is_some() {
-            self.find_spilled(out);
-        }
-        self.find_spans(out);
-        // Nobody sorts them by depth here.
-        self.guests = 0;
-    }
-
     /// Says that what was kept of an order of slots has been written over.
     pub(super) fn forget_order(&mut self) {
-        (self.ordered, self.nearest) = (0, 0);
-        self.plan = Plan::Changed;
+        (self.nearest, self.lasting) = (0, false);
     }
 
     /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
@@ -143,14 +131,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         let is_compared = self.met && self.over.meets(span.start, span.end);
-        if !Flags(slot.flags).has_values() {
-            if is_compared {
-                return self.draw_meeting(number, out);
-            }
-            return colour::<L>(Drawn::of(slot), span, out);
-        }
-        let Some(state) = out.view.state(slot.object) else {
-            return;
+        let state = match out.view.state(slot.object) {
+            Some(state) if Flags(slot.flags).has_values() => state,
+            _ if is_compared => &DrawState::EMPTY,
+            _ => return colour::<L>(Drawn::of(slot), span, out),
         };
         if is_compared && state.is_translucent() {
             return;
@@ -170,9 +154,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws a span without a slot; the next of its kind.
     pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let state = out.view.state(at.object());
-        let Some(state) = state.filter(|state| state.has_values()) else {
-            return self.draw_spilled(at, out);
-        };
+        let state = state.unwrap_or(&DrawState::EMPTY);
         let after = next(self.links, at);
         if self.met && state.is_translucent() {
             return after;

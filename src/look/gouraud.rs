@@ -10,7 +10,7 @@
 //! Vertices keep half a step from either end of a field, so no colour leaves its field (P4).
 
 use super::ramp::{self, Packed, Pair};
-use super::{Depths, Fill, Paint, Place, ThinSpan};
+use super::{Fill, Paint, Place, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{Pixel, threshold};
 use crate::scene::{DrawState, Vertex};
@@ -474,37 +474,6 @@ impl<F: Pixel> Paint for Gouraud<F> {
             for (value, step) in value.iter_mut().zip(step) {
                 *value = value.wrapping_add(step as u32);
             }
-        }
-    }
-
-    #[inline(never)]
-    fn fill_nearer(
-        fill: Fill,
-        planes: &Planes,
-        place: Place,
-        _: &[DrawState<'_>],
-        run: &mut [F::Word],
-        depth: Depths<'_>,
-    ) {
-        if fill == Fill::Plain {
-            return ramp::fill_nearer::<F>(run, Self::packed(planes, place), depth);
-        }
-        let mut course = course(fill, planes, place);
-        let mut z = depth.at;
-        for (run, cells) in run.chunks_mut(16).zip(depth.cells.chunks_mut(16)) {
-            let part = Depths {
-                cells,
-                at: z,
-                step: depth.step,
-            };
-            if F::PACKED {
-                ramp::fill_nearer::<F>(run, course.packed(0), part);
-            } else {
-                let [at, step] = course.pair(0);
-                ramp::fill_pair_nearer::<F>(run, at, step, part);
-            }
-            course.skip(16);
-            z = z.wrapping_add(depth.step << 4);
         }
     }
 }

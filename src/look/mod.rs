@@ -6,7 +6,7 @@
 //! | `gouraud` | colours linear between vertices |
 //! | `textured` | texels times such colours |
 //! | `phong` | normals linear between vertices, lit at each pixel |
-//! | `ramp` | the loops over pixels that all looks share, with depth and without |
+//! | `ramp` | the loops over pixels that all looks share |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
 //! | `word_plane` | both coordinates of a small affine triangle in one word |
 //! | `fetch` | texels along a way that is linear on the texture |
@@ -33,9 +33,9 @@ mod tint;
 mod word_plane;
 
 pub use gouraud::Gouraud;
-pub(crate) use paint::{Depths, Fill, Paint, Parts, Place, ThinSpan, WordOf};
+pub(crate) use paint::{Fill, Paint, Parts, Place, ThinSpan, WordOf};
 pub use phong::Phong;
-pub(crate) use ramp::{fill_even, write_depth};
+pub(crate) use ramp::fill_even;
 pub use textured::Textured;
 
 /// How the triangles of a scene look: [`Gouraud`], [`Textured`] or [`Phong`].

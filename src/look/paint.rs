@@ -68,16 +68,6 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
     );
 
-    /// Colours the pixels of a whole span that are at least as near as what is there, and keeps their depth.
-    fn fill_nearer(
-        fill: Fill,
-        planes: &Self::Planes,
-        at: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [WordOf<Self>],
-        depth: Depths<'_>,
-    );
-
     /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels; a bit for each pixel that
     /// is not a hole, the first the top one.
     fn fill_holed(
@@ -152,14 +142,6 @@ impl Place {
     pub fn pixels(self) -> u32 {
         self.end.wrapping_sub(self.span)
     }
-}
-
-/// The depth of a run of pixels: its cells, its value at the first pixel, and its step.
-#[derive(Debug)]
-pub struct Depths<'a> {
-    pub cells: &'a mut [u32],
-    pub at: u32,
-    pub step: u32,
 }
 
 /// A span of a thin triangle: the parts that its corners have in its first pixel and in its last.

@@ -13,8 +13,7 @@
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye.
 
 use super::gouraud::{Planes as Three, at, dithered, thin_shades, wide_shades};
-use super::ramp::nearer_bits;
-use super::{Depths, Fill, Paint, Place, ThinSpan};
+use super::{Fill, Paint, Place, ThinSpan};
 use crate::geometry::{Affine, Scale, unit_normal};
 use crate::pixel::{Pixel, threshold};
 use crate::scene::{DrawState, WordOfNormal};
@@ -149,19 +148,5 @@ impl<F: Pixel> Paint for Phong<F> {
             // That is, in 16 bits.
             Self::light(state, &planes.normal, place, F::PACKED, run);
         }
-    }
-
-    fn fill_nearer(
-        fill: Fill,
-        planes: &Planes,
-        place: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [F::Word],
-        depth: Depths<'_>,
-    ) {
-        nearer_bits(run, depth, |from, run| {
-            let column = place.column + from;
-            Self::fill(fill, planes, Place { column, ..place }, draws, run);
-        });
     }
 }

@@ -1,12 +1,10 @@
-//! The loops over pixels: colour alone, colour and depth (B, K8).
+//! The loops over pixels (B).
 //!
 //! Runs of up to 16 pixels are straight code, entered behind a jump by length as far from its end as there are pixels:
 //! 4 instructions a pixel on a Cortex-M4, 5 where the bytes are swapped, and some 20 for the call; longer ones go in
 //! chunks of 8 without an end test, 5.4 a pixel. `black_box`, once a chunk, keeps loops from being unrolled and their
-//! steps from being multiplied out; with depth they take 12 a pixel.
+//! steps from being multiplied out.
 
-use super::Depths;
-use crate::num::leading_zeros;
 use crate::pixel::Pixel;
 use core::hint::black_box;
 
@@ -136,157 +134,6 @@ pub(super) fn fill_pair<F: Pixel>(run: &mut [F::Word], mut at: Pair, step: Pair)
         *pixel = F::pack_words(at.red_blue, at.green);
         at = at.plus(step);
     }
-}
-
-/// Depth of a run where nobody has drawn before: it is written and not compared.
-#[inline(always)]
-pub(crate) fn write_depth(depth: &mut Depths<'_>) {
-    let (mut at, step) = (depth.at, depth.step);
-    let mut chunks = depth.cells.chunks_exact_mut(8);
-    for chunk in chunks.by_ref() {
-        let step = black_box(step);
-        if let Ok(chunk) = <&mut [u32; 8]>::try_from(chunk) {
-            for cell in chunk {
-                *cell = at;
-                at = at.wrapping_add(step);
-            }
-        }
-    }
-    for cell in chunks.into_remainder() {
-        *cell = at;
-        at = at.wrapping_add(step);
-    }
-}
-
-/// Colours what is at least as near as its cell, by a word that steps.
-#[inline(never)]
-pub(super) fn fill_nearer<F: Pixel>(run: &mut [F::Word], mut ramp: Packed, depth: Depths<'_>) {
-    let Depths {
-        cells,
-        mut at,
-        step,
-    } = depth;
-    let mut runs = run.chunks_exact_mut(8);
-    let mut cells = cells.chunks_exact_mut(8);
-    for (pixels, cells) in runs.by_ref().zip(cells.by_ref()) {
-        let (step, colour) = (black_box(step), black_box(ramp.step));
-        if let (Ok(pixels), Ok(cells)) = (
-            <&mut [F::Word; 8]>::try_from(pixels),
-            <&mut [u32; 8]>::try_from(cells),
-        ) {
-            for i in 0..8 {
-                if at >= cells[i] {
-                    cells[i] = at;
-                    pixels[i] = F::of_word(ramp.word);
-                }
-                at = at.wrapping_add(step);
-                ramp.word = ramp.word.wrapping_add(colour);
-            }
-        }
-    }
-    let rest = cells.into_remainder();
-    for (pixel, cell) in runs.into_remainder().iter_mut().zip(rest) {
-        if at >= *cell {
-            *cell = at;
-            *pixel = F::of_word(ramp.word);
-        }
-        at = at.wrapping_add(step);
-        ramp.word = ramp.word.wrapping_add(ramp.step);
-    }
-}
-
-/// The same by a pair, pixel by pixel.
-#[inline(never)]
-pub(super) fn fill_pair_nearer<F: Pixel>(
-    run: &mut [F::Word],
-    mut at: Pair,
-    step: Pair,
-    depth: Depths<'_>,
-) {
-    let mut z = depth.at;
-    for (pixel, cell) in run.iter_mut().zip(depth.cells) {
-        if z >= *cell {
-            *cell = z;
-            *pixel = F::pack_words(at.red_blue, at.green);
-        }
-        z = z.wrapping_add(depth.step);
-        at = at.plus(step);
-    }
-}
-
-/// Depth of a run into bits, 32 pixels at a time, and then `fill` for each run of what is at least as near as its
-/// cell: the number of its first pixel, and its pixels.
-#[inline(always)]
-pub(super) fn nearer_bits<W>(
-    run: &mut [W],
-    depth: Depths<'_>,
-    mut fill: impl FnMut(u32, &mut [W]),
-) {
-    let mut at = depth.at;
-    // Runs go on from one word to the next.
-    let mut from = None;
-    let mut base = 0;
-    for cells in depth.cells.chunks_mut(32) {
-        let mut bits = nearer_word(cells, &mut at, depth.step);
-        let pixels = cells.len() as u32;
-        let mut done = 0;
-        while done < pixels {
-            let ahead = if from.is_none() {
-                leading_zeros(bits)
-            } else {
-                leading_zeros(!bits)
-            };
-            if done + ahead >= pixels {
-                break;
-            }
-            done += ahead;
-            bits <<= ahead & 31;
-            match from.take() {
-                None => from = Some(base + done),
-                Some(first) => {
-                    if let Some(run) = run.get_mut(first as usize..(base + done) as usize) {
-                        fill(first, run);
-                    }
-                }
-            }
-        }
-        base += pixels;
-    }
-    let Some(first) = from else {
-        return;
-    };
-    if let Some(run) = run.get_mut(first as usize..base as usize) {
-        fill(first, run);
-    }
-}
-
-/// Keeps what is at least as near as its cell, of up to 32; the first is the top bit.
-#[inline(never)]
-fn nearer_word(cells: &mut [u32], at: &mut u32, step: u32) -> u32 {
-    let (mut bits, mut z) = (0u32, *at);
-    let mut one = |cell: &mut u32, step: u32| {
-        let near = z >= *cell;
-        if near {
-            *cell = z;
-        }
-        bits = bits << 1 | u32::from(near);
-        z = z.wrapping_add(step);
-    };
-    let count = cells.len() as u32;
-    let mut chunks = cells.chunks_exact_mut(8);
-    for chunk in chunks.by_ref() {
-        let step = black_box(step);
-        if let Ok(chunk) = <&mut [u32; 8]>::try_from(chunk) {
-            for cell in chunk {
-                one(cell, step);
-            }
-        }
-    }
-    for cell in chunks.into_remainder() {
-        one(cell, step);
-    }
-    *at = z;
-    bits << (32u32.wrapping_sub(count) & 31)
 }
 
 #[cfg(test)]

@@ -12,10 +12,9 @@
 use super::fetch::copy_from;
 use super::gouraud::{Course, Planes as Shades, at, course, fields, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values, word_at};
-use super::ramp::nearer_bits;
 use super::tint::{Shade, tint, tint_ordered, tint_swapped};
 use super::word_plane::Near;
-use super::{Depths, Fill, Paint, Place, ThinSpan};
+use super::{Fill, Paint, Place, ThinSpan};
 use crate::composite::{Rgb565, Rgb565Bytes};
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
@@ -468,24 +467,6 @@ impl<F: Texel> Paint for Textured<F> {
         });
         shade(run);
         opaque
-    }
-
-    #[inline(never)]
-    fn fill_nearer(
-        fill: Fill,
-        planes: &Planes,
-        place: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [u16],
-        depth: Depths<'_>,
-    ) {
-        nearer_bits(run, depth, |from, run| {
-            let place = Place {
-                column: place.column + from,
-                ..place
-            };
-            Self::fill(fill, planes, place, draws, run);
-        });
     }
 
     #[inline(always)]

@@ -1,0 +1,161 @@
+//! A picture does not depend on the cache, nor a pixel on who else is on its line.
+
+use super::{FastMemory, Memory as Lent, Renderer};
+use crate::composite::{PixelFormat, Rgb565, Rgb888};
+use crate::geometry::{Affine, Camera, Cull, Faces, Mesh, Screen};
+use crate::link::Link;
+use crate::look::{Gouraud, Look, Textured, WordOf};
+use crate::num::random::Rng;
+use crate::scene::{
+    Budget, Draw, DrawState, Memory, NONE, Object, Scene, Skin, Texture, TexturePlace, Vertex,
+};
+use std::boxed::Box;
+use std::vec::Vec;
+
+const WIDTH: u16 = 96;
+const HEIGHT: u16 = 40;
+
+/// Triangles of all sizes that cross each other.
+struct Crowd {
+    positions: Vec<[i16; 3]>,
+    places: Vec<[i32; 2]>,
+    colours: Vec<[u8; 3]>,
+    faces: Vec<[u16; 3]>,
+    priority: u8,
+}
+
+impl Crowd {
+    fn new(rng: &mut Rng, triangles: u16, priority: u8) -> Self {
+        let mut crowd = Self {
+            positions: Vec::new(),
+            places: Vec::new(),
+            colours: Vec::new(),
+            faces: Vec::new(),
+            priority,
+        };
+        for i in 0..triangles {
+            let middle = [(); 3].map(|()| rng.below(40_000) as i32 - 20_000);
+            let size = [2_000, 9_000, 30_000][rng.below(3) as usize];
+            for _ in 0..3 {
+                let at = middle.map(|m| m + rng.below(size) as i32 - size as i32 / 2);
+                let at = at.map(|c| c.clamp(-32_768, 32_767) as i16);
+                crowd.positions.push(at);
+                crowd
+                    .places
+                    .push([(); 2].map(|()| rng.below(60 << 8) as i32));
+                crowd.colours.push([(); 3].map(|()| rng.below(256) as u8));
+            }
+            crowd.faces.push([3 * i, 3 * i + 1, 3 * i + 2]);
+        }
+        crowd
+    }
+}
+
+/// Calls `see` with a scene of these.
+fn with_scene<L: Look>(
+    crowds: &[Crowd],
+    texture: Option<&Texture<'_>>,
+    see: impl FnOnce(&Scene<'_, '_, L>),
+) {
+    let mut vertices = std::vec![Vertex::EMPTY; 4_000];
+    let mut places = std::vec![TexturePlace::EMPTY; 4_000];
+    let mut objects = std::vec![Object::EMPTY; 2_000];
+    let mut bins = std::vec![NONE; HEIGHT.into()];
+    let mut draws = [DrawState::EMPTY; 4];
+    let screen = Screen::new(WIDTH, HEIGHT).unwrap();
+    let memory = Memory {
+        vertices: &mut vertices,
+        places: &mut places,
+        objects: &mut objects,
+        bins: &mut bins,
+        draws: &mut draws,
+    };
+    let mut scene = Scene::<L>::new(screen, memory);
+    let (eye, up) = ([0.0, 0.0, 2.2], [0.0, 1.0, 0.0]);
+    let camera = Camera::look_at(eye, [0.0; 3], up, 60.0, 0.2, 100.0).unwrap();
+    scene.begin(&camera).unwrap();
+    for crowd in crowds {
+        let call = Draw {
+            model: Affine::IDENTITY,
+            cull: Cull::None,
+            texture: texture.map(|texture| Skin {
+                texture,
+                places: &crowd.places,
+                budget: Budget::BALANCED,
+            }),
+            priority: crowd.priority,
+            ..Draw::new(Mesh {
+                positions: &crowd.positions,
+                normals: &[],
+                colours: &crowd.colours,
+                faces: Faces::Triangles(&crowd.faces),
+            })
+        };
+        scene.draw(&call).unwrap();
+    }
+    see(&scene);
+}
+
+/// The lines of a picture, in this order, with so many slots.
+fn lines<L: Look>(
+    scene: &Scene<'_, '_, L>,
+    slots: u16,
+    depth: bool,
+    order: &[u16],
+) -> Vec<Vec<WordOf<L>>> {
+    let mut cache = Box::new(FastMemory::<L, 7>::new());
+    cache.set_limit(slots);
+    let mut links = std::vec![Link::NONE; scene.objects()];
+    let mut depth = std::vec![0; if depth { WIDTH.into() } else { 0 }];
+    let mut renderer = Renderer::new(Lent {
+        cache: &mut cache,
+        links: &mut links,
+        depth: &mut depth,
+    });
+    let background = L::Pixel::from_rgb8([9, 9, 9]);
+    let line = |&line: &u16| {
+        let mut pixels = std::vec![WordOf::<L>::default(); WIDTH.into()];
+        renderer
+            .draw_line(scene, line, &mut pixels, background)
+            .unwrap();
+        pixels
+    };
+    order.iter().map(line).collect()
+}
+
+fn does_not_depend_on_the_cache<L: Look>(texture: Option<&Texture<'_>>, seed: u64)
+where
+    WordOf<L>: PartialEq,
+{
+    let mut rng = Rng(seed);
+    let all: Vec<u16> = (0..HEIGHT).collect();
+    for round in 0..18 {
+        let count = [5, 40, 200][round % 3];
+        let ranked = round % 9 > 5;
+        let crowds = [2, 1].map(|p| Crowd::new(&mut rng, count, if ranked { p } else { 0 }));
+        with_scene::<L>(&crowds, texture, |scene| {
+            for depth in [true, false] {
+                let want = lines(scene, 224, depth, &all);
+                for slots in [0, 3, 32, 90] {
+                    let got = lines(scene, slots, depth, &all);
+                    assert!(got == want, "{slots} slots, depth {depth}, round {round}");
+                    let some: Vec<u16> = (0..20).map(|_| rng.below(HEIGHT.into()) as u16).collect();
+                    let got = lines(scene, slots, depth, &some);
+                    let same = some
+                        .iter()
+                        .zip(&got)
+                        .all(|(&y, l)| *l == want[usize::from(y)]);
+                    assert!(same, "alone, {slots} slots, depth {depth}, round {round}");
+                }
+            }
+        });
+    }
+}
+
+#[test]
+fn pictures_do_not_depend_on_the_cache() {
+    let words: Vec<u16> = (0..64 * 64).map(|i: u16| i.wrapping_mul(37)).collect();
+    let texture = Texture::words(&words, 64, 64).unwrap();
+    does_not_depend_on_the_cache::<Textured<Rgb565>>(Some(&texture), 51);
+    does_not_depend_on_the_cache::<Gouraud<Rgb888>>(None, 52);
+}
