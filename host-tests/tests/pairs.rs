@@ -11,17 +11,13 @@ use crate::common::Rng;
 use crate::hot::values::{Cut, FUNCTIONS};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, line};
 use cover::Pairs;
-use reference::{Call, Light64, Range, Rounding, Skin64, Texels, V3, World, covering, pixel, unit};
+use reference::{Call, Light64, Range, Rounding, Skin64, V3, World, covering, pixel, unit};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::Material;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
-use scanbeam::scene::{
-    Application, Blend, BlendMode, Budget, DepthTest, Draw, DrawError, Factor, Scene, Shading,
-    Skin, Texture, Wrap,
-};
+use scanbeam::scene::{Blend, BlendMode, DepthTest, Draw, DrawError, Factor, Scene, Shading, Skin};
 use scanbeam::{Cull, Light, Screen};
-use std::sync::OnceLock;
 use textures::{APPLICATIONS, BUDGETS, FORMS, WRAPS, textures};
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
