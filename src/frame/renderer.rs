@@ -89,7 +89,7 @@ pub enum LineError {
         /// The line.
         line: u16,
     },
-    /// A draw call has a value that few have: a scissor, a depth test, a blend or a priority. Only a renderer that
+    /// A draw call has a value that few have: a scissor, a depth test, a blend, holes or a dither. Only a renderer that
     /// was made by [`Renderer::new`] draws it.
     Values,
     /// The wait for the other core was given up.
@@ -120,7 +120,7 @@ impl fmt::Display for LineError {
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
             Self::Values => f.write_str(
-                "renderer: a draw call has a scissor, a depth test, a blend or a priority: use Renderer::new",
+                "renderer: a draw call has a scissor, a depth test, a blend, holes or a dither: use Renderer::new",
             ),
             Self::Stopped { line } => {
                 write!(f, "renderer: the wait for line {line} was given up")
@@ -182,8 +182,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         }
     }
 
-    /// The same, for scenes whose draw calls have neither a scissor nor a depth test, a blend or a priority of their
-    /// own: the program is smaller by the code for them, some 10 KB on a Cortex-M4.
+    /// The same, for scenes whose draw calls have none of the values that few have (a scissor, a depth test, a blend,
+    /// texels with holes, a dither): the program is smaller by the code for them, some 10 KB on a Cortex-M4.
     ///
     /// It refuses other scenes with [`LineError::Values`].
     #[must_use]
