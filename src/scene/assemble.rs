@@ -25,6 +25,34 @@ struct Picture {
     right: u32,
 }
 
+/// Whether a mesh is one, and whether the look has what a draw call asks for: textures, light at corners or at pixels.
+fn check_draw<C: Coordinate>(
+    draw: &Draw<'_, '_, C>,
+    textured: bool,
+    lit_at_pixels: bool,
+) -> Result<(), DrawError> {
+    let mesh = &draw.mesh;
+    // Indices of triangles are looked at on the way.
+    let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
+    let below = if is_looked_at && draw.shading == Shading::Smooth {
+        0
+    } else {
+        usize::MAX
+    };
+    check_mesh(mesh, below).map_err(DrawError::Mesh)?;
+    let at_corners = draw.light.is_some() || draw.lights.is_some() || !mesh.colours.is_empty();
+    if lit_at_pixels && at_corners || !lit_at_pixels && draw.lamps.is_some() {
+        return Err(DrawError::Light);
+    }
+    match draw.texture {
+        Some(_) if !textured => Err(DrawError::Untextured),
+        Some(skin) if skin.places.len() != mesh.positions.len() => {
+            Err(DrawError::Mesh(MeshError::AttributeLength))
+        }
+        _ => Ok(()),
+    }
+}
+
 impl<'t, L> Scene<'_, 't, L> {
     /// Draws a mesh, with its texture, which only a look that is `textured` has. Where light falls on pixels, vertices
     /// have words of normals.
@@ -41,28 +69,9 @@ impl<'t, L> Scene<'_, 't, L> {
             return Err(DrawError::NotBegun);
         };
         let mesh = &draw.mesh;
-        // Indices of triangles are looked at on the way.
-        let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
-        let is_flat = draw.shading == Shading::Flat;
-        let below = if is_looked_at && !is_flat {
-            0
-        } else {
-            usize::MAX
-        };
-        check_mesh(mesh, below).map_err(DrawError::Mesh)?;
+        check_draw(draw, textured, word_of.is_some())?;
         let skin = draw.texture;
-        if skin.is_some() && !textured {
-            return Err(DrawError::Untextured);
-        }
-        let at_corners =
-            draw.light.is_some() || draw.lights.is_some() || !draw.mesh.colours.is_empty();
-        if word_of.is_some() && at_corners || word_of.is_none() && draw.lamps.is_some() {
-            return Err(DrawError::Light);
-        }
-        let texels = skin.map_or(&[][..], |skin| skin.places);
-        if skin.is_some() && texels.len() != mesh.positions.len() {
-            return Err(DrawError::Mesh(MeshError::AttributeLength));
-        }
+        let is_flat = draw.shading == Shading::Flat;
         let submitted = triangles(mesh.faces);
         let state = DrawState::new(self.objects.len() as u16, draw, skin.as_ref());
         if self.draws.push(state).is_none() {
@@ -99,7 +108,7 @@ impl<'t, L> Scene<'_, 't, L> {
             }),
             tint: Tint::new(colour, &self.scale),
             cull: draw.cull,
-            texels,
+            texels: skin.map_or(&[][..], |skin| skin.places),
             base: self.vertices.len(),
             shared: 0,
             within: false,
@@ -111,6 +120,11 @@ impl<'t, L> Scene<'_, 't, L> {
         self.file(is_flat, mesh, &mut pass)?;
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
+        self.count(&pass, submitted)
+    }
+
+    /// Counts the triangles of a draw call; an error where some found no room.
+    fn count(&mut self, pass: &Pass<'_>, submitted: u32) -> Result<(), DrawError> {
         self.assembled.triangles += submitted;
         self.assembled.culled += pass.culled;
         self.assembled.clipped += pass.clipped;

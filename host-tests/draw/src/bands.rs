@@ -105,8 +105,11 @@ impl Setting {
         })
     }
 
-    /// Builds the scene of `lines` of a model and hands it to `draw`; see
-    /// [`bands_of`](Self::bands_of).
+    /// Builds the scene of `lines` of a model and hands it to `draw`; in several bands from top to bottom where it does
+    /// not fit the arenas as a whole.
+    ///
+    /// # Errors
+    /// What `draw` says, or a mesh that the scene refuses.
     pub fn bands<P: Pipeline>(
         &self,
         prepared: &Prepared,
