@@ -242,10 +242,32 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         } else {
             &mut *depth
         };
+        let end = out.pixels.len() as u32;
+        let hidden = match self.sort_guests(Span { start: 0, end }, cells, out) {
+            Some(guests) => self.draw_field(slots, cells, guests, out),
+            None => self.draw_in_parts(slots, cells, out),
+        };
+        self.depth = depth;
+        hidden
+    }
+
+    /// The same in parts of the line whose guests find room in the cells.
+    #[cold]
+    #[inline(never)]
+    fn draw_in_parts(
+        &mut self,
+        slots: usize,
+        cells: &mut [u32],
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> usize {
         let width = out.pixels.len() as u32;
         let (mut start, mut hidden, mut drawn) = (0, 0, Mask::EMPTY);
         while start < width {
-            let mut part = Span { start, end: width };
+            let half = start + width.div_ceil(2);
+            let mut part = Span {
+                start,
+                end: half.min(width),
+            };
             let guests = loop {
                 if let Some(guests) = self.sort_guests(part, cells, out) {
                     break guests;
@@ -253,15 +275,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 part.end -= (part.end - part.start) / 2;
             };
             // Other parts of the line are as if covered.
-            self.covered = Mask::EMPTY;
-            self.covered.cover(0, part.start);
-            self.covered.cover(part.end, width);
+            self.written.clear();
+            self.written.cover(0, part.start);
+            self.written.cover(part.end, width);
             hidden += self.draw_field(slots, cells, guests, out);
-            drawn.add(&self.covered, part.start, part.end);
+            drawn.add(&self.written, part.start, part.end);
             start = part.end;
         }
-        self.depth = depth;
-        self.covered = drawn;
+        self.written = drawn;
         hidden
     }
 

@@ -200,6 +200,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.cache.listed = self.cache.used;
         if self.crowded {
             let (slots, hidden) = self.draw_listed(out);
+            core::mem::swap(&mut self.covered, &mut self.written);
             self.met = hidden > 0;
             self.crowded = 8 * hidden > slots;
             self.lasting = !self.changed && self.lasts(out);
@@ -207,9 +208,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let met = self.find_all(out);
         let alone = self.colour_alone(met, out);
-        let covered = core::mem::replace(&mut self.covered, Mask::EMPTY);
         let (slots, hidden) = self.draw_listed(out);
-        (self.covered, self.over) = (covered, Mask::EMPTY);
+        self.written.clear();
+        self.over.clear();
         self.met = hidden > 0;
         self.crowded = slots > alone;
     }
@@ -345,7 +346,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             guests,
         };
         let mut drawing = Drawing {
-            mask: &mut self.covered,
+            mask: &mut self.written,
             counts: &mut self.counts,
             hidden: 0,
         };

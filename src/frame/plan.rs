@@ -7,7 +7,6 @@ use super::renderer::{Renderer, View};
 use super::spans::{Drawn, Line, Span, colour_run, columns_of};
 use super::thin::MARGIN;
 use crate::look::{Look, WordOf};
-use crate::visible::Mask;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Colours spans in the order of the last line, where nobody has been before, up to a line that is full; whether
@@ -30,7 +29,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 colour_run::<L>(drawn, span, Span { start, end }, out);
             });
             if left == 0 {
-                self.covered = Mask::EMPTY;
+                self.covered.clear();
                 return true;
             }
         }

@@ -15,7 +15,6 @@ use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
-use crate::visible::Mask;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws a line over a background, if a draw call on it has values that few have.
@@ -43,9 +42,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.met {
             self.draw_translucent(out);
         }
-        self.covered = Mask::EMPTY;
-        self.over = Mask::EMPTY;
-        self.written = Mask::EMPTY;
+        self.covered.clear();
+        self.over.clear();
+        self.written.clear();
         self.met = false;
         self.forget_order();
         true

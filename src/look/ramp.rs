@@ -110,7 +110,10 @@ fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
             fill_chunk::<F, 8>(chunk, &mut ramp);
         }
     }
-    fill::<F>(chunks.into_remainder(), Packed { step, ..ramp });
+    let rest = chunks.into_remainder();
+    if !rest.is_empty() {
+        fill::<F>(rest, Packed { step, ..ramp });
+    }
 }
 
 /// A run of one colour: one copy of the loop.
