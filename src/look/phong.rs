@@ -8,7 +8,6 @@
 //! |---|---|
 //! | a vertex's normal | 11, 11 and 10 bits: 1/2000 of its length, 1/1000 along the way ahead |
 //! | a thin triangle | exact at both ends of each span, linear between |
-//! | a pixel | about 190 instructions on a Cortex-M4 with one matt light |
 //!
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye.
 
