@@ -1,44 +1,20 @@
-//! Frames with what lies over them, and frames of which what the display shows already is not sent (K14, X4).
+//! Frames of which what the display shows already is not sent (X4).
 //!
 //! An overlay paints over each line between drawing and sending, so what counts as changed is a line with all that is
 //! over it. `()` is no overlay.
 
 use super::renderer::Renderer;
-use super::send::{FrameError, FrameUse, send, window};
+use super::send::{FrameError, FrameUse, Lines, window};
 use crate::composite::LineOverlay;
 use crate::look::{Look, WordOf};
 use crate::scan_out::{ErrorType, LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
 use crate::scene::Scene;
 
-/// Draws and sends all lines of `scene` as [`draw_frame`](super::draw_frame) does, with `overlay` over them.
-///
-/// # Errors
-/// When the sink fails, naming the line, or the renderer has too little memory.
-pub fn draw_frame_overlaid<L, D, const WORDS: usize>(
-    scene: &Scene<'_, '_, L>,
-    renderer: &mut Renderer<'_, L, WORDS>,
-    pump: &mut Pump<D>,
-    background: WordOf<L>,
-    lines_per_transfer: u16,
-    mut overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
-where
-    L: Look,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
-{
-    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
-        let drawn = renderer.draw_line(scene, line, pixels, background)?;
-        overlay.paint(line, pixels);
-        Ok(drawn)
-    };
-    send(scene, renderer, pump, lines_per_transfer, draw)
-}
-
 /// Draws all lines of `scene` with `overlay` over them, and sends those that differ from what `shown` knows the
 /// display to show. [`ScanStats`](crate::scan_out::ScanStats) counts the others, and the bytes not sent.
 ///
 /// # Errors
-/// Those of [`draw_frame_overlaid`]; the lines that were reached count as not shown then.
+/// Those of [`draw_frame_overlaid`](super::draw_frame_overlaid); the lines that were reached count as not shown then.
 pub fn draw_frame_changed<L, D, const WORDS: usize>(
     scene: &Scene<'_, '_, L>,
     renderer: &mut Renderer<'_, L, WORDS>,
@@ -46,24 +22,23 @@ pub fn draw_frame_changed<L, D, const WORDS: usize>(
     background: WordOf<L>,
     lines_per_transfer: u16,
     shown: &mut ShownLines<'_>,
-    mut overlay: impl LineOverlay<L::Pixel>,
+    overlay: impl LineOverlay<L::Pixel>,
 ) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
 where
     L: Look,
     WordOf<L>: LineWord,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    renderer.check(scene).map_err(FrameError::Line)?;
-    renderer.restart();
+    renderer.begin_frame(scene).map_err(FrameError::Line)?;
+    let mut lines = Lines::new(scene, background, overlay);
     let (mut end, mut skipped) = (scene.lines().start, 0);
     let mut send = || {
         pump.take_stats();
         pump.begin_in_parts(window(scene), lines_per_transfer)?;
         for line in scene.lines() {
             let pixels = pump.line()?;
-            let drawn = renderer.draw_line(scene, line, pixels, background);
+            let drawn = lines.draw(renderer, line, pixels);
             skipped += u32::from(!drawn.map_err(FrameError::Line)?);
-            overlay.paint(line, pixels);
             end = line + 1;
             if shown.replace(line, pixels) {
                 pump.line_done()?;
@@ -98,23 +73,22 @@ pub fn draw_frame_changed_runs<L, D, const WORDS: usize>(
     background: WordOf<L>,
     lines_per_transfer: u16,
     shown: &mut ShownRuns<'_>,
-    mut overlay: impl LineOverlay<L::Pixel>,
+    overlay: impl LineOverlay<L::Pixel>,
 ) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
 where
     L: Look,
     WordOf<L>: LineWord,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    renderer.check(scene).map_err(FrameError::Line)?;
-    renderer.restart();
+    renderer.begin_frame(scene).map_err(FrameError::Line)?;
+    let mut lines = Lines::new(scene, background, overlay);
     let mut skipped = 0;
     pump.take_stats();
     let mut frame = pump.begin_in_runs(window(scene), lines_per_transfer, shown)?;
     for line in scene.lines() {
         let pixels = frame.line()?;
-        let drawn = renderer.draw_line(scene, line, pixels, background);
+        let drawn = lines.draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
-        overlay.paint(line, pixels);
         frame.line_done()?;
     }
     frame.finish()?;

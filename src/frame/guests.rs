@@ -3,16 +3,16 @@
 //! A guest is set up for its line alone, and only where some of it is seen. Where there are more than the cells have
 //! room for, the line is drawn in parts with fewer guests each; of those on one column only the nearest counts.
 
+use super::alone::set_up_stray;
 use super::near::{Drawing, Field, Taken, colour_free};
 use super::renderer::Renderer;
 use super::rival::{Rival, Slope, thin_slope};
-use super::slot::Flags;
-use super::spans::{Drawn, Line, Span, colour_run};
+use super::spans::{Line, Span, colour_run};
 use super::thin::depth_plane;
 use crate::active::next;
 use crate::link::Link;
 use crate::look::{Look, WordOf};
-use crate::span::Way;
+use crate::span::Triangle;
 use crate::visible::Mask;
 
 /// A span of what has no slot, as it lies in the cells of depth: `CELLS` of them.
@@ -147,20 +147,17 @@ fn colour_guest<L: Look>(
     drawing: &mut Drawing<'_>,
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
-    let Some(triangle) = out.view.triangle_of(rival.object) else {
+    let (object, span) = (rival.object, rival.span);
+    let Some(triangle) = out.view.triangle_of(object) else {
         return;
     };
-    let area = triangle.area();
-    let size = triangle.size(area);
-    let mut planes = L::EMPTY;
-    let (object, draws) = (rival.object, out.view.draws);
-    let fill = L::set_up(&triangle, object, size, area, draws, &mut planes);
-    drawing.counts.set_ups += 1;
-    let drawn = Drawn {
-        planes: &planes,
-        flags: Flags::new(fill, Way::PLAIN),
+    let stray = Stray {
+        triangle,
         object,
+        span,
     };
+    let alone = set_up_stray::<L>(&stray, drawing.counts, out);
+    let drawn = alone.drawn();
     if let Some(taken) = taken {
         return colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
     }
@@ -186,7 +183,8 @@ impl Walk {
 }
 
 /// A triangle without a slot that has pixels on a line.
-pub(super) struct Stray {
+pub(super) struct Stray<'v> {
+    pub(super) triangle: Triangle<'v>,
     pub(super) object: u16,
     pub(super) span: Span,
 }
@@ -200,11 +198,11 @@ const FEW: usize = 16;
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What comes next of what has no slot and has pixels on the line; what has ended leaves the chain.
     #[inline(never)]
-    pub(super) fn next_stray(
+    pub(super) fn next_stray<'v>(
         &mut self,
         walk: &mut Walk,
-        out: &Line<'_, '_, WordOf<L>>,
-    ) -> Option<Stray> {
+        out: &Line<'_, 'v, WordOf<L>>,
+    ) -> Option<Stray<'v>> {
         let line = out.number as i32;
         while walk.at.is_some() {
             let object = walk.at.object();
@@ -216,12 +214,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 continue;
             }
             (walk.before, walk.at) = (walk.at, after);
-            let way = triangle.way();
-            let sides = triangle.sides(way, line, lines.turn);
-            let (start, end) = sides.columns(way, out.number, out.view.frame);
-            if start < end {
-                let span = Span { start, end };
-                return Some(Stray { object, span });
+            let stray = Stray::on_line(triangle, object, out);
+            if stray.is_some() {
+                return stray;
             }
         }
         None
@@ -329,7 +324,26 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-impl Stray {
+impl<'v> Stray<'v> {
+    /// A triangle by its number; `None` where it has no pixels on the line.
+    #[inline(always)]
+    pub(super) fn of<W>(object: u16, out: &Line<'_, 'v, W>) -> Option<Self> {
+        Self::on_line(out.view.triangle_of(object)?, object, out)
+    }
+
+    #[inline(always)]
+    fn on_line<W>(triangle: Triangle<'v>, object: u16, out: &Line<'_, 'v, W>) -> Option<Self> {
+        let way = triangle.way();
+        let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
+        let (start, end) = sides.columns(way, out.number, out.view.frame);
+        let span = Span { start, end };
+        (start < end).then_some(Self {
+            triangle,
+            object,
+            span,
+        })
+    }
+
     /// As one of those that compete for columns.
     fn rival(&self, slope: Slope) -> Rival {
         Rival {
@@ -344,8 +358,7 @@ impl Stray {
         if !out.deep {
             return Slope::of_place(out.view, self.object);
         }
-        let triangle = out.view.triangle_of(self.object);
-        match triangle.and_then(|t| depth_plane(&t)) {
+        match depth_plane(&self.triangle) {
             Some([at, step, down]) => Slope {
                 at: at.wrapping_add(down.wrapping_mul(out.number)),
                 step,

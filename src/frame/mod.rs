@@ -19,8 +19,8 @@
 //! | `rank` | the order of their spans |
 //! | `ruled` | pixels of such a span |
 //! | `translucent` | spans that what is behind shines through, from far to near |
-//! | `send` | all lines of a frame through a pump, awaited, or to a panel with a clock of its own |
-//! | `changed` | likewise with overlays, or what has changed alone |
+//! | `send` | all lines of a frame, with overlays, through a pump, awaited, or to a panel with a clock of its own |
+//! | `changed` | likewise, what has changed alone |
 //! | `relay` | a frame of two cores |
 
 mod advance;
@@ -46,9 +46,9 @@ mod thin;
 mod translucent;
 mod values;
 
-pub use changed::{draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid};
+pub use changed::{draw_frame_changed, draw_frame_changed_runs};
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
 #[cfg(feature = "async")]
 pub use send::draw_frame_async;
-pub use send::{FrameError, FrameUse, draw_continuous, draw_frame};
+pub use send::{FrameError, FrameUse, draw_continuous, draw_frame, draw_frame_overlaid};

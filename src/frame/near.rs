@@ -372,13 +372,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 /// Inserts a key among the first `count`, which fall.
 #[inline(never)]
 fn insert_falling(keys: &mut [u32], count: usize, key: u32) {
+    insert(keys, count, key, |other| other > key);
+}
+
+/// Inserts a key among the first `count`, behind the last that comes before it.
+#[inline(always)]
+pub(super) fn insert(keys: &mut [u32], count: usize, key: u32, is_before: impl Fn(u32) -> bool) {
     let Some(keys) = keys.get_mut(..=count) else {
         return;
     };
     let mut after = keys.iter_mut().rev();
     if let Some(mut to) = after.next() {
         for from in after {
-            if *from > key {
+            if is_before(*from) {
                 break;
             }
             *to = *from;

@@ -1,7 +1,8 @@
 //! An order that lasts while no triangle begins or ends (X3, P1).
 //!
 //! Where no two triangles in slots have ranges of depth that meet, or there is no depth, the order of a line is that of
-//! the lines to come: each is drawn where nobody has been before, nothing is compared or sorted, and a line that is full ends there.
+//! the lines to come: each is drawn where nobody has been before, nothing is compared or sorted, and a line that is full
+//! ends there.
 
 use super::renderer::{Renderer, View};
 use super::spans::{Drawn, Line, Span, colour_run, columns_of};

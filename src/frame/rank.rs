@@ -3,7 +3,7 @@
 //! By priority no depth is kept: what is higher is drawn over what is lower, and among equal ones what was submitted
 //! later over what was before.
 
-use super::near::place_of;
+use super::near::{insert, place_of};
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
 use crate::active::next;
@@ -11,27 +11,10 @@ use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::num::take_first;
 
-/// A slot in its order: priority, number of the object, number of the slot.
-fn key(view: &View<'_>, object: u16, slot: usize) -> u32 {
-    place_of(view, object) | slot as u32
-}
-
 /// Inserts a key among the first `count`, which rise.
 #[inline(never)]
 fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
-    if let Some(run) = keys.get_mut(..=count) {
-        let mut after = run.iter_mut().rev();
-        if let Some(mut to) = after.next() {
-            for from in after {
-                if *from < key {
-                    break;
-                }
-                *to = *from;
-                to = from;
-            }
-            *to = key;
-        }
-    }
+    insert(keys, count, key, |other| other < key);
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -71,7 +54,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let i = take_first(&mut used) as usize & 31;
                 let span = Span::of(self.cache.spans[word][i]);
                 if span.start < span.end {
-                    let key = key(view, self.cache.slots[word][i].object, word * 32 + i);
+                    // Its priority, the number of the object, and its own.
+                    let object = self.cache.slots[word][i].object;
+                    let key = place_of(view, object) | (word * 32 + i) as u32;
                     insert_rising(self.cache.order.as_flattened_mut(), count, key);
                     count += 1;
                 }

@@ -10,7 +10,7 @@
 //! one word. Nothing else is shared but the scene, read-only. Pictures are the same whoever draws a line (K5).
 
 use super::renderer::{LineError, Renderer};
-use super::send::{FrameError, FrameUse, send};
+use super::send::{FrameError, FrameUse, Lines, send};
 use crate::composite::PixelFormat;
 use crate::look::{Look, WordOf};
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
@@ -376,6 +376,7 @@ where
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     let end = scene.lines().end;
+    let mut lines = Lines::new(scene, background, ());
     desk.open(scene);
     let sent = send(
         scene,
@@ -391,7 +392,7 @@ where
                     L::Pixel::fill(pixels, background);
                     return Ok(false);
                 }
-                renderer.draw_line(scene, line, pixels, background)?
+                lines.draw(renderer, line, pixels)?
             };
             if !is_active {
                 let next = scene.begins_from(line + 1);

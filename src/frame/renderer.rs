@@ -213,6 +213,16 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         self.counts = CacheUse::default();
     }
 
+    /// Begins a frame of a scene.
+    ///
+    /// # Errors
+    /// Those of [`check`](Renderer::check).
+    pub(super) fn begin_frame(&mut self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
+        self.check(scene)?;
+        self.restart();
+        Ok(())
+    }
+
     /// What the cache has done since the renderer was made or restarted (C8).
     #[must_use]
     pub fn counts(&self) -> CacheUse {

@@ -2,6 +2,7 @@
 
 use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
+use crate::composite::LineOverlay;
 use crate::look::{Look, WordOf};
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};
@@ -69,16 +70,69 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    let view = View::of(scene);
-    let needed = usize::from(scene.screen().width());
-    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [WordOf<L>]| {
-        let have = pixels.len();
+    draw_frame_overlaid(scene, renderer, pump, background, lines_per_transfer, ())
+}
+
+/// Draws and sends all lines of `scene` as [`draw_frame`] does, with `overlay` over them (K14).
+///
+/// # Errors
+/// When the sink fails, naming the line, or the renderer has too little memory.
+pub fn draw_frame_overlaid<L, D, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    pump: &mut Pump<D>,
+    background: WordOf<L>,
+    lines_per_transfer: u16,
+    overlay: impl LineOverlay<L::Pixel>,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look,
+    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
+{
+    let mut lines = Lines::new(scene, background, overlay);
+    send(
+        scene,
+        renderer,
+        pump,
+        lines_per_transfer,
+        |renderer, line, pixels| lines.draw(renderer, line, pixels),
+    )
+}
+
+/// The lines of a frame as they are drawn: what they read of the scene, once a frame, what is behind them, and what
+/// lies over them.
+pub(super) struct Lines<'a, L: Look, O> {
+    view: View<'a>,
+    background: WordOf<L>,
+    overlay: O,
+}
+
+impl<'a, L: Look, O: LineOverlay<L::Pixel>> Lines<'a, L, O> {
+    pub(super) fn new(scene: &'a Scene<'_, '_, L>, background: WordOf<L>, overlay: O) -> Self {
+        Self {
+            view: View::of(scene),
+            background,
+            overlay,
+        }
+    }
+
+    /// Draws a line of the scene by a renderer that [began](Renderer::begin_frame) with it; whether something is active
+    /// there.
+    #[inline(always)]
+    pub(super) fn draw<const WORDS: usize>(
+        &mut self,
+        renderer: &mut Renderer<'_, L, WORDS>,
+        line: u16,
+        pixels: &mut [WordOf<L>],
+    ) -> Result<bool, LineError> {
+        let (needed, have) = (self.view.frame.width as usize, pixels.len());
         if have != needed {
             return Err(LineError::Pixels { needed, have });
         }
-        Ok(renderer.draw_known(&view, line, pixels, background))
-    };
-    send(scene, renderer, pump, lines_per_transfer, draw)
+        let is_active = renderer.draw_known(&self.view, line, pixels, self.background);
+        self.overlay.paint(line, pixels);
+        Ok(is_active)
+    }
 }
 
 /// Sends all lines of `scene`, each as `draw` writes it, which says whether something is active there.
@@ -94,8 +148,7 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    renderer.check(scene).map_err(FrameError::Line)?;
-    renderer.restart();
+    renderer.begin_frame(scene).map_err(FrameError::Line)?;
     let mut skipped = 0;
     pump.take_stats();
     pump.begin(window(scene), lines_per_transfer)?;
@@ -124,11 +177,11 @@ where
     L: Look,
     C: ContinuousPanel<Word = WordOf<L>>,
 {
-    renderer.check(scene)?;
-    renderer.restart();
+    renderer.begin_frame(scene)?;
+    let mut lines = Lines::new(scene, background, ());
     let mut skipped = 0;
     let fed = feed_frame(panel, scene.lines(), |line, pixels| {
-        skipped += u32::from(!renderer.draw_line(scene, line, pixels, background)?);
+        skipped += u32::from(!lines.draw(renderer, line, pixels)?);
         Ok(())
     })?;
     let sent = ScanStats::default();
@@ -152,14 +205,14 @@ where
     L: Look,
     D: AsyncLineWriter<Word = WordOf<L>>,
 {
-    renderer.check(scene).map_err(FrameError::Line)?;
-    renderer.restart();
+    renderer.begin_frame(scene).map_err(FrameError::Line)?;
+    let mut lines = Lines::new(scene, background, ());
     let mut skipped = 0;
     pump.take_stats();
     let window = window(scene);
     pump.frame(window, lines_per_transfer, |below, pixels| {
         let line = window.y.saturating_add(below);
-        let drawn = renderer.draw_line(scene, line, pixels, background);
+        let drawn = lines.draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
         Ok::<_, FrameError<_>>(())
     })

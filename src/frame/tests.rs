@@ -13,7 +13,31 @@ use std::boxed::Box;
 use std::vec::Vec;
 
 const WIDTH: u16 = 96;
-const HEIGHT: u16 = 40;
+
+/// How scenes are seen: lines of the picture, the eye's distance from the middle, its focal length, and the near
+/// distance.
+#[derive(Clone, Copy)]
+struct Seen {
+    height: u16,
+    distance: f32,
+    focal: f32,
+    near: f32,
+}
+
+/// From so near that triangles are large.
+const WIDE: Seen = Seen {
+    height: 40,
+    distance: 2.2,
+    focal: 60.0,
+    near: 0.2,
+};
+/// From so far that some are small.
+const NARROW: Seen = Seen {
+    height: 96,
+    distance: 2.5,
+    focal: 200.0,
+    near: 0.1,
+};
 
 /// Triangles of all sizes that cross each other.
 struct Crowd {
@@ -49,10 +73,28 @@ impl Crowd {
         }
         crowd
     }
+
+    /// A few, of all sizes at all distances, of which some meet others and none is seen at an angle.
+    fn sparse(rng: &mut Rng, triangles: u16) -> Self {
+        let mut crowd = Self::new(rng, 0, 0);
+        for i in 0..triangles {
+            let mut at = |size: u32| rng.below(size) as i16 - (size / 2) as i16;
+            let size = [600, 3000, 9000][usize::from(i) % 3];
+            let middle = [at(24_000), at(24_000), at(20_000)];
+            for _ in 0..3 {
+                let place = [middle[0] + at(size), middle[1] + at(size), middle[2]];
+                crowd.positions.push(place);
+                crowd.colours.push([0; 3].map(|_| at(256) as u8));
+            }
+            crowd.faces.push([3 * i, 3 * i + 1, 3 * i + 2]);
+        }
+        crowd
+    }
 }
 
 /// Calls `see` with a scene of these.
 fn with_scene<L: Look>(
+    seen: Seen,
     crowds: &[Crowd],
     texture: Option<&Texture<'_>>,
     see: impl FnOnce(&Scene<'_, '_, L>),
@@ -60,9 +102,9 @@ fn with_scene<L: Look>(
     let mut vertices = std::vec![Vertex::EMPTY; 4_000];
     let mut places = std::vec![TexturePlace::EMPTY; 4_000];
     let mut objects = std::vec![Object::EMPTY; 2_000];
-    let mut bins = std::vec![NONE; HEIGHT.into()];
+    let mut bins = std::vec![NONE; seen.height.into()];
     let mut draws = [DrawState::EMPTY; 4];
-    let screen = Screen::new(WIDTH, HEIGHT).unwrap();
+    let screen = Screen::new(WIDTH, seen.height).unwrap();
     let memory = Memory {
         vertices: &mut vertices,
         places: &mut places,
@@ -71,8 +113,8 @@ fn with_scene<L: Look>(
         draws: &mut draws,
     };
     let mut scene = Scene::<L>::new(screen, memory);
-    let (eye, up) = ([0.0, 0.0, 2.2], [0.0, 1.0, 0.0]);
-    let camera = Camera::look_at(eye, [0.0; 3], up, 60.0, 0.2, 100.0).unwrap();
+    let (eye, up) = ([0.0, 0.0, seen.distance], [0.0, 1.0, 0.0]);
+    let camera = Camera::look_at(eye, [0.0; 3], up, seen.focal, seen.near, 100.0).unwrap();
     scene.begin(&camera).unwrap();
     for crowd in crowds {
         let call = Draw {
@@ -96,13 +138,13 @@ fn with_scene<L: Look>(
     see(&scene);
 }
 
-/// The lines of a picture, in this order, with so many slots.
+/// The lines of a picture, in this order, with so many slots, and how often a triangle had none on a line.
 fn lines<L: Look>(
     scene: &Scene<'_, '_, L>,
     slots: u16,
     depth: bool,
     order: &[u16],
-) -> Vec<Vec<WordOf<L>>> {
+) -> (Vec<Vec<WordOf<L>>>, u32) {
     let mut cache = Box::new(FastMemory::<L, 7>::new());
     cache.set_limit(slots);
     let mut links = std::vec![Link::NONE; scene.objects()];
@@ -120,7 +162,8 @@ fn lines<L: Look>(
             .unwrap();
         pixels
     };
-    order.iter().map(line).collect()
+    let lines = order.iter().map(line).collect();
+    (lines, renderer.counts().misses)
 }
 
 fn does_not_depend_on_the_cache<L: Look>(texture: Option<&Texture<'_>>, seed: u64)
@@ -128,19 +171,21 @@ where
     WordOf<L>: PartialEq,
 {
     let mut rng = Rng(seed);
-    let all: Vec<u16> = (0..HEIGHT).collect();
+    let all: Vec<u16> = (0..WIDE.height).collect();
     for round in 0..18 {
         let count = [5, 40, 200][round % 3];
         let ranked = round % 9 > 5;
         let crowds = [2, 1].map(|p| Crowd::new(&mut rng, count, if ranked { p } else { 0 }));
-        with_scene::<L>(&crowds, texture, |scene| {
+        with_scene::<L>(WIDE, &crowds, texture, |scene| {
             for depth in [true, false] {
-                let want = lines(scene, 224, depth, &all);
+                let (want, _) = lines(scene, 224, depth, &all);
                 for slots in [0, 3, 32, 90] {
-                    let got = lines(scene, slots, depth, &all);
+                    let (got, _) = lines(scene, slots, depth, &all);
                     assert!(got == want, "{slots} slots, depth {depth}, round {round}");
-                    let some: Vec<u16> = (0..20).map(|_| rng.below(HEIGHT.into()) as u16).collect();
-                    let got = lines(scene, slots, depth, &some);
+                    let some: Vec<u16> = (0..20)
+                        .map(|_| rng.below(WIDE.height.into()) as u16)
+                        .collect();
+                    let (got, _) = lines(scene, slots, depth, &some);
                     let same = some
                         .iter()
                         .zip(&got)
@@ -158,4 +203,26 @@ fn pictures_do_not_depend_on_the_cache() {
     let texture = Texture::words(&words, 64, 64).unwrap();
     does_not_depend_on_the_cache::<Textured<Rgb565>>(Some(&texture), 51);
     does_not_depend_on_the_cache::<Gouraud<Rgb888>>(None, 52);
+}
+
+#[test]
+fn what_has_no_slot_is_drawn_as_what_has_one() {
+    let mut rng = Rng(31);
+    let mut missed = 0;
+    let all: Vec<u16> = (0..NARROW.height).collect();
+    for round in 0..60 {
+        let crowd = Crowd::sparse(&mut rng, 2 + round % 20);
+        with_scene::<Gouraud<Rgb565>>(NARROW, &[crowd], None, |scene| {
+            for depth in [false, true] {
+                let (want, misses) = lines(scene, 64, depth, &all);
+                assert_eq!(misses, 0);
+                for slots in [0, 1, 2, 3, 5, 9] {
+                    let (got, misses) = lines(scene, slots, depth, &all);
+                    assert!(got == want, "{slots} slots in round {round}");
+                    missed += misses;
+                }
+            }
+        });
+    }
+    assert!(missed > 5000, "{missed}");
 }

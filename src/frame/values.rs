@@ -2,7 +2,8 @@
 //!
 //! Values are looked at once a span, and only where a call of the scene has any: other lines and other scenes know
 //! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
-//! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without depth all is drawn in order of submission.
+//! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without
+//! depth all is drawn in order of submission.
 
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
@@ -24,11 +25,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         out: &mut Line<'_, '_, WordOf<L>>,
         background: WordOf<L>,
     ) -> bool {
-        let ruled = out.view.ruled;
-        if ruled && self.changed {
+        if self.changed {
             self.mark_values(out.view);
         }
-        if !(ruled && self.has_values(out.view)) {
+        if !self.has_values(out.view) {
             return false;
         }
         fill_line::<L>(out.pixels, background);
@@ -46,13 +46,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.over.clear();
         self.written.clear();
         self.met = false;
-        self.forget_order();
-        true
-    }
-
-    /// Says that what was kept of an order of slots has been written over.
-    pub(super) fn forget_order(&mut self) {
+        // What was kept of an order of slots has been written over.
         (self.nearest, self.lasting) = (0, false);
+        true
     }
 
     /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
