@@ -10,8 +10,8 @@ use super::finish::Finish;
 use super::pixel_lamps::unit_normal;
 use super::shading::{Empty, Shading};
 use super::texturing;
-use super::transform::{Affine, unit};
-use crate::num::{I2F14, InverseArea, Plane, SmallArea};
+use super::transform::Affine;
+use crate::num::{InverseArea, Plane, SmallArea};
 use core::marker::PhantomData;
 
 /// What a mesh brings so that it can be lit at each pixel; `I` is what the shading inside wants.
@@ -202,8 +202,7 @@ impl<S: Shading> Shading for Phong<S> {
 
     #[inline]
     fn set_normal(vertex: &mut Self::Vertex, turn: &Affine, normal: [i16; 3]) {
-        let turned = unit(turn.turned(normal.map(I2F14::from_bits)));
-        vertex.normal = turned.map(|c| ((c.to_bits() + 4) >> 3).clamp(-MOST, MOST));
+        vertex.normal = (turn.unit_normal(normal)).map(|c| ((c + 4) >> 3).clamp(-MOST, MOST));
     }
 
     type Mark = S::Mark;

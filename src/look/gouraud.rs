@@ -113,12 +113,11 @@ impl<F: Pixel> Gouraud<F> {
     /// A run of [`Fill::Small`], packed anew every 16 pixels from its span's first on.
     #[inline(always)]
     fn fill_small(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let off = place.column.wrapping_sub(place.span) & 15;
+        let (anchor, off) = anchor(place);
         if run.len() > 16 - off as usize {
             return Self::fill_small_long(planes, place, run);
         }
-        let column = place.column.wrapping_sub(off);
-        let at = Self::pair_at(planes, Place { column, ..place });
+        let at = Self::pair_at(planes, anchor);
         let step = planes[6];
         let word = at.word().wrapping_add(step.wrapping_mul(off));
         ramp::fill::<F>(run, Packed { word, step });
@@ -127,9 +126,8 @@ impl<F: Pixel> Gouraud<F> {
     /// The same of more than one part.
     #[inline(never)]
     fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let mut off = place.column.wrapping_sub(place.span) & 15;
-        let column = place.column.wrapping_sub(off);
-        let mut at = Self::pair_at(planes, Place { column, ..place });
+        let (anchor, off) = anchor(place);
+        let mut at = Self::pair_at(planes, anchor);
         if planes[1] | planes[4] == 0 {
             return ramp::fill_even::<F>(run, F::of_word(at.word()));
         }
@@ -138,15 +136,11 @@ impl<F: Pixel> Gouraud<F> {
             green: planes[4] << 4,
         };
         let step = planes[6];
-        let mut rest = run;
-        while !rest.is_empty() {
+        each_part(run, off, |part, off| {
             let word = at.word().wrapping_add(step.wrapping_mul(off));
-            let pixels = rest.len().min(16 - off as usize);
-            let (run, after) = rest.split_at_mut(pixels);
-            ramp::fill::<F>(run, Packed { word, step });
+            ramp::fill::<F>(part, Packed { word, step });
             at = at.plus(sixteen);
-            (rest, off) = (after, 0);
-        }
+        });
     }
 
     /// Both words of [`Fill::Small`] at a place.
@@ -161,25 +155,20 @@ impl<F: Pixel> Gouraud<F> {
     /// A run of what keeps more bits, likewise.
     #[inline(never)]
     fn fill_wide(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let mut off = place.column.wrapping_sub(place.span) & 15;
-        let column = place.column.wrapping_sub(off);
-        let mut course = course(fill, planes, Place { column, ..place });
+        let (anchor, off) = anchor(place);
+        let mut course = course(fill, planes, anchor);
         if course.is_even() {
             return ramp::fill_even::<F>(run, course.even::<F>());
         }
-        let mut rest = run;
-        while !rest.is_empty() {
-            let pixels = rest.len().min(16 - off as usize);
-            let (run, after) = rest.split_at_mut(pixels);
+        each_part(run, off, |part, off| {
             if F::PACKED {
-                ramp::fill::<F>(run, course.packed(off));
+                ramp::fill::<F>(part, course.packed(off));
             } else {
                 let [at, step] = course.pair(off);
-                ramp::fill_pair::<F>(run, at, step);
+                ramp::fill_pair::<F>(part, at, step);
             }
             course.skip(16);
-            (rest, off) = (after, 0);
-        }
+        });
     }
 
     #[inline(always)]
@@ -188,6 +177,28 @@ impl<F: Pixel> Gouraud<F> {
             word: at(planes, 0, place),
             step: planes[1],
         }
+    }
+}
+
+/// The last pixel at or before a place that is a multiple of 16 from its span's first one, and how many pixels lie
+/// between.
+#[inline(always)]
+fn anchor(place: Place) -> (Place, u32) {
+    let off = place.skipped() & 15;
+    let column = place.column.wrapping_sub(off);
+    (Place { column, ..place }, off)
+}
+
+/// Calls `f` with each part of a run between two anchors, of which the first is `off` pixels before the run: with its
+/// pixels, and how many lie between it and its anchor.
+#[inline(always)]
+fn each_part<W>(run: &mut [W], mut off: u32, mut f: impl FnMut(&mut [W], u32)) {
+    let mut rest = run;
+    while !rest.is_empty() {
+        let pixels = rest.len().min(16 - off as usize);
+        let (part, after) = rest.split_at_mut(pixels);
+        f(part, off);
+        (rest, off) = (after, 0);
     }
 }
 

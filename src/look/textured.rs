@@ -166,6 +166,18 @@ impl<F: Texel> Textured<F> {
         !planes.mapped
     }
 
+    /// The texels of a run, as they are; white without any.
+    #[inline(always)]
+    fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        let state = draws.get(usize::from(planes.draw));
+        match state.and_then(DrawState::texture) {
+            Some((texture, budget)) if planes.mapped => {
+                planes.mapping.draw(run, place, texture, budget);
+            }
+            _ => run.fill(0xFFFF),
+        }
+    }
+
     /// Multiplies a run by the shade of a triangle within 64 pixels.
     #[inline(always)]
     fn shade_small(planes: &Shades, place: Place, run: &mut [u16]) {
@@ -289,8 +301,8 @@ fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) -> bool 
     raised(&red) | raised(&green) | raised(&blue) < 2 * STEEP as u32
 }
 
-/// The shade half a pixel beyond a place, and its step, for a part of a span with so many pixels. A pixel alone in a steep shade has
-/// that of its own place.
+/// The shade half a pixel beyond a place, and its step, for a part of a span with so many pixels. A pixel alone in a
+/// steep shade has that of its own place.
 #[inline(always)]
 fn shade_at(course: &Course, pixels: u32) -> [Shade; 2] {
     let is_alone = pixels == 1
@@ -401,28 +413,19 @@ impl<F: Texel> Paint for Textured<F> {
         if fill == Fill::Plain {
             return Self::fill_plain(planes, place, draws, run);
         }
-        let state = draws.get(usize::from(planes.draw));
-        match state.and_then(DrawState::texture) {
-            Some((texture, budget)) if planes.mapped => {
-                planes.mapping.draw(run, place, texture, budget);
-            }
-            _ => run.fill(0xFFFF),
-        }
+        Self::texels(planes, place, draws, run);
         Self::shade(planes, place, run);
     }
 
+    #[inline(never)]
     fn fill_dithered(
-        fill: Fill,
+        _: Fill,
         planes: &Planes,
         place: Place,
         draws: &[DrawState<'_>],
         run: &mut [u16],
     ) {
-        let texels = Planes {
-            shaded: None,
-            ..*planes
-        };
-        Self::fill(fill, &texels, place, draws, run);
+        Self::texels(planes, place, draws, run);
         Self::shade_dithered(planes, place, run);
     }
 
@@ -434,23 +437,20 @@ impl<F: Texel> Paint for Textured<F> {
         draws: &[DrawState<'_>],
         run: &mut [u16],
     ) -> u32 {
-        let Some((texture, budget, holes, dithers)) =
-            draws.get(usize::from(planes.draw)).and_then(|state| {
-                let (texture, budget) = state.texture().filter(|_| planes.mapped)?;
-                Some((texture, budget, state.holes?, state.dithers))
-            })
-        else {
+        let state = draws.get(usize::from(planes.draw));
+        let holes = state.and_then(|state| state.holes.filter(|_| planes.mapped));
+        let (Some(state), Some(holes)) = (state, holes) else {
             Self::fill(fill, planes, place, draws, run);
             return u32::MAX;
         };
         let shade = |run: &mut [u16]| {
-            if dithers {
+            if state.dithers {
                 Self::shade_dithered(planes, place, run);
             } else {
                 Self::shade(planes, place, run);
             }
         };
-        planes.mapping.draw(run, place, texture, budget);
+        Self::texels(planes, place, draws, run);
         if holes.are_filled {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());

@@ -1,13 +1,12 @@
 //! The order of a 4 x 4 dither over the picture (H10).
 
+use crate::composite::{Ordered, Ranks};
+
 /// By how much a place of the picture raises a colour before it is cut to a step: -15 to 15 of 32 parts of a step, all
 /// of them once in 4 x 4 pixels.
 #[inline(always)]
 pub(crate) fn threshold(column: u32, line: u32) -> i32 {
-    // Bits of the column against the line and of the line, the lowest first: neighbours on a line are far from each other.
-    let across = column ^ line;
-    let order = (across & 1) << 3 | (line & 1) << 2 | across & 2 | line >> 1 & 1;
-    2 * order as i32 - 15
+    2 * i32::from(Ordered::RANKS[line as usize & 3][column as usize & 3]) - 15
 }
 
 #[cfg(test)]

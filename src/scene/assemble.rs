@@ -70,10 +70,9 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         let mesh = &draw.mesh;
         check_draw(draw, textured, word_of.is_some())?;
-        let skin = draw.texture;
         let is_flat = draw.shading == Shading::Flat;
         let submitted = triangles(mesh.faces);
-        let state = DrawState::new(self.objects.len() as u16, draw, skin.as_ref());
+        let state = DrawState::new(self.objects.len() as u16, draw);
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
                 memory: Full::Draws,
@@ -108,7 +107,7 @@ impl<'t, L> Scene<'_, 't, L> {
             }),
             tint: Tint::new(colour, &self.scale),
             cull: draw.cull,
-            texels: skin.map_or(&[][..], |skin| skin.places),
+            texels: draw.texture.map_or(&[][..], |skin| skin.places),
             base: self.vertices.len(),
             shared: 0,
             within: false,

@@ -179,8 +179,9 @@ impl<'t> DrawState<'t> {
         square: None,
     };
 
-    /// That of a call whose first triangle has this number, with a texture where the look draws one.
-    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, skin: Option<&Skin<'_, 't>>) -> Self {
+    /// That of a call whose first triangle has this number.
+    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>) -> Self {
+        let skin = draw.texture.as_ref();
         let texture = skin.map(|skin| skin.texture);
         Self {
             first,

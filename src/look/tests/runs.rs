@@ -161,7 +161,11 @@ fn spans_of<L: Paint>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
             places: &[],
             budget: BUDGETS[i % 7 % 4],
         });
-        let draws = [DrawState::new(0, &Draw::new(mesh), skin.as_ref())];
+        let call = Draw {
+            texture: skin,
+            ..Draw::new(mesh)
+        };
+        let draws = [DrawState::new(0, &call)];
         let (area, lines, way) = (triangle.area(), triangle.lines(), triangle.way());
         let mut planes = L::EMPTY;
         let size = triangle.size(area);
