@@ -17,6 +17,14 @@ const STEPS: [f64; 3] = [31.0, 63.0, 31.0];
 /// How far a level may be off, in steps: 4 units of the 32 that green has, and what light and texels add.
 const OFF: f64 = 0.2;
 
+/// Where a look has its colours from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Lit {
+    AtCorners,
+    /// From the call, which is not lit here.
+    AtPixels,
+}
+
 /// Texels of one colour, in steps.
 const TEXEL: [u16; 3] = [25, 40, 31];
 
@@ -53,6 +61,7 @@ fn triangle(rng: &mut Rng, is_even: bool) -> [Corner; 3] {
 fn each_pixel<L: Smooth>(
     seed: u64,
     texture: Option<&'static Texture<'static>>,
+    lit: Lit,
     dither: bool,
     mut see: impl FnMut(&[Corner; 3], WordOf<L>, [u16; 2]),
 ) where
@@ -60,15 +69,14 @@ fn each_pixel<L: Smooth>(
 {
     let mut rng = Rng::new(seed);
     let screen = Screen::new(48, 24).expect("a screen");
-    let is_lit_at_pixels = std::any::type_name::<L>().contains("Phong");
     for _ in 0..200 {
-        let corners = triangle(&mut rng, is_lit_at_pixels);
+        let corners = triangle(&mut rng, lit == Lit::AtPixels);
         let mut rooms = SceneRooms::of_triangles(1, screen);
         let mut scene = rooms.scene::<L>(screen);
         scene.begin(&camera()).expect("the rooms are large enough");
         draw_with(&mut scene, &[corners], |draw| {
             (draw.cull, draw.dither) = (Cull::None, dither);
-            if is_lit_at_pixels {
+            if lit == Lit::AtPixels {
                 (draw.mesh.colours, draw.colour) = (&[], corners[0].colour);
             }
             draw.texture = texture.map(|texture| Skin {
@@ -96,10 +104,11 @@ fn each_pixel<L: Smooth>(
 fn is_dithered<L: Smooth<Format: PixelFormat<Word = u16>>>(
     seed: u64,
     texture: Option<&'static Texture<'static>>,
+    lit: Lit,
     order: fn(u16) -> u16,
 ) {
     let (mut pixels, mut raised) = (0, 0);
-    each_pixel::<L>(seed, texture, true, |corners, word, [x, y]| {
+    each_pixel::<L>(seed, texture, lit, true, |corners, word, [x, y]| {
         let (part, _) = weights(corners.map(|c| c.at), x.into(), y.into());
         let rank = MATRIX[usize::from(y) % 4][usize::from(x) % 4];
         let word = order(word);
@@ -127,12 +136,12 @@ fn is_dithered<L: Smooth<Format: PixelFormat<Word = u16>>>(
 
 #[test]
 fn calls_are_dithered_by_the_matrix() {
-    is_dithered::<Gouraud<Rgb565>>(2_001, None, |word| word);
-    is_dithered::<Gouraud<Rgb565Be>>(2_002, None, u16::from_be);
-    is_dithered::<Textured<Rgb565>>(2_003, None, |word| word);
-    is_dithered::<Textured<Rgb565>>(2_004, Some(&TEXTURE), |word| word);
-    is_dithered::<Textured<Rgb565Be>>(2_005, Some(&TEXTURE_BE), u16::from_be);
-    is_dithered::<Phong<Rgb565Be>>(2_006, None, u16::from_be);
+    is_dithered::<Gouraud<Rgb565>>(2_001, None, Lit::AtCorners, |word| word);
+    is_dithered::<Gouraud<Rgb565Be>>(2_002, None, Lit::AtCorners, u16::from_be);
+    is_dithered::<Textured<Rgb565>>(2_003, None, Lit::AtCorners, |word| word);
+    is_dithered::<Textured<Rgb565>>(2_004, Some(&TEXTURE), Lit::AtCorners, |word| word);
+    is_dithered::<Textured<Rgb565Be>>(2_005, Some(&TEXTURE_BE), Lit::AtCorners, u16::from_be);
+    is_dithered::<Phong<Rgb565Be>>(2_006, None, Lit::AtPixels, u16::from_be);
 }
 
 /// Pixels of 24 bits have what they have without.
@@ -140,8 +149,12 @@ fn calls_are_dithered_by_the_matrix() {
 fn pixels_of_24_bits_are_not_dithered() {
     let pictures = [true, false].map(|dither| {
         let mut words = Vec::new();
-        each_pixel::<Gouraud<Rgb888>>(2_007, None, dither, |_, word, _| words.push(word));
-        each_pixel::<Phong<Rgb888>>(2_008, None, dither, |_, word, _| words.push(word));
+        each_pixel::<Gouraud<Rgb888>>(2_007, None, Lit::AtCorners, dither, |_, word, _| {
+            words.push(word)
+        });
+        each_pixel::<Phong<Rgb888>>(2_008, None, Lit::AtPixels, dither, |_, word, _| {
+            words.push(word)
+        });
         words
     });
     assert!(pictures[0].len() > 20_000 && pictures[0] == pictures[1]);

@@ -6,6 +6,7 @@
 
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
+use crate::hot::shine::{V3, dot, q14, some_direction, unit};
 use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::{Gouraud, Phong};
@@ -13,25 +14,6 @@ use scanbeam::mesh::{Material, U1F15};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{Draw, DrawError, Shading};
 use scanbeam::{Cull, Light, Screen};
-
-type V3 = [f64; 3];
-
-fn dot(a: V3, b: V3) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-fn unit(v: V3) -> V3 {
-    v.map(|c| c / dot(v, v).sqrt())
-}
-
-fn some_direction(rng: &mut Rng) -> V3 {
-    loop {
-        let v = [(); 3].map(|()| rng.signed());
-        if dot(v, v) > 0.1 && dot(v, v) < 1.0 {
-            return unit(v);
-        }
-    }
-}
 
 /// Lights and a material, in f64.
 struct Shine {
@@ -149,7 +131,6 @@ impl Facet {
     }
 
     fn dress<'t>(&self, draw: &mut Draw<'_, 't, i32>, lamps: &'t PixelLamps, colour: [u8; 3]) {
-        let q14 = |v: V3| v.map(|c| (c * 16_384.0).round() as i16);
         // A call may outlive this one, as the compiler sees it.
         let normals: &'static [_] = self.normals.map(q14).to_vec().leak();
         (draw.mesh.normals, draw.mesh.colours) = (normals, &[]);

@@ -5,9 +5,9 @@
 
 use crate::common::Rng;
 use crate::hot::exact::within;
-use crate::hot::values::{Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, blended, passes, some_mode};
+use crate::hot::layers::{Layer, lay_all};
+use crate::hot::values::{Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, blended, some_mode};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
-use crate::hot_path_depth::{bound, exact};
 use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
@@ -16,7 +16,6 @@ use scanbeam::scene::{
     Wrap,
 };
 use scanbeam::{Cull, Screen};
-use std::cmp::Ordering;
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
 
@@ -91,29 +90,14 @@ impl Call {
         columns.contains(&usize::from(x)) && self.cut.as_ref().is_none_or(|cut| cut.keeps(x, y))
     }
 
-    /// Its depth at a pixel, and by how much that may be off.
-    fn depth(&self, x: u16, y: u16) -> [f64; 2] {
-        [exact(&self.corners, x.into(), y), bound(&self.corners)]
+    fn layer(&self) -> Layer<'_> {
+        let is_translucent = |(mode, _)| mode != BlendMode::Replace;
+        Layer {
+            corners: &self.corners,
+            test: self.test,
+            is_translucent: self.blend.is_some_and(is_translucent),
+        }
     }
-}
-
-/// A depth that is there: nothing, or that of a triangle.
-#[derive(Clone, Copy)]
-struct There<'a> {
-    of: Option<&'a [Corner; 3]>,
-    depth: [f64; 2],
-}
-
-/// How a depth compares with that which is there; `None` where that is not known. A triangle is as far as itself.
-fn compare(here: There<'_>, there: There<'_>) -> Option<Ordering> {
-    let same =
-        |a: &[Corner; 3], b: &[Corner; 3]| (0..3).all(|i| a[i].at == b[i].at && a[i].w == b[i].w);
-    match (here.of, there.of) {
-        (Some(a), Some(b)) if same(a, b) => return Some(Ordering::Equal),
-        _ => {}
-    }
-    let apart = here.depth[0] - there.depth[0];
-    (apart.abs() > here.depth[1] + there.depth[1]).then(|| apart.total_cmp(&0.0))
 }
 
 /// The levels of a pixel, and by how much each may be off.
@@ -174,48 +158,12 @@ fn pixel(
         level: BACKGROUND.map(f64::from),
         off: [rounding.written; 3],
     };
-    let mut there = There {
-        of: None,
-        depth: [0.0; 2],
-    };
-    let mut waiting: Vec<(&Call, There<'_>)> = Vec::new();
-    for call in calls.iter().filter(|call| call.covers(x, y, screen)) {
-        if !by_depth {
-            levels.lay(call, rounding);
-            continue;
-        }
-        let here = There {
-            of: Some(&call.corners),
-            depth: call.depth(x, y),
-        };
-        if call
-            .blend
-            .is_some_and(|(mode, _)| mode != BlendMode::Replace)
-        {
-            // From far to near; what is as far as another comes after it.
-            let mut at = waiting.len();
-            for (i, (_, other)) in waiting.iter().enumerate().rev() {
-                if compare(here, *other)? == Ordering::Less {
-                    at = i;
-                }
-            }
-            waiting.insert(at, (call, here));
-            continue;
-        }
-        let order = compare(here, there)?;
-        let passing = call.test.map(|function| passes(function, order));
-        if passing[0] {
-            levels.lay(call, rounding);
-        }
-        if passing[1] {
-            there = here;
-        }
-    }
-    for (call, here) in waiting {
-        if passes(call.test[0], compare(here, there)?) {
-            levels.lay(call, rounding);
-        }
-    }
+    let covering = calls.iter().filter(|call| call.covers(x, y, screen));
+    let layers = covering.map(|&call| (call.layer(), call));
+    lay_all(layers, [x, y], by_depth, |call| {
+        levels.lay(call, rounding);
+        Some(())
+    })?;
     Some(levels)
 }
 

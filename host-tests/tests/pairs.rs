@@ -8,10 +8,11 @@ mod reference;
 mod textures;
 
 use crate::common::Rng;
+use crate::hot::shine::{V3, q14, some_direction};
 use crate::hot::values::{Cut, FUNCTIONS};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, line};
 use cover::Pairs;
-use reference::{Call, Light64, Range, Rounding, Skin64, V3, World, covering, pixel, unit};
+use reference::{Call, Light64, Range, Rounding, Skin64, World, covering, pixel};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::Material;
@@ -54,16 +55,6 @@ const TEXTURED: usize = 5;
 
 /// A choice on each axis.
 type Choices = [usize; 18];
-
-fn some_direction(rng: &mut Rng) -> V3 {
-    loop {
-        let v = [(); 3].map(|()| rng.signed());
-        let square: f64 = v.iter().map(|c| c * c).sum();
-        if square > 0.1 {
-            return unit(v);
-        }
-    }
-}
 
 /// A direction that 14 bits hold.
 fn some_normal(rng: &mut Rng) -> V3 {
@@ -336,7 +327,6 @@ fn some_choices(rng: &mut Rng) -> Choices {
 
 /// Sets the values of a call.
 fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
-    let q14 = |v: V3| v.map(|c| (c * 16_384.0).round() as i16);
     // A call may outlive its scene, as the compiler sees it.
     let normals: &'static [_] = call.normals.map(q14).to_vec().leak();
     draw.mesh.normals = normals;

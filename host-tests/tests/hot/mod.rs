@@ -2,6 +2,8 @@
 //! corners lie on chosen 1/8 pixels at chosen distances, and what is exact at a pixel.
 
 pub mod exact;
+pub mod layers;
+pub mod shine;
 pub mod values;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};

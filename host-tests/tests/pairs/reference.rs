@@ -5,13 +5,11 @@
 
 use crate::hot::Corner;
 use crate::hot::exact::{weights, within};
-use crate::hot::values::{Cut, Function, blended, passes};
-use crate::hot_path_depth::{bound, exact};
+use crate::hot::layers::{Layer, lay_all};
+use crate::hot::shine::{V3, dot, unit};
+use crate::hot::values::{Cut, Function, blended};
 use scanbeam::Screen;
 use scanbeam::scene::{Application, BlendMode, Budget, Wrap};
-use std::cmp::Ordering;
-
-pub type V3 = [f64; 3];
 
 /// The least and the most.
 pub type Range = [f64; 2];
@@ -98,14 +96,6 @@ pub struct World<'a> {
     pub by_depth: bool,
 }
 
-fn dot(a: V3, b: V3) -> f64 {
-    (0..3).map(|i| a[i] * b[i]).sum()
-}
-
-pub fn unit(v: V3) -> V3 {
-    v.map(|c| c / dot(v, v).sqrt())
-}
-
 /// Where a corner is, seen from the eye, in units of its distance.
 fn position(corner: &Corner, screen: Screen) -> V3 {
     let middle = [screen.width(), screen.height()].map(|side| 4 * i32::from(side));
@@ -168,9 +158,13 @@ impl Call {
         columns.contains(&usize::from(x)) && self.cut.as_ref().is_none_or(|cut| cut.keeps(x, y))
     }
 
-    fn is_translucent(&self) -> bool {
-        self.blend
-            .is_some_and(|(mode, _)| mode != BlendMode::Replace)
+    fn layer(&self) -> Layer<'_> {
+        let is_translucent = |(mode, _)| mode != BlendMode::Replace;
+        Layer {
+            corners: &self.corners,
+            test: self.test,
+            is_translucent: self.blend.is_some_and(is_translucent),
+        }
     }
 
     /// The place on the texture, in texels.
@@ -294,44 +288,6 @@ impl Texels {
     }
 }
 
-/// A depth that is there: nothing, or that of a triangle.
-#[derive(Clone, Copy)]
-struct There<'a> {
-    of: Option<&'a [Corner; 3]>,
-    depth: f64,
-    off: f64,
-}
-
-impl<'a> There<'a> {
-    const FARTHEST: Self = Self {
-        of: None,
-        depth: 0.0,
-        off: 0.0,
-    };
-
-    fn of(call: &'a Call, [x, y]: [u16; 2]) -> Self {
-        Self {
-            of: Some(&call.corners),
-            depth: exact(&call.corners, x.into(), y),
-            off: bound(&call.corners),
-        }
-    }
-
-    /// How it compares with what is there; `None` where that is not known. A triangle is as far as itself.
-    fn compare(self, there: Self) -> Option<Ordering> {
-        let same = |a: &[Corner; 3], b: &[Corner; 3]| {
-            (0..3).all(|i| a[i].at == b[i].at && a[i].w == b[i].w)
-        };
-        if let (Some(a), Some(b)) = (self.of, there.of) {
-            if same(a, b) {
-                return Some(Ordering::Equal);
-            }
-        }
-        let apart = self.depth - there.depth;
-        (apart.abs() > self.off + there.off).then(|| apart.total_cmp(&0.0))
-    }
-}
-
 /// Lays what a call may have over what may be there.
 fn lay(levels: &mut [Range; 3], call: &Call, at: [u16; 2], world: &World<'_>) -> Option<()> {
     let new = call.levels(at, world)?;
@@ -358,44 +314,15 @@ pub fn pixel(calls: &[&Call], at: [u16; 2], world: &World<'_>) -> Option<[Range;
     let mut levels = world
         .background
         .map(|level| [-off, off].map(|off| f64::from(level) + off));
-    let mut there = There::FARTHEST;
-    let mut waiting: Vec<(&Call, There<'_>)> = Vec::new();
+    let mut seen = Vec::new();
     for &call in calls {
-        if !call.covers(at[0], at[1], world.screen) {
-            continue;
-        }
-        if call.is_hole(at, world)? {
-            continue;
-        }
-        if !world.by_depth {
-            lay(&mut levels, call, at, world)?;
-            continue;
-        }
-        let here = There::of(call, at);
-        if call.is_translucent() {
-            // From far to near; what is as far as another comes after it.
-            let mut place = waiting.len();
-            for (i, (_, other)) in waiting.iter().enumerate().rev() {
-                if here.compare(*other)? == Ordering::Less {
-                    place = i;
-                }
-            }
-            waiting.insert(place, (call, here));
-            continue;
-        }
-        let order = here.compare(there)?;
-        if passes(call.test[0], order) {
-            lay(&mut levels, call, at, world)?;
-        }
-        if passes(call.test[1], order) {
-            there = here;
+        if call.covers(at[0], at[1], world.screen) && !call.is_hole(at, world)? {
+            seen.push((call.layer(), call));
         }
     }
-    for (call, here) in waiting {
-        if passes(call.test[0], here.compare(there)?) {
-            lay(&mut levels, call, at, world)?;
-        }
-    }
+    lay_all(seen, at, world.by_depth, |call| {
+        lay(&mut levels, call, at, world)
+    })?;
     Some(levels)
 }
 
