@@ -40,7 +40,7 @@ static TEXTURE_BE: Texture<'static> = match Texture::words(&SWAPPED, 8, 8) {
 };
 
 fn triangle(rng: &mut Rng, is_even: bool) -> [Corner; 3] {
-    let size = rng.pick(&[60, 150, 500, 3_000]);
+    let size = rng.pick(&[12, 60, 150, 500, 3_000]);
     let middle = (rng.within(0, 380), rng.within(0, 190));
     let colour = [(); 3].map(|()| rng.below(256) as u8);
     [(); 3].map(|()| Corner {
@@ -134,6 +134,7 @@ fn is_dithered<L: Smooth<Format: PixelFormat<Word = u16>>>(
     assert!(pixels > 20_000 && raised > pixels / 3, "{pixels} {raised}");
 }
 
+/// Kills: steps of a steep shade that are not taken modulo 2^16 (boxes of 3 pixels), a matrix that is turned.
 #[test]
 fn calls_are_dithered_by_the_matrix() {
     is_dithered::<Gouraud<Rgb565>>(2_001, None, Lit::AtCorners, |word| word);

@@ -479,8 +479,9 @@ impl<F: Pixel> Paint for Gouraud<F> {
             mut value, step, ..
         } = course(fill, planes, place);
         for (pixel, column) in run.iter_mut().zip(place.column..) {
-            let raised =
-                |i: usize| dithered(value[i] >> 15, threshold(column, place.line), F::STEPS[i]);
+            let by = threshold(column, place.line);
+            // Of a steep shade two words hold steps modulo 2^16.
+            let raised = |i: usize| dithered(value[i] >> 15 & 0xFFFF, by, F::STEPS[i]);
             *pixel = F::pack_words(raised(0) << 16 | raised(2), raised(1) << 16);
             for (value, step) in value.iter_mut().zip(step) {
                 *value = value.wrapping_add(step as u32);
