@@ -205,10 +205,42 @@ pub(super) fn copy_part(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u
     copy(run, texture, at, step);
 }
 
-/// [`copy_from`], called.
+/// Copies a square's texels into `run` along a parabola: as [`copy_from`], and the step grows by a second one at each
+/// pixel.
+#[inline(always)]
+pub(super) fn copy_arc(run: &mut [u16], square: Square<'_>, at: u32, steps: [u32; 2]) {
+    match square {
+        Square::Side32(t) => copy_bent(run, t, at, steps),
+        Square::Side64(t) => copy_bent(run, t, at, steps),
+        Square::Side128(t) => copy_bent(run, t, at, steps),
+        Square::Side256(t) => copy_bent(run, t, at, steps),
+    }
+}
+
+/// [`copy_arc`] from a square.
 #[inline(never)]
-pub(super) fn copy_piece(run: &mut [u16], square: Square<'_>, at: u32, step: u32) {
-    copy_from(run, square, at, step);
+fn copy_bent<const SIDE: usize>(
+    run: &mut [u16],
+    t: &[[u16; SIDE]; SIDE],
+    mut at: u32,
+    [mut step, turn]: [u32; 2],
+) {
+    let mut draw = |pixel: &mut u16, turn: u32| {
+        *pixel = texel(t, at);
+        at = at.wrapping_add(step);
+        step = step.wrapping_add(turn);
+    };
+    let mut eights = run.chunks_exact_mut(8);
+    for eight in eights.by_ref() {
+        // Unknown to the compiler, which would else make several copies of the loop.
+        let turn = unknown(turn);
+        if let Ok(eight) = <&mut [u16; 8]>::try_from(eight) {
+            eight.iter_mut().for_each(|pixel| draw(pixel, turn));
+        }
+    }
+    for pixel in eights.into_remainder() {
+        draw(pixel, unknown(turn));
+    }
 }
 
 /// [`copy`] from any form and size.

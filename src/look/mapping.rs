@@ -20,13 +20,13 @@
 use super::Place;
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Homogeneous, Perspective, Within};
-use super::stride::{Range, Stride, reach};
+use super::stride::{Range, Reach, Stride, reach};
 #[cfg(test)]
 use super::word_plane::Near;
 use crate::num::{leading_zeros, mul_high, mul_high_unsigned, recip, recip_16};
 #[cfg(test)]
 use crate::scene::TexturePlace;
-use crate::scene::{Budget, Texture, Wrap};
+use crate::scene::{Budget, Square, Texture, Wrap};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -59,7 +59,7 @@ pub struct Mapping {
     /// What the planes are.
     pub method: Method,
     /// In perspective, how far exact places may be apart.
-    pub reach: u8,
+    pub reach: Reach,
     /// How many pixels of a span are drawn with exact places at its ends alone: that, or none where the texture or the
     /// budget does not allow places in one word.
     pub quick: u8,
@@ -219,12 +219,13 @@ impl Values {
             step: mapping.planes[axis][1] as i32,
         };
         let step = mapping.planes[2][1] as i32;
-        mapping.reach = reach(low as u32, step, [of(0), of(1)], budget);
         let square = texture.is_square() && texture.wrap() == Wrap::Repeat;
+        let log = if square { texture.log_width() } else { 0 };
+        mapping.reach = reach(low as u32, step, [of(0), of(1)], budget, log);
         if budget.is_coarse() && square {
             // Rounded steps stay within 1/32 texel.
             let exact = 16u8 << (8 - texture.log_width()).min(2);
-            mapping.quick = mapping.reach.min(exact) + 1;
+            mapping.quick = mapping.reach.line.min(exact) + 1;
         }
     }
 }
@@ -369,7 +370,7 @@ impl Mapping {
     /// That of no triangle.
     pub const EMPTY: Self = Self {
         method: Method::Word,
-        reach: 1,
+        reach: Reach::NONE,
         quick: 0,
         base: [0; 2],
         planes: [[0; 3]; 3],
@@ -392,13 +393,33 @@ impl Mapping {
             .then_some(mapping)
     }
 
-    /// Copies texels into `run`, which begins at `place` of the picture.
+    /// Copies texels into `run`, which begins at `place` of the picture; `square` is the texture, where it is one that
+    /// repeats.
     #[inline(always)]
-    pub fn draw(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
-        if place.pixels() <= u32::from(self.quick) {
-            return self.span(place).between(run, place.within(), texture);
+    pub fn draw(
+        &self,
+        run: &mut [u16],
+        place: Place,
+        texture: &Texture<'_>,
+        square: Option<Square<'_>>,
+        budget: Budget,
+    ) {
+        let pixels = place.pixels();
+        if let Some(square) = square {
+            if pixels <= u32::from(self.quick) {
+                return self.span(place).between(run, place.within(), square);
+            }
+            if pixels <= u32::from(self.reach.arc) {
+                return self.draw_arc(run, place, square);
+            }
         }
         self.draw_any(run, place, texture, budget);
+    }
+
+    /// The same of a span that is one arc.
+    #[inline(never)]
+    fn draw_arc(&self, run: &mut [u16], place: Place, square: Square<'_>) {
+        self.span(place).arc(run, place.within(), square);
     }
 
     /// The whole span of a run.
@@ -450,19 +471,21 @@ impl Mapping {
     #[inline(always)]
     fn draw_long(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
         let (span, within) = (self.span(place), place.within());
-        if within.pixels < 2 * usize::from(self.quick) {
-            return span.between_three(run, within, texture);
+        let mut reach = self.reach;
+        let steps = within.pixels.saturating_sub(1);
+        // Far from the triangle's nearest corner they may be further apart: long spans repay the question.
+        if steps > (8 * usize::from(reach.line)).max(24) && steps > usize::from(reach.arc) {
+            reach = span.reach(within.pixels, budget, texture.log_width());
         }
-        // Far from the triangle's nearest corner longer strides may do: long spans repay the question.
-        let long = (8 * usize::from(self.reach)).max(24);
-        let stride = if within.pixels > long {
-            span.stride(within.pixels, budget)
-        } else if budget.is_coarse() {
-            Stride::within(self.reach)
+        if budget.is_coarse() {
+            let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
+            if let (Some(square), 1..) = (square, reach.arc) {
+                return span.arcs(run, within, square, reach.arc);
+            }
         } else {
-            Stride::within(self.reach.min(4))
-        };
-        span.draw(run, within, texture, stride);
+            reach.line = reach.line.min(4);
+        }
+        span.draw(run, within, texture, Stride::within(reach.line));
     }
 }
 

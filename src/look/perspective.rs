@@ -35,10 +35,10 @@
 //! all of its spans.
 
 use super::fetch::{
-    FRACTION, Uv, Way, copy, copy_exact, copy_part, copy_piece, packed_on, packed_step,
+    FRACTION, Uv, Way, copy_arc, copy_exact, copy_from, packed, packed_on, packed_step,
 };
-use super::stride::Stride;
-use crate::num::{leading_zeros, mul_17, mul_high, mul_high_unsigned, recip_16};
+use super::stride::{Range, Reach, Stride, reach};
+use crate::num::{leading_zeros, mul_17, mul_high, recip_16};
 use crate::scene::{Budget, Square, Texture, Wrap};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
@@ -150,69 +150,49 @@ fn nth(way: Uv, steps: usize) -> Uv {
 }
 
 impl Perspective {
-    /// The longest stride that keeps `budget` along `pixels` pixels, 2 ..= 1024 of them; of more,
-    /// one that keeps it too.
+    /// How far exact places may be apart along `pixels` pixels, at most 1,024, of a texture of `2^log` texels a side.
     #[inline(never)]
     #[must_use]
-    pub fn stride(&self, pixels: usize, budget: Budget) -> Stride {
-        let steps = pixels.saturating_sub(1);
-        let last = self.at.plus(self.step.times(steps));
-        let way = last.place().minus(self.at.place());
-        let (low, high) = (self.at.q.min(last.q), self.at.q.max(last.q));
-        // max q / min q with 8 fraction bits, rounded up, below 16.
-        let r = Reciprocal::of(low);
-        let ratio = mul_17(high as i32, r.mantissa) as u32;
-        if low == 0 || r.shift > 22 || ratio >> 4 >> (30 - r.shift) != 0 {
-            return Stride::One;
+    pub fn reach(&self, pixels: usize, budget: Budget, log: u32) -> Reach {
+        let last = self.at.plus(self.step.times(pixels.saturating_sub(1)));
+        let least = self.at.q.min(last.q);
+        if least == 0 || self.at.q.max(last.q) >> 31 != 0 {
+            return Reach::NONE;
         }
-        let ratio = (ratio >> (22 - r.shift)) + 2;
-        // (ratio - 1) ratio, likewise, times the way with 8 fraction bits: at most 2^29.
-        let curve = (((ratio - 256) * ratio) >> 8) + 1;
-        let furthest = way.u.unsigned_abs().max(way.v.unsigned_abs());
-        let worst = mul_high_unsigned(((furthest >> 11) + 1) << 10, curve << 14) + 1;
-        // worst / 4 (m / n)² <= budget
-        let steps = steps.min(1023) as u32;
-        // 16 texels are as good as more.
-        let may = budget.for_curves().min(4095) * steps * steps;
-        match () {
-            () if worst <= may >> 6 && budget.is_coarse() => Stride::Sixteen,
-            () if worst <= may >> 4 && budget.is_coarse() => Stride::Eight,
-            () if worst <= may >> 2 => Stride::Four,
-            () if worst <= may => Stride::Two,
-            () => Stride::One,
-        }
+        let (from, to) = (self.at.place(), last.place());
+        let of = |a: i32, b: i32, step: i32| Range {
+            low: a.min(b),
+            high: a.max(b),
+            step,
+        };
+        let ways = [of(from.u, to.u, self.step.s), of(from.v, to.v, self.step.t)];
+        reach(least, self.step.q as i32, ways, budget, log)
     }
 
     /// Copies a square's texels into a run of a span of 1 to 65 pixels, with exact places at both ends.
     #[inline(always)]
-    pub fn between(&self, run: &mut [u16], within: Within, texture: &Texture<'_>) {
+    pub fn between(&self, run: &mut [u16], within: Within, square: Square<'_>) {
         let steps = within.steps();
         let from = self.at.place();
         let way = self.at.plus(self.step.times(steps)).place().minus(from);
-        let side = texture.log_width();
+        let side = square.log();
         let step = packed_step(nth(way, steps), side);
         let at = packed_on(from, step, within.skipped, side);
-        copy(run, texture, at, step);
+        copy_from(run, square, at, step);
     }
 
-    /// Copies a square's texels into a run of a span of 3 to 129 pixels, with exact places at both ends and at the
-    /// middle one.
+    /// Copies a square's texels into a run of a span of up to 65 pixels along a parabola, with exact places at both ends.
     #[inline(always)]
-    pub fn between_three(&self, run: &mut [u16], within: Within, texture: &Texture<'_>) {
-        let steps = within.steps();
-        let half = steps >> 1;
-        let from = self.at.place();
-        let middle = self.at.plus(self.step.times(half)).place();
-        let to = self.at.plus(self.step.times(steps)).place();
-        let side = texture.log_width();
-        let before = half.saturating_sub(within.skipped).min(run.len());
-        let (first, second) = run.split_at_mut(before);
-        let step = packed_step(nth(middle.minus(from), half), side);
-        let at = packed_on(from, step, within.skipped, side);
-        copy_part(first, texture, at, step);
-        let step = packed_step(nth(to.minus(middle), steps - half), side);
-        let at = packed_on(middle, step, within.skipped.saturating_sub(half), side);
-        copy_part(second, texture, at, step);
+    pub fn arc(&self, run: &mut [u16], within: Within, square: Square<'_>) {
+        let rest = Rest {
+            run,
+            skipped: within.skipped,
+            steps: within.steps(),
+            from: self.at.place(),
+            at: self.at,
+        };
+        let arc = Arc::along(&rest.last(self.step), self.step.q, square.log());
+        arc.on(within.skipped).copy(rest.run, square);
     }
 
     /// Copies texels into a run of the span, with exact places at every `stride` pixels and at the
@@ -222,33 +202,44 @@ impl Perspective {
     pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
         let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
         match (square, stride) {
-            (Some(square), Stride::Sixteen | Stride::Eight) => {
-                self.eights(run, within, square, stride);
-            }
+            (_, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
             (Some(Square::Side32(t)), _) => self.few(run, within, t, stride),
             (Some(Square::Side64(t)), _) => self.few(run, within, t, stride),
             (Some(Square::Side128(t)), _) => self.few(run, within, t, stride),
             (Some(Square::Side256(t)), _) => self.few(run, within, t, stride),
-            (None, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
             (None, _) => self.singly(run, within, texture),
         }
     }
 
-    /// Calls `draw` for each part of a run that lies between two exact places `2^log` pixels from each other: with
-    /// its pixels, the first of these places, the step, and how many of its pixels lie before the run. What is left of
-    /// the run is at the end of the span.
+    /// Copies a square's texels into a run of the span along parabolas, with exact places at both ends of each: one
+    /// every power of two of steps that is at most `arc`.
+    #[inline(never)]
+    pub fn arcs(&self, run: &mut [u16], within: Within, square: Square<'_>, arc: u8) {
+        let copy = |run: &mut [u16], piece: Piece| {
+            let arc = Arc::along(&piece, self.step.q, square.log());
+            arc.on(piece.skipped).copy(run, square);
+        };
+        let log = 31 - leading_zeros(u32::from(arc) | 1);
+        let rest = self.pieces(run, within, log, copy);
+        if !rest.run.is_empty() {
+            copy(rest.run, rest.last(self.step));
+        }
+    }
+
+    /// Calls `draw` for each part of a run that lies between two exact places `2^log` pixels from each other. What is left
+    /// of the run is at the end of the span.
     #[inline(always)]
     fn pieces<'r>(
         &self,
         run: &'r mut [u16],
         within: Within,
         log: u32,
-        mut draw: impl FnMut(&mut [u16], Uv, Uv, usize),
+        mut draw: impl FnMut(&mut [u16], Piece),
     ) -> Rest<'r> {
         let length = 1usize << log;
         let first = within.skipped >> log << log;
         let ahead = self.step.times(length);
-        let mut at = self.at.plus(self.step.times(first));
+        let at = self.at.plus(self.step.times(first));
         let mut rest = Rest {
             run,
             skipped: within.skipped - first,
@@ -257,35 +248,20 @@ impl Perspective {
             at,
         };
         while rest.steps >= length && !rest.run.is_empty() {
-            at = at.plus(ahead);
-            let to = at.place();
+            let at = rest.at.plus(ahead);
+            let piece = rest.piece_to(at, length);
             let pixels = (length - rest.skipped).min(rest.run.len());
             let (now, more) = rest.run.split_at_mut(pixels);
-            draw(now, rest.from, to.minus(rest.from).part(log), rest.skipped);
+            draw(now, piece);
             rest = Rest {
                 run: more,
                 skipped: 0,
                 steps: rest.steps - length,
-                from: to,
+                from: piece.from.plus(piece.way),
                 at,
             };
         }
         rest
-    }
-
-    /// Places every 8 or 16 pixels, between them in one word.
-    #[inline(never)]
-    fn eights(&self, run: &mut [u16], within: Within, square: Square<'_>, stride: Stride) {
-        let side = square.log();
-        let copy = |run: &mut [u16], from: Uv, step: Uv, skipped: usize| {
-            let step = packed_step(step, side);
-            copy_piece(run, square, packed_on(from, step, skipped, side), step);
-        };
-        let rest = self.pieces(run, within, stride.log(), copy);
-        if !rest.run.is_empty() {
-            let step = rest.step(self.step);
-            copy(rest.run, rest.from, step, rest.skipped);
-        }
     }
 
     /// Places every pixel, or every 2nd or 4th, between them in two words; the last ones each have their own.
@@ -300,14 +276,15 @@ impl Perspective {
         if stride == Stride::One {
             return self.exact(run, within.skipped, t);
         }
-        let copy = |run: &mut [u16], from: Uv, step: Uv, skipped: usize| {
-            let mut at = from.plus(step.times(skipped));
+        let log = stride.log();
+        let rest = self.pieces(run, within, log, |run, piece| {
+            let step = piece.way.part(log);
+            let mut at = piece.from.plus(step.times(piece.skipped));
             for pixel in run {
                 *pixel = texel(t, at);
                 at = at.plus(step);
             }
-        };
-        let rest = self.pieces(run, within, stride.log(), copy);
+        });
         let at = rest.at;
         Self { at, ..*self }.exact(rest.run, rest.skipped, t);
     }
@@ -342,16 +319,34 @@ impl Perspective {
     /// Places every 8 or 16 pixels, from any form and size, with any wrap.
     #[inline(never)]
     fn any(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
-        let copy = |run: &mut [u16], at: Uv, step: Uv, skipped: usize| {
-            let base = self.base;
-            copy_exact(run, texture, Way { base, at, step }.skip(skipped));
+        let base = self.base;
+        let copy = |run: &mut [u16], piece: Piece, step: Uv| {
+            let at = piece.from;
+            copy_exact(run, texture, Way { base, at, step }.skip(piece.skipped));
         };
-        let rest = self.pieces(run, within, stride.log(), copy);
+        let log = stride.log();
+        let rest = self.pieces(run, within, log, |run, piece| {
+            copy(run, piece, piece.way.part(log));
+        });
         if !rest.run.is_empty() {
-            let step = rest.step(self.step);
-            copy(rest.run, rest.from, step, rest.skipped);
+            let piece = rest.last(self.step);
+            copy(rest.run, piece, nth(piece.way, piece.steps));
         }
     }
+}
+
+/// What lies between two exact places.
+#[derive(Clone, Copy)]
+struct Piece {
+    from: Uv,
+    /// To the other place.
+    way: Uv,
+    /// 1/w at both places, added up.
+    q: u32,
+    /// How many steps it has.
+    steps: usize,
+    /// How many pixels of it lie before the run.
+    skipped: usize,
 }
 
 /// What of a run lies behind the last whole piece of its span, or the beginning of that.
@@ -366,11 +361,76 @@ struct Rest<'r> {
 }
 
 impl Rest<'_> {
-    /// The step from here to the span's last pixel.
+    /// The piece from here to the span's last pixel.
     #[inline(always)]
-    fn step(&self, step: Homogeneous) -> Uv {
-        let to = self.at.plus(step.times(self.steps)).place();
-        nth(to.minus(self.from), self.steps)
+    fn last(&self, step: Homogeneous) -> Piece {
+        self.piece_to(self.at.plus(step.times(self.steps)), self.steps)
+    }
+
+    /// The piece from here to a place so many steps on.
+    #[inline(always)]
+    fn piece_to(&self, to: Homogeneous, steps: usize) -> Piece {
+        Piece {
+            from: self.from,
+            way: to.place().minus(self.from),
+            q: self.at.q.wrapping_add(to.q),
+            steps,
+            skipped: self.skipped,
+        }
+    }
+}
+
+/// A parabola over a square, in one word a place as [`copy`] has them.
+#[derive(Clone, Copy)]
+struct Arc {
+    at: u32,
+    step: u32,
+    /// What the step grows by at each pixel.
+    turn: u32,
+}
+
+impl Arc {
+    /// Through both ends of a piece and its exact middle, where `u` is `(s0 + s1) / (q0 + q1)`: with `k` for `dq` by 1/w
+    /// in the middle and `w` for the way by its steps, the step grows by `-2 w k`.
+    #[inline(always)]
+    fn along(piece: &Piece, dq: u32, log: u32) -> Self {
+        let middle = Reciprocal::of(piece.q);
+        // Times 2^30.
+        let k = mul_17((dq << 1) as i32, middle.mantissa) << middle.shift;
+        let w = nth(piece.way, piece.steps);
+        let turn = |w: i32| (1i32 << log >> 1).wrapping_sub(mul_high(w, k)) >> log;
+        let turn = [turn(w.u), turn(w.v)];
+        // So that the last pixel has its place, however the turn was rounded.
+        let less = piece.steps.saturating_sub(1) as i32;
+        let step = |w: i32, turn: i32| {
+            let half = (turn << (2 + log)).wrapping_mul(less);
+            w.wrapping_sub(half).wrapping_add(4 << log) >> (3 + log)
+        };
+        let join = |[u, v]: [i32; 2]| (v << 16).wrapping_add(u) as u32;
+        Self {
+            at: packed(piece.from, log),
+            step: join([step(w.u, turn[0]), step(w.v, turn[1])]),
+            turn: join(turn),
+        }
+    }
+
+    /// The same from so many pixels on.
+    #[inline(always)]
+    fn on(self, pixels: usize) -> Self {
+        let n = pixels as u32;
+        let turns = n.wrapping_mul(n.wrapping_sub(1)) >> 1;
+        let at = self.at.wrapping_add(self.step.wrapping_mul(n));
+        Self {
+            at: at.wrapping_add(self.turn.wrapping_mul(turns)),
+            step: self.step.wrapping_add(self.turn.wrapping_mul(n)),
+            turn: self.turn,
+        }
+    }
+
+    /// Copies a square's texels into a run that begins here.
+    #[inline(always)]
+    fn copy(self, run: &mut [u16], square: Square<'_>) {
+        copy_arc(run, square, self.at, [self.step, self.turn]);
     }
 }
 

@@ -169,10 +169,12 @@ impl<F: Texel> Textured<F> {
     /// The texels of a run, as they are; white without any.
     #[inline(always)]
     fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        let state = draws.get(usize::from(planes.draw));
-        match state.and_then(DrawState::texture) {
-            Some((texture, budget)) if planes.mapped => {
-                planes.mapping.draw(run, place, texture, budget);
+        match draws.get(usize::from(planes.draw)) {
+            Some(state) if planes.mapped => {
+                if let Some((texture, budget)) = state.texture() {
+                    let square = state.square();
+                    planes.mapping.draw(run, place, texture, square, budget);
+                }
             }
             _ => run.fill(0xFFFF),
         }
