@@ -310,6 +310,7 @@ impl Large {
     /// Fraction bits of steps on the way from a corner to the picture, which may be 2,048 pixels long.
     const FINER: u32 = 10;
 
+    #[inline(never)]
     fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
         let (dx1, dy1) = (
             i64::from(b.x) - i64::from(a.x),
@@ -346,6 +347,7 @@ impl Large {
         i32::try_from(step >> Self::FINER).ok().map(|_| step)
     }
 
+    #[inline(never)]
     fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
         let e1 = i64::from(value[1]) - i64::from(value[0]);
         let e2 = i64::from(value[2]) - i64::from(value[0]);

@@ -34,12 +34,10 @@
 //! at most `e (m / n)² max q / min q`. [`Perspective::stride`] asks so for a long span; [`reach`](super::stride::reach) asks once a triangle, for
 //! all of its spans.
 
-use super::fetch::{
-    FRACTION, Uv, Way, copy_arc, copy_exact, copy_from, packed, packed_on, packed_step,
-};
+use super::fetch::{Uv, Way, copy_arc, copy_exact, copy_from, packed, packed_on, packed_step};
 use super::stride::{Range, Reach, Stride, reach};
 use crate::num::{leading_zeros, mul_17, mul_high, recip_16};
-use crate::scene::{Budget, Square, Texture, Wrap};
+use crate::scene::{Budget, Form, Square, Texture, Wrap};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
 ///
@@ -200,13 +198,9 @@ impl Perspective {
     /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
     pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
-        let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
-        match (square, stride) {
+        match (texture.repeated_square(), stride) {
             (_, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
-            (Some(Square::Side32(t)), _) => self.few(run, within, t, stride),
-            (Some(Square::Side64(t)), _) => self.few(run, within, t, stride),
-            (Some(Square::Side128(t)), _) => self.few(run, within, t, stride),
-            (Some(Square::Side256(t)), _) => self.few(run, within, t, stride),
+            (Some(rows), _) => self.few(run, within, rows, stride),
             (None, _) => self.singly(run, within, texture),
         }
     }
@@ -266,39 +260,33 @@ impl Perspective {
 
     /// Places every pixel, or every 2nd or 4th, between them in two words; the last ones each have their own.
     #[inline(never)]
-    fn few<const N: usize>(
-        &self,
-        run: &mut [u16],
-        within: Within,
-        t: &[[u16; N]; N],
-        stride: Stride,
-    ) {
+    fn few(&self, run: &mut [u16], within: Within, rows: Rows<'_>, stride: Stride) {
         if stride == Stride::One {
-            return self.exact(run, within.skipped, t);
+            return self.exact(run, within.skipped, rows);
         }
         let log = stride.log();
         let rest = self.pieces(run, within, log, |run, piece| {
             let step = piece.way.part(log);
             let mut at = piece.from.plus(step.times(piece.skipped));
             for pixel in run {
-                *pixel = texel(t, at);
+                *pixel = rows.texel(at);
                 at = at.plus(step);
             }
         });
         let at = rest.at;
-        Self { at, ..*self }.exact(rest.run, rest.skipped, t);
+        Self { at, ..*self }.exact(rest.run, rest.skipped, rows);
     }
 
     /// A place at each pixel.
     #[inline(never)]
-    fn exact<const N: usize>(&self, run: &mut [u16], skipped: usize, t: &[[u16; N]; N]) {
+    fn exact(&self, run: &mut [u16], skipped: usize, rows: Rows<'_>) {
         let mut at = self.at.plus(self.step.times(skipped));
         for pixel in run {
             if at.q == 0 {
                 // Outside of the triangle. The compiler makes shorter code of what is not 0.
                 return;
             }
-            *pixel = texel(t, at.place());
+            *pixel = rows.texel(at.place());
             at = at.plus(self.step);
         }
     }
@@ -458,8 +446,34 @@ impl Within {
     }
 }
 
-/// A texel of a square that repeats.
-#[inline(always)]
-fn texel<const N: usize>(t: &[[u16; N]; N], at: Uv) -> u16 {
-    t[(at.v >> FRACTION) as usize & (N - 1)][(at.u >> FRACTION) as usize & (N - 1)]
+/// The texels of a square of `2^log` a side, which repeats.
+#[derive(Clone, Copy)]
+pub struct Rows<'t> {
+    texels: &'t [u16],
+    log: u32,
+}
+
+impl Rows<'_> {
+    /// The texel at a place.
+    #[inline(always)]
+    fn texel(self, at: Uv) -> u16 {
+        let row = (at.v as u32) << (13 - self.log) >> (32 - self.log);
+        let column = (at.u as u32) << (13 - self.log) >> (32 - self.log);
+        let texel = self.texels.get((row << self.log | column) as usize);
+        texel.copied().unwrap_or_default()
+    }
+}
+
+impl<'t> Texture<'t> {
+    /// Its texels, where it is one of the squares that have loops of their own, and repeats.
+    #[inline(always)]
+    fn repeated_square(&self) -> Option<Rows<'t>> {
+        match self.form {
+            Form::Words(texels) if self.is_square() && self.wrap() == Wrap::Repeat => Some(Rows {
+                texels,
+                log: self.log_width(),
+            }),
+            _ => None,
+        }
+    }
 }
