@@ -57,7 +57,12 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
     /// Whether a slot that comes later shares columns with a span, and may be nearer than `far`.
     #[inline(always)]
     pub(super) fn is_contested(&self, span: Span, far: u32, after: usize) -> bool {
-        let later = self.keys.get(after..).unwrap_or_default();
+        self.meets(span, far, self.keys.get(after..).unwrap_or_default())
+    }
+
+    /// The same of slots with these keys.
+    #[inline(always)]
+    fn meets(&self, span: Span, far: u32, later: &[u32]) -> bool {
         for &key in later {
             if key | NUMBER < far {
                 break;
@@ -101,13 +106,35 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         }
     }
 
+    /// Draws spans of slots from one on, as long as they come before a key; how many slots are taken then.
+    #[inline(always)]
+    fn draw_slots(
+        &self,
+        mut taken: Taken,
+        until: u32,
+        drawing: &mut Drawing<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> usize {
+        let mut keys = self.keys.get(taken.slots..).unwrap_or_default();
+        while let [key, later @ ..] = keys {
+            if until > *key {
+                break;
+            }
+            keys = later;
+            taken.slots = self.keys.len() - later.len();
+            self.draw_slot(*key, later, until, taken, drawing, out);
+        }
+        self.keys.len() - keys.len()
+    }
+
     /// Draws the span of a slot before what comes later.
     #[inline(always)]
     fn draw_slot(
         &self,
         key: u32,
-        taken: Taken,
+        later: &[u32],
         guest_key: u32,
+        taken: Taken,
         drawing: &mut Drawing<'_>,
         out: &mut Line<'_, '_, WordOf<L>>,
     ) {
@@ -123,8 +150,8 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         if span.end == 0 {
             return;
         }
-        let next = self.keys.get(taken.slots).copied().unwrap_or_default();
-        if guest_key >= far || next | NUMBER >= far && self.is_contested(span, far, taken.slots) {
+        let next = later.first().copied().unwrap_or_default();
+        if guest_key >= far || next | NUMBER >= far && self.meets(span, far, later) {
             drawing.hidden += 1;
             return self.draw_contested(slot, span, far, taken, drawing, out);
         }
@@ -355,17 +382,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             guests: 0,
         };
         let mut guest_key = field.guest_key(0);
-        for &key in field.keys {
-            while guest_key > key {
-                guest_key = field.next_guest(&mut taken, &mut drawing, out);
+        loop {
+            taken.slots = field.draw_slots(taken, guest_key, &mut drawing, out);
+            if taken.guests >= guests {
+                return drawing.hidden;
             }
-            taken.slots += 1;
-            field.draw_slot(key, taken, guest_key, &mut drawing, out);
+            guest_key = field.next_guest(&mut taken, &mut drawing, out);
         }
-        while taken.guests < guests {
-            field.next_guest(&mut taken, &mut drawing, out);
-        }
-        drawing.hidden
     }
 }
 
