@@ -46,8 +46,6 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) plain: [u32; WORDS],
     /// Of these, those whose next change is the turn of a side.
     turning: [u32; WORDS],
-    /// Of these, those whose depth is known.
-    pub(crate) deep: [u32; WORDS],
     /// Slots of spans that meet others, as a set.
     pub(crate) listed: [u32; WORDS],
     /// The first object that found no slot.
@@ -114,7 +112,6 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
             slots: [[slot; 32]; WORDS],
             used: [0; WORDS],
             plain: [0; WORDS],
-            deep: [0; WORDS],
             turning: [0; WORDS],
             spans: [[0; 32]; WORDS],
             listed: [0; WORDS],
@@ -138,7 +135,6 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     pub(crate) fn clear(&mut self) {
         self.used = [0; WORDS];
         self.plain = [0; WORDS];
-        self.deep = [0; WORDS];
         self.turning = [0; WORDS];
         self.ring = [[0; WORDS]; RING as usize];
         self.blocks = [[0; WORDS]; BLOCKS as usize];
@@ -215,7 +211,6 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     pub(crate) fn free_slots(&mut self, word: usize, slots: u32) {
         self.used[word] &= !slots;
         self.plain[word] &= !slots;
-        self.deep[word] &= !slots;
     }
 
     /// Goes on to a line; whether something changes there, or a block of lines begins.
@@ -354,20 +349,18 @@ mod tests {
     }
 
     #[test]
-    fn what_ends_is_neither_plain_nor_deep_any_more() {
+    fn what_ends_is_not_plain_any_more() {
         let mut cache = Cache::<(), 1>::with(());
         cache.clear();
         cache.enter_line(7);
         for (slot, line) in [(0, 9), (3, 9), (4, 10)] {
             cache.keep(slot, slot != 3, Change { line, turns: false });
-            cache.deep[0] |= bit(slot as u32);
         }
         assert_eq!((cache.in_use(), cache.free()), (3, Some(1)));
         cache.enter_line(9);
         let changes = cache.take_changes(0);
         assert_eq!(changes.ended, bit(0) | bit(3));
-        let left = [cache.used[0], cache.plain[0], cache.deep[0]];
-        assert_eq!(left, [bit(4); 3]);
+        assert_eq!([cache.used[0], cache.plain[0]], [bit(4); 2]);
     }
 
     /// Objects without a slot are in the order of their numbers, however they come and go.

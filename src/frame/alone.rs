@@ -49,7 +49,7 @@ pub(super) fn set_up_stray<L: Look>(
     Alone {
         planes,
         // Its columns are known, and its depth is not.
-        flags: Flags::new(fill, Way::PLAIN).without_depth(true),
+        flags: Flags::new(fill, Way::PLAIN).with_depth(true),
         object: *object,
         span: *span,
     }
@@ -89,7 +89,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) -> [u32; 3] {
         let triangle = view.triangle_of(alone.object);
         let plane = triangle.and_then(|t| depth_plane(&t));
-        alone.flags = alone.flags.without_depth(plane.is_none());
+        alone.flags = alone.flags.with_depth(plane.is_none());
         plane.unwrap_or_default()
     }
 }

@@ -30,6 +30,12 @@ pub(super) fn place_of(view: &View<'_>, object: u16) -> u32 {
 /// The lowest bits of a key: a slot's number.
 const NUMBER: u32 = 0xFF;
 
+/// The slot of a key, below the number of slots: no index has to be looked at again.
+#[inline(always)]
+fn number_of<const WORDS: usize>(key: u32) -> usize {
+    (key & NUMBER) as usize % (32 * WORDS)
+}
+
 /// What is sorted: so many slots, and what has no slot in cells.
 pub(super) struct Field<'a, L: Look, const WORDS: usize> {
     cache: &'a Cache<Active<L::Planes>, WORDS>,
@@ -50,7 +56,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
     #[inline(always)]
     fn span(&self, key: u32) -> Span {
         let spans = self.cache.spans.as_flattened();
-        let span = spans.get((key & NUMBER) as usize).copied();
+        let span = spans.get(number_of::<WORDS>(key)).copied();
         Span::of(span.unwrap_or_default())
     }
 
@@ -94,7 +100,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
                 break;
             }
             let slots = self.cache.slots.as_flattened();
-            if let Some(slot) = slots.get((key & NUMBER) as usize) {
+            if let Some(slot) = slots.get(number_of::<WORDS>(key)) {
                 hide(rival_of::<L>(slot, self.span(key), out));
             }
         }
@@ -138,7 +144,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         drawing: &mut Drawing<'_>,
         out: &mut Line<'_, '_, WordOf<L>>,
     ) {
-        let number = (key & NUMBER) as usize;
+        let number = number_of::<WORDS>(key);
         let (Some(slot), Some(&word), Some(&far)) = (
             self.cache.slots.as_flattened().get(number),
             self.cache.spans.as_flattened().get(number),
@@ -286,13 +292,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut count = 0;
         let mut last = u32::MAX;
         for k in 0..usize::from(self.nearest) {
-            let key = self.cache.order.as_flattened().get(k).copied();
-            let key = key.unwrap_or_default();
-            let number = (key & NUMBER) as usize;
-            let Some(listed) = self.cache.listed.get_mut(number >> 5) else {
-                break;
-            };
+            // Below the number of slots in any case, so that no index is looked at again.
+            let key = self.cache.order.as_flattened()[k % (32 * WORDS)];
+            let number = number_of::<WORDS>(key);
             let one = bit(number as u32 & 31);
+            let listed = &mut self.cache.listed[number >> 5];
             if *listed & one != 0 {
                 *listed &= !one;
                 self.insert_slot(key, count, &mut last, out);
@@ -321,26 +325,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         last: &mut u32,
         out: &Line<'_, '_, WordOf<L>>,
     ) {
-        let number = (key & NUMBER) as usize;
-        let slots = self.cache.slots.as_flattened_mut();
-        let spans = self.cache.spans.as_flattened_mut();
-        let fars = self.cache.far.as_flattened_mut();
-        let (Some(slot), Some(word), Some(farthest), Some(deep)) = (
-            slots.get_mut(number),
-            spans.get_mut(number),
-            fars.get_mut(number),
-            self.cache.deep.get_mut(number >> 5),
-        ) else {
-            return;
-        };
+        let number = number_of::<WORDS>(key);
+        let slot = &mut self.cache.slots.as_flattened_mut()[number];
+        let word = &mut self.cache.spans.as_flattened_mut()[number];
         let span = columns_of::<L>(slot, out);
         if span.start < span.end {
             if out.deep {
-                deepen::<L>(slot, deep, bit(number as u32 & 31), out.view);
+                deepen::<L>(slot, out.view);
             }
             let [near, far] = slope_of::<L>(slot, span, out).range(span);
             *word = span.start << 16 | span.end;
-            *farthest = far;
+            self.cache.far.as_flattened_mut()[number] = far;
             key = near & !NUMBER | number as u32;
         } else {
             *word = 0;
@@ -351,8 +346,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         if key > *last {
             insert_falling(self.cache.order.as_flattened_mut(), count, key);
-        } else if let Some(to) = self.cache.order.as_flattened_mut().get_mut(count) {
-            (*to, *last) = (key, key);
+        } else {
+            self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = key;
+            *last = key;
         }
     }
 

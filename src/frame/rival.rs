@@ -91,20 +91,14 @@ impl Rival {
 fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
     let triangle = view.triangle_of(slot.object);
     let plane = triangle.and_then(|t| depth_plane(&t));
-    slot.flags = Flags(slot.flags).without_depth(plane.is_none()).0;
+    slot.flags = Flags(slot.flags).with_depth(plane.is_none()).0;
     slot.item.depth = plane.unwrap_or_default();
 }
 
-/// Finds the depth of a slot, unless it is among those whose depth is known.
+/// Finds the depth of a slot, unless it is known.
 #[inline(always)]
-pub(super) fn deepen<L: Look>(
-    slot: &mut CacheSlot<Active<L::Planes>>,
-    deep: &mut u32,
-    one: u32,
-    view: &View<'_>,
-) {
-    if *deep & one == 0 {
-        *deep |= one;
+pub(super) fn deepen<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
+    if !Flags(slot.flags).is_deep() {
         find_depth::<L>(slot, view);
     }
 }

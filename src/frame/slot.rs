@@ -22,6 +22,7 @@ impl Flags {
     const NO_DEPTH: u8 = 1 << 5;
     const WAY: u32 = 2;
     const VALUES: u8 = 1 << 6;
+    const DEEP: u8 = 1 << 7;
 
     #[inline(always)]
     pub(super) fn new(fill: Fill, way: Way) -> Self {
@@ -72,9 +73,16 @@ impl Flags {
         self.0 & Self::NO_DEPTH != 0
     }
 
+    /// Whether the plane of depth is known, or that there is none.
     #[inline(always)]
-    pub(super) fn without_depth(self, lacks: bool) -> Self {
+    pub(super) fn is_deep(self) -> bool {
+        self.0 & Self::DEEP != 0
+    }
+
+    /// The same with a plane of depth, or without.
+    #[inline(always)]
+    pub(super) fn with_depth(self, lacks: bool) -> Self {
         let bit = if lacks { Self::NO_DEPTH } else { 0 };
-        Self(self.0 & !Self::NO_DEPTH | bit)
+        Self(self.0 & !Self::NO_DEPTH | bit | Self::DEEP)
     }
 }

@@ -14,7 +14,7 @@ use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
 use crate::look::{Look, WordOf};
-use crate::num::{bit, take_first};
+use crate::num::take_first;
 use crate::scene::DrawState;
 use core::cmp::Ordering;
 
@@ -177,7 +177,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
                 let state = out.view.state(slot.object);
                 if state.is_some_and(DrawState::is_translucent) {
-                    deepen::<L>(slot, &mut self.cache.deep[word], bit(i), out.view);
+                    deepen::<L>(slot, out.view);
                     if let Some(place) = self.cache.order.as_flattened_mut().get_mut(count) {
                         *place = word as u32 * 32 + i;
                         count += 1;

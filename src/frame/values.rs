@@ -117,11 +117,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws a span in a slot.
     pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
-        let (Some(slots), Some(spans), Some(deep)) = (
-            self.cache.slots.get_mut(word),
-            self.cache.spans.get(word),
-            self.cache.deep.get_mut(word),
-        ) else {
+        let (Some(slots), Some(spans)) =
+            (self.cache.slots.get_mut(word), self.cache.spans.get(word))
+        else {
             return;
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
@@ -135,7 +133,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         }
         if is_compared {
-            deepen::<L>(slot, deep, bit(i as u32), out.view);
+            deepen::<L>(slot, out.view);
         }
         let drawn = Drawn::of(slot);
         let known = is_compared.then_some(Known {
