@@ -409,13 +409,19 @@ impl Mapping {
         let pixels = place.pixels();
         if let Some(square) = square {
             if pixels <= u32::from(self.quick) {
-                return self.span(place).between(run, place.within(), square);
+                return self.draw_straight(run, place, square);
             }
             if pixels <= u32::from(self.reach.arc) {
                 return self.draw_arc(run, place, square);
             }
         }
         self.draw_any(run, place, texture, budget);
+    }
+
+    /// The same of a span that is straight between its ends.
+    #[inline(never)]
+    fn draw_straight(&self, run: &mut [u16], place: Place, square: Square<'_>) {
+        self.span(place).between(run, place.within(), square);
     }
 
     /// The same of a span that is one arc.

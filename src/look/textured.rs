@@ -180,6 +180,19 @@ impl<F: Texel> Textured<F> {
         }
     }
 
+    /// [`fill_plain`](Paint::fill_plain), called.
+    #[inline(never)]
+    fn fill_word(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        Self::fill_plain(planes, place, draws, run);
+    }
+
+    /// The texels of a run, times its shade.
+    #[inline(never)]
+    fn fill_shaded(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        Self::texels(planes, place, draws, run);
+        Self::shade(planes, place, run);
+    }
+
     /// Multiplies a run by the shade of a triangle within 64 pixels.
     #[inline(always)]
     fn shade_small(planes: &Shades, place: Place, run: &mut [u16]) {
@@ -413,10 +426,12 @@ impl<F: Texel> Paint for Textured<F> {
     #[inline(never)]
     fn fill(fill: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
         if fill == Fill::Plain {
-            return Self::fill_plain(planes, place, draws, run);
+            return Self::fill_word(planes, place, draws, run);
         }
-        Self::texels(planes, place, draws, run);
-        Self::shade(planes, place, run);
+        if planes.shaded.is_none() {
+            return Self::texels(planes, place, draws, run);
+        }
+        Self::fill_shaded(planes, place, draws, run);
     }
 
     #[inline(never)]
