@@ -10,7 +10,7 @@
 
 use super::record::{ORIGIN, TexturePlace, Vertex};
 use crate::geometry::{Affine, Camera, Coordinate, Projection, Screen};
-use crate::num::{SHORT, leading_zeros, mul_recip_16, recip_16, shift_round};
+use crate::num::{SHORT, leading_zeros, mul_recip_16, recip_16};
 
 /// `x / z` in units of 1/8 pixel is `2^17` of the rows' ratio.
 const FOCAL_BITS: i32 = 17;
@@ -74,11 +74,11 @@ impl View {
         let (cross, along) = (down.clamp(0, 31), (-down).clamp(0, 31));
         for i in 0..3 {
             let shift = if i < 2 { cross } else { along };
-            let scaled = |v: i32| shift_round(i64::from(v), -shift) as i32;
+            let scaled = |v: i32| rounded(v, shift);
             rows[i] = rows[i].map(scaled);
             offset[i] = scaled(offset[i]);
         }
-        let range = |v: i32| shift_round(i64::from(v), -along).max(1) as i32;
+        let range = |v: i32| rounded(v, along).max(1);
         let centre = |axis: usize| {
             let first = [screen.left(), screen.top()][axis];
             let from_first = projection.centre(axis) - 8 * i64::from(first);
@@ -201,6 +201,14 @@ impl View {
             fine: [fine(qx, sx), fine(qy, sy)],
         }
     }
+}
+
+/// `value 2^-shift`, rounded to nearest, half up; a shift is by 31 at most.
+#[inline(always)]
+fn rounded(value: i32, shift: i32) -> i32 {
+    // The last bit that is lost, of one more below.
+    let half = (value >> (shift - 1).max(0) & 1) & -i32::from(shift > 0);
+    (value >> (shift & 31)) + half
 }
 
 /// Positions into vertices, which are not lit yet; whether all of them lie within the planes.
