@@ -21,21 +21,10 @@ pub enum Stride {
 }
 
 impl Stride {
-    /// All of them, the most exact one first.
-    #[cfg(test)]
-    pub const ALL: [Self; 5] = [Self::One, Self::Two, Self::Four, Self::Eight, Self::Sixteen];
-
     /// The power of two that it is.
     #[inline(always)]
     pub const fn log(self) -> u32 {
         self as u32
-    }
-
-    /// Pixels from one exact place to the next.
-    #[cfg(test)]
-    #[must_use]
-    pub const fn pixels(self) -> usize {
-        1 << self.log()
     }
 
     /// The longest of at most so many steps.

@@ -316,62 +316,72 @@ fn truth(span: &Perspective, pixel: usize) -> [f64; 2] {
     [of(at.s, span.base[0]), of(at.t, span.base[1])]
 }
 
+/// Draws a span as long ones are drawn: how far exact places are apart, and whether parabolas lie between.
+fn draw_reached(
+    span: &Perspective,
+    run: &mut [u16],
+    texture: &Texture<'_>,
+    budget: Budget,
+) -> (u8, bool) {
+    let repeats = texture.is_square() && texture.wrap() == Wrap::Repeat;
+    let log = if repeats { texture.log_width() } else { 0 };
+    let within = Within::whole(run);
+    let reach = span.reach(run.len(), budget, log);
+    if let (Some(square), 1..) = (texture.square(), reach.arc) {
+        if run.len() <= usize::from(reach.arc) {
+            span.arc(run, within, square);
+        } else {
+            span.arcs(run, within, square, reach.arc);
+        }
+        return (reach.arc, true);
+    }
+    let line = reach.line.min(if budget.is_coarse() { 64 } else { 4 });
+    span.draw(run, within, texture, Stride::within(line));
+    (line, false)
+}
+
+/// Kills: a reach of twice as many steps, a turn with the other sign.
 #[test]
-fn strides_keep_the_budget_and_are_as_long_as_it_allows() {
+fn reaches_keep_the_budget_and_use_it() {
     let words = coordinates();
     let square = Texture::words(&words, 256, 256).unwrap();
     let mut rng = Rng(9);
-    let mut chosen = [0; 5];
-    let (mut possible, mut shorter) = (0, 0);
+    let (mut lines, mut arcs) = ([0; 4], [0; 3]);
+    let mut used = [0f64; 2];
     for i in 0..6000 {
         let mut run = std::vec![0; 1 + rng.below(400) as usize];
         let span = some_span(&mut rng, run.len());
         let budget = [Budget::FAST, Budget::BALANCED, Budget::EXACT][i % 3];
         let wrap = WRAPS[i / 3 % 3];
-        let stride = span.stride(run.len(), budget);
-        let within = Within::whole(&run);
-        span.draw(&mut run, within, &square.wrapping(wrap), stride);
-        chosen[stride as usize] += 1;
-        let (mut q, mut reach) = ([f64::MAX, 0.0], 0f64);
+        let (reach, is_arc) = draw_reached(&span, &mut run, &square.wrapping(wrap), budget);
+        match (is_arc, reach) {
+            (false, _) => lines[reach.ilog2().min(3) as usize] += 1,
+            (true, _) => arcs[usize::from(reach).min(16).ilog2() as usize - 2] += 1,
+        }
+        let (mut far, mut worst) = (0f64, 0f64);
         for (x, &texel) in run.iter().enumerate() {
             let [u, v] = truth(&span, x);
-            let far = (u - f64::from(span.base[0]))
-                .abs()
+            far = far
+                .max((u - f64::from(span.base[0])).abs())
                 .max((v - f64::from(span.base[1])).abs());
-            reach = reach.max(far);
-            let at = f64::from(span.at.plus(span.step.times(x)).q);
-            q = [at.min(q[0]), at.max(q[1])];
             // Of fixed point: places, and 1/400 texel for what is left of its bits.
-            let bound = f64::from(budget.texels()) / 256.0 + reach / 32_768.0 + 0.0025;
+            let bound = f64::from(budget.texels()) / 256.0 + far / 32_768.0 + 0.0025;
             let off = off(u, texel, wrap).max(off(v, texel >> 8, wrap));
             assert!(
                 off <= bound,
-                "pixel {x} of {}, {stride:?}: {off} {span:?}",
+                "pixel {x} of {}, {reach}, {is_arc}: {off} {span:?}",
                 run.len()
             );
+            worst = worst.max(off / bound);
         }
-        // By the same bound, with nothing rounded.
-        let (a, b) = (truth(&span, 0), truth(&span, run.len() - 1));
-        let way = (b[0] - a[0]).abs().max((b[1] - a[1]).abs());
-        let steps = run.len() as f64 - 1.0;
-        let whole = way * (q[1] - q[0]) / q[0] / 4.0 * q[1] / q[0] / (steps * steps);
-        let fits = |s: &&Stride| {
-            whole * (s.pixels() * s.pixels()) as f64 <= f64::from(budget.for_curves()) / 256.0
-        };
-        let most = if budget.is_coarse() { 5 } else { 3 };
-        let best = Stride::ALL[..most]
-            .iter()
-            .rev()
-            .find(fits)
-            .unwrap_or(&Stride::One);
-        if run.len() > 1 && q[1] / q[0] < 15.5 {
-            assert!(stride <= *best, "{stride:?} where {best:?} is allowed");
-            possible += 1;
-            shorter += u32::from(stride < *best);
-        }
+        used[usize::from(is_arc)] = used[usize::from(is_arc)].max(worst);
     }
-    assert!(chosen.iter().all(|&n| n > 150), "{chosen:?}");
-    assert!(shorter * 30 < possible, "{shorter} of {possible}");
+    assert!(lines.iter().all(|&n| n > 100), "{lines:?}");
+    assert!(arcs.iter().all(|&n| n > 30), "{arcs:?}");
+    assert!(
+        used[0] > 0.65 && used[1] > 0.3,
+        "the bounds are loose: {used:?}"
+    );
 }
 
 #[test]
@@ -388,24 +398,18 @@ fn every_form_is_drawn_alike_in_perspective() {
         let mut other = run.clone();
         let span = some_span(&mut rng, run.len());
         let budget = [Budget::FAST, Budget::BALANCED, Budget::EXACT][i % 3];
-        let stride = span.stride(run.len(), budget);
-        let within = Within::whole(&run);
-        span.draw(&mut run, within, &square, stride);
-        let within = Within::whole(&other);
-        span.draw(&mut other, within, &columns, stride);
+        let (reach, _) = draw_reached(&span, &mut run, &square, budget);
+        draw_reached(&span, &mut other, &columns, budget);
         for (x, (&a, &b)) in run.iter().zip(&other).enumerate() {
             // Places are off by less than half a texel, each.
             let apart = (a & 255).wrapping_sub(b) & 255;
-            assert!(
-                matches!(apart, 0 | 1 | 255),
-                "pixel {x}, {stride:?}: {a} {b}"
-            );
+            assert!(matches!(apart, 0 | 1 | 255), "pixel {x}, {reach}: {a} {b}");
         }
         let same = run
             .iter()
             .zip(&other)
             .filter(|(a, b)| **a & 255 == **b)
             .count();
-        assert!(stride > Stride::One || same == run.len());
+        assert!(reach > 1 || same == run.len());
     }
 }

@@ -77,7 +77,7 @@ fn texels_do_not_depend_on_runs() {
                 line: line as u32,
             };
             let first = difference(&mut rng, place, |at, run: &mut [u16]| {
-                mapping.draw(run, at, &texture, budget);
+                mapping.draw(run, at, &texture, texture.square(), budget);
             });
             assert_eq!(first, None, "{place:?} {budget:?} {form} {mapping:?}");
             spans += 1;
