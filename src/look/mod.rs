@@ -18,6 +18,7 @@
 //! tint multiplies them by the shade, where that is not full light. Neither knows of the other, so
 //! code is a sum of the two and not a product, and neither spills registers.
 
+mod area;
 mod fetch;
 mod gouraud;
 mod mapping;

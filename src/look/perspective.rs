@@ -1,9 +1,10 @@
-//! A span in perspective: exact places every few pixels, texels fetched along straight ways between.
+//! A span in perspective: exact places every few pixels, texels fetched along straight ways or parabolas between.
 //!
 //! | span of | exact places | by |
 //! |---|---|---|
-//! | squares that repeat, at a coarse budget, up to the triangle's [`reach`](super::stride::reach) | at both ends | [`Perspective::between`] |
-//! | likewise, up to twice that | at both ends and the middle | [`Perspective::between_three`] |
+//! | squares that repeat, at a coarse budget, up to the triangle's [`Reach::line`] | at both ends | [`Perspective::between`] |
+//! | likewise, up to its [`Reach::arc`] | at both ends, and a parabola through the exact middle | [`Perspective::arc`] |
+//! | likewise, longer | the same, every power of two of pixels | [`Perspective::arcs`] |
 //! | all others | every [`Stride`] pixels, and at the end | [`Perspective::draw`] |
 //!
 //! 1/w, u/w and v/w are linear on the screen and share the triangle's exponent, which therefore
@@ -11,28 +12,20 @@
 //! two products and a small table where there is no divider, with the same bits. So a place is off
 //! by 2^-15 of its distance from the base at most; the base is to be near the triangle's middle.
 //!
-//! Instructions a pixel of spans of 320 pixels, all in (rustc 1.95, opt-level 3, counted in QEMU), the
-//! same bits on both cores; the choice of the stride takes 115 a span on the M4 and 360 on the M0+.
+//! Instructions of the 27 cubes (rustc 1.95, opt-level 3, counted in QEMU; `firmware --profile lean_f`), the same bits on
+//! both cores:
 //!
-//! | [`Stride`] | squares of words: M4 | M0+ | other words: M4 | M0+ | 8-bit indices: M4 | M0+ |
-//! |---|---|---|---|---|---|---|
-//! | `Sixteen` | 9.8 (9.4 a pixel) | 18.8 (17.9) | 19.7 | 37.8 | 22.6 | 40.0 |
-//! | `Eight` | 12.3 (11.9) | 25.6 (24.6) | 27.1 | 52.0 | 30.1 | 54.4 |
-//! | `Four` | 14.8 (14.2) | 44.2 (42.5) | as `One` | | | |
-//! | `Two` | 19.9 (19.5) | 66.2 (65.0) | as `One` | | | |
-//! | `One` | 27.2 (27.0) | 111.6 (111.1) | 59.2 | 158.5 | 61.1 | 160.5 |
+//! | | Cortex-M4 | Cortex-M0+ |
+//! |---|---|---|
+//! | a straight span, but for its texels | 99 | 337 |
+//! | an arc, but for its texels | 137 | 504 |
+//! | a texel of an arc, of eight; of up to seven that are left | 8.1; 11 | 13.1; 18 |
 //!
-//! Of `draw`, 5 pixels take 190 on the M4 and 460 on the M0+ with two exact places, 40 to 200 more with others; `between`
-//! has neither its calls nor its choice of a loop.
-//! Loops of a square take 1.6 KB of code on the M4: 700 bytes for 8 and 16, 330 and 410 for 2 and 4,
-//! 150 for 1.
-//!
-//! # Which stride keeps a budget
+//! # How far exact places may be apart
 //! Between two pixels with 1/w of `q0` and `q1`, u is off from the straight way by at most
-//! `|du| |dq| / (4 min q)`. In a span of `n` steps with that bound `e` for the whole, a part of `m`
-//! steps has `dq m / n`, and a `du` of at most `m / n max q / min q` of the whole's. So its error is
-//! at most `e (m / n)² max q / min q`. [`Perspective::stride`] asks so for a long span; [`reach`](super::stride::reach) asks once a triangle, for
-//! all of its spans.
+//! `|du| |dq| / (4 min q)`, and from the parabola by a fraction of that which falls with `|dq| / q`: an arc of 20 pixels
+//! over which 1/w changes by a fifth is off by 1/26 of what a straight way is. [`reach`](super::stride::reach()) asks so once
+//! a triangle for all of its spans, and once for a long span.
 
 use super::fetch::{Uv, Way, copy_arc, copy_exact, copy_from, packed, packed_on, packed_step};
 use super::stride::{Range, Reach, Stride, reach};
