@@ -361,7 +361,7 @@ impl Rest<'_> {
     }
 }
 
-/// A parabola over a square, in one word a place as [`copy`] has them.
+/// A parabola over a square, in one word a place as `fetch::copy` has them.
 #[derive(Clone, Copy)]
 struct Arc {
     at: u32,
