@@ -191,8 +191,24 @@ impl Mask {
         self.cover_new_words(start, end)
     }
 
+    /// The same of more words than one; most often of two.
     #[inline(never)]
     fn cover_new_words(&mut self, start: u32, end: u32) -> Part {
+        let (first, last) = (word_of(start), word_of(end));
+        if last == first + 1 {
+            let (left, right) = (u32::MAX >> (start & 31), !(u32::MAX >> (end & 31)));
+            let there = [self.0[first] & left, self.0[last] & right];
+            if there[0] | there[1] == 0 {
+                self.0[first] |= left;
+                self.0[last] |= right;
+                return Part::None;
+            }
+            return if there == [left, right] {
+                Part::All
+            } else {
+                Part::Some
+            };
+        }
         let (mut any, mut lack) = (0, 0);
         each_word(start, end, |word, bits| {
             any |= self.0[word] & bits;
