@@ -71,6 +71,17 @@ pub struct Mapping {
     pub planes: [[u32; 3]; 3],
 }
 
+/// Spans of a mapping that are drawn at one go.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Short {
+    /// Straight between both ends.
+    Straight,
+    /// Along a parabola.
+    Arc,
+    /// Neither.
+    No,
+}
+
 /// What planes go through at the corners, for triangles that are too thin for planes too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Values {
@@ -184,6 +195,7 @@ impl Values {
         mapping.method = self.method;
         mapping.base = self.base;
         mapping.quick = 0;
+        mapping.reach = Reach::NONE;
         let small = Small::new(corners);
         let large = if small.is_none() {
             Large::new(corners)
@@ -265,38 +277,26 @@ impl Mapping {
             .then_some(mapping)
     }
 
-    /// Copies texels into `run`, which begins at `place` of the picture; `square` is the texture, where it is one that
-    /// repeats.
+    /// How a square that repeats is drawn in a span.
     #[inline(always)]
-    pub fn draw(
-        &self,
-        run: &mut [u16],
-        place: Place,
-        texture: &Texture<'_>,
-        square: Option<Square<'_>>,
-        budget: Budget,
-    ) {
-        let pixels = place.pixels();
-        if let Some(square) = square {
-            if pixels <= u32::from(self.quick) {
-                return self.draw_straight(run, place, square);
-            }
-            if pixels <= u32::from(self.reach.arc) {
-                return self.draw_arc(run, place, square);
-            }
+    pub fn short(&self, place: Place) -> Short {
+        match place.pixels() {
+            pixels if pixels <= u32::from(self.quick) => Short::Straight,
+            pixels if pixels <= u32::from(self.reach.arc) => Short::Arc,
+            _ => Short::No,
         }
-        self.draw_any(run, place, texture, budget);
     }
 
-    /// The same of a span that is straight between its ends.
+    /// Copies a square's texels into `run`, which begins at `place` of the picture, of a span that is straight between
+    /// its ends.
     #[inline(never)]
-    fn draw_straight(&self, run: &mut [u16], place: Place, square: Square<'_>) {
+    pub fn draw_straight(&self, run: &mut [u16], place: Place, square: Square<'_>) {
         self.span(place).between(run, place.within(), square);
     }
 
     /// The same of a span that is one arc.
     #[inline(never)]
-    fn draw_arc(&self, run: &mut [u16], place: Place, square: Square<'_>) {
+    pub fn draw_arc(&self, run: &mut [u16], place: Place, square: Square<'_>) {
         self.span(place).arc(run, place.within(), square);
     }
 
@@ -318,8 +318,9 @@ impl Mapping {
         }
     }
 
+    /// Copies texels into `run`, which begins at `place` of the picture.
     #[inline(never)]
-    fn draw_any(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+    pub fn draw_any(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
         match self.method {
             Method::Word => {
                 let plane = &self.planes[0];

@@ -3,7 +3,9 @@
 mod runs;
 mod triangles;
 
+use super::Place;
 use super::fetch::{FRACTION, Uv, Way, copy, copy_exact, copy_wide};
+use super::mapping::{Mapping, Short};
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::Stride;
 use crate::num::random::Rng;
@@ -314,6 +316,21 @@ fn truth(span: &Perspective, pixel: usize) -> [f64; 2] {
     let at = span.at.plus(span.step.times(pixel));
     let of = |s: i32, base: i32| f64::from(s) * 2048.0 / f64::from(at.q) + f64::from(base);
     [of(at.s, span.base[0]), of(at.t, span.base[1])]
+}
+
+/// Draws a run by a mapping as a look does.
+fn draw_mapped(
+    mapping: &Mapping,
+    run: &mut [u16],
+    at: Place,
+    texture: &Texture<'_>,
+    budget: Budget,
+) {
+    match (texture.square(), mapping.short(at)) {
+        (Some(square), Short::Straight) => mapping.draw_straight(run, at, square),
+        (Some(square), Short::Arc) => mapping.draw_arc(run, at, square),
+        _ => mapping.draw_any(run, at, texture, budget),
+    }
 }
 
 /// Draws a span as long ones are drawn: how far exact places are apart, and whether parabolas lie between.

@@ -11,7 +11,8 @@
 
 use super::fetch::copy_from;
 use super::gouraud::{Course, Planes as Shades, at, course, fields, thin_shades, wide_shades};
-use super::mapping::{Corner, Mapping, Method, Values, word_at};
+use super::mapping::{Corner, Mapping, Method, Short, Values, word_at};
+use super::stride::Reach;
 use super::tint::{Shade, tint, tint_ordered, tint_swapped};
 use super::word_plane::Near;
 use super::{Fill, Paint, Place, ThinSpan};
@@ -169,12 +170,24 @@ impl<F: Texel> Textured<F> {
     /// The texels of a run, as they are; white without any.
     #[inline(always)]
     fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        match draws.get(usize::from(planes.draw)) {
-            Some(state) if planes.mapped => {
-                if let Some((texture, budget)) = state.texture() {
-                    let square = state.square();
-                    planes.mapping.draw(run, place, texture, square, budget);
-                }
+        let state = draws.get(usize::from(planes.draw));
+        if let Some(square) = state.and_then(DrawState::square) {
+            // Without a mapping none is short enough.
+            match planes.mapping.short(place) {
+                Short::Straight => return planes.mapping.draw_straight(run, place, square),
+                Short::Arc => return planes.mapping.draw_arc(run, place, square),
+                Short::No => {}
+            }
+        }
+        Self::other_texels(planes, place, state, run);
+    }
+
+    /// The same of what is not short.
+    #[inline(never)]
+    fn other_texels(planes: &Planes, place: Place, state: Option<&DrawState<'_>>, run: &mut [u16]) {
+        match state.and_then(DrawState::texture) {
+            Some((texture, budget)) if planes.mapped => {
+                planes.mapping.draw_any(run, place, texture, budget);
             }
             _ => run.fill(0xFFFF),
         }
@@ -364,6 +377,8 @@ impl<F: Texel> Paint for Textured<F> {
         planes.draw = Self::draw_of(object, draws);
         planes.shaded = Self::set_up_shade(triangle, size, area, &mut planes.shade);
         planes.mapped = false;
+        planes.mapping.quick = 0;
+        planes.mapping.reach = Reach::NONE;
         let mut is_plain = false;
         let mut thin = planes.shaded == Some(Fill::Thin);
         let state = draws.get(usize::from(planes.draw));
@@ -372,7 +387,6 @@ impl<F: Texel> Paint for Textured<F> {
             let near = Self::near(triangle, &places);
             if let Some(plane) = near.word_plane(texture, budget) {
                 planes.mapping.method = Method::Word;
-                planes.mapping.quick = 0;
                 planes.mapping.planes[0] = plane;
                 planes.mapped = true;
                 is_plain = state.and_then(DrawState::square).is_some();

@@ -4,7 +4,7 @@ use super::super::gouraud::fields;
 use super::super::mapping::Mapping;
 use super::super::{Fill, Gouraud, Paint, Parts, Place, Textured, ThinSpan, WordOf};
 use super::triangles::{inside, some_triangle};
-use super::{Texels, WRAPS, some_texture};
+use super::{Texels, WRAPS, draw_mapped, some_texture};
 use crate::composite::{Rgb565, Rgb565Be, Rgb888};
 use crate::geometry::{Faces, Mesh};
 use crate::num::random::Rng;
@@ -77,7 +77,7 @@ fn texels_do_not_depend_on_runs() {
                 line: line as u32,
             };
             let first = difference(&mut rng, place, |at, run: &mut [u16]| {
-                mapping.draw(run, at, &texture, texture.square(), budget);
+                draw_mapped(&mapping, run, at, &texture, budget);
             });
             assert_eq!(first, None, "{place:?} {budget:?} {form} {mapping:?}");
             spans += 1;

@@ -1,7 +1,7 @@
 //! Whole triangles: their texels against exact perspective, and what is refused.
 
 use super::super::mapping::{Corner, Mapping, Method, Values, is_affine};
-use super::{WRAPS, coordinates, off};
+use super::{WRAPS, coordinates, draw_mapped, off};
 use crate::look::Place;
 use crate::num::random::Rng;
 use crate::scene::{Budget, Texture};
@@ -86,7 +86,7 @@ fn triangles_show_the_texels_of_exact_perspective_within_the_budget() {
             };
             let mut run = std::vec![0; (last - first) as usize + 1];
             let place = span(first as u32, run.len(), line as u32);
-            mapping.draw(&mut run, place, &texture, texture.square(), budget);
+            draw_mapped(&mapping, &mut run, place, &texture, budget);
             for (x, &texel) in (first..).zip(&run) {
                 let [u, v] = inside(&corners, x, line).unwrap();
                 let off = off(u, texel, wrap).max(off(v, texel >> 8, wrap));
@@ -180,12 +180,12 @@ fn any_numbers_are_drawn_without_a_panic() {
         let mut mapping = Mapping::new(&corners, &texture, budget).unwrap_or_default();
         let pixels = bits() as usize % run.len();
         let at = span(bits(), pixels, bits());
-        mapping.draw(&mut run[..pixels], at, &texture, texture.square(), budget);
+        draw_mapped(&mapping, &mut run[..pixels], at, &texture, budget);
         for method in [Method::Word, Method::Wide, Method::Perspective] {
             mapping.method = method;
             mapping.planes = [(); 3].map(|()| [bits(), bits(), bits()]);
             mapping.base = [bits() as i32, bits() as i32];
-            mapping.draw(&mut run[..pixels], at, &texture, texture.square(), budget);
+            draw_mapped(&mapping, &mut run[..pixels], at, &texture, budget);
         }
     }
 }
