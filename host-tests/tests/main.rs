@@ -43,6 +43,7 @@ mod hot_path_errors;
 mod hot_path_frames;
 mod hot_path_ground;
 mod hot_path_phong;
+mod hot_path_shader;
 mod hot_path_shading;
 mod hot_path_shared;
 mod hot_path_texels;

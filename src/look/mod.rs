@@ -6,6 +6,7 @@
 //! | `gouraud` | colours linear between vertices |
 //! | `textured` | texels times such colours |
 //! | `phong` | normals linear between vertices, lit at each pixel |
+//! | `shaded` | pixels by a function of one's own, from parameters of vertices |
 //! | `ramp` | the loops over pixels that all looks share |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
 //! | `word_plane` | both coordinates of a small affine triangle in one word |
@@ -26,6 +27,7 @@ mod paint;
 mod perspective;
 mod phong;
 mod ramp;
+mod shaded;
 mod stride;
 #[cfg(test)]
 mod tests;
@@ -37,9 +39,10 @@ pub use gouraud::Gouraud;
 pub(crate) use paint::{Fill, Paint, Parts, Place, ThinSpan, WordOf};
 pub use phong::Phong;
 pub(crate) use ramp::fill_even;
+pub use shaded::{Shaded, Shader};
 pub use textured::Textured;
 
-/// How the triangles of a scene look: [`Gouraud`], [`Textured`] or [`Phong`].
+/// How the triangles of a scene look: [`Gouraud`], [`Textured`], [`Phong`], or [`Shaded`] by a [`Shader`] of one's own.
 pub trait Look: Paint {}
 
 impl<T: Paint> Look for T {}
