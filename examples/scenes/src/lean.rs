@@ -49,6 +49,8 @@ pub enum LeanError {
     Begin(BeginError),
     /// A part was not drawn.
     Draw(DrawError),
+    /// Sprites are not in order.
+    Sprites,
 }
 
 impl Suite {

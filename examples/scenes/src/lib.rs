@@ -19,6 +19,7 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod contours;
 mod effects;
 mod lean;
 mod listed;
@@ -32,7 +33,9 @@ mod stress;
 mod suite;
 mod texels;
 mod textured;
+mod values;
 
+pub use contours::{CONTOURED, Contours, LeanContours};
 pub use effects::{
     Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
     Numbered, Ranked, Shady, Transparent, by_effect,
@@ -64,6 +67,10 @@ pub use suite::{
 };
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
 pub use textured::textured;
+pub use values::{
+    LeanPhong, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN, VALUES_WIDTH, Values, ValuesError,
+    ValuesMemory, values_screen,
+};
 
 use scanbeam::mesh::QuadSplit;
 use scanbeam::{Faces, Mesh};

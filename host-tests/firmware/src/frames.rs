@@ -1,7 +1,7 @@
 //! The frames that this firmware draws, by name.
 
 use crate::choices::{draw_b, draw_b_cached, draw_seen, draw_suite};
-use crate::lean::draw_lean;
+use crate::lean::{draw_lean, draw_values};
 use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
@@ -21,8 +21,8 @@ use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
     LEAN, Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE,
-    SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VARIANTS, Variant, build_crate,
-    build_listed, build_method, by_effect, by_method, method_screen,
+    SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES, VARIANTS, Values,
+    Variant, build_crate, build_listed, build_method, by_effect, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -60,6 +60,8 @@ enum Way {
     Suite(Suite),
     /// The same in the new rooms.
     Lean(Suite),
+    /// A small frame of what few draw calls have in them.
+    Values(Values),
 }
 
 /// One frame: how a shot is drawn.
@@ -70,7 +72,8 @@ pub(crate) struct Frame {
     way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: the suite, the same in the new rooms, all other shots, those of stress
+/// Every frame, in the order in which they are drawn: the suite, the same in the new rooms and
+/// what few draw calls have there, all other shots, those of stress
 /// too, then flat faces, one by the hardware model and two from baked lists, then what the cache and its
 /// renderers must not change, then the interpolation methods and effects, other depths, and scene B.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
@@ -87,6 +90,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     };
     let suite = SUITE.map(|suite| plain(suite.name(), Shot::Sphere, Way::Suite(suite)));
     let lean = LEAN.map(|(name, suite)| plain(name, Shot::Sphere, Way::Lean(suite)));
+    let values = VALUES.map(|(name, values)| plain(name, Shot::Sphere, Way::Values(values)));
     let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
     let shots = SHOTS.into_iter().filter(move |shot| !measured(shot));
     let shots = shots.chain(STRESS);
@@ -98,6 +102,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     suite
         .into_iter()
         .chain(lean)
+        .chain(values)
         .chain(shots.map(move |shot| plain(shot.name(), shot, Way::Smooth)))
         .chain([
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
@@ -170,6 +175,7 @@ impl Frame {
             Way::BlocksB => draw_b_cached(rooms, &mut pump),
             Way::Suite(suite) => draw_suite(suite, rooms, &mut pump),
             Way::Lean(suite) => draw_lean(suite, rooms, &mut pump),
+            Way::Values(values) => draw_values(values, rooms, &mut pump),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 let rooms = &mut rooms.smooth;
                 draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);

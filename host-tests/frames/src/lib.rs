@@ -3,9 +3,11 @@
 mod effects;
 mod lean;
 mod methods;
+mod values;
 
 pub use effects::{effect_frames, effect_pictures};
 pub use methods::{MethodFrame, method_frames};
+pub use values::{Sent, values_pictures, values_sent};
 
 use host_draw::ModelLines;
 use host_support::image_out::Frame;
@@ -26,8 +28,8 @@ use scanbeam_model::draw_model_frame;
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,
     LIST_TABLE, LookB, LookF, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SUITE,
-    SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VARIANTS,
-    VERTICES, WIDTH, build_crate, build_listed,
+    SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VALUES,
+    VARIANTS, VERTICES, WIDTH, build_crate, build_listed,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -44,6 +46,11 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     }
     for (name, suite) in LEAN {
         frames.insert(name, crc32fast::hash(&lean_frame(suite)?));
+    }
+    for (name, values) in VALUES {
+        let words = values_sent(values, 64)?.words;
+        let bytes: Vec<u8> = words.into_iter().flat_map(u16::to_ne_bytes).collect();
+        frames.insert(name, crc32fast::hash(&bytes));
     }
     for shot in SHOTS.into_iter().chain(STACKS).chain(STRESS) {
         frames.insert(

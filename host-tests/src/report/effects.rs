@@ -3,7 +3,7 @@
 use super::Page;
 use crate::args::PixelFormatArg;
 use crate::draw::{CrewSettings, Effects, FilterArg, TextureSet, draw_effects};
-use crate::frames::effect_pictures;
+use crate::frames::{effect_pictures, values_pictures};
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
 use scanbeam::texture::Quality;
@@ -79,6 +79,14 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
             &[&frame],
             &name.trim_start_matches("effect_").replace('_', " "),
         )?;
+    }
+    page.paragraph(
+        "The same in the rooms `scene`, `look` and `frame`: light at pixels, a look of one's own, \
+         texels with holes, dither, blends by depth and by priority, sprites, and what a second \
+         frame changed.",
+    );
+    for (name, frame) in values_pictures()? {
+        page.pictures(&[&frame], name.trim_start_matches("values_"))?;
     }
     Ok(())
 }
