@@ -69,7 +69,9 @@ fn frames_of_values_are_full_of_colours_and_the_same_with_any_slots() {
     for (name, values) in VALUES {
         let sent = values_sent(values, 64).unwrap();
         let colours: BTreeSet<u16> = sent.shown.iter().copied().collect();
-        assert!(colours.len() > 20, "{name}: {}", colours.len());
+        // Without shading a call has one colour.
+        let least = if values == Values::Master { 2 } else { 20 };
+        assert!(colours.len() > least, "{name}: {}", colours.len());
         for slots in [0, 5] {
             let few = values_sent(values, slots).unwrap();
             assert!(few.words == sent.words, "{name} with {slots} slots");

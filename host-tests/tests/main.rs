@@ -42,6 +42,7 @@ mod hot_path_dither;
 mod hot_path_errors;
 mod hot_path_frames;
 mod hot_path_ground;
+mod hot_path_master;
 mod hot_path_phong;
 mod hot_path_shader;
 mod hot_path_shading;

@@ -51,7 +51,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return false;
         }
         let mut out = Line {
-            deep: !self.depth.is_empty() && !view.ranked,
+            deep: !self.depth.is_empty() && view.deep,
             view,
             number: u32::from(line),
             pixels,

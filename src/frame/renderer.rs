@@ -265,6 +265,8 @@ pub struct View<'a> {
     pub(super) ruled: bool,
     /// Whether the scene is drawn by priority.
     pub(super) ranked: bool,
+    /// Whether depths are compared, where there is memory for them.
+    pub(super) deep: bool,
 }
 
 impl<'a> View<'a> {
@@ -284,6 +286,7 @@ impl<'a> View<'a> {
             bins: scene.bins,
             ruled: scene.has_values,
             ranked: scene.is_ranked,
+            deep: scene.master.has_depth() && !scene.is_ranked,
         }
     }
 

@@ -5,7 +5,9 @@
 
 use super::cut::{Corner, cut_all};
 use super::lights::Lamps;
-use super::pass::{Lost, Normals, Own, Pass, WordOfNormal, colour_of, light_all, top_first};
+use super::pass::{
+    Lost, Normals, Own, Pass, WordOfNormal, colour_all, colour_of, light_all, top_first,
+};
 use super::project::{View, project_all, project_textured};
 use super::{
     Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading,
@@ -68,11 +70,11 @@ impl<'t, L> Scene<'_, 't, L> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
         };
-        let mesh = &draw.mesh;
         check_draw(draw, textured, word_of.is_some())?;
-        let is_flat = draw.shading == Shading::Flat;
+        let mesh = &draw.mesh;
+        let master = self.master;
         let submitted = triangles(mesh.faces);
-        let state = DrawState::new(self.objects.len() as u16, draw);
+        let state = DrawState::new(self.objects.len() as u16, draw, master);
         if self.draws.push(state).is_none() {
             return Err(DrawError::Full {
                 memory: Full::Draws,
@@ -82,21 +84,17 @@ impl<'t, L> Scene<'_, 't, L> {
         }
         self.generation = self.generation.wrapping_add(1);
         // Where texels are drawn as they are, nobody sees colours or light.
-        let is_plain = draw.applied() == Some(Application::Replace);
-        let plain = Mesh {
-            normals: &[],
-            colours: &[],
-            ..*mesh
-        };
-        let (mesh, colour) = match is_plain {
-            true => (&plain, [255; 3]),
-            false => (mesh, draw.colour),
-        };
+        let is_replaced = master.applied(draw) == Some(Application::Replace);
+        let is_plain = is_replaced || !master.has_shading();
+        let is_flat = draw.shading == Shading::Flat && !is_plain;
+        let colour = if is_replaced { [255; 3] } else { draw.colour };
+        let tint = Tint::new(colour, &self.scale);
         let (model, view) = (&draw.model, camera.view());
-        let lights = draw.lights.filter(|_| !is_plain);
-        let lamps = lights.map(|lights| Lamps::new(lights, model, view));
-        let light = draw.light.filter(|_| !is_plain && lamps.is_none());
+        let lamps = draw.lights.map(|lights| Lamps::new(lights, model, view));
+        let light = draw.light.filter(|_| lamps.is_none());
         let light = light.map(|light| light.in_model(model, view));
+        let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
+        let has_one = is_plain || !is_lit && mesh.colours.is_empty();
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
             light,
@@ -105,7 +103,8 @@ impl<'t, L> Scene<'_, 't, L> {
                 turn: draw.model.then(camera.view()),
                 word,
             }),
-            tint: Tint::new(colour, &self.scale),
+            tint,
+            one: has_one.then(|| tint.lit(1 << 15).word()),
             cull: draw.cull,
             texels: draw.texture.map_or(&[][..], |skin| skin.places),
             base: self.vertices.len(),
@@ -189,15 +188,12 @@ impl<'t, L> Scene<'_, 't, L> {
     fn light<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &Pass<'_>) {
         let scale = self.scale;
         let vertices = self.shared(pass);
+        if let Some(colour) = pass.one {
+            return colour_all(colour, vertices);
+        }
         match &pass.light {
             Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
                 light_all(light, &pass.tint, &scale, mesh.normals, vertices);
-            }
-            None if pass.has_one_colour() && mesh.colours.is_empty() => {
-                let colour = pass.tint.lit(1 << 15).word();
-                for vertex in vertices {
-                    vertex.colour = colour;
-                }
             }
             _ => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {
@@ -227,7 +223,7 @@ impl<'t, L> Scene<'_, 't, L> {
             each_triangle(mesh.faces, |face, corners, _| {
                 let filed = pass.shared > 0 && self.file_known(corners, pass);
                 if !filed {
-                    self.file_one(mesh, face, corners, None, pass);
+                    self.file_one(mesh, face, corners, pass.one, pass);
                 }
             });
             return Ok(());
@@ -245,7 +241,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 {
                     return Err(MeshError::Index { face: from as u32 });
                 }
-                self.file_one(mesh, from as u32, corners, None, pass);
+                self.file_one(mesh, from as u32, corners, pass.one, pass);
             }
             from += 1;
         }

@@ -1,7 +1,7 @@
 //! What a draw call says, and what pass two needs of it.
 
 use super::texture::Square;
-use super::{Blend, Budget, DepthTest, Lights, Scissor, Texture};
+use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
 use core::ops::Range;
 
@@ -111,15 +111,6 @@ impl<'a, C> Draw<'a, '_, C> {
             priority: 0,
         }
     }
-
-    /// What the texture does to the colours, if it has one: a decal without transparent texels hides them.
-    pub(crate) fn applied(&self) -> Option<Application> {
-        let key = self.texture?.texture.key();
-        match (self.application, key) {
-            (Application::Decal, None) => Some(Application::Replace),
-            (application, _) => Some(application),
-        }
-    }
 }
 
 /// What pass two needs of a draw call, kept once a call.
@@ -180,23 +171,25 @@ impl<'t> DrawState<'t> {
     };
 
     /// That of a call whose first triangle has this number.
-    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>) -> Self {
-        let skin = draw.texture.as_ref();
+    pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, master: Master) -> Self {
+        let skin = draw.texture.as_ref().filter(|_| master.has_texture());
         let texture = skin.map(|skin| skin.texture);
+        let blend = draw.blend.filter(|_| master.has_blend());
         Self {
             first,
             texture,
             budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
             scissor: draw.scissor,
-            depth: match draw.blend {
+            depth: match blend {
+                _ if !master.has_depth() => DepthTest::HIDES,
                 Some(blend) if blend.is_translucent() => draw.depth.without_write(),
                 _ => draw.depth,
             },
-            blend: draw.blend,
-            dithers: draw.dither,
+            blend,
+            dithers: draw.dither && master.has_dither(),
             priority: draw.priority,
             colour: draw.colour,
-            lamps: draw.lamps,
+            lamps: draw.lamps.filter(|_| master.has_shading()),
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
             square: texture.and_then(Texture::square),
         }

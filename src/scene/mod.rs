@@ -7,6 +7,7 @@
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
+//! | `master` | what a supervisor has switched off |
 //! | `lights` | several lights, whose code only a call that has them brings in |
 //! | `flat` | faces of one colour each |
 //! | `cut` | triangles that cross a plane |
@@ -25,6 +26,7 @@ mod draw;
 mod error;
 mod flat;
 mod lights;
+mod master;
 mod pass;
 mod project;
 mod record;
@@ -40,6 +42,7 @@ pub use depth::DepthTest;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub use lights::Lights;
+pub use master::Master;
 pub(crate) use pass::WordOfNormal;
 pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
@@ -118,6 +121,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) has_values: bool,
     /// Whether a draw call has a priority.
     pub(crate) is_ranked: bool,
+    /// What draw calls have to do without.
+    pub(crate) master: Master,
     pub(crate) assembled: Assembled,
     /// Counts changes, so that a renderer notices them.
     pub(crate) generation: u32,
@@ -139,10 +144,17 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             scale,
             has_values: false,
             is_ranked: false,
+            master: Master::ALL,
             assembled: Assembled::default(),
             generation: 0,
             look: PhantomData,
         }
+    }
+
+    /// What draw calls have to do without from now on; depth, while lines are drawn, by the last that was set (H13).
+    pub fn set_master(&mut self, master: Master) {
+        self.master = master;
+        self.generation = self.generation.wrapping_add(1);
     }
 
     /// Forgets what was drawn, and draws all lines from now on as `camera` sees them.

@@ -47,6 +47,8 @@ pub(super) struct Pass<'a> {
     /// Normals in place of colours.
     pub(super) normals: Option<Normals>,
     pub(super) tint: Tint,
+    /// The word of all vertices, where they have the same.
+    pub(super) one: Option<u32>,
     pub(super) cull: Cull,
     /// Texture places of the mesh's vertices; empty without a texture.
     pub(super) texels: &'a [[i32; 2]],
@@ -114,6 +116,14 @@ pub(super) fn light_all(
     }
 }
 
+/// One colour for all of them.
+#[inline(never)]
+pub(super) fn colour_all(colour: u32, vertices: &mut [Vertex]) {
+    for vertex in vertices {
+        vertex.colour = colour;
+    }
+}
+
 /// The colour of a vertex, lit if it is to be.
 pub(super) fn colour_of<C: Coordinate>(
     mesh: &Mesh<'_, C>,
@@ -131,12 +141,8 @@ impl Pass<'_> {
         top_first(self.cull == Cull::Back, [0, 1, 2], places)
     }
 
-    /// Whether vertices without colours of their own all have the same one.
-    pub(super) fn has_one_colour(&self) -> bool {
-        self.lamps.is_none() && self.normals.is_none()
-    }
-
-    /// The word of a vertex: its colour, lit if there is a normal; or the normal itself.
+    /// The word of a vertex: its colour, lit if there is a normal; or the normal itself. One copy for all who ask.
+    #[inline(never)]
     pub(super) fn lit<C: Coordinate>(
         &self,
         mesh: &Mesh<'_, C>,

@@ -9,6 +9,7 @@
 //! | `values_dither` | smooth and textured surfaces, dithered |
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
+//! | `values_master` | the scene of blends with all switched off that can be |
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
@@ -28,7 +29,7 @@ use scanbeam::pixel::{PixelFormat, Pixels, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns};
 use scanbeam::scene::{
     Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, DrawState, Factor,
-    Memory, Object, Scene, Scissor, Shading, Skin, Texture, TexturePlace, Vertex,
+    Master, Memory, Object, Scene, Scissor, Shading, Skin, Texture, TexturePlace, Vertex,
 };
 use scanbeam::{Affine, Camera, Cull, Light, Link, Mesh, Screen};
 
@@ -65,6 +66,8 @@ pub enum Values {
     Blends,
     /// The same by priority.
     Ranked,
+    /// What blends has, with all switched off that can be.
+    Master,
     /// Below sprites.
     Overlay,
     /// A frame, and the changed lines of another.
@@ -74,13 +77,14 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 9] = [
+pub const VALUES: [(&str, Values); 10] = [
     ("values_phong", Values::Phong),
     ("values_bands", Values::Bands),
     ("values_holes", Values::Holes),
     ("values_dither", Values::Dither),
     ("values_blends", Values::Blends),
     ("values_ranked", Values::Ranked),
+    ("values_master", Values::Master),
     ("values_overlay", Values::Overlay),
     ("values_lines", Values::Lines),
     ("values_runs", Values::Runs),
@@ -173,7 +177,7 @@ impl Values {
             Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
             Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
-            Self::Blends | Self::Ranked => {
+            Self::Blends | Self::Ranked | Self::Master => {
                 let is_ranked = self == Self::Ranked;
                 rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
             }
@@ -211,6 +215,10 @@ impl Rest<'_> {
             depth: self.depth,
         });
         let background = Rgb565Be::from_rgb8([24, 32, 48]);
+        if values == Values::Master {
+            let master = Master::ALL.without_shading().without_depth();
+            scene.set_master(master.without_texture().without_blend().without_dither());
+        }
         build(&mut scene, 0.0)?;
         if values == Values::Overlay {
             let sprites = sprites();

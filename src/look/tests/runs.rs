@@ -9,7 +9,7 @@ use crate::composite::{Rgb565, Rgb565Be, Rgb888};
 use crate::geometry::{Faces, Mesh};
 use crate::num::random::Rng;
 use crate::scene::{
-    Budget, Draw, DrawState, NONE, ORIGIN, Object, Skin, Texture, TexturePlace, Vertex,
+    Budget, Draw, DrawState, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace, Vertex,
 };
 use crate::span::{Frame, Triangle};
 use std::vec::Vec;
@@ -165,7 +165,7 @@ fn spans_of<L: Paint>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
             texture: skin,
             ..Draw::new(mesh)
         };
-        let draws = [DrawState::new(0, &call)];
+        let draws = [DrawState::new(0, &call, Master::ALL)];
         let (area, lines, way) = (triangle.area(), triangle.lines(), triangle.way());
         let mut planes = L::EMPTY;
         let size = triangle.size(area);
