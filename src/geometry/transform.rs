@@ -139,6 +139,16 @@ impl Affine {
         })
     }
 
+    /// The first two rows of the nearest turn, in Q1.14; zeros where there is none.
+    pub(crate) fn rows_q14(&self) -> [[i32; 3]; 2] {
+        let turn = self.orthonormalised().map(|turn| turn.linear);
+        let entry = |i: usize| {
+            let linear = turn.as_ref()?;
+            Some(shift_round(i64::from(linear.mantissa[i]), linear.exponent - 16) as i32)
+        };
+        [0, 3].map(|row| [0, 1, 2].map(|i| entry(row + i).unwrap_or(0)))
+    }
+
     /// The linear part times a vector.
     pub(super) fn linear_times(&self, v: Block<3>) -> Block<3> {
         let sum = times(&self.linear.mantissa, v.mantissa);

@@ -9,6 +9,7 @@ use super::pass::{
     Lost, Normals, Own, Pass, WordOfNormal, colour_all, colour_of, light_all, top_first,
 };
 use super::project::{View, project_all, project_textured};
+use super::texgen::project_generated;
 use super::{
     Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading,
     TexturePlace, Vertex,
@@ -48,10 +49,16 @@ fn check_draw<C: Coordinate>(
     }
     match draw.texture {
         Some(_) if !textured => Err(DrawError::Untextured),
-        Some(skin) if skin.places.len() != mesh.positions.len() => {
-            Err(DrawError::Mesh(MeshError::AttributeLength))
+        Some(skin) => {
+            let places = match draw.texgen {
+                Some(_) => mesh.normals.len(),
+                None => skin.places.len(),
+            };
+            let fits = places == mesh.positions.len();
+            let error = DrawError::Mesh(MeshError::AttributeLength);
+            fits.then_some(()).ok_or(error)
         }
-        _ => Ok(()),
+        None => Ok(()),
     }
 }
 
@@ -95,6 +102,12 @@ impl<'t, L> Scene<'_, 't, L> {
         let light = light.map(|light| light.in_model(model, view));
         let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
         let has_one = is_plain || !is_lit && mesh.colours.is_empty();
+        let generated = match (draw.texgen, &draw.texture) {
+            (Some(rule), Some(skin)) => {
+                Some(rule.generated(&model.then(view), skin.texture, draw.mesh.normals))
+            }
+            _ => None,
+        };
         let mut pass = Pass {
             view: View::new(&camera, self.screen, &draw.model),
             light,
@@ -106,7 +119,8 @@ impl<'t, L> Scene<'_, 't, L> {
             tint,
             one: has_one.then(|| tint.lit(1 << 15).word()),
             cull: draw.cull,
-            texels: draw.texture.map_or(&[][..], |skin| skin.places),
+            texels: draw.texture.map(|skin| skin.places),
+            generated: generated.as_ref(),
             base: self.vertices.len(),
             shared: 0,
             within: false,
@@ -163,17 +177,18 @@ impl<'t, L> Scene<'_, 't, L> {
     fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &mut Pass<'_>) {
         let count = mesh.positions.len();
         let end = pass.base + count;
-        let has_places = pass.texels.is_empty() || self.places.len() >= end;
-        let Some(vertices) = has_places.then(|| self.vertices.append(count)).flatten() else {
+        let has_room = pass.texels.is_none() || self.places.len() >= end;
+        let Some(vertices) = has_room.then(|| self.vertices.append(count)).flatten() else {
             return;
         };
         pass.shared = count;
-        if pass.texels.is_empty() {
-            pass.within = project_all(&pass.view, mesh.positions, vertices);
-        } else if let Some(places) = self.places.get_mut(pass.base..end) {
-            let (positions, texels) = (mesh.positions, pass.texels);
-            pass.within = project_textured(&pass.view, positions, texels, vertices, places);
-        }
+        let (view, positions) = (&pass.view, mesh.positions);
+        let places = self.places.get_mut(pass.base..end).unwrap_or_default();
+        pass.within = match (pass.texels, pass.generated) {
+            (None, _) => project_all(view, positions, vertices),
+            (_, Some(generated)) => project_generated(generated, view, positions, vertices, places),
+            (Some(texels), _) => project_textured(view, positions, texels, vertices, places),
+        };
     }
 
     /// The vertices of the mesh, if they are in memory.
@@ -382,7 +397,7 @@ impl<'t, L> Scene<'_, 't, L> {
         for (vertex, own) in vertices.iter_mut().zip(own) {
             *vertex = own.vertex;
         }
-        if !pass.texels.is_empty() {
+        if pass.texels.is_some() {
             let Some(places) = self.places.get_mut(base..base + 3) else {
                 self.vertices.truncate(base);
                 return Err(Full::Vertices);
@@ -431,7 +446,7 @@ fn corner_of<C: Coordinate>(
     Corner {
         point: pass.view.point(mesh.positions[i]),
         colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
-        texel: pass.texels.get(i).copied().unwrap_or_default(),
+        texel: pass.texel(i),
     }
 }
 

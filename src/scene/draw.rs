@@ -1,5 +1,6 @@
 //! What a draw call says, and what pass two needs of it.
 
+use super::texgen::TexGen;
 use super::texture::Square;
 use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
@@ -30,6 +31,8 @@ pub struct Draw<'a, 't, C = i16> {
     /// The texture, which other looks than [`Textured`](crate::look::Textured) refuse; colours and light are multiplied
     /// with it.
     pub texture: Option<Skin<'a, 't>>,
+    /// How places on the texture are made of vertices, in place of those of the skin: reflections.
+    pub texgen: Option<TexGen>,
     /// What the texture does to the colours.
     pub application: Application,
     /// The rectangle that it is cut to, or that is cut out of it.
@@ -103,6 +106,7 @@ impl<'a, C> Draw<'a, '_, C> {
             shading: Shading::Smooth,
             colour: [255; 3],
             texture: None,
+            texgen: None,
             application: Application::Product,
             scissor: None,
             depth: DepthTest::HIDES,

@@ -11,6 +11,7 @@
 //! | `lights` | several lights, whose code only a call that has them brings in |
 //! | `flat` | faces of one colour each |
 //! | `cut` | triangles that cross a plane |
+//! | `texgen` | texture places from normals |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `error` | what can go wrong |
@@ -33,6 +34,7 @@ mod record;
 mod scissor;
 #[cfg(test)]
 mod tests;
+mod texgen;
 mod texture;
 
 pub use crate::geometry::DepthFunction;
@@ -47,6 +49,7 @@ pub(crate) use pass::WordOfNormal;
 pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use scissor::Scissor;
+pub use texgen::TexGen;
 pub(crate) use texture::{Form, Square};
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 

@@ -2,6 +2,7 @@
 
 use super::lights::{Lamps, sealed};
 use super::project::View;
+use super::texgen::Generated;
 use super::{Full, TexturePlace, Vertex};
 use crate::geometry::{Affine, Colour, Coordinate, Cull, Light, Mesh, ModelLight, Scale, Tint};
 
@@ -50,8 +51,10 @@ pub(super) struct Pass<'a> {
     /// The word of all vertices, where they have the same.
     pub(super) one: Option<u32>,
     pub(super) cull: Cull,
-    /// Texture places of the mesh's vertices; empty without a texture.
-    pub(super) texels: &'a [[i32; 2]],
+    /// Texture places of the mesh's vertices; `None` without a texture.
+    pub(super) texels: Option<&'a [[i32; 2]]>,
+    /// Those that are made in place of them.
+    pub(super) generated: Option<&'a Generated<'a>>,
     /// The first of the mesh's vertices in memory.
     pub(super) base: usize,
     /// How many of them are there: all or none.
@@ -136,6 +139,17 @@ pub(super) fn colour_of<C: Coordinate>(
 }
 
 impl Pass<'_> {
+    /// The texture place of a vertex.
+    pub(super) fn texel(&self, i: usize) -> [i32; 2] {
+        match self.generated {
+            Some(generated) => generated.texel(i),
+            None => self
+                .texels
+                .and_then(|texels| texels.get(i).copied())
+                .unwrap_or_default(),
+        }
+    }
+
     /// The order of corners from the topmost on, and their places in it; `None` where the face is not seen.
     pub(super) fn order(&self, places: [u32; 3]) -> Option<([u16; 3], [u32; 3])> {
         top_first(self.cull == Cull::Back, [0, 1, 2], places)

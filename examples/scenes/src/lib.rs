@@ -24,6 +24,7 @@ mod effects;
 mod lean;
 mod listed;
 mod methods;
+mod mirror;
 mod octasphere;
 mod scene_b;
 mod sheet;
@@ -48,6 +49,7 @@ pub use listed::{
 pub use methods::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };
+pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};
 pub use scene_b::{
     BLOCK_TEXELS_B, BLOCKS_B, CACHE_SLOTS_B, CachedB, CachedLookB, LookB, OBJECTS_B,

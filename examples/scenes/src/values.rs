@@ -5,6 +5,7 @@
 //! |---|---|
 //! | `values_phong` | a ball and a ribbon that are lit at each pixel, one of them dithered |
 //! | `values_bands` | heights as contour bands, by a look of its own |
+//! | `values_mirror` | a teapot that reflects its surroundings |
 //! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
 //! | `values_dither` | smooth and textured surfaces, dithered |
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
@@ -16,7 +17,7 @@
 
 use crate::contours::{CONTOURED, LeanContours};
 use crate::lean::{LeanError, LeanLook, LeanTextured};
-use crate::{CUBE, PLACES_F, RIBBON, SPHERE, TEXELS_F_PANEL};
+use crate::{CUBE, PLACES_F, RIBBON, SPHERE, SURROUNDINGS, TEAPOT, TEXELS_F_PANEL};
 use scanbeam::frame::{
     FastMemory, FrameError, Memory as LineMemory, Renderer, draw_frame, draw_frame_changed,
     draw_frame_changed_runs, draw_frame_overlaid,
@@ -29,7 +30,7 @@ use scanbeam::pixel::{PixelFormat, Pixels, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns};
 use scanbeam::scene::{
     Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, DrawState, Factor,
-    Master, Memory, Object, Scene, Scissor, Shading, Skin, Texture, TexturePlace, Vertex,
+    Master, Memory, Object, Scene, Scissor, Shading, Skin, TexGen, Texture, TexturePlace, Vertex,
 };
 use scanbeam::{Affine, Camera, Cull, Light, Link, Mesh, Screen};
 
@@ -58,6 +59,8 @@ pub enum Values {
     Phong,
     /// A look of one's own.
     Bands,
+    /// Texture places from normals.
+    Mirror,
     /// Texels that are transparent.
     Holes,
     /// Dithered colours and texels.
@@ -77,9 +80,10 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 10] = [
+pub const VALUES: [(&str, Values); 11] = [
     ("values_phong", Values::Phong),
     ("values_bands", Values::Bands),
+    ("values_mirror", Values::Mirror),
     ("values_holes", Values::Holes),
     ("values_dither", Values::Dither),
     ("values_blends", Values::Blends),
@@ -175,6 +179,7 @@ impl Values {
         match self {
             Self::Phong => rest.send(self, lent.lit, pump, |scene, _| phong(scene, &lamps)),
             Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
+            Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
             Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
             Self::Blends | Self::Ranked | Self::Master => {
@@ -328,6 +333,21 @@ fn bands(scene: &mut Scene<'_, 'static, LeanContours>) -> Result<(), LeanError> 
         ..Draw::new(CONTOURED)
     };
     draw_all(scene, &[ball])
+}
+
+/// A teapot that is a mirror.
+fn mirror(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), LeanError> {
+    let teapot = Draw {
+        model: Affine::rotation_y(0.6),
+        texture: Some(Skin {
+            texture: &SURROUNDINGS,
+            places: &[],
+            budget: Budget::BALANCED,
+        }),
+        texgen: Some(TexGen::SPHERE),
+        ..Draw::new(TEAPOT)
+    };
+    draw_all(scene, &[teapot])
 }
 
 /// What is transparent in [`GRILLE`]: no other texel is magenta.
