@@ -14,9 +14,11 @@
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
+//! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
 use crate::contours::{CONTOURED, LeanContours};
 use crate::lean::{LeanError, LeanLook, LeanTextured};
+use crate::suite::{Looking, Suite, teapot_part};
 use crate::{CUBE, PLACES_F, RIBBON, SPHERE, SURROUNDINGS, TEAPOT, TEXELS_F_PANEL};
 use scanbeam::frame::{
     FastMemory, FrameError, Memory as LineMemory, Renderer, draw_frame, draw_frame_changed,
@@ -26,8 +28,10 @@ use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::{Look, Phong};
 use scanbeam::mesh::{Material, U1F15};
 use scanbeam::overlay::{Ink, Overlay, Sprite};
-use scanbeam::pixel::{PixelFormat, Pixels, Rgb565Be};
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns};
+use scanbeam::pixel::{Pixel, PixelFormat, Pixels, Rgb565Be};
+use scanbeam::scan_out::{
+    ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled,
+};
 use scanbeam::scene::{
     Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, DrawState, Factor,
     Master, Memory, Object, Scene, Scissor, Shading, Skin, TexGen, Texture, TexturePlace, Vertex,
@@ -77,10 +81,12 @@ pub enum Values {
     Lines,
     /// A frame, and the changed cells of another.
     Runs,
+    /// A frame of which four times as many pixels are sent.
+    Doubled,
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 11] = [
+pub const VALUES: [(&str, Values); 12] = [
     ("values_phong", Values::Phong),
     ("values_bands", Values::Bands),
     ("values_mirror", Values::Mirror),
@@ -92,6 +98,7 @@ pub const VALUES: [(&str, Values); 11] = [
     ("values_overlay", Values::Overlay),
     ("values_lines", Values::Lines),
     ("values_runs", Values::Runs),
+    ("values_doubled", Values::Doubled),
 ];
 
 /// What such a frame is lent.
@@ -154,6 +161,15 @@ struct Rest<'m> {
 }
 
 impl Values {
+    /// Columns and lines that are sent.
+    #[must_use]
+    pub const fn size(self) -> (u16, u16) {
+        match self {
+            Self::Doubled => (2 * VALUES_WIDTH, 2 * VALUES_HEIGHT),
+            _ => (VALUES_WIDTH, VALUES_HEIGHT),
+        }
+    }
+
     /// Draws the frame with the memory that is lent, and sends it, and what changes after it, through `pump`.
     ///
     /// # Errors
@@ -186,6 +202,7 @@ impl Values {
                 let is_ranked = self == Self::Ranked;
                 rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
             }
+            Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
         }
     }
@@ -230,6 +247,22 @@ impl Rest<'_> {
             let overlay = Overlay::<Rgb565Be>::new(&sprites);
             let overlay = overlay.map_err(|_| LeanError::Sprites)?;
             draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, overlay)?;
+            return Ok(());
+        }
+        if values == Values::Doubled {
+            let window = Window {
+                x: 0,
+                y: 0,
+                width: VALUES_WIDTH,
+                height: VALUES_HEIGHT,
+            };
+            let (mut above, mut below) = ([0; VALUES_WIDTH as usize], [0; VALUES_WIDTH as usize]);
+            let drawn = [&mut above[..], &mut below[..]];
+            let draw = |line, pixels: &mut [u16]| {
+                let drawn = renderer.draw_line(&scene, line, pixels, background);
+                drawn.map(|_| ()).map_err(FrameError::Line)
+            };
+            send_doubled(pump, window, 1, drawn, Rgb565Be::mix_lines, draw)?;
             return Ok(());
         }
         if !matches!(values, Values::Lines | Values::Runs) {
@@ -508,6 +541,25 @@ fn blends(scene: &mut Scene<'_, 'static, LeanLook>, is_ranked: bool) -> Result<(
         call.priority = if is_ranked { (i * 5) % 8 + 1 } else { 0 };
     }
     draw_all(scene, &calls)
+}
+
+/// The teapot of the suite, at half the size.
+fn teapot(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), LeanError> {
+    let view = Suite::Teapot.view();
+    let half = Looking {
+        focal: view.focal / 2.0,
+        ..view
+    };
+    let camera = half.camera().map_err(LeanError::Camera)?;
+    scene.begin(&camera).map_err(LeanError::Begin)?;
+    let part = teapot_part();
+    let teapot = Draw {
+        model: part.instance.model,
+        light: part.instance.light,
+        colour: part.instance.colour,
+        ..Draw::new(part.mesh)
+    };
+    scene.draw(&teapot).map_err(LeanError::Draw)
 }
 
 /// A ball of which a part turns, with a cube that goes round it.

@@ -186,6 +186,14 @@ fn draw_tested<P: Pipeline<Pixel = Rgb565Be>>(shot: Shot) -> Result<Vec<u8>, Box
     Ok(shown::<P, _>(shot, |scene| build(shot, scene), by_depth)?.0)
 }
 
+/// A scene of the suite as a picture of the rooms `scene`, `look` and `frame`.
+///
+/// # Errors
+/// As [`picture`].
+pub fn lean_picture(suite: Suite) -> Result<Frame, Box<dyn Error>> {
+    framed(&lean_frame(suite)?)
+}
+
 /// A scene of the suite as a picture, and what its frame had.
 ///
 /// # Errors

@@ -21,13 +21,15 @@ pub struct Sent {
     pub words: Vec<u16>,
     /// The display's words; 0 where nothing came.
     pub shown: Vec<u16>,
+    /// Its words a line.
+    width: usize,
     /// Where the next word goes: columns and lines that are open, and how many of their words have come.
     open: (Window, usize),
     line: Option<HostLine<u16>>,
 }
 
 impl Sent {
-    fn new() -> Self {
+    fn new((width, height): (u16, u16)) -> Self {
         let nothing = Window {
             x: 0,
             y: 0,
@@ -36,7 +38,8 @@ impl Sent {
         };
         Self {
             words: Vec::new(),
-            shown: vec![0; usize::from(VALUES_WIDTH) * usize::from(VALUES_HEIGHT)],
+            shown: vec![0; usize::from(width) * usize::from(height)],
+            width: width.into(),
             open: (nothing, 0),
             line: None,
         }
@@ -63,7 +66,7 @@ impl ScanoutDma for Sent {
                 *come / usize::from(window.width),
             );
             let (x, y) = (x + usize::from(window.x), y + usize::from(window.y));
-            self.shown[y * usize::from(VALUES_WIDTH) + x] = word;
+            self.shown[y * self.width + x] = word;
             self.words.push(word);
             *come += 1;
         }
@@ -110,7 +113,7 @@ pub fn values_sent(values: Values, slots: u16) -> Result<Sent, Box<dyn Error>> {
     };
     // A transfer of 3 lines at most.
     let buffer = || HostLine::new(3 * usize::from(VALUES_WIDTH));
-    let mut pump = Pump::new(Sent::new(), [buffer(), buffer()]);
+    let mut pump = Pump::new(Sent::new(values.size()), [buffer(), buffer()]);
     let drawn = values.draw(lent, &mut pump);
     drawn.map_err(|error| format!("{values:?}: {error:?}"))?;
     Ok(pump.release().0)
@@ -124,7 +127,8 @@ pub fn values_pictures() -> Result<Vec<(&'static str, Frame)>, Box<dyn Error>> {
     let frames = VALUES.into_iter().map(|(name, values)| {
         let shown = values_sent(values, 64)?.shown;
         let rgb = shown.into_iter().flat_map(Rgb565Be::to_rgb8).collect();
-        let frame = Frame::new(VALUES_WIDTH.into(), VALUES_HEIGHT.into(), rgb);
+        let (width, height) = values.size();
+        let frame = Frame::new(width.into(), height.into(), rgb);
         Ok((name, frame.ok_or("a frame of another size")?))
     });
     frames.collect()

@@ -1,6 +1,7 @@
 //! What a pixel costs: the firmware's kernels, and two of its frames.
 
 use super::Row;
+use super::rooms::mirror_pixels;
 use crate::firmware::{FirmwareError, KernelRun, M4, Output, Profile, Toolchain, measure};
 use crate::lent::{LineRooms, SceneRooms};
 use scanbeam::pipeline::{Counted, GouraudDepth};
@@ -8,6 +9,9 @@ use scanbeam::pixel::Rgb565Be;
 use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
 use std::collections::BTreeMap;
 use std::error::Error;
+
+/// Frames of the teapot at 320 x 240.
+const TEAPOTS: [&str; 4] = ["teapot", "teapot_model", "lean_teapot", "values_doubled"];
 
 /// Instructions a pixel and a span, by kernel; a frame has no spans of its own.
 #[derive(Debug, Default, PartialEq)]
@@ -19,7 +23,10 @@ impl Costs {
         let measured = Toolchain::find()
             .and_then(|toolchain| measure(&toolchain, &M4, Profile::Release, &["bench"]));
         match measured {
-            Ok(measured) => Ok((Self::from_output(&measured.output, teapot_pixels()?)?, None)),
+            Ok(measured) => Ok((
+                Self::from_output(&measured.output, [teapot_pixels()?, mirror_pixels()?])?,
+                None,
+            )),
             Err(error @ (FirmwareError::NoQemu | FirmwareError::NoToolchain { .. })) => {
                 let note = format!("note: no instructions were measured: {error}");
                 Ok((Self::default(), Some(note)))
@@ -28,8 +35,8 @@ impl Costs {
         }
     }
 
-    /// From what the firmware printed, and the pixels that the teapot's frames show.
-    pub(super) fn from_output(output: &Output, teapot: u32) -> Result<Self, String> {
+    /// From what the firmware printed, and the pixels that the teapot's frames show, and that of a reflecting one.
+    pub(super) fn from_output(output: &Output, [teapot, mirror]: [u32; 2]) -> Result<Self, String> {
         let mut costs = BTreeMap::new();
         for run in &output.kernels {
             let same: Vec<&KernelRun> = output
@@ -45,10 +52,13 @@ impl Costs {
             costs.insert(run.name.clone(), (pixel, Some(span)));
         }
         for frame in &output.frames {
-            if ["teapot", "teapot_model"].contains(&frame.scene.as_str()) {
-                let each = frame.instructions as f64 / f64::from(teapot.max(1));
-                costs.insert(frame.scene.clone(), (each, None));
-            }
+            let pixels = match frame.scene.as_str() {
+                scene if TEAPOTS.contains(&scene) => teapot,
+                "values_mirror" => mirror,
+                _ => continue,
+            };
+            let each = frame.instructions as f64 / f64::from(pixels.max(1));
+            costs.insert(frame.scene.clone(), (each, None));
         }
         Ok(Self(costs))
     }

@@ -24,7 +24,7 @@ const FORMATS: [(PixelFormatArg, [u16; 3]); 2] = [
 ];
 
 /// A mesh of the test scenes as the host tool has models.
-fn model_of(mesh: &Mesh<'_>) -> Model {
+pub(super) fn model_of(mesh: &Mesh<'_>) -> Model {
     let q14 = |v: i16| f64::from(v) / f64::from(1 << 14);
     let Faces::Triangles(faces) = mesh.faces else {
         return Model::default();

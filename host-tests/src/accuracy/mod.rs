@@ -9,6 +9,7 @@
 //! | `depth.rs` | family `depth`: which surface is in front, and how exact planes of depth are |
 //! | `texture.rs` | family `texture`: places along spans by every way of dividing, whole scenes by every quality |
 //! | `frames.rs` | whole scenes: family `interpolation` by every method, family `frame` beside the model |
+//! | `rooms.rs` | frames of the rooms: doubled on their way out, places from normals |
 //! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |
 //! | `scatter.rs` | the plots, one for each family, or for each case of a large one |
 //!
@@ -20,6 +21,7 @@ mod coverage;
 mod depth;
 mod frames;
 mod methods;
+mod rooms;
 mod scatter;
 mod spans;
 mod stage;
@@ -143,6 +145,8 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
     rows.extend(depth::rows()?);
     rows.extend(frames::rows()?);
     rows.extend(texture::rows()?);
+    rows.extend(rooms::rows()?);
+    rows.extend(rooms::mirror_rows()?);
     Ok(rows)
 }
 

@@ -71,7 +71,7 @@ fn two_equations_tell_pixels_from_spans() {
         }],
         ..Output::default()
     };
-    let costs = Costs::from_output(&output, 10).unwrap();
+    let costs = Costs::from_output(&output, [10, 5]).unwrap();
     let with = |kernel| {
         let name = ("family", "case", "method", "unit", Some(kernel));
         let mut rows = [Row::rate(name, 1.0, 1.0)];
@@ -86,7 +86,7 @@ fn two_equations_tell_pixels_from_spans() {
     Costs::default().fill(&mut rows).unwrap();
     assert_eq!(rows[0].per_pixel, None);
     output.kernels.pop();
-    assert!(Costs::from_output(&output, 10).is_err());
+    assert!(Costs::from_output(&output, [10, 5]).is_err());
 }
 
 /// The largest error that each method may have; a row that is not here is a method without a
