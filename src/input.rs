@@ -30,7 +30,8 @@
 //! }
 //! ```
 
+pub use crate::player::{ListCoordinate, OnViolation, RunCounts};
 pub use crate::renderer::{
-    Command, EightLights, Input, InputError, InputQueue, ListCoordinate, ListLights, ListMemory,
-    ListRunner, ListSettings, OnViolation, OneLight, RunCounts, Source, Stalled, Stream,
+    Command, EightLights, Input, InputError, InputQueue, ListLights, ListMemory, ListRunner,
+    ListSettings, OneLight, Source, Stalled, Stream,
 };

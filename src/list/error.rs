@@ -70,6 +70,103 @@ pub enum Reason {
     Camera,
     /// The bytes are not whole words, or do not begin at a multiple of 4.
     Alignment,
+    /// The block asks for what the player does not have.
+    Missing(Missing),
+    /// The block needs more memory than was lent.
+    Lent(Lent),
+    /// A material names a texture that was not defined; its number.
+    NoTexture(u8),
+    /// A texture names a palette that was not defined; the number of the texture.
+    NoPalette(u8),
+    /// The scene was not begun.
+    NotBegun,
+}
+
+/// What a block can ask for that not every player has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Missing {
+    /// Vertices that were set up beforehand.
+    LongVertices,
+    /// Points.
+    Points,
+    /// Overlays.
+    Overlays,
+    /// Levels of detail: textures of more than one.
+    DetailLevels,
+    /// Texels or colours of a palette that are neither opaque nor transparent.
+    Alpha,
+    /// Texels that are not dithered where the rest of a draw call is.
+    Undithered,
+    /// Textures, in a scene whose look has none.
+    Textures,
+    /// Texels that do not lie in one piece as the processor reads them.
+    TexelsInPieces,
+    /// Places of 32 bits.
+    FinePlaces,
+    /// Coloured lights, or others than number 0.
+    Lights,
+    /// Highlights.
+    Highlights,
+    /// Lights and colours at vertices, in a scene whose look is lit at pixels.
+    LightAtVertices,
+    /// A window, where what is drawn is cut in another way already.
+    SecondScissor,
+}
+
+/// Memory that is lent to a player.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum Lent {
+    /// For positions, normals or colours of vertices.
+    Vertices,
+    /// For indices.
+    Indices,
+    /// For places on textures.
+    Places,
+    /// For the numbers of textures and palettes.
+    Names,
+    /// For textures that are drawn with.
+    Textures,
+    /// For palettes and texels as the panel has them.
+    Texels,
+}
+
+impl core::fmt::Display for Missing {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::LongVertices => "vertices that were set up beforehand",
+            Self::Points => "points",
+            Self::Overlays => "overlays",
+            Self::DetailLevels => "textures of several levels of detail",
+            Self::Alpha => "texels that are neither opaque nor transparent",
+            Self::Undithered => "texels that are not dithered among others that are",
+            Self::Textures => "textures in a scene whose look has none",
+            Self::TexelsInPieces => "texels that do not lie in one piece",
+            Self::FinePlaces => "places of 32 bits",
+            Self::Lights => "coloured lights, or several",
+            Self::Highlights => "highlights",
+            Self::LightAtVertices => {
+                "lights and colours at vertices in a scene whose look is lit at pixels"
+            }
+            Self::SecondScissor => "a window where there is another scissor",
+        })
+    }
+}
+
+impl core::fmt::Display for Lent {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Self::Vertices => "vertices",
+            Self::Indices => "indices",
+            Self::Places => "texture places",
+            Self::Names => "numbers of textures and palettes",
+            Self::Textures => "textures",
+            Self::Texels => "palettes and texels",
+        })
+    }
 }
 
 impl core::fmt::Display for ListError {
@@ -108,6 +205,11 @@ impl core::fmt::Display for Reason {
             }
             Self::Camera => f.write_str("the camera is not one that can see"),
             Self::Alignment => f.write_str("not whole words at a multiple of 4 bytes"),
+            Self::Missing(missing) => write!(f, "the player does not have {missing}"),
+            Self::Lent(lent) => write!(f, "the memory that was lent for {lent} is too small"),
+            Self::NoTexture(number) => write!(f, "there is no texture {number}"),
+            Self::NoPalette(number) => write!(f, "there is no palette for texture {number}"),
+            Self::NotBegun => f.write_str("the scene was not begun"),
         }
     }
 }

@@ -75,7 +75,8 @@
 //! | `flow.rs` | which block comes next: jumps, commands, budget |
 //!
 //! Lists are written on the host: `scanbeam bake` makes them of models.
-//! A list is drawn by `ListRunner` of the renderer, which this room does not know.
+//! A list is drawn by a [`Player`](crate::player::Player) into a scene of the rooms, or by the
+//! [`ListRunner`](crate::input::ListRunner) of the renderer; this room knows neither.
 
 mod block;
 mod error;
@@ -93,7 +94,7 @@ pub use block::{
     Bounds, CameraWords, Flow, Head, Instruction, LightWords, MAGIC, Material, Matrix, Overlay,
     Palette, Run, State, TexelForm, Texture, Window,
 };
-pub use error::{ListError, Reason};
+pub use error::{Lent, ListError, Missing, Reason};
 pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};
 pub use format::{Field, FieldForm, PARAMETERS, VertexFormat, parameter};
 pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
@@ -101,7 +102,8 @@ pub use overlays::{OverlayRow, OverlaySlot, OverlaySlots};
 pub use reader::{Parsed, long_words, read_block};
 pub use strip::Strip;
 pub use texels::{
-    Bound, Codes, Direct, Fields, NoTexture, Picture, Reading, Texels, TextureSlot, TextureSlots,
+    Bound, Codes, Direct, Fields, NoTexture, Pair, Picture, Reading, Texels, TextureSlot,
+    TextureSlots,
 };
 pub use vertex::{Layout, Place, Slot, colour, normal};
 pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};

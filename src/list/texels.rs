@@ -40,6 +40,12 @@ impl<'w> Texels<'w> {
         }
     }
 
+    /// Whether the texel at an index says that it is not to be dithered (H10): D of 32 bits.
+    #[must_use]
+    pub fn is_undithered(&self, index: u32) -> bool {
+        self.form == TexelForm::Rgba && self.word(index) >> 31 != 0
+    }
+
     #[inline(always)]
     fn word(&self, n: u32) -> u32 {
         self.words.get(n as usize).map_or(0, |w| u32::from_le(*w))
@@ -191,8 +197,10 @@ impl TextureSlot {
 /// Why there is no texture to draw with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoTexture {
-    /// There is none of this number, or the palette that it names is not there.
+    /// There is none of this number.
     Missing,
+    /// The palette that it names is not there.
+    Palette,
     /// No slot is free.
     Full,
 }
@@ -204,6 +212,33 @@ pub struct Bound {
     pub index: u16,
     /// Binary logarithms of width and height.
     pub log_sides: [u8; 2],
+}
+
+/// A texture and its palette, as a number names them now.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pair {
+    /// Binary logarithms of width and height.
+    pub log_sides: [u8; 2],
+    /// Form of a texel.
+    pub form: TexelForm,
+    /// The edge goes on outside; else the picture repeats.
+    pub clamped: bool,
+    /// Position of the first texel.
+    pub at: u32,
+    /// Position of the first colour; 0 where the form needs none.
+    pub colours: u32,
+    /// How many colours there are, 1 to 256; 0 where the form needs none.
+    pub count: u32,
+}
+
+impl Pair {
+    /// Words of the texels.
+    #[must_use]
+    pub const fn words(&self) -> u32 {
+        // Sides are at most 2^10, so there are at most 2^25 bits.
+        let [width, height] = self.log_sides;
+        (self.form.bits() << (width & 15) << (height & 15)).div_ceil(32)
+    }
 }
 
 /// A texture has a number: bits 7..0 the number, 8..11 and 12..15 the sides, 16..19 the form, 20
@@ -303,20 +338,43 @@ impl<'m> TextureSlots<'m> {
         Some((palette.at.load(Ordering::Relaxed), count))
     }
 
+    /// The texture of a number, and its palette.
+    ///
+    /// # Errors
+    /// [`NoTexture::Missing`], of the texture; [`NoTexture::Palette`].
+    pub fn pair(self, number: u8) -> Result<Pair, NoTexture> {
+        let texture = self.numbered(TEXTURE, number).ok_or(NoTexture::Missing)?;
+        let name = texture.name.load(Ordering::Relaxed);
+        let form = form_of(name);
+        let (colours, count) = match form.is_indexed() {
+            true => self.colours((name >> 21) as u8).ok_or(NoTexture::Palette)?,
+            false => (0, 0),
+        };
+        Ok(Pair {
+            log_sides: [(name >> 8) as u8 & 15, (name >> 12) as u8 & 15],
+            form,
+            clamped: name & CLAMPED != 0,
+            at: texture.at.load(Ordering::Relaxed),
+            colours,
+            count,
+        })
+    }
+
     /// Makes the texture of a number, as its palette is now, one that can be drawn with.
     ///
     /// # Errors
     /// [`NoTexture`].
     pub fn bind(self, number: u8) -> Result<Bound, NoTexture> {
+        let Pair {
+            log_sides: [width, height],
+            at,
+            colours,
+            count,
+            ..
+        } = self.pair(number)?;
         let texture = self.numbered(TEXTURE, number).ok_or(NoTexture::Missing)?;
         let name = texture.name.load(Ordering::Relaxed);
-        let at = texture.at.load(Ordering::Relaxed);
-        let (mut less, mut colours) = (0, 0);
-        if form_of(name).is_indexed() {
-            let (at, count) = self.colours((name >> 21) as u8).ok_or(NoTexture::Missing)?;
-            (less, colours) = (count - 1, at);
-        }
-        let pair = PAIR | name & 0x001F_FF00 | less;
+        let pair = PAIR | name & 0x001F_FF00 | count.saturating_sub(1);
         let same = |name: u32, s: &TextureSlot| {
             name == pair
                 && s.at.load(Ordering::Relaxed) == at
@@ -337,7 +395,7 @@ impl<'m> TextureSlots<'m> {
                 .ok()
                 .filter(|index| *index < Self::MOST)
                 .ok_or(NoTexture::Full)?,
-            log_sides: [(pair >> 8) as u8 & 15, (pair >> 12) as u8 & 15],
+            log_sides: [width, height],
         })
     }
 

@@ -1,17 +1,15 @@
 //! The conductor: pass one into a [`Scene`], pass two line by line out of it (K1, K12).
 //!
-//! `input` feeds pass one from queues (K17), `run`, `batch` and `fill` from lists (H11-H14),
+//! `input` feeds pass one from queues (K17), `run` from lists (H11-H14),
 //! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
 //! `words` draws depth and colour in one word (K8), `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9), `priority` what has
 //! priorities (P1); `frame` sends what one renderer draws, `overlay` with what is painted over it
 //! (K14), `palette` by way of a palette for each line (H18), `relay` what several do on their own
 //! cores (K16, X6).
 
-mod batch;
 mod deferred;
 mod error;
 mod filing;
-mod fill;
 mod frame;
 #[cfg(feature = "async")]
 mod frame_async;
@@ -34,7 +32,6 @@ mod spans;
 mod transparent;
 mod words;
 
-pub use batch::{ListCoordinate, ListMemory};
 pub use error::{DrawError, RendererError, SceneError};
 pub use frame::{
     FrameError, FrameStats, LineSource, draw_continuous, draw_frame, draw_frame_changed,
@@ -51,6 +48,6 @@ pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};
 pub use palette::{draw_frame_indexed, send_frame_indexed};
 pub use place::Prefetched;
 pub use relay::{Crew, LineDesk, LineWorker, Relay};
-pub use run::{ListRunner, ListSettings, OnViolation, RunCounts};
+pub use run::{ListMemory, ListRunner, ListSettings};
 pub use scene::{Scene, SceneMemory};
 pub use shadow::ShadowError;

@@ -13,8 +13,11 @@
 //! are not the whole picture where surfaces are not [`Windowed`](crate::pipeline::Windowed). Of levels of detail the first is drawn.
 
 mod blocks;
+mod long;
+mod target;
 
-use super::batch::{Batch, ListCoordinate, ListMemory, Target};
+pub use target::ListMemory;
+
 use super::frame::FrameStats;
 use super::instance::Instance;
 use super::lights::{ListLights, OneLight};
@@ -23,20 +26,13 @@ use crate::event::{Event, EventSet, EventSink, Notice};
 use crate::geometry::texturing::Quality;
 use crate::geometry::{Affine, Clip, Cull, Mark, Shading};
 use crate::list::{
-    Bound, Budget, Halt, ListCommand, ListControl, ListError, Material, NoTexture, Step,
-    TextureSlots, Walker, Window, Words,
+    Bound, Budget, Halt, ListCommand, ListControl, ListError, Material, NoTexture, OverlaySlots,
+    Step, TextureSlot, TextureSlots, Walker, Window, Words,
 };
 use crate::pipeline::{MarkOf, Pipeline};
-
-/// What becomes of a list that reaches for what is not its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum OnViolation {
-    /// The block is passed over.
-    #[default]
-    GoOn,
-    /// The list stops.
-    Stop,
-}
+use crate::player::{Gather, ListCoordinate, OnViolation, Out, RunCounts, Unpacked};
+use long::LongStrip;
+use target::{DrawCounts, Target};
 
 /// What a list starts from, and what it may do.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,37 +54,17 @@ pub struct ListSettings<'c> {
     pub control: Option<&'c ListControl>,
 }
 
-/// What a list has done since it was started.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RunCounts {
-    /// Blocks, flow control left out.
-    pub blocks: u32,
-    /// Meshes that were drawn.
-    pub draws: u32,
-    /// Vertices that were transformed.
-    pub vertices: u32,
-    /// Triangles that were submitted.
-    pub triangles: u32,
-    /// Triangles that found no room in the scene.
-    pub dropped: u32,
-    /// Features that the pipeline does not have, each time one was asked for.
-    pub unimplemented: u32,
-    /// Access violations.
-    pub violations: u32,
-    /// Times that what BOUNDS speaks of was out of sight and passed over (M4).
-    pub skipped: u32,
-    /// Words that were passed over so.
-    pub skipped_words: u32,
-}
-
 /// Executes lists.
 ///
 /// `L` says which lights they can have: [`OneLight`], or [`EightLights`](crate::input::EightLights).
 pub struct ListRunner<'m, 'c, C = i16, L = OneLight> {
     settings: ListSettings<'c>,
     walker: Walker,
-    batch: Batch<'m, C>,
+    gather: Gather<'m, C>,
+    long: LongStrip,
+    drawn: DrawCounts,
+    textures: &'m [TextureSlot],
+    overlays: OverlaySlots<'m>,
     matrix: Affine,
     lights: L,
     material: Material,
@@ -120,7 +96,17 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
     pub fn with_lights(memory: ListMemory<'m, C>, settings: ListSettings<'c>) -> Self {
         let mut runner = Self {
             walker: Walker::new(),
-            batch: Batch::new(memory),
+            gather: Gather::new(Unpacked {
+                positions: memory.positions,
+                normals: memory.normals,
+                colours: memory.colours,
+                indices: memory.indices,
+                places: memory.places,
+            }),
+            long: LongStrip::default(),
+            drawn: DrawCounts::default(),
+            textures: memory.textures,
+            overlays: OverlaySlots(memory.overlays),
             matrix: Affine::IDENTITY,
             lights: L::default(),
             material: Material::default(),
@@ -165,19 +151,19 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
     /// What was done since the start.
     #[must_use]
     pub fn counts(&self) -> RunCounts {
-        let batch = self.batch.counts;
+        let drawn = self.drawn;
         RunCounts {
-            draws: batch.draws,
-            vertices: batch.vertices,
-            triangles: batch.triangles,
-            dropped: batch.dropped,
+            draws: drawn.draws,
+            vertices: drawn.vertices,
+            triangles: drawn.triangles,
+            dropped: drawn.dropped,
             ..self.counts
         }
     }
 
     fn reset(&mut self) {
-        self.batch.reset();
-        self.batch.counts = Default::default();
+        self.gather.reset();
+        self.drawn = DrawCounts::default();
         self.counts = RunCounts::default();
         self.matrix = Affine::IDENTITY;
         self.lights.begin(self.settings.instance.light);
@@ -189,8 +175,8 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
         };
         self.point_size = 1;
         (self.texture, self.shown, self.window) = (None, false, None);
-        TextureSlots(self.batch.textures()).clear();
-        self.batch.overlays().clear();
+        TextureSlots(self.textures).clear();
+        self.overlays.clear();
         self.stale = true;
     }
 
@@ -198,12 +184,12 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
     fn renew<P: Pipeline>(&mut self, events: &mut impl EventSink) {
         self.stale = false;
         if P::Shading::TEXTURED {
-            let slots = TextureSlots(self.batch.textures());
+            let slots = TextureSlots(self.textures);
             let bound = self.material.texture.map(|number| slots.bind(number));
             self.texture = match bound {
                 Some(Ok(bound)) => Some(bound),
                 None => None,
-                Some(Err(NoTexture::Missing)) => {
+                Some(Err(NoTexture::Missing | NoTexture::Palette)) => {
                     self.unimplemented(events);
                     None
                 }
@@ -263,8 +249,8 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
         events: &mut impl EventSink,
     ) -> Result<Halt, ListError> {
         if core::mem::take(&mut self.shown) {
-            TextureSlots(self.batch.textures()).release();
-            self.batch.overlays().clear();
+            TextureSlots(self.textures).release();
+            self.overlays.clear();
             self.stale = true;
         }
         loop {
@@ -345,9 +331,15 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
             opacity: self.material.opacity,
             texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
+            counts: &mut self.drawn,
             offset: self.walker.offset(),
         };
-        self.batch.flush(words, &mut target);
+        let mut out = Out {
+            textured: P::Shading::TEXTURED,
+            sides: target.sides(),
+            draw: &mut |mesh| target.draw(mesh),
+        };
+        self.gather.flush(words, &mut out);
     }
 }
 

@@ -1,9 +1,9 @@
 //! Blocks of a list, one by one: what each does to the state and to the scene.
 
-use super::super::batch::{BadIndex, ListCoordinate, Target};
 use super::super::lights::ListLights;
 use super::super::scene::Scene;
 use super::ListRunner;
+use super::target::Target;
 use crate::event::{Event, EventSink};
 use crate::geometry::{Affine, Camera, Clip, Mark, Shading, Sphere};
 use crate::list::{
@@ -11,6 +11,7 @@ use crate::list::{
     TextureSlots, Window, Words, read_block,
 };
 use crate::pipeline::{MarkOf, Pipeline};
+use crate::player::{ListCoordinate, Out, Refusal};
 
 impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
     /// Does one block.
@@ -34,38 +35,52 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
             opacity: self.material.opacity,
             texture: self.texture.map(|t| (t, self.settings.quality)),
             events,
+            counts: &mut self.drawn,
             offset: self.walker.offset(),
+        };
+        let mut out = Out {
+            textured: P::Shading::TEXTURED,
+            sides: target.sides(),
+            draw: &mut |mesh| target.draw(mesh),
         };
         let format = self.walker.format();
         let done = match instruction {
-            Instruction::Short(run) | Instruction::Quads(run) | Instruction::Points(run) => self
-                .batch
-                .run(words, format, run, self.point_size, &mut target),
+            Instruction::Short(run) | Instruction::Quads(run) | Instruction::Points(run) => {
+                (self.gather).run(words, format, run, self.point_size, &mut out)
+            }
             Instruction::Long(run) => {
-                self.batch.long(words, run, &mut target);
+                self.gather.pause(words, &mut out);
+                self.long.draw(words, run, &mut target);
                 Ok(())
             }
-            Instruction::Table(run) => self.batch.table(words, format, run, &mut target),
-            Instruction::Indexed(run) => {
-                if let Err(BadIndex(index, count)) = self.batch.indexed(words, run, &mut target) {
-                    let reason = Reason::Index { index, count };
-                    return Err(self.walker.fail(Id::Indexed, reason));
-                }
-                Ok(())
-            }
+            Instruction::Table(run) => self.gather.table(words, format, run, &mut out),
+            Instruction::Indexed(run) => self.gather.indexed(words, run, &mut out),
             Instruction::State(state) => return self.state(words, state, scene, events),
             Instruction::Flow(Flow::LoadTexture { number, at }) => {
                 self.flush(words, scene, events);
                 self.load(words, number, at, events);
                 Ok(())
             }
-            _ => Err(Event::Unimplemented),
+            _ => {
+                self.unimplemented(events);
+                Ok(())
+            }
         };
-        match done {
-            Err(Event::Unimplemented) => self.unimplemented(events),
-            Err(event) => self.notice(events, event, 0),
-            Ok(()) => {}
-        }
+        let lost = match (done, instruction) {
+            (Ok(()), _) => return Ok(Step::Do(instruction)),
+            (Err(Refusal::Index { index, count }), _) => {
+                let reason = Reason::Index { index, count };
+                return Err(self.walker.fail(Id::Indexed, reason));
+            }
+            (Err(Refusal::Fine), _) => {
+                self.unimplemented(events);
+                return Ok(Step::Do(instruction));
+            }
+            (Err(Refusal::Table), Instruction::Indexed(run)) => run.header.count,
+            (Err(Refusal::Indices), Instruction::Indexed(_)) => 1,
+            (Err(_), _) => 0,
+        };
+        self.notice(events, Event::Full, u32::from(lost));
         Ok(Step::Do(instruction))
     }
 
@@ -80,7 +95,7 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
     ) {
         let block = read_block(words, at, self.walker.format());
         if let Ok(Instruction::State(State::Texture(texture))) = block.map(|b| b.instruction) {
-            let slots = TextureSlots(self.batch.textures());
+            let slots = TextureSlots(self.textures);
             if !slots.texture(&Texture { number, ..texture }) {
                 self.notice(events, Event::Full, 0);
             }
@@ -90,9 +105,9 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
 
     /// Keeps an overlay for those who draw the lines.
     fn overlay(&mut self, overlay: &Overlay, events: &mut impl EventSink) {
-        let slots = self.batch.overlays();
+        let slots = self.overlays;
         let colours = match overlay.form.is_indexed() {
-            true => TextureSlots(self.batch.textures()).colours(overlay.palette),
+            true => TextureSlots(self.textures).colours(overlay.palette),
             false => Some((0, 1)),
         };
         match colours {
@@ -201,15 +216,15 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
             State::Texture(texture)
                 if P::Shading::TEXTURED && words.slice(texture.at, texture.words()).is_some() =>
             {
-                if !TextureSlots(self.batch.textures()).texture(&texture) {
+                if !TextureSlots(self.textures).texture(&texture) {
                     self.notice(events, Event::Full, 0);
                 }
             }
             State::Palette(palette)
-                if (P::Shading::TEXTURED || !self.batch.overlays().0.is_empty())
+                if (P::Shading::TEXTURED || !self.overlays.0.is_empty())
                     && words.slice(palette.at, u32::from(palette.count)).is_some() =>
             {
-                if !TextureSlots(self.batch.textures()).palette(&palette) {
+                if !TextureSlots(self.textures).palette(&palette) {
                     self.notice(events, Event::Full, 0);
                 }
             }

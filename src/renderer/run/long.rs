@@ -2,12 +2,12 @@
 //!
 //! Nothing is gathered: a piece of a strip at a time is unpacked on the stack and drawn.
 
-use super::places::texels;
-use super::{Batch, Kind, ListCoordinate, Target};
+use super::target::Target;
 use crate::event::EventSink;
 use crate::geometry::{LightingModel, ScreenVertex, Shading};
-use crate::list::{Run, Words};
+use crate::list::{Run, Strip, Words};
 use crate::pipeline::Pipeline;
+use crate::player::texels;
 
 /// Vertices a piece; up to three of them are those of the piece before.
 const PIECE: usize = 32;
@@ -15,6 +15,7 @@ const PIECE: usize = 32;
 /// The last vertices of a strip, and their texture places, in its order of corners.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct LongStrip {
+    strip: Strip,
     vertices: [ScreenVertex; 3],
     places: [[i32; 2]; 3],
 }
@@ -28,16 +29,14 @@ struct Piece {
     used: (usize, usize),
 }
 
-impl<C: ListCoordinate> Batch<'_, C> {
+impl LongStrip {
     /// Takes a strip or fan of long vertices.
-    pub(in super::super) fn long<'w, P: Pipeline, E: EventSink, M: LightingModel>(
+    pub(super) fn draw<'w, P: Pipeline, E: EventSink, M: LightingModel>(
         &mut self,
         words: impl Words<'w>,
         run: Run,
         target: &mut Target<'_, '_, P, E, M>,
     ) {
-        self.flush(words, target);
-        self.kind = Kind::Nothing;
         let header = run.header;
         target.texture = target.texture.filter(|_| header.text);
         if header.new {
@@ -95,7 +94,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
             used: (usize::from(self.strip.have), 0),
         };
         let kept = piece.vertices.iter_mut().zip(&mut piece.places);
-        let long = self.long.vertices.iter().zip(&self.long.places);
+        let long = self.vertices.iter().zip(&self.places);
         for ((v, p), (vertex, place)) in kept.zip(long) {
             (*v, *p) = (*vertex, *place);
         }
@@ -113,7 +112,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         for (n, i) in self.strip.corners.into_iter().enumerate() {
             let i = usize::from(i);
             if let (Some(v), Some(p)) = (piece.vertices.get(i), piece.places.get(i)) {
-                (self.long.vertices[n], self.long.places[n]) = (*v, *p);
+                (self.vertices[n], self.places[n]) = (*v, *p);
             }
         }
         let (vertices, faces) = piece.used;
@@ -135,7 +134,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         let done = target
             .scene
             .draw_screen(drawn, faces, skin, target.instance.cull);
-        self.counts.take(vertices as u32, done, target);
+        target.count(vertices as u32, done);
         target.tell_untextured(before);
     }
 }

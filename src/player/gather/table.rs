@@ -1,23 +1,22 @@
 //! A table of vertices, and triangles of it by index.
 
-use super::super::fill::{Filled, fill, fill_one};
-use super::{BadIndex, Batch, Column, Kind, ListCoordinate, Table, Target};
-use crate::event::{Event, EventSink};
-use crate::geometry::{LightingModel, Shading};
+use super::fill::{Filled, fill, fill_one};
+use super::{Column, Gather, Kind, ListCoordinate, Out, Refusal, Table};
 use crate::list::{FieldForm, Layout, Run, SEPARATE, VertexFormat, WIDE, Words, colour, normal};
-use crate::pipeline::Pipeline;
 
-impl<C: ListCoordinate> Batch<'_, C> {
-    /// Takes a table: columns that cannot be used where they lie are unpacked. `false`: there is
-    /// no room, or the coordinates are too fine for `C`.
-    pub(in super::super) fn table<'w, P: Pipeline, E: EventSink, M: LightingModel>(
+impl<C: ListCoordinate> Gather<'_, C> {
+    /// Takes a table: columns that cannot be used where they lie are unpacked.
+    ///
+    /// # Errors
+    /// When there is no room, or the coordinates are too fine for `C`.
+    pub(crate) fn table<'w>(
         &mut self,
         words: impl Words<'w>,
         format: &VertexFormat,
         run: Run,
-        target: &mut Target<'_, '_, P, E, M>,
-    ) -> Result<(), Event> {
-        self.flush(words, target);
+        out: &mut Out<'_, C>,
+    ) -> Result<(), Refusal> {
+        self.flush(words, out);
         self.reset();
         let layout = Layout::new(format, run.header);
         let (at, count) = (run.at, run.header.count);
@@ -53,7 +52,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         {
             table.usable = false;
             self.table = Some(table);
-            return Err(Event::Full);
+            return Err(Refusal::Vertices);
         }
         let fine = C::of(place.form, [0; 3]).is_none();
         if let (Column::Unpacked, Some(out)) = (table.place, m.positions.get_mut(..n)) {
@@ -78,32 +77,38 @@ impl<C: ListCoordinate> Batch<'_, C> {
             slot.column(words, at, out, colour);
         }
         // Room for texture places, which are unpacked when something is drawn.
-        let placed = P::Shading::TEXTURED && table.texture.is_some();
+        let placed = out.textured && table.texture.is_some();
         if placed && m.places.len() >= n {
             self.base = n;
         }
         table.usable = !fine;
         self.table = Some(table);
-        if fine {
-            Err(Event::Unimplemented)
-        } else {
-            Ok(())
-        }
+        if fine { Err(Refusal::Fine) } else { Ok(()) }
+    }
+
+    /// Whether the table in force has texture places, for which there is no memory.
+    pub(crate) fn lacks_table_places(&self) -> bool {
+        let lacks = |table: &Table| {
+            table.texture.is_some() && self.memory.places.len() < usize::from(table.count)
+        };
+        self.table.as_ref().is_some_and(lacks)
     }
 
     /// Takes triangles of the table.
-    pub(in super::super) fn indexed<'w, P: Pipeline, E: EventSink, M: LightingModel>(
+    ///
+    /// # Errors
+    /// When the table was refused, an index is not one of it, or there is no room for a face.
+    pub(crate) fn indexed<'w>(
         &mut self,
         words: impl Words<'w>,
         run: Run,
-        target: &mut Target<'_, '_, P, E, M>,
-    ) -> Result<(), BadIndex> {
+        out: &mut Out<'_, C>,
+    ) -> Result<(), Refusal> {
         let Some(table) = self.table.filter(|t| t.usable) else {
-            target.notice(Event::Full, u32::from(run.header.count));
-            return Ok(());
+            return Err(Refusal::Table);
         };
         if self.kind != Kind::Table {
-            self.flush(words, target);
+            self.flush(words, out);
             self.kind = Kind::Table;
             self.strip.restart();
         }
@@ -120,12 +125,12 @@ impl<C: ListCoordinate> Batch<'_, C> {
                 let bytes: &[u8] = bytemuck::cast_slice(slice);
                 let bytes = bytes.get(..count).unwrap_or(&[]);
                 let indices = bytes.iter().map(|i| u16::from(*i));
-                self.faces(words, table.count, run, 0xFF, indices, target)
+                self.faces(words, table.count, run, 0xFF, indices, out)
             }
             (Some(slice), true) => {
                 let halves: &[u16] = bytemuck::cast_slice(slice);
                 let indices = halves.get(..count).unwrap_or(&[]).iter().copied();
-                self.faces(words, table.count, run, 0xFFFF, indices, target)
+                self.faces(words, table.count, run, 0xFFFF, indices, out)
             }
             (None, _) => {
                 let (each, bits, restart) = if wide { (2, 16, 0xFFFF) } else { (4, 8, 0xFF) };
@@ -133,7 +138,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
                     let word = words.word(run.at.wrapping_add(n / each));
                     (word >> (bits * (n % each))) as u16 & restart
                 });
-                self.faces(words, table.count, run, restart, indices, target)
+                self.faces(words, table.count, run, restart, indices, out)
             }
         }
     }
@@ -141,32 +146,32 @@ impl<C: ListCoordinate> Batch<'_, C> {
     /// Strips and fans each in a loop of their own: what is asked once a block is not asked once
     /// an index.
     #[inline]
-    fn faces<'w, P: Pipeline, E: EventSink, M: LightingModel>(
+    fn faces<'w>(
         &mut self,
         words: impl Words<'w>,
         count: u16,
         run: Run,
         restart: u16,
         indices: impl Iterator<Item = u16>,
-        target: &mut Target<'_, '_, P, E, M>,
-    ) -> Result<(), BadIndex> {
+        out: &mut Out<'_, C>,
+    ) -> Result<(), Refusal> {
         if run.header.rm {
-            self.faces_as::<P, E, M, true>(words, count, run, restart, indices, target)
+            self.faces_as::<true>(words, count, run, restart, indices, out)
         } else {
-            self.faces_as::<P, E, M, false>(words, count, run, restart, indices, target)
+            self.faces_as::<false>(words, count, run, restart, indices, out)
         }
     }
 
     #[inline]
-    fn faces_as<'w, P: Pipeline, E: EventSink, M: LightingModel, const FAN: bool>(
+    fn faces_as<'w, const FAN: bool>(
         &mut self,
         words: impl Words<'w>,
         count: u16,
         run: Run,
         restart: u16,
         indices: impl Iterator<Item = u16>,
-        target: &mut Target<'_, '_, P, E, M>,
-    ) -> Result<(), BadIndex> {
+        out: &mut Out<'_, C>,
+    ) -> Result<(), Refusal> {
         let separate = run.header.low & SEPARATE != 0;
         let mut indices = indices;
         let mut used = self.indices;
@@ -177,7 +182,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
                     self.strip.restart();
                     continue;
                 }
-                result = Err(BadIndex(index, count));
+                result = Err(Refusal::Index { index, count });
                 break;
             }
             let Some(mut face) = self.strip.push(index, FAN) else {
@@ -188,20 +193,20 @@ impl<C: ListCoordinate> Batch<'_, C> {
             }
             let mut odd = self.strip.odd;
             loop {
-                let out = self.memory.indices.get_mut(used..).unwrap_or(&mut []);
+                let free = self.memory.indices.get_mut(used..).unwrap_or(&mut []);
                 let (faces, end) = if separate {
-                    fill_one(out, face)
+                    fill_one(free, face)
                 } else {
-                    fill::<FAN>(&mut indices, out, count, &mut face, &mut odd)
+                    fill::<FAN>(&mut indices, free, count, &mut face, &mut odd)
                 };
                 used += 3 * faces;
                 match end {
                     Filled::Full => {
                         self.indices = used;
-                        self.flush(words, target);
+                        self.flush(words, out);
                         used = 0;
                         if self.memory.indices.len() < 3 {
-                            target.notice(Event::Full, 1);
+                            result = Err(Refusal::Indices);
                             break 'all;
                         }
                     }
@@ -217,7 +222,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
                                 break;
                             }
                             Some(index) => {
-                                result = Err(BadIndex(index, count));
+                                result = Err(Refusal::Index { index, count });
                                 break 'all;
                             }
                         }

@@ -1,40 +1,43 @@
 //! Short vertices: strips, fans, quads, quad strips and points.
 
-use super::{Attributes, Batch, Kind, ListCoordinate, RunFaces, Target};
-use crate::event::{Event, EventSink};
-use crate::geometry::{LightingModel, QuadSplit, Shading};
+use super::{Attributes, Gather, Kind, ListCoordinate, Out, Refusal, RunFaces};
+use crate::geometry::QuadSplit;
 use crate::list::{Id, Layout, Run, SPLIT, VertexFormat, Words, colour, normal};
-use crate::pipeline::Pipeline;
 
-impl<C: ListCoordinate> Batch<'_, C> {
+impl<C: ListCoordinate> Gather<'_, C> {
     /// Takes the vertices of a block of SHORT, QUADS, or POINTS of so many pixels each way.
-    pub(in super::super) fn run<'w, P: Pipeline, E: EventSink, M: LightingModel>(
+    ///
+    /// # Errors
+    /// When there is no room, or the coordinates are too fine for `C`.
+    pub(crate) fn run<'w>(
         &mut self,
         words: impl Words<'w>,
         format: &VertexFormat,
         run: Run,
         point_size: u8,
-        target: &mut Target<'_, '_, P, E, M>,
-    ) -> Result<(), Event> {
+        out: &mut Out<'_, C>,
+    ) -> Result<(), Refusal> {
         let header = run.header;
         let (quads, points) = (header.id == Id::Quads, header.id == Id::Points);
         let layout = Layout::new(format, header);
         if C::of(layout.place.form, [0; 3]).is_none() {
-            return Err(Event::Unimplemented);
+            return Err(Refusal::Fine);
         }
-        let texture = layout.texture.filter(|_| P::Shading::TEXTURED);
-        if texture.is_some() && target.texture.is_some() && self.memory.places.is_empty() {
-            target.notice(Event::Full, 0);
-        }
+        let texture = layout.texture.filter(|_| out.textured);
+        let keeps_places = !self.memory.places.is_empty();
         let has = Attributes {
             normals: layout.normal.is_some(),
             colours: layout.colour.is_some(),
-            places: texture.is_some() && !self.memory.places.is_empty(),
+            places: texture.is_some() && keeps_places,
             prsp: texture.is_some() && header.prsp,
+            lacks_places: texture.is_some() && !keeps_places,
         };
         let room = self.room(has).saturating_sub(self.base);
-        if room < 4 || self.memory.indices.len() < 4 {
-            return Err(Event::Full);
+        if room < 4 {
+            return Err(Refusal::Vertices);
+        }
+        if self.memory.indices.len() < 4 {
+            return Err(Refusal::Indices);
         }
         let strip = !points && (!quads || header.rm);
         if !strip || header.new {
@@ -57,7 +60,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
         };
         let one_strip = quads && header.rm;
         if self.kind != kind(self.strip.odd) || (one_strip && header.new) {
-            self.flush(words, target);
+            self.flush(words, out);
             self.kind = kind(self.strip.odd);
             if self.strip.have == 0 {
                 self.vertices = 0;
@@ -74,7 +77,7 @@ impl<C: ListCoordinate> Batch<'_, C> {
                 && (self.vertices + vertices > room
                     || self.indices + indices > self.memory.indices.len())
             {
-                self.flush(words, target);
+                self.flush(words, out);
                 self.kind = kind(self.strip.odd);
             }
             if one_strip && self.indices == 0 && self.strip.have == 2 {

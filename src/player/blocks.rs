@@ -1,0 +1,293 @@
+//! Blocks of a list, one by one: what each does to the draw call, and what is refused.
+
+use super::gather::{Out, Refusal};
+use super::play::{Player, Stage};
+use super::state::Drawer;
+use crate::geometry::{Affine, Camera, Light, Sphere};
+use crate::list::{
+    Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Matrix, Missing,
+    NoTexture, Reason, Run, State, Step, Texture, Window, Words, read_block,
+};
+use crate::look::Look;
+use crate::scene::Scissor;
+
+impl<'t, L: Look> Player<'_, 't, L> {
+    /// Does one block.
+    pub(super) fn execute(
+        &mut self,
+        words: impl Words<'t>,
+        instruction: Instruction,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<Step, ListError> {
+        self.counts.blocks += 1;
+        let (id, done) = match instruction {
+            Instruction::State(state) => (Id::State, self.change(words, state, stage)),
+            Instruction::Flow(Flow::LoadTexture { number, at }) => {
+                (Id::Flow, self.load(words, number, at, stage))
+            }
+            Instruction::Short(run)
+            | Instruction::Quads(run)
+            | Instruction::Table(run)
+            | Instruction::Indexed(run) => {
+                (run.header.id, self.take(words, instruction, run, stage))
+            }
+            Instruction::Long(_) => (Id::Long, Err(Reason::Missing(Missing::LongVertices))),
+            Instruction::Points(_) => (Id::Points, Err(Reason::Missing(Missing::Points))),
+            // The walker keeps the others.
+            _ => (Id::Later, Ok(Step::Passed)),
+        };
+        done.map_err(|reason| self.walker.fail(id, reason))
+    }
+
+    /// Takes vertices or faces.
+    fn take(
+        &mut self,
+        words: impl Words<'t>,
+        instruction: Instruction,
+        run: Run,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<Step, Reason> {
+        if self.state.is_stale {
+            self.find_texture(words)?;
+        }
+        let format = self.walker.format();
+        if run.header.id != Id::Indexed {
+            let layout = Layout::new(format, run.header);
+            if L::LIT_AT_PIXELS.is_some() && layout.colour.is_some() {
+                return Err(Reason::Missing(Missing::LightAtVertices));
+            }
+        } else if self.state.texture.is_some() && self.gather.lacks_table_places() {
+            return Err(Reason::Lent(Lent::Places));
+        }
+        let mut drawer = Drawer {
+            scene: stage.scene.as_deref_mut(),
+            state: &self.state,
+            budget: self.settings.budget,
+            counts: &mut self.counts,
+            events: &mut *stage.events,
+            offset: self.walker.offset(),
+            lack: None,
+        };
+        let mut out = Out {
+            textured: L::TEXTURED,
+            sides: drawer.sides(),
+            draw: &mut |mesh| drawer.draw(mesh),
+        };
+        let done = match instruction {
+            Instruction::Table(run) => self.gather.table(words, format, run, &mut out),
+            Instruction::Indexed(run) => self.gather.indexed(words, run, &mut out),
+            _ => self.gather.run(words, format, run, 1, &mut out),
+        };
+        if let Some(lack) = drawer.lack {
+            return Err(lack);
+        }
+        match done {
+            Ok(()) => Ok(Step::Do(instruction)),
+            Err(Refusal::Vertices | Refusal::Table) => Err(Reason::Lent(Lent::Vertices)),
+            Err(Refusal::Indices) => Err(Reason::Lent(Lent::Indices)),
+            Err(Refusal::Fine) => Err(Reason::Missing(Missing::FinePlaces)),
+            Err(Refusal::Index { index, count }) => Err(Reason::Index { index, count }),
+        }
+    }
+
+    /// Draws what was gathered.
+    pub(super) fn flush(
+        &mut self,
+        words: impl Words<'t>,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<(), ListError> {
+        self.draw(words, stage)
+            .map_err(|reason| self.walker.fail(Id::Flow, reason))
+    }
+
+    fn draw(
+        &mut self,
+        words: impl Words<'t>,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<(), Reason> {
+        let mut drawer = Drawer {
+            scene: stage.scene.as_deref_mut(),
+            state: &self.state,
+            budget: self.settings.budget,
+            counts: &mut self.counts,
+            events: &mut *stage.events,
+            offset: self.walker.offset(),
+            lack: None,
+        };
+        let mut out = Out {
+            textured: L::TEXTURED,
+            sides: drawer.sides(),
+            draw: &mut |mesh| drawer.draw(mesh),
+        };
+        self.gather.flush(words, &mut out);
+        drawer.lack.map_or(Ok(()), Err)
+    }
+
+    /// The texture that the material names, and the palette that this one names now.
+    fn find_texture(&mut self, words: impl Words<'t>) -> Result<(), Reason> {
+        self.state.is_stale = false;
+        self.state.texture = None;
+        if !L::TEXTURED {
+            return Ok(());
+        }
+        let Some(number) = self.state.material.texture else {
+            return Ok(());
+        };
+        let pair = self.names.pair(number).map_err(|none| match none {
+            NoTexture::Palette => Reason::NoPalette(number),
+            _ => Reason::NoTexture(number),
+        })?;
+        let dithers = self.state.draw.dither;
+        let texture = self.shelf.texture::<L::Pixel>(words, pair, dithers)?;
+        self.state.texture = Some(texture);
+        Ok(())
+    }
+
+    /// Gives a number to the texture that is defined elsewhere in the list; the walker has seen
+    /// that one is there.
+    fn load(
+        &mut self,
+        words: impl Words<'t>,
+        number: u8,
+        at: u32,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<Step, Reason> {
+        self.draw(words, stage)?;
+        let block = read_block(words, at, self.walker.format());
+        if let Ok(Instruction::State(State::Texture(texture))) = block.map(|b| b.instruction) {
+            self.define(&Texture { number, ..texture })?;
+        }
+        Ok(Step::Passed)
+    }
+
+    /// Gives a texture its number.
+    fn define(&mut self, texture: &Texture) -> Result<(), Reason> {
+        if texture.levels > 1 {
+            return Err(Reason::Missing(Missing::DetailLevels));
+        }
+        self.state.is_stale = true;
+        match !L::TEXTURED || self.names.texture(texture) {
+            true => Ok(()),
+            false => Err(Reason::Lent(Lent::Names)),
+        }
+    }
+
+    /// Passes over what a sphere holds that cannot be seen.
+    fn skip(&mut self, words: impl Words<'t>, bounds: &Bounds, stage: &Stage<'_, '_, 't, L>) {
+        let Some((scene, camera)) = stage
+            .scene
+            .as_ref()
+            .and_then(|s| s.camera.as_ref().map(|c| (s, c)))
+        else {
+            return;
+        };
+        // The sphere in units of 2^-30, at a place of that scale.
+        let sphere = Sphere {
+            centre: bounds.centre,
+            radius: bounds.radius.unsigned_abs(),
+        };
+        let scale = Matrix {
+            linear_exponent: bounds.exponent + 1,
+            ..Matrix::IDENTITY
+        };
+        let model = Affine::from(&scale).then(&self.settings.draw.model);
+        if sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
+            let to = self.walker.position().wrapping_add(bounds.words);
+            // Of a ring, what is not yet there cannot be passed over.
+            if self.walker.jump(words, to) {
+                self.counts.skipped += 1;
+                self.counts.skipped_words += bounds.words;
+            }
+        }
+    }
+
+    /// Takes new state; what was gathered is drawn with the old one.
+    fn change(
+        &mut self,
+        words: impl Words<'t>,
+        state: State,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<Step, Reason> {
+        match state {
+            State::Head(_) | State::Format(_) | State::PointSize(_) => return Ok(Step::Passed),
+            State::Bounds(bounds) => {
+                self.skip(words, &bounds, stage);
+                return Ok(Step::Passed);
+            }
+            _ => self.draw(words, stage)?,
+        }
+        match state {
+            State::Matrix(matrix) => self.state.place(&Affine::from(&matrix), &self.settings),
+            State::Light { number, light } => self.light(number, light)?,
+            State::LightOff { number: 0 } => self.state.light(None),
+            // A light that is not there is off.
+            State::LightOff { .. } => {}
+            State::Material(material) => self.material(material)?,
+            State::Camera(_) if !self.settings.camera => return Ok(Step::Violation),
+            State::Camera(camera) => {
+                let camera = Camera::listed(&camera, stage.screen.height());
+                let camera = camera.map_err(|_| Reason::Camera)?;
+                if let Some(scene) = &mut stage.scene {
+                    scene.camera = Some(camera);
+                }
+            }
+            State::Window(window) => return self.window(window, stage),
+            State::Texture(texture) => self.define(&texture)?,
+            State::Palette(palette) => {
+                if L::TEXTURED && !self.names.palette(&palette) {
+                    return Err(Reason::Lent(Lent::Names));
+                }
+                self.state.is_stale = true;
+            }
+            State::Overlay(_) => return Err(Reason::Missing(Missing::Overlays)),
+            State::Head(_) | State::Format(_) | State::PointSize(_) | State::Bounds(_) => {}
+        }
+        Ok(Step::Passed)
+    }
+
+    fn light(&mut self, number: u8, light: LightWords) -> Result<(), Reason> {
+        if L::LIT_AT_PIXELS.is_some() {
+            return Err(Reason::Missing(Missing::LightAtVertices));
+        }
+        if number != 0 || light.colour != [255; 3] {
+            return Err(Reason::Missing(Missing::Lights));
+        }
+        self.state.light(Some(Light::from(light)));
+        Ok(())
+    }
+
+    fn material(&mut self, material: Material) -> Result<(), Reason> {
+        if material.specular != [0; 3] {
+            return Err(Reason::Missing(Missing::Highlights));
+        }
+        if material.texture.is_some() && !L::TEXTURED {
+            return Err(Reason::Missing(Missing::Textures));
+        }
+        self.state.material(material);
+        Ok(())
+    }
+
+    /// Cuts to a window, if it is one that was granted.
+    fn window(&mut self, window: Window, stage: &Stage<'_, '_, 't, L>) -> Result<Step, Reason> {
+        let all = Window {
+            left: 0,
+            top: 0,
+            right: stage.screen.width(),
+            bottom: stage.screen.height(),
+        };
+        let granted = self.settings.window.unwrap_or(all);
+        if window.left < granted.left
+            || window.top < granted.top
+            || window.right > granted.right
+            || window.bottom > granted.bottom
+        {
+            return Ok(Step::Violation);
+        }
+        if self.settings.draw.scissor.is_some() && window != all {
+            return Err(Reason::Missing(Missing::SecondScissor));
+        }
+        let asked = Scissor::inside(window.left..window.right, window.top..window.bottom);
+        (self.state).cut(&self.settings, Some(asked).filter(|_| window != all));
+        Ok(Step::Passed)
+    }
+}

@@ -1,0 +1,352 @@
+//! From a list's vertices to meshes: faces are gathered until the state changes or the lent
+//! memory is full, then handed over as one mesh.
+//!
+//! Columns of a table that lie in flash in the mesh's own form are used where they lie (positions
+//! in 3x16S, normals in 3x16S, colours in 3x8U); others are unpacked once, when the table comes.
+//!
+//! | file | there |
+//! |---|---|
+//! | `gather/table.rs` | a table of vertices, and triangles of it |
+//! | `gather/vertices.rs` | short vertices: strips, fans, quads, points |
+//! | `gather/places.rs` | texture places in texels |
+//! | `gather/fill.rs` | the loop that strips and fans of indices go through |
+//!
+//! Nothing here knows a scene: who draws is handed each mesh.
+
+mod fill;
+mod places;
+mod table;
+mod vertices;
+
+use crate::geometry::{Coordinate, Faces, Mesh, QuadSplit};
+use crate::list::{Place, Slot, Strip, Words};
+pub(crate) use places::{Places, texels};
+
+/// A coordinate that lists and meshes share: `i16` (Q1.14) or `i32` (Q1.30).
+pub trait ListCoordinate: Coordinate + Place {}
+
+impl<C: Coordinate + Place> ListCoordinate for C {}
+
+/// Memory in which vertices are unpacked.
+pub(crate) struct Unpacked<'m, C> {
+    pub(crate) positions: &'m mut [[C; 3]],
+    pub(crate) normals: &'m mut [[i16; 3]],
+    pub(crate) colours: &'m mut [[u8; 3]],
+    pub(crate) indices: &'m mut [u16],
+    pub(crate) places: &'m mut [[i32; 2]],
+}
+
+/// Where an attribute of the table is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Column {
+    None,
+    InPlace(Slot),
+    Unpacked,
+}
+
+/// The table in force.
+#[derive(Clone, Copy, Debug)]
+struct Table {
+    at: u32,
+    count: u16,
+    place: Column,
+    normal: Column,
+    colour: Column,
+    texture: Option<Slot>,
+    prsp: bool,
+    /// The sides of the texture for which places were unpacked.
+    placed: Option<[u8; 2]>,
+    /// Its vertices could be had.
+    usable: bool,
+}
+
+/// What is being gathered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Nothing,
+    /// Triangles of the table.
+    Table,
+    /// Triangles, quads, a quad strip or points of unpacked vertices with these attributes.
+    Run {
+        faces: RunFaces,
+        has: Attributes,
+    },
+}
+
+/// What vertices have beside their places in space.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Attributes {
+    normals: bool,
+    colours: bool,
+    /// Places on a texture.
+    places: bool,
+    /// They are to be exact.
+    prsp: bool,
+    /// There were places, and no memory for them.
+    lacks_places: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum RunFaces {
+    Triangles,
+    Quads(QuadSplit),
+    QuadStrip(QuadSplit),
+    /// Of so many pixels each way.
+    Points(u8),
+}
+
+/// Why vertices or faces are not gathered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Refusal {
+    /// There is too little memory for its vertices.
+    Vertices,
+    /// There is too little memory for the indices of one face.
+    Indices,
+    /// Its places are finer than the coordinates of meshes.
+    Fine,
+    /// Its table was refused.
+    Table,
+    /// An index that the table does not have.
+    Index {
+        index: u16,
+        /// Vertices of the table.
+        count: u16,
+    },
+}
+
+/// A mesh that was gathered.
+pub(crate) struct Gathered<'a, C> {
+    pub(crate) mesh: Mesh<'a, C>,
+    /// The places of its vertices on the texture that is drawn with.
+    pub(crate) places: Places<'a>,
+    /// Whether they are to be exact.
+    pub(crate) prsp: bool,
+    /// Its vertices are points of so many pixels each way, and it has no faces.
+    pub(crate) points: Option<u8>,
+    /// All indices are known to be below this.
+    pub(crate) below: usize,
+}
+
+/// Where meshes go.
+pub(crate) struct Out<'o, C> {
+    /// Whether anything is ever textured: places are kept then.
+    pub(crate) textured: bool,
+    /// Binary logarithms of the sides of the texture that is drawn with.
+    pub(crate) sides: Option<[u8; 2]>,
+    /// Who draws them.
+    pub(crate) draw: &'o mut dyn FnMut(&Gathered<'_, C>),
+}
+
+/// Faces on their way into a scene.
+pub(crate) struct Gather<'m, C> {
+    memory: Unpacked<'m, C>,
+    kind: Kind,
+    table: Option<Table>,
+    /// Unpacked vertices of the table; those of runs come behind.
+    base: usize,
+    /// Unpacked vertices of runs.
+    vertices: usize,
+    /// Indices in use.
+    indices: usize,
+    /// The last vertices, from which a strip goes on.
+    strip: Strip,
+}
+
+impl<'m, C: ListCoordinate> Gather<'m, C> {
+    pub(crate) fn new(memory: Unpacked<'m, C>) -> Self {
+        Self {
+            memory,
+            kind: Kind::Nothing,
+            table: None,
+            base: 0,
+            vertices: 0,
+            indices: 0,
+            strip: Strip::default(),
+        }
+    }
+
+    /// Forgets everything that was gathered and kept.
+    pub(crate) fn reset(&mut self) {
+        (self.kind, self.table) = (Kind::Nothing, None);
+        (self.base, self.vertices, self.indices) = (0, 0, 0);
+        self.strip.restart();
+    }
+
+    /// Hands over what was gathered, as another kind of vertices comes that is not gathered here.
+    pub(crate) fn pause<'w>(&mut self, words: impl Words<'w>, out: &mut Out<'_, C>) {
+        self.flush(words, out);
+        self.kind = Kind::Nothing;
+        self.strip.restart();
+    }
+
+    /// Vertices that can be unpacked where these attributes are.
+    fn room(&self, has: Attributes) -> usize {
+        let m = &self.memory;
+        let mut room = m.positions.len().min(1 << 16);
+        for (is, len) in [
+            (has.normals, m.normals.len()),
+            (has.colours, m.colours.len()),
+            (has.places, m.places.len()),
+        ] {
+            room = if is { room.min(len) } else { room };
+        }
+        room
+    }
+
+    /// Hands over what was gathered. Vertices from which a strip may go on stay.
+    pub(crate) fn flush<'w>(&mut self, words: impl Words<'w>, out: &mut Out<'_, C>) {
+        if self.kind == Kind::Nothing {
+            return;
+        }
+        let run = self.base..self.base + self.vertices;
+        let kept = self.kept_places();
+        let placed = self.place(words, run.clone(), out.sides);
+        if let Some(gathered) = self.gathered(words, run, placed) {
+            (out.draw)(&gathered);
+        }
+        self.indices = 0;
+        if let Kind::Run { has, .. } = self.kind {
+            self.keep(has, kept);
+        }
+    }
+
+    /// The mesh; `None` where it has nothing that is drawn.
+    fn gathered<'s, 'w: 's>(
+        &'s self,
+        words: impl Words<'w>,
+        run: core::ops::Range<usize>,
+        placed: places::Placed,
+    ) -> Option<Gathered<'s, C>> {
+        let m = &self.memory;
+        let indices = m.indices.get(..self.indices).unwrap_or(&[]);
+        let mut points = None;
+        let mut below = usize::MAX;
+        let (mesh, prsp) = match self.kind {
+            Kind::Nothing => return None,
+            Kind::Table => {
+                let t = self.table.as_ref()?;
+                let n = usize::from(t.count);
+                // They were checked as they were gathered.
+                below = n;
+                let mesh = Mesh {
+                    positions: column(words, t, t.place, m.positions.get(..n)),
+                    normals: column(words, t, t.normal, m.normals.get(..n)),
+                    colours: column(words, t, t.colour, m.colours.get(..n)),
+                    faces: triangles(indices),
+                };
+                (mesh, t.prsp)
+            }
+            Kind::Run { faces, has } => {
+                let normals = m.normals.get(run.clone()).filter(|_| has.normals);
+                let colours = m.colours.get(run.clone()).filter(|_| has.colours);
+                if let RunFaces::Points(size) = faces {
+                    points = Some(size);
+                }
+                let mesh = Mesh {
+                    positions: m.positions.get(run).unwrap_or(&[]),
+                    normals: normals.unwrap_or(&[]),
+                    colours: colours.unwrap_or(&[]),
+                    faces: faces.of(indices),
+                };
+                (mesh, has.prsp)
+            }
+        };
+        let drawn = match points {
+            Some(_) => !mesh.positions.is_empty(),
+            None => self.indices > 0,
+        };
+        drawn.then(|| Gathered {
+            mesh,
+            places: placed.of(m.places),
+            prsp,
+            points,
+            below,
+        })
+    }
+
+    /// Moves the vertices of the strip to the front; places on a texture as they were gathered.
+    fn keep(&mut self, has: Attributes, places: [[i32; 2]; 3]) {
+        fn moved<T: Copy>(slice: &mut [T], base: usize, from: [u16; 3], have: usize) {
+            let mut kept = [None; 3];
+            for (slot, i) in kept.iter_mut().zip(from).take(have) {
+                *slot = slice.get(base + usize::from(i)).copied();
+            }
+            for (n, value) in kept.into_iter().enumerate() {
+                if let (Some(value), Some(slot)) = (value, slice.get_mut(base + n)) {
+                    *slot = value;
+                }
+            }
+        }
+        let (from, have) = (self.strip.corners, usize::from(self.strip.have));
+        moved(self.memory.positions, self.base, from, have);
+        if has.normals {
+            moved(self.memory.normals, self.base, from, have);
+        }
+        if has.colours {
+            moved(self.memory.colours, self.base, from, have);
+        }
+        if has.places {
+            let slots = self.memory.places.get_mut(self.base..).unwrap_or(&mut []);
+            for (slot, place) in slots.iter_mut().zip(places).take(have) {
+                *slot = place;
+            }
+        }
+        self.strip.corners = [0, 1, 2];
+        self.vertices = have;
+        if let Kind::Run {
+            faces: RunFaces::QuadStrip(_),
+            ..
+        } = self.kind
+        {
+            // Behind the kept two the strip goes on; its split is chosen by its parity.
+            self.kind = Kind::Nothing;
+        }
+    }
+
+    /// Appends indices, for which there is room.
+    #[inline(always)]
+    fn push(&mut self, indices: &[u16]) {
+        let used = self.indices;
+        if let Some(slot) = self.memory.indices.get_mut(used..used + indices.len()) {
+            slot.copy_from_slice(indices);
+            self.indices = used + indices.len();
+        }
+    }
+}
+
+impl RunFaces {
+    /// Faces of these indices.
+    fn of(self, indices: &[u16]) -> Faces<'_> {
+        match self {
+            Self::Triangles => triangles(indices),
+            Self::Quads(split) => {
+                let quads = bytemuck::try_cast_slice(indices).unwrap_or(&[]);
+                Faces::Quads(quads, split)
+            }
+            // Two vertices alone are no quad yet.
+            Self::QuadStrip(split) if indices.len() >= 4 => Faces::QuadStrip(indices, split),
+            Self::QuadStrip(_) | Self::Points(_) => Faces::Triangles(&[]),
+        }
+    }
+}
+
+/// An attribute of the table.
+fn column<'s, 'w: 's, T: bytemuck::Pod>(
+    words: impl Words<'w>,
+    table: &Table,
+    column: Column,
+    unpacked: Option<&'s [[T; 3]]>,
+) -> &'s [[T; 3]]
+where
+    [T; 3]: bytemuck::Pod,
+{
+    match column {
+        Column::None => &[],
+        Column::Unpacked => unpacked.unwrap_or(&[]),
+        Column::InPlace(slot) => slot.in_place(words, table.at, table.count).unwrap_or(&[]),
+    }
+}
+
+fn triangles(indices: &[u16]) -> Faces<'_> {
+    Faces::Triangles(bytemuck::try_cast_slice(indices).unwrap_or(&[]))
+}

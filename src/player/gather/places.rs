@@ -1,0 +1,103 @@
+//! Texture places: sides of the texture in a list, texels in a scene.
+//!
+//! They are made texels of when faces are drawn, because only then it is known of which texture. A
+//! strip that goes on keeps the places that it was given.
+
+use super::{Gather, Kind, ListCoordinate};
+use crate::list::Words;
+use core::ops::Range;
+
+/// Sides in 4.12 as texels with 8 fraction bits, on a texture with sides of these logarithms.
+pub(crate) fn texels([u, v]: [i32; 2], [width, height]: [u8; 2]) -> [i32; 2] {
+    // 16 bits and at most 15.
+    [u << width.min(15) >> 4, v << height.min(15) >> 4]
+}
+
+/// Places on the texture that a mesh is drawn with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Places<'a> {
+    /// The vertices have none, or there is no texture.
+    None,
+    /// In texels with 8 fraction bits, as many as there are vertices.
+    Texels(&'a [[i32; 2]]),
+    /// There was no memory for them.
+    Lacking,
+}
+
+/// Which of the memory's places they are.
+pub(super) enum Placed {
+    None,
+    At(Range<usize>),
+    Lacking,
+}
+
+impl Placed {
+    /// The places themselves.
+    pub(super) fn of(self, memory: &[[i32; 2]]) -> Places<'_> {
+        match self {
+            Self::None => Places::None,
+            Self::At(range) => memory.get(range).map_or(Places::None, Places::Texels),
+            Self::Lacking => Places::Lacking,
+        }
+    }
+}
+
+impl<C: ListCoordinate> Gather<'_, C> {
+    /// The places of the vertices from which a strip may go on.
+    pub(super) fn kept_places(&self) -> [[i32; 2]; 3] {
+        let mut kept = [[0; 2]; 3];
+        if matches!(self.kind, Kind::Run { has, .. } if has.places) {
+            for (slot, i) in kept.iter_mut().zip(self.strip.corners) {
+                let place = self.memory.places.get(self.base + usize::from(i));
+                *slot = place.copied().unwrap_or_default();
+            }
+        }
+        kept
+    }
+
+    /// Makes texels of the places of what is about to be drawn, on a texture with such sides.
+    pub(super) fn place<'w>(
+        &mut self,
+        words: impl Words<'w>,
+        run: Range<usize>,
+        sides: Option<[u8; 2]>,
+    ) -> Placed {
+        let Some(sides) = sides else {
+            return Placed::None;
+        };
+        match self.kind {
+            Kind::Nothing => Placed::None,
+            Kind::Run { has, .. } if has.lacks_places => Placed::Lacking,
+            Kind::Run { has, .. } => {
+                let places = self.memory.places.get_mut(run.clone());
+                let Some(places) = places.filter(|_| has.places) else {
+                    return Placed::None;
+                };
+                for place in places {
+                    *place = texels(*place, sides);
+                }
+                Placed::At(run)
+            }
+            Kind::Table => self.place_table(words, sides),
+        }
+    }
+
+    /// The same of the table.
+    fn place_table<'w>(&mut self, words: impl Words<'w>, sides: [u8; 2]) -> Placed {
+        let Some(table) = self.table.as_mut() else {
+            return Placed::None;
+        };
+        let Some(slot) = table.texture else {
+            return Placed::None;
+        };
+        let n = usize::from(table.count);
+        let Some(out) = self.memory.places.get_mut(..n) else {
+            return Placed::Lacking;
+        };
+        if table.placed != Some(sides) {
+            slot.column(words, table.at, out, |[u, v, _]| texels([u, v], sides));
+            table.placed = Some(sides);
+        }
+        Placed::At(0..n)
+    }
+}

@@ -1,0 +1,350 @@
+//! The player: it walks a list, and halts where that says so (H12, H13, X7).
+
+use super::gather::{Gather, Unpacked};
+use super::state::State;
+use super::textures::Shelf;
+use super::{OnViolation, RunCounts, TextureRoom};
+use crate::event::{Event, EventSink, Notice};
+use crate::geometry::{Mesh, Screen};
+use crate::list::{
+    Halt, ListCommand, ListControl, ListError, Missing, Reason, Step, TextureSlot, TextureSlots,
+    Walker, Window, Words,
+};
+use crate::look::Look;
+use crate::scene::{Budget, Draw, Scene};
+use core::marker::PhantomData;
+
+/// Memory of a player, lent by the application.
+///
+/// Vertices are unpacked into the first three: as many at once as the shortest of those that a block needs has. 4 are
+/// the least; what a list's largest table needs is in its HEAD. Columns of a table that have a mesh's own form are
+/// used where they lie, and need none.
+#[derive(Default)]
+pub struct Memory<'m, 't> {
+    /// Places, 6 bytes each.
+    pub positions: &'m mut [[i16; 3]],
+    /// Normals, 6 bytes each.
+    pub normals: &'m mut [[i16; 3]],
+    /// Colours, 3 bytes each.
+    pub colours: &'m mut [[u8; 3]],
+    /// Indices of faces that are drawn together, at least 4; 3 a triangle. Each time they are
+    /// full, the vertices of a table are transformed once more.
+    pub indices: &'m mut [u16],
+    /// Texture places, 8 bytes each, as many as positions; none where nothing is textured.
+    pub places: &'m mut [[i32; 2]],
+    /// One for each number of a texture and of a palette; none where nothing is textured.
+    pub names: &'m [TextureSlot],
+    /// One for each pair of a texture and a palette that is drawn with.
+    pub textures: &'t mut [TextureRoom<'t>],
+    /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 320 for one of 6 bits, and one a texel
+    /// of other forms, but for those of 16 bits in the panel's order of bytes.
+    pub texels: &'t mut [u16],
+}
+
+/// What a list starts from, and what it may do.
+#[derive(Clone, Copy, Debug)]
+pub struct Settings<'m, 't> {
+    /// How the list begins: `model` takes its world to the application's; `cull`, `colour` and the lights are those
+    /// until the list says otherwise; its mesh and its texture are not looked at, and the rest stays.
+    pub draw: Draw<'m, 't>,
+    /// Whether its cameras count; else they are access violations.
+    pub camera: bool,
+    /// The part of the picture that it may ask for as its window, to which it is cut; `None`: all.
+    pub window: Option<Window>,
+    /// How far texels may be from their places where a block has PRSP; elsewhere [`Budget::FAST`].
+    pub budget: Budget,
+    /// After an access violation.
+    pub on_violation: OnViolation,
+    /// Where commands come from, beside [`Player::command`].
+    pub control: Option<&'m ListControl>,
+}
+
+impl Default for Settings<'_, '_> {
+    /// White, not lit, faces from behind dropped, no camera of its own.
+    fn default() -> Self {
+        Self {
+            draw: Draw::new(Mesh {
+                positions: &[],
+                normals: &[],
+                colours: &[],
+                faces: crate::geometry::Faces::Triangles(&[]),
+            }),
+            camera: false,
+            window: None,
+            budget: Budget::BALANCED,
+            on_violation: OnViolation::GoOn,
+            control: None,
+        }
+    }
+}
+
+/// Plays lists into scenes of a look.
+///
+/// ```
+/// use scanbeam::event::Notice;
+/// use scanbeam::list::{Budget, words_of};
+/// use scanbeam::look::Look;
+/// use scanbeam::player::{Memory, Player, Settings};
+/// use scanbeam::scene::Scene;
+///
+/// /// `bytes` come from `include_list!("teapot.list")`; the memory is for one table of the list.
+/// fn draw<'t, L: Look>(
+///     scene: &mut Scene<'_, 't, L>,
+///     bytes: &'t [u8],
+/// ) -> Result<(), Box<dyn std::error::Error>> {
+///     let memory = Memory {
+///         positions: &mut [[0; 3]; 255],
+///         normals: &mut [[0; 3]; 255],
+///         indices: &mut [0; 1536],
+///         ..Memory::default()
+///     };
+///     let mut player = Player::new(memory, Settings::default());
+///     player.start(0);
+///     // An error says which block is malformed, or asks for what there is not, and where.
+///     let mut budget = Budget::of(10_000);
+///     player.run(words_of(bytes)?, scene, &mut budget, &mut |notice: Notice| println!("{notice:?}"))?;
+///     Ok(())
+/// }
+/// ```
+pub struct Player<'m, 't, L> {
+    pub(super) settings: Settings<'m, 't>,
+    pub(super) walker: Walker,
+    pub(super) gather: Gather<'m, i16>,
+    pub(super) names: TextureSlots<'m>,
+    pub(super) shelf: Shelf<'t>,
+    pub(super) state: State<'m, 't>,
+    /// The list that begins is to be looked at before it is drawn.
+    unchecked: bool,
+    pub(super) counts: RunCounts,
+    look: PhantomData<L>,
+}
+
+/// Where blocks go.
+pub(super) struct Stage<'s, 'm, 't, L> {
+    /// None where they are only looked at.
+    pub(super) scene: Option<&'s mut Scene<'m, 't, L>>,
+    pub(super) screen: Screen,
+    pub(super) events: &'s mut dyn EventSink,
+}
+
+impl<'m, 't, L: Look> Player<'m, 't, L> {
+    /// Stopped; [`start`](Player::start) begins.
+    #[must_use]
+    pub fn new(memory: Memory<'m, 't>, settings: Settings<'m, 't>) -> Self {
+        Self {
+            walker: Walker::new(),
+            gather: Gather::new(Unpacked {
+                positions: memory.positions,
+                normals: memory.normals,
+                colours: memory.colours,
+                indices: memory.indices,
+                places: memory.places,
+            }),
+            names: TextureSlots(memory.names),
+            shelf: Shelf::new(memory.textures, memory.texels),
+            state: State::new(&settings),
+            settings,
+            unchecked: false,
+            counts: RunCounts::default(),
+            look: PhantomData,
+        }
+    }
+
+    /// Begins at word `at`, with the state that the settings give.
+    pub fn start(&mut self, at: u32) {
+        self.command(ListCommand::Start(at));
+    }
+
+    /// Obeys a command at once. A list that is started is looked at as a whole before it is drawn;
+    /// [`Restart`](ListCommand::Restart) takes it to be as it was then.
+    pub fn command(&mut self, command: ListCommand) {
+        self.walker.command(command);
+        match command {
+            ListCommand::Start(_) => self.unchecked = true,
+            ListCommand::Restart => {}
+            _ => return,
+        }
+        self.reset();
+    }
+
+    /// Other settings, from the next start on.
+    pub fn set(&mut self, settings: Settings<'m, 't>) {
+        self.settings = settings;
+    }
+
+    /// Position of the next block; what lies before it in a ring may be freed.
+    #[must_use]
+    pub fn position(&self) -> u32 {
+        self.walker.position()
+    }
+
+    /// What was done since the start.
+    #[must_use]
+    pub fn counts(&self) -> RunCounts {
+        self.counts
+    }
+
+    fn reset(&mut self) {
+        self.gather.reset();
+        self.counts = RunCounts::default();
+        self.state = State::new(&self.settings);
+        self.names.clear();
+    }
+
+    /// Executes the list until it halts. The scene must have been begun.
+    ///
+    /// A list that was started is first walked to its end, or as far as `budget` reaches, and nothing is drawn where
+    /// that meets an error. What a budget, a pause or a ring kept from being looked at then is looked at block by
+    /// block, each before any of it is done; what stands before it is drawn.
+    ///
+    /// # Errors
+    /// When a block is malformed, or asks for what there is not. The list has stopped; a start begins it again.
+    pub fn run(
+        &mut self,
+        words: impl Words<'t>,
+        scene: &mut Scene<'_, 't, L>,
+        budget: &mut crate::list::Budget,
+        events: &mut dyn EventSink,
+    ) -> Result<Halt, ListError> {
+        let screen = scene.screen();
+        if scene.camera.is_none() {
+            return Err(self.unfit(Reason::NotBegun));
+        }
+        let mut stage = Stage {
+            scene: Some(scene),
+            screen,
+            events,
+        };
+        loop {
+            if let Some(command) = self.settings.control.and_then(ListControl::take) {
+                if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
+                    self.flush(words, &mut stage)?;
+                }
+                self.command(command);
+            }
+            if self.unchecked && self.walker.is_running() {
+                if let Err(error) = self.check(words, screen, *budget) {
+                    self.notice(&mut stage, Event::Malformed, 0);
+                    return Err(error);
+                }
+            }
+            match self.step(words, budget, &mut stage) {
+                Ok(None) => {}
+                Ok(Some(halt)) => return Ok(halt),
+                Err(error) => {
+                    // What stands before it was drawn already, or is now.
+                    let _ = self.flush(words, &mut stage);
+                    self.notice(&mut stage, Event::Malformed, 0);
+                    return Err(error);
+                }
+            }
+        }
+    }
+
+    /// Walks the list from where it is to begin, without drawing, to its end or as far as the budget reaches; pauses
+    /// and syncs are passed over. Then it is where it was, and all state is that of the start.
+    ///
+    /// # Errors
+    /// When a block is malformed, or asks for what there is not. The list has stopped.
+    pub fn check(
+        &mut self,
+        words: impl Words<'t>,
+        screen: Screen,
+        mut budget: crate::list::Budget,
+    ) -> Result<Halt, ListError> {
+        let draw = &self.settings.draw;
+        let at_vertices = draw.light.is_some() || draw.lights.is_some();
+        if L::LIT_AT_PIXELS.is_some() && at_vertices {
+            return Err(self.unfit(Reason::Missing(Missing::LightAtVertices)));
+        }
+        let begin = self.walker.clone();
+        self.walker = Walker::new();
+        self.walker.command(ListCommand::Start(begin.position()));
+        self.reset();
+        let mut stage = Stage {
+            scene: None,
+            screen,
+            events: &mut |_: Notice| {},
+        };
+        let done = loop {
+            match self.step(words, &mut budget, &mut stage) {
+                Ok(None) => {}
+                Ok(Some(Halt::Sync)) => {}
+                Ok(Some(Halt::Paused)) => self.walker.command(ListCommand::Resume),
+                Ok(Some(halt)) => break Ok(halt),
+                Err(error) => break Err(error),
+            }
+        };
+        if done.is_ok() {
+            self.walker = begin;
+            self.unchecked = false;
+        }
+        self.reset();
+        done
+    }
+
+    /// Does the next block; why the list does not go on, if it does not.
+    fn step(
+        &mut self,
+        words: impl Words<'t>,
+        budget: &mut crate::list::Budget,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<Option<Halt>, ListError> {
+        let mut step = self.walker.step(words, budget)?;
+        if let Step::Do(instruction) = step {
+            step = self.execute(words, instruction, stage)?;
+        }
+        match step {
+            Step::Do(_) | Step::Passed => {}
+            Step::Interrupt(vector) => self.notice(stage, Event::Interrupt, u32::from(vector)),
+            Step::Later => {
+                self.counts.unimplemented += 1;
+                self.notice(stage, Event::Unimplemented, 0);
+            }
+            Step::Violation => {
+                self.counts.violations += 1;
+                self.notice(stage, Event::AccessViolation, 0);
+                if self.settings.on_violation == OnViolation::Stop {
+                    self.walker.stop();
+                    self.flush(words, stage)?;
+                    return Ok(Some(Halt::Violation));
+                }
+            }
+            Step::Halt(halt) => {
+                self.flush(words, stage)?;
+                let event = match halt {
+                    Halt::End => Some(Event::ListEnd),
+                    Halt::Waiting if self.walker.meets_anew(words) => Some(Event::ListEnd),
+                    Halt::Paused => Some(Event::Paused),
+                    Halt::Sync => Some(Event::Sync),
+                    _ => None,
+                };
+                if let Some(event) = event {
+                    self.notice(stage, event, 0);
+                }
+                return Ok(Some(halt));
+            }
+        }
+        Ok(None)
+    }
+
+    /// An error that no block has made.
+    #[cold]
+    fn unfit(&mut self, reason: Reason) -> ListError {
+        self.walker.stop();
+        ListError {
+            offset: 4u32.wrapping_mul(self.walker.position()),
+            block: None,
+            reason,
+        }
+    }
+
+    #[cold]
+    pub(super) fn notice(&self, stage: &mut Stage<'_, '_, 't, L>, event: Event, value: u32) {
+        stage.events.notice(Notice {
+            event,
+            offset: self.walker.offset(),
+            value,
+        });
+    }
+}

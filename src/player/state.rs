@@ -1,0 +1,165 @@
+//! The draw call that blocks of state change.
+
+use super::gather::{Gathered, Places};
+use super::{RunCounts, Settings};
+use crate::event::{Event, EventSink, Notice};
+use crate::geometry::{Affine, Cull, Light};
+use crate::list::{Lent, Material, Reason};
+use crate::look::Look;
+use crate::scene::{Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, Skin, Texture};
+
+/// What is drawn with next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct State<'m, 't> {
+    /// All but the mesh and the texture.
+    pub(super) draw: Draw<'m, 't>,
+    /// What falls on what is lit.
+    pub(super) light: Option<Light>,
+    lights: Option<&'m dyn Lights>,
+    /// The blend of what is opaque.
+    blend: Option<Blend>,
+    pub(super) material: Material,
+    /// The texture that the material names, once something is drawn with it.
+    pub(super) texture: Option<&'t Texture<'t>>,
+    /// The texture is to be found anew.
+    pub(super) is_stale: bool,
+}
+
+impl<'m, 't> State<'m, 't> {
+    /// What the settings begin with.
+    pub(super) fn new(settings: &Settings<'m, 't>) -> Self {
+        let draw = settings.draw;
+        let material = Material {
+            diffuse: draw.colour,
+            two_sided: draw.cull == Cull::None,
+            ..Material::default()
+        };
+        let mut state = Self {
+            draw,
+            light: draw.light,
+            lights: draw.lights,
+            blend: draw.blend,
+            material,
+            texture: None,
+            is_stale: true,
+        };
+        state.cut(settings, None);
+        state
+    }
+
+    /// The list's matrix, in the world of the settings.
+    pub(super) fn place(&mut self, matrix: &Affine, settings: &Settings<'_, '_>) {
+        self.draw.model = matrix.then(&settings.draw.model);
+    }
+
+    /// The light from now on.
+    pub(super) fn light(&mut self, light: Option<Light>) {
+        (self.light, self.lights) = (light, None);
+        self.shine();
+    }
+
+    /// The surface from now on.
+    pub(super) fn material(&mut self, material: Material) {
+        self.material = material;
+        self.is_stale = true;
+        self.draw.colour = material.diffuse;
+        self.draw.cull = match material.two_sided {
+            true => Cull::None,
+            false => Cull::Back,
+        };
+        self.draw.blend = match material.opacity {
+            255 => self.blend,
+            opacity => Some(Blend::filter(opacity)),
+        };
+        self.shine();
+    }
+
+    fn shine(&mut self) {
+        self.draw.light = self.light.filter(|_| !self.material.unlit);
+        self.draw.lights = self.lights.filter(|_| !self.material.unlit);
+    }
+
+    /// The scissor from now on: the window that was asked for, or else what is granted.
+    pub(super) fn cut(&mut self, settings: &Settings<'_, '_>, scissor: Option<Scissor>) {
+        let granted = settings
+            .window
+            .map(|w| Scissor::inside(w.left..w.right, w.top..w.bottom));
+        self.draw.scissor = scissor.or(granted).or(settings.draw.scissor);
+    }
+}
+
+/// Who draws what is gathered, and counts it.
+pub(super) struct Drawer<'d, 's, 'm, 't, L> {
+    /// None where the list is only looked at.
+    pub(super) scene: Option<&'d mut Scene<'s, 't, L>>,
+    pub(super) state: &'d State<'m, 't>,
+    /// How far texels of blocks with PRSP may be from their places.
+    pub(super) budget: Budget,
+    pub(super) counts: &'d mut RunCounts,
+    pub(super) events: &'d mut dyn EventSink,
+    pub(super) offset: u32,
+    pub(super) lack: Option<Reason>,
+}
+
+impl<L: Look> Drawer<'_, '_, '_, '_, L> {
+    /// Binary logarithms of the texture's sides.
+    pub(super) fn sides(&self) -> Option<[u8; 2]> {
+        let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
+        self.state.texture.map(sides)
+    }
+
+    /// Draws a mesh.
+    pub(super) fn draw(&mut self, gathered: &Gathered<'_, i16>) {
+        let places = match gathered.places {
+            Places::Texels(places) => Some(places),
+            Places::None => None,
+            Places::Lacking => {
+                self.lack = Some(Reason::Lent(Lent::Places));
+                None
+            }
+        };
+        let Some(scene) = &mut self.scene else {
+            return;
+        };
+        let skin = self.state.texture.zip(places);
+        let call = Draw {
+            mesh: gathered.mesh,
+            texture: skin.map(|(texture, places)| Skin {
+                texture,
+                places,
+                budget: match gathered.prsp {
+                    true => self.budget,
+                    false => Budget::FAST,
+                },
+            }),
+            ..self.state.draw
+        };
+        let before = scene.assembled();
+        let done = scene.draw(&call);
+        let after = scene.assembled();
+        self.counts.draws += 1;
+        self.counts.vertices += gathered.mesh.positions.len() as u32;
+        self.counts.triangles += after.triangles - before.triangles;
+        match done {
+            Ok(()) => {}
+            Err(DrawError::Full { triangles, .. }) => {
+                self.counts.dropped += triangles;
+                self.tell(Event::Full, triangles);
+            }
+            // Lengths and indices were checked when they were gathered.
+            Err(_) => self.tell(Event::Malformed, 0),
+        }
+        if after.clipped > before.clipped {
+            self.tell(Event::Clipped, after.clipped - before.clipped);
+        }
+    }
+
+    #[cold]
+    fn tell(&mut self, event: Event, value: u32) {
+        self.events.notice(Notice {
+            event,
+            offset: self.offset,
+            value,
+        });
+    }
+}
