@@ -26,6 +26,7 @@ mod listed;
 mod methods;
 mod mirror;
 mod octasphere;
+mod played;
 mod scene_b;
 mod sheet;
 mod shots;
@@ -51,6 +52,7 @@ pub use methods::{
 };
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};
+pub use played::{PLAYED, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, PlayedError};
 pub use scene_b::{
     BLOCK_TEXELS_B, BLOCKS_B, CACHE_SLOTS_B, CachedB, CachedLookB, LookB, OBJECTS_B,
     SCENE_B_BLOCKS, SCENES_B, SceneB, TEXELS_PANEL, TEXTURES_B, VERTICES_B,

@@ -1,12 +1,15 @@
-//! Scenes of the suite as this machine draws them in the rooms `scene`, `look` and `frame`.
+//! Scenes of the suite, and lists, as this machine draws them in the rooms `scene`, `look` and `frame`.
 
 use scanbeam::Link;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::player::{Memory as PlayerMemory, Player, TextureRoom};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
-    HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH,
+    HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES,
+    Played, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH,
 };
 use std::error::Error;
 
@@ -22,8 +25,60 @@ pub fn lean_frame(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
     }
 }
 
+/// The bytes of a list that is played, in scan-out order.
+///
+/// # Errors
+/// When it does not fit the memory that it asks for.
+pub fn played_frame(played: Played) -> Result<Vec<u8>, Box<dyn Error>> {
+    match played {
+        Played::Teapot => played_frame_as::<LeanLook>(played),
+        Played::Crate => played_frame_as::<LeanTextured>(played),
+    }
+}
+
+/// The same with a look.
+fn played_frame_as<L: Look<Pixel = Rgb565Be>>(played: Played) -> Result<Vec<u8>, Box<dyn Error>> {
+    let [table, indices] = played.sizes();
+    let mut lent = (vec![[0; 3]; table], vec![[0; 3]; table], vec![0; indices]);
+    let mut places = vec![[0; 2]; table];
+    let names = [const { TextureSlot::new() }; PLAYED_NAMES];
+    let mut textures = [const { TextureRoom::EMPTY }; PLAYED_TEXTURES];
+    let mut texels = [0; PLAYED_TEXELS];
+    let memory = PlayerMemory {
+        positions: &mut lent.0,
+        normals: &mut lent.1,
+        indices: &mut lent.2,
+        places: &mut places,
+        names: &names,
+        textures: &mut textures,
+        texels: &mut texels,
+        ..PlayerMemory::default()
+    };
+    let mut player = Player::new(memory, Played::settings());
+    drawn::<L>(
+        |scene| match played.play(&mut player, ListCommand::Start(0), scene) {
+            Ok(_) => Ok(()),
+            Err(error) => Err(format!("{played:?}: {error:?}")),
+        },
+        played.background(),
+    )
+}
+
 /// The same with a look.
 fn lean_frame_as<L: Look<Pixel = Rgb565Be>>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
+    let build = |scene: &mut Scene<'_, '_, L>| {
+        suite
+            .build_lean(scene)
+            .map_err(|error| format!("{}: {error:?}", suite.name()))
+    };
+    drawn::<L>(build, suite.background())
+}
+
+/// The bytes of a scene that `build` makes.
+fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
+    build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), String>,
+    background: [u8; 3],
+) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut vertices = vec![Vertex::EMPTY; SUITE_VERTICES];
     let mut places = vec![TexturePlace::EMPTY; SUITE_VERTICES];
     let mut objects = vec![Object::EMPTY; SUITE_OBJECTS];
@@ -37,9 +92,7 @@ fn lean_frame_as<L: Look<Pixel = Rgb565Be>>(suite: Suite) -> Result<Vec<u8>, Box
         draws: &mut draws,
     };
     let mut scene = Scene::<L>::new(Shot::screen(), memory);
-    suite
-        .build_lean(&mut scene)
-        .map_err(|error| format!("{}: {error:?}", suite.name()))?;
+    build(&mut scene)?;
     let mut cache = Box::new(FastMemory::<L>::new());
     let (mut links, mut depth) = (vec![Link::NONE; SUITE_OBJECTS], [0; WIDTH as usize]);
     let mut renderer = Renderer::new(LineMemory {
@@ -47,7 +100,7 @@ fn lean_frame_as<L: Look<Pixel = Rgb565Be>>(suite: Suite) -> Result<Vec<u8>, Box
         links: &mut links,
         depth: &mut depth,
     });
-    let background = Rgb565Be::from_rgb8(suite.background());
+    let background = Rgb565Be::from_rgb8(background);
     let mut bytes = Vec::new();
     let mut pixels = [0; WIDTH as usize];
     for line in scene.lines() {

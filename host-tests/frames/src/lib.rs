@@ -14,6 +14,7 @@ use host_support::image_out::Frame;
 use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockFrameBuffer};
 use lean::lean_frame;
+pub use lean::played_frame;
 use scanbeam::input::ListMemory;
 use scanbeam::list::TextureSlot;
 use scanbeam::pipeline::{
@@ -27,8 +28,8 @@ use scanbeam::{FrameStats, Scene, draw_frame};
 use scanbeam_model::draw_model_frame;
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,
-    LIST_TABLE, LookB, LookF, OBJECTS, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS, SUITE,
-    SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VALUES,
+    LIST_TABLE, LookB, LookF, OBJECTS, PLAYED, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS,
+    SUITE, SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VALUES,
     VARIANTS, VERTICES, WIDTH, build_crate, build_listed,
 };
 use std::collections::BTreeMap;
@@ -51,6 +52,9 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
         let words = values_sent(values, 64)?.words;
         let bytes: Vec<u8> = words.into_iter().flat_map(u16::to_ne_bytes).collect();
         frames.insert(name, crc32fast::hash(&bytes));
+    }
+    for (name, played) in PLAYED {
+        frames.insert(name, crc32fast::hash(&played_frame(played)?));
     }
     for shot in SHOTS.into_iter().chain(STACKS).chain(STRESS) {
         frames.insert(
