@@ -1,7 +1,7 @@
 //! The frames that this firmware draws, by name.
 
 use crate::choices::{draw_b, draw_b_cached, draw_seen, draw_suite};
-use crate::lean::{draw_lean, draw_values};
+use crate::lean::{draw_lean, draw_played, draw_values};
 use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
@@ -20,9 +20,10 @@ use scanbeam::{LineMemory, LineRenderer, Quality, Scene, SceneMemory, draw_frame
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
-    LEAN, Lit, LookB, METHODS, Numbered, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE,
-    SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES, VARIANTS, Values,
-    Variant, build_crate, build_listed, build_method, by_effect, by_method, method_screen,
+    LEAN, Lit, LookB, METHODS, Numbered, PLAYED, Played, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS,
+    STRESS, SUITE, SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES,
+    VARIANTS, Values, Variant, build_crate, build_listed, build_method, by_effect, by_method,
+    method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -62,6 +63,8 @@ enum Way {
     Lean(Suite),
     /// A small frame of what few draw calls have in them.
     Values(Values),
+    /// A list that is played in the new rooms.
+    Played(Played),
 }
 
 /// One frame: how a shot is drawn.
@@ -72,8 +75,8 @@ pub(crate) struct Frame {
     way: Way,
 }
 
-/// Every frame, in the order in which they are drawn: the suite, the same in the new rooms and
-/// what few draw calls have there, all other shots, those of stress
+/// Every frame, in the order in which they are drawn: the suite, the same, lists and
+/// what few draw calls have in the new rooms, all other shots, those of stress
 /// too, then flat faces, one by the hardware model and two from baked lists, then what the cache and its
 /// renderers must not change, then the interpolation methods and effects, other depths, and scene B.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
@@ -91,6 +94,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let suite = SUITE.map(|suite| plain(suite.name(), Shot::Sphere, Way::Suite(suite)));
     let lean = LEAN.map(|(name, suite)| plain(name, Shot::Sphere, Way::Lean(suite)));
     let values = VALUES.map(|(name, values)| plain(name, Shot::Sphere, Way::Values(values)));
+    let played = PLAYED.map(|(name, list)| plain(name, Shot::Teapot, Way::Played(list)));
     let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
     let shots = SHOTS.into_iter().filter(move |shot| !measured(shot));
     let shots = shots.chain(STRESS);
@@ -103,6 +107,7 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
         .into_iter()
         .chain(lean)
         .chain(values)
+        .chain(played)
         .chain(shots.map(move |shot| plain(shot.name(), shot, Way::Smooth)))
         .chain([
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
@@ -176,6 +181,7 @@ impl Frame {
             Way::Suite(suite) => draw_suite(suite, rooms, &mut pump),
             Way::Lean(suite) => draw_lean(suite, rooms, &mut pump),
             Way::Values(values) => draw_values(values, rooms, &mut pump),
+            Way::Played(list) => draw_played(list, rooms, &mut pump),
             Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
                 let rooms = &mut rooms.smooth;
                 draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);

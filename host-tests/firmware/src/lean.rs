@@ -2,14 +2,19 @@
 
 use crate::lend::lend;
 use crate::rooms::Rooms;
+use crate::unpacked::Unpacked;
+use scanbeam::Link;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer, draw_frame};
+use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::player::{Memory as PlayerMemory, Player, TextureRoom};
 use scanbeam::scan_out::{Pump, ScanoutDma};
-use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
+use scanbeam::scene::{Draw, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
-    HEIGHT, LEAN_DRAWS, LeanContours, LeanLook, LeanPhong, LeanTextured, SUITE_LINES,
-    SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, VALUES_SHOWN, Values, ValuesMemory,
+    CRATE_INDICES, CRATE_TABLE, HEIGHT, LEAN_DRAWS, LIST_INDICES, LIST_TABLE, LeanContours,
+    LeanLook, LeanPhong, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played,
+    SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, VALUES_SHOWN, Values, ValuesMemory,
 };
 
 /// What a scene is lent, in external RAM, and the object cache, in tightly coupled RAM. Links and depth are those
@@ -26,6 +31,9 @@ pub(crate) struct LeanRooms {
     lit: &'static mut [FastMemory<LeanPhong>],
     banded: &'static mut [FastMemory<LeanContours>],
     shown: &'static mut [u32],
+    teapot: Player<'static, 'static, LeanLook>,
+    /// Its textures are made once.
+    wood: Player<'static, 'static, LeanTextured>,
 }
 
 impl LeanRooms {
@@ -47,7 +55,62 @@ impl LeanRooms {
             lit: lend!(".slow", FastMemory<LeanPhong>, 1, LIT),
             banded: lend!(".slow", FastMemory<LeanContours>, 1, BANDED),
             shown: lend!(".slow", u32, VALUES_SHOWN, 0),
+            teapot: Player::new(teapot_memory(), Played::settings()),
+            wood: Player::new(crate_memory(), Played::settings()),
         }
+    }
+
+    /// A scene in this memory, and that of a renderer, each with what a player of the look needs.
+    fn parts(&mut self) -> Parts<'_> {
+        Parts {
+            memory: Memory {
+                vertices: &mut *self.vertices,
+                places: &mut *self.places,
+                objects: &mut *self.objects,
+                bins: &mut *self.bins,
+                draws: &mut *self.draws,
+            },
+            cache: &mut *self.cache,
+            textured: &mut *self.textured,
+            teapot: &mut self.teapot,
+            wood: &mut self.wood,
+        }
+    }
+}
+
+/// The rooms, apart.
+struct Parts<'r> {
+    memory: Memory<'r, 'static>,
+    cache: &'r mut [FastMemory<LeanLook>],
+    textured: &'r mut [FastMemory<LeanTextured>],
+    teapot: &'r mut Player<'static, 'static, LeanLook>,
+    wood: &'r mut Player<'static, 'static, LeanTextured>,
+}
+
+/// The teapot's places are used where they lie.
+fn teapot_memory() -> PlayerMemory<'static, 'static> {
+    PlayerMemory {
+        normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
+        indices: lend!(".slow", u16, LIST_INDICES, 0),
+        ..PlayerMemory::default()
+    }
+}
+
+fn crate_memory() -> PlayerMemory<'static, 'static> {
+    PlayerMemory {
+        positions: lend!(".slow", [i16; 3], CRATE_TABLE, [0; 3]),
+        normals: lend!(".slow", [i16; 3], CRATE_TABLE, [0; 3]),
+        indices: lend!(".slow", u16, CRATE_INDICES, 0),
+        places: lend!(".slow", [i32; 2], CRATE_TABLE, [0; 2]),
+        names: lend!(".slow", TextureSlot, PLAYED_NAMES, TextureSlot::new()),
+        textures: lend!(
+            ".slow",
+            TextureRoom<'static>,
+            PLAYED_TEXTURES,
+            TextureRoom::EMPTY
+        ),
+        texels: lend!(".slow", u16, PLAYED_TEXELS, 0),
+        ..PlayerMemory::default()
     }
 }
 
@@ -57,51 +120,107 @@ pub(crate) fn draw_lean<D>(suite: Suite, rooms: &mut Rooms, pump: &mut Pump<D>)
 where
     D: ScanoutDma<Buf = &'static mut [u16]>,
 {
-    let lean = &mut rooms.lean;
-    let memory = Memory {
-        vertices: &mut *lean.vertices,
-        places: &mut *lean.places,
-        objects: &mut *lean.objects,
-        bins: &mut *lean.bins,
-        draws: &mut *lean.draws,
-    };
+    let parts = rooms.lean.parts();
     let (links, depth) = (&mut *rooms.smooth.links, &mut *rooms.smooth.depth);
-    if suite.texels().is_some() {
-        if let [cache] = &mut *lean.textured {
-            let lines = LineMemory {
-                cache,
-                links,
-                depth,
-            };
-            draw_as::<LeanTextured, D>(suite, memory, lines, pump);
+    let background = suite.background();
+    match (parts.textured, parts.cache) {
+        ([cache], _) if suite.texels().is_some() => {
+            let mut scene = Scene::<LeanTextured>::new(Shot::screen(), parts.memory);
+            suite.build_lean(&mut scene).expect(LARGE);
+            send(&scene, lines(cache, links, depth), background, pump);
         }
-    } else if let [cache] = &mut *lean.cache {
-        let lines = LineMemory {
-            cache,
-            links,
-            depth,
-        };
-        draw_as::<LeanLook, D>(suite, memory, lines, pump);
+        (_, [cache]) => {
+            let mut scene = Scene::<LeanLook>::new(Shot::screen(), parts.memory);
+            suite.build_lean(&mut scene).expect(LARGE);
+            send(&scene, lines(cache, links, depth), background, pump);
+        }
+        _ => {}
     }
 }
 
-/// The same with a look.
+/// Draws a list; it is looked at before, or taken to be what it was.
 #[inline(never)]
-fn draw_as<L: Look<Pixel = Rgb565Be>, D>(
-    suite: Suite,
-    memory: Memory<'_, 'static>,
+pub(crate) fn draw_played<D>(played: Played, rooms: &mut Rooms, pump: &mut Pump<D>)
+where
+    D: ScanoutDma<Buf = &'static mut [u16]>,
+{
+    let begin = ListCommand::Start(0);
+    let parts = rooms.lean.parts();
+    let (links, depth) = (&mut *rooms.smooth.links, &mut *rooms.smooth.depth);
+    let background = played.background();
+    match (played, parts.textured, parts.cache) {
+        (Played::Crate, [cache], _) => {
+            let mut scene = Scene::<LeanTextured>::new(Shot::screen(), parts.memory);
+            played.play(parts.wood, begin, &mut scene).expect(LARGE);
+            send(&scene, lines(cache, links, depth), background, pump);
+        }
+        (Played::Teapot, _, [cache]) => {
+            let mut scene = Scene::<LeanLook>::new(Shot::screen(), parts.memory);
+            played.play(parts.teapot, begin, &mut scene).expect(LARGE);
+            send(&scene, lines(cache, links, depth), background, pump);
+        }
+        _ => {}
+    }
+}
+
+/// Pass one of the teapot's list alone: the vertices that were transformed and the triangles that were filed.
+#[inline(never)]
+pub(crate) fn play_teapot(begin: ListCommand, rooms: &mut Rooms) -> (u32, u32) {
+    let parts = rooms.lean.parts();
+    let mut scene = Scene::<LeanLook>::new(Shot::screen(), parts.memory);
+    let counts = Played::Teapot.play(parts.teapot, begin, &mut scene);
+    (counts.expect(LARGE).vertices, scene.objects() as u32)
+}
+
+/// The same by immediate calls.
+#[inline(never)]
+pub(crate) fn call_teapot(unpacked: &Unpacked, rooms: &mut Rooms) -> (u32, u32) {
+    let mut scene = Scene::<LeanLook>::new(Shot::screen(), rooms.lean.parts().memory);
+    let camera = Played::Teapot.camera().expect("it sees");
+    scene.begin(&camera).expect(LARGE);
+    let instance = &unpacked.instance;
+    let mut vertices = 0;
+    for mesh in unpacked.meshes() {
+        vertices += mesh.positions.len() as u32;
+        let call = Draw {
+            model: instance.model,
+            light: instance.light,
+            colour: instance.colour,
+            ..Draw::new(mesh)
+        };
+        scene.draw(&call).expect(LARGE);
+    }
+    (vertices, scene.objects() as u32)
+}
+
+const LARGE: &str = "the rooms are large enough";
+
+/// What a renderer is lent.
+fn lines<'r, L: Look>(
+    cache: &'r mut FastMemory<L>,
+    links: &'r mut [Link],
+    depth: &'r mut [u32],
+) -> LineMemory<'r, L> {
+    LineMemory {
+        cache,
+        links,
+        depth,
+    }
+}
+
+/// Draws all lines of a scene.
+#[inline(never)]
+fn send<L: Look<Pixel = Rgb565Be>, D>(
+    scene: &Scene<'_, '_, L>,
     lines: LineMemory<'_, L>,
+    background: [u8; 3],
     pump: &mut Pump<D>,
 ) where
     D: ScanoutDma<Buf = &'static mut [u16]>,
 {
-    let mut scene = Scene::<L>::new(Shot::screen(), memory);
-    suite
-        .build_lean(&mut scene)
-        .expect("the rooms are large enough");
     let mut renderer = Renderer::new(lines);
-    let background = Rgb565Be::from_rgb8(suite.background());
-    draw_frame(&scene, &mut renderer, pump, background, SUITE_LINES)
+    let background = Rgb565Be::from_rgb8(background);
+    draw_frame(scene, &mut renderer, pump, background, SUITE_LINES)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

@@ -35,6 +35,7 @@ mod lend;
 mod listed;
 mod profile;
 mod rooms;
+mod unpacked;
 
 use core::hint::black_box;
 
@@ -48,6 +49,7 @@ use console::Console;
 use count::Counter;
 use frames::{Frame, frames};
 use rooms::Rooms;
+use scanbeam::list::ListCommand;
 use scenes::{SHEETS, SWATCHES, Sheet};
 
 static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
@@ -131,13 +133,30 @@ fn main() -> ! {
     let unpacked = rooms::unpacked();
     let (mut listed, mut drawn) = ((0, 0), (0, 0));
     let by_list = counter.instructions(|| listed = black_box(listed::from_list(&mut rooms)));
-    let by_calls = counter.instructions(|| drawn = black_box(unpacked.draw(&mut rooms)));
+    let by_calls =
+        counter.instructions(|| drawn = black_box(listed::by_calls(&unpacked, &mut rooms)));
     // The same vertices, and the same objects of them.
     all_hold &= listed == drawn && listed.1 > 0;
+    // The same in the rooms: looked at and drawn, and drawn again.
+    let (mut first, mut again) = ((0, 0), (0, 0));
+    let by_start = counter.instructions(|| {
+        first = black_box(lean::play_teapot(ListCommand::Start(0), &mut rooms));
+    });
+    let by_restart = counter.instructions(|| {
+        again = black_box(lean::play_teapot(ListCommand::Restart, &mut rooms));
+    });
+    let mut called = (0, 0);
+    let by_draws = counter.instructions(|| {
+        called = black_box(lean::call_teapot(&unpacked, &mut rooms));
+    });
+    all_hold &= first == again && first == called && first.0 == listed.0 && first.1 > 0;
     for (name, value) in [
         ("list_pass_one", by_list),
         ("calls_pass_one", by_calls),
         ("list_vertices", u64::from(listed.0)),
+        ("lean_list_checked", by_start),
+        ("lean_list_pass_one", by_restart),
+        ("lean_calls_pass_one", by_draws),
     ] {
         console.line(format_args!("figure name={name} value={value}"));
     }

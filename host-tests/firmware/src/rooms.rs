@@ -3,7 +3,7 @@
 use crate::frames::{Faceted, LINES_PER_TRANSFER, Listed, Smooth};
 use crate::lean::LeanRooms;
 use crate::lend::lend;
-use crate::listed::Unpacked;
+use crate::unpacked::Unpacked;
 use scanbeam::input::ListMemory;
 use scanbeam::pipeline::{
     BlockFixed, CellOf, Deferred, LineDepth, Object, ObjectOf, Pipeline, SceneVertex, SlotOf,
