@@ -12,6 +12,7 @@ mod common;
 mod glass;
 mod hot;
 mod listing;
+mod played;
 mod stress;
 
 mod accuracy_frontier;
@@ -71,6 +72,8 @@ mod output;
 mod pairs;
 mod palette;
 mod phong;
+mod player;
+mod player_refused;
 mod priority;
 mod rows;
 mod scan_out;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 /// What everything stands on, in order: a room of the ground floor imports those before it.
 const GROUND: [&str; 5] = ["num", "arena", "link", "stats", "event"];
 /// The rooms in the order in which data walks.
-const ROOMS: [&str; 11] = [
+const ROOMS: [&str; 12] = [
     "list",
     "geometry",
     "scene",
@@ -19,6 +19,7 @@ const ROOMS: [&str; 11] = [
     "composite",
     "pixel",
     "look",
+    "player",
     "scan_out",
 ];
 /// The front door's modules by task: they take over names from everywhere, and no room sees them.

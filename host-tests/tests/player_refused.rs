@@ -1,0 +1,535 @@
+//! What a player refuses, and that nothing of such a list is drawn; any bytes do no harm (H13, X7).
+
+use crate::common::Rng;
+use crate::listing::{PLENTY, triangle};
+use crate::played::{Kept, drawn, played};
+use host_tests::lists::writer::{FieldPacker, ListWriter};
+use scanbeam::event::{Event, Notice};
+use scanbeam::list::{
+    Budget, CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListCommand,
+    ListError, ListRing, Material, Matrix, Missing, Overlay, Palette, Reason, State, TexelForm,
+    Texture, VertexFormat, Window, parameter,
+};
+use scanbeam::look::{Gouraud, Look, Phong, Textured};
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::player::{Memory, OnViolation, Player, Settings};
+use scanbeam::scene::{Draw, Scissor};
+use scanbeam::{Affine, Light};
+use scenes::Played;
+use std::sync::atomic::AtomicU32;
+
+type Smooth = Gouraud<Rgb565Be>;
+type Skinned = Textured<Rgb565Be>;
+
+/// A triangle, then what `write` writes, then the end; the byte offset of what comes last before it.
+fn after_a_triangle(write: impl FnOnce(&mut ListWriter<'_>) -> u32) -> (Vec<u32>, u32) {
+    let mut memory = vec![0; 4096];
+    let first = triangle(1);
+    memory[..first.len()].copy_from_slice(&first);
+    let mut writer = ListWriter::new(&mut memory[first.len()..]);
+    let at = write(&mut writer);
+    writer.flow(Flow::End).unwrap();
+    let len = first.len() + writer.words().len();
+    memory.truncate(len);
+    (memory, 4 * (first.len() as u32 + at))
+}
+
+/// What a player says to a list: nothing of it must be drawn where that is an error.
+fn said<'t, L: Look<Pixel = Rgb565Be>>(
+    list: &'t [u32],
+    settings: Settings<'t, 't>,
+    vertices: usize,
+    textures: usize,
+    texels: usize,
+) -> Result<Halt, ListError> {
+    let kept = Box::leak(Box::new(Kept::new(vertices, 96)));
+    let mut player = kept.player_with::<L>(settings, textures, texels);
+    let mut result = Ok(Halt::End);
+    drawn::<L>(|scene| {
+        player.start(0);
+        result = played(&mut player, list, scene, PLENTY);
+        let is_drawn = scene.objects() + scene.vertices() > 0;
+        assert_eq!(is_drawn, result.is_ok(), "{result:?}");
+        assert_eq!(player.counts().draws > 0, result.is_ok());
+    });
+    result
+}
+
+/// Refused by a look, as this block at this offset.
+fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: Reason) {
+    let list = Vec::leak(list.to_vec());
+    let error = ListError {
+        offset: at,
+        block: Some(block),
+        reason,
+    };
+    assert_eq!(said::<L>(list, Settings::default(), 64, 8, 4096), Err(error));
+    assert!(error.to_string().contains(&format!("{at:#x}")), "{error}");
+}
+
+fn texture(form: TexelForm, levels: u8) -> Texture {
+    Texture {
+        number: 1,
+        log_width: 2,
+        log_height: 2,
+        form,
+        levels,
+        palette: 2,
+        clamped: false,
+        at: 0,
+    }
+}
+
+/// A material with texture 1, and a triangle that has texture places, in the default format.
+fn draw_textured(writer: &mut ListWriter<'_>) -> u32 {
+    let material = Material {
+        texture: Some(1),
+        two_sided: true,
+        ..Material::default()
+    };
+    writer.state(&State::Material(material)).unwrap();
+    let at = writer.position();
+    let header = Header {
+        text: true,
+        new: true,
+        ..Header::of(Id::Short, 3)
+    };
+    let mut words = Vec::new();
+    let mut packer = FieldPacker::new(|w| words.push(w));
+    for [x, y] in [[-9000, -9000], [9000, -9000], [0, 9000]] {
+        packer.field(FieldForm::S16x3, [x, y, 0, 0]);
+        packer.align();
+        packer.field(FieldForm::U16x2, [x + 9000, y + 9000, 0, 0]);
+        packer.align();
+    }
+    writer.vertices(header, &words).unwrap();
+    at
+}
+
+#[test]
+fn what_a_player_does_not_have_is_refused_where_it_stands() {
+    use Missing::*;
+    let block = |id: Id, words: usize| {
+        after_a_triangle(|writer| {
+            let header = Header {
+                new: id == Id::Long,
+                ..Header::of(id, 3)
+            };
+            writer.vertices(header, &vec![0; words]).unwrap();
+            0
+        })
+    };
+    let state = |state: State, data: &[u32]| {
+        after_a_triangle(|writer| {
+            match data {
+                [] => writer.state(&state).unwrap(),
+                data => writer.bulk(&state, data).unwrap(),
+            }
+            0
+        })
+    };
+    let (list, at) = block(Id::Long, 3);
+    refused::<Smooth>(&list, at, Id::Long, Reason::Missing(LongVertices));
+    let (list, at) = block(Id::Points, 6);
+    refused::<Smooth>(&list, at, Id::Points, Reason::Missing(Points));
+    let overlay = Overlay {
+        left: 0,
+        top: 0,
+        width: 2,
+        height: 1,
+        form: TexelForm::Rgb565,
+        additive: false,
+        palette: 0,
+        at: 0,
+    };
+    let (list, at) = state(State::Overlay(overlay), &[0]);
+    refused::<Smooth>(&list, at, Id::State, Reason::Missing(Overlays));
+    let (list, at) = state(State::Texture(texture(TexelForm::Index4, 2)), &[0; 3]);
+    refused::<Skinned>(&list, at, Id::State, Reason::Missing(DetailLevels));
+    let light = LightWords::from(Light::new([0.0, 1.0, 0.0], 0.1).unwrap());
+    let (list, at) = state(State::Light { number: 3, light }, &[]);
+    refused::<Smooth>(&list, at, Id::State, Reason::Missing(Lights));
+    let red = LightWords {
+        colour: [255, 0, 0],
+        ..light
+    };
+    let (list, at) = state(State::Light { number: 0, light: red }, &[]);
+    refused::<Smooth>(&list, at, Id::State, Reason::Missing(Lights));
+    let (list, at) = state(State::Light { number: 0, light }, &[]);
+    refused::<Phong<Rgb565Be>>(&list, at, Id::State, Reason::Missing(LightAtVertices));
+    let shiny = Material {
+        specular: [1, 0, 0],
+        ..Material::default()
+    };
+    let (list, at) = state(State::Material(shiny), &[]);
+    refused::<Smooth>(&list, at, Id::State, Reason::Missing(Highlights));
+    let (list, at) = after_a_triangle(|writer| {
+        draw_textured(writer);
+        0
+    });
+    refused::<Smooth>(&list, at, Id::State, Reason::Missing(Textures));
+    let (list, at) = after_a_triangle(|writer| {
+        let fields = [Field {
+            parameter: parameter::PLACE,
+            form: FieldForm::S32x3,
+        }];
+        let format = VertexFormat::new(&fields).unwrap();
+        writer.state(&State::Format(format)).unwrap();
+        let at = writer.position();
+        let header = Header {
+            new: true,
+            ..Header::of(Id::Short, 3)
+        };
+        writer.vertices(header, &[0; 9]).unwrap();
+        at
+    });
+    refused::<Smooth>(&list, at, Id::Short, Reason::Missing(FinePlaces));
+    let (list, at) = after_a_triangle(|writer| {
+        let header = Header {
+            shade: true,
+            ..Header::of(Id::Table, 3)
+        };
+        let words = writer.format().table_words(header, 3);
+        writer.vertices(header, &vec![0; words as usize]).unwrap();
+        0
+    });
+    refused::<Phong<Rgb565Be>>(&list, at, Id::Table, Reason::Missing(LightAtVertices));
+}
+
+#[test]
+fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
+    let list = |form, colour: u32, with_palette| {
+        after_a_triangle(|writer| {
+            let block = texture(form, 1);
+            let words = vec![colour.to_le(); block.words() as usize];
+            writer.bulk(&State::Texture(block), &words).unwrap();
+            let palette = Palette {
+                number: 2,
+                count: 3,
+                at: 0,
+            };
+            if with_palette {
+                let colours = [0xFF00_0000, colour, 0xFFFF_FFFF];
+                writer.bulk(&State::Palette(palette), &colours).unwrap();
+            }
+            draw_textured(writer)
+        })
+    };
+    let (opaque, half) = (0xFF20_4060, 0x8020_4060);
+    let (words, at) = list(TexelForm::Index4, half, true);
+    refused::<Skinned>(&words, at, Id::Short, Reason::Missing(Missing::Alpha));
+    // 7 bits of alpha, and one that says not to dither.
+    let (words, at) = list(TexelForm::Rgba, 0x3020_4060, false);
+    refused::<Skinned>(&words, at, Id::Short, Reason::Missing(Missing::Alpha));
+    let (words, at) = list(TexelForm::Index4, opaque, false);
+    refused::<Skinned>(&words, at, Id::Short, Reason::NoPalette(1));
+    let (words, at) = after_a_triangle(draw_textured);
+    refused::<Skinned>(&words, at, Id::Short, Reason::NoTexture(1));
+
+    let (words, at) = list(TexelForm::Index8, opaque, true);
+    let words: &[u32] = Vec::leak(words);
+    let reason = |reason| {
+        Err(ListError {
+            offset: at,
+            block: Some(Id::Short),
+            reason,
+        })
+    };
+    let settings = Settings::default();
+    assert_eq!(said::<Skinned>(words, settings, 64, 1, 256), Ok(Halt::End));
+    let full = reason(Reason::Lent(Lent::Textures));
+    assert_eq!(said::<Skinned>(words, settings, 64, 0, 256), full);
+    let full = reason(Reason::Lent(Lent::Texels));
+    assert_eq!(said::<Skinned>(words, settings, 64, 1, 255), full);
+
+    // D counts where what it belongs to is dithered.
+    let (words, at) = list(TexelForm::Rgba, 0xFF20_4060, false);
+    let words: &[u32] = Vec::leak(words);
+    assert_eq!(said::<Skinned>(words, settings, 64, 1, 16), Ok(Halt::End));
+    let dithered = Settings {
+        draw: Draw {
+            dither: true,
+            ..settings.draw
+        },
+        ..settings
+    };
+    let error = ListError {
+        offset: at,
+        block: Some(Id::Short),
+        reason: Reason::Missing(Missing::Undithered),
+    };
+    assert_eq!(said::<Skinned>(words, dithered, 64, 1, 16), Err(error));
+}
+
+#[test]
+fn what_memory_scene_or_settings_do_not_allow_is_refused() {
+    let teapot = Played::Teapot.list().unwrap();
+    let settings = Settings::default();
+    let error = said::<Smooth>(teapot, settings, 64, 0, 0).unwrap_err();
+    assert_eq!(
+        (error.block, error.reason),
+        (Some(Id::Table), Reason::Lent(Lent::Vertices))
+    );
+    let lit = Settings {
+        draw: Draw {
+            light: Light::new([0.0, 1.0, 0.0], 0.1),
+            ..settings.draw
+        },
+        ..settings
+    };
+    let error = said::<Phong<Rgb565Be>>(teapot, lit, 300, 0, 0).unwrap_err();
+    assert_eq!(error.reason, Reason::Missing(Missing::LightAtVertices));
+    // A second rectangle cannot be said.
+    let window = Window {
+        left: 1,
+        top: 1,
+        right: 9,
+        bottom: 9,
+    };
+    let (list, at) = after_a_triangle(|writer| {
+        writer.state(&State::Window(window)).unwrap();
+        0
+    });
+    let cut = Settings {
+        draw: Draw {
+            scissor: Some(Scissor::outside(3..5, 3..5)),
+            ..settings.draw
+        },
+        ..settings
+    };
+    let error = said::<Smooth>(Vec::leak(list), cut, 64, 0, 0).unwrap_err();
+    assert_eq!(
+        (error.offset, error.reason),
+        (at, Reason::Missing(Missing::SecondScissor))
+    );
+    // A scene that was not begun.
+    let mut player = Player::<Smooth>::new(Memory::default(), settings);
+    let screen = scanbeam::Screen::new(8, 8).unwrap();
+    let memory = scanbeam::scene::Memory {
+        vertices: &mut [],
+        places: &mut [],
+        objects: &mut [],
+        bins: &mut [],
+        draws: &mut [],
+    };
+    let mut scene = scanbeam::scene::Scene::new(screen, memory);
+    player.start(0);
+    let error = played(&mut player, teapot, &mut scene, PLENTY).unwrap_err();
+    assert_eq!((error.block, error.reason), (None, Reason::NotBegun));
+}
+
+#[test]
+fn violations_are_told_and_stop_where_they_are_to() {
+    let camera = CameraWords {
+        eye: [0.0, 0.0, 4.0],
+        at: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        focal: 300.0,
+        near: 0.1,
+        far: 90.0,
+    };
+    let window = Window {
+        left: 0,
+        top: 0,
+        right: 97,
+        bottom: 72,
+    };
+    let (list, _) = after_a_triangle(|writer| {
+        writer.state(&State::Camera(camera)).unwrap();
+        writer.state(&State::Window(window)).unwrap();
+        writer.master(7).unwrap();
+        writer.flow(Flow::Jump(1 << 20)).unwrap();
+        writer.flow(Flow::Interrupt(9)).unwrap();
+        0
+    });
+    let list: &[u32] = Vec::leak(list);
+    for on_violation in [OnViolation::GoOn, OnViolation::Stop] {
+        let settings = Settings {
+            on_violation,
+            ..Settings::default()
+        };
+        let mut kept = Kept::new(64, 96);
+        let mut player = kept.player::<Smooth>(settings);
+        let mut events = Vec::new();
+        let mut halt = Ok(Halt::Stopped);
+        drawn::<Smooth>(|scene| {
+            player.start(0);
+            let mut note = |n: Notice| events.push((n.event, n.value));
+            halt = player.run(list, scene, &mut PLENTY.clone(), &mut note);
+            assert_eq!(scene.objects(), 1);
+        });
+        let reached = (Event::AccessViolation, 0);
+        if on_violation == OnViolation::Stop {
+            assert_eq!((halt, &events[..]), (Ok(Halt::Violation), &[reached][..]));
+            continue;
+        }
+        assert_eq!(halt, Ok(Halt::End));
+        assert_eq!(events[..4], [reached; 4]);
+        assert_eq!(events[4..], [(Event::Interrupt, 9), (Event::ListEnd, 0)]);
+        assert_eq!(player.counts().violations, 4);
+    }
+}
+
+/// A list of most of what a player has.
+fn rich(rng: &mut Rng) -> Vec<u32> {
+    let (mut list, _) = after_a_triangle(|writer| {
+        let block = texture(TexelForm::Index4, 1);
+        let at = writer.position();
+        writer.bulk(&State::Texture(block), &[0x1020_0102; 2]).unwrap();
+        let palette = Palette {
+            number: 2,
+            count: 4,
+            at: 0,
+        };
+        let colours = [0xFF00_FF00, 0xFF12_3456, 0x0000_0000, 0xFFFF_FFFF];
+        writer.bulk(&State::Palette(palette), &colours).unwrap();
+        let _ = at;
+        let light = LightWords::from(Light::new([0.0, 1.0, 0.4], 0.1).unwrap());
+        writer.state(&State::Light { number: 0, light }).unwrap();
+        let matrix = Affine::rotation_y(rng.signed() as f32);
+        let matrix = Matrix::try_from(&matrix).unwrap();
+        writer.state(&State::Matrix(matrix)).unwrap();
+        draw_textured(writer);
+        writer.flow(Flow::Pause).unwrap();
+        let header = Header {
+            shade: true,
+            text: true,
+            ..Header::of(Id::Table, 8)
+        };
+        let words = writer.format().table_words(header, 8);
+        let data: Vec<u32> = (0..words)
+            .map(|_| rng.below(1 << 16) << 16 | rng.below(1 << 16))
+            .collect();
+        writer.vertices(header, &data).unwrap();
+        let indices: Vec<_> = (0..12).map(|_| Some(rng.below(8) as u16)).collect();
+        writer.indexed(None, false, indices.into_iter()).unwrap();
+        writer.flow(Flow::Sync).unwrap();
+        writer.flow(Flow::JumpRelative(1)).unwrap();
+        writer.flow(Flow::Pause).unwrap();
+        let indices: Vec<_> = (0..9).map(|i| (i != 4).then_some(i % 8)).collect();
+        let form = host_tests::lists::writer::Form::Strip;
+        writer.indexed(Some(form), true, indices.into_iter()).unwrap();
+        0
+    });
+    // A block of a later version, before the end.
+    let end = list.pop();
+    list.extend([0x9100_0100u32.to_le(), 5]);
+    list.extend(end);
+    list
+}
+
+/// Runs any words; whether they were refused before anything was drawn, or drawn to their end.
+fn survives(list: &[u32]) -> (bool, bool) {
+    let list: &'static [u32] = Vec::leak(list.to_vec());
+    let budget = Budget {
+        instructions: 64,
+        vertices: 4096,
+        jumps: 8,
+    };
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player_with::<Skinned>(
+        Settings {
+            camera: true,
+            ..Settings::default()
+        },
+        4,
+        600,
+    );
+    let (mut refused, mut ended) = (false, false);
+    drawn::<Skinned>(|scene| {
+        player.start(0);
+        // What the budget does not reach is not looked at before.
+        let checked = player.check(list, scene.screen(), budget);
+        assert_eq!((scene.objects(), scene.vertices()), (0, 0));
+        player.start(0);
+        let mut left = budget;
+        for _ in 0..3 {
+            let done = player.run(list, scene, &mut left, &mut |_: Notice| {});
+            if let (Err(error), Ok(halt)) = (done, checked) {
+                assert!(halt == Halt::Budget, "{error} was not seen before");
+            }
+            if let Err(first) = checked {
+                let again = done.err().filter(|again| again.offset == first.offset);
+                refused |= again.is_some();
+                assert_eq!(scene.objects() + scene.vertices(), 0, "{first}");
+                break;
+            }
+            ended |= done == Ok(Halt::End);
+            player.command(ListCommand::Resume);
+        }
+        assert!(left.instructions <= budget.instructions);
+        assert!(scene.objects() < 20_000);
+    });
+    (refused, ended)
+}
+
+#[test]
+fn any_bytes_are_refused_whole_or_drawn() {
+    let mut rng = Rng::new(7);
+    let (mut refusals, mut ends) = (0, 0);
+    let mut count = |list: &[u32]| {
+        let (refused, ended) = survives(list);
+        refusals += u32::from(refused);
+        ends += u32::from(ended);
+        ended
+    };
+    let list = rich(&mut rng);
+    assert!(count(&list), "undamaged it comes to its end");
+    for len in 0..list.len() {
+        count(&list[..len]);
+    }
+    for bit in 0..32 * list.len() {
+        let mut list = list.clone();
+        list[bit / 32] ^= 1 << (bit % 32);
+        count(&list);
+    }
+    for _ in 0..2_000 {
+        let mut list = rich(&mut rng);
+        for _ in 0..1 + rng.below(6) {
+            let at = rng.below(list.len() as u32) as usize;
+            list[at] = match rng.below(3) {
+                0 => 0x1100_0000 | rng.below(1 << 12),
+                1 => rng.below(64),
+                _ => rng.below(1 << 16) << 16 | rng.below(1 << 16),
+            };
+        }
+        count(&list);
+    }
+    assert!(refusals > 1_000 && ends > 1_000, "{refusals}, {ends}");
+}
+
+#[test]
+fn a_ring_is_played_as_it_grows() {
+    let triangles: Vec<Vec<u32>> = (0..40).map(triangle).collect();
+    let whole: Vec<u32> = triangles.concat();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Smooth>(Settings::default());
+    let want = drawn::<Smooth>(|scene| {
+        player.start(0);
+        assert_eq!(played(&mut player, &whole[..], scene, PLENTY), Ok(Halt::End));
+        assert!(scene.objects() > 20);
+    });
+    let mut memory: Vec<AtomicU32> = (0..64).map(|_| AtomicU32::new(0)).collect();
+    let mut ring = ListRing::new(&mut memory);
+    let (mut writer, mut reader) = ring.split();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Smooth>(Settings::default());
+    let got = drawn::<Smooth>(|scene| {
+        player.start(0);
+        for block in &triangles {
+            while writer.append(block).is_err() {
+                let words = reader.words();
+                assert_eq!(played(&mut player, words, scene, PLENTY), Ok(Halt::Waiting));
+                reader.free_to(player.position());
+            }
+        }
+        let words = reader.words();
+        assert_eq!(played(&mut player, words, scene, PLENTY), Ok(Halt::Waiting));
+        // What is malformed is refused, and what stands before it stays.
+        writer.append(&[0x0200_0000u32.to_le()]).unwrap();
+        let error = played(&mut player, reader.words(), scene, PLENTY).unwrap_err();
+        assert_eq!(error.reason, Reason::Version(2));
+        assert_eq!(error.offset, 4 * whole.len() as u32);
+    });
+    assert!(got == want);
+}
