@@ -74,6 +74,7 @@ mod palette;
 mod phong;
 mod player;
 mod player_refused;
+mod player_textures;
 mod priority;
 mod rows;
 mod scan_out;

@@ -5,8 +5,8 @@ use crate::listing::{Cloud, PLENTY, in_blocks, some_format, unrolled};
 use crate::played::{Kept, WIDTH, begun, drawn, played};
 use host_tests::lists::writer::ListWriter;
 use scanbeam::list::{
-    FieldForm, Flow, Header, Id, Instruction, Layout, LightWords, Material, Matrix, Palette, SPLIT, State,
-    Strip, TexelForm, Texture as TextureBlock, VertexFormat, Window, normal, read_block,
+    FieldForm, Flow, Header, Id, Instruction, Layout, LightWords, Material, Matrix, Palette, SPLIT,
+    State, Strip, TexelForm, Texture as TextureBlock, VertexFormat, Window, normal, read_block,
 };
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::QuadSplit;
@@ -133,13 +133,19 @@ impl Contents {
     fn palettes(&self, list: &[u32]) -> BTreeMap<u8, Vec<u16>> {
         let palette = |p: &Palette| {
             let mut words = vec![0; 256];
-            for (slot, colour) in words.iter_mut().zip(&list[p.at as usize..][..p.count.into()]) {
+            for (slot, colour) in words
+                .iter_mut()
+                .zip(&list[p.at as usize..][..p.count.into()])
+            {
                 let [r, g, b, _] = colour.to_le_bytes();
                 *slot = Rgb565Be::from_rgb8([r, g, b]);
             }
             words
         };
-        self.palettes.iter().map(|(&n, p)| (n, palette(p))).collect()
+        self.palettes
+            .iter()
+            .map(|(&n, p)| (n, palette(p)))
+            .collect()
     }
 }
 
@@ -315,7 +321,9 @@ fn strips_fans_and_quads_are_what_the_same_calls_draw() {
             }
             let shade = rng.below(4) > 0;
             let kind = rng.below(3);
-            let order: Vec<u16> = (0..4 * rng.below(6)).map(|_| rng.below(40) as u16).collect();
+            let order: Vec<u16> = (0..4 * rng.below(6))
+                .map(|_| rng.below(40) as u16)
+                .collect();
             let faces = match kind {
                 0 | 1 => {
                     let fan = kind == 1;

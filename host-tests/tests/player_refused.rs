@@ -63,7 +63,10 @@ fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: 
         block: Some(block),
         reason,
     };
-    assert_eq!(said::<L>(list, Settings::default(), 64, 8, 4096), Err(error));
+    assert_eq!(
+        said::<L>(list, Settings::default(), 64, 8, 4096),
+        Err(error)
+    );
     assert!(error.to_string().contains(&format!("{at:#x}")), "{error}");
 }
 
@@ -153,7 +156,13 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         colour: [255, 0, 0],
         ..light
     };
-    let (list, at) = state(State::Light { number: 0, light: red }, &[]);
+    let (list, at) = state(
+        State::Light {
+            number: 0,
+            light: red,
+        },
+        &[],
+    );
     refused::<Smooth>(&list, at, Id::State, Reason::Missing(Lights));
     let (list, at) = state(State::Light { number: 0, light }, &[]);
     refused::<Phong<Rgb565Be>>(&list, at, Id::State, Reason::Missing(LightAtVertices));
@@ -374,8 +383,9 @@ fn violations_are_told_and_stop_where_they_are_to() {
 fn rich(rng: &mut Rng) -> Vec<u32> {
     let (mut list, _) = after_a_triangle(|writer| {
         let block = texture(TexelForm::Index4, 1);
-        let at = writer.position();
-        writer.bulk(&State::Texture(block), &[0x1020_0102; 2]).unwrap();
+        writer
+            .bulk(&State::Texture(block), &[0x1020_0102; 2])
+            .unwrap();
         let palette = Palette {
             number: 2,
             count: 4,
@@ -383,7 +393,6 @@ fn rich(rng: &mut Rng) -> Vec<u32> {
         };
         let colours = [0xFF00_FF00, 0xFF12_3456, 0x0000_0000, 0xFFFF_FFFF];
         writer.bulk(&State::Palette(palette), &colours).unwrap();
-        let _ = at;
         let light = LightWords::from(Light::new([0.0, 1.0, 0.4], 0.1).unwrap());
         writer.state(&State::Light { number: 0, light }).unwrap();
         let matrix = Affine::rotation_y(rng.signed() as f32);
@@ -408,7 +417,9 @@ fn rich(rng: &mut Rng) -> Vec<u32> {
         writer.flow(Flow::Pause).unwrap();
         let indices: Vec<_> = (0..9).map(|i| (i != 4).then_some(i % 8)).collect();
         let form = host_tests::lists::writer::Form::Strip;
-        writer.indexed(Some(form), true, indices.into_iter()).unwrap();
+        writer
+            .indexed(Some(form), true, indices.into_iter())
+            .unwrap();
         0
     });
     // A block of a later version, before the end.
@@ -506,7 +517,10 @@ fn a_ring_is_played_as_it_grows() {
     let mut player = kept.player::<Smooth>(Settings::default());
     let want = drawn::<Smooth>(|scene| {
         player.start(0);
-        assert_eq!(played(&mut player, &whole[..], scene, PLENTY), Ok(Halt::End));
+        assert_eq!(
+            played(&mut player, &whole[..], scene, PLENTY),
+            Ok(Halt::End)
+        );
         assert!(scene.objects() > 20);
     });
     let mut memory: Vec<AtomicU32> = (0..64).map(|_| AtomicU32::new(0)).collect();

@@ -18,9 +18,7 @@ const OBJECTS: usize = 20_000;
 const DRAWS: usize = 4_000;
 
 /// The picture of what is drawn by the camera of most tests.
-pub fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
-    build: impl FnOnce(&mut Scene<'_, 't, L>),
-) -> Vec<u16> {
+pub fn drawn<'t, L: Look<Pixel = Rgb565Be>>(build: impl FnOnce(&mut Scene<'_, 't, L>)) -> Vec<u16> {
     let camera = Camera::look_at([0.3, 0.5, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 90.0, 0.1, 99.0);
     begun(&camera.unwrap(), build)
 }

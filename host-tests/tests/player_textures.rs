@@ -1,0 +1,288 @@
+//! Textures of lists as values of the rooms: forms, palettes, transparent texels, and the memory that they take (H7).
+
+use crate::common::Rng;
+use crate::listing::PLENTY;
+use crate::played::{Kept, drawn, played};
+use host_tests::lists::writer::{FieldPacker, ListWriter};
+use scanbeam::list::{
+    FieldForm, Flow, Halt, Header, Id, Lent, ListCommand, Material, Palette, Reason, State,
+    TexelForm, Texture as TextureBlock,
+};
+use scanbeam::look::Textured;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::player::Settings;
+use scanbeam::scene::{Budget, Draw, Skin, Texture, Wrap};
+use scanbeam::{Cull, Faces, Mesh};
+
+type Skinned = Textured<Rgb565Be>;
+
+/// The corners of a quad, and their places on a texture in sides.
+const CORNERS: [[i32; 2]; 4] = [
+    [-16_000, -9_000],
+    [14_000, -9_000],
+    [14_000, 8_000],
+    [-16_000, 8_000],
+];
+const SIDES: [[i32; 2]; 4] = [[0, 9_000], [11_000, 9_000], [11_000, 0], [0, 0]];
+
+/// A quad with the texture of a number, with PRSP or not.
+fn draw_quad(writer: &mut ListWriter<'_>, number: u8, prsp: bool) {
+    let material = Material {
+        texture: Some(number),
+        two_sided: true,
+        ..Material::default()
+    };
+    writer.state(&State::Material(material)).unwrap();
+    let header = Header {
+        text: true,
+        prsp,
+        new: true,
+        rm: true,
+        ..Header::of(Id::Short, 4)
+    };
+    let mut words = Vec::new();
+    let mut packer = FieldPacker::new(|w| words.push(w));
+    for ([x, y], [u, v]) in CORNERS.into_iter().zip(SIDES) {
+        packer.field(FieldForm::S16x3, [x, y, 0, 0]);
+        packer.align();
+        packer.field(FieldForm::U16x2, [u, v, 0, 0]);
+        packer.align();
+    }
+    writer.vertices(header, &words).unwrap();
+}
+
+/// The same by a call, with texels that are words of the panel.
+fn call_quad(texture: &Texture<'_>, budget: Budget) -> Vec<u16> {
+    let positions = CORNERS.map(|[x, y]| [x as i16, y as i16, 0]);
+    let (width, height) = (texture.width() as i32, texture.height() as i32);
+    let places = SIDES.map(|[u, v]| [(u * width) >> 4, (v * height) >> 4]);
+    drawn::<Skinned>(|scene| {
+        let call = Draw {
+            cull: Cull::None,
+            texture: Some(Skin {
+                texture,
+                places: &places,
+                budget,
+            }),
+            ..Draw::new(Mesh {
+                positions: &positions,
+                normals: &[],
+                colours: &[],
+                faces: Faces::Triangles(&[[0, 1, 2], [0, 2, 3]]),
+            })
+        };
+        scene.draw(&call).unwrap();
+    })
+}
+
+/// A texture's block, its words, its palette, and its texels as colours with alpha.
+struct Sample {
+    block: TextureBlock,
+    words: Vec<u32>,
+    colours: Vec<u32>,
+    texels: Vec<[u8; 4]>,
+}
+
+fn sample(rng: &mut Rng, form: TexelForm, has_holes: bool) -> Sample {
+    let block = TextureBlock {
+        number: 1,
+        log_width: 3 + rng.below(3) as u8,
+        log_height: 3 + rng.below(2) as u8,
+        form,
+        levels: 1,
+        palette: 2,
+        clamped: rng.below(2) == 0,
+        at: 0,
+    };
+    let mut colour = |i: u32| {
+        let alpha = if has_holes && i % 3 == 1 { 0 } else { 255 };
+        [
+            rng.below(256) as u8,
+            rng.below(256) as u8,
+            rng.below(256) as u8,
+            alpha,
+        ]
+    };
+    let codes = match form {
+        TexelForm::Index1 => 2,
+        TexelForm::Index2 => 4,
+        TexelForm::Index4 => 16,
+        TexelForm::Index6 => 64,
+        TexelForm::Index8 => 256,
+        _ => 0,
+    };
+    let palette: Vec<[u8; 4]> = (0..codes).map(&mut colour).collect();
+    let count = 1u32 << block.log_width << block.log_height;
+    let mut bits: Vec<u8> = vec![0; 4 * block.words() as usize];
+    let mut texels = Vec::new();
+    for n in 0..count {
+        let direct = colour(n);
+        let code = if codes > 0 { n * 7 % codes } else { 0 };
+        let (value, texel) = match form {
+            TexelForm::Rgb565 => {
+                let [r, g, b, _] = direct;
+                let value = u32::from(r >> 3) << 11 | u32::from(g >> 2) << 5 | u32::from(b >> 3);
+                (
+                    value,
+                    [
+                        r >> 3 << 3 | r >> 5,
+                        g >> 2 << 2 | g >> 6,
+                        b >> 3 << 3 | b >> 5,
+                        255,
+                    ],
+                )
+            }
+            TexelForm::Rgb888 => {
+                let [r, g, b, _] = direct;
+                (u32::from_le_bytes([r, g, b, 0]), [r, g, b, 255])
+            }
+            TexelForm::Rgba => {
+                let [r, g, b, a] = direct;
+                // 7 bits of alpha, and D, which counts where texels are dithered.
+                (
+                    u32::from_le_bytes([r, g, b, a >> 1 | (n as u8 & 1) << 7]),
+                    direct,
+                )
+            }
+            // Two bits of a byte mean nothing.
+            TexelForm::Index6 => (code | (n & 3) << 6, palette[code as usize]),
+            _ => (code, palette[code as usize]),
+        };
+        texels.push(texel);
+        for bit in 0..form.bits() {
+            let at = (n * form.bits() + bit) as usize;
+            bits[at / 8] |= ((value >> bit & 1) as u8) << (at % 8);
+        }
+    }
+    let word = |b: &[u8]| u32::from_le_bytes([b[0], b[1], b[2], b[3]]);
+    Sample {
+        block,
+        words: bits.chunks_exact(4).map(word).collect(),
+        colours: palette.into_iter().map(u32::from_le_bytes).collect(),
+        texels,
+    }
+}
+
+#[test]
+fn textures_of_every_form_are_those_of_calls() {
+    let (mut holes, mut texels) = (0, 0);
+    for form in TexelForm::ALL {
+        for seed in 0..12 {
+            let mut rng = Rng::new(seed);
+            let has_holes = seed % 3 == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
+            let sample = sample(&mut rng, form, has_holes);
+            let prsp = seed % 2 == 0;
+            let mut memory = vec![0; 4096];
+            let mut writer = ListWriter::new(&mut memory);
+            writer
+                .bulk(&State::Texture(sample.block), &sample.words)
+                .unwrap();
+            if !sample.colours.is_empty() {
+                let palette = Palette {
+                    number: 2,
+                    count: sample.colours.len() as u16,
+                    at: 0,
+                };
+                writer
+                    .bulk(&State::Palette(palette), &sample.colours)
+                    .unwrap();
+            }
+            draw_quad(&mut writer, 1, prsp);
+            writer.flow(Flow::End).unwrap();
+            let list = writer.words();
+
+            // A word that is no texel's stands for the holes.
+            let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
+            let is_opaque = |texel: &&[u8; 4]| texel[3] == 255;
+            let opaque: Vec<u16> = sample
+                .texels
+                .iter()
+                .filter(is_opaque)
+                .map(|t| word(*t))
+                .collect();
+            let key = (0..=u16::MAX)
+                .rev()
+                .find(|word| !opaque.contains(word))
+                .unwrap();
+            let words: Vec<u16> = (sample.texels.iter())
+                .map(|texel| if texel[3] == 0 { key } else { word(*texel) })
+                .collect();
+            let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
+            let wrap = match sample.block.clamped {
+                true => Wrap::Clamp,
+                false => Wrap::Repeat,
+            };
+            let texture = Texture::words(&words, width, height)
+                .unwrap()
+                .wrapping(wrap);
+            let texture = if has_holes {
+                texture.keyed(key)
+            } else {
+                texture
+            };
+            let want = call_quad(&texture, if prsp { Budget::BALANCED } else { Budget::FAST });
+            holes += usize::from(has_holes) * want.iter().filter(|word| **word == 0).count();
+
+            let mut kept = Kept::new(64, 96);
+            let mut player = kept.player::<Skinned>(Settings::default());
+            let got = drawn::<Skinned>(|scene| {
+                player.start(0);
+                assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+            });
+            assert!(got == want, "{form:?}, seed {seed}");
+            texels += got.iter().filter(|word| **word != 0).count();
+        }
+    }
+    assert!(holes > 10_000 && texels > 50_000, "{holes}, {texels}");
+}
+
+#[test]
+fn a_texture_is_made_once_for_each_palette() {
+    let mut rng = Rng::new(5);
+    let one = sample(&mut rng, TexelForm::Index8, false);
+    let mut memory = vec![0; 4096];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.bulk(&State::Texture(one.block), &one.words).unwrap();
+    for shift in [0, 8] {
+        let colours: Vec<u32> = one
+            .colours
+            .iter()
+            .map(|c| c.rotate_left(shift) | 0xFF00_0000)
+            .collect();
+        let palette = Palette {
+            number: 2,
+            count: 256,
+            at: 0,
+        };
+        writer.bulk(&State::Palette(palette), &colours).unwrap();
+        draw_quad(&mut writer, 1, false);
+        draw_quad(&mut writer, 1, false);
+    }
+    // The same texture by another number.
+    writer.flow(Flow::LoadTexture { number: 3, at: 0 }).unwrap();
+    draw_quad(&mut writer, 3, false);
+    writer.flow(Flow::End).unwrap();
+    let list = writer.words();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player_with::<Skinned>(Settings::default(), 2, 512);
+    let mut pictures = Vec::new();
+    for begin in [
+        ListCommand::Start(0),
+        ListCommand::Restart,
+        ListCommand::Start(0),
+    ] {
+        pictures.push(drawn::<Skinned>(|scene| {
+            player.command(begin);
+            assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+        }));
+    }
+    assert!(pictures[0] == pictures[1] && pictures[0] == pictures[2]);
+    // One palette less has no room.
+    let mut player = kept.player_with::<Skinned>(Settings::default(), 2, 511);
+    drawn::<Skinned>(|scene| {
+        player.start(0);
+        let error = played(&mut player, list, scene, PLENTY).unwrap_err();
+        assert_eq!(error.reason, Reason::Lent(Lent::Texels));
+        assert_eq!(scene.objects(), 0);
+    });
+}
