@@ -63,13 +63,13 @@ fn triangles_of(list: &[u32]) -> Vec<[Corner; 3]> {
                 let count = usize::from(run.header.count);
                 let place = units(layout.place.form);
                 let mut places = vec![[0.0; 3]; count];
-                layout.place.column(list, run.at, &mut places, |f| {
+                layout.place.column(list, run.at, &mut places, |_, f| {
                     [0, 1, 2].map(|k| f64::from(f[k]) / place[k] * scale + offset[k])
                 });
                 let mut normals = vec![[0.0; 3]; count];
                 if let Some(slot) = layout.normal {
                     let unit = units(slot.form);
-                    slot.column(list, run.at, &mut normals, |f| {
+                    slot.column(list, run.at, &mut normals, |_, f| {
                         [0, 1, 2].map(|k| f64::from(f[k]) / unit[k])
                     });
                 }

@@ -499,7 +499,7 @@ fn columns_hold_what_was_packed() {
             assert_eq!(vertices.len() as u32, form.words() * u32::from(count));
             let slot = Slot { form, word: 0 };
             let mut got = std::vec![[0; 3]; usize::from(count)];
-            slot.column(&column[..], 0, &mut got, |v| v);
+            slot.column(&column[..], 0, &mut got, |_, v| v);
             assert_eq!(got, values, "{form:?}");
             let each = form.words();
             let got: Vec<_> = (0..u32::from(count))

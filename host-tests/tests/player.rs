@@ -77,12 +77,12 @@ fn contents(list: &[u32]) -> Contents {
                     FieldForm::S16x3 => 0,
                     form => panic!("{form:?}"),
                 };
-                let place = |f: [i32; 3]| f.map(|c| (c << up) as i16);
+                let place = |_, f: [i32; 3]| f.map(|c| (c << up) as i16);
                 (layout.place).column(words, run.at, &mut table.positions, place);
                 let slot = layout.normal.unwrap();
-                slot.column(words, run.at, &mut table.normals, |f| normal(slot.form, f));
+                slot.column(words, run.at, &mut table.normals, normal);
                 if let Some(slot) = layout.texture {
-                    slot.column(words, run.at, &mut table.places, |[u, v, _]| [u, v]);
+                    slot.column(words, run.at, &mut table.places, |_, [u, v, _]| [u, v]);
                 }
                 contents.tables.push(table);
             }

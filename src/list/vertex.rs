@@ -181,48 +181,47 @@ impl Slot {
     }
 
     /// Fills `out` with the column of the table that begins at `at`: as many as `out` is long,
-    /// at most 65,535.
+    /// at most 65,535. `of` is told the form, which the compiler knows where it is called.
     #[inline]
     pub fn column<'w, T>(
         self,
         words: impl Words<'w>,
         at: u32,
         out: &mut [T],
-        of: impl Fn([i32; 3]) -> T,
+        of: impl Fn(FieldForm, [i32; 3]) -> T,
     ) {
         let at = at.wrapping_add(self.word);
         let len = self.form.column_words(out.len().min(0xFFFF) as u16);
-        match words.slice(at, len) {
+        if let (FieldForm::S8x3, Some(slice)) = (self.form, words.slice(at, len)) {
             // Whole threes of words, without a question for each whether it is there.
-            Some(slice) if self.form == FieldForm::S8x3 => {
-                let (threes, whole) = (slice.chunks_exact(3), out.len() / 4 * 4);
-                let rest = threes.remainder();
-                let (fours, end) = out.split_at_mut(whole);
-                for (three, four) in threes.clone().zip(fours.chunks_exact_mut(4)) {
-                    if let ([a, b, c], [p, q, r, s]) = (three, four) {
-                        let w = four_of([a, b, c].map(|w| u32::from_le(*w)));
-                        let value = |w| of(fields(FieldForm::S8x3, [w, 0, 0]));
-                        (*p, *q, *r, *s) = (value(w[0]), value(w[1]), value(w[2]), value(w[3]));
-                    }
+            let (threes, whole) = (slice.chunks_exact(3), out.len() / 4 * 4);
+            let rest = threes.remainder();
+            let (fours, end) = out.split_at_mut(whole);
+            for (three, four) in threes.clone().zip(fours.chunks_exact_mut(4)) {
+                if let ([a, b, c], [p, q, r, s]) = (three, four) {
+                    let w = four_of([a, b, c].map(|w| u32::from_le(*w)));
+                    let value = |w| of(FieldForm::S8x3, fields(FieldForm::S8x3, [w, 0, 0]));
+                    (*p, *q, *r, *s) = (value(w[0]), value(w[1]), value(w[2]), value(w[3]));
                 }
-                // Three left over take three words, which then are no remainder.
-                let rest = if end.len() == 3 {
-                    slice.get(slice.len().saturating_sub(3)..).unwrap_or(rest)
-                } else {
-                    rest
-                };
-                let words = rest.iter().map(|w| u32::from_le(*w));
-                column(self.form, words, end, of);
             }
-            Some(slice) => {
-                let words = slice.iter().map(|w| u32::from_le(*w));
-                column(self.form, words, out, of);
-            }
-            None => {
-                let words = (0..len).map(|n| words.word(at.wrapping_add(n)));
-                column(self.form, words, out, of);
-            }
+            // Three left over take three words, which then are no remainder.
+            let rest = if end.len() == 3 {
+                slice.get(slice.len().saturating_sub(3)..).unwrap_or(rest)
+            } else {
+                rest
+            };
+            let mut rest = rest.iter().map(|w| u32::from_le(*w));
+            let next = || rest.next().unwrap_or(0);
+            bytes(FieldForm::S8x3, next, end, |f| of(FieldForm::S8x3, f));
+            return;
         }
+        let mut place = at;
+        let next = || {
+            let word = words.word(place);
+            place = place.wrapping_add(1);
+            word
+        };
+        column(self.form, next, out, of);
     }
 
     /// The column itself, where it lies in one piece and is of this type: `[T; 3]` for each.
@@ -252,35 +251,42 @@ impl Slot {
 #[inline(always)]
 fn column<T>(
     form: FieldForm,
-    mut words: impl Iterator<Item = u32>,
+    mut next: impl FnMut() -> u32,
     out: &mut [T],
-    of: impl Fn([i32; 3]) -> T,
+    of: impl Fn(FieldForm, [i32; 3]) -> T,
 ) {
-    // The words are as many as the column has; what the last of them lacks is 0.
-    let mut next = move || words.next().unwrap_or(0);
+    const FOUR: FieldForm = FieldForm::U8x4;
+    const TEN: FieldForm = FieldForm::S10x3;
+    const HALVES: FieldForm = FieldForm::S16x3;
+    const WORDS: FieldForm = FieldForm::S32x3;
     match form {
-        FieldForm::U8x3 => bytes(FieldForm::U8x3, next, out, of),
-        FieldForm::S8x3 => bytes(FieldForm::S8x3, next, out, of),
-        FieldForm::S16x3 => {
+        FieldForm::U8x3 | FieldForm::S8x3 => bytes(form, next, out, |f| of(form, f)),
+        HALVES => {
+            let value = |words| of(HALVES, fields(HALVES, words));
             for pair in out.chunks_mut(2) {
                 let (a, b) = (next(), next());
                 if let [first, rest @ ..] = pair {
-                    *first = of(fields(form, [a, b, 0]));
+                    *first = value([a, b, 0]);
                     if let [second, ..] = rest {
                         let c = next();
-                        *second = of(fields(form, [b >> 16 | c << 16, c >> 16, 0]));
+                        *second = value([b >> 16 | c << 16, c >> 16, 0]);
                     }
                 }
             }
         }
-        FieldForm::S32x3 => {
+        WORDS => {
             for slot in out {
-                *slot = of(fields(form, [next(), next(), next()]));
+                *slot = of(WORDS, fields(WORDS, [next(), next(), next()]));
             }
         }
-        form => {
+        TEN => {
             for slot in out {
-                *slot = of(fields(form, [next(), 0, 0]));
+                *slot = of(TEN, fields(TEN, [next(), 0, 0]));
+            }
+        }
+        FOUR | FieldForm::U16x2 | FieldForm::U32x1 => {
+            for slot in out {
+                *slot = of(form, fields(form, [next(), 0, 0]));
             }
         }
     }

@@ -58,7 +58,7 @@ impl Unpacked {
                         faces: (filed, filed),
                     };
                     let out = &mut all.normals[used..used + usize::from(count)];
-                    slot.column(list, run.at, out, |f| normal(slot.form, f));
+                    slot.column(list, run.at, out, normal);
                     used += usize::from(count);
                     tables += 1;
                 }

@@ -95,7 +95,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
             return Placed::Lacking;
         };
         if table.placed != Some(sides) {
-            slot.column(words, table.at, out, |[u, v, _]| texels([u, v], sides));
+            slot.column(words, table.at, out, |_, [u, v, _]| texels([u, v], sides));
             table.placed = Some(sides);
         }
         Placed::At(0..n)

@@ -1,8 +1,8 @@
 //! A table of vertices, and triangles of it by index.
 
-use super::fill::{Filled, fill, fill_one};
+use super::fill::{End, Rules, fill};
 use super::{Column, Gather, Kind, ListCoordinate, Out, Refusal, Table};
-use crate::list::{FieldForm, Layout, Run, SEPARATE, VertexFormat, WIDE, Words, colour, normal};
+use crate::list::{FieldForm, Layout, Run, VertexFormat, WIDE, Words, colour, normal};
 
 impl<C: ListCoordinate> Gather<'_, C> {
     /// Takes a table: columns that cannot be used where they lie are unpacked.
@@ -58,23 +58,19 @@ impl<C: ListCoordinate> Gather<'_, C> {
         if let (Column::Unpacked, Some(out)) = (table.place, m.positions.get_mut(..n)) {
             self.base = n;
             // One that is too fine is not used.
-            place.column(words, at, out, |f| C::of(place.form, f).unwrap_or_default());
+            place.column(words, at, out, |form, f| C::of(form, f).unwrap_or_default());
         }
         if let (Column::Unpacked, Some(slot), Some(out)) =
             (table.normal, layout.normal, m.normals.get_mut(..n))
         {
             self.base = n;
-            match slot.form {
-                FieldForm::S8x3 => slot.column(words, at, out, |f| normal(FieldForm::S8x3, f)),
-                FieldForm::S10x3 => slot.column(words, at, out, |f| normal(FieldForm::S10x3, f)),
-                form => slot.column(words, at, out, |f| normal(form, f)),
-            }
+            slot.column(words, at, out, normal);
         }
         if let (Column::Unpacked, Some(slot), Some(out)) =
             (table.colour, layout.colour, m.colours.get_mut(..n))
         {
             self.base = n;
-            slot.column(words, at, out, colour);
+            slot.column(words, at, out, |_, f| colour(f));
         }
         // Room for texture places, which are unpacked when something is drawn.
         let placed = out.textured && table.texture.is_some();
@@ -115,122 +111,81 @@ impl<C: ListCoordinate> Gather<'_, C> {
         if run.header.new {
             self.strip.restart();
         }
-        let count = usize::from(run.header.count);
-        let wide = run.header.low & WIDE != 0;
-        let len = count.div_ceil(if wide { 2 } else { 4 });
-        let slice = words.slice(run.at, len as u32);
-        let in_place = slice.filter(|_| cfg!(target_endian = "little"));
-        match (in_place, wide) {
-            (Some(slice), false) => {
-                let bytes: &[u8] = bytemuck::cast_slice(slice);
-                let bytes = bytes.get(..count).unwrap_or(&[]);
-                let indices = bytes.iter().map(|i| u16::from(*i));
-                self.faces(words, table.count, run, 0xFF, indices, out)
-            }
-            (Some(slice), true) => {
-                let halves: &[u16] = bytemuck::cast_slice(slice);
-                let indices = halves.get(..count).unwrap_or(&[]).iter().copied();
-                self.faces(words, table.count, run, 0xFFFF, indices, out)
-            }
-            (None, _) => {
-                let (each, bits, restart) = if wide { (2, 16, 0xFFFF) } else { (4, 8, 0xFF) };
-                let indices = (0..count as u32).map(|n| {
-                    let word = words.word(run.at.wrapping_add(n / each));
-                    (word >> (bits * (n % each))) as u16 & restart
-                });
-                self.faces(words, table.count, run, restart, indices, out)
-            }
+        let rules = Rules::of(run.header, table.count);
+        let mut some = [0; AT_ONCE];
+        let mut from = 0;
+        while from < run.header.count {
+            let n = usize::from(run.header.count - from).min(AT_ONCE);
+            let some = some.get_mut(..n).unwrap_or_default();
+            unpack(words, run, from, some);
+            self.faces(words, some, &rules, out)?;
+            from += n as u16;
         }
+        Ok(())
     }
 
-    /// Strips and fans each in a loop of their own: what is asked once a block is not asked once
-    /// an index.
-    #[inline]
+    /// Takes some indices.
     fn faces<'w>(
         &mut self,
         words: impl Words<'w>,
-        count: u16,
-        run: Run,
-        restart: u16,
-        indices: impl Iterator<Item = u16>,
+        mut rest: &[u16],
+        rules: &Rules,
         out: &mut Out<'_, C>,
     ) -> Result<(), Refusal> {
-        if run.header.rm {
-            self.faces_as::<true>(words, count, run, restart, indices, out)
-        } else {
-            self.faces_as::<false>(words, count, run, restart, indices, out)
+        loop {
+            let free = self.memory.indices.get_mut(self.indices..);
+            let filled = fill(rest, free.unwrap_or_default(), &mut self.strip, rules);
+            self.indices += 3 * filled.faces;
+            rest = rest.get(filled.read..).unwrap_or_default();
+            match filled.end {
+                End::All => return Ok(()),
+                End::Bad(index) => {
+                    return Err(Refusal::Index {
+                        index,
+                        count: rules.count,
+                    });
+                }
+                End::Full => {
+                    self.flush(words, out);
+                    if self.memory.indices.len() < 3 {
+                        return Err(Refusal::Indices);
+                    }
+                }
+            }
         }
     }
+}
 
-    #[inline]
-    fn faces_as<'w, const FAN: bool>(
-        &mut self,
-        words: impl Words<'w>,
-        count: u16,
-        run: Run,
-        restart: u16,
-        indices: impl Iterator<Item = u16>,
-        out: &mut Out<'_, C>,
-    ) -> Result<(), Refusal> {
-        let separate = run.header.low & SEPARATE != 0;
-        let mut indices = indices;
-        let mut used = self.indices;
-        let mut result = Ok(());
-        'all: while let Some(index) = indices.next() {
-            if index >= count {
-                if index == restart && !separate {
-                    self.strip.restart();
-                    continue;
-                }
-                result = Err(Refusal::Index { index, count });
-                break;
-            }
-            let Some(mut face) = self.strip.push(index, FAN) else {
-                continue;
-            };
-            if separate {
-                self.strip.restart();
-            }
-            let mut odd = self.strip.odd;
-            loop {
-                let free = self.memory.indices.get_mut(used..).unwrap_or(&mut []);
-                let (faces, end) = if separate {
-                    fill_one(free, face)
-                } else {
-                    fill::<FAN>(&mut indices, free, count, &mut face, &mut odd)
-                };
-                used += 3 * faces;
-                match end {
-                    Filled::Full => {
-                        self.indices = used;
-                        self.flush(words, out);
-                        used = 0;
-                        if self.memory.indices.len() < 3 {
-                            result = Err(Refusal::Indices);
-                            break 'all;
-                        }
-                    }
-                    Filled::One => break,
-                    Filled::Until(other) => {
-                        let [p, q, newest] = face;
-                        self.strip.corners = if odd { [q, p, newest] } else { face };
-                        self.strip.odd = odd;
-                        match other {
-                            None => break 'all,
-                            Some(index) if index == restart => {
-                                self.strip.restart();
-                                break;
-                            }
-                            Some(index) => {
-                                result = Err(Refusal::Index { index, count });
-                                break 'all;
-                            }
-                        }
-                    }
-                }
+/// Indices that are unpacked at once: whole words, and whole triangles.
+const AT_ONCE: usize = 48;
+
+/// Unpacks the indices of a block from one on, which is the first of a word.
+fn unpack<'w>(words: impl Words<'w>, run: Run, from: u16, some: &mut [u16]) {
+    let wide = run.header.low & WIDE != 0;
+    let mut at = (run.at).wrapping_add(u32::from(from) / if wide { 2 } else { 4 });
+    let mut next = || {
+        let word = words.word(at);
+        at = at.wrapping_add(1);
+        word
+    };
+    if wide {
+        for pair in some.chunks_mut(2) {
+            let word = next();
+            for (slot, half) in pair.iter_mut().zip([word as u16, (word >> 16) as u16]) {
+                *slot = half;
             }
         }
-        self.indices = used;
-        result
+        return;
+    }
+    let mut fours = some.chunks_exact_mut(4);
+    for four in &mut fours {
+        let bytes = next().to_le_bytes().map(u16::from);
+        four.copy_from_slice(&bytes);
+    }
+    let rest = fours.into_remainder();
+    if !rest.is_empty() {
+        for (slot, byte) in rest.iter_mut().zip(next().to_le_bytes()) {
+            *slot = byte.into();
+        }
     }
 }
