@@ -211,6 +211,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
     }
 
     /// The mesh; `None` where it has nothing that is drawn.
+    #[inline(never)]
     fn gathered<'s, 'w: 's>(
         &'s self,
         words: impl Words<'w>,
@@ -265,6 +266,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
     }
 
     /// Moves the vertices of the strip to the front; places on a texture as they were gathered.
+    #[inline(never)]
     fn keep(&mut self, has: Attributes, places: [[i32; 2]; 3]) {
         fn moved<T: Copy>(slice: &mut [T], base: usize, from: [u16; 3], have: usize) {
             let mut kept = [None; 3];

@@ -83,6 +83,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
     }
 
     /// The same of the table.
+    #[inline(never)]
     fn place_table<'w>(&mut self, words: impl Words<'w>, sides: [u8; 2]) -> Placed {
         let Some(table) = self.table.as_mut() else {
             return Placed::None;

@@ -9,6 +9,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
     ///
     /// # Errors
     /// When there is no room, or the coordinates are too fine for `C`.
+    #[inline(never)]
     pub(crate) fn table<'w>(
         &mut self,
         words: impl Words<'w>,
@@ -94,6 +95,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
     ///
     /// # Errors
     /// When the table was refused, an index is not one of it, or there is no room for a face.
+    #[inline(never)]
     pub(crate) fn indexed<'w>(
         &mut self,
         words: impl Words<'w>,
@@ -112,23 +114,30 @@ impl<C: ListCoordinate> Gather<'_, C> {
             self.strip.restart();
         }
         let rules = Rules::of(run.header, table.count);
+        let len = u32::from(run.header.count).div_ceil(4);
+        if let (0, Some(slice)) = (run.header.low & WIDE, words.slice(run.at, len)) {
+            let bytes: &[u8] = bytemuck::cast_slice(slice);
+            let bytes = bytes.get(..run.header.count.into()).unwrap_or_default();
+            return self.faces(words, bytes, &rules, out);
+        }
         let mut some = [0; AT_ONCE];
         let mut from = 0;
         while from < run.header.count {
             let n = usize::from(run.header.count - from).min(AT_ONCE);
             let some = some.get_mut(..n).unwrap_or_default();
             unpack(words, run, from, some);
-            self.faces(words, some, &rules, out)?;
+            self.faces(words, &*some, &rules, out)?;
             from += n as u16;
         }
         Ok(())
     }
 
     /// Takes some indices.
-    fn faces<'w>(
+    #[inline(never)]
+    fn faces<'w, I: Copy + Into<u16>>(
         &mut self,
         words: impl Words<'w>,
-        mut rest: &[u16],
+        mut rest: &[I],
         rules: &Rules,
         out: &mut Out<'_, C>,
     ) -> Result<(), Refusal> {
@@ -160,6 +169,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
 const AT_ONCE: usize = 48;
 
 /// Unpacks the indices of a block from one on, which is the first of a word.
+#[inline(never)]
 fn unpack<'w>(words: impl Words<'w>, run: Run, from: u16, some: &mut [u16]) {
     let wide = run.header.low & WIDE != 0;
     let mut at = (run.at).wrapping_add(u32::from(from) / if wide { 2 } else { 4 });

@@ -9,6 +9,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
     ///
     /// # Errors
     /// When there is no room, or the coordinates are too fine for `C`.
+    #[inline(never)]
     pub(crate) fn run<'w>(
         &mut self,
         words: impl Words<'w>,
