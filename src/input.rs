@@ -29,8 +29,12 @@
 //!     Ok(())
 //! }
 //! ```
+//!
+//! A [`Player`] does the same for a [`scene::Scene`](crate::scene::Scene): see there.
 
-pub use crate::player::{ListCoordinate, OnViolation, RunCounts};
+pub use crate::player::{
+    ListCoordinate, OnViolation, Player, PlayerMemory, PlayerSettings, RunCounts, TextureRoom,
+};
 pub use crate::renderer::{
     Command, EightLights, Input, InputError, InputQueue, ListLights, ListMemory, ListRunner,
     ListSettings, OneLight, Source, Stalled, Stream,

@@ -91,7 +91,7 @@ pub mod overlay;
 pub mod parallel;
 pub mod pipeline;
 pub mod pixel;
-pub mod player;
+mod player;
 mod renderer;
 pub mod scan_out;
 pub mod scene;

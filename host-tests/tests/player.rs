@@ -4,6 +4,7 @@ use crate::common::Rng;
 use crate::listing::{Cloud, PLENTY, in_blocks, some_format, unrolled};
 use crate::played::{Kept, WIDTH, begun, drawn, played};
 use host_tests::lists::writer::ListWriter;
+use scanbeam::input::PlayerSettings;
 use scanbeam::list::{
     FieldForm, Flow, Header, Id, Instruction, Layout, LightWords, Material, Matrix, Palette, SPLIT,
     State, Strip, TexelForm, Texture as TextureBlock, VertexFormat, Window, normal, read_block,
@@ -11,7 +12,6 @@ use scanbeam::list::{
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::player::Settings;
 use scanbeam::scene::{
     Blend, Budget, DepthFunction, DepthTest, Draw, Scene, Scissor, Shading, Skin, Texture,
 };
@@ -274,10 +274,10 @@ fn some_state(rng: &mut Rng, writer: &mut ListWriter<'_>, begin: &Told, told: &m
     told.call.light = told.light.filter(|_| !told.unlit);
 }
 
-/// Settings of all kinds that a list cannot say.
-fn some_settings(rng: &mut Rng) -> Settings<'static, 'static> {
-    let settings = Settings::default();
-    Settings {
+/// PlayerSettings of all kinds that a list cannot say.
+fn some_settings(rng: &mut Rng) -> PlayerSettings<'static, 'static> {
+    let settings = PlayerSettings::default();
+    PlayerSettings {
         draw: Draw {
             model: Affine::rotation_x(rng.signed() as f32),
             cull: rng.pick(&[Cull::Back, Cull::None]),
@@ -442,7 +442,7 @@ fn settings_grant_a_window() {
     };
     let settings = Played::settings();
     let all = draw(settings);
-    let cut = draw(Settings {
+    let cut = draw(PlayerSettings {
         window: Some(window),
         ..settings
     });

@@ -5,6 +5,7 @@ use crate::listing::{PLENTY, triangle};
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::event::{Event, Notice};
+use scanbeam::input::{OnViolation, Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{
     Budget, CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListCommand,
     ListError, ListRing, Material, Matrix, Missing, Overlay, Palette, Reason, State, TexelForm,
@@ -12,7 +13,6 @@ use scanbeam::list::{
 };
 use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::player::{Memory, OnViolation, Player, Settings};
 use scanbeam::scene::{Draw, Scissor};
 use scanbeam::{Affine, Light};
 use scenes::Played;
@@ -37,7 +37,7 @@ fn after_a_triangle(write: impl FnOnce(&mut ListWriter<'_>) -> u32) -> (Vec<u32>
 /// What a player says to a list: nothing of it must be drawn where that is an error.
 fn said<'t, L: Look<Pixel = Rgb565Be>>(
     list: &'t [u32],
-    settings: Settings<'t, 't>,
+    settings: PlayerSettings<'t, 't>,
     vertices: usize,
     textures: usize,
     texels: usize,
@@ -64,7 +64,7 @@ fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: 
         reason,
     };
     assert_eq!(
-        said::<L>(list, Settings::default(), 64, 8, 4096),
+        said::<L>(list, PlayerSettings::default(), 64, 8, 4096),
         Err(error)
     );
     assert!(error.to_string().contains(&format!("{at:#x}")), "{error}");
@@ -244,7 +244,7 @@ fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
             reason,
         })
     };
-    let settings = Settings::default();
+    let settings = PlayerSettings::default();
     assert_eq!(said::<Skinned>(words, settings, 64, 1, 256), Ok(Halt::End));
     let full = reason(Reason::Lent(Lent::Textures));
     assert_eq!(said::<Skinned>(words, settings, 64, 0, 256), full);
@@ -255,7 +255,7 @@ fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
     let (words, at) = list(TexelForm::Rgba, 0xFF20_4060, false);
     let words: &[u32] = Vec::leak(words);
     assert_eq!(said::<Skinned>(words, settings, 64, 1, 16), Ok(Halt::End));
-    let dithered = Settings {
+    let dithered = PlayerSettings {
         draw: Draw {
             dither: true,
             ..settings.draw
@@ -273,13 +273,13 @@ fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
 #[test]
 fn what_memory_scene_or_settings_do_not_allow_is_refused() {
     let teapot = Played::Teapot.list().unwrap();
-    let settings = Settings::default();
+    let settings = PlayerSettings::default();
     let error = said::<Smooth>(teapot, settings, 64, 0, 0).unwrap_err();
     assert_eq!(
         (error.block, error.reason),
         (Some(Id::Table), Reason::Lent(Lent::Vertices))
     );
-    let lit = Settings {
+    let lit = PlayerSettings {
         draw: Draw {
             light: Light::new([0.0, 1.0, 0.0], 0.1),
             ..settings.draw
@@ -299,7 +299,7 @@ fn what_memory_scene_or_settings_do_not_allow_is_refused() {
         writer.state(&State::Window(window)).unwrap();
         0
     });
-    let cut = Settings {
+    let cut = PlayerSettings {
         draw: Draw {
             scissor: Some(Scissor::outside(3..5, 3..5)),
             ..settings.draw
@@ -312,7 +312,7 @@ fn what_memory_scene_or_settings_do_not_allow_is_refused() {
         (at, Reason::Missing(Missing::SecondScissor))
     );
     // A scene that was not begun.
-    let mut player = Player::<Smooth>::new(Memory::default(), settings);
+    let mut player = Player::<Smooth>::new(PlayerMemory::default(), settings);
     let screen = scanbeam::Screen::new(8, 8).unwrap();
     let memory = scanbeam::scene::Memory {
         vertices: &mut [],
@@ -353,9 +353,9 @@ fn violations_are_told_and_stop_where_they_are_to() {
     });
     let list: &[u32] = Vec::leak(list);
     for on_violation in [OnViolation::GoOn, OnViolation::Stop] {
-        let settings = Settings {
+        let settings = PlayerSettings {
             on_violation,
-            ..Settings::default()
+            ..PlayerSettings::default()
         };
         let mut kept = Kept::new(64, 96);
         let mut player = kept.player::<Smooth>(settings);
@@ -439,9 +439,9 @@ fn survives(list: &[u32]) -> (bool, bool) {
     };
     let mut kept = Kept::new(64, 96);
     let mut player = kept.player_with::<Skinned>(
-        Settings {
+        PlayerSettings {
             camera: true,
-            ..Settings::default()
+            ..PlayerSettings::default()
         },
         4,
         600,
@@ -514,7 +514,7 @@ fn a_ring_is_played_as_it_grows() {
     let triangles: Vec<Vec<u32>> = (0..40).map(triangle).collect();
     let whole: Vec<u32> = triangles.concat();
     let mut kept = Kept::new(64, 96);
-    let mut player = kept.player::<Smooth>(Settings::default());
+    let mut player = kept.player::<Smooth>(PlayerSettings::default());
     let want = drawn::<Smooth>(|scene| {
         player.start(0);
         assert_eq!(
@@ -527,7 +527,7 @@ fn a_ring_is_played_as_it_grows() {
     let mut ring = ListRing::new(&mut memory);
     let (mut writer, mut reader) = ring.split();
     let mut kept = Kept::new(64, 96);
-    let mut player = kept.player::<Smooth>(Settings::default());
+    let mut player = kept.player::<Smooth>(PlayerSettings::default());
     let got = drawn::<Smooth>(|scene| {
         player.start(0);
         for block in &triangles {

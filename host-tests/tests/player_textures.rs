@@ -4,13 +4,13 @@ use crate::common::Rng;
 use crate::listing::PLENTY;
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
+use scanbeam::input::PlayerSettings;
 use scanbeam::list::{
     FieldForm, Flow, Halt, Header, Id, Lent, ListCommand, Material, Palette, Reason, State,
     TexelForm, Texture as TextureBlock,
 };
 use scanbeam::look::Textured;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::player::Settings;
 use scanbeam::scene::{Budget, Draw, Skin, Texture, Wrap};
 use scanbeam::{Cull, Faces, Mesh};
 
@@ -224,7 +224,7 @@ fn textures_of_every_form_are_those_of_calls() {
             holes += usize::from(has_holes) * want.iter().filter(|word| **word == 0).count();
 
             let mut kept = Kept::new(64, 96);
-            let mut player = kept.player::<Skinned>(Settings::default());
+            let mut player = kept.player::<Skinned>(PlayerSettings::default());
             let got = drawn::<Skinned>(|scene| {
                 player.start(0);
                 assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
@@ -264,7 +264,7 @@ fn a_texture_is_made_once_for_each_palette() {
     writer.flow(Flow::End).unwrap();
     let list = writer.words();
     let mut kept = Kept::new(64, 96);
-    let mut player = kept.player_with::<Skinned>(Settings::default(), 2, 512);
+    let mut player = kept.player_with::<Skinned>(PlayerSettings::default(), 2, 512);
     let mut pictures = Vec::new();
     for begin in [
         ListCommand::Start(0),
@@ -278,7 +278,7 @@ fn a_texture_is_made_once_for_each_palette() {
     }
     assert!(pictures[0] == pictures[1] && pictures[0] == pictures[2]);
     // One palette less has no room.
-    let mut player = kept.player_with::<Skinned>(Settings::default(), 2, 511);
+    let mut player = kept.player_with::<Skinned>(PlayerSettings::default(), 2, 511);
     drawn::<Skinned>(|scene| {
         player.start(0);
         let error = played(&mut player, list, scene, PLENTY).unwrap_err();

@@ -75,7 +75,7 @@
 //! | `flow.rs` | which block comes next: jumps, commands, budget |
 //!
 //! Lists are written on the host: `scanbeam bake` makes them of models.
-//! A list is drawn by a [`Player`](crate::player::Player) into a scene of the rooms, or by the
+//! A list is drawn by a [`Player`](crate::input::Player) into a scene of the rooms, or by the
 //! [`ListRunner`](crate::input::ListRunner) of the renderer; this room knows neither.
 
 mod block;

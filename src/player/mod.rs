@@ -40,5 +40,5 @@ mod textures;
 pub use gather::ListCoordinate;
 pub(crate) use gather::{Gather, Gathered, Out, Places, Refusal, Unpacked, texels};
 pub use outcome::{OnViolation, RunCounts};
-pub use play::{Memory, Player, Settings};
+pub use play::{Player, PlayerMemory, PlayerSettings};
 pub use textures::TextureRoom;

@@ -20,7 +20,7 @@ use core::marker::PhantomData;
 /// the least; what a list's largest table needs is in its HEAD. Columns of a table that have a mesh's own form are
 /// used where they lie, and need none.
 #[derive(Default)]
-pub struct Memory<'m, 't> {
+pub struct PlayerMemory<'m, 't> {
     /// Places, 6 bytes each.
     pub positions: &'m mut [[i16; 3]],
     /// Normals, 6 bytes each.
@@ -43,7 +43,7 @@ pub struct Memory<'m, 't> {
 
 /// What a list starts from, and what it may do.
 #[derive(Clone, Copy, Debug)]
-pub struct Settings<'m, 't> {
+pub struct PlayerSettings<'m, 't> {
     /// How the list begins: `model` takes its world to the application's; `cull`, `colour` and the lights are those
     /// until the list says otherwise; its mesh and its texture are not looked at, and the rest stays.
     pub draw: Draw<'m, 't>,
@@ -59,7 +59,7 @@ pub struct Settings<'m, 't> {
     pub control: Option<&'m ListControl>,
 }
 
-impl Default for Settings<'_, '_> {
+impl Default for PlayerSettings<'_, '_> {
     /// White, not lit, faces from behind dropped, no camera of its own.
     fn default() -> Self {
         Self {
@@ -84,7 +84,7 @@ impl Default for Settings<'_, '_> {
 /// use scanbeam::event::Notice;
 /// use scanbeam::list::{Budget, words_of};
 /// use scanbeam::look::Look;
-/// use scanbeam::player::{Memory, Player, Settings};
+/// use scanbeam::input::{Player, PlayerMemory, PlayerSettings};
 /// use scanbeam::scene::Scene;
 ///
 /// /// `bytes` come from `include_list!("teapot.list")`; the memory is for one table of the list.
@@ -92,13 +92,13 @@ impl Default for Settings<'_, '_> {
 ///     scene: &mut Scene<'_, 't, L>,
 ///     bytes: &'t [u8],
 /// ) -> Result<(), Box<dyn std::error::Error>> {
-///     let memory = Memory {
+///     let memory = PlayerMemory {
 ///         positions: &mut [[0; 3]; 255],
 ///         normals: &mut [[0; 3]; 255],
 ///         indices: &mut [0; 1536],
-///         ..Memory::default()
+///         ..PlayerMemory::default()
 ///     };
-///     let mut player = Player::new(memory, Settings::default());
+///     let mut player = Player::new(memory, PlayerSettings::default());
 ///     player.start(0);
 ///     // An error says which block is malformed, or asks for what there is not, and where.
 ///     let mut budget = Budget::of(10_000);
@@ -107,7 +107,7 @@ impl Default for Settings<'_, '_> {
 /// }
 /// ```
 pub struct Player<'m, 't, L> {
-    pub(super) settings: Settings<'m, 't>,
+    pub(super) settings: PlayerSettings<'m, 't>,
     pub(super) walker: Walker,
     pub(super) gather: Gather<'m, i16>,
     pub(super) names: TextureSlots<'m>,
@@ -130,7 +130,7 @@ pub(super) struct Stage<'s, 'm, 't, L> {
 impl<'m, 't, L: Look> Player<'m, 't, L> {
     /// Stopped; [`start`](Player::start) begins.
     #[must_use]
-    pub fn new(memory: Memory<'m, 't>, settings: Settings<'m, 't>) -> Self {
+    pub fn new(memory: PlayerMemory<'m, 't>, settings: PlayerSettings<'m, 't>) -> Self {
         Self {
             walker: Walker::new(),
             gather: Gather::new(Unpacked {
@@ -168,7 +168,7 @@ impl<'m, 't, L: Look> Player<'m, 't, L> {
     }
 
     /// Other settings, from the next start on.
-    pub fn set(&mut self, settings: Settings<'m, 't>) {
+    pub fn set(&mut self, settings: PlayerSettings<'m, 't>) {
         self.settings = settings;
     }
 

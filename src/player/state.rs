@@ -1,7 +1,7 @@
 //! The draw call that blocks of state change.
 
 use super::gather::{Gathered, Places};
-use super::{RunCounts, Settings};
+use super::{PlayerSettings, RunCounts};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
 use crate::list::{Lent, Material, Reason};
@@ -27,7 +27,7 @@ pub(super) struct State<'m, 't> {
 
 impl<'m, 't> State<'m, 't> {
     /// What the settings begin with.
-    pub(super) fn new(settings: &Settings<'m, 't>) -> Self {
+    pub(super) fn new(settings: &PlayerSettings<'m, 't>) -> Self {
         let draw = settings.draw;
         let material = Material {
             diffuse: draw.colour,
@@ -48,7 +48,7 @@ impl<'m, 't> State<'m, 't> {
     }
 
     /// The list's matrix, in the world of the settings.
-    pub(super) fn place(&mut self, matrix: &Affine, settings: &Settings<'_, '_>) {
+    pub(super) fn place(&mut self, matrix: &Affine, settings: &PlayerSettings<'_, '_>) {
         self.draw.model = matrix.then(&settings.draw.model);
     }
 
@@ -80,7 +80,7 @@ impl<'m, 't> State<'m, 't> {
     }
 
     /// The scissor from now on: the window that was asked for, or else what is granted.
-    pub(super) fn cut(&mut self, settings: &Settings<'_, '_>, scissor: Option<Scissor>) {
+    pub(super) fn cut(&mut self, settings: &PlayerSettings<'_, '_>, scissor: Option<Scissor>) {
         let granted = settings
             .window
             .map(|w| Scissor::inside(w.left..w.right, w.top..w.bottom));

@@ -3,10 +3,9 @@
 use crate::listed::{crate_list, teapot_list};
 use crate::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, Shot};
 use scanbeam::event::Notice;
-use scanbeam::input::RunCounts;
+use scanbeam::input::{Player, PlayerSettings, RunCounts};
 use scanbeam::list::{Budget, Halt, ListCommand, ListError};
 use scanbeam::look::Look;
-use scanbeam::player::{Player, Settings};
 use scanbeam::scene::{BeginError, Draw, Scene};
 use scanbeam::{Affine, Camera, CameraError, Light};
 
@@ -68,9 +67,9 @@ impl Played {
 
     /// How it begins: where [`Shot::Teapot`] stands, in its light.
     #[must_use]
-    pub fn settings() -> Settings<'static, 'static> {
-        let settings = Settings::default();
-        Settings {
+    pub fn settings() -> PlayerSettings<'static, 'static> {
+        let settings = PlayerSettings::default();
+        PlayerSettings {
             draw: Draw {
                 model: Affine::rotation_y(0.6),
                 light: Light::new([0.3, 0.8, 0.6], 0.2),

@@ -8,7 +8,7 @@ use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer, draw_frame};
 use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::player::{Memory as PlayerMemory, Player, TextureRoom};
+use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::scan_out::{Pump, ScanoutDma};
 use scanbeam::scene::{Draw, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{

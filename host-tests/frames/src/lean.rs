@@ -2,10 +2,10 @@
 
 use scanbeam::Link;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::player::{Memory as PlayerMemory, Player, TextureRoom};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
     HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES,

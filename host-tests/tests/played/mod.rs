@@ -2,10 +2,10 @@
 
 use scanbeam::event::Notice;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use scanbeam::input::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListError, TextureSlot, Words};
 use scanbeam::look::Look;
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::player::{Memory as PlayerMemory, Player, Settings, TextureRoom};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Camera, Link, Screen};
 
@@ -82,14 +82,17 @@ impl Kept {
     }
 
     /// A player with room for 8 textures, which is never given back.
-    pub fn player<'m, 't, L: Look>(&'m mut self, settings: Settings<'m, 't>) -> Player<'m, 't, L> {
+    pub fn player<'m, 't, L: Look>(
+        &'m mut self,
+        settings: PlayerSettings<'m, 't>,
+    ) -> Player<'m, 't, L> {
         self.player_with(settings, 8, 8192)
     }
 
     /// The same with room for so many textures and words of them.
     pub fn player_with<'m, 't, L: Look>(
         &'m mut self,
-        settings: Settings<'m, 't>,
+        settings: PlayerSettings<'m, 't>,
         textures: usize,
         texels: usize,
     ) -> Player<'m, 't, L> {
