@@ -423,6 +423,24 @@ fn a_list_that_is_cut_by_its_budget_goes_on_where_it_stood() {
 }
 
 #[test]
+fn what_is_out_of_sight_is_passed_over() {
+    let list = Played::Teapot.list().unwrap();
+    let (at, up) = ([0.0, 1.2, 9.0], [0.0, 1.0, 0.0]);
+    for (eye, skipped) in [([0.0, 1.2, 2.6], 1), ([0.0, 1.2, 12.0], 0)] {
+        let camera = scanbeam::Camera::look_at(eye, at, up, 300.0, 0.1, 100.0).unwrap();
+        let mut kept = Kept::new(255, 1536);
+        let mut player = kept.player::<Smooth>(Played::settings());
+        begun::<Smooth>(&camera, |scene| {
+            player.start(0);
+            played(&mut player, list, scene, PLENTY).unwrap();
+            assert_eq!(scene.objects() == 0, skipped == 1);
+        });
+        let counts = player.counts();
+        assert_eq!((counts.skipped, counts.draws == 0), (skipped, skipped == 1));
+    }
+}
+
+#[test]
 fn settings_grant_a_window() {
     let list = Played::Teapot.list().unwrap();
     let camera = Played::Teapot.camera().unwrap();
