@@ -179,7 +179,7 @@ fn baked_lists_are_what_the_same_calls_draw() {
                         texture,
                         places: &places,
                         budget: match table.prsp {
-                            true => Budget::BALANCED,
+                            true => Budget::EXACT,
                             false => Budget::FAST,
                         },
                     }),
@@ -195,7 +195,10 @@ fn baked_lists_are_what_the_same_calls_draw() {
         });
         for (vertices, indices) in [(255, 1536), (255, 300)] {
             let mut kept = Kept::new(vertices, indices);
-            let mut player = kept.player::<Skinned>(Played::settings());
+            let mut player = kept.player::<Skinned>(PlayerSettings {
+                budget: Budget::EXACT,
+                ..Played::settings()
+            });
             let got = begun::<Skinned>(&list.camera().unwrap(), |scene| {
                 player.start(0);
                 played(&mut player, words, scene, PLENTY).unwrap();

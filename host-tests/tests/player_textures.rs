@@ -33,6 +33,11 @@ fn draw_quad(writer: &mut ListWriter<'_>, number: u8, prsp: bool) {
         ..Material::default()
     };
     writer.state(&State::Material(material)).unwrap();
+    draw_quad_again(writer, prsp);
+}
+
+/// The same with the material in force.
+fn draw_quad_again(writer: &mut ListWriter<'_>, prsp: bool) {
     let header = Header {
         text: true,
         prsp,
@@ -255,12 +260,17 @@ fn a_texture_is_made_once_for_each_palette() {
             at: 0,
         };
         writer.bulk(&State::Palette(palette), &colours).unwrap();
+        // A palette counts from where it stands, for the material of before too.
+        if shift > 0 {
+            draw_quad_again(&mut writer, false);
+            continue;
+        }
         draw_quad(&mut writer, 1, false);
-        draw_quad(&mut writer, 1, false);
+        // The same texture by another number.
+        let again = Flow::LoadTexture { number: 3, at: 0 };
+        writer.flow(again).unwrap();
+        draw_quad(&mut writer, 3, false);
     }
-    // The same texture by another number.
-    writer.flow(Flow::LoadTexture { number: 3, at: 0 }).unwrap();
-    draw_quad(&mut writer, 3, false);
     writer.flow(Flow::End).unwrap();
     let list = writer.words();
     let mut kept = Kept::new(64, 96);
