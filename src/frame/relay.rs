@@ -237,7 +237,9 @@ impl<B: LineBuf> Desk<'_, B> {
         self.band = lines.max(1);
     }
 
-    /// Begins a frame.
+    /// Begins a frame. Apart, as what happens once a frame must not lie among what happens once a line: on a chip that
+    /// runs from flash both would be in the cache.
+    #[inline(never)]
     fn open<L>(&mut self, scene: &Scene<'_, '_, L>) {
         self.lent.clear();
         self.next = scene.lines().start;
@@ -259,6 +261,7 @@ impl<B: LineBuf> Desk<'_, B> {
     }
 
     /// Answers a worker that asks, while `line` is the first that this core has not begun.
+    #[inline(never)]
     fn answer(&mut self, line: u16, peer: Peer<'_>) {
         if self.told || self.lent.is_full() || !self.is_asked() {
             return;
@@ -335,6 +338,7 @@ impl<B: LineBuf> Desk<'_, B> {
     }
 
     /// Ends the frame, whatever became of it: when the worker has left.
+    #[inline(never)]
     fn close(&mut self, end: u16, peer: Peer<'_>) -> Result<(), LineError> {
         loop {
             self.discard();

@@ -73,7 +73,8 @@ fn main() -> ! {
     let stack = CORE1_STACK.take().expect("taken once");
     let spawned = cores.cores()[1].spawn(stack, move || core1(scenes, worker, far));
     spawned.expect("core 1 was idle");
-    core0(scenes, desk, spinner::renderer!(Smooth), sink)
+    let pump = Pump::new(sink, spinner::dma::lines());
+    core0(scenes, desk, spinner::renderer!(Smooth), pump)
 }
 
 /// Core 0: draws and sends frame after frame.
@@ -81,9 +82,8 @@ fn core0(
     scenes: &'static Scenes,
     mut desk: Desk<'static, RelayLine>,
     mut renderer: Renderer<'static, Smooth>,
-    sink: panel::Panel,
+    mut pump: Pump<panel::Panel>,
 ) -> ! {
-    let mut pump = Pump::new(sink, spinner::dma::lines());
     for scene in scenes.iter().cycle() {
         let scene = scene.read();
         let sent = draw_frame_shared(

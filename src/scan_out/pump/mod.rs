@@ -390,6 +390,7 @@ impl<D: ScanoutDma> Pump<D> {
     }
 
     /// Polls until the oldest transfer has given its buffer back. Called with `in_flight > 0`.
+    #[inline(never)]
     fn wait_home(&mut self) -> Result<(), ScanError<D::Error>> {
         let line = self.flights[0];
         let mut polls = 0_u32;
