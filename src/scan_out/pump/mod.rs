@@ -206,7 +206,7 @@ impl<D: ScanoutDma> Pump<D> {
         }
         if self.filling.is_none() {
             if self.idle.iter().all(Option::is_none) {
-                self.wait_home().map_err(|error| self.fail(error))?;
+                self.wait_home_apart().map_err(|error| self.fail(error))?;
             }
             self.filling = self.idle.iter_mut().find_map(Option::take);
         }
@@ -272,7 +272,7 @@ impl<D: ScanoutDma> Pump<D> {
         let line = self.next_line();
         self.start_band(window).map_err(|error| self.fail(error))?;
         while self.in_flight > 0 {
-            self.wait_home().map_err(|error| self.fail(error))?;
+            self.wait_home_apart().map_err(|error| self.fail(error))?;
         }
         self.put_back_filling();
         self.window = None;
@@ -389,8 +389,14 @@ impl<D: ScanoutDma> Pump<D> {
         Ok(())
     }
 
-    /// Polls until the oldest transfer has given its buffer back. Called with `in_flight > 0`.
+    /// [`wait_home`](Self::wait_home) where that is rare, so that its loop lies once among what runs once a line.
+    #[cold]
     #[inline(never)]
+    fn wait_home_apart(&mut self) -> Result<(), ScanError<D::Error>> {
+        self.wait_home()
+    }
+
+    /// Polls until the oldest transfer has given its buffer back. Called with `in_flight > 0`.
     fn wait_home(&mut self) -> Result<(), ScanError<D::Error>> {
         let line = self.flights[0];
         let mut polls = 0_u32;
