@@ -232,6 +232,13 @@ pub struct Pair {
 }
 
 impl Pair {
+    /// Width and height.
+    #[must_use]
+    pub const fn sides(&self) -> [u32; 2] {
+        let [width, height] = self.log_sides;
+        [1 << (width & 15), 1 << (height & 15)]
+    }
+
     /// Words of the texels.
     #[must_use]
     pub const fn words(&self) -> u32 {

@@ -142,68 +142,73 @@ impl<'t> Shelf<'t> {
         source: Source<'t>,
         dithers: bool,
     ) -> Result<Texture<'t>, Reason> {
-        let Source {
-            texels,
-            colours,
-            pair,
-        } = source;
-        let [width, height] = pair.log_sides.map(|log| 1 << log);
-        let bytes: &'t [u8] = bytemuck::cast_slice(texels);
         let panel = Panel {
             word: |rgb| F::to_half(F::from_rgb8(rgb)),
             dithers,
         };
         let mut key = None;
-        let made = match pair.form {
-            TexelForm::Index1 => {
-                let palette = self.palette(panel, colours, 2, &mut key)?;
-                Texture::index1(bytes, palette, width, height)
-            }
-            TexelForm::Index2 => {
-                let palette = self.palette(panel, colours, 4, &mut key)?;
-                Texture::index2(bytes, palette, width, height)
-            }
-            TexelForm::Index4 => {
-                let palette = self.palette(panel, colours, 16, &mut key)?;
-                Texture::index4(bytes, palette, width, height)
-            }
+        let made = match source.pair.form.is_indexed() {
+            true => self.indexed(source, panel, &mut key)?,
+            false => self.direct(source, panel, &mut key)?,
+        };
+        let wrap = match source.pair.clamped {
+            true => Wrap::Clamp,
+            false => Wrap::Repeat,
+        };
+        // Sides and lengths are those that the block was checked for.
+        let made = made.map_err(|_| Reason::Lent(Lent::Texels))?;
+        Ok(match key {
+            Some(key) => made.keyed(key).wrapping(wrap),
+            None => made.wrapping(wrap),
+        })
+    }
+
+    /// One whose texels name colours of a palette.
+    fn indexed(
+        &mut self,
+        source: Source<'t>,
+        panel: Panel,
+        key: &mut Option<u16>,
+    ) -> Result<Result<Texture<'t>, TextureError>, Reason> {
+        let bytes: &'t [u8] = bytemuck::cast_slice(source.texels);
+        let [width, height] = source.pair.sides();
+        let mut palette = |count| self.palette(panel, source.colours, count, key);
+        Ok(match source.pair.form {
+            TexelForm::Index1 => Texture::index1(bytes, palette(2)?, width, height),
+            TexelForm::Index2 => Texture::index2(bytes, palette(4)?, width, height),
+            TexelForm::Index4 => Texture::index4(bytes, palette(16)?, width, height),
             TexelForm::Index6 => {
                 // Two bits of a byte mean nothing.
-                let palette = self.palette(panel, colours, 64, &mut key)?;
+                let palette = palette(64)?;
                 let all = self.take(256)?;
                 for (slot, colour) in all.iter_mut().zip(palette.iter().cycle()) {
                     *slot = *colour;
                 }
                 Texture::index8(bytes, all, width, height)
             }
-            TexelForm::Index8 => {
-                let palette = self.palette(panel, colours, 256, &mut key)?;
-                Texture::index8(bytes, palette, width, height)
-            }
-            TexelForm::Rgb565 if panel.is_native() => {
-                Texture::words(bytemuck::cast_slice(texels), width, height)
-            }
-            _ => {
-                let words = self.take((width * height) as usize)?;
-                let all = Texels::new(texels, pair.form, &[]);
-                key = panel.write(words, |n| Colour {
-                    rgba: all.rgba(n),
-                    undithered: all.is_undithered(n),
-                })?;
-                Texture::words(words, width, height)
-            }
-        };
-        let wrap = match pair.clamped {
-            true => Wrap::Clamp,
-            false => Wrap::Repeat,
-        };
-        let keyed = |texture: Texture<'t>| match key {
-            Some(key) => texture.keyed(key).wrapping(wrap),
-            None => texture.wrapping(wrap),
-        };
-        // Sides and lengths are those that the block was checked for.
-        made.map(keyed)
-            .map_err(|_: TextureError| Reason::Lent(Lent::Texels))
+            _ => Texture::index8(bytes, palette(256)?, width, height),
+        })
+    }
+
+    /// One whose texels are colours.
+    fn direct(
+        &mut self,
+        source: Source<'t>,
+        panel: Panel,
+        key: &mut Option<u16>,
+    ) -> Result<Result<Texture<'t>, TextureError>, Reason> {
+        let [width, height] = source.pair.sides();
+        if source.pair.form == TexelForm::Rgb565 && panel.is_native() {
+            let words = bytemuck::cast_slice(source.texels);
+            return Ok(Texture::words(words, width, height));
+        }
+        let words = self.take((width * height) as usize)?;
+        let all = Texels::new(source.texels, source.pair.form, &[]);
+        *key = panel.write(words, |n| Colour {
+            rgba: all.rgba(n),
+            undithered: all.is_undithered(n),
+        })?;
+        Ok(Texture::words(words, width, height))
     }
 
     /// So many words of the lent memory.
