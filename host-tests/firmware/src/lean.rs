@@ -2,15 +2,14 @@
 
 use crate::lend::lend;
 use crate::rooms::Rooms;
-use crate::unpacked::Unpacked;
 use scanbeam::Link;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer, draw_frame};
+use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::scan_out::{Pump, ScanoutDma};
-use scanbeam::scene::{Draw, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
+use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, HEIGHT, LEAN_DRAWS, LIST_INDICES, LIST_TABLE, LeanContours,
     LeanLook, LeanPhong, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played,
@@ -172,25 +171,9 @@ pub(crate) fn play_teapot(begin: ListCommand, rooms: &mut Rooms) -> (u32, u32) {
     (counts.expect(LARGE).vertices, scene.objects() as u32)
 }
 
-/// The same by immediate calls.
-#[inline(never)]
-pub(crate) fn call_teapot(unpacked: &Unpacked, rooms: &mut Rooms) -> (u32, u32) {
-    let mut scene = Scene::<LeanLook>::new(Shot::screen(), rooms.lean.parts().memory);
-    let camera = Played::Teapot.camera().expect("it sees");
-    scene.begin(&camera).expect(LARGE);
-    let instance = &unpacked.instance;
-    let mut vertices = 0;
-    for mesh in unpacked.meshes() {
-        vertices += mesh.positions.len() as u32;
-        let call = Draw {
-            model: instance.model,
-            light: instance.light,
-            colour: instance.colour,
-            ..Draw::new(mesh)
-        };
-        scene.draw(&call).expect(LARGE);
-    }
-    (vertices, scene.objects() as u32)
+/// The scene that lists are played into, empty.
+pub(crate) fn scene(rooms: &mut Rooms) -> Scene<'_, 'static, LeanLook> {
+    Scene::new(Shot::screen(), rooms.lean.parts().memory)
 }
 
 const LARGE: &str = "the rooms are large enough";

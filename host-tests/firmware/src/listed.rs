@@ -5,8 +5,9 @@ use crate::frames::Smooth;
 use crate::rooms::{Rooms, RoomsOf};
 use crate::unpacked::Unpacked;
 use scanbeam::mesh::Vertices;
+use scanbeam::scene::Draw;
 use scanbeam::{Camera, Faces, Scene, SceneMemory};
-use scenes::{Shot, build_listed};
+use scenes::{Played, Shot, build_listed};
 
 fn scene(smooth: &mut RoomsOf<Smooth>) -> Scene<'_, Smooth> {
     Scene::new(
@@ -51,4 +52,25 @@ pub(crate) fn by_calls(unpacked: &Unpacked, rooms: &mut Rooms) -> (u32, u32) {
             .expect("the rooms are large enough");
     }
     (vertices, scene.pass_one().objects)
+}
+
+/// By immediate calls in the rooms; what [`play_teapot`](crate::lean::play_teapot) gives.
+#[inline(never)]
+pub(crate) fn by_draws(unpacked: &Unpacked, rooms: &mut Rooms) -> (u32, u32) {
+    let mut scene = crate::lean::scene(rooms);
+    let camera = Played::Teapot.camera().expect("it sees");
+    scene.begin(&camera).expect("a bin for each line");
+    let instance = &unpacked.instance;
+    let mut vertices = 0;
+    for mesh in unpacked.meshes() {
+        vertices += mesh.positions.len() as u32;
+        let call = Draw {
+            model: instance.model,
+            light: instance.light,
+            colour: instance.colour,
+            ..Draw::new(mesh)
+        };
+        scene.draw(&call).expect("the rooms are large enough");
+    }
+    (vertices, scene.objects() as u32)
 }

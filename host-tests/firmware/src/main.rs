@@ -147,7 +147,7 @@ fn main() -> ! {
     });
     let mut called = (0, 0);
     let by_draws = counter.instructions(|| {
-        called = black_box(lean::call_teapot(&unpacked, &mut rooms));
+        called = black_box(listed::by_draws(&unpacked, &mut rooms));
     });
     all_hold &= first == again && first == called && first.0 == listed.0 && first.1 > 0;
     for (name, value) in [
