@@ -189,6 +189,7 @@ export class Board {
       core[`read${name}`] = (signed) => {
         const address = signed >>> 0;
         if (address & (size - 1)) wire.fault(`unaligned read ${at()}`);
+        cache.uses?.read(address, core.cycles);
         if (address >>> 24 === 0x10) core.cycles = cache.access(address, core.cycles);
         return read(address);
       };

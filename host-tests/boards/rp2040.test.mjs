@@ -5,7 +5,7 @@ import os from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
 import { Board } from './rp2040.mjs';
-import { FlashCache } from './xip.mjs';
+import { FlashCache, LineUses } from './xip.mjs';
 
 const packages = process.env.SCANBEAM_PACKAGES ?? '.';
 const isHere = fs.existsSync(path.join(packages, 'node_modules/rp2040js'));
@@ -31,6 +31,33 @@ test('the flash serves one miss after the other', () => {
   const cache = new FlashCache(56);
   cache.access(0x10000000, 100);
   assert.equal(cache.access(0x10000100, 110), 212);
+});
+
+test('a line is wanted once a period, by who asks first, and counted from the first frame on', () => {
+  const uses = new LineUses(1000);
+  const cache = Object.assign(new FlashCache(56), { uses });
+  const ask = (address, cycle) => {
+    uses.read(address, cycle);
+    cache.access(address, cycle);
+  };
+  ask(0x10000000, 100);
+  assert.equal(uses.counts.size, 0);
+  uses.begin();
+  ask(0x10000004, 1100); // is there, and wanted
+  ask(0x10000000, 1200);
+  uses.read(0x20000010, 1999); // from RAM: wanted, and no miss
+  uses.read(0x20000016, 2000);
+  ask(0x10000000, 2500);
+  ask(0x10000100, 2600);
+  ask(0x10000100, 2400); // by the core that is behind
+  const counts = Object.fromEntries(uses.counts);
+  assert.deepEqual(counts, {
+    [0x10000004]: { misses: 0, returns: 1 },
+    [0x20000010]: { misses: 0, returns: 1 },
+    [0x20000016]: { misses: 0, returns: 1 },
+    [0x10000000]: { misses: 0, returns: 1 },
+    [0x10000100]: { misses: 1, returns: 1 },
+  });
 });
 
 /** A board without a program, and the faults that it says. */

@@ -5,6 +5,7 @@
 //   picture WIDTH HEIGHT HEX   what a memory-mapped panel shows from now on, as on a wire
 //   clock HERTZ            of the processor, which the cycles are of
 //   figures CYCLES BUS WAIT MISSES   so far, when the pixels of a frame are about to come
+//   use ADDRESS MISSES RETURNS   of what was read there since the first figures: see xip.mjs
 //   fault TEXT             something that a chip or a panel would not forgive
 //   note TEXT              for the reader
 //   end TEXT               the last line: `frames` when all that were asked for have come

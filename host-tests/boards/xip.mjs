@@ -13,6 +13,7 @@ export class FlashCache {
     this.older = new Uint8Array(1 << SET_BITS);
     this.free = 0; // cycle from which the flash is free
     this.misses = 0;
+    this.uses = undefined; // LineUses, where somebody asks
   }
 
   /** The cycle at which what is asked for at `cycle` is there. */
@@ -30,7 +31,43 @@ export class FlashCache {
     this.tags[2 * set + way] = tag;
     this.older[set] = 1 - way;
     this.misses++;
+    this.uses?.missed(address);
     this.free = Math.max(cycle, this.free) + this.cost;
     return this.free;
+  }
+}
+
+/** What is asked for, by address: misses, and how often a line of it is wanted after a while: in how
+ * many periods it is read at all. A line that nobody reads for a period is taken to be gone from a
+ * cache that others need, too, so that this tells what is worth its bytes in RAM, and wherever the
+ * code lies now. Counts from `begin` on. */
+export class LineUses {
+  /** `period`: cycles. */
+  constructor(period) {
+    this.period = period;
+    this.isOn = false;
+    this.last = new Map(); // by line
+    this.counts = new Map(); // by the address that was asked for
+  }
+
+  begin() {
+    this.isOn = true;
+  }
+
+  read(address, cycle) {
+    if (!this.isOn) return;
+    const [line, now] = [address >>> LINE_SHIFT, Math.floor(cycle / this.period)];
+    if (now <= (this.last.get(line) ?? -1)) return;
+    this.last.set(line, now);
+    this.of(address).returns++;
+  }
+
+  missed(address) {
+    if (this.isOn) this.of(address).misses++;
+  }
+
+  of(address) {
+    if (!this.counts.has(address)) this.counts.set(address, { misses: 0, returns: 0 });
+    return this.counts.get(address);
   }
 }

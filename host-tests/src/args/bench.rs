@@ -70,6 +70,10 @@ pub struct BoardsArgs {
     /// Print the figures as JSON
     #[arg(long)]
     pub json: bool,
+    /// Also print what each function of a board with a flash cache reads and misses, in the order in which it is
+    /// worth its bytes in RAM
+    #[arg(long, conflicts_with = "json")]
+    pub functions: bool,
     /// Run this board alone
     #[arg(value_name = "BOARD")]
     pub board: Option<String>,

@@ -56,6 +56,7 @@ fn defaults_are_those_of_the_design() {
 fn boards_are_run_as_asked() {
     let plain = BoardsArgs {
         json: false,
+        functions: false,
         board: None,
         frames: 2,
         miss_cycles: 56,
@@ -65,6 +66,7 @@ fn boards_are_run_as_asked() {
     assert_eq!(words("boards"), Ok(Command::Boards(plain)));
     let all = BoardsArgs {
         json: true,
+        functions: false,
         board: Some("rp2350".into()),
         frames: 126,
         miss_cycles: 0,
@@ -73,7 +75,12 @@ fn boards_are_run_as_asked() {
     };
     let line = "boards rp2350 --json --frames 126 --miss-cycles 0 --built a --packages b";
     assert_eq!(words(line), Ok(Command::Boards(all)));
+    let Ok(Command::Boards(asked)) = words("boards --functions") else {
+        panic!("--functions is refused");
+    };
+    assert!(asked.functions);
     for line in [
+        "boards --functions --json",
         "boards a b",
         "boards --frames 1",
         "boards --frames 127",

@@ -17,6 +17,8 @@ pub struct Chip {
     emulator: Emulator,
     /// Whether its panel is fed from memory, and gets no commands.
     pub is_memory_mapped: bool,
+    /// Misses of the flash's cache that a frame may have.
+    pub most_misses: Option<u64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -42,9 +44,15 @@ const M33: &str = "thumbv8m.main-none-eabihf";
 const RV32IMC: &str = "riscv32imc-unknown-none-elf";
 const RV32IMAC: &str = "riscv32imac-unknown-none-elf";
 
+/// With the whole of pass two in RAM.
+const MISSES_OF_ALL: u64 = 2_000;
+/// With 12 KB of it.
+const MISSES_OF_12K: u64 = 6_000;
+
 /// Every board.
-pub const CHIPS: [Chip; 9] = [
-    Chip::new("rp2040-two-cores", M0, Emulator::Rp2040js),
+pub const CHIPS: [Chip; 10] = [
+    Chip::new("rp2040-two-cores", M0, Emulator::Rp2040js).misses_at_most(MISSES_OF_ALL),
+    Chip::new("rp2040-two-cores-hot-12k", M0, Emulator::Rp2040js).misses_at_most(MISSES_OF_12K),
     Chip::new("stm32f4", M4, Emulator::Unicorn("stm32f4.py")),
     Chip::new("stm32h7-ltdc", M4, Emulator::Unicorn("stm32h7.py")).memory_mapped(),
     Chip::new("rp2350", M33, Emulator::Unicorn("rp2350.py")),
@@ -70,6 +78,8 @@ pub struct Bench {
     pub frames: u16,
     /// Cycles that a miss of the RP2040's flash cache costs.
     pub miss_cycles: u16,
+    /// Whether the emulator counts what is read, by address.
+    pub functions: bool,
 }
 
 impl Bench {
@@ -83,6 +93,7 @@ impl Bench {
             packages: or(packages, PACKAGES),
             frames,
             miss_cycles: miss,
+            functions: false,
         }
     }
 }
@@ -95,6 +106,7 @@ impl Chip {
             target,
             emulator,
             is_memory_mapped: false,
+            most_misses: None,
         }
     }
 
@@ -106,9 +118,23 @@ impl Chip {
         }
     }
 
+    /// Its list of what runs from RAM is to keep misses below this.
+    const fn misses_at_most(self, most: u64) -> Self {
+        Self {
+            most_misses: Some(most),
+            ..self
+        }
+    }
+
     /// For a program that runs on several.
     const fn called(self, name: &'static str) -> Self {
         Self { name, ..self }
+    }
+
+    /// The program's file, whether it is there or not.
+    pub fn elf(&self, bench: &Bench) -> PathBuf {
+        let folder = bench.built.join(self.target).join("release");
+        folder.join(self.program)
     }
 
     /// How to run it, or what is missing.
@@ -116,11 +142,7 @@ impl Chip {
     /// # Errors
     /// What is missing.
     pub fn command(&self, bench: &Bench) -> Result<Command, String> {
-        let elf = bench
-            .built
-            .join(self.target)
-            .join("release")
-            .join(self.program);
+        let elf = self.elf(bench);
         if !elf.is_file() {
             return Err(format!("{} was not built", elf.display()));
         }
@@ -140,7 +162,8 @@ impl Chip {
                 command
                     .arg(scripts.join("run-rp2040.mjs"))
                     .args([&bench.packages, &rom, &elf])
-                    .args([frames, bench.miss_cycles.to_string()]);
+                    .args([frames, bench.miss_cycles.to_string()])
+                    .args(bench.functions.then_some("functions"));
                 command
             }
             Emulator::Unicorn(script) => {

@@ -15,9 +15,11 @@
 //! | `panel.rs` | the virtual panel |
 //! | `expected.rs` | the host's frames, the panel's commands |
 //! | `outcome.rs` | a run, judged, as JSON and in a table |
+//! | `functions.rs` | what each function reads, and what is worth its bytes in RAM |
 
 mod chips;
 mod expected;
+mod functions;
 mod outcome;
 mod panel;
 #[cfg(test)]
@@ -31,7 +33,7 @@ pub use outcome::{Outcome, table};
 pub use panel::Panel;
 
 use crate::args::BoardsArgs;
-use crate::firmware::{self, DEFAULT_TIMEOUT};
+use crate::firmware::{self, DEFAULT_TIMEOUT, Symbols};
 use std::error::Error;
 use std::process::Stdio;
 use std::time::Duration;
@@ -44,12 +46,15 @@ const A_FRAME: Duration = Duration::from_secs(5);
 /// # Errors
 /// When an emulator cannot be started, or the host cannot draw the frames.
 pub fn run(args: &BoardsArgs) -> Result<bool, Box<dyn Error>> {
-    let bench = Bench::new(
-        args.built.as_deref(),
-        args.packages.as_deref(),
-        args.frames,
-        args.miss_cycles,
-    );
+    let bench = Bench {
+        functions: args.functions,
+        ..Bench::new(
+            args.built.as_deref(),
+            args.packages.as_deref(),
+            args.frames,
+            args.miss_cycles,
+        )
+    };
     let drawn = Expected::drawn(bench.frames)?;
     let shown = drawn.without_commands();
     let asked = |chip: &&Chip| args.board.as_deref().is_none_or(|name| name == chip.name);
@@ -82,7 +87,12 @@ pub fn run(args: &BoardsArgs) -> Result<bool, Box<dyn Error>> {
     } else {
         say!("{}", table(&outcomes));
     }
-    for outcome in &outcomes {
+    for (chip, outcome) in chips.iter().zip(&outcomes) {
+        if !outcome.uses.is_empty() {
+            let symbols = Symbols::read(&chip.elf(&bench))?;
+            let read = functions::of(&outcome.uses, &symbols, bench.frames.into());
+            say!("{}, a frame:\n{}", outcome.board, functions::table(&read));
+        }
         outcome.explain();
     }
     Ok(outcomes.iter().all(Outcome::is_good))
@@ -103,6 +113,7 @@ fn run_chip(chip: &Chip, bench: &Bench, expected: &Expected) -> Result<Outcome, 
     if !ended.status.is_some_and(|status| status.success()) && outcome.is_good() {
         outcome.complaints.push("the emulator failed".into());
     }
+    outcome.hold_misses(chip.most_misses);
     outcome.notes.extend(ended.said.lines().map(str::to_owned));
     Ok(outcome)
 }

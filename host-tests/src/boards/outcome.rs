@@ -2,7 +2,7 @@
 
 use super::expected::Expected;
 use super::panel::Panel;
-use super::wire::{self, Event, FRAMES, Figures};
+use super::wire::{self, Event, FRAMES, Figures, Use};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use serde::Serialize;
 
@@ -35,6 +35,9 @@ pub struct Outcome {
     /// Why it was not run.
     #[serde(skip)]
     pub missing: Option<String>,
+    /// What was read since the first frame began, where that was asked for.
+    #[serde(skip)]
+    pub uses: Vec<Use>,
     /// For the reader.
     #[serde(skip)]
     pub notes: Vec<String>,
@@ -61,6 +64,7 @@ impl Outcome {
         for line in printed.lines() {
             match wire::parse(line) {
                 Ok(Event::Note(text)) => outcome.notes.push(text),
+                Ok(Event::Use(used)) => outcome.uses.push(used),
                 Ok(event) => run.take(event),
                 Err(reason) => run.panel.complain(format!("the emulator says {reason}")),
             }
@@ -93,6 +97,17 @@ impl Outcome {
         self.xip_misses = Some(each(|figures| figures.misses));
         // To a hundredth: the model is no better.
         self.fps = Some((100.0 * clock as f64 / cycles.max(1) as f64).round() / 100.0);
+    }
+
+    /// Complains where the flash's cache is missed oftener than so many times a frame.
+    pub fn hold_misses(&mut self, most: Option<u64>) {
+        if let (Some(misses), Some(most)) = (self.xip_misses, most)
+            && misses > most
+        {
+            let text =
+                format!("{misses} misses of the flash's cache a frame, and not {most} at most");
+            self.complaints.push(text);
+        }
     }
 
     /// Whether nothing is wrong: it did what it should, or could not be run.
@@ -136,7 +151,7 @@ impl Run {
             Event::Clock(hertz) => self.clock = Some(hertz),
             Event::Fault(text) => self.panel.complain(text),
             Event::End(why) => self.end = Some(why),
-            Event::Note(_) => {}
+            Event::Note(_) | Event::Use(_) => {}
         }
     }
 }

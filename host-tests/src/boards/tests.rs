@@ -1,7 +1,7 @@
 //! Streams that are right and streams with one fault each, what is read, and what is printed.
 
 use super::outcome::Outcome;
-use super::wire::{self, Event, Figures};
+use super::wire::{self, Event, Figures, Use};
 use super::*;
 
 /// A window of this many bytes is the whole picture.
@@ -216,6 +216,22 @@ fn a_run_that_ends_early_or_says_nonsense_is_not_good() {
 }
 
 #[test]
+fn what_is_read_is_kept_and_misses_are_held() {
+    let outcome = with("note done", &["use 16 1 2", "use 24 3 4"]);
+    let addresses: Vec<u64> = outcome.uses.iter().map(|used| used.address).collect();
+    assert_eq!(addresses, [16, 24]);
+    // A frame has 10,000 misses.
+    for (most, is_good) in [(None, true), (Some(10_000), true), (Some(9_999), false)] {
+        let mut held = outcome.clone();
+        held.hold_misses(most);
+        assert_eq!(held.is_good(), is_good, "{most:?}");
+    }
+    let mut without = Outcome::skipped("none", "it is missing".into());
+    without.hold_misses(Some(0));
+    assert!(without.is_good());
+}
+
+#[test]
 fn lines_are_read_whole_or_refused() {
     let figures = Figures {
         cycles: 1,
@@ -224,6 +240,12 @@ fn lines_are_read_whole_or_refused() {
         misses: 4,
     };
     assert_eq!(wire::parse("figures 1 2 3 4"), Ok(Event::Figures(figures)));
+    let used = Use {
+        address: 0x1000_0000,
+        misses: 2,
+        returns: 3,
+    };
+    assert_eq!(wire::parse("use 268435456 2 3"), Ok(Event::Use(used)));
     let bytes = vec![0xAB, 0];
     let data = Event::Data {
         is_data: true,
@@ -245,6 +267,9 @@ fn lines_are_read_whole_or_refused() {
         "picture 1 1",
         "picture 1 1 0",
         "picture 1 x 00",
+        "use 1 2",
+        "use 1 2 3 4",
+        "use x 2 3",
     ] {
         assert!(wire::parse(line).is_err(), "{line}");
     }

@@ -23,6 +23,8 @@ pub enum Event {
     Figures(Figures),
     /// The processor's clock, in Hz.
     Clock(u64),
+    /// How often what lies at an address was wanted, all in all.
+    Use(Use),
     /// What a chip would not forgive.
     Fault(String),
     /// For the reader.
@@ -45,6 +47,17 @@ pub struct Figures {
     pub wait: u64,
     /// Misses of the flash's cache: a number, not cycles.
     pub misses: u64,
+}
+
+/// What was read at an address.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Use {
+    /// Of the chip.
+    pub address: u64,
+    /// How often it was not in the flash's cache.
+    pub misses: u64,
+    /// Periods in which it was read first of its line of the cache.
+    pub returns: u64,
 }
 
 /// Reads a line.
@@ -70,6 +83,17 @@ pub fn parse(line: &str) -> Result<Event, String> {
                 bus,
                 wait,
                 misses,
+            }))
+        }
+        "use" => {
+            let fields = rest.split(' ').map(number).collect::<Result<Vec<_>, _>>()?;
+            let [address, misses, returns] = fields[..] else {
+                return Err(format!("`{line}` has other than three figures"));
+            };
+            Ok(Event::Use(Use {
+                address,
+                misses,
+                returns,
             }))
         }
         "data" => match rest.split_once(' ') {

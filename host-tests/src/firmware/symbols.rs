@@ -46,7 +46,7 @@ impl Symbols {
 
     /// Of addresses, sizes and names as the linker has them. Of several names for one place the
     /// first is kept.
-    fn of<'n>(functions: impl Iterator<Item = (u64, u64, &'n str)>) -> Self {
+    pub(crate) fn of<'n>(functions: impl Iterator<Item = (u64, u64, &'n str)>) -> Self {
         let mut by_address = BTreeMap::new();
         for (address, bytes, name) in functions {
             by_address.entry(address).or_insert_with(|| Symbol {
