@@ -109,13 +109,12 @@ fn contents(list: &[u32]) -> Contents {
 }
 
 impl Contents {
-    /// The textures, by number: 8 bits, whose palettes are words of the panel.
+    /// The textures of a list's bytes, by number: 8 bits, whose palettes are words of the panel.
     fn textures<'t>(
         &self,
-        list: &'t [u32],
+        bytes: &'t [u8],
         palettes: &'t BTreeMap<u8, Vec<u16>>,
     ) -> BTreeMap<u8, Texture<'t>> {
-        let bytes: &[u8] = bytemuck::cast_slice(list);
         let made = self.textures.iter().map(|(&number, t)| {
             let palette = &palettes[&t.palette];
             let (width, height) = (1 << t.log_width, 1 << t.log_height);
@@ -155,7 +154,8 @@ fn baked_lists_are_what_the_same_calls_draw() {
         let words = list.list().unwrap();
         let contents = contents(words);
         let palettes = contents.palettes(words);
-        let textures = contents.textures(words, &palettes);
+        let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
+        let textures = contents.textures(&bytes, &palettes);
         let begin = Played::settings().draw;
         let want = begun::<Skinned>(&list.camera().unwrap(), |scene| {
             for table in &contents.tables {
