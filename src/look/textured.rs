@@ -13,59 +13,19 @@ use super::fetch::copy_from;
 use super::gouraud::{Course, Planes as Shades, at, course, fields, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Short, Values, word_at};
 use super::stride::Reach;
-use super::tint::{Shade, tint, tint_ordered, tint_swapped};
+use super::tint::{Shade, Texel};
 use super::word_plane::Near;
 use super::{Fill, Paint, Place, ThinSpan};
-use crate::composite::{Rgb565, Rgb565Bytes};
 use crate::geometry::Scale;
-use crate::pixel::Pixel;
 use crate::scene::{Budget, DrawState, ORIGIN, Texture, TexturePlace, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle, across, down};
 use core::marker::PhantomData;
 use core::slice::from_mut;
 
-/// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`] or
+/// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`](crate::pixel::Rgb565) or
 /// [`Rgb565Be`](crate::pixel::Rgb565Be). Texels have the same order of bytes.
 #[derive(Clone, Copy, Debug)]
 pub struct Textured<F>(PhantomData<F>);
-
-/// A pixel of 16 bits that can be tinted.
-pub trait Texel: Pixel<Word = u16> {
-    /// Multiplies a run by a shade, which is that of the place half a pixel beyond the first.
-    fn tint(run: &mut [u16], shade: Shade, step: Shade);
-
-    /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
-    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]);
-}
-
-impl Texel for Rgb565 {
-    #[inline(always)]
-    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
-        tint(run, shade, step);
-    }
-
-    #[inline(never)]
-    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        tint_ordered(run, shade, step, at, |word| word);
-    }
-}
-
-impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
-    #[inline(always)]
-    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
-        if BIG == cfg!(target_endian = "big") {
-            tint(run, shade, step);
-        } else {
-            tint_swapped(run, shade, step);
-        }
-    }
-
-    #[inline(never)]
-    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        let order = |word: u16| if BIG { word.to_be() } else { word.to_le() };
-        tint_ordered(run, shade, step, at, order);
-    }
-}
 
 /// What a triangle keeps of its texture and its shade.
 #[derive(Clone, Copy, Debug)]

@@ -16,6 +16,8 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
+use crate::composite::{Rgb565, Rgb565Bytes};
+use crate::pixel::Pixel;
 use crate::pixel::threshold;
 use core::hint::black_box as unknown;
 
@@ -248,6 +250,44 @@ pub fn tint_ordered(
         let parts = threshold(column, line);
         *pixel = order(product_raised(order(*pixel), shade.channels(), parts));
         shade = shade.plus(step);
+    }
+}
+
+/// A pixel of 16 bits that can be tinted.
+pub trait Texel: Pixel<Word = u16> {
+    /// Multiplies a run by a shade, which is that of the place half a pixel beyond the first.
+    fn tint(run: &mut [u16], shade: Shade, step: Shade);
+
+    /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]);
+}
+
+impl Texel for Rgb565 {
+    #[inline(always)]
+    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
+        tint(run, shade, step);
+    }
+
+    #[inline(never)]
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
+        tint_ordered(run, shade, step, at, |word| word);
+    }
+}
+
+impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
+    #[inline(always)]
+    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
+        if BIG == cfg!(target_endian = "big") {
+            tint(run, shade, step);
+        } else {
+            tint_swapped(run, shade, step);
+        }
+    }
+
+    #[inline(never)]
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
+        let order = |word: u16| if BIG { word.to_be() } else { word.to_le() };
+        tint_ordered(run, shade, step, at, order);
     }
 }
 
