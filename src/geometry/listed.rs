@@ -1,12 +1,13 @@
 //! What a list says, in the types of this room (H11).
 
+use super::bounds::Sphere;
 use super::camera::{Camera, CameraError};
 use super::colour::{Colour, Scale, Tint};
 use super::light::{Light, LightingModel, ModelLight};
 use super::lighting::{DirectionalLight, LampsInModel, Lighting};
 use super::mesh::Coordinate;
 use super::transform::Affine;
-use crate::list::{CameraWords, LightWords, Matrix};
+use crate::list::{Bounds, CameraWords, LightWords, Matrix};
 use crate::num::{Block, I2F14, U1F15};
 
 impl From<&Matrix> for Affine {
@@ -18,6 +19,26 @@ impl From<&Matrix> for Affine {
             linear: Block::new(linear, i32::from(m.linear_exponent)),
             offset: Block::new(offset, i32::from(m.offset_exponent)),
         }
+    }
+}
+
+impl From<&Bounds> for Sphere {
+    /// In units of 2^-30, at a place of [`Affine::scale_of`].
+    fn from(bounds: &Bounds) -> Self {
+        Self {
+            centre: bounds.centre,
+            radius: bounds.radius.unsigned_abs(),
+        }
+    }
+}
+
+impl Affine {
+    /// From the units of bounds to the list's world.
+    pub(crate) fn scale_of(bounds: &Bounds) -> Self {
+        Self::from(&Matrix {
+            linear_exponent: bounds.exponent + 1,
+            ..Matrix::IDENTITY
+        })
     }
 }
 

@@ -243,6 +243,26 @@ pub struct Window {
     pub bottom: u16,
 }
 
+impl Window {
+    /// All of a picture.
+    pub(crate) const fn all(width: u16, height: u16) -> Self {
+        Self {
+            left: 0,
+            top: 0,
+            right: width,
+            bottom: height,
+        }
+    }
+
+    /// Whether another one lies within.
+    pub(crate) const fn contains(self, other: Self) -> bool {
+        other.left >= self.left
+            && other.top >= self.top
+            && other.right <= self.right
+            && other.bottom <= self.bottom
+    }
+}
+
 /// How texels and overlay pixels are stored (H7), by code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]

@@ -9,6 +9,7 @@ use super::format::VertexFormat;
 use super::header::{Header, Id};
 use super::reader::{Parsed, read_block};
 use super::words::Words;
+use crate::event::Event;
 use core::sync::atomic::{AtomicU32, Ordering};
 
 /// How much work a list may still cause. Each number goes down to 0, and there the list halts.
@@ -379,8 +380,19 @@ impl Walker {
         Halt::End
     }
 
+    /// What a halt is to those who wait for events, if it is one to them.
+    pub fn event_of<'w>(&mut self, halt: Halt, words: impl Words<'w>) -> Option<Event> {
+        match halt {
+            Halt::End => Some(Event::ListEnd),
+            Halt::Waiting if self.meets_anew(words) => Some(Event::ListEnd),
+            Halt::Paused => Some(Event::Paused),
+            Halt::Sync => Some(Event::Sync),
+            _ => None,
+        }
+    }
+
     /// Whether the wait at this end of a ring is new, so that it is an event once.
-    pub fn meets_anew<'w>(&mut self, words: impl Words<'w>) -> bool {
+    fn meets_anew<'w>(&mut self, words: impl Words<'w>) -> bool {
         let end = Some(words.end());
         core::mem::replace(&mut self.met, end) != end
     }

@@ -1,11 +1,11 @@
 //! Blocks of a list, one by one: what each does to the draw call, and what is refused.
 
-use super::gather::{Out, Refusal};
+use super::gather::Refusal;
 use super::play::{Player, Stage};
 use super::state::Drawer;
 use crate::geometry::{Affine, Camera, Light, Sphere};
 use crate::list::{
-    Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Matrix, Missing,
+    Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
     NoTexture, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
@@ -59,28 +59,14 @@ impl<'t, L: Look> Player<'_, 't, L> {
         } else if self.state.texture.is_some() && self.gather.lacks_table_places() {
             return Err(Reason::Lent(Lent::Places));
         }
-        let mut drawer = Drawer {
-            scene: stage.scene.as_deref_mut(),
-            state: &self.state,
-            budget: self.settings.budget,
-            counts: &mut self.counts,
-            events: &mut *stage.events,
-            offset: self.walker.offset(),
-            lack: None,
-        };
-        let mut out = Out {
-            textured: L::TEXTURED,
-            sides: drawer.sides(),
-            draw: &mut |mesh| drawer.draw(mesh),
-        };
-        let done = match instruction {
-            Instruction::Table(run) => self.gather.table(words, format, run, &mut out),
-            Instruction::Indexed(run) => self.gather.indexed(words, run, &mut out),
-            _ => self.gather.run(words, format, run, 1, &mut out),
-        };
-        if let Some(lack) = drawer.lack {
-            return Err(lack);
-        }
+        let offset = self.walker.offset();
+        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
+        let gather = &mut self.gather;
+        let done = drawer.gather(|out| match instruction {
+            Instruction::Table(run) => gather.table(words, format, run, out),
+            Instruction::Indexed(run) => gather.indexed(words, run, out),
+            _ => gather.run(words, format, run, 1, out),
+        })?;
         match done {
             Ok(()) => Ok(Step::Do(instruction)),
             Err(Refusal::Vertices | Refusal::Table) => Err(Reason::Lent(Lent::Vertices)),
@@ -105,22 +91,9 @@ impl<'t, L: Look> Player<'_, 't, L> {
         words: impl Words<'t>,
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<(), Reason> {
-        let mut drawer = Drawer {
-            scene: stage.scene.as_deref_mut(),
-            state: &self.state,
-            budget: self.settings.budget,
-            counts: &mut self.counts,
-            events: &mut *stage.events,
-            offset: self.walker.offset(),
-            lack: None,
-        };
-        let mut out = Out {
-            textured: L::TEXTURED,
-            sides: drawer.sides(),
-            draw: &mut |mesh| drawer.draw(mesh),
-        };
-        self.gather.flush(words, &mut out);
-        drawer.lack.map_or(Ok(()), Err)
+        let offset = self.walker.offset();
+        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
+        drawer.gather(|out| self.gather.flush(words, out))
     }
 
     /// The texture that the material names, and the palette that this one names now.
@@ -181,16 +154,8 @@ impl<'t, L: Look> Player<'_, 't, L> {
         else {
             return;
         };
-        // The sphere in units of 2^-30, at a place of that scale.
-        let sphere = Sphere {
-            centre: bounds.centre,
-            radius: bounds.radius.unsigned_abs(),
-        };
-        let scale = Matrix {
-            linear_exponent: bounds.exponent + 1,
-            ..Matrix::IDENTITY
-        };
-        let model = Affine::from(&scale).then(&self.settings.draw.model);
+        let (sphere, scale) = (Sphere::from(bounds), Affine::scale_of(bounds));
+        let model = scale.then(&self.settings.draw.model);
         if sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
             let to = self.walker.position().wrapping_add(bounds.words);
             // Of a ring, what is not yet there cannot be passed over.
@@ -269,18 +234,8 @@ impl<'t, L: Look> Player<'_, 't, L> {
 
     /// Cuts to a window, if it is one that was granted.
     fn window(&mut self, window: Window, stage: &Stage<'_, '_, 't, L>) -> Result<Step, Reason> {
-        let all = Window {
-            left: 0,
-            top: 0,
-            right: stage.screen.width(),
-            bottom: stage.screen.height(),
-        };
-        let granted = self.settings.window.unwrap_or(all);
-        if window.left < granted.left
-            || window.top < granted.top
-            || window.right > granted.right
-            || window.bottom > granted.bottom
-        {
+        let all = Window::all(stage.screen.width(), stage.screen.height());
+        if !self.settings.window.unwrap_or(all).contains(window) {
             return Ok(Step::Violation);
         }
         if self.settings.draw.scissor.is_some() && window != all {

@@ -332,14 +332,7 @@ impl<'m, 't, L: Look> Player<'m, 't, L> {
             }
             Step::Halt(halt) => {
                 self.flush(words, stage)?;
-                let event = match halt {
-                    Halt::End => Some(Event::ListEnd),
-                    Halt::Waiting if self.walker.meets_anew(words) => Some(Event::ListEnd),
-                    Halt::Paused => Some(Event::Paused),
-                    Halt::Sync => Some(Event::Sync),
-                    _ => None,
-                };
-                if let Some(event) = event {
+                if let Some(event) = self.walker.event_of(halt, words) {
                     self.notice(stage, event, 0);
                 }
                 return Ok(Some(halt));

@@ -1,6 +1,7 @@
 //! The draw call that blocks of state change.
 
-use super::gather::{Gathered, Places};
+use super::gather::{Gathered, Out, Places};
+use super::play::Stage;
 use super::{PlayerSettings, RunCounts};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
@@ -91,25 +92,55 @@ impl<'m, 't> State<'m, 't> {
 /// Who draws what is gathered, and counts it.
 pub(super) struct Drawer<'d, 's, 'm, 't, L> {
     /// None where the list is only looked at.
-    pub(super) scene: Option<&'d mut Scene<'s, 't, L>>,
-    pub(super) state: &'d State<'m, 't>,
+    scene: Option<&'d mut Scene<'s, 't, L>>,
+    state: &'d State<'m, 't>,
     /// How far texels of blocks with PRSP may be from their places.
-    pub(super) budget: Budget,
-    pub(super) counts: &'d mut RunCounts,
-    pub(super) events: &'d mut dyn EventSink,
-    pub(super) offset: u32,
-    pub(super) lack: Option<Reason>,
+    budget: Budget,
+    counts: &'d mut RunCounts,
+    events: &'d mut dyn EventSink,
+    offset: u32,
+    lack: Option<Reason>,
 }
 
-impl<L: Look> Drawer<'_, '_, '_, '_, L> {
-    /// Binary logarithms of the texture's sides.
-    pub(super) fn sides(&self) -> Option<[u8; 2]> {
+impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
+    /// Who draws with this state, for the block at an offset.
+    pub(super) fn of(
+        state: &'d State<'m, 't>,
+        settings: &PlayerSettings<'_, '_>,
+        counts: &'d mut RunCounts,
+        stage: &'d mut Stage<'_, 's, 't, L>,
+        offset: u32,
+    ) -> Self {
+        Self {
+            scene: stage.scene.as_deref_mut(),
+            state,
+            budget: settings.budget,
+            counts,
+            events: &mut *stage.events,
+            offset,
+            lack: None,
+        }
+    }
+
+    /// Draws what `gather` hands over; what that says.
+    ///
+    /// # Errors
+    /// What could not be drawn.
+    pub(super) fn gather<R>(
+        mut self,
+        gather: impl FnOnce(&mut Out<'_, i16>) -> R,
+    ) -> Result<R, Reason> {
         let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
-        self.state.texture.map(sides)
+        let done = gather(&mut Out {
+            textured: L::TEXTURED,
+            sides: self.state.texture.map(sides),
+            draw: &mut |mesh| self.draw(mesh),
+        });
+        self.lack.map_or(Ok(done), Err)
     }
 
     /// Draws a mesh.
-    pub(super) fn draw(&mut self, gathered: &Gathered<'_, i16>) {
+    fn draw(&mut self, gathered: &Gathered<'_, i16>) {
         let places = match gathered.places {
             Places::Texels(places) => Some(places),
             Places::None => None,

@@ -282,14 +282,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
                 Ok(Step::Halt(halt)) => {
                     self.flush(words, scene, events);
                     self.shown = halt == Halt::Sync;
-                    let event = match halt {
-                        Halt::End => Some(Event::ListEnd),
-                        Halt::Waiting if self.walker.meets_anew(words) => Some(Event::ListEnd),
-                        Halt::Paused => Some(Event::Paused),
-                        Halt::Sync => Some(Event::Sync),
-                        _ => None,
-                    };
-                    if let Some(event) = event {
+                    if let Some(event) = self.walker.event_of(halt, words) {
                         self.notice(events, event, 0);
                     }
                     return Ok(halt);

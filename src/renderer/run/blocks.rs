@@ -7,8 +7,8 @@ use super::target::Target;
 use crate::event::{Event, EventSink};
 use crate::geometry::{Affine, Camera, Clip, Mark, Shading, Sphere};
 use crate::list::{
-    Bounds, Flow, Id, Instruction, ListError, Matrix, Overlay, Reason, State, Step, Texture,
-    TextureSlots, Window, Words, read_block,
+    Bounds, Flow, Id, Instruction, ListError, Overlay, Reason, State, Step, Texture, TextureSlots,
+    Window, Words, read_block,
 };
 use crate::pipeline::{MarkOf, Pipeline};
 use crate::player::{ListCoordinate, Out, Refusal};
@@ -128,16 +128,8 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
         bounds: &Bounds,
         scene: &Scene<'_, P>,
     ) {
-        // The sphere in units of 2^-30, at a place of that scale.
-        let sphere = Sphere {
-            centre: bounds.centre,
-            radius: bounds.radius.unsigned_abs(),
-        };
-        let scale = Matrix {
-            linear_exponent: bounds.exponent + 1,
-            ..Matrix::IDENTITY
-        };
-        let model = Affine::from(&scale).then(&self.settings.instance.model);
+        let (sphere, scale) = (Sphere::from(bounds), Affine::scale_of(bounds));
+        let model = scale.then(&self.settings.instance.model);
         if scene.is_outside(&sphere, &model) {
             let to = self.walker.position().wrapping_add(bounds.words);
             // Of a ring, what is not yet there cannot be passed over.
@@ -190,18 +182,8 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
                 Err(_) => return Err(self.walker.fail(Id::State, Reason::Camera)),
             },
             State::Window(window) => {
-                let all = Window {
-                    left: 0,
-                    top: 0,
-                    right: screen.width(),
-                    bottom: screen.height(),
-                };
-                let granted = self.settings.window.unwrap_or(all);
-                if window.left < granted.left
-                    || window.top < granted.top
-                    || window.right > granted.right
-                    || window.bottom > granted.bottom
-                {
+                let all = Window::all(screen.width(), screen.height());
+                if !self.settings.window.unwrap_or(all).contains(window) {
                     return Ok(Step::Violation);
                 }
                 if MarkOf::<P>::CUTS {
