@@ -312,7 +312,7 @@ pub fn copy_exact(run: &mut [u16], texture: &Texture<'_>, way: Way) {
 /// repeat: there places may be off by 1/24 texel; by 1/10 where steps are longer than a quarter of the side.
 #[inline(never)]
 pub fn copy_wide(run: &mut [u16], skipped: usize, texture: &Texture<'_>, way: Way) {
-    if texture.wrap() != Wrap::Repeat || !texture.is_square() {
+    if texture.repeated() == 0 {
         copy_exact(run, texture, way.skip(skipped));
         return;
     }

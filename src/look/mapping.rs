@@ -27,7 +27,7 @@ use super::word_plane::Near;
 use crate::num::{leading_zeros, mul_high, mul_high_unsigned};
 #[cfg(test)]
 use crate::scene::TexturePlace;
-use crate::scene::{Budget, Square, Texture, Wrap};
+use crate::scene::{Budget, Square, Texture};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -194,8 +194,6 @@ impl Values {
     ) -> bool {
         mapping.method = self.method;
         mapping.base = self.base;
-        mapping.quick = 0;
-        mapping.reach = Reach::NONE;
         let small = Small::new(corners);
         let large = if small.is_none() {
             Large::new(corners)
@@ -232,12 +230,11 @@ impl Values {
             step: mapping.planes[axis][1] as i32,
         };
         let step = mapping.planes[2][1] as i32;
-        let square = texture.is_square() && texture.wrap() == Wrap::Repeat;
-        let log = if square { texture.log_width() } else { 0 };
+        let log = texture.repeated();
         mapping.reach = reach(low as u32, step, [of(0), of(1)], budget, log);
-        if budget.is_coarse() && square {
+        if budget.is_coarse() && log != 0 {
             // Rounded steps stay within 1/32 texel.
-            let exact = 16u8 << (8 - texture.log_width()).min(2);
+            let exact = 16u8 << (8 - log).min(2);
             mapping.quick = mapping.reach.line.min(exact) + 1;
         }
     }
@@ -354,14 +351,12 @@ impl Mapping {
         let steps = within.pixels.saturating_sub(1);
         // Far from the triangle's nearest corner they may be further apart: long spans repay the question.
         if steps > (8 * usize::from(reach.line)).max(24) && steps > usize::from(reach.arc) {
-            reach = span.reach(within.pixels, budget, texture.log_width());
+            reach = span.reach(within.pixels, budget, texture.repeated());
         }
-        if budget.is_coarse() {
-            let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
-            if let (Some(square), 1..) = (square, reach.arc) {
-                return span.arcs(run, within, square, reach.arc);
-            }
-        } else {
+        if let (Some(square), 1..) = (texture.square(), reach.arc) {
+            return span.arcs(run, within, square, reach.arc);
+        }
+        if !budget.is_coarse() {
             reach.line = reach.line.min(4);
         }
         span.draw(run, within, texture, Stride::within(reach.line));

@@ -30,7 +30,7 @@
 use super::fetch::{Uv, Way, copy_arc, copy_exact, copy_from, packed, packed_on, packed_step};
 use super::stride::{Range, Reach, Stride, reach};
 use crate::num::{leading_zeros, mul_17, mul_high, recip_16};
-use crate::scene::{Budget, Form, Square, Texture, Wrap};
+use crate::scene::{Budget, Square, Texture};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
 ///
@@ -191,9 +191,10 @@ impl Perspective {
     /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
     pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
-        match (texture.repeated_square(), stride) {
+        let square = texture.square().filter(|_| texture.repeated() != 0);
+        match (square, stride) {
             (_, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
-            (Some(rows), _) => self.few(run, within, rows, stride),
+            (Some(square), _) => self.few(run, within, Rows::of(square), stride),
             (None, _) => self.singly(run, within, texture),
         }
     }
@@ -441,12 +442,19 @@ impl Within {
 
 /// The texels of a square of `2^log` a side, which repeats.
 #[derive(Clone, Copy)]
-pub struct Rows<'t> {
+struct Rows<'t> {
     texels: &'t [u16],
     log: u32,
 }
 
-impl Rows<'_> {
+impl<'t> Rows<'t> {
+    fn of(square: Square<'t>) -> Self {
+        Self {
+            texels: square.texels(),
+            log: square.log(),
+        }
+    }
+
     /// The texel at a place.
     #[inline(always)]
     fn texel(self, at: Uv) -> u16 {
@@ -454,19 +462,5 @@ impl Rows<'_> {
         let column = (at.u as u32) << (13 - self.log) >> (32 - self.log);
         let texel = self.texels.get((row << self.log | column) as usize);
         texel.copied().unwrap_or_default()
-    }
-}
-
-impl<'t> Texture<'t> {
-    /// Its texels, where it is one of the squares that have loops of their own, and repeats.
-    #[inline(always)]
-    fn repeated_square(&self) -> Option<Rows<'t>> {
-        match self.form {
-            Form::Words(texels) if self.is_square() && self.wrap() == Wrap::Repeat => Some(Rows {
-                texels,
-                log: self.log_width(),
-            }),
-            _ => None,
-        }
     }
 }

@@ -340,10 +340,8 @@ fn draw_reached(
     texture: &Texture<'_>,
     budget: Budget,
 ) -> (u8, bool) {
-    let repeats = texture.is_square() && texture.wrap() == Wrap::Repeat;
-    let log = if repeats { texture.log_width() } else { 0 };
     let within = Within::whole(run);
-    let reach = span.reach(run.len(), budget, log);
+    let reach = span.reach(run.len(), budget, texture.repeated());
     if let (Some(square), 1..) = (texture.square(), reach.arc) {
         if run.len() <= usize::from(reach.arc) {
             span.arc(run, within, square);

@@ -206,9 +206,10 @@ impl View {
 /// `value 2^-shift`, rounded to nearest, half up; a shift is by 31 at most.
 #[inline(always)]
 fn rounded(value: i32, shift: i32) -> i32 {
-    // The last bit that is lost, of one more below.
-    let half = (value >> (shift - 1).max(0) & 1) & -i32::from(shift > 0);
-    (value >> (shift & 31)) + half
+    match shift {
+        0 => value,
+        _ => (value >> (shift & 31)) + (value >> ((shift - 1) & 31) & 1),
+    }
 }
 
 /// Positions into vertices, which are not lit yet; whether all of them lie within the planes.

@@ -127,7 +127,18 @@ pub(crate) enum Square<'t> {
     Side256(&'t [[u16; 256]; 256]),
 }
 
-impl Square<'_> {
+impl<'t> Square<'t> {
+    /// The texels, row by row.
+    #[inline(always)]
+    pub(crate) const fn texels(self) -> &'t [u16] {
+        match self {
+            Self::Side32(t) => t.as_flattened(),
+            Self::Side64(t) => t.as_flattened(),
+            Self::Side128(t) => t.as_flattened(),
+            Self::Side256(t) => t.as_flattened(),
+        }
+    }
+
     /// The power of two that its side is.
     #[inline(always)]
     pub(crate) const fn log(self) -> u32 {
@@ -328,10 +339,13 @@ impl<'t> Texture<'t> {
         self.log_width <= 7 && self.log_height <= 7
     }
 
-    /// Whether it is a [`Square`].
+    /// The power of two of both sides where it is a [`Square`] and repeats; else 0.
     #[inline(always)]
-    pub(crate) const fn is_square(&self) -> bool {
-        self.square != 0
+    pub(crate) fn repeated(&self) -> u32 {
+        match self.wrap {
+            Wrap::Repeat => self.square.into(),
+            _ => 0,
+        }
     }
 
     /// The rows, if it is one of the squares that have loops of their own.
