@@ -18,16 +18,13 @@
 //! - Places of cut corners have 8 fraction bits. With exact quotients at each pixel besides there were 0.31 % at 7 and
 //!   0.11 % at -31, all within 1/512 texel of an edge, which is what that rounding is.
 
-use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use host_tests::rooms::{Room, picture as drawn};
 use scanbeam::look::Textured;
 use scanbeam::pixel::Rgb565;
-use scanbeam::scene::{
-    Budget, Draw, DrawState, Memory, Object, Scene, Skin, Texture, TexturePlace, Vertex,
-};
-use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
+use scanbeam::scene::{Budget, Draw, Skin, Texture};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 const WIDTH: usize = 320;
-const HEIGHT: usize = 240;
 /// Texels a side: each is named by its word.
 const SIDE: u32 = 128;
 const BACKGROUND: u16 = 0xFFFF;
@@ -61,17 +58,6 @@ fn up(roll: f64) -> [f64; 3] {
 fn picture(budget: Budget, roll: f64) -> Vec<u16> {
     let words: Vec<u16> = (0..SIDE * SIDE).map(|i| i as u16).collect();
     let texture = Texture::words(&words, SIDE, SIDE).unwrap();
-    let (mut vertices, mut places) = ([Vertex::EMPTY; 64], [TexturePlace::EMPTY; 64]);
-    let (mut objects, mut bins) = ([Object::EMPTY; 64], [0; HEIGHT]);
-    let mut draws = [DrawState::EMPTY; 1];
-    let memory = Memory {
-        vertices: &mut vertices,
-        places: &mut places,
-        objects: &mut objects,
-        bins: &mut bins,
-        draws: &mut draws,
-    };
-    let mut scene = Scene::<Textured<Rgb565>>::new(Screen::new(320, 240).unwrap(), memory);
     let eye = [0.0; 3];
     let camera = Camera::look_at(
         eye,
@@ -81,7 +67,6 @@ fn picture(budget: Budget, roll: f64) -> Vec<u16> {
         0.02,
         200.0,
     );
-    scene.begin(&camera.unwrap()).unwrap();
     let rows = [
         [HALF[0] as f32, 0.0, 0.0],
         [0.0, 1.0, 0.0],
@@ -103,21 +88,18 @@ fn picture(budget: Budget, roll: f64) -> Vec<u16> {
             faces: Faces::Triangles(&FACES),
         })
     };
-    scene.draw(&draw).unwrap();
-    let mut cache = Box::new(FastMemory::<Textured<Rgb565>>::new());
-    let (mut links, mut depth) = ([Link::NONE; 64], [0; WIDTH]);
-    let mut renderer = Renderer::new(LineMemory {
-        cache: &mut cache,
-        links: &mut links,
-        depth: &mut depth,
+    let room = Room {
+        vertices: 64,
+        objects: 64,
+        draws: 1,
+    };
+    let screen = Screen::new(320, 240).unwrap();
+    let drawn = drawn::<_, Textured<Rgb565>>(screen, room, BACKGROUND, |scene| {
+        scene.begin(&camera.unwrap())?;
+        scene.draw(&draw)?;
+        Ok(())
     });
-    let mut out = vec![0; WIDTH * HEIGHT];
-    for (line, pixels) in (0..).zip(out.chunks_mut(WIDTH)) {
-        renderer
-            .draw_line(&scene, line, pixels, BACKGROUND)
-            .unwrap();
-    }
-    out
+    drawn.unwrap()
 }
 
 /// The place that a ray through a pixel's centre meets, and how many texels lie between it and the one below: `None`

@@ -73,6 +73,7 @@ mod pairs;
 mod palette;
 mod phong;
 mod player;
+mod player_fuzz;
 mod player_refused;
 mod player_textures;
 mod priority;

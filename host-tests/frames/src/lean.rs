@@ -1,15 +1,14 @@
 //! Scenes of the suite, and lists, as this machine draws them in the rooms `scene`, `look` and `frame`.
 
-use scanbeam::Link;
-use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use host_support::rooms::{Room, picture};
 use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
+use scanbeam::scene::Scene;
 use scenes::{
-    HEIGHT, LEAN_DRAWS, LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES,
-    Played, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH,
+    LEAN_DRAWS, LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played,
+    SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite,
 };
 use std::error::Error;
 
@@ -79,33 +78,12 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
     build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), String>,
     background: [u8; 3],
 ) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut vertices = vec![Vertex::EMPTY; SUITE_VERTICES];
-    let mut places = vec![TexturePlace::EMPTY; SUITE_VERTICES];
-    let mut objects = vec![Object::EMPTY; SUITE_OBJECTS];
-    let mut bins = [0; HEIGHT as usize];
-    let mut draws = [DrawState::EMPTY; LEAN_DRAWS];
-    let memory = Memory {
-        vertices: &mut vertices,
-        places: &mut places,
-        objects: &mut objects,
-        bins: &mut bins,
-        draws: &mut draws,
+    let room = Room {
+        vertices: SUITE_VERTICES,
+        objects: SUITE_OBJECTS,
+        draws: LEAN_DRAWS,
     };
-    let mut scene = Scene::<L>::new(Shot::screen(), memory);
-    build(&mut scene)?;
-    let mut cache = Box::new(FastMemory::<L>::new());
-    let (mut links, mut depth) = (vec![Link::NONE; SUITE_OBJECTS], [0; WIDTH as usize]);
-    let mut renderer = Renderer::new(LineMemory {
-        cache: &mut cache,
-        links: &mut links,
-        depth: &mut depth,
-    });
     let background = Rgb565Be::from_rgb8(background);
-    let mut bytes = Vec::new();
-    let mut pixels = [0; WIDTH as usize];
-    for line in scene.lines() {
-        renderer.draw_line(&scene, line, &mut pixels, background)?;
-        bytes.extend(pixels.iter().flat_map(|word| word.to_ne_bytes()));
-    }
-    Ok(bytes)
+    let words = picture(Shot::screen(), room, background, |scene| Ok(build(scene)?))?;
+    Ok(words.into_iter().flat_map(u16::to_ne_bytes).collect())
 }

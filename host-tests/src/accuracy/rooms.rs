@@ -8,13 +8,11 @@ use crate::frames::{lean_picture, values_pictures};
 use crate::image_out::Frame;
 use crate::model::Model;
 use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
-use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use crate::rooms::{Room, picture};
 use scanbeam::look::Textured;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be};
-use scanbeam::scene::{
-    Budget, Draw, DrawState, Memory, Object, Scene, Skin, TexGen, Texture, TexturePlace, Vertex,
-};
-use scanbeam::{Affine, Camera, Link, Screen};
+use scanbeam::scene::{Budget, Draw, Skin, TexGen, Texture};
+use scanbeam::{Affine, Camera, Screen};
 use scenes::Suite;
 use std::error::Error;
 
@@ -180,43 +178,27 @@ const NOTHING: u16 = 0xFFFF;
 fn mirrored() -> Result<Vec<u16>, Box<dyn Error>> {
     let texels: Vec<u16> = (0..(MAP * MAP) as u16).collect();
     let map = Texture::words(&texels, MAP, MAP)?;
-    let mut vertices = vec![Vertex::EMPTY; 1_200];
-    let mut places = vec![TexturePlace::EMPTY; 1_200];
-    let mut objects = vec![Object::EMPTY; 2_300];
-    let (mut bins, mut draws) = ([0; 120], [DrawState::EMPTY; 1]);
-    let memory = Memory {
-        vertices: &mut vertices,
-        places: &mut places,
-        objects: &mut objects,
-        bins: &mut bins,
-        draws: &mut draws,
+    let room = Room {
+        vertices: 1_200,
+        objects: 2_300,
+        draws: 1,
     };
-    let mut scene = Scene::<Textured<Rgb565>>::new(Screen::new(160, 120)?, memory);
-    let (eye, up) = ([0.6, 1.0, 2.8], [0.0, 1.0, 0.0]);
-    scene.begin(&Camera::look_at(eye, [0.0; 3], up, 140.0, 0.1, 100.0)?)?;
-    scene.draw(&Draw {
-        model: Affine::rotation_y(0.6),
-        texture: Some(Skin {
-            texture: &map,
-            places: &[],
-            budget: Budget::BALANCED,
-        }),
-        texgen: Some(TexGen::SPHERE),
-        ..Draw::new(scenes::TEAPOT)
-    })?;
-    let mut cache = Box::new(FastMemory::<_>::new());
-    let (mut links, mut depth) = (vec![Link::NONE; 2_300], [0; 160]);
-    let mut renderer = Renderer::new(LineMemory {
-        cache: &mut cache,
-        links: &mut links,
-        depth: &mut depth,
-    });
-    let (mut shown, mut line) = (Vec::new(), [0; 160]);
-    for y in 0..120 {
-        renderer.draw_line(&scene, y, &mut line, NOTHING)?;
-        shown.extend(line);
-    }
-    Ok(shown)
+    let screen = Screen::new(160, 120)?;
+    picture::<_, Textured<Rgb565>>(screen, room, NOTHING, |scene| {
+        let (eye, up) = ([0.6, 1.0, 2.8], [0.0, 1.0, 0.0]);
+        scene.begin(&Camera::look_at(eye, [0.0; 3], up, 140.0, 0.1, 100.0)?)?;
+        scene.draw(&Draw {
+            model: Affine::rotation_y(0.6),
+            texture: Some(Skin {
+                texture: &map,
+                places: &[],
+                budget: Budget::BALANCED,
+            }),
+            texgen: Some(TexGen::SPHERE),
+            ..Draw::new(scenes::TEAPOT)
+        })?;
+        Ok(())
+    })
 }
 
 /// How many pixels of the mirror are seen.

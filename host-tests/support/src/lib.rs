@@ -1,5 +1,5 @@
 //! What the tool and the tests stand on: models and pictures from files and to files, the mocked frame buffer, the
-//! memory that is lent, the reference in f64, and what is said on standard output.
+//! memory that is lent, pictures of scenes in the rooms, the reference in f64, and what is said on standard output.
 
 // First: its macros are everybody's.
 #[macro_use]
@@ -10,4 +10,5 @@ pub mod lent;
 pub mod mock;
 pub mod model;
 pub mod reference;
+pub mod rooms;
 pub mod texture_file;

@@ -1,21 +1,18 @@
 //! What tests of the player share: memory for it and for scenes, and pictures of what it draws.
 
+pub mod lists;
+
+use host_tests::rooms::{Room, picture};
 use scanbeam::event::Notice;
-use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::input::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListError, TextureSlot, Words};
 use scanbeam::look::Look;
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
-use scanbeam::{Camera, Link, Screen};
+use scanbeam::scene::Scene;
+use scanbeam::{Camera, Screen};
 
 pub const WIDTH: u16 = 96;
 pub const HEIGHT: u16 = 72;
-
-/// Vertices, triangles and draw calls of a scene.
-const VERTICES: usize = 20_000;
-const OBJECTS: usize = 20_000;
-const DRAWS: usize = 4_000;
 
 /// The picture of what is drawn by the camera of most tests.
 pub fn drawn<'t, L: Look<Pixel = Rgb565Be>>(build: impl FnOnce(&mut Scene<'_, 't, L>)) -> Vec<u16> {
@@ -28,35 +25,18 @@ pub fn begun<'t, L: Look<Pixel = Rgb565Be>>(
     camera: &Camera,
     build: impl FnOnce(&mut Scene<'_, 't, L>),
 ) -> Vec<u16> {
-    let mut vertices = vec![Vertex::EMPTY; VERTICES];
-    let mut places = vec![TexturePlace::EMPTY; VERTICES];
-    let mut objects = vec![Object::EMPTY; OBJECTS];
-    let mut bins = [0; HEIGHT as usize];
-    let mut draws = vec![DrawState::EMPTY; DRAWS];
-    let memory = Memory {
-        vertices: &mut vertices,
-        places: &mut places,
-        objects: &mut objects,
-        bins: &mut bins,
-        draws: &mut draws,
+    let room = Room {
+        vertices: 20_000,
+        objects: 20_000,
+        draws: 4_000,
     };
-    let mut scene = Scene::<L>::new(Screen::new(WIDTH, HEIGHT).unwrap(), memory);
-    scene.begin(camera).unwrap();
-    build(&mut scene);
-    let mut cache = Box::new(FastMemory::<L>::new());
-    let (mut links, mut depth) = (vec![Link::NONE; OBJECTS], [0; WIDTH as usize]);
-    let mut renderer = Renderer::new(LineMemory {
-        cache: &mut cache,
-        links: &mut links,
-        depth: &mut depth,
-    });
-    let mut picture = Vec::new();
-    let mut line = [0; WIDTH as usize];
-    for y in scene.lines() {
-        renderer.draw_line(&scene, y, &mut line, 0).unwrap();
-        picture.extend(line);
-    }
-    picture
+    let screen = Screen::new(WIDTH, HEIGHT).unwrap();
+    let built = |scene: &mut Scene<'_, 't, L>| {
+        scene.begin(camera)?;
+        build(scene);
+        Ok(())
+    };
+    picture(screen, room, 0, built).unwrap()
 }
 
 /// Memory of players.
