@@ -7,7 +7,7 @@
 #[path = "teapot_data.rs"]
 mod teapot_data;
 
-use std::fmt::{Display, Write};
+use std::fmt::Display;
 
 pub(crate) use teapot_data::{PATCHES, POINTS};
 
@@ -130,12 +130,11 @@ fn triple<T: Display>(v: &[T; 3]) -> String {
 }
 
 fn table<T>(out: &mut String, name: &str, item: &str, rows: &[T], text: impl Fn(&T) -> String) {
-    // Writing to a string cannot fail.
-    let _ = writeln!(out, "static {name}: [{item}; {}] = [", rows.len());
+    *out += &format!("static {name}: [{item}; {}] = [\n", rows.len());
     for row in rows {
-        let _ = writeln!(out, "    {},", text(row));
+        *out += &format!("    {},\n", text(row));
     }
-    let _ = writeln!(out, "];");
+    *out += "];\n";
 }
 
 // --- The Utah teapot ---

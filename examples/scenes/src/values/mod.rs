@@ -1,0 +1,291 @@
+//! Small frames of what few draw calls have in the rooms `scene`, `look` and `frame`, and of the ways to send them,
+//! which must have the same bits everywhere.
+//!
+//! | name | what it shows |
+//! |---|---|
+//! | `values_phong` | a ball and a ribbon that are lit at each pixel, one of them dithered |
+//! | `values_bands` | heights as contour bands, by a look of its own |
+//! | `values_mirror` | a teapot that reflects its surroundings |
+//! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
+//! | `values_dither` | smooth and textured surfaces, dithered |
+//! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
+//! | `values_ranked` | the same by priority |
+//! | `values_master` | the scene of blends with all switched off that can be |
+//! | `values_overlay` | a ball below sprites |
+//! | `values_lines` | a ball, and what of it changes, line by line |
+//! | `values_runs` | the same in cells of 16 x 2 pixels |
+//! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
+
+mod scenes;
+
+use crate::contours::LeanContours;
+use crate::lean::{LeanError, LeanLook, LeanTextured};
+use scanbeam::frame::{
+    FastMemory, FrameError, Memory as LineMemory, Renderer, draw_frame, draw_frame_changed,
+    draw_frame_changed_runs, draw_frame_overlaid,
+};
+use scanbeam::look::{Look, Phong};
+use scanbeam::overlay::Overlay;
+use scanbeam::pixel::{Pixel, PixelFormat, Rgb565Be};
+use scanbeam::scan_out::{
+    ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled,
+};
+use scanbeam::scene::{DrawState, Master, Memory, Object, Scene, TexturePlace, Vertex};
+use scanbeam::{Link, Screen};
+use scenes::{ball, bands, blends, dither, holes, lamps, mirror, phong, sprites, teapot};
+
+/// Pixels a line of such a frame.
+pub const VALUES_WIDTH: u16 = 160;
+/// Lines of such a frame.
+pub const VALUES_HEIGHT: u16 = 120;
+/// Vertices, places, objects and links that suffice for any of them.
+pub const VALUES_ROOM: usize = 2400;
+/// Words that suffice to know what of it a display shows.
+pub const VALUES_SHOWN: usize =
+    ShownRuns::words(VALUES_WIDTH, VALUES_HEIGHT, CELL.0, CELL.1) + VALUES_HEIGHT as usize;
+
+/// Draw calls of the frame that has most.
+const DRAWS: usize = 12;
+/// Columns and lines of a cell.
+const CELL: (u16, u16) = (16, 2);
+
+/// Light at each pixel.
+pub type LeanPhong = Phong<Rgb565Be>;
+
+/// A small frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Values {
+    /// Light at each pixel.
+    Phong,
+    /// A look of one's own.
+    Bands,
+    /// Texture places from normals.
+    Mirror,
+    /// Texels that are transparent.
+    Holes,
+    /// Dithered colours and texels.
+    Dither,
+    /// Blends, scissors, depth tests, lights.
+    Blends,
+    /// The same by priority.
+    Ranked,
+    /// What blends has, with all switched off that can be.
+    Master,
+    /// Below sprites.
+    Overlay,
+    /// A frame, and the changed lines of another.
+    Lines,
+    /// A frame, and the changed cells of another.
+    Runs,
+    /// A frame of which four times as many pixels are sent.
+    Doubled,
+}
+
+/// Their names, and which frame each is.
+pub const VALUES: [(&str, Values); 12] = [
+    ("values_phong", Values::Phong),
+    ("values_bands", Values::Bands),
+    ("values_mirror", Values::Mirror),
+    ("values_holes", Values::Holes),
+    ("values_dither", Values::Dither),
+    ("values_blends", Values::Blends),
+    ("values_ranked", Values::Ranked),
+    ("values_master", Values::Master),
+    ("values_overlay", Values::Overlay),
+    ("values_lines", Values::Lines),
+    ("values_runs", Values::Runs),
+    ("values_doubled", Values::Doubled),
+];
+
+/// What such a frame is lent.
+#[derive(Debug)]
+pub struct ValuesMemory<'m> {
+    /// [`VALUES_ROOM`] of them.
+    pub vertices: &'m mut [Vertex],
+    /// Likewise.
+    pub places: &'m mut [TexturePlace],
+    /// Likewise.
+    pub objects: &'m mut [Object],
+    /// Likewise.
+    pub links: &'m mut [Link],
+    /// [`VALUES_HEIGHT`] of them.
+    pub bins: &'m mut [u16],
+    /// [`VALUES_WIDTH`] of them.
+    pub depth: &'m mut [u32],
+    /// [`VALUES_SHOWN`] of them.
+    pub shown: &'m mut [u32],
+    /// The slots of smooth colours.
+    pub smooth: &'m mut FastMemory<LeanLook>,
+    /// The slots of textures.
+    pub textured: &'m mut FastMemory<LeanTextured>,
+    /// The slots of light at each pixel.
+    pub lit: &'m mut FastMemory<LeanPhong>,
+    /// The slots of a look of one's own.
+    pub banded: &'m mut FastMemory<LeanContours>,
+}
+
+/// Why a frame was not drawn.
+#[derive(Debug)]
+pub enum ValuesError<E> {
+    /// The scene was not made.
+    Scene(LeanError),
+    /// The frame was not sent.
+    Frame(FrameError<E>),
+}
+
+impl<E> From<LeanError> for ValuesError<E> {
+    fn from(error: LeanError) -> Self {
+        Self::Scene(error)
+    }
+}
+
+impl<E> From<FrameError<E>> for ValuesError<E> {
+    fn from(error: FrameError<E>) -> Self {
+        Self::Frame(error)
+    }
+}
+
+/// What a frame is drawn with: a scene's memory but its draw states, a renderer's but its slots, and what is shown.
+struct Rest<'m> {
+    vertices: &'m mut [Vertex],
+    places: &'m mut [TexturePlace],
+    objects: &'m mut [Object],
+    links: &'m mut [Link],
+    bins: &'m mut [u16],
+    depth: &'m mut [u32],
+    shown: &'m mut [u32],
+}
+
+impl Values {
+    /// Columns and lines that are sent.
+    #[must_use]
+    pub const fn size(self) -> (u16, u16) {
+        match self {
+            Self::Doubled => (2 * VALUES_WIDTH, 2 * VALUES_HEIGHT),
+            _ => (VALUES_WIDTH, VALUES_HEIGHT),
+        }
+    }
+
+    /// Draws the frame with the memory that is lent, and sends it, and what changes after it, through `pump`.
+    ///
+    /// # Errors
+    /// When the sink fails, or less is lent than said.
+    pub fn draw<D>(
+        self,
+        lent: ValuesMemory<'_>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let rest = Rest {
+            vertices: lent.vertices,
+            places: lent.places,
+            objects: lent.objects,
+            links: lent.links,
+            bins: lent.bins,
+            depth: lent.depth,
+            shown: lent.shown,
+        };
+        let lamps = lamps()?;
+        match self {
+            Self::Phong => rest.send(self, lent.lit, pump, |scene, _| phong(scene, &lamps)),
+            Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
+            Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
+            Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
+            Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
+            Self::Blends | Self::Ranked | Self::Master => {
+                let is_ranked = self == Self::Ranked;
+                rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
+            }
+            Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
+            Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
+        }
+    }
+}
+
+impl Rest<'_> {
+    /// Makes the scene by `build`, of this moment, and sends it.
+    #[inline(never)]
+    fn send<'t, L, D>(
+        self,
+        values: Values,
+        cache: &mut FastMemory<L>,
+        pump: &mut Pump<D>,
+        build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), LeanError>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        L: Look<Pixel = Rgb565Be>,
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut draws = [const { DrawState::EMPTY }; DRAWS];
+        let memory = Memory {
+            vertices: self.vertices,
+            places: self.places,
+            objects: self.objects,
+            bins: self.bins,
+            draws: &mut draws,
+        };
+        let mut scene = Scene::<L>::new(values_screen(), memory);
+        let mut renderer = Renderer::new(LineMemory {
+            cache,
+            links: self.links,
+            depth: self.depth,
+        });
+        let background = Rgb565Be::from_rgb8([24, 32, 48]);
+        if values == Values::Master {
+            let master = Master::ALL.without_shading().without_depth();
+            scene.set_master(master.without_texture().without_blend().without_dither());
+        }
+        build(&mut scene, 0.0)?;
+        if values == Values::Overlay {
+            let sprites = sprites();
+            let overlay = Overlay::<Rgb565Be>::new(&sprites);
+            let overlay = overlay.map_err(|_| LeanError::Sprites)?;
+            draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, overlay)?;
+            return Ok(());
+        }
+        if values == Values::Doubled {
+            let window = Window {
+                x: 0,
+                y: 0,
+                width: VALUES_WIDTH,
+                height: VALUES_HEIGHT,
+            };
+            let (mut above, mut below) = ([0; VALUES_WIDTH as usize], [0; VALUES_WIDTH as usize]);
+            let drawn = [&mut above[..], &mut below[..]];
+            let draw = |line, pixels: &mut [u16]| {
+                let drawn = renderer.draw_line(&scene, line, pixels, background);
+                drawn.map(|_| ()).map_err(FrameError::Line)
+            };
+            send_doubled(pump, window, 1, drawn, Rgb565Be::mix_lines, draw)?;
+            return Ok(());
+        }
+        if !matches!(values, Values::Lines | Values::Runs) {
+            draw_frame(&scene, &mut renderer, pump, background, 3)?;
+            return Ok(());
+        }
+        let (lines, cells) = self.shown.split_at_mut(VALUES_HEIGHT.into());
+        let mut lines = ShownLines::new(lines);
+        let mut cells = ShownRuns::new(cells, VALUES_WIDTH, CELL.0, CELL.1);
+        for moment in [0.0, 0.25, 0.25] {
+            build(&mut scene, moment)?;
+            let renderer = &mut renderer;
+            if values == Values::Lines {
+                draw_frame_changed(&scene, renderer, pump, background, 3, &mut lines, ())?;
+            } else {
+                draw_frame_changed_runs(&scene, renderer, pump, background, 2, &mut cells, ())?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The size of such a frame.
+#[must_use]
+pub fn values_screen() -> Screen {
+    match Screen::new(VALUES_WIDTH, VALUES_HEIGHT) {
+        Ok(screen) => screen,
+        Err(_) => unreachable!("no side is too long"),
+    }
+}
