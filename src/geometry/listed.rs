@@ -23,7 +23,7 @@ impl From<&Matrix> for Affine {
 }
 
 impl From<&Bounds> for Sphere {
-    /// In units of 2^-30, at a place of [`Affine::scale_of`].
+    /// In units of the bounds: 2^-30, times two to the power of their exponent plus one.
     fn from(bounds: &Bounds) -> Self {
         Self {
             centre: bounds.centre,

@@ -137,10 +137,9 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
 pub fn missing(rows: &[Row]) -> Vec<&str> {
     let mut reasons: Vec<&str> = Vec::new();
     for on in rows.iter().flat_map(|row| &row.boards) {
-        if let Err(reason) = &on.counted
-            && !reasons.contains(&reason.as_str())
-        {
-            reasons.push(reason);
+        match &on.counted {
+            Err(reason) if !reasons.contains(&reason.as_str()) => reasons.push(reason),
+            _ => {}
         }
     }
     reasons

@@ -101,9 +101,10 @@ impl Outcome {
 
     /// Complains where the flash's cache is missed oftener than so many times a frame.
     pub fn hold_misses(&mut self, most: Option<u64>) {
-        if let (Some(misses), Some(most)) = (self.xip_misses, most)
-            && misses > most
-        {
+        let (Some(misses), Some(most)) = (self.xip_misses, most) else {
+            return;
+        };
+        if misses > most {
             let text =
                 format!("{misses} misses of the flash's cache a frame, and not {most} at most");
             self.complaints.push(text);

@@ -47,9 +47,12 @@ fn good() -> Vec<String> {
         if command.len() > 1 {
             lines.push(format!("data 1 {}", hex(&command[1..])));
         }
-        if command[0] == 0x2C
-            && let Some(frame) = frames.next()
-        {
+        let frame = if command[0] == 0x2C {
+            frames.next()
+        } else {
+            None
+        };
+        if let Some(frame) = frame {
             let chunks = frame
                 .chunks(4096)
                 .map(|chunk| format!("data 1 {}", hex(chunk)));

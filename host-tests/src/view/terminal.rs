@@ -154,17 +154,17 @@ fn turn(
             if !event::poll(whole.saturating_sub(frame_start.elapsed()))? {
                 break;
             }
-            if let Event::Key(key) = event::read()?
-                && key.kind != KeyEventKind::Release
-            {
-                let control = key.modifiers.contains(KeyModifiers::CONTROL);
-                let interrupt = control && key.code == KeyCode::Char('c');
-                if interrupt || !control && state.key(key.code) == Step::End {
-                    return Ok(());
-                }
-                if !moves {
-                    break;
-                }
+            let key = match event::read()? {
+                Event::Key(key) if key.kind != KeyEventKind::Release => key,
+                _ => continue,
+            };
+            let control = key.modifiers.contains(KeyModifiers::CONTROL);
+            let interrupt = control && key.code == KeyCode::Char('c');
+            if interrupt || !control && state.key(key.code) == Step::End {
+                return Ok(());
+            }
+            if !moves {
+                break;
             }
         }
         let took = pace.frame(state.spins);
