@@ -1,9 +1,10 @@
 //! Spans that what is behind shines through: from far to near, pixel by pixel, any number of them (K11, H9).
 //!
-//! They are drawn after all that is opaque, by stretches of at most 32 columns. The panes of a stretch are put into
-//! one order if they have one on all of it, by their depths at both ends of what two have in common: depth is linear
-//! along a line. Where they cross, or are more than a pile holds, the stretch is halved; a single column always has an
-//! order, and there as many piles as it takes are drawn. Of equal depths the one submitted first is behind.
+//! They are drawn after all that is opaque. The panes of a line are gathered into a pile, and drawn by stretches of at
+//! most 32 columns: those of a stretch are put into one order if they have one on all of it, by their depths at both ends
+//! of what two have in common: depth is linear along a line. Where they cross, the stretch is halved; a single column
+//! always has an order. Where a pile does not hold all, it takes those of fewer columns, and of a single column as many
+//! piles as it takes are drawn. Of equal depths the one submitted first is behind.
 //!
 //! No memory is lent for this: a pile lies on the stack.
 
@@ -14,14 +15,14 @@ use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
 use crate::look::{Look, WordOf};
-use crate::num::take_first;
+use crate::num::{bit, take_first};
 use crate::scene::DrawState;
 use core::cmp::Ordering;
 
 /// Columns of a stretch.
 const STRETCH: u32 = 32;
-/// Panes of a pile.
-const PANES: usize = 16;
+/// Panes of a pile: a word has a bit for each.
+const PANES: usize = 32;
 /// No slot.
 const NO_SLOT: u16 = u16::MAX;
 
@@ -68,18 +69,20 @@ impl Pane {
 /// Which panes a pile takes.
 #[derive(Clone, Copy)]
 enum Take {
-    /// Those that have columns of a stretch.
-    Stretch(Span),
+    /// Those that have columns of a window.
+    Window(Span),
     /// Those of a column that are in front of what has been drawn, from the farthest on.
     Column(u32, Option<Key>),
 }
 
-/// The panes of a stretch.
+/// Panes of some columns.
 struct Pile {
     panes: [Pane; PANES],
     count: usize,
     /// Whether some found no place.
     is_short: bool,
+    /// Numbers of panes, those behind first.
+    order: [u8; PANES],
 }
 
 impl Pile {
@@ -87,14 +90,19 @@ impl Pile {
         panes: [Pane::NONE; PANES],
         count: 0,
         is_short: false,
+        order: [0; PANES],
     };
+
+    fn pane(&self, number: u32) -> &Pane {
+        &self.panes[number as usize % PANES]
+    }
 
     /// Takes a pane, if it is to be taken.
     fn add(&mut self, pane: Pane, take: Take) {
         let mut at = self.count;
         match take {
-            Take::Stretch(stretch) => {
-                if pane.span.end <= stretch.start || pane.span.start >= stretch.end {
+            Take::Window(window) => {
+                if pane.span.end <= window.start || pane.span.start >= window.end {
                     return;
                 }
             }
@@ -104,8 +112,8 @@ impl Pile {
                 if column < pane.span.start || column >= pane.span.end || is_drawn {
                     return;
                 }
-                let before = |pane: &Pane| pane.key(column) < key;
-                at = self.panes().partition_point(before);
+                let panes = self.panes.get(..self.count).unwrap_or_default();
+                at = panes.partition_point(|pane| pane.key(column) < key);
             }
         }
         if self.count == PANES {
@@ -120,35 +128,54 @@ impl Pile {
         }
     }
 
-    fn panes(&mut self) -> &mut [Pane] {
-        self.panes.get_mut(..self.count).unwrap_or_default()
+    /// The next columns that panes have, from `from` on, and these panes as a set; `None` where there are none.
+    fn next_stretch(&self, from: u32, until: u32) -> Option<(Span, u32)> {
+        let panes = self.panes.get(..self.count).unwrap_or_default();
+        let ahead = |pane: &&Pane| pane.span.end > from;
+        let start = panes.iter().filter(ahead).map(|pane| pane.span.start);
+        let start = start.min()?.max(from);
+        let end = until.min(start + STRETCH);
+        let has_columns = |pane: &Pane| pane.span.end > start && pane.span.start < end;
+        let mut set = 0;
+        for (number, pane) in (0..).zip(panes) {
+            if has_columns(pane) {
+                set |= bit(number);
+            }
+        }
+        (start < end).then_some((Span { start, end }, set))
     }
 
-    /// Brings the panes into order from far to near; `false` where they have none on all of a stretch.
-    fn sort(&mut self, stretch: Span) -> bool {
-        if self.is_short {
-            return false;
+    /// Brings those of a set into order from far to near; how many they are, or `None` where they have no order on
+    /// all of a stretch.
+    fn sort(&mut self, set: u32, stretch: Span) -> Option<usize> {
+        let (mut rest, mut count) = (set, 0);
+        while rest != 0 {
+            let first = self.farthest(rest, stretch)?;
+            rest &= !bit(first);
+            *self.order.get_mut(count)? = first as u8;
+            count += 1;
         }
-        let mut rest = self.panes();
-        while !rest.is_empty() {
-            // What nobody is behind comes first.
-            let is_first = |pane: &Pane| {
-                let mut orders = rest.iter().map(|other| pane.order(other, stretch));
-                orders.all(|order| order.is_some_and(|order| order != Ordering::Greater))
-            };
-            let Some(first) = rest.iter().position(is_first) else {
-                return false;
-            };
-            // Not `swap` of a slice, which allows for one pane twice and takes a function of 1.5 KB for it.
-            let Some((head, others)) = core::mem::take(&mut rest).split_first_mut() else {
-                return true;
-            };
-            if let Some(pane) = first.checked_sub(1).and_then(|i| others.get_mut(i)) {
-                core::mem::swap(head, pane);
+        Some(count)
+    }
+
+    /// One of a set that none of the others is behind.
+    fn farthest(&self, set: u32, stretch: Span) -> Option<u32> {
+        let (mut tried, mut others) = (0, set);
+        let mut first = take_first(&mut others);
+        while others != 0 {
+            let number = take_first(&mut others);
+            let other = self.pane(number);
+            if other.order(self.pane(first), stretch)? == Ordering::Less {
+                // Where each is behind another there is no order.
+                tried |= bit(first);
+                if tried & bit(number) != 0 {
+                    return None;
+                }
+                first = number;
+                others = set & !bit(number);
             }
-            rest = others;
         }
-        true
+        Some(first)
     }
 }
 
@@ -157,9 +184,26 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn draw_translucent(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
         let count = self.list_translucent(out);
-        let mut from = 0;
-        while let Some(stretch) = self.next_stretch(count, from, out) {
-            from = self.draw_stretch(count, stretch, out);
+        let until = out.pixels.len() as u32;
+        let mut pile = Pile::EMPTY;
+        let mut window = Span {
+            start: 0,
+            end: until,
+        };
+        while window.start < window.end {
+            self.gather_panes(&mut pile, count, Take::Window(window), out);
+            if !pile.is_short {
+                self.draw_pile(&mut pile, window, out);
+            } else if window.end - window.start > 1 {
+                window.end -= (window.end - window.start) / 2;
+                continue;
+            } else {
+                self.draw_column(&mut pile, count, window, out);
+            }
+            window = Span {
+                start: window.end,
+                end: until,
+            };
         }
     }
 
@@ -227,60 +271,56 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// The next columns that panes have, from `from` on; `None` where there are none.
-    fn next_stretch(
+    /// Fills a pile.
+    fn gather_panes(
         &mut self,
+        pile: &mut Pile,
         count: usize,
-        from: u32,
+        take: Take,
         out: &Line<'_, '_, WordOf<L>>,
-    ) -> Option<Span> {
-        let (mut start, mut end) = (u32::MAX, 0);
-        self.each_pane(count, out, &mut |pane| {
-            if pane.span.end > from {
-                start = start.min(pane.span.start.max(from));
-                end = end.max(pane.span.end);
-            }
-        });
-        let end = end.min(start.saturating_add(STRETCH));
-        (start < end).then_some(Span { start, end })
+    ) {
+        (pile.count, pile.is_short) = (0, false);
+        self.each_pane(count, out, &mut |pane| pile.add(pane, take));
     }
 
-    /// Draws the panes of a stretch, or of what it has to be cut to; where that ends.
-    fn draw_stretch(
-        &mut self,
-        count: usize,
-        stretch: Span,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) -> u32 {
-        let Span { start, mut end } = stretch;
-        while end - start > 1 {
-            let part = Span { start, end };
-            let mut pile = self.pile(count, Take::Stretch(part), out);
-            if pile.sort(part) {
-                for pane in pile.panes() {
-                    self.draw_pane(*pane, part, out);
+    /// Draws the panes of a window that a pile holds.
+    fn draw_pile(&mut self, pile: &mut Pile, window: Span, out: &mut Line<'_, '_, WordOf<L>>) {
+        let mut start = window.start;
+        while let Some((mut part, set)) = pile.next_stretch(start, window.end) {
+            start = loop {
+                if let Some(count) = pile.sort(set, part) {
+                    for number in pile.order.iter().take(count) {
+                        self.draw_pane(*pile.pane(u32::from(*number)), part, out);
+                    }
+                    break part.end;
                 }
-                return end;
-            }
-            end -= (end - start) / 2;
+                part.end -= ((part.end - part.start) / 2).max(1);
+                if part.end <= part.start {
+                    return;
+                }
+            };
         }
+    }
+
+    /// Draws the panes of a column that are more than a pile holds.
+    fn draw_column(
+        &mut self,
+        pile: &mut Pile,
+        count: usize,
+        column: Span,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
         let mut after = None;
         loop {
-            let mut pile = self.pile(count, Take::Column(start, after), out);
-            for pane in pile.panes() {
-                self.draw_pane(*pane, Span { start, end }, out);
-                after = Some(pane.key(start));
+            self.gather_panes(pile, count, Take::Column(column.start, after), out);
+            for pane in pile.panes.iter().take(pile.count) {
+                self.draw_pane(*pane, column, out);
+                after = Some(pane.key(column.start));
             }
             if !pile.is_short {
-                return end;
+                return;
             }
         }
-    }
-
-    fn pile(&mut self, count: usize, take: Take, out: &Line<'_, '_, WordOf<L>>) -> Pile {
-        let mut pile = Pile::EMPTY;
-        self.each_pane(count, out, &mut |pane| pile.add(pane, take));
-        pile
     }
 
     /// Draws some columns of a pane.
