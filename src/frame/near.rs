@@ -12,8 +12,8 @@
 
 use super::guests::Guest;
 use super::renderer::{Renderer, View};
-use super::rival::{Rival, deepen, rival_of, slope_of};
-use super::slot::Active;
+use super::rival::{Rival, Slope, deepen, rival_of, slope_of};
+use super::slot::{Active, Flags};
 use super::spans::{Drawn, Line, Span, colour_run, colour_slot, columns_of};
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::look::{Look, WordOf};
@@ -326,23 +326,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         out: &Line<'_, '_, WordOf<L>>,
     ) {
         let number = number_of::<WORDS>(key);
-        let slot = &mut self.cache.slots.as_flattened_mut()[number];
-        let word = &mut self.cache.spans.as_flattened_mut()[number];
-        let span = columns_of::<L>(slot, out);
-        if span.start < span.end {
-            if out.deep {
-                deepen::<L>(slot, out.view);
-            }
-            let [near, far] = slope_of::<L>(slot, span, out).range(span);
-            *word = span.start << 16 | span.end;
-            self.cache.far.as_flattened_mut()[number] = far;
-            key = near & !NUMBER | number as u32;
+        let slot = &self.cache.slots.as_flattened()[number];
+        if out.deep && Flags(slot.flags).is_usual() {
+            let sides = &slot.item.sides;
+            let span = Span {
+                start: sides.left.column(out.number),
+                end: sides.right.column(out.number),
+            };
+            let [at, step, down] = slot.item.depth;
+            let slope = Slope {
+                at: at.wrapping_add(down.wrapping_mul(out.number)),
+                step,
+            };
+            key = self.keep_span(key, span, slope);
         } else {
-            *word = 0;
-            if !out.deep {
-                // Its place is the same on lines to come.
-                key = place_of(out.view, slot.object) | number as u32;
-            }
+            key = self.find_other(key, out);
         }
         if key > *last {
             insert_falling(self.cache.order.as_flattened_mut(), count, key);
@@ -350,6 +348,40 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = key;
             *last = key;
         }
+    }
+
+    /// Keeps the span of a slot and its farthest depth; its key, as it was where the span is empty.
+    #[inline(always)]
+    fn keep_span(&mut self, key: u32, span: Span, slope: Slope) -> u32 {
+        let number = number_of::<WORDS>(key);
+        let word = &mut self.cache.spans.as_flattened_mut()[number];
+        if span.start >= span.end {
+            *word = 0;
+            return key;
+        }
+        *word = span.start << 16 | span.end;
+        let [near, far] = slope.range(span);
+        self.cache.far.as_flattened_mut()[number] = far;
+        near & !NUMBER | number as u32
+    }
+
+    /// [`keep_span`](Self::keep_span) of any slot.
+    #[inline(never)]
+    fn find_other(&mut self, key: u32, out: &Line<'_, '_, WordOf<L>>) -> u32 {
+        let number = number_of::<WORDS>(key);
+        let slot = &mut self.cache.slots.as_flattened_mut()[number];
+        let span = columns_of::<L>(slot, out);
+        if !out.deep {
+            // Its place is the same on lines to come.
+            let place = place_of(out.view, slot.object);
+            return self.keep_span(place | number as u32, span, Slope::even(place));
+        }
+        if span.start >= span.end {
+            return self.keep_span(key, span, Slope::even(0));
+        }
+        deepen::<L>(slot, out.view);
+        let slope = slope_of::<L>(slot, span, out);
+        self.keep_span(key, span, slope)
     }
 
     /// Draws what is sorted, so many slots and so many guests in cells, where nobody is; how many spans met others.

@@ -67,6 +67,12 @@ impl Flags {
         self.0 & Way::INDIRECT << Self::WAY == 0
     }
 
+    /// Whether columns need no look at the picture's border, and depth has a plane that is known.
+    #[inline(always)]
+    pub(super) fn is_usual(self) -> bool {
+        self.0 & (Way::INDIRECT << Self::WAY | Self::NO_DEPTH | Self::DEEP) == Self::DEEP
+    }
+
     /// Whether depth has to be found on each line.
     #[inline(always)]
     pub(super) fn lacks_depth(self) -> bool {

@@ -184,6 +184,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn draw_translucent(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
         let count = self.list_translucent(out);
+        if count > 0 || self.cache.spilled.is_some() {
+            self.draw_piles(count, out);
+        }
+    }
+
+    /// Draws the panes of so many slots that are listed, and of what has no slot.
+    #[inline(never)]
+    fn draw_piles(&mut self, count: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let until = out.pixels.len() as u32;
         let mut pile = Pile::EMPTY;
         let mut window = Span {
