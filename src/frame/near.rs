@@ -289,29 +289,37 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// are.
     #[inline(never)]
     fn sort_slots(&mut self, out: &Line<'_, '_, WordOf<L>>) -> usize {
+        let (listed, before) = (self.cache.listed, self.append_new());
         let mut count = 0;
         let mut last = u32::MAX;
-        for k in 0..usize::from(self.nearest) {
+        for k in 0..before {
             // Below the number of slots in any case, so that no index is looked at again.
             let key = self.cache.order.as_flattened()[k % (32 * WORDS)];
             let number = number_of::<WORDS>(key);
-            let one = bit(number as u32 & 31);
-            let listed = &mut self.cache.listed[number >> 5];
-            if *listed & one != 0 {
-                *listed &= !one;
-                self.insert_slot(key, count, &mut last, out);
-                count += 1;
-            }
-        }
-        for word in 0..WORDS {
-            let mut listed = self.cache.listed[word];
-            while listed != 0 {
-                let key = word as u32 * 32 + take_first(&mut listed);
+            if listed[number >> 5] & bit(number as u32 & 31) != 0 {
                 self.insert_slot(key, count, &mut last, out);
                 count += 1;
             }
         }
         self.nearest = count as u16;
+        count
+    }
+
+    /// Appends the slots that are listed and not in the last line's order to it; how many it has now. All that are
+    /// listed will be in it.
+    #[inline(always)]
+    fn append_new(&mut self) -> usize {
+        let mut count = usize::from(self.nearest);
+        for word in 0..WORDS {
+            let listed = self.cache.listed[word];
+            let mut new = listed & !self.ordered[word];
+            self.ordered[word] = listed;
+            while new != 0 {
+                let number = word as u32 * 32 + take_first(&mut new);
+                self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = number;
+                count += 1;
+            }
+        }
         count
     }
 

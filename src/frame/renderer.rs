@@ -161,6 +161,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) met: bool,
     /// How many slots the last line had in order from the nearest on.
     pub(super) nearest: u16,
+    /// These, a bit each.
+    pub(super) ordered: [u32; WORDS],
     /// Whether most spans of the last line met others.
     pub(super) crowded: bool,
     /// Whether the order of the last line is that of the next, if it has the same triangles.
@@ -199,6 +201,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             written: Mask::EMPTY,
             met: false,
             nearest: 0,
+            ordered: [0; WORDS],
             crowded: false,
             lasting: false,
             changed: true,

@@ -48,6 +48,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.met = false;
         // What was kept of an order of slots has been written over.
         (self.nearest, self.lasting) = (0, false);
+        self.ordered = [0; WORDS];
         true
     }
 
