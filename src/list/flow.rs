@@ -1,7 +1,6 @@
 //! Which block comes next: flow control, immediate commands and the work budget (H12, X7).
 //!
-//! The walker knows no scene. It reads a block, spends the budget for it, follows jumps, and
-//! hands over what is to be done; so a renderer, a disassembler and a check all walk alike.
+//! The walker knows no scene: it hands over what is to be done. So a renderer, a disassembler and a check walk alike.
 
 use super::block::{Flow, Instruction, Run, State};
 use super::error::{ListError, Reason};
