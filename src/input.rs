@@ -4,11 +4,10 @@
 //! A list is executed where it lies:
 //!
 //! ```
-//! use scanbeam::Scene;
 //! use scanbeam::event::Notice;
 //! use scanbeam::input::{ListMemory, ListRunner, ListSettings};
 //! use scanbeam::list::{Budget, words_of};
-//! use scanbeam::pipeline::Pipeline;
+//! use scanbeam::pipeline::{Pipeline, Scene};
 //!
 //! /// `bytes` come from `include_list!("teapot.list")`; the memory is for one table of the list.
 //! fn draw<P: Pipeline>(

@@ -2,7 +2,7 @@
 //! no frame buffer, a few kilobytes of fast RAM.
 //!
 //! ```text
-//!  Mesh, Camera, Instance          Scene                 LineRenderer              Pump
+//!  Mesh, Camera, Draw              Scene                   Renderer                 Pump
 //!  ──────────────────────  ──►  ────────────  ──►  ───────────────────────  ──►  ─────────
 //!   from flash                  slow RAM           fast RAM: cache, depth         two line
 //!                                                                                 buffers
@@ -12,32 +12,36 @@
 //! **Pass one**, once a frame: [`Scene::draw`] moves, lights, culls, clips and projects a
 //! [`Mesh`], and files each triangle under the first line it touches.
 //!
-//! **Pass two**, once a line: [`LineRenderer::draw_line`] takes in what begins on the line, keeps
+//! **Pass two**, once a line: [`Renderer::draw_line`] takes in what begins on the line, keeps
 //! what is active, and writes the pixels. Any line can be drawn alone, in any order, with the same
 //! bits.
 //!
 //! # A frame
 //!
-//! You lend all memory, as slices; sizes are lengths, and none is fixed at compile time. Implement
+//! You lend all memory, as slices; sizes are lengths, and none is fixed at compile time but that of the cache. Implement
 //! [`ScanoutDma`](scan_out::ScanoutDma) for your DMA, or take a sink of [`scan_out`]. Then:
 //!
 //! ```
 //! # use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma};
-//! # use scanbeam::{pipeline::GouraudDepth, pixel::{PixelFormat, Rgb565Be}, *};
-//! type Look = GouraudDepth<Rgb565Be>; // smooth colours, 32-bit depth, 16-bit pixels for SPI
+//! # use scanbeam::{look::Gouraud, pixel::{PixelFormat, Rgb565Be}, *};
+//! type Look = Gouraud<Rgb565Be>; // smooth colours, 16-bit pixels for SPI
 //!
 //! fn frame<D: ScanoutDma<Buf: LineBuf<Word = u16>>>(
-//!     model: &Mesh,
-//!     scene: &mut Scene<Look>,           // Scene::new(screen, slow memory)
-//!     renderer: &mut LineRenderer<Look>, // LineRenderer::new(fast memory)
-//!     pump: &mut Pump<D>,                // Pump::new(dma, [buffer, other])
+//!     model: Mesh,
+//!     scene: &mut Scene<'_, 'static, Look>, // Scene::new(screen, slow memory)
+//!     renderer: &mut Renderer<Look>,        // Renderer::new(fast memory)
+//!     pump: &mut Pump<D>,                   // Pump::new(dma, [buffer, other])
 //!     turn: f32,
-//! ) -> Result<FrameStats, Box<dyn std::error::Error>>
+//! ) -> Result<frame::FrameUse, Box<dyn std::error::Error>>
 //! # where D::Error: std::error::Error + 'static
 //! {
 //!     let camera = Camera::look_at([0.0, 1.0, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 10.0)?;
 //!     scene.begin(&camera)?;
-//!     scene.draw(model, &Instance { model: Affine::rotation_y(turn), ..Instance::default() })?;
+//!     scene.draw(&Draw {
+//!         model: Affine::rotation_y(turn),
+//!         light: Light::new([-0.9, 0.8, 0.5], 0.2),
+//!         ..Draw::new(model)
+//!     })?;
 //!     let background = Rgb565Be::from_rgb8([24, 32, 48]);
 //!     Ok(draw_frame(scene, renderer, pump, background, 8)?) // 8 lines a transfer
 //! }
@@ -45,21 +49,28 @@
 //!
 //! # Where things are
 //!
-//! What a first frame needs is here at the root; the rest is in modules by task: [`mesh`], [`light`],
-//! [`texture`], [`blend`] and [`overlay`] for what is drawn, [`pipeline`] and [`pixel`] for how,
-//! [`list`] and [`input`] for scenes as data, [`parallel`], [`send`] and [`scan_out`] for frames on
-//! their way to displays, [`stats`] and [`event`] for what happened.
+//! What a first frame needs is here at the root. The rest is in modules, in the order in which data walks:
+//!
+//! | module | there |
+//! |---|---|
+//! | [`mesh`], [`light`], [`list`], [`input`] | what is drawn, by calls or as data |
+//! | [`scene`] | pass one: draw calls, their textures, blends, scissors, priorities |
+//! | [`look`], [`pixel`] | what a triangle's pixels look like |
+//! | [`frame`] | pass two: lines, frames, two cores |
+//! | [`overlay`], [`scan_out`] | what is painted over lines, and how they get to displays |
+//! | [`stats`], [`event`] | what happened |
+//! | [`pipeline`] | another way to all of it, by types: what the modules above do not have yet |
 //!
 //! # Where to go on
 //!
 //! | for | see |
 //! |---|---|
 //! | a whole program, memory and all | [`guide::first_triangle`] |
+//! | textures | [`guide::textures`] |
+//! | blends, scissors, priorities, reflections, lists | [`guide::draw_calls`] |
 //! | your display, your memory, two cores | [`guide::own_display`], [`guide::own_memory`], [`guide::two_cores`] |
 //! | speed against error, and what a frame did | [`guide::quality`], [`guide::figures`] |
-//! | smooth or textured meshes in half to two thirds of the instructions | [`guide::fewer_instructions`], [`scene`], [`look`], [`frame`] |
-//! | other choices: flat, no depth, textures, blending | the presets of [`pipeline`], [`texture`], [`blend`] |
-//! | a scene as data, in flash or in a ring that grows | [`list`], [`input`] |
+//! | shadows, levels of detail, filters, pictures over 1,016 pixels | [`guide::presets`] |
 //! | which requirement is met where, and which test says so | [`guide::rows`] |
 #![no_std]
 #![forbid(unsafe_code)]
@@ -74,7 +85,6 @@ struct Readme;
 
 mod active;
 mod arena;
-pub mod blend;
 mod composite;
 pub mod event;
 pub mod frame;
@@ -88,24 +98,18 @@ pub mod look;
 pub mod mesh;
 mod num;
 pub mod overlay;
-pub mod parallel;
 pub mod pipeline;
 pub mod pixel;
 mod player;
 mod renderer;
 pub mod scan_out;
 pub mod scene;
-pub mod send;
 mod shade;
 mod span;
 pub mod stats;
-pub mod texture;
 mod visible;
 
+pub use frame::{Renderer, draw_frame};
 pub use geometry::{Affine, Camera, CameraError, Cull, Faces, Light, Mesh, MeshError, Screen};
 pub use link::Link;
-pub use renderer::{
-    DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, RendererError, Scene,
-    SceneError, SceneMemory, draw_frame,
-};
-pub use shade::Quality;
+pub use scene::{Draw, Scene};

@@ -212,7 +212,7 @@ pub struct PassOne {
     /// Triangles that found no room.
     pub dropped: u32,
     /// Triangles that are drawn without their texture, as they stretch over more of its texels than
-    /// a [`Skin`](crate::texture::Skin) may say.
+    /// a [`Skin`](crate::pipeline::texture::Skin) may say.
     pub untextured: u32,
     /// Meshes wholly outside the view, which were not looked at (M4). Their triangles are among
     /// the culled.

@@ -10,11 +10,13 @@ use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
-use scanbeam::pipeline::{CellOf, Counted, GouraudDepth, ObjectOf, SlotOf, VertexOf, WordOf};
+use scanbeam::pipeline::send::draw_frame_changed;
+use scanbeam::pipeline::{
+    CellOf, Counted, FrameStats, GouraudDepth, Instance, ObjectOf, SlotOf, VertexOf, WordOf,
+};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ShownLines};
-use scanbeam::send::draw_frame_changed;
-use scanbeam::{Affine, Camera, FrameStats, Instance, Light, Link, Screen};
+use scanbeam::{Affine, Camera, Light, Link, Screen};
 use scenes::TEAPOT;
 use std::error::Error;
 use std::f32::consts::TAU;

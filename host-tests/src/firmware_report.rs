@@ -9,8 +9,7 @@ use crate::firmware::{
 use crate::frames::{draw, host_counts, host_frames};
 use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::{preset_sizes, profile_report};
-use scanbeam::FrameStats;
-use scanbeam::pipeline::{FlatPainter, GouraudPainter};
+use scanbeam::pipeline::{FlatPainter, FrameStats, GouraudPainter};
 use scanbeam::pixel::Rgb565Be;
 use scenes::Shot;
 use serde_json::{Value, json};

@@ -216,8 +216,7 @@ impl Counted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scanbeam::LineRenderer;
-    use scanbeam::pipeline::GouraudDepth;
+    use scanbeam::pipeline::{GouraudDepth, LineRenderer};
     use scanbeam::pixel::Rgb565Be;
 
     #[test]

@@ -7,9 +7,11 @@ use crate::lent::LineRooms;
 use crate::model::Model;
 use crate::reference::View;
 use crate::texture_file::TextureImage;
+use scanbeam::pipeline::texture::{
+    FRACTION, Period, Quality, TexelOf, Texels, Textured, Textures, Uv,
+};
 use scanbeam::pipeline::{Depth32, Flat, Packed8, Parts, Precision};
 use scanbeam::pixel::{PixelFormat, TwoWords};
-use scanbeam::texture::{FRACTION, Period, Quality, TexelOf, Texels, Textured, Textures, Uv};
 
 /// What a pixel shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -13,7 +13,7 @@ use crate::image_out::{ImageError, write_atomically, write_image};
 use crate::plot::{Chart, Marks, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::pipeline::BlockFix16;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     BlockCache, Blocked, CacheReads, Homogeneous, Layout, Linear, PerspectiveSpan, Size, Stride,
     Texels, Texture, Uv, Words, Wrap,
 };
@@ -83,7 +83,7 @@ impl Texels for Places {
 
 /// A place from texels.
 fn uv(u: f64, v: f64) -> Uv {
-    let fix = |x: f64| ((x * f64::from(1 << scanbeam::texture::FRACTION)) as i64) as i32;
+    let fix = |x: f64| ((x * f64::from(1 << scanbeam::pipeline::texture::FRACTION)) as i64) as i32;
     Uv {
         u: fix(u),
         v: fix(v),

@@ -3,12 +3,12 @@
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame};
 use scanbeam::mesh::Room;
-use scanbeam::pipeline::{FlatPainter, GouraudDepth, Pipeline, WordOf};
-use scanbeam::pixel::Rgb888;
-use scanbeam::{
-    Affine, Camera, Cull, DrawError, Faces, Instance, Mesh, MeshError, RendererError, Scene,
-    SceneError, Screen,
+use scanbeam::pipeline::{
+    DrawError, FlatPainter, GouraudDepth, Instance, Pipeline, RendererError, Scene, SceneError,
+    WordOf,
 };
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, MeshError, Screen};
 use scenes::{CUBE, TEAPOT};
 
 type P = FlatPainter<Rgb888>;

@@ -3,9 +3,9 @@
 
 use crate::common::{self, LineRooms, SceneRooms};
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::{BlockFixed, DepthUse, FlatDepth, Pipeline};
+use scanbeam::pipeline::{BlockFixed, DepthUse, FlatDepth, Instance, Pipeline};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 const NEAR: f64 = 1.0;
 /// Units that coordinates are fractions of.

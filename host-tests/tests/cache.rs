@@ -2,17 +2,16 @@
 //! fetched ahead or not, on one thread or on several (C4, C5, K16, X6).
 
 use crate::common::{self, LineRooms, Rng, SceneRooms};
+use host_tests::crew;
 use host_tests::mock::{HostLine, MockFrameBuffer};
-use scanbeam::parallel::{Crew, Interleave, LineSource, Relay};
-use scanbeam::pipeline::{Counted, FlatPainter, GouraudDepth, Pipeline, WordOf};
+use scanbeam::pipeline::parallel::{Crew, Interleave, LineSource};
+use scanbeam::pipeline::{
+    Counted, FlatPainter, FrameStats, GouraudDepth, Instance, LineRenderer, Pipeline,
+    RendererError, Scene, WordOf, draw_frame,
+};
 use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
-use scanbeam::send::send_frame;
-use scanbeam::{
-    Camera, Cull, Faces, FrameStats, Instance, LineRenderer, Mesh, RendererError, Scene, Screen,
-    draw_frame,
-};
-use std::task::Poll;
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 
 type Depth = Counted<GouraudDepth<Rgb888>>;
 type Painter = FlatPainter<Rgb565Be>;
@@ -322,22 +321,19 @@ fn renderers_and_scenes_may_cross_threads() {
     send::<LineRenderer<'static, Depth>>();
     send::<Scene<'static, Depth>>();
     sync::<Scene<'static, Depth>>();
-    send::<scanbeam::parallel::LineWorker<'static, HostLine<u16>>>();
-    send::<scanbeam::parallel::LineDesk<'static, HostLine<u16>>>();
     send::<scanbeam::input::Source<'static, 'static>>();
     send::<scanbeam::input::Stream<'static, 'static>>();
 }
 
-/// A frame by `count` renderers on threads of their own and perhaps one on this.
+/// A frame by `count` renderers, each on a thread of its own.
 fn threaded<P: Pipeline<Textures: Sync>>(
     scene: &Scene<'_, P>,
-    (count, here): (u16, bool),
+    count: u16,
     (slots, budget, band): (usize, u32, u16),
 ) -> Vec<WordOf<P>>
 where
     WordOf<P>: Send,
 {
-    let screen = scene.screen();
     let mut line_rooms: Vec<_> = (0..count)
         .map(|_| LineRooms::<P>::fitting(slots, scene))
         .collect();
@@ -346,38 +342,9 @@ where
         renderer.set_interleave(Interleave::bands(count, offset as u16, band).unwrap());
         renderer.set_prefetch(budget);
     }
-    let far = renderers.split_off(usize::from(here));
-    let width = usize::from(screen.width());
-    let mut relays: Vec<Relay<HostLine<WordOf<P>>, 4>> = (0..far.len())
-        .map(|_| Relay::new([HostLine::new(width), HostLine::new(width)]))
-        .collect();
-    let mut pump = pump(screen, 3);
-    std::thread::scope(|threads| {
-        let mut desks = Vec::new();
-        for (mut renderer, relay) in far.into_iter().zip(&mut relays) {
-            let (mut worker, desk) = relay.split();
-            desks.push((renderer.interleave(), desk));
-            threads.spawn(move || {
-                let whole = worker.frame(scene, &mut renderer, Default::default(), || {
-                    std::thread::yield_now();
-                    true
-                });
-                assert!(whole);
-            });
-        }
-        let mut crew = Crew {
-            scene,
-            here: &mut renderers,
-            desks: &mut desks,
-            background: Default::default(),
-            wait: || {
-                std::thread::yield_now();
-                true
-            },
-            skipped: 0,
-        };
-        send_frame(scene, &mut crew, &mut pump, 3).unwrap();
-    });
+    let mut pump = pump(scene.screen(), 3);
+    let background = Default::default();
+    crew::draw_frame(scene, &mut renderers, &mut pump, background, 3).unwrap();
     pump.sink().frame().unwrap()
 }
 
@@ -392,18 +359,10 @@ fn threads_draw_one_scene() {
         soup.build(&mut scene);
         let expected = reference(&scene).concat();
         for count in 1..=4 {
-            for here in [false, true] {
-                let settings = (
-                    rng.pick(&CACHES),
-                    rng.pick(&BUDGETS),
-                    1 + rng.below(4) as u16,
-                );
-                let frame = threaded(&scene, (count, here), settings);
-                assert!(
-                    frame == expected,
-                    "seed {seed}, {count}, {here}, {settings:?}"
-                );
-            }
+            let band = 1 + rng.below(4) as u16;
+            let settings = (rng.pick(&CACHES), rng.pick(&BUDGETS), band);
+            let frame = threaded(&scene, count, settings);
+            assert!(frame == expected, "seed {seed}, {count}, {settings:?}");
         }
     }
 }
@@ -415,46 +374,20 @@ fn a_crew_says_who_is_missing() {
     let mut rooms = soup.rooms::<Depth>(screen);
     let mut scene = rooms.scene(screen);
     soup.build(&mut scene);
-    let mut relay = Relay::<HostLine<[u8; 3]>, 4>::new([HostLine::new(8), HostLine::new(7)]);
-    let (mut worker, desk) = relay.split();
     let mut line_rooms = LineRooms::<Depth>::fitting(4, &scene);
     let mut renderer = line_rooms.renderer();
-    let odd = Interleave::lines(4, 1).unwrap();
-    let mut desks = [(odd, desk)];
+    renderer.set_interleave(Interleave::lines(4, 1).unwrap());
     let mut crew = Crew {
         scene: &scene,
-        here: &mut [],
-        desks: &mut desks,
+        here: &mut [renderer],
         background: [0; 3],
-        wait: || false,
         skipped: 0,
     };
     let mut pixels = [[0; 3]; 8];
-    assert_eq!(
-        crew.line(0, &mut pixels),
-        Err(RendererError::Unowned { line: 0 })
-    );
-    assert_eq!(
-        crew.line(1, &mut pixels),
-        Err(RendererError::Stopped { line: 1 })
-    );
-    let mut step = |line| worker.step(&scene, &mut renderer, [0; 3], line);
-    assert_eq!(step(1), Poll::Ready(()));
-    assert_eq!(step(2), Poll::Ready(()));
-    assert_eq!(step(3), Poll::Pending, "both buffers are away");
-    assert!(crew.line(1, &mut pixels).is_ok());
+    let unowned = |line| Err(RendererError::Unowned { line });
+    assert_eq!(crew.line(0, &mut pixels), unowned(0));
+    assert_eq!(crew.line(1, &mut pixels), Ok(()));
+    assert_eq!(crew.line(2, &mut pixels), unowned(2));
     let short = RendererError::Pixels { needed: 8, have: 7 };
-    assert_eq!(
-        crew.line(1, &mut pixels),
-        Err(RendererError::Unowned { line: 1 })
-    );
-    // Both are back, in their order.
-    assert_eq!((step(5), step(5)), (Poll::Ready(()), Poll::Ready(())));
-    assert!(crew.line(5, &mut pixels).is_ok());
-    assert_eq!(crew.line(5, &mut pixels), Err(short));
-    assert_eq!((step(1), step(5)), (Poll::Ready(()), Poll::Ready(())));
-    desks[0].1.discard();
-    assert_eq!((step(1), step(5)), (Poll::Ready(()), Poll::Ready(())));
-    renderer.set_interleave(odd);
-    assert!(!worker.frame(&scene, &mut renderer, [0; 3], || false));
+    assert_eq!(crew.line(5, &mut pixels[..7]), Err(short));
 }

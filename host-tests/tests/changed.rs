@@ -4,10 +4,11 @@ use crate::common::changes::{
     self, Lines, Look, Mock, Picture, begun, buffers, camera, change, recovered, some_fault,
 };
 use crate::common::{LineRooms, Rng, SceneRooms};
+use scanbeam::pipeline::send::{draw_frame_changed, send_changed};
+use scanbeam::pipeline::{Instance, draw_frame};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ScanStats, ShownLines};
-use scanbeam::send::{draw_frame_changed, send_changed};
-use scanbeam::{Affine, Instance, Screen, draw_frame};
+use scanbeam::{Affine, Screen};
 
 const WIDTH: u16 = 5;
 const HEIGHT: u16 = 23;

@@ -6,17 +6,17 @@
 
 use crate::common::{LineRooms, Rng, SceneRooms};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
-use scanbeam::blend::Finish;
 use scanbeam::event::{Event, EventSet, Notice};
 use scanbeam::input::{ListMemory, ListRunner, ListSettings};
 use scanbeam::list::{Budget, FieldForm, Halt, Header, Id, State, Window};
-use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::blend::Finish;
+use scanbeam::pipeline::parallel::Interleave;
 use scanbeam::pipeline::{
     Clip, Composited, Counted, FlatDepth, FlatPainter, Forward, GouraudDepth, GouraudPainter,
-    Interpolated, Pipeline, Shading, SkinOf, Windowed, WordOf,
+    Instance, Interpolated, Pipeline, Scene, Shading, SkinOf, Windowed, WordOf,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
-use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 use std::ops::Range;
 
 const SIZE: (u16, u16) = (47, 38);

@@ -2,12 +2,13 @@
 //! pipeline, and its pixels are composited one by one in f64 (K11, H8, H9, P5).
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::blend::{Blend, DepthFunction, Factor, Finish, Surface};
+use scanbeam::pipeline::blend::{Blend, DepthFunction, Factor, Finish, Surface};
 use scanbeam::pipeline::{
-    Composited, DepthUse, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, WordOf,
+    Composited, DepthUse, FlatPainter, GouraudDepth, GouraudPainter, Instance, Pipeline, Scene,
+    WordOf,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
-use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 
 const WIDTH: u16 = 70;
 const HEIGHT: u16 = 40;

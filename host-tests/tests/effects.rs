@@ -7,7 +7,7 @@ use host_tests::args::PixelFormatArg;
 use host_tests::draw::{CrewSettings, Drawn, Effects, FilterArg, TextureSet, draw, draw_effects};
 use host_tests::model::{Material, Model, ModelVertex};
 use host_tests::reference::{Cull, Shade, View};
-use scanbeam::texture::Quality;
+use scanbeam::pipeline::texture::Quality;
 
 fn material(ks: f64, ns: f64, d: f64) -> Material {
     Material {

@@ -1,18 +1,16 @@
 //! Promises that were once broken at the ends of their ranges, each held by what a caller sees.
 
 use crate::common::{Rng, SceneRooms, frame};
-use scanbeam::blend::{ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
 use scanbeam::mesh::{I2F14, U1F15};
+use scanbeam::pipeline::blend::{ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
 use scanbeam::pipeline::{
-    Composited, FlatDepth, FlatPainter, GouraudDepth, LineDepth, ListedDepth, ObjectOf, PhongDepth,
-    Pipeline, Prioritised, Shadowed, SlotOf, VertexOf, Windowed,
+    Composited, DrawError, FlatDepth, FlatPainter, GouraudDepth, Instance, LineDepth, LineMemory,
+    LineRenderer, ListedDepth, ObjectOf, PhongDepth, Pipeline, Prioritised, Scene, SceneMemory,
+    Shadowed, SlotOf, VertexOf, Windowed,
 };
 use scanbeam::pixel::{Grey8, Rgb565, Rgb888};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanoutDma, ShownRuns, Window};
-use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Faces, Instance, Light, LineMemory, LineRenderer,
-    Link, Mesh, MeshError, Scene, SceneMemory, Screen,
-};
+use scanbeam::{Affine, Camera, CameraError, Cull, Faces, Light, Link, Mesh, MeshError, Screen};
 use std::collections::VecDeque;
 use std::convert::Infallible;
 use std::sync::Mutex;

@@ -1,13 +1,13 @@
 //! Finishes in company: many transparent surfaces over each other, and with every kind of depth.
 
 use crate::common::{Rng, SceneRooms, frame};
-use scanbeam::blend::{DepthFunction, Finish};
 use scanbeam::mesh::QuadSplit;
+use scanbeam::pipeline::blend::{DepthFunction, Finish};
 use scanbeam::pipeline::{
-    BlockFixed, Composited, FlatDepth, FlatPainter, Pipeline, Shadowed, Worded,
+    BlockFixed, Composited, FlatDepth, FlatPainter, Instance, Pipeline, Scene, Shadowed, Worded,
 };
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 
 const WIDTH: u16 = 64;
 const HEIGHT: u16 = 12;

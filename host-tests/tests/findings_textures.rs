@@ -8,16 +8,16 @@ use scanbeam::event::{Event, Notice};
 use scanbeam::input::ListSettings;
 use scanbeam::list::{self, Halt, Header, Id, Material, State, TexelForm, TextureSlot};
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::pipeline::{
-    Composited, Depth32, Flat, ListedDepth, Packed8, Parts, PhongDepth, Pipeline, TexturedDepth,
-    Windowed,
-};
-use scanbeam::pixel::Rgb888;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     Address, Checker, Clamp, Gradient, ListTextures, Mirror, Quality, Size, Skin, TexelOf, Texels,
     Texture, Textured, Textures, Words, Wrap,
 };
-use scanbeam::{Camera, Cull, Faces, FrameStats, Instance, Mesh, Screen};
+use scanbeam::pipeline::{
+    Composited, Depth32, Flat, FrameStats, Instance, ListedDepth, Packed8, Parts, PhongDepth,
+    Pipeline, TexturedDepth, Windowed,
+};
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 
 type Look<'t, T> = TexturedDepth<'t, Rgb888, T>;
 

@@ -2,7 +2,7 @@
 
 use host_tests::frames::{effect_frames, method_frames, values_sent};
 use host_tests::say;
-use scanbeam::Quality;
+use scanbeam::pipeline::Quality;
 use scenes::{VALUES, Values};
 use std::collections::BTreeSet;
 

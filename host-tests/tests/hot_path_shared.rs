@@ -5,7 +5,8 @@ use crate::common::Rng;
 use crate::hot::{Corner, LineRooms, SceneRooms, camera, draw, frame};
 use host_tests::mock::{Fault, HostLine, MockFrameBuffer};
 use scanbeam::frame::{
-    Desk, FrameError, LineError, Peer, Relay, draw_continuous, draw_frame_async, draw_frame_shared,
+    Desk, FrameError, LineError, Peer, Relay, draw_continuous, draw_frame, draw_frame_async,
+    draw_frame_shared,
 };
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::Rgb565Be;
@@ -359,16 +360,30 @@ fn awaited_frames_are_the_same() {
         let sent = draw_frame_async(scene, &mut renderer, &mut pump, BACKGROUND, 7);
         let sent = block_on(sent).unwrap();
         assert_eq!(pump.writer().words, bits(scene));
-        assert_eq!(sent.assembled, scene.assembled());
-        assert_eq!(sent.cache.hits + sent.cache.spilled, scene.objects() as u32);
+        let buffers = [(); 2].map(|()| HostLine::new(7 * usize::from(WIDTH)));
+        let mut polled = Pump::new(MockFrameBuffer::new(WIDTH, HEIGHT), buffers);
+        let mut want = draw_frame(scene, &mut renderer, &mut polled, BACKGROUND, 7).unwrap();
+        // Nobody polls what is awaited.
+        want.scan_out.stall_polls = sent.scan_out.stall_polls;
+        assert_eq!(sent, want);
         assert_eq!(sent.scan_out.transfers, 6);
     }
+    // Refused before anything is sent.
+    let mut lines = LineRooms::fitting(&scenes[0], 16, true);
+    let shown = pump.writer().words.clone();
+    let mut renderer = lines.renderer();
+    let sent = draw_frame_async(&scenes[0], &mut renderer, &mut pump, BACKGROUND, 8);
+    let error = block_on(sent).expect_err("a buffer is short");
+    let [needed, have] = [8, 7].map(|lines| lines * usize::from(WIDTH));
+    let short = ScanError::BufferTooShort { needed, have };
+    assert_eq!(error, FrameError::ScanOut(short));
     let mut lines = LineRooms::fitting(&scenes[0], 16, true);
     lines.links.pop();
     let mut renderer = lines.renderer();
     let sent = draw_frame_async(&scenes[0], &mut renderer, &mut pump, BACKGROUND, 7);
     let error = block_on(sent).expect_err("a link is missing");
     assert!(matches!(error, FrameError::Line(LineError::Links { .. })));
+    assert_eq!(pump.writer().words, shown);
 }
 
 /// A panel that has time, but for one line.

@@ -2,9 +2,9 @@
 
 use crate::common::{self, SceneRooms};
 use scanbeam::input::{Command, Input, InputError, InputQueue, Stalled};
-use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pipeline::{DrawError, GouraudDepth, Instance, Scene};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, DrawError, Faces, Instance, Mesh, MeshError, Scene, Screen};
+use scanbeam::{Affine, Camera, Faces, Mesh, MeshError, Screen};
 use scenes::{CUBE, SPHERE};
 use std::task::Poll;
 

@@ -2,14 +2,13 @@
 //! bits that it has in the whole frame.
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::parallel::Interleave;
 use scanbeam::pipeline::{
-    Counted, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, WordOf,
+    Counted, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Instance, LineMemory,
+    LineRenderer, Pipeline, Scene, WordOf,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
-use scanbeam::{
-    Affine, Camera, Cull, Faces, Instance, Light, LineMemory, LineRenderer, Mesh, Scene, Screen,
-};
+use scanbeam::{Affine, Camera, Cull, Faces, Light, Mesh, Screen};
 use scenes::{CUBE, RIBBON, SHOTS, STRESS, Shot, TEAPOT};
 use std::ops::Range;
 

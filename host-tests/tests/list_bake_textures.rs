@@ -13,7 +13,7 @@ use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::View;
 use host_tests::texture_file::of_materials;
 use scanbeam::list::{Budget, Halt, TexelForm};
-use scanbeam::texture::{Quality, Rgba8871, TexelFormat};
+use scanbeam::pipeline::texture::{Quality, Rgba8871, TexelFormat};
 use std::path::Path;
 
 const SIDE: u32 = 16;

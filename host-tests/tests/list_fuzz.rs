@@ -12,10 +12,10 @@ use scanbeam::list::{
     VertexFormat, Window, parameter,
 };
 use scanbeam::overlay::{LineOverlay, ListOverlays};
-use scanbeam::pipeline::ListedDepth;
+use scanbeam::pipeline::texture::ListTextures;
+use scanbeam::pipeline::{Instance, ListedDepth};
 use scanbeam::pixel::Rgb888;
-use scanbeam::texture::ListTextures;
-use scanbeam::{Camera, Instance, Light, Screen};
+use scanbeam::{Camera, Light, Screen};
 
 /// Memory of a scene whose textures lie in a list.
 type Rooms<'t> = SceneRooms<ListedDepth<'t, Rgb888>>;

@@ -5,7 +5,6 @@ use crate::listing::{
     self, Cloud, HEIGHT, PLENTY, Room, Smooth, WIDTH, begin, drawn, rooms, some_instance,
 };
 use host_tests::lists::writer::ListWriter;
-use scanbeam::blend::Finish;
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::{ListRunner, ListSettings};
 use scanbeam::light::{DirectionalLight, Lighting};
@@ -15,9 +14,10 @@ use scanbeam::list::{
 };
 use scanbeam::mesh::{I2F14, U1F15};
 use scanbeam::overlay::{LineOverlay, ListOverlays};
-use scanbeam::pipeline::Composited;
+use scanbeam::pipeline::blend::Finish;
+use scanbeam::pipeline::{Composited, Instance};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
-use scanbeam::{Instance, Light, Screen};
+use scanbeam::{Light, Screen};
 
 type Picture = Vec<Vec<[u8; 3]>>;
 

@@ -11,8 +11,8 @@ use scanbeam::event::Notice;
 use scanbeam::input::ListSettings;
 use scanbeam::list::{Bounds, Halt, Header, Id, Material, Matrix, State};
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::pipeline::{Pipeline, WordOf};
-use scanbeam::{Affine, Cull, Faces, Instance, Mesh};
+use scanbeam::pipeline::{Instance, Pipeline, WordOf};
+use scanbeam::{Affine, Cull, Faces, Mesh};
 
 /// Vertices on and around the picture.
 fn on_screen(rng: &mut Rng, count: usize) -> Vec<ScreenVertex> {

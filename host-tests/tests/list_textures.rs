@@ -10,10 +10,12 @@ use scanbeam::list::{
     Texture, TextureSlot, VertexFormat, parameter,
 };
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::pipeline::{ListedDepth, TexturedDepth};
+use scanbeam::pipeline::texture::{
+    Clamp, ListTextures, Quality, Size, Skin, TexelOf, Textures, Words,
+};
+use scanbeam::pipeline::{Instance, ListedDepth, TexturedDepth, texture};
 use scanbeam::pixel::Rgb888;
-use scanbeam::texture::{Clamp, ListTextures, Quality, Size, Skin, TexelOf, Textures, Words};
-use scanbeam::{Cull, Faces, Instance, Mesh, texture};
+use scanbeam::{Cull, Faces, Mesh};
 use std::sync::atomic::AtomicU32;
 
 type Listed<'t> = ListedDepth<'t, Rgb888>;

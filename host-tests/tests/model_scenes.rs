@@ -2,8 +2,7 @@
 //! (K4, K5, M1).
 
 use crate::common::{LineRooms, SceneRooms};
-use scanbeam::Scene;
-use scanbeam::pipeline::{Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline};
+use scanbeam::pipeline::{Counted, FlatPainter, GouraudDepth, GouraudPainter, Pipeline, Scene};
 use scanbeam::pixel::Rgb888;
 use scanbeam::stats::SpanCounts;
 use scanbeam_model::{
@@ -276,7 +275,7 @@ fn lines_alone_and_in_segments_are_the_same() {
 
 #[test]
 fn what_cannot_be_drawn_is_refused() {
-    use scanbeam::RendererError;
+    use scanbeam::pipeline::RendererError;
     type P = GouraudDepth<Rgb888>;
     let mut rooms = rooms::<P>();
     let scene = built(Shot::Cube, &mut rooms);

@@ -23,9 +23,7 @@ const ROOMS: [&str; 12] = [
     "scan_out",
 ];
 /// The front door's modules by task: they take over names from everywhere, and no room sees them.
-const FRONT: [&str; 8] = [
-    "blend", "input", "light", "mesh", "overlay", "parallel", "send", "texture",
-];
+const FRONT: [&str; 4] = ["input", "light", "mesh", "overlay"];
 /// The conductor, the bundle of choices and the front door: they see everything.
 const ABOVE: [&str; 4] = ["renderer", "frame", "pipeline", "lib"];
 /// Pairs beyond the order, from the last column of DESIGN's table of rooms: the first must never

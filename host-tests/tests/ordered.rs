@@ -6,14 +6,12 @@
 use crate::common::{Rng, SceneRooms};
 use scanbeam::mesh::{QuadSplit, ScreenVertex};
 use scanbeam::pipeline::{
-    Counted, Deferred, DepthUse, FlatDepth, GouraudDepth, Interpolated, LineDepth, Pipeline,
-    QuarterRate, WordOf,
+    Counted, Deferred, DepthUse, FlatDepth, GouraudDepth, Instance, Interpolated, LineDepth,
+    LineMemory, LineRenderer, Pipeline, QuarterRate, Scene, WordOf,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::stats::SpanCounts;
-use scanbeam::{
-    Affine, Camera, Cull, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene, Screen,
-};
+use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 
 const FOCAL: f64 = 100.0;
 

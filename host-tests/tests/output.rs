@@ -8,12 +8,11 @@ use embedded_graphics::prelude::*;
 use embedded_graphics::text::Text;
 use host_tests::lent::{LineRooms, SceneRooms};
 use host_tests::mock::{HostLine, MockFrameBuffer};
-use scanbeam::draw_frame;
 use scanbeam::overlay::{
     Canvas, DrawnLines, Ink, LineOverlay, Overlay, Sprite, draw_frame_overlaid,
     draw_frame_overlaid_changed,
 };
-use scanbeam::pipeline::{Forward, GouraudDepth, Interpolated, Pipeline, WordOf};
+use scanbeam::pipeline::{Forward, GouraudDepth, Interpolated, Pipeline, WordOf, draw_frame};
 use scanbeam::pixel::{Dithered, PixelFormat, Pixels, Rgb565, Rgb888};
 use scanbeam::scan_out::{Pump, ShownLines};
 use scenes::{METHOD_HEIGHT, METHOD_WIDTH, build_method, method_screen};

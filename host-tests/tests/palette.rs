@@ -7,15 +7,17 @@
 use crate::common::{LineRooms, Rng, SceneRooms};
 use host_tests::mock::{HostLine, MockFrameBuffer};
 use scanbeam::overlay::{Overlaid, Overlay, Sprite};
-use scanbeam::parallel::{Crew, Interleave};
-use scanbeam::pipeline::{DepthUse, FlatDepth, GouraudDepth, Pipeline};
+use scanbeam::pipeline::parallel::{Crew, Interleave};
+use scanbeam::pipeline::send::{draw_frame_indexed, send_frame_indexed};
+use scanbeam::pipeline::{
+    DepthUse, FlatDepth, FrameError, GouraudDepth, Instance, Pipeline, RendererError, Scene,
+};
 use scanbeam::pixel::{
     Index4, Index8, Indexed, LinePalettes, PaletteTable, PixelFormat, Pixels, Rgb565, Rgb565Be,
     Rgb565Le, Rgb888,
 };
 use scanbeam::scan_out::{LineBuf, Pump};
-use scanbeam::send::{draw_frame_indexed, send_frame_indexed};
-use scanbeam::{Camera, Cull, Faces, FrameError, Instance, Mesh, RendererError, Scene, Screen};
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 use std::fmt::Debug;
 
 const SIZE: (u16, u16) = (53, 41);
@@ -139,12 +141,10 @@ where
                 offset += 1;
                 renderer
             });
-            let mut crew = Crew::<_, HostLine<u8>, _> {
+            let mut crew = Crew {
                 scene: &scene,
                 here: &mut renderers,
-                desks: &mut [],
                 background,
-                wait: || false,
                 skipped: 0,
             };
             send_frame_indexed(&scene, &mut crew, &mut pump, transfer, by).unwrap();
@@ -269,12 +269,10 @@ fn sprites_of_indices_lie_over_them() {
     soup.build(&mut scene, 0..SIZE.1, colour);
     let mut line_rooms = LineRooms::fitting(9, &scene);
     let mut renderers = [line_rooms.renderer()];
-    let crew = Crew::<_, HostLine<u8>, _> {
+    let crew = Crew {
         scene: &scene,
         here: &mut renderers,
-        desks: &mut [],
         background: 0,
-        wait: || false,
         skipped: 0,
     };
     let sprites = [Sprite {

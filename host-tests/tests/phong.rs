@@ -4,9 +4,9 @@ use crate::common::solid::{V, cross, dot, octahedron, unit};
 use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::light::{DirectionalLight, Lamplight, Lighting, PixelLamps};
 use scanbeam::mesh::{Material, U1F15};
-use scanbeam::pipeline::{Composited, GouraudDepth, PhongDepth, Pipeline, WordOf};
+use scanbeam::pipeline::{Composited, GouraudDepth, Instance, PhongDepth, Pipeline, WordOf};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 const SIDE: u16 = 121;
 const FOCAL: f64 = 170.0;

@@ -4,16 +4,16 @@
 //! that cover it; what is covered is told by the model's vertex sort.
 
 use crate::common::{LineRooms, Rng, SceneRooms};
-use scanbeam::blend::Finish;
 use scanbeam::list::Window;
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::blend::Finish;
+use scanbeam::pipeline::parallel::Interleave;
 use scanbeam::pipeline::{
-    CellOf, Clip, Composited, FlatDepth, Forward, GouraudDepth, Interpolated, Pipeline,
-    Prioritised, Priority, Shading, SkinOf, Windowed, WordOf,
+    CellOf, Clip, Composited, FlatDepth, Forward, GouraudDepth, Instance, Interpolated, Pipeline,
+    Prioritised, Priority, Scene, Shading, SkinOf, Windowed, WordOf,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
-use scanbeam::{Affine, Camera, Cull, Instance, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Screen};
 use scanbeam_model::{CuspPolygon, ModelSpan, Wins, priority_contest};
 use scenes::CUBE;
 use std::ops::Range;

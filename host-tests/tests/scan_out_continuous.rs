@@ -1,12 +1,13 @@
 //! Panels that read by their own clock, simulated to the tick: late lines are counted, and the picture
 //! recovers at the next line (X5).
 
-use crate::common::{LineRooms, Rng, SceneRooms};
-use scanbeam::pipeline::GouraudDepth;
+use crate::common::Rng;
+use crate::hot::{LineRooms, SceneRooms};
+use scanbeam::frame::draw_continuous;
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scan_out::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
-use scanbeam::send::draw_continuous;
-use scanbeam::{Affine, Camera, Instance, Screen};
+use scanbeam::{Affine, Camera, Draw, Screen};
 
 const WIDTH: usize = 4;
 
@@ -214,18 +215,18 @@ fn one_slow_line_costs_the_lines_that_it_takes_and_no_other() {
 /// whole picture, although lines before it were left out.
 #[test]
 fn a_scene_recovers_at_the_next_line() {
-    type Look = GouraudDepth<Rgb565>;
+    type Look = Gouraud<Rgb565>;
     let (width, height) = (64u16, 48u16);
-    let mut rooms = SceneRooms::<Look>::new(64, 64, height.into());
-    let mut scene = rooms.scene(Screen::new(width, height).unwrap());
+    let mut rooms = SceneRooms::new(64, 64, height.into(), 1);
+    let mut scene = rooms.scene::<Look>(Screen::new(width, height).unwrap());
     let camera = Camera::look_at([0.0, 0.0, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 60.0, 0.1, 100.0);
     scene.begin(&camera.unwrap()).unwrap();
-    let instance = Instance {
+    let cube = Draw {
         model: Affine::rotation_y(0.4),
-        ..Instance::default()
+        ..Draw::new(scenes::CUBE)
     };
-    scene.draw(&scenes::CUBE, &instance).unwrap();
-    let mut lines = LineRooms::<Look>::new(8, 64, width.into());
+    scene.draw(&cube).unwrap();
+    let mut lines = LineRooms::fitting(&scene, 8, true);
     let mut renderer = lines.renderer();
     let background = Rgb565::from_rgb8([9, 9, 9]);
 
@@ -258,7 +259,9 @@ fn a_scene_recovers_at_the_next_line() {
     let mut whole = Vec::new();
     for line in 0..height {
         let mut pixels = vec![background; width.into()];
-        renderer.draw_line(&scene, line, &mut pixels).unwrap();
+        renderer
+            .draw_line(&scene, line, &mut pixels, background)
+            .unwrap();
         whole.push(pixels);
     }
     for every in [2, 3, 7, 1_000] {

@@ -8,10 +8,11 @@ use crate::common::changes::{
 };
 use crate::common::{LineRooms, Rng, SceneRooms};
 use host_tests::mock::{HostLine, MockError};
+use scanbeam::pipeline::send::{draw_frame_changed_runs, send_changed_runs};
+use scanbeam::pipeline::{Instance, draw_frame};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
-use scanbeam::send::{draw_frame_changed_runs, send_changed_runs};
-use scanbeam::{Affine, Instance, Screen, draw_frame};
+use scanbeam::{Affine, Screen};
 
 /// The mock, with the windows that were opened.
 struct Recorder {

@@ -2,12 +2,12 @@
 
 use crate::common::solid::{V, along, cross, dot, octahedron, sub, unit};
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::blend::{
+use scanbeam::pipeline::blend::{
     Finish, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, ShadowRoom, Surface,
 };
-use scanbeam::pipeline::{Counted, GouraudDepth, Pipeline, Shadowed};
+use scanbeam::pipeline::{Counted, GouraudDepth, Instance, Pipeline, Scene, Shadowed};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Light, Mesh, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Light, Mesh, Screen};
 
 const WIDTH: usize = 72;
 const HEIGHT: usize = 54;
@@ -56,7 +56,7 @@ impl Body {
         rooms: [usize; 3],
     ) -> Result<(), ShadowError>
     where
-        P: Pipeline<Shading = scanbeam::blend::Blended<scanbeam::pipeline::Gouraud>>,
+        P: Pipeline<Shading = scanbeam::pipeline::blend::Blended<scanbeam::pipeline::Gouraud>>,
     {
         let memory = ShadowMemory {
             edges: &mut vec![ShadowEdge::default(); rooms[0]],

@@ -2,10 +2,10 @@
 
 use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::mesh::Sphere;
-use scanbeam::pipeline::{GouraudDepth, WordOf};
+use scanbeam::pipeline::{GouraudDepth, Instance, Scene, WordOf};
 use scanbeam::pixel::Rgb888;
 use scanbeam::stats::PassOne;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 type Look = GouraudDepth<Rgb888>;
 

@@ -3,9 +3,9 @@
 //! or an overflow. The bounds are in the table of `stress_shapes.rs`.
 
 use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::pipeline::{FlatPainter, GouraudDepth};
+use scanbeam::pipeline::{FlatPainter, GouraudDepth, Instance, Scene};
 use scanbeam::pixel::{Rgb565Be, Rgb888};
-use scanbeam::{Affine, Camera, CameraError, Cull, Instance, Light, Scene, Screen};
+use scanbeam::{Affine, Camera, CameraError, Cull, Light, Screen};
 use scenes::{CUBE, TEAPOT};
 use std::fs;
 use std::process::Command;

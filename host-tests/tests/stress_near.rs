@@ -13,9 +13,9 @@
 //! - That an edge stays closed has no tolerance.
 
 use crate::common::{LineRooms, Rng, SceneRooms, line};
-use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pipeline::{GouraudDepth, Instance, Scene};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 type P = GouraudDepth<Rgb888>;
 

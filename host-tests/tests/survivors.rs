@@ -5,18 +5,21 @@
 use crate::common::{LineRooms, SceneRooms, frame};
 use crate::listing::{PLENTY, Room};
 use host_tests::lists::writer::ListWriter;
-use host_tests::mock::HostLine;
-use scanbeam::blend::{Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface};
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::ListSettings;
 use scanbeam::list::{Budget, Flow, Halt};
 use scanbeam::mesh::{I2F14, ScreenVertex};
-use scanbeam::parallel::{Crew, Interleave, LineSource, Relay};
-use scanbeam::pipeline::{Composited, FlatDepth, Shadowed, TexturedDepth};
+use scanbeam::pipeline::blend::{
+    Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface,
+};
+use scanbeam::pipeline::parallel::{Crew, Interleave, LineSource};
+use scanbeam::pipeline::texture::{Quality, Size, Skin, Texel, Texture, Textures, Words};
+use scanbeam::pipeline::{
+    Composited, FlatDepth, FrameStats, Instance, Scene, Shadowed, TexturedDepth,
+};
 use scanbeam::pixel::{Dithered, Ordered, PixelFormat, Ranks, Rgb565, Rgb888};
 use scanbeam::stats::SpanCounts;
-use scanbeam::texture::{Quality, Size, Skin, Texel, Texture, Textures, Words};
-use scanbeam::{Affine, Camera, Cull, Faces, FrameStats, Instance, Mesh, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 type Store<'t> = Texture<Words<'t, Texel>>;
 
@@ -366,21 +369,10 @@ fn a_crew_counts_the_lines_that_it_skips() {
     let (mut here, mut there) = (first.renderer(), second.renderer());
     here.set_interleave(Interleave::lines(2, 0).unwrap());
     there.set_interleave(Interleave::lines(2, 1).unwrap());
-    let mut relay = Relay::<HostLine<[u8; 3]>, 3>::new((1..3).map(|_| HostLine::new(16)));
-    let (mut worker, desk) = relay.split();
-    let mut next = 1;
-    let scene = &scene;
     let mut crew = Crew {
-        scene,
-        here: &mut [here],
-        desks: &mut [(Interleave::lines(2, 1).unwrap(), desk)],
+        scene: &scene,
+        here: &mut [here, there],
         background: [0; 3],
-        wait: || {
-            if worker.step(scene, &mut there, [0; 3], next).is_ready() {
-                next += 2;
-            }
-            true
-        },
         skipped: 0,
     };
     let mut pixels = [[0; 3]; 16];

@@ -3,11 +3,11 @@
 //! every read.
 
 use host_tests::frames::textured_b;
-use scanbeam::pipeline::{Counted, TexturedDepth};
-use scanbeam::pixel::Rgb565Be;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     BlockCache, Blocked, CacheReads, Size, Store, Texture, Textures, Words, Wrap,
 };
+use scanbeam::pipeline::{Counted, TexturedDepth};
+use scanbeam::pixel::Rgb565Be;
 use scenes::{CachedB, CachedLookB, SCENES_B, SceneB, TEXEL_SIDE, TEXELS_PANEL};
 use std::cell::RefCell;
 use std::collections::BTreeSet;

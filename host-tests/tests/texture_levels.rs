@@ -8,7 +8,7 @@ use host_tests::image_out::Frame;
 use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{NO_OBJECT, Options, View, render_with};
 use host_tests::texture_file::TextureImage;
-use scanbeam::texture::Quality;
+use scanbeam::pipeline::texture::Quality;
 
 /// The eye is at the origin and looks along -z.
 fn view() -> View {
@@ -102,7 +102,7 @@ struct Rgba(u32);
 
 impl Rgba {
     fn word(&self) -> u32 {
-        use scanbeam::texture::{Rgba8871, Texel, TexelFormat};
+        use scanbeam::pipeline::texture::{Rgba8871, Texel, TexelFormat};
         Rgba8871::pack(Texel {
             rgb: [self.0 as u8, 0, 0],
             alpha: 127,

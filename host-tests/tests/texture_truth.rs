@@ -14,7 +14,7 @@ use host_tests::reference::{
     Filter, NO_OBJECT, Options, Reference, TextureMap, Textures, View, render_textured,
 };
 use host_tests::texture_file::TextureImage;
-use scanbeam::texture::Quality;
+use scanbeam::pipeline::texture::Quality;
 use scenes::textured;
 
 /// Texels a side.

@@ -8,7 +8,7 @@ use host_tests::image_out::Frame;
 use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{NO_OBJECT, Options, Reference, View, render_with};
 use host_tests::texture_file::TextureImage;
-use scanbeam::texture::Quality;
+use scanbeam::pipeline::texture::Quality;
 
 const SIDE: u32 = 64;
 

@@ -11,9 +11,9 @@ pub mod count;
 use crate::common::{self, LineRooms, Rng, SceneRooms};
 use count::{Count, Place, doubled_area};
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::{Counted, FlatPainter};
+use scanbeam::pipeline::{Counted, FlatPainter, Instance};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Camera, Cull, Faces, Instance, Mesh, Screen};
+use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 
 type P = Counted<FlatPainter<Rgb888>>;
 

@@ -3,12 +3,12 @@
 
 use crate::common::{LineRooms, Rng, SceneRooms};
 use scanbeam::pipeline::{
-    Composited, Counted, DepthUse, FlatDepth, GouraudDepth, Interpolated, Pipeline, QuarterRate,
-    WordOf, Worded,
+    Composited, Counted, DepthUse, FlatDepth, GouraudDepth, Instance, Interpolated, Pipeline,
+    QuarterRate, Scene, WordOf, Worded,
 };
 use scanbeam::pixel::{Rgb565, Rgb565Be, Rgb888};
 use scanbeam::stats::SpanCounts;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 const WIDTH: u16 = 90;
 const HEIGHT: u16 = 60;

@@ -1,6 +1,6 @@
 //! Whether surfaces have a finish: the choice of a pipeline.
 
-/// What a pipeline does with the finishes of surfaces: [`Blended`](crate::blend::Blended) shadings have
+/// What a pipeline does with the finishes of surfaces: [`Blended`](crate::pipeline::blend::Blended) shadings have
 /// them.
 pub trait Compositing {
     /// Whether it looks at them at all.
@@ -12,7 +12,7 @@ impl Compositing for () {
     const BLENDS: bool = false;
 }
 
-/// Each object is composited as its [`Finish`](crate::blend::Finish) says.
+/// Each object is composited as its [`Finish`](crate::pipeline::blend::Finish) says.
 #[derive(Clone, Copy, Debug)]
 pub struct Blending;
 

@@ -12,7 +12,7 @@ use crate::shade::texture::{Levels, Texels};
 use crate::visible::Visible;
 
 /// Textures by number, each in four levels of detail; the shading is
-/// [`Textured`](crate::texture::Textured) with [`LevelEnds`].
+/// [`Textured`](crate::pipeline::texture::Textured) with [`LevelEnds`].
 #[derive(Debug)]
 pub struct DetailedTextures<'t, T>(
     /// The textures; a face without one among them is drawn untextured.

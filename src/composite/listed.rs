@@ -18,7 +18,7 @@ use crate::shade::Stretch;
 use crate::shade::texture::{Texels, Uv, place_by_place};
 use crate::visible::Visible;
 
-/// The textures of a list, for [`Scene::set_textures`](crate::Scene::set_textures).
+/// The textures of a list, for [`Scene::set_textures`](crate::pipeline::Scene::set_textures).
 ///
 /// A list that is not in one piece, such as a ring, has none.
 #[derive(Clone, Copy, Debug, Default)]

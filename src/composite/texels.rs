@@ -18,7 +18,7 @@ use core::slice;
 /// The textures that are lent to a scene: [`Textures`], or `()` for none.
 ///
 /// Where they can be shared between cores (`Sync`), the scene can; those that are read through a
-/// [`BlockCache`](crate::texture::BlockCache) cannot, as one core alone may use a cache.
+/// [`BlockCache`](crate::pipeline::texture::BlockCache) cannot, as one core alone may use a cache.
 pub trait TextureSource<F: PixelFormat>: Copy + Default {
     /// How texture `index` goes on beyond its sides.
     fn period(&self, _index: u16) -> Period {

@@ -46,6 +46,7 @@ mod thin;
 mod translucent;
 mod values;
 
+pub use crate::active::CacheUse;
 pub use changed::{draw_frame_changed, draw_frame_changed_runs};
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};

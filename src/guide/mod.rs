@@ -5,11 +5,12 @@
 //! | [`first_triangle`] | a picture without a display, and what each piece of memory is for |
 //! | [`own_display`] | a sink for your panel, by a ready one, by three functions or by your DMA |
 //! | [`own_memory`] | which memory goes where, and how much of it a scene needs |
-//! | [`textures`] | a textured mesh, the byte order of its texels, and which `Quality` is meant |
-//! | [`fewer_instructions`] | smooth and textured meshes in half to two thirds of the instructions |
+//! | [`textures`] | a textured mesh, and the byte order of its texels |
+//! | [`draw_calls`] | what else a draw call can say, lists, and what is refused |
 //! | [`two_cores`] | alternate lines on two cores or threads |
 //! | [`quality`] | what is paid for how exact a picture |
 //! | [`figures`] | what a frame did, and what it was spared |
+//! | [`presets`] | what draw calls do not have yet, by types |
 //! | [`scene_files`] | a scene as a file that the tool draws and shows |
 //! | [`rows`] | each requirement with its code and its test |
 //!
@@ -27,8 +28,8 @@ pub mod own_memory {}
 #[doc = include_str!("textures.md")]
 pub mod textures {}
 
-#[doc = include_str!("fewer_instructions.md")]
-pub mod fewer_instructions {}
+#[doc = include_str!("draw_calls.md")]
+pub mod draw_calls {}
 
 #[doc = include_str!("two_cores.md")]
 pub mod two_cores {}
@@ -38,6 +39,9 @@ pub mod quality {}
 
 #[doc = include_str!("figures.md")]
 pub mod figures {}
+
+#[doc = include_str!("presets.md")]
+pub mod presets {}
 
 #[doc = include_str!("scene_files.md")]
 pub mod scene_files {}

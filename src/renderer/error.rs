@@ -125,11 +125,6 @@ pub enum RendererError {
         /// The line.
         line: u16,
     },
-    /// The frame was given up while another renderer still owed the line.
-    Stopped {
-        /// The line.
-        line: u16,
-    },
 }
 
 impl core::fmt::Display for RendererError {
@@ -152,7 +147,6 @@ impl core::fmt::Display for RendererError {
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
             Self::Unowned { line } => write!(f, "renderer: nobody draws line {line} in its turn"),
-            Self::Stopped { line } => write!(f, "renderer: given up while line {line} was awaited"),
         }
     }
 }

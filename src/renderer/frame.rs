@@ -7,8 +7,8 @@ use crate::active::Interleave;
 use crate::composite::PixelFormat;
 use crate::pipeline::{Pipeline, WordOf};
 use crate::scan_out::{
-    ContinuousPanel, ErrorType, FeedStats, LineBuf, LineWord, Pump, ScanError, ScanStats,
-    ScanoutDma, ShownLines, ShownRuns, Window, feed_frame,
+    ErrorType, LineBuf, LineWord, Pump, ScanError, ScanStats, ScanoutDma, ShownLines, ShownRuns,
+    Window,
 };
 use crate::stats::CacheCounts;
 use crate::stats::PassOne;
@@ -155,28 +155,6 @@ where
     let mut source = Alone::new(scene, renderer, background)?;
     let scan_out = send_changed_runs(scene, &mut source, pump, lines_per_transfer, shown)?;
     Ok(source.stats(scan_out))
-}
-
-/// Draws the lines of `scene` for a panel that reads them by its own clock. A line whose deadline is over
-/// is counted and left out, and the picture goes on at the next.
-///
-/// # Errors
-/// When the renderer has too little memory.
-pub fn draw_continuous<P, C>(
-    scene: &Scene<'_, P>,
-    renderer: &mut LineRenderer<'_, P>,
-    panel: &mut C,
-    background: WordOf<P>,
-) -> Result<(FeedStats, FrameStats), RendererError>
-where
-    P: Pipeline,
-    C: ContinuousPanel<Word = WordOf<P>>,
-{
-    let mut source = Alone::new(scene, renderer, background)?;
-    let fed = feed_frame(panel, scene.lines(), |line, pixels| {
-        source.line(line, pixels)
-    })?;
-    Ok((fed, source.stats(ScanStats::default())))
 }
 
 /// Where the lines of a frame come from: one renderer here, or several anywhere.

@@ -23,7 +23,7 @@ use crate::visible::{DepthCell, LineDepth};
 /// ```compile_fail,E0499
 /// # use scanbeam::pipeline::GouraudDepth;
 /// # use scanbeam::pixel::Rgb888;
-/// # use scanbeam::{LineMemory, LineRenderer, Link};
+/// # use scanbeam::{Link, pipeline::{LineMemory, LineRenderer}};
 /// let (mut links, mut depth, mut other) = ([Link::NONE; 9], [0; 9], [0; 9]);
 /// let memory = LineMemory { slots: &mut [], links: &mut links, depth: &mut depth };
 /// let one = LineRenderer::<GouraudDepth<Rgb888>>::new(memory);

@@ -4,15 +4,13 @@
 //! `immediate` from plain slices; `lines` draws, `order` from front to back where it can (X3), and
 //! `words` draws depth and colour in one word (K8), `place` fetches ahead (C4), `transparent` draws what has a finish (K11, K9), `priority` what has
 //! priorities (P1); `frame` sends what one renderer draws, `overlay` with what is painted over it
-//! (K14), `palette` by way of a palette for each line (H18), `relay` what several do on their own
-//! cores (K16, X6).
+//! (K14), `palette` by way of a palette for each line (H18), `crew` what several do in turn (K16, X6).
 
+mod crew;
 mod deferred;
 mod error;
 mod filing;
 mod frame;
-#[cfg(feature = "async")]
-mod frame_async;
 mod immediate;
 mod input;
 mod instance;
@@ -24,7 +22,6 @@ mod palette;
 mod pile;
 mod place;
 mod priority;
-mod relay;
 mod run;
 mod scene;
 mod shadow;
@@ -32,13 +29,12 @@ mod spans;
 mod transparent;
 mod words;
 
+pub use crew::Crew;
 pub use error::{DrawError, RendererError, SceneError};
 pub use frame::{
-    FrameError, FrameStats, LineSource, draw_continuous, draw_frame, draw_frame_changed,
-    draw_frame_changed_runs, send_changed, send_changed_runs, send_frame,
+    FrameError, FrameStats, LineSource, draw_frame, draw_frame_changed, draw_frame_changed_runs,
+    send_changed, send_changed_runs, send_frame,
 };
-#[cfg(feature = "async")]
-pub use frame_async::{draw_frame_async, send_frame_async};
 pub use immediate::Vertices;
 pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use instance::Instance;
@@ -47,7 +43,6 @@ pub use lines::{DepthUse, LineMemory, LineRenderer};
 pub use overlay::{Overlaid, draw_frame_overlaid, draw_frame_overlaid_changed};
 pub use palette::{draw_frame_indexed, send_frame_indexed};
 pub use place::Prefetched;
-pub use relay::{Crew, LineDesk, LineWorker, Relay};
 pub use run::{ListMemory, ListRunner, ListSettings};
 pub use scene::{Scene, SceneMemory};
 pub use shadow::ShadowError;

@@ -34,7 +34,7 @@ impl<P: Pipeline, S: LineSource<P>, O: LineOverlay<P::Pixel>> LineSource<P> for 
     }
 }
 
-/// Draws and sends all lines of `scene` as [`draw_frame`](crate::draw_frame) does, with `overlay`
+/// Draws and sends all lines of `scene` as [`draw_frame`](crate::pipeline::draw_frame) does, with `overlay`
 /// over them.
 ///
 /// # Errors
@@ -58,7 +58,7 @@ where
 }
 
 /// The same, and only lines that differ from what `shown` knows are sent, as
-/// [`draw_frame_changed`](crate::send::draw_frame_changed) does: what counts is the line with all that
+/// [`draw_frame_changed`](crate::pipeline::send::draw_frame_changed) does: what counts is the line with all that
 /// is over it.
 ///
 /// # Errors

@@ -12,7 +12,7 @@ use crate::composite::{Indexed, LinePalettes, expand_indices};
 use crate::pipeline::Pipeline;
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanStats, ScanoutDma};
 
-/// Sends the lines of `scene` as [`send_frame`](crate::send::send_frame) does. `source` gives their
+/// Sends the lines of `scene` as [`send_frame`](crate::pipeline::send::send_frame) does. `source` gives their
 /// indices, for which `indices` has a byte a pixel, and `palettes` say what these mean on a line.
 ///
 /// # Errors

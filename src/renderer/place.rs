@@ -56,7 +56,7 @@ pub struct Prefetched {
 }
 
 impl<P: Pipeline> LineRenderer<'_, P> {
-    /// How many bytes a line [`draw_frame`](crate::draw_frame) fetches ahead, while a transfer
+    /// How many bytes a line [`draw_frame`](crate::pipeline::draw_frame) fetches ahead, while a transfer
     /// runs; 0, which is how it starts: none. Any value gives the same picture.
     pub fn set_prefetch(&mut self, bytes_per_line: u32) {
         self.prefetch = bytes_per_line;

@@ -246,7 +246,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     }
 
     /// [`draw`](Scene::draw) with what the mesh brings beside its colours: in pipelines such as
-    /// [`TexturedDepth`](crate::pipeline::TexturedDepth) a [`Skin`](crate::texture::Skin).
+    /// [`TexturedDepth`](crate::pipeline::TexturedDepth) a [`Skin`](crate::pipeline::texture::Skin).
     ///
     /// # Errors
     /// As [`draw`](Scene::draw); a skin that is neither empty nor as long as the mesh's positions

@@ -48,7 +48,7 @@ where
     /// Where `model` stretches it, it must do so by the same factor in all directions. The camera
     /// may be inside the volume.
     ///
-    /// Pipelines whose depth is [`ShadowDepth32`](crate::blend::ShadowDepth32), such as
+    /// Pipelines whose depth is [`ShadowDepth32`](crate::pipeline::blend::ShadowDepth32), such as
     /// [`Shadowed`](crate::pipeline::Shadowed), show it; others do not.
     ///
     /// # Errors

@@ -5,16 +5,18 @@
 use crate::{
     CUBE, METHOD_HEIGHT, METHOD_WIDTH, RIBBON, SPHERE, ShotError, build_method, method_screen,
 };
-use scanbeam::blend::{Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface};
 use scanbeam::light::{DirectionalLight, Lamplight, Lighting, PixelLamps};
 use scanbeam::list::Window;
 use scanbeam::mesh::{I2F14, Material, U1F15};
+use scanbeam::pipeline::blend::{
+    Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface,
+};
 use scanbeam::pipeline::{
-    Clip, Composited, FlatDepth, GouraudDepth, PhongDepth, Pipeline, Prioritised, Priority,
-    Shadowed, Windowed,
+    Clip, Composited, FlatDepth, GouraudDepth, Instance, PhongDepth, Pipeline, Prioritised,
+    Priority, Scene, Shadowed, Windowed,
 };
 use scanbeam::pixel::{Dithered, Index8, LinePalettes, PixelFormat, Rgb565, Rgb565Be};
-use scanbeam::{Affine, Camera, Cull, Instance, Light, Mesh, Scene};
+use scanbeam::{Affine, Camera, Cull, Light, Mesh};
 
 /// Pixels a line of such a frame.
 pub const EFFECT_WIDTH: u16 = METHOD_WIDTH;

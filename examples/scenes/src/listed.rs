@@ -4,9 +4,9 @@ use crate::ShotError;
 use scanbeam::event::Notice;
 use scanbeam::input::{ListMemory, ListRunner, ListSettings, RunCounts};
 use scanbeam::list::{Budget, Halt, ListError, TextureSlot, words_of};
-use scanbeam::pipeline::Pipeline;
-use scanbeam::texture::ListTextures;
-use scanbeam::{Affine, Camera, Instance, Light, Scene, include_list};
+use scanbeam::pipeline::texture::ListTextures;
+use scanbeam::pipeline::{Instance, Pipeline, Scene};
+use scanbeam::{Affine, Camera, Light, include_list};
 
 /// Vertices of the list's largest table, which its HEAD says.
 pub const LIST_TABLE: usize = 255;

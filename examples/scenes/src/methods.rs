@@ -2,10 +2,10 @@
 
 use crate::{CUBE, RIBBON, ShotError};
 use scanbeam::pipeline::{
-    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Packed8, Packed16,
-    Pipeline, QuarterRate,
+    Auto, Forward, HalfRate, Instance, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Packed8,
+    Packed16, Pipeline, Quality, QuarterRate, Scene,
 };
-use scanbeam::{Affine, Camera, Cull, Instance, Light, Quality, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Light, Screen};
 
 /// Pixels a line of a method's frame.
 pub const METHOD_WIDTH: u16 = 64;

@@ -1,8 +1,8 @@
 //! A sphere of as many triangles as are asked for, made where it is drawn.
 
 use crate::{Shot, ShotError};
-use scanbeam::pipeline::Pipeline;
-use scanbeam::{Affine, Camera, Faces, Instance, Light, Mesh, Scene};
+use scanbeam::pipeline::{Instance, Pipeline, Scene};
+use scanbeam::{Affine, Camera, Faces, Light, Mesh};
 
 /// Parts of an edge of the spheres that growth is measured on: 72 to 20,000 triangles.
 pub const OCTASPHERES: [u16; 10] = [3, 4, 5, 7, 10, 14, 20, 28, 37, 50];

@@ -6,12 +6,11 @@
 
 use crate::texels::{TEXEL_SIDE, TEXELS_565};
 use crate::{SPHERE, Shot, ShotError};
-use scanbeam::pipeline::{Gouraud, Pipeline, TexturedDepth};
-use scanbeam::pixel::Rgb565Be;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     BlockCache, Blocked, Quality, Skin, Square128, Texture, Textured, Words, Wrap,
 };
-use scanbeam::{Instance, Scene};
+use scanbeam::pipeline::{Gouraud, Instance, Pipeline, Scene, TexturedDepth};
+use scanbeam::pixel::Rgb565Be;
 
 /// A way to draw scene B.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 //! none is hit twice (K4).
 
 use crate::{HEIGHT, Shot, WIDTH};
-use scanbeam::pipeline::{Counted, FlatPainter};
+use scanbeam::pipeline::{Counted, FlatPainter, Instance, LineRenderer, Scene};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::{Camera, Cull, Faces, Instance, LineRenderer, Mesh, Scene};
+use scanbeam::{Camera, Cull, Faces, Mesh};
 
 /// Cells across and down.
 const CELLS: [usize; 2] = [24, 18];

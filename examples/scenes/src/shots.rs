@@ -2,10 +2,8 @@
 
 use crate::suite::{self, Suite};
 use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, stress};
-use scanbeam::pipeline::Pipeline;
-use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Instance, Light, Scene, SceneError, Screen,
-};
+use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene, SceneError};
+use scanbeam::{Affine, Camera, CameraError, Cull, Light, Screen};
 
 /// Pixels a line of every shot.
 pub const WIDTH: u16 = 320;

@@ -2,8 +2,8 @@
 //! X1).
 
 use crate::{Shot, ShotError};
-use scanbeam::pipeline::Pipeline;
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Scene};
+use scanbeam::pipeline::{Instance, Pipeline, Scene};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh};
 
 /// The shots of this file.
 pub const STRESS: [Shot; 3] = [Shot::Slivers, Shot::Giants, Shot::Crossings];

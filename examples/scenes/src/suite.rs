@@ -19,10 +19,10 @@ use crate::shots::{LAYER, LAYER_COLOURS, LAYERS, NEAREST_LAYER};
 use crate::texels::TEXEL_SIDE;
 use crate::{CUBE, FINE_SPHERE, SPHERE, ShotError, TEAPOT};
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::{Gouraud, Pipeline, TexturedDepth};
+use scanbeam::pipeline::texture::{Quality, Skin, Square64, Textured};
+use scanbeam::pipeline::{Gouraud, Instance, Pipeline, Scene, TexturedDepth};
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::texture::{Quality, Skin, Square64, Textured};
-use scanbeam::{Affine, Camera, CameraError, Cull, Faces, Instance, Light, Mesh, Scene};
+use scanbeam::{Affine, Camera, CameraError, Cull, Faces, Light, Mesh};
 
 /// Slots of the object cache that the suite is measured with.
 pub const SUITE_SLOTS: usize = 64;

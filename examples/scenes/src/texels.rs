@@ -8,7 +8,7 @@
 use crate::textured::textured;
 use crate::{HEIGHT, WIDTH};
 use scanbeam::pipeline::BlockFix16;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     Bilinear, BlockCache, Blocked, CacheReads, Checker, Clamp, Corner, Corners, Gradient,
     Homogeneous, Indexed, LevelEnds, Levels, Mirror, PaintRun, Period, PerspectiveSpan, Quality,
     Rgb565Texel, Rgb888Texel, Rgba5551, Rgba8871, Rgbd5551, Size, Stride, Texel, TexelFormat,

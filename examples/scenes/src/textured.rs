@@ -6,14 +6,14 @@
 use crate::texels::{TEXEL_SIDE, TEXELS_565, size};
 use crate::{CUBE, HEIGHT, Shot, ShotError, WIDTH};
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::{Counted, ObjectOf, TexturedDepth, VertexOf};
+use scanbeam::pipeline::texture::{Quality, Skin, Texture, Textures, Words, Wrap};
+use scanbeam::pipeline::{
+    Counted, Instance, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, TexturedDepth,
+    VertexOf,
+};
 use scanbeam::pixel::Rgb565;
 use scanbeam::stats::SpanCounts;
-use scanbeam::texture::{Quality, Skin, Texture, Textures, Words, Wrap};
-use scanbeam::{
-    Affine, Camera, Cull, Faces, Instance, Light, LineMemory, LineRenderer, Link, Mesh, Scene,
-    SceneMemory,
-};
+use scanbeam::{Affine, Camera, Cull, Faces, Light, Link, Mesh};
 
 type Store<'t> = Texture<Words<'t, u16>, Wrap>;
 /// Counted, so that it shows what was textured.

@@ -1,7 +1,7 @@
 //! Every pixel of a random sheet is hit exactly once (K4); the firmware asks the same in QEMU.
 
-use scanbeam::pipeline::{ObjectOf, VertexOf};
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory};
+use scanbeam::Link;
+use scanbeam::pipeline::{LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf};
 use scenes::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline, Shot};
 
 #[test]

@@ -1,9 +1,11 @@
 //! The scenes of the suite are those that other renderers were measured on: as many pixels are
 //! covered and as many triangles face the eye as there, but for what each of them rounds otherwise.
 
-use scanbeam::pipeline::{Counted, GouraudDepth, ObjectOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::pipeline::{
+    Counted, GouraudDepth, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf,
+};
 use scanbeam::pixel::Rgb565;
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory};
 use scenes::{HEIGHT, SUITE, SUITE_OBJECTS, SUITE_SLOTS, SUITE_VERTICES, Shot, Suite, WIDTH};
 use std::collections::BTreeSet;
 

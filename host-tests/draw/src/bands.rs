@@ -3,10 +3,10 @@
 use crate::{DrawFailure, Prepared};
 use host_support::lent::SceneRooms;
 use host_support::reference::{Cull, Shade, View};
-use scanbeam::blend::ShadowError;
-use scanbeam::pipeline::Pipeline;
+use scanbeam::pipeline::blend::ShadowError;
+use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene};
 use scanbeam::stats::PassOne;
-use scanbeam::{Camera, DrawError, Faces, Instance, Light, Mesh, Scene, Screen};
+use scanbeam::{Camera, Faces, Light, Mesh, Screen};
 use std::ops::Range;
 
 /// Lines that have more triangles than an arena can hold: they show those that fit.

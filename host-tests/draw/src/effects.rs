@@ -13,15 +13,16 @@ use super::{
 use crate::choice::PixelFormatArg;
 use host_support::model::{Material, Model};
 use host_support::reference::{Shade, View};
-use scanbeam::blend::{Blended, Finish, ShadowError, ShadowLight, Surface};
+use scanbeam::Link;
 use scanbeam::light::{DirectionalLight, Lamplight, Lighting, LitSkin, Phong, PixelLamps};
 use scanbeam::mesh::U1F15;
+use scanbeam::pipeline::blend::{Blended, Finish, ShadowError, ShadowLight, Surface};
+use scanbeam::pipeline::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
 use scanbeam::pipeline::{
-    Auto, Counted, Depth32, Flat, Gouraud, Parts, Pipeline, Shading, Shadowed, SkinOf,
+    Auto, Counted, Depth32, DrawError, Flat, Gouraud, Parts, Pipeline, Scene, Shading, Shadowed,
+    SkinOf,
 };
 use scanbeam::pixel::{Dithered, PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
-use scanbeam::{DrawError, Link, Scene};
 
 /// What is asked for beside what materials say.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -278,7 +279,8 @@ impl Task<'_> {
     where
         S: Shading<Levels: scanbeam::pipeline::Levels>,
         F: PixelFormat,
-        for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::texture::TextureSource<F>,
+        for<'t> DetailedTextures<'t, HostTexture<'t>>:
+            scanbeam::pipeline::texture::TextureSource<F>,
     {
         type Plain<'t, S, F> = Counted<
             Parts<
@@ -306,7 +308,8 @@ impl Task<'_> {
     fn by_pixels<F>(&self) -> Result<Drawn, DrawFailure>
     where
         F: PixelFormat,
-        for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::texture::TextureSource<F>,
+        for<'t> DetailedTextures<'t, HostTexture<'t>>:
+            scanbeam::pipeline::texture::TextureSource<F>,
     {
         type Plain<'t, F> = Counted<
             Parts<

@@ -26,12 +26,14 @@ use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockError, MockFrameBuffer};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
-use scanbeam::blend::{Compositing, ShadowError};
-use scanbeam::pipeline::{DepthUse, FlatDepth, GouraudDepth, Pipeline, WordOf};
+use scanbeam::Link;
+use scanbeam::pipeline::blend::{Compositing, ShadowError};
+use scanbeam::pipeline::{
+    DepthUse, FlatDepth, FrameError, FrameStats, GouraudDepth, Pipeline, Quality, Scene, WordOf,
+};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
 use scanbeam::stats::PassOne;
-use scanbeam::{FrameError, FrameStats, Link, Quality, Scene};
 use scanbeam_model::{
     CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,
 };

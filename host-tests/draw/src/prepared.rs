@@ -2,12 +2,12 @@
 
 use super::TextureSet;
 use host_support::model::Model;
-use scanbeam::blend::{Blended, ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
 use scanbeam::light::LightingModel;
 use scanbeam::mesh::Sphere;
-use scanbeam::pipeline::{Pipeline, Shading, SkinOf};
-use scanbeam::texture::{Quality, Skin};
-use scanbeam::{Affine, DrawError, Faces, Instance, Mesh, Scene};
+use scanbeam::pipeline::blend::{Blended, ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
+use scanbeam::pipeline::texture::{Quality, Skin};
+use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene, Shading, SkinOf};
+use scanbeam::{Affine, Faces, Mesh};
 use std::collections::HashMap;
 
 /// A model in the crate's number formats.

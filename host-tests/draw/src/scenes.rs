@@ -19,19 +19,19 @@ use host_support::image_out::Frame;
 use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockFrameBuffer};
 use host_support::reference::{Cull, View};
-use scanbeam::blend::{DepthFunction, Finish, ShadowError, Surface};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::list::Window;
 use scanbeam::mesh::{Material, U1F15};
+use scanbeam::pipeline::blend::{DepthFunction, Finish, ShadowError, Surface};
+use scanbeam::pipeline::send::draw_frame_indexed;
+use scanbeam::pipeline::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
 use scanbeam::pipeline::{
-    Auto, Clip, Composited, Counted, Depth32, FlatDepth, Gouraud, Parts, Pipeline, Prioritised,
-    Priority, Shading, SkinOf, Windowed,
+    Auto, Clip, Composited, Counted, Depth32, FlatDepth, FrameStats, Gouraud, Instance, Parts,
+    Pipeline, Prioritised, Priority, Scene, Shading, SkinOf, Windowed,
 };
 use scanbeam::pixel::{Dithered, Index8, PaletteTable, PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scan_out::Pump;
-use scanbeam::send::draw_frame_indexed;
-use scanbeam::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
-use scanbeam::{Affine, Camera, FrameStats, Instance, Link, Scene, Screen};
+use scanbeam::{Affine, Camera, Link, Screen};
 
 /// Colours linear over faces, times texels in levels of detail.
 type Plain<'t, F> = Counted<
@@ -248,7 +248,7 @@ fn by_depth<F>(
 ) -> Result<Drawn, DrawFailure>
 where
     F: PixelFormat,
-    for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::texture::TextureSource<F>,
+    for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::pipeline::texture::TextureSource<F>,
 {
     by::<Finished<'_, F>>(parts, view, crew, |_, _| {})
 }
@@ -261,7 +261,7 @@ fn by_priority<F>(
 ) -> Result<Drawn, DrawFailure>
 where
     F: PixelFormat,
-    for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::texture::TextureSource<F>,
+    for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::pipeline::texture::TextureSource<F>,
 {
     let rank = |scene: &mut Scene<'_, Prioritised<Finished<'_, F>>>, item: &Item| {
         scene.set_priority(Priority(item.priority.unwrap_or(0)));

@@ -6,12 +6,12 @@ use clap::ValueEnum;
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use host_support::texture_file::{TextureFileError, TextureImage, of_materials};
-use scanbeam::pipeline::{Counted, Depth32, Flat, Gouraud, Packed8, Parts, Shading};
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     Bilinear, Detail, DetailedTextures, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871,
     Texel, TexelFormat, Texels, Texture, TextureSource, Textured, Textures, Uv, Words,
 };
+use scanbeam::pipeline::{Counted, Depth32, Flat, Gouraud, Packed8, Parts, Shading};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -23,14 +23,12 @@ use crate::count::Counter;
 use crate::rooms::Rooms;
 use core::hint::black_box;
 use scanbeam::pipeline::{
-    Counted, DepthUse, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, ObjectOf,
-    Pipeline, SceneVertex, WordOf, Worded,
+    Counted, DepthUse, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Instance, LineDepth,
+    LineMemory, LineRenderer, ObjectOf, Pipeline, Scene, SceneMemory, SceneVertex, WordOf, Worded,
 };
 use scanbeam::pixel::{Rgb565, Rgb888};
 use scanbeam::stats::SpanCounts;
-use scanbeam::{
-    Camera, Cull, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene, SceneMemory, Screen,
-};
+use scanbeam::{Camera, Cull, Faces, Link, Mesh, Screen};
 use scanbeam_model::{
     ModelRenderer, PipeMemory, SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen,
 };

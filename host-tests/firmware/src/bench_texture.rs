@@ -6,7 +6,7 @@
 use crate::console::Console;
 use crate::count::Counter;
 use core::hint::black_box;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     AllSeen, Bilinear, Homogeneous, Indexed, PerspectiveSpan, Quality, Rgb565Texel, Size, Stride,
     TexelFormat, Texels, Texture, Words, Wrap,
 };

@@ -2,11 +2,15 @@
 
 use crate::frames::{LINES_PER_TRANSFER, Smooth};
 use crate::rooms::{Rooms, RoomsOf, SLOTS};
-use scanbeam::pipeline::{CellOf, Depth32, DepthUse, Gouraud, Pipeline};
+use scanbeam::pipeline::texture::{
+    BlockCache, CacheReads, Quality, Size, Textured, Textures, Words,
+};
+use scanbeam::pipeline::{
+    CellOf, Depth32, DepthUse, Gouraud, LineMemory, LineRenderer, Pipeline, Scene, SceneMemory,
+    draw_frame,
+};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ScanoutDma};
-use scanbeam::texture::{BlockCache, CacheReads, Quality, Size, Textured, Textures, Words};
-use scanbeam::{LineMemory, LineRenderer, Scene, SceneMemory, draw_frame};
 use scenes::{
     BLOCK_TEXELS_B, BLOCKS_B, CachedB, CachedLookB, LookB, LookF, SCENE_B_BLOCKS, SUITE_LINES,
     SUITE_SLOTS, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F,

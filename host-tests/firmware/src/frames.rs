@@ -7,16 +7,15 @@ use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::light::Lamplight;
 use scanbeam::list::TextureSlot;
-use scanbeam::parallel::{Crew, Interleave};
+use scanbeam::pipeline::parallel::{Crew, Interleave};
+use scanbeam::pipeline::send::{draw_frame_indexed, send_frame};
+use scanbeam::pipeline::texture::Textures;
 use scanbeam::pipeline::{
-    BlockFixed, Deferred, FlatDepth, GouraudDepth, Interpolated, Interpolation, ListedDepth,
-    Pipeline, Worded,
+    BlockFixed, Deferred, FlatDepth, GouraudDepth, Interpolated, Interpolation, LineMemory,
+    LineRenderer, ListedDepth, Pipeline, Quality, Scene, SceneMemory, Worded, draw_frame,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
-use scanbeam::send::{draw_frame_indexed, send_frame};
-use scanbeam::texture::Textures;
-use scanbeam::{LineMemory, LineRenderer, Quality, Scene, SceneMemory, draw_frame};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
@@ -392,12 +391,10 @@ fn draw_by_two(
         offset += 1;
         renderer
     });
-    let mut crew = Crew::<_, &'static mut [u16], _> {
+    let mut crew = Crew {
         scene: &scene,
         here: &mut renderers,
-        desks: &mut [],
         background: Rgb565Be::from_rgb8(how.shot.background()),
-        wait: || false,
         skipped: 0,
     };
     send_frame(&scene, &mut crew, pump, LINES_PER_TRANSFER)

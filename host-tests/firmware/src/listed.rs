@@ -5,8 +5,9 @@ use crate::frames::Smooth;
 use crate::rooms::{Rooms, RoomsOf};
 use crate::unpacked::Unpacked;
 use scanbeam::mesh::Vertices;
+use scanbeam::pipeline::{Scene, SceneMemory};
 use scanbeam::scene::Draw;
-use scanbeam::{Camera, Faces, Scene, SceneMemory};
+use scanbeam::{Camera, Faces};
 use scenes::{Played, Shot, build_listed};
 
 fn scene(smooth: &mut RoomsOf<Smooth>) -> Scene<'_, Smooth> {

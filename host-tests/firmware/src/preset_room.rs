@@ -1,9 +1,12 @@
 //! What a preset is lent in the small programs, and the teapot by it.
 
 use crate::small::{Display, exit};
-use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::pipeline::{
+    CellOf, LineMemory, LineRenderer, ObjectOf, Pipeline, Scene, SceneMemory, SlotOf, VertexOf,
+    draw_frame,
+};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, draw_frame};
 use scenes::Shot;
 
 /// Slots of the object cache.
@@ -25,8 +28,8 @@ macro_rules! room {
         use crate::lend::lend;
         use crate::preset_room::{Room, SLOTS};
         use crate::small::{OBJECTS, VERTICES};
-        use scanbeam::pipeline::{CellOf, ObjectOf, SlotOf, VertexOf};
-        use scanbeam::{LineRenderer, Link};
+        use scanbeam::Link;
+        use scanbeam::pipeline::{CellOf, LineRenderer, ObjectOf, SlotOf, VertexOf};
         use scenes::{HEIGHT, WIDTH};
         Room::<$pipeline> {
             vertices: lend!(

@@ -12,9 +12,10 @@ mod small;
 use cortex_m_rt::entry;
 use lend::lend;
 use preset_room::{Room, room, teapot};
-use scanbeam::pipeline::{FlatDepth, FlatPainter, GouraudDepth, GouraudPainter};
+use scanbeam::pipeline::{
+    FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Scene, SceneMemory,
+};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::{Scene, SceneMemory};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{Shot, WIDTH};
 use small::{Display, buffers, display, exit, say};

@@ -6,10 +6,10 @@ use crate::lend::lend;
 use crate::unpacked::Unpacked;
 use scanbeam::input::ListMemory;
 use scanbeam::pipeline::{
-    BlockFixed, CellOf, Deferred, LineDepth, Object, ObjectOf, Pipeline, SceneVertex, SlotOf,
-    VertexOf,
+    BlockFixed, CellOf, Deferred, LineDepth, LineMemory, LineRenderer, Object, ObjectOf, Pipeline,
+    Scene, SceneMemory, SceneVertex, SlotOf, VertexOf,
 };
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen};
+use scanbeam::{Link, Screen};
 use scenes::{
     BLOCK_TEXELS_B, CACHE_SLOTS_B, CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
     Grainy, HEIGHT, LIST_INDICES, LIST_TABLE, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,

@@ -1,7 +1,8 @@
 //! The baked teapot's own tables, unpacked beforehand, as meshes for immediate calls.
 
 use scanbeam::list::{Instruction, Layout, State, Strip, VertexFormat, normal, read_block};
-use scanbeam::{Affine, Faces, Instance, Light, Mesh};
+use scanbeam::pipeline::Instance;
+use scanbeam::{Affine, Faces, Light, Mesh};
 use scenes::teapot_list;
 
 /// Tables that the list may have.

@@ -5,11 +5,10 @@ use host_support::image_out::Frame;
 use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockFrameBuffer};
 use scanbeam::light::Lamplight;
-use scanbeam::pipeline::{Pipeline, WordOf};
+use scanbeam::pipeline::send::draw_frame_indexed;
+use scanbeam::pipeline::{Pipeline, Scene, WordOf, draw_frame};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
-use scanbeam::send::draw_frame_indexed;
-use scanbeam::{Scene, draw_frame};
 use scenes::{
     Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
     Numbered, Ranked, Shady, ShotError, Transparent, by_effect, method_screen,

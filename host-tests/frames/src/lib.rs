@@ -17,14 +17,15 @@ use lean::lean_frame;
 pub use lean::played_frame;
 use scanbeam::input::ListMemory;
 use scanbeam::list::TextureSlot;
+use scanbeam::pipeline::texture::{
+    Quality, Size as TextureSize, Texture, Textured, Textures, Words, Wrap,
+};
 use scanbeam::pipeline::{
-    BlockFixed, Counted, Deferred, DepthUse, FlatDepth, Gouraud, GouraudDepth, ListedDepth,
-    Pipeline, TexturedDepth, Worded,
+    BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FrameStats, Gouraud, GouraudDepth,
+    ListedDepth, Pipeline, Scene, TexturedDepth, Worded, draw_frame,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
-use scanbeam::texture::{Quality, Size as TextureSize, Texture, Textured, Textures, Words, Wrap};
-use scanbeam::{FrameStats, Scene, draw_frame};
 use scanbeam_model::draw_model_frame;
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,

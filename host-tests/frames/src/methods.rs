@@ -2,10 +2,9 @@
 
 use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockFrameBuffer};
-use scanbeam::pipeline::{GouraudDepth, Interpolated, Interpolation};
+use scanbeam::pipeline::{GouraudDepth, Interpolated, Interpolation, Quality, draw_frame};
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scan_out::Pump;
-use scanbeam::{Quality, draw_frame};
 use scenes::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };

@@ -2,16 +2,13 @@
 
 use arbitrary::{Result, Unstructured};
 use scanbeam::mesh::QuadSplit;
-use scanbeam::parallel::Interleave;
+use scanbeam::pipeline::parallel::Interleave;
 use scanbeam::pipeline::{
-    DepthUse, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, ObjectOf, Pipeline,
-    VertexOf, WordOf,
+    DepthUse, DrawError, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Instance, LineDepth,
+    LineMemory, LineRenderer, ObjectOf, Pipeline, Scene, SceneMemory, VertexOf, WordOf,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
-use scanbeam::{
-    Affine, Camera, CameraError, Cull, DrawError, Faces, Instance, Light, LineMemory, LineRenderer,
-    Link, Mesh, Scene, SceneMemory, Screen,
-};
+use scanbeam::{Affine, Camera, CameraError, Cull, Faces, Light, Link, Mesh, Screen};
 
 /// Longest side of a picture.
 const MOST: u16 = 64;

@@ -4,12 +4,12 @@ use scanbeam::event::Notice;
 use scanbeam::input::{EightLights, ListMemory, ListRunner, ListSettings};
 use scanbeam::list::{Budget, Halt, ListCommand, OverlaySlot, TextureSlot};
 use scanbeam::overlay::{LineOverlay, ListOverlays};
-use scanbeam::pipeline::{ListedDepth, ObjectOf, VertexOf};
-use scanbeam::pixel::Rgb888;
-use scanbeam::texture::ListTextures;
-use scanbeam::{
-    Camera, Instance, Light, LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen,
+use scanbeam::pipeline::texture::ListTextures;
+use scanbeam::pipeline::{
+    Instance, LineMemory, LineRenderer, ListedDepth, ObjectOf, Scene, SceneMemory, VertexOf,
 };
+use scanbeam::pixel::Rgb888;
+use scanbeam::{Camera, Light, Link, Screen};
 
 type Look<'t> = ListedDepth<'t, Rgb888>;
 

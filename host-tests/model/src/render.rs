@@ -16,10 +16,11 @@ use super::token::{Argb10, GlobalMode, StartDma, Target, Token};
 use super::vertex::{FormatWord, PLACE, ParameterRam, VertexFormat};
 use super::walker::{Segment, ZFlags, draw};
 use scanbeam::mesh::Colour;
-use scanbeam::pipeline::{Filed, Flat, Gouraud, LineDepth, Pipeline, Scale, Shading, WordOf};
+use scanbeam::pipeline::{
+    Filed, Flat, Gouraud, LineDepth, Pipeline, RendererError, Scale, Scene, Shading, WordOf,
+};
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::{LineBuf, Pump, ScanError, ScanoutDma, Window};
-use scanbeam::{RendererError, Scene};
 
 /// Pixels of a segment, at most: what the 11 bits of a DMA's length count.
 pub const SEGMENT: usize = 2047;
@@ -282,7 +283,7 @@ pub enum ModelFrameError<E> {
 }
 
 /// Draws all lines of `scene` with the model and sends them through `pump`, as
-/// [`draw_frame`](scanbeam::draw_frame) does with the fast path.
+/// [`draw_frame`](scanbeam::pipeline::draw_frame) does with the fast path.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or there is too little memory.

@@ -2,8 +2,7 @@
 
 use super::stage::{Place, Rng, Setting, Stage, covers};
 use super::{Name, Row};
-use scanbeam::Scene;
-use scanbeam::pipeline::FlatPainter;
+use scanbeam::pipeline::{FlatPainter, Scene};
 use scanbeam::pixel::Rgb888;
 use scanbeam_model::{ModelRenderer, PipeMemory};
 use std::error::Error;

@@ -8,8 +8,9 @@ use crate::draw::{CrewSettings, draw_by};
 use crate::image_out::Frame;
 use crate::model::{Model, ModelVertex};
 use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
+use scanbeam::pipeline::Quality;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
-use scanbeam::{Faces, Mesh, Quality};
+use scanbeam::{Faces, Mesh};
 use scenes::{CUBE, SPHERE, TEAPOT};
 use std::error::Error;
 

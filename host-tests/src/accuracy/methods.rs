@@ -1,8 +1,7 @@
 //! The interpolation methods of the crate, and how each is drawn and costed.
 
 use crate::args::InterpArg;
-use scanbeam::Quality;
-use scanbeam::pipeline::{GouraudPainter, Interpolated};
+use scanbeam::pipeline::{GouraudPainter, Interpolated, Quality};
 
 /// A method by name.
 pub(super) struct Method {

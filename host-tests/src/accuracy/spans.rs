@@ -4,10 +4,9 @@ use super::methods::{METHODS, Method, Painter};
 use super::stage::{Place, Rng, Setting, Stage, covers, doubled_area, plane};
 use super::{Errors, Row};
 use crate::args::InterpArg;
-use scanbeam::Quality;
 use scanbeam::pipeline::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Packed8, Packed16,
-    QuarterRate,
+    Quality, QuarterRate,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam_model::{SpanWeight, divided_weight, lirp, round_to_8, widen};

@@ -1,12 +1,10 @@
 //! Triangles on chosen places of the screen, and any pipeline to draw them.
 
 use scanbeam::pipeline::{
-    CellOf, DepthUse, LineDepth, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf,
+    CellOf, DepthUse, DrawError, Instance, LineDepth, LineMemory, LineRenderer, ObjectOf, Pipeline,
+    Scene, SceneMemory, SlotOf, VertexOf, WordOf,
 };
-use scanbeam::{
-    Camera, Cull, DrawError, Faces, Instance, LineMemory, LineRenderer, Link, Mesh, Scene,
-    SceneMemory, Screen,
-};
+use scanbeam::{Camera, Cull, Faces, Link, Mesh, Screen};
 use std::error::Error;
 
 /// xorshift64*: small, and the same everywhere.

@@ -6,7 +6,9 @@ use super::{Errors, Row};
 use crate::model::{Model, ModelVertex};
 use crate::places::places;
 use crate::reference::{NO_OBJECT, Options, TextureMap, Textures, View, render_textured};
-use scanbeam::texture::{FRACTION, Homogeneous, PerspectiveSpan, Quality, Stride, Texels, Uv};
+use scanbeam::pipeline::texture::{
+    FRACTION, Homogeneous, PerspectiveSpan, Quality, Stride, Texels, Uv,
+};
 use std::error::Error;
 
 const FAMILY: &str = "texture";

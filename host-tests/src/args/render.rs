@@ -7,7 +7,7 @@ use crate::draw::{Effects, FilterArg};
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
-use scanbeam::Quality;
+use scanbeam::pipeline::Quality;
 use std::path::PathBuf;
 
 /// How far a picture may be off.
@@ -151,8 +151,8 @@ impl RenderArgs {
 
     /// How far texture places may be off.
     #[must_use]
-    pub fn texture_quality(&self) -> scanbeam::texture::Quality {
-        use scanbeam::texture::Quality;
+    pub fn texture_quality(&self) -> scanbeam::pipeline::texture::Quality {
+        use scanbeam::pipeline::texture::Quality;
         match self.quality {
             Some(QualityArg::Fast) => Quality::Fast,
             Some(QualityArg::Balanced) | None => Quality::Balanced,

@@ -1,7 +1,7 @@
 //! Counts of the crate's source: lines of code, traits, names and functions, without tests and
 //! comments.
 
-use super::lexer::{Kind, Word, closed, untested, words};
+use super::lexer::{Kind, Untested, Word, closed, untested, words};
 use crate::stdio;
 use std::collections::BTreeSet;
 use std::error::Error;
@@ -95,15 +95,7 @@ fn count_sources(sources: &[(PathBuf, String)]) -> Counts {
     if let Some((root, _, kept)) = root {
         counts.root_names = public_names(&kept.words).len();
         counts.names = counts.root_names;
-        // `pub mod` of the root, and public modules that it takes from its rooms.
-        for module in public_modules(&kept.words) {
-            // A room of the root before a module within a room that has the same name.
-            let files = read
-                .iter()
-                .filter(|(path, ..)| is_module(root, path, module));
-            let file = files.min_by_key(|(path, ..)| path.components().count());
-            counts.names += file.map_or(0, |(.., kept)| public_names(&kept.words).len());
-        }
+        counts.names += names_within(root, root, kept, &read);
     }
     counts
 }
@@ -115,6 +107,35 @@ fn beside(file: &Path) -> PathBuf {
         Some("mod" | "lib" | "main") | None => folder.to_path_buf(),
         Some(stem) => folder.join(stem),
     }
+}
+
+/// Names in the public modules of a file and in theirs: its own, and those that it takes from its rooms.
+fn names_within(
+    root: &Path,
+    path: &Path,
+    kept: &Untested<'_>,
+    read: &[(&PathBuf, &String, Untested<'_>)],
+) -> usize {
+    let mut names = 0;
+    for module in public_modules(&kept.words) {
+        let own = |path: &Path, file: &Path| {
+            let folder = beside(path);
+            file == folder.join(format!("{module}.rs"))
+                || file == folder.join(module).join("mod.rs")
+        };
+        let own = read.iter().find(|(file, ..)| own(path, file));
+        // A room of the root before a module within a room that has the same name.
+        let taken = || {
+            let files = read
+                .iter()
+                .filter(|(file, ..)| is_module(root, file, module));
+            files.min_by_key(|(file, ..)| file.components().count())
+        };
+        if let Some((file, _, kept)) = own.or_else(taken) {
+            names += public_names(&kept.words).len() + names_within(root, file, kept, read);
+        }
+    }
+    names
 }
 
 /// Whether a file is the module of that name, at the root or in one of its rooms.

@@ -12,12 +12,12 @@ use scanbeam::list::{
     Budget, Halt, Head, Instruction, OverlaySlot, State, TextureSlot, VertexFormat, read_block,
 };
 use scanbeam::overlay::{ListOverlays, draw_frame_overlaid};
-use scanbeam::pipeline::{Composited, Depth32, Flat, Gouraud, Packed8, Parts, Pipeline};
+use scanbeam::pipeline::texture::{ListTextures, Textured};
+use scanbeam::pipeline::{Composited, Depth32, Flat, Gouraud, Instance, Packed8, Parts, Pipeline};
 use scanbeam::pixel::{PixelFormat, Rgb888};
 use scanbeam::scan_out::Pump;
 use scanbeam::stats::SpanCounts;
-use scanbeam::texture::{ListTextures, Textured};
-use scanbeam::{Affine, Camera, Instance, Light, Link, Screen};
+use scanbeam::{Affine, Camera, Light, Link, Screen};
 use std::error::Error;
 
 /// Vertices that a table can have.

@@ -9,7 +9,7 @@ use crate::image_out::Frame;
 use crate::lists::writer::{ListWriter, WriteError};
 use crate::texture_file::TextureImage;
 use scanbeam::list::{Palette, State, TexelForm, Texture};
-use scanbeam::texture::{Rgba8871, TexelFormat, TextureError};
+use scanbeam::pipeline::texture::{Rgba8871, TexelFormat, TextureError};
 use std::collections::BTreeMap;
 
 /// Forms that a palette goes with, and how many colours it can have.

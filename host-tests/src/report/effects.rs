@@ -6,7 +6,7 @@ use crate::draw::{CrewSettings, Effects, FilterArg, TextureSet, draw_effects};
 use crate::frames::{effect_pictures, values_pictures};
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
-use scanbeam::texture::Quality;
+use scanbeam::pipeline::texture::Quality;
 use std::error::Error;
 use std::path::Path;
 

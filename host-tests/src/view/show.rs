@@ -9,7 +9,7 @@ use crate::draw::{
 use crate::model::Model;
 use crate::reference::View;
 use crate::scene_file::{Loaded, SceneFile};
-use scanbeam::texture;
+use scanbeam::pipeline::texture;
 use std::time::{Duration, Instant};
 
 /// What is shown.

@@ -1,7 +1,10 @@
 //! The memory that firmware would lend, on the heap: for one scene, and for one line renderer.
 
-use scanbeam::pipeline::{CellOf, LineDepth, ObjectOf, Pipeline, SlotOf, VertexOf};
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, Screen};
+use scanbeam::pipeline::{
+    CellOf, LineDepth, LineMemory, LineRenderer, ObjectOf, Pipeline, Scene, SceneMemory, SlotOf,
+    VertexOf,
+};
+use scanbeam::{Link, Screen};
 
 /// What a scene is lent.
 pub struct SceneRooms<P: Pipeline> {

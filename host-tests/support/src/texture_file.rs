@@ -7,7 +7,7 @@
 
 use crate::image_out::{Frame, ImageError, read_image};
 use crate::model::Model;
-use scanbeam::texture::{
+use scanbeam::pipeline::texture::{
     LEVELS, MAX_SIDE, Rgba8871, Size, Texel, TexelFormat, TextureError, build_level,
 };
 use std::collections::BTreeMap;

@@ -3,11 +3,11 @@
 
 use super::{Rng, SceneRooms};
 use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
-use scanbeam::parallel::LineSource;
-use scanbeam::pipeline::GouraudDepth;
+use scanbeam::pipeline::parallel::LineSource;
+use scanbeam::pipeline::{FrameError, GouraudDepth, RendererError, Scene};
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanoutDma};
-use scanbeam::{Camera, FrameError, RendererError, Scene, Screen};
+use scanbeam::{Camera, Screen};
 
 pub type Look = GouraudDepth<Rgb565Be>;
 pub type Mock = MockFrameBuffer<u16>;
@@ -23,7 +23,7 @@ pub struct Lines<'a> {
 impl LineSource<Look> for Lines<'_> {
     fn line(&mut self, line: u16, pixels: &mut [u16]) -> Result<(), RendererError> {
         if self.fails_at == Some(line) {
-            return Err(RendererError::Stopped { line });
+            return Err(RendererError::Unowned { line });
         }
         pixels.copy_from_slice(&self.picture[usize::from(line)]);
         Ok(())

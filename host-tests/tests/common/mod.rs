@@ -5,8 +5,7 @@ pub mod changes;
 pub mod solid;
 
 pub use host_tests::lent::{LineRooms, SceneRooms};
-use scanbeam::pipeline::{Pipeline, WordOf};
-use scanbeam::{LineRenderer, Scene};
+use scanbeam::pipeline::{LineRenderer, Pipeline, Scene, WordOf};
 
 /// xorshift64*: small, and the same everywhere.
 #[derive(Clone, Debug)]

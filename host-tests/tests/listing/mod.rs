@@ -9,9 +9,9 @@ use scanbeam::list::{
     VertexFormat, parameter,
 };
 use scanbeam::mesh::Vertices;
-use scanbeam::pipeline::{FlatDepth, GouraudDepth, Pipeline, WordOf};
+use scanbeam::pipeline::{FlatDepth, GouraudDepth, Instance, Pipeline, Scene, WordOf};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Instance, Light, Scene, Screen};
+use scanbeam::{Affine, Camera, Cull, Light, Screen};
 
 pub type Smooth = GouraudDepth<Rgb888>;
 pub type Faceted = FlatDepth<Rgb888>;

@@ -4,10 +4,11 @@
 use crate::common::{LineRooms, Rng, SceneRooms, line};
 use crate::watertight::count::{Count, Place, doubled_area};
 use scanbeam::pipeline::{
-    Depth32, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, LineDepth, Pipeline, WordOf,
+    Depth32, FlatDepth, FlatPainter, GouraudDepth, GouraudPainter, Instance, LineDepth, Pipeline,
+    WordOf,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
-use scanbeam::{Affine, Camera, Cull, Faces, Instance, Mesh, Screen};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 /// Distance of the near plane: what is 1 away is just behind it.
 pub const NEAR: f64 = 1.0 - 1.0 / 1024.0;
@@ -105,7 +106,7 @@ fn from_middle(screen: Screen, at: Place) -> [f64; 2] {
 pub fn with_scene<P: Pipeline, R>(
     screen: Screen,
     triangles: &[[Corner; 3]],
-    draw: impl FnOnce(&scanbeam::Scene<'_, P>) -> R,
+    draw: impl FnOnce(&scanbeam::pipeline::Scene<'_, P>) -> R,
 ) -> R {
     let height = usize::from(screen.height());
     let mut rooms = SceneRooms::<P>::new(8 * triangles.len(), 8 * triangles.len(), height);

@@ -35,7 +35,7 @@ pub struct Skin<'a> {
     ///
     /// A triangle may stretch over 4096 texels, wherever it begins. One that is wider is drawn
     /// untextured, and counted in [`PassOne::untextured`](crate::stats::PassOne::untextured); so is one on
-    /// a texture whose rim goes on ([`Clamp`](crate::texture::Clamp)) that lies across it and has
+    /// a texture whose rim goes on ([`Clamp`](crate::pipeline::texture::Clamp)) that lies across it and has
     /// a corner below -4096 texels or from 4096 on.
     pub places: &'a [[i32; 2]],
     /// Which of the textures lent to the scene, below [`Skin::TEXTURES`].

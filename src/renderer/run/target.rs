@@ -29,7 +29,7 @@ pub struct ListMemory<'m, C = i16> {
     pub places: &'m mut [[i32; 2]],
     /// Names of textures: one for each number of a texture and of a palette, and one for each
     /// pair of both that is drawn with; none where nothing is textured. The scene's
-    /// [`ListTextures`](crate::texture::ListTextures) have the same ones.
+    /// [`ListTextures`](crate::pipeline::texture::ListTextures) have the same ones.
     pub textures: &'m [TextureSlot],
     /// One for each overlay of a frame; none where there are none. The
     /// [`ListOverlays`](crate::overlay::ListOverlays) that paint them have the same ones.

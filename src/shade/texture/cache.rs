@@ -11,7 +11,9 @@
 //! A pipeline reads its textures through a cache where their store is one:
 //!
 //! ```
-//! use scanbeam::texture::{BlockCache, Blocked, CacheReads, Size, Texture, Textures, Words, Wrap};
+//! use scanbeam::pipeline::texture::{
+//!     BlockCache, Blocked, CacheReads, Size, Texture, Textures, Words, Wrap,
+//! };
 //! use scanbeam::pipeline::{Pipeline, TexturedDepth};
 //! use scanbeam::pixel::Rgb565Be;
 //!
@@ -33,10 +35,10 @@
 //! One core alone may read through a cache, so a scene of such textures cannot be shared:
 //!
 //! ```compile_fail,E0277
-//! use scanbeam::texture::{BlockCache, Blocked, Texture, Words, Wrap};
+//! use scanbeam::pipeline::texture::{BlockCache, Blocked, Texture, Words, Wrap};
 //! use scanbeam::pipeline::TexturedDepth;
 //! use scanbeam::pixel::Rgb565Be;
-//! use scanbeam::Scene;
+//! use scanbeam::pipeline::Scene;
 //!
 //! type Cached<'t> = Texture<BlockCache<'t, Words<'t, u16>>, Wrap, Blocked>;
 //! fn shared<T: Sync>() {}

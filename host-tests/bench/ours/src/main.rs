@@ -11,10 +11,13 @@ use core::convert::Infallible;
 use core::hint::black_box;
 use core::task::Poll;
 use measured::{Failure, Renderer};
-use scanbeam::pipeline::{GouraudDepth, ObjectOf, SlotOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::pipeline::{
+    GouraudDepth, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, SlotOf, VertexOf,
+    draw_frame,
+};
 use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory, draw_frame};
 use scenes::{HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VERTICES, WIDTH};
 
 type Look = GouraudDepth<Rgb565>;

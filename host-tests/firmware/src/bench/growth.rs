@@ -7,9 +7,9 @@ use crate::frames::Smooth;
 use crate::lend::lend;
 use crate::rooms::Rooms;
 use core::hint::black_box;
-use scanbeam::pipeline::{ObjectOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::pipeline::{LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::{LineMemory, LineRenderer, Link, Scene, SceneMemory};
 use scenes::{HEIGHT, MOST_SLOTS, OCTASPHERES, Octasphere, Shot, WIDTH};
 
 /// Slots where there are few.

@@ -1,7 +1,7 @@
 //! What each line of a scene costs (X8), and pass one before it.
 //!
 //! The clock is read where a line arrives at the sink, one line a transfer, so a line's cost is all
-//! that [`draw_frame`](scanbeam::draw_frame) does for it: clear, draw, hand on. Frames are drawn
+//! that [`draw_frame`](scanbeam::pipeline::draw_frame) does for it: clear, draw, hand on. Frames are drawn
 //! again from other places of a tick, so that a line is exact to about 5 instructions, not to 40.
 
 use crate::choices::draw_b;
@@ -12,8 +12,8 @@ use crate::rooms::{Rooms, SLOTS};
 use core::convert::Infallible;
 use core::fmt;
 use core::task::Poll;
+use scanbeam::pipeline::texture::Textures;
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
-use scanbeam::texture::Textures;
 use scenes::{HEIGHT, LookB, SCENES_B, STACKS, Shot, TEXTURES_B, Variant};
 
 /// Lines of a row that is printed.

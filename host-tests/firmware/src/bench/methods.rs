@@ -7,10 +7,9 @@
 use super::{LINES, WIDEST, drawn};
 use crate::console::Console;
 use crate::count::Counter;
-use scanbeam::Quality;
 use scanbeam::pipeline::{
     Auto, Counted, Forward, GouraudDepth, GouraudPainter, HalfRate, Interpolated, Interpolation,
-    Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8, Packed16, Precision, QuarterRate,
+    Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8, Packed16, Precision, Quality, QuarterRate,
 };
 use scanbeam::pixel::{Rgb565, Rgb888};
 

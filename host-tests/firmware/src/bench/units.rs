@@ -15,11 +15,10 @@ use crate::console::Console;
 use crate::count::Counter;
 use crate::frames::Smooth;
 use core::hint::black_box;
-use scanbeam::pipeline::{DepthUse, ObjectOf, VertexOf};
-use scanbeam::{
-    Camera, Faces, Instance, Light, LineMemory, LineRenderer, Link, Mesh, Scene, SceneMemory,
-    Screen,
+use scanbeam::pipeline::{
+    DepthUse, Instance, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf,
 };
+use scanbeam::{Camera, Faces, Light, Link, Mesh, Screen};
 
 /// Things of the smaller scene.
 const FEW: usize = 8;

@@ -1,4 +1,9 @@
-//! The one type parameter of the crate: which method does each step (DESIGN rule 2).
+//! Scenes whose choices are types: one type parameter says which method does each step.
+//!
+//! What a program does not choose has no code and no bytes. What is here and not yet in [`scene`](crate::scene),
+//! [`look`](crate::look) and [`frame`](crate::frame): shadows, levels of detail, filters, fetching ahead, counters of
+//! pixels, pictures over [`LARGEST`](crate::scene::LARGEST). For all else these draw in half to two thirds of the
+//! instructions.
 //!
 //! | preset | shading | depth | pixel | interpolation |
 //! |---|---|---|---|---|
@@ -20,6 +25,11 @@
 //! | [`Deferred`] | as the preset it wraps | [`DepthAndId`]: the same picture, each pixel shaded once | | |
 //! | [`Interpolated`] | as the preset it wraps | | | any |
 
+pub mod blend;
+pub mod parallel;
+pub mod send;
+pub mod texture;
+
 pub use crate::active::Slot;
 use crate::composite::{
     Blending, Compositing, DetailedTextures, ListTextures, PixelFormat, TextureSource, Textures,
@@ -31,7 +41,11 @@ pub use crate::geometry::{
     Shading,
 };
 pub use crate::num::BlockFix16;
-pub use crate::renderer::DepthUse;
+pub use crate::renderer::{
+    DepthUse, DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, RendererError,
+    Scene, SceneError, SceneMemory, draw_frame,
+};
+pub use crate::shade::Quality;
 pub use crate::shade::{
     Auto, Forward, HalfRate, Interpolation, Levels, Lirp10, Lirp12, Lirp16, LirpPacked, Method,
     Packed8, Packed16, Precision, QuarterRate,
@@ -104,7 +118,7 @@ pub type GouraudPainter<F> = Parts<Gouraud, (), F>;
 pub type FlatPainter<F> = Parts<Flat, (), F>;
 /// Colours linear between vertices times textures `T`, 32-bit depth; see [`Scene::set_textures`].
 ///
-/// [`Scene::set_textures`]: crate::Scene::set_textures
+/// [`Scene::set_textures`]: crate::pipeline::Scene::set_textures
 pub type TexturedDepth<'t, F, T> =
     Parts<Textured<Gouraud>, Depth32, F, (), Packed8, Textures<'t, T>>;
 /// Colours linear between vertices times the textures of an instruction list, 32-bit depth.
@@ -139,10 +153,10 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, and surfaces can be cut to the inside or outside of a window (H15); see
-/// [`Scene::set_clip`](crate::Scene::set_clip).
+/// [`Scene::set_clip`](crate::pipeline::Scene::set_clip).
 pub type Windowed<P> = WithShading<P, Marked<<P as Pipeline>::Shading, Kept>>;
 /// The pipeline `P` without depth: the surface of the highest priority is seen (P1); see
-/// [`Scene::set_priority`](crate::Scene::set_priority).
+/// [`Scene::set_priority`](crate::pipeline::Scene::set_priority).
 pub type Prioritised<P> = WithDepth<WithShading<P, Marked<<P as Pipeline>::Shading, Priority>>, ()>;
 /// The pipeline `P`, with the shading `S`.
 pub type WithShading<P, S> = Parts<
