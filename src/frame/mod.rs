@@ -18,6 +18,7 @@
 //! | `values` | lines with draw calls that have values few have |
 //! | `rank` | the order of their spans |
 //! | `ruled` | pixels of such a span |
+//! | `shadow` | shadow volumes, and what their lights fall on |
 //! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame, with overlays, through a pump, awaited, or to a panel with a clock of its own |
 //! | `changed` | likewise, what has changed alone |
@@ -38,6 +39,7 @@ mod rival;
 mod ruled;
 mod scene;
 mod send;
+mod shadow;
 mod slot;
 mod spans;
 #[cfg(test)]

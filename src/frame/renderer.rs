@@ -70,11 +70,19 @@ pub enum LineError {
         /// Links of the renderer.
         have: usize,
     },
-    /// Fewer depth cells than a line has pixels, but some.
+    /// Fewer depth cells than a line has pixels, but some; or none for a scene with shadows.
     Depth {
         /// Pixels a line.
         needed: usize,
         /// Depth cells of the renderer.
+        have: usize,
+    },
+    /// The scene has shadows, and there are fewer counts than a line has pixels, or none at all: only a renderer that
+    /// was made by [`Renderer::with_shadows`] draws it.
+    Counts {
+        /// Pixels a line.
+        needed: usize,
+        /// Counts of the renderer.
         have: usize,
     },
     /// The pixels lent for a line are not as many as a line has.
@@ -89,7 +97,7 @@ pub enum LineError {
         /// The line.
         line: u16,
     },
-    /// A draw call has a value that few have: a scissor, a depth test, a blend, holes or a dither. Only a renderer that
+    /// A draw call has a value that few have: a scissor, a depth test, a blend, holes, a dither or a shadow. Only a renderer that
     /// was made by [`Renderer::new`] draws it.
     Values,
     /// The wait for the other core was given up.
@@ -115,12 +123,16 @@ impl fmt::Display for LineError {
                 f,
                 "renderer: a line of {needed} pixels has {have} depth cells"
             ),
+            Self::Counts { needed, have } => write!(
+                f,
+                "renderer: shadows on a line of {needed} pixels need as many counts, there are {have}: use Renderer::with_shadows"
+            ),
             Self::Pixels { needed, have } => {
                 write!(f, "renderer: a line of {needed} pixels was lent {have}")
             }
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
             Self::Values => f.write_str(
-                "renderer: a draw call has a scissor, a depth test, a blend, holes or a dither: use Renderer::new",
+                "renderer: a draw call has a scissor, a depth test, a blend, holes, a dither or a shadow: use Renderer::new",
             ),
             Self::Stopped { line } => {
                 write!(f, "renderer: the wait for line {line} was given up")
@@ -137,6 +149,10 @@ impl core::error::Error for LineError {}
 /// Draws a line with values that few have over a background; `false` where no draw call on it has any.
 pub(super) type DrawValues<L, const WORDS: usize> =
     fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>, WordOf<L>) -> bool;
+
+/// Draws what has to do with shadows on a line whose opaque spans are drawn.
+pub(super) type DrawShadows<L, const WORDS: usize> =
+    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>);
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the scene with any
 /// number of others (K16, X6).
@@ -172,15 +188,32 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) counts: CacheUse,
     /// What draws lines with values that few have. A program that names it nowhere does not have its code.
     pub(super) values: Option<DrawValues<L, WORDS>>,
+    /// Likewise of shadows.
+    pub(super) shadows: Option<DrawShadows<L, WORDS>>,
+    /// Counts of shadow volumes on a line, for one light at a time.
+    pub(super) volumes: &'m mut [u8],
 }
 
 impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
-    /// A renderer that has drawn nothing, for any scene.
+    /// A renderer that has drawn nothing, for any scene without shadows.
     #[must_use]
     pub fn new(memory: Memory<'m, L, WORDS>) -> Self {
         Self {
             values: Some(|renderer, out, background| renderer.draw_values(out, background)),
             ..Self::plain(memory)
+        }
+    }
+
+    /// The same, for scenes with shadows too. `counts` are one byte a pixel of a line, in fast memory; all lights
+    /// share them, one after the other. The depth must be lent as well.
+    ///
+    /// A program that names this nowhere does not have the code of shadows, and is lent no counts.
+    #[must_use]
+    pub fn with_shadows(memory: Memory<'m, L, WORDS>, counts: &'m mut [u8]) -> Self {
+        Self {
+            shadows: Some(|renderer, out| renderer.draw_shadows(out)),
+            volumes: counts,
+            ..Self::new(memory)
         }
     }
 
@@ -207,6 +240,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             changed: true,
             counts: CacheUse::default(),
             values: None,
+            shadows: None,
+            volumes: &mut [],
         }
     }
 
@@ -235,10 +270,14 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     /// Whether the renderer can draw `scene`.
     ///
     /// # Errors
-    /// What is too short, or that a draw call has values and the renderer is [`plain`](Renderer::plain).
+    /// What is too short, or that a draw call has values and the renderer is [`plain`](Renderer::plain), or a shadow
+    /// and the renderer is not made [`with_shadows`](Renderer::with_shadows).
     pub fn check(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
         if scene.has_values {
             self.values.ok_or(LineError::Values)?;
+            if scene.has_shadows {
+                self.check_shadows(scene.screen().width())?;
+            }
         }
         let (needed, have) = (scene.objects(), self.links.len());
         if have < needed {
@@ -246,6 +285,23 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         }
         let (needed, have) = (usize::from(scene.screen().width()), self.depth.len());
         if have != 0 && have < needed {
+            return Err(LineError::Depth { needed, have });
+        }
+        Ok(())
+    }
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Whether shadows can be counted on a line so wide.
+    #[inline(never)]
+    fn check_shadows(&self, width: u16) -> Result<(), LineError> {
+        let needed = usize::from(width);
+        let have = self.volumes.len();
+        if have < needed {
+            return Err(LineError::Counts { needed, have });
+        }
+        let have = self.depth.len();
+        if have < needed {
             return Err(LineError::Depth { needed, have });
         }
         Ok(())

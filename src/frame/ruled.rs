@@ -111,6 +111,21 @@ pub(super) fn depth_on_line<L: Look>(
     [at.wrapping_add(down.wrapping_mul(out.number)), step]
 }
 
+/// The depths of a run; what nobody has written is farthest away.
+#[inline(always)]
+pub(super) fn cells_of<'a>(run: Span, known: &'a mut Known<'_>) -> Option<&'a mut [u32]> {
+    let part = known.written.cover_part(run.start, run.end, |column| {
+        if let Some(cell) = known.cells.get_mut(column) {
+            *cell = 0;
+        }
+    });
+    let cells = known.cells.get_mut(run.start as usize..run.end as usize)?;
+    if part == Part::None {
+        cells.fill(0);
+    }
+    Some(cells)
+}
+
 /// Calls `f` with each run of pixels that pass the test.
 #[inline(never)]
 fn compare(
@@ -120,18 +135,9 @@ fn compare(
     known: &mut Known<'_>,
     f: &mut dyn FnMut(Span),
 ) {
-    // What nobody has written is farthest away.
-    let part = known.written.cover_part(run.start, run.end, |column| {
-        if let Some(cell) = known.cells.get_mut(column) {
-            *cell = 0;
-        }
-    });
-    let Some(cells) = known.cells.get_mut(run.start as usize..run.end as usize) else {
+    let Some(cells) = cells_of(run, known) else {
         return;
     };
-    if part == Part::None {
-        cells.fill(0);
-    }
     let firsts = (run.start..).step_by(MOST_TESTED);
     for (cells, first) in cells.chunks_mut(MOST_TESTED).zip(firsts) {
         let depth = at.wrapping_add(step.wrapping_mul(first));
@@ -141,7 +147,7 @@ fn compare(
 }
 
 /// Calls `f` with each run of bits that are set; the top one is the pixel at `start`.
-fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
+pub(super) fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
     while bits != 0 {
         let skipped = leading_zeros(bits);
         let pixels = leading_zeros(!(bits << (skipped & 31))).min(32 - skipped);

@@ -2,8 +2,8 @@
 //!
 //! Values are looked at once a span, and only where a call of the scene has any: other lines and other scenes know
 //! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
-//! submission, compared where spans meet or where values compare, then what is translucent (see `translucent`). Without
-//! depth all is drawn in order of submission.
+//! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
+//! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
@@ -40,6 +40,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         self.draw_in_order(out);
         if self.met {
+            if let Some(draw) = self.shadows {
+                draw(self, out);
+            }
             self.draw_translucent(out);
         }
         self.covered.clear();
@@ -130,7 +133,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             _ if is_compared => &DrawState::EMPTY,
             _ => return colour::<L>(Drawn::of(slot), span, out),
         };
-        if is_compared && state.is_translucent() {
+        if state.waits(is_compared) {
             return;
         }
         if is_compared {
@@ -150,7 +153,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let state = out.view.state(at.object());
         let state = state.unwrap_or(&DrawState::EMPTY);
         let after = next(self.links, at);
-        if self.met && state.is_translucent() {
+        if state.waits(self.met) {
             return after;
         }
         let Some(mut alone) = self.set_up_alone(at.object(), out) else {

@@ -15,6 +15,7 @@ use core::ops::Range;
 
 mod colours;
 mod faces;
+mod near_cap;
 mod outcome;
 mod screen;
 

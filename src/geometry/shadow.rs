@@ -12,20 +12,15 @@
 //! of it, each with its own sign, give the same count as the cut itself. So the eye may be inside a
 //! shadow.
 
-use super::assemble::{Assembled, Assembler, each_triangle};
-use super::clip::{Corner, guard, near_ends};
-use super::light::ModelLight;
+use super::assemble::each_triangle;
 use super::mesh::{Coordinate, Mesh};
-use super::object::SceneVertex;
-use super::project::ClipPoint;
-use super::shading::Shading;
 use super::transform::Affine;
 use crate::num::I2F14;
 
 /// Which light casts a shadow, and how far it is drawn out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShadowLight {
-    /// The light's number, below [`Finish::LIGHTS`](super::Finish::LIGHTS).
+    /// The light's number, below [`Shadow::LIGHTS`](crate::scene::Shadow::LIGHTS).
     pub light: u8,
     /// Unit vector towards the light, world space.
     pub direction: [I2F14; 3],
@@ -119,7 +114,7 @@ impl Extrusion {
     }
 
     /// A position of the mesh, and the one it casts its shadow to.
-    fn ends<C: Coordinate>(&self, position: [C; 3]) -> [[i32; 3]; 2] {
+    pub(crate) fn ends<C: Coordinate>(&self, position: [C; 3]) -> [[i32; 3]; 2] {
         let near = position.map(|c| c.to_q30() >> self.reach);
         // Below 1 and 1: no sum leaves 2.
         let far = [0, 1, 2].map(|i| near[i] - (self.direction[i] << 16) as i32);
@@ -150,7 +145,7 @@ impl Extrusion {
 
     /// Calls `f` with the corners of each face that looks at the light; the indices of the mesh
     /// were checked.
-    fn each_lit<C: Coordinate>(
+    pub(crate) fn each_lit<C: Coordinate>(
         &self,
         mesh: &Mesh<'_, C>,
         mut f: impl FnMut([u16; 3], [[C; 3]; 3]),
@@ -243,66 +238,5 @@ impl Extrusion {
             }
         }
         Ok(&mut edges[..kept])
-    }
-}
-
-impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
-    /// Whether the shadow volume of a mesh may reach in front of the near plane.
-    pub(crate) fn is_near<C: Coordinate>(&self, extrusion: &Extrusion, mesh: &Mesh<'_, C>) -> bool {
-        mesh.positions.iter().any(|&position| {
-            let ends = extrusion.ends(position);
-            ends.iter()
-                .any(|&p| self.projection.transform(p).z < self.projection.near)
-        })
-    }
-
-    /// Closes a shadow volume at the near plane: `file` keeps the pieces.
-    pub(crate) fn near_cap<C: Coordinate>(
-        mut self,
-        extrusion: &Extrusion,
-        mesh: &Mesh<'_, C>,
-        sides: &Sides<'_>,
-        mut file: impl FnMut(super::Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
-    ) -> Assembled {
-        let mut hub = None;
-        extrusion.each_lit(mesh, |_, corners| {
-            let [a, b, c] = corners.map(|corner| extrusion.ends(corner));
-            self.near_cut(&mut hub, [a[0], b[0], c[0]], &mut file);
-            self.near_cut(&mut hub, [c[1], b[1], a[1]], &mut file);
-        });
-        for face in sides.faces {
-            let at = |i: usize| sides.positions.get(usize::from(face[i])).copied();
-            if let (Some(a), Some(b), Some(c)) = (at(0), at(1), at(2)) {
-                self.near_cut(&mut hub, [a, b, c], &mut file);
-            }
-        }
-        self.done
-    }
-
-    /// Where the near plane cuts a triangle of the volume: the triangle from there to the hub.
-    fn near_cut(
-        &mut self,
-        hub: &mut Option<ClipPoint>,
-        corners: [[i32; 3]; 3],
-        file: &mut impl FnMut(super::Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
-    ) {
-        let corner = |point| Corner {
-            point,
-            attribute: S::Vertex::default(),
-        };
-        let points = corners.map(|p| corner(self.projection.transform(p)));
-        // The border of the cut goes against the way of the triangle.
-        let Some([to, from]) = near_ends::<S>(points, &self.projection) else {
-            return;
-        };
-        self.done.triangles += 1;
-        let hub = *hub.get_or_insert(from);
-        let mut face = S::Face::default();
-        S::dress_face(&mut face, &self.skin);
-        let part = guard::<S>([hub, from, to].map(corner), &self.projection);
-        for k in 2..part.len() {
-            self.piece([part[0], part[k - 1], part[k]], face, 0, file);
-        }
-        self.count_lost();
     }
 }

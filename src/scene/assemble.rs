@@ -11,7 +11,7 @@ use super::pass::{
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading,
+    Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Role, Scene, Shading,
     TexturePlace, Vertex,
 };
 use crate::geometry::{
@@ -37,7 +37,8 @@ fn check_draw<C: Coordinate>(
     let mesh = &draw.mesh;
     // Indices of triangles are looked at on the way.
     let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
-    let below = if is_looked_at && draw.shading == Shading::Smooth {
+    let is_filed_at_once = is_looked_at && draw.shading == Shading::Smooth;
+    let below = if is_filed_at_once && draw.shadow.is_none() {
         0
     } else {
         usize::MAX
@@ -78,16 +79,17 @@ impl<'t, L> Scene<'_, 't, L> {
             return Err(DrawError::NotBegun);
         };
         check_draw(draw, textured, word_of.is_some())?;
+        self.check_shadow(draw.shadow, draw.priority)?;
+        self.has_shadows |= draw.shadow.is_some();
+        if self.master.leaves_out(draw.shadow) {
+            return Ok(());
+        }
         let mesh = &draw.mesh;
-        let master = self.master;
+        let master = self.master.with_shadow(draw.shadow);
         let submitted = triangles(mesh.faces);
         let state = DrawState::new(self.objects.len() as u16, draw, master);
         if self.draws.push(state).is_none() {
-            return Err(DrawError::Full {
-                memory: Full::Draws,
-                triangles: submitted,
-                first_face: 0,
-            });
+            return Err(DrawError::no_draws(submitted));
         }
         self.generation = self.generation.wrapping_add(1);
         // Where texels are drawn as they are, nobody sees colours or light.
@@ -129,14 +131,17 @@ impl<'t, L> Scene<'_, 't, L> {
             lost: Lost::default(),
         };
         self.share(mesh, &mut pass);
-        self.file(is_flat, mesh, &mut pass)?;
+        match state.role() {
+            Role::Front(_) => self.file_volume(mesh, &mut pass)?,
+            _ => self.file(is_flat, mesh, &mut pass)?,
+        }
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)
     }
 
     /// Counts the triangles of a draw call; an error where some found no room.
-    fn count(&mut self, pass: &Pass<'_>, submitted: u32) -> Result<(), DrawError> {
+    pub(super) fn count(&mut self, pass: &Pass<'_>, submitted: u32) -> Result<(), DrawError> {
         self.assembled.triangles += submitted;
         self.assembled.culled += pass.culled;
         self.assembled.clipped += pass.clipped;
@@ -193,7 +198,7 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// The vertices of the mesh, if they are in memory.
     #[inline(always)]
-    fn shared(&mut self, pass: &Pass<'_>) -> &mut [Vertex] {
+    pub(super) fn shared(&mut self, pass: &Pass<'_>) -> &mut [Vertex] {
         let all = self.vertices.as_mut_slice();
         let mesh = all.get_mut(pass.base..pass.base + pass.shared);
         mesh.unwrap_or_default()
@@ -264,7 +269,7 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Files one triangle, unless it has to be looked at more closely.
-    fn file_known(&mut self, corners: [u16; 3], pass: &mut Pass<'_>) -> bool {
+    pub(super) fn file_known(&mut self, corners: [u16; 3], pass: &mut Pass<'_>) -> bool {
         self.file_run(&[corners], pass) == 1
     }
 
@@ -376,7 +381,7 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// A triangle within all planes; an error names the memory that is full.
-    fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
+    pub(super) fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
         self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
     }
 

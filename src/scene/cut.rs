@@ -45,6 +45,32 @@ pub(super) fn cut_all(corners: [Corner; 3], view: &View, beyond: u32) -> Polygon
     polygon
 }
 
+/// Where a triangle goes out through the near plane, and where it comes in again: the points that [`cut_all`] makes;
+/// `None` where it does not.
+pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
+    let within = points.map(|point| view.within(beyond::NEAR, point));
+    let corner = |i: usize| Corner {
+        point: points[i],
+        colour: 0,
+        texel: [0; 2],
+    };
+    let (mut out, mut back) = (None, None);
+    for (i, next) in [(0, 1), (1, 2), (2, 0)] {
+        match (within[i] >= 0, within[next] >= 0) {
+            (true, false) => {
+                let far = [within[i], within[next]];
+                out = Some(between(&corner(i), &corner(next), far, false).point);
+            }
+            (false, true) => {
+                let far = [within[next], within[i]];
+                back = Some(between(&corner(next), &corner(i), far, false).point);
+            }
+            _ => {}
+        }
+    }
+    Some([out?, back?])
+}
+
 /// Keeps what lies within one plane. The result begins with the first corner within, or the new one
 /// before it.
 fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {

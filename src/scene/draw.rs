@@ -1,8 +1,9 @@
 //! What a draw call says, and what pass two needs of it.
 
+use super::late::{Late, Role};
 use super::texgen::TexGen;
 use super::texture::Square;
-use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Texture};
+use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Shadow, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
 use core::ops::Range;
 
@@ -44,8 +45,12 @@ pub struct Draw<'a, 't, C = i16> {
     /// Whether its colours are dithered to pixels of 16 bits, by a 4 x 4 order over the picture: their mean over 16 pixels
     /// is nearer to the colour than a pixel can be. Pixels of 24 and 32 bits are not, nor are texels in full light.
     pub dither: bool,
+    /// What it has to do with the shadows of a light: it bounds a volume, or is seen again where that light reaches it
+    /// or does not. Renderers [`with_shadows`](crate::frame::Renderer::with_shadows) draw it.
+    pub shadow: Option<Shadow>,
     /// The order in which it is drawn: a higher priority over a lower one, and among equal ones in order of
-    /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing.
+    /// submission. Where any call has one above 0, the whole scene is drawn so, and depth decides on nothing; no call
+    /// may have a shadow then.
     pub priority: u8,
 }
 
@@ -112,6 +117,7 @@ impl<'a, C> Draw<'a, '_, C> {
             depth: DepthTest::HIDES,
             blend: None,
             dither: false,
+            shadow: None,
             priority: 0,
         }
     }
@@ -129,6 +135,7 @@ pub struct DrawState<'t> {
     pub(crate) blend: Option<Blend>,
     pub(crate) dithers: bool,
     pub(crate) priority: u8,
+    late: Late,
     /// The colour that light at pixels falls on, and that light.
     pub(crate) colour: [u8; 3],
     pub(crate) lamps: Option<&'t PixelLamps>,
@@ -168,6 +175,7 @@ impl<'t> DrawState<'t> {
         blend: None,
         dithers: false,
         priority: 0,
+        late: Late::NOT,
         colour: [0; 3],
         lamps: None,
         holes: None,
@@ -179,6 +187,8 @@ impl<'t> DrawState<'t> {
         let skin = draw.texture.as_ref().filter(|_| master.has_texture());
         let texture = skin.map(|skin| skin.texture);
         let blend = draw.blend.filter(|_| master.has_blend());
+        let role = Role::of(draw.shadow, master);
+        let depth = role.depth(draw.depth);
         Self {
             first,
             texture,
@@ -186,12 +196,13 @@ impl<'t> DrawState<'t> {
             scissor: draw.scissor,
             depth: match blend {
                 _ if !master.has_depth() => DepthTest::HIDES,
-                Some(blend) if blend.is_translucent() => draw.depth.without_write(),
-                _ => draw.depth,
+                Some(blend) if blend.is_translucent() => depth.without_write(),
+                _ => depth,
             },
             blend,
             dithers: draw.dither && master.has_dither(),
             priority: draw.priority,
+            late: Late::of(role, blend),
             colour: draw.colour,
             lamps: draw.lamps.filter(|_| master.has_shading()),
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
@@ -216,9 +227,27 @@ impl<'t> DrawState<'t> {
         self.blend.is_some() || self.depth != DepthTest::HIDES
     }
 
-    /// Whether what is behind shines through.
+    /// Whether what is behind shines through, and it is drawn after all that is opaque.
+    #[inline(always)]
     pub(crate) fn is_translucent(&self) -> bool {
-        self.blend.is_some_and(|blend| blend.is_translucent())
+        self.late.is_translucent()
+    }
+
+    /// Whether it is not drawn among what is opaque: where depth is compared since it comes later, otherwise since it
+    /// is never seen.
+    #[inline(always)]
+    pub(crate) fn waits(&self, is_compared: bool) -> bool {
+        self.late.waits(is_compared)
+    }
+
+    /// What it has to do with shadows.
+    pub(crate) fn role(&self) -> Role {
+        self.late.role()
+    }
+
+    /// Says that a volume's triangles are seen from inside.
+    pub(super) fn turn(&mut self) {
+        self.late = self.late.turned();
     }
 
     /// The columns of a line that are kept, from left to right; either run may be empty.

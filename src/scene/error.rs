@@ -1,7 +1,8 @@
 //! What can go wrong while a scene is made.
 
 use super::LARGEST;
-use crate::geometry::MeshError;
+use super::shadow::Shadow;
+use crate::geometry::{MeshError, ShadowRoom};
 use core::fmt;
 
 /// Why a scene cannot be begun. It is as it was.
@@ -83,6 +84,13 @@ pub enum DrawError {
     Light,
     /// The call has a texture, and the scene's look draws none; nothing of it is drawn.
     Untextured,
+    /// The memory lent for a shadow volume is too short; nothing of it is drawn.
+    Shadow(ShadowRoom),
+    /// The number of a shadow's light is not below [`Shadow::LIGHTS`]; nothing of the call is drawn.
+    ShadowLight,
+    /// A scene has both shadows and priorities: these decide on nothing by depth, and shadows are counted by it.
+    /// Nothing of the call is drawn.
+    ShadowRanked,
     /// Memory is full; what was kept is drawn.
     Full {
         /// Which memory.
@@ -92,6 +100,17 @@ pub enum DrawError {
         /// The first of them, as the face of the mesh that it comes from.
         first_face: u32,
     },
+}
+
+impl DrawError {
+    /// A call of so many triangles found no room for its state.
+    pub(super) const fn no_draws(triangles: u32) -> Self {
+        Self::Full {
+            memory: Full::Draws,
+            triangles,
+            first_face: 0,
+        }
+    }
 }
 
 impl fmt::Display for DrawError {
@@ -112,6 +131,13 @@ impl fmt::Display for DrawError {
             ),
             Self::Untextured => {
                 f.write_str("scene: a texture is drawn, and the look of the scene has none")
+            }
+            Self::Shadow(room) => write!(f, "shadow: no room for all {room}"),
+            Self::ShadowLight => {
+                write!(f, "shadow: lights have numbers below {}", Shadow::LIGHTS)
+            }
+            Self::ShadowRanked => {
+                f.write_str("shadow: a scene has shadows or priorities, not both")
             }
             Self::Full {
                 memory,

@@ -14,6 +14,7 @@ use super::{Application, Draw};
 /// | texture | colours alone |
 /// | blend | what is clear is opaque |
 /// | dither | the nearest step |
+/// | shadows | all that a light reaches, as if nothing were between; also where depth is off |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Master(u8);
@@ -27,6 +28,7 @@ impl Master {
     const TEXTURE: u8 = 4;
     const BLEND: u8 = 8;
     const DITHER: u8 = 16;
+    const SHADOWS: u8 = 32;
 
     /// The same without light and colours of corners.
     #[must_use]
@@ -58,6 +60,12 @@ impl Master {
         Self(self.0 | Self::DITHER)
     }
 
+    /// The same without shadows.
+    #[must_use]
+    pub const fn without_shadows(self) -> Self {
+        Self(self.0 | Self::SHADOWS)
+    }
+
     const fn has(self, bit: u8) -> bool {
         self.0 & bit == 0
     }
@@ -82,6 +90,10 @@ impl Master {
 
     pub(super) const fn has_dither(self) -> bool {
         self.has(Self::DITHER)
+    }
+
+    pub(super) const fn has_shadows(self) -> bool {
+        self.has(Self::SHADOWS)
     }
 
     /// What the texture of a call does to its colours, if there is one: a decal without transparent texels hides them,

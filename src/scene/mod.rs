@@ -14,6 +14,8 @@
 //! | `texgen` | texture places from normals |
 //! | `texture`, `budget` | textures as values, and how exact they are drawn |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
+//! | `shadow` | shadow volumes, and surfaces that are drawn again |
+//! | `late` | what is not drawn among what is opaque |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
@@ -26,29 +28,33 @@ mod depth;
 mod draw;
 mod error;
 mod flat;
+mod late;
 mod lights;
 mod master;
 mod pass;
 mod project;
 mod record;
 mod scissor;
+mod shadow;
 #[cfg(test)]
 mod tests;
 mod texgen;
 mod texture;
 
-pub use crate::geometry::DepthFunction;
+pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
+pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;
 pub(crate) use pass::WordOfNormal;
 pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use scissor::Scissor;
+pub use shadow::Shadow;
 pub use texgen::TexGen;
 pub(crate) use texture::{Form, Square};
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
@@ -124,6 +130,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) has_values: bool,
     /// Whether a draw call has a priority.
     pub(crate) is_ranked: bool,
+    /// Whether a draw call has to do with shadows.
+    pub(crate) has_shadows: bool,
     /// What draw calls have to do without.
     pub(crate) master: Master,
     pub(crate) assembled: Assembled,
@@ -147,6 +155,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             scale,
             has_values: false,
             is_ranked: false,
+            has_shadows: false,
             master: Master::ALL,
             assembled: Assembled::default(),
             generation: 0,
@@ -197,6 +206,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.lines = lines;
         self.has_values = false;
         self.is_ranked = false;
+        self.has_shadows = false;
         self.assembled = Assembled::default();
         self.generation = self.generation.wrapping_add(1);
         Ok(())

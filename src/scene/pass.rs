@@ -139,6 +139,28 @@ pub(super) fn colour_of<C: Coordinate>(
 }
 
 impl Pass<'_> {
+    /// One for faces of one colour with vertices of their own, from behind dropped.
+    pub(super) fn dark(view: View, scale: &Scale, base: usize) -> Self {
+        let tint = Tint::new([0; 3], scale);
+        Self {
+            view,
+            light: None,
+            lamps: None,
+            normals: None,
+            tint,
+            one: Some(tint.lit(1 << 15).word()),
+            cull: Cull::Back,
+            texels: None,
+            generated: None,
+            base,
+            shared: 0,
+            within: false,
+            culled: 0,
+            clipped: 0,
+            lost: Lost::default(),
+        }
+    }
+
     /// The texture place of a vertex.
     pub(super) fn texel(&self, i: usize) -> [i32; 2] {
         match self.generated {

@@ -14,6 +14,7 @@ mod named;
 mod placed;
 mod shadow;
 mod test;
+mod volume;
 mod word;
 
 pub use block_fix::BlockFixDepth;
@@ -25,6 +26,7 @@ pub use named::{DepthAndId, MOST_NAMES, Named, name};
 pub use placed::Placed;
 pub use shadow::{ShadowCell, ShadowDepth32, count_span};
 pub(crate) use test::{MOST as MOST_TESTED, test};
+pub(crate) use volume::{Receives, count, receive, settle};
 pub use word::{DepthAndColour, WordCourse, resolve};
 
 use crate::num::Plane;

@@ -1,0 +1,212 @@
+//! What has to do with shadows on a line, after all that is opaque and before what is translucent (K9).
+//!
+//! The depths of the line are whole then: where volumes and surfaces that are drawn again are, all spans keep theirs.
+//! Light by light, its volumes are counted in any order, and what it falls on is drawn in order of submission. One
+//! line of counts serves all lights.
+
+use super::near::insert;
+use super::renderer::Renderer;
+use super::rival::deepen;
+use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
+use super::slot::Flags;
+use super::spans::{Drawn, Known, Line, Span};
+use crate::active::next;
+use crate::look::{Look, WordOf};
+use crate::num::{bit, take_first};
+use crate::scene::Role;
+use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
+
+/// What is done with the spans of a light.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Step {
+    /// Its volumes are counted.
+    Count,
+    /// What is seen again is drawn.
+    Draw,
+}
+
+/// Lights that have something on a line, a bit for each.
+#[derive(Clone, Copy, Default)]
+struct Lights {
+    with_volumes: u32,
+    with_lit: u32,
+    with_shadowed: u32,
+}
+
+impl Lights {
+    fn add(&mut self, role: Role) {
+        match role {
+            Role::None => {}
+            Role::Front(light) | Role::Back(light) => self.with_volumes |= bit(light.into()),
+            Role::Lit(light) => self.with_lit |= bit(light.into()),
+            Role::Shadowed(light) => self.with_shadowed |= bit(light.into()),
+        }
+    }
+}
+
+/// The step and the light that a span belongs to.
+fn step_of(role: Role) -> Option<(Step, u8)> {
+    match role {
+        Role::None => None,
+        Role::Front(light) | Role::Back(light) => Some((Step::Count, light)),
+        Role::Lit(light) | Role::Shadowed(light) => Some((Step::Draw, light)),
+    }
+}
+
+/// Counts a span of a volume, or draws one that is seen again, where depth and counts say so.
+#[inline(never)]
+fn take<L: Look>(
+    ruled: Ruled<'_, L::Planes>,
+    mut known: Known<'_>,
+    counts: &mut [u8],
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    let Ruled { drawn, span, state } = ruled;
+    let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
+    let passes = state.depth.colour_if;
+    let how = Receives {
+        passes,
+        is_shadowed: matches!(state.role(), Role::Shadowed(_)),
+        is_once: state.blend.is_some_and(|blend| blend.is_translucent()),
+    };
+    for run in state.cut(out.number, span.start..span.end) {
+        let run = Span {
+            start: run.start,
+            end: run.end,
+        };
+        if run.start >= run.end {
+            continue;
+        }
+        let counts = counts.get_mut(run.start as usize..run.end as usize);
+        let (Some(counts), Some(cells)) = (counts, cells_of(run, &mut known)) else {
+            return;
+        };
+        let depth_at = |column: u32| at.wrapping_add(step.wrapping_mul(column));
+        let change = match state.role() {
+            Role::Front(_) => u8::MAX,
+            Role::Back(_) => 1,
+            _ => 0,
+        };
+        if change != 0 {
+            count(counts, cells, [depth_at(run.start), step], passes, change);
+            continue;
+        }
+        let parts = counts
+            .chunks_mut(MOST_TESTED)
+            .zip(cells.chunks(MOST_TESTED));
+        for ((counts, cells), first) in parts.zip((run.start..).step_by(MOST_TESTED)) {
+            let seen = receive(counts, cells, [depth_at(first), step], how).reverse_bits();
+            each_run(seen, first, &mut |part| {
+                draw_ruled::<L>(ruled, part, out, None);
+            });
+        }
+    }
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Counts the volumes of all lights, and draws what they fall on, on a line that is drawn by depth.
+    #[inline(never)]
+    pub(super) fn draw_shadows(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+        let (slots, lights) = self.list_shadows(out);
+        let mut lit = lights.with_lit | lights.with_shadowed & lights.with_volumes;
+        while lit != 0 {
+            let light = take_first(&mut lit);
+            self.volumes.fill(0);
+            if lights.with_volumes & bit(light) != 0 {
+                self.take_step((Step::Count, light as u8), slots, out);
+                settle(self.volumes);
+            }
+            self.take_step((Step::Draw, light as u8), slots, out);
+        }
+    }
+
+    /// Lists the slots that have to do with shadows in order of submission, and finds their depth; how many there are,
+    /// and the lights of all spans.
+    fn list_shadows(&mut self, out: &Line<'_, '_, WordOf<L>>) -> (usize, Lights) {
+        let (mut count, mut lights) = (0, Lights::default());
+        for word in 0..WORDS {
+            let mut others = self.cache.used[word] & !self.cache.plain[word];
+            while others != 0 {
+                let i = take_first(&mut others);
+                let slot = &mut self.cache.slots[word][i as usize & 31];
+                let span = Span::of(self.cache.spans[word][i as usize & 31]);
+                if !Flags(slot.flags).has_values() || span.start >= span.end {
+                    continue;
+                }
+                let role = out.view.state(slot.object).map(|state| state.role());
+                if let Some(role) = role.filter(|&role| role != Role::None) {
+                    lights.add(role);
+                    deepen::<L>(slot, out.view);
+                    let key = u32::from(slot.object) << 8 | word as u32 * 32 + i;
+                    let keys = self.cache.order.as_flattened_mut();
+                    insert(keys, count, key, |other| other < key);
+                    count += 1;
+                }
+            }
+        }
+        let mut at = self.cache.spilled;
+        while at.is_some() {
+            if let Some(state) = out.view.state(at.object()) {
+                lights.add(state.role());
+            }
+            at = next(self.links, at);
+        }
+        (count, lights)
+    }
+
+    /// Takes the spans of a step in order of submission, so many slots that are listed and what has none between them.
+    fn take_step(&mut self, step: (Step, u8), slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+        let mut slow = self.cache.spilled;
+        for k in 0..=slots {
+            let key = self.cache.order.as_flattened().get(k).copied();
+            let key = key.filter(|_| k < slots);
+            let object = key.map_or(u32::MAX, |key| key >> 8);
+            while slow.is_some() && u32::from(slow.object()) < object {
+                self.take_alone(slow.object(), step, out);
+                slow = next(self.links, slow);
+            }
+            if let Some(key) = key {
+                self.take_slot(key as usize & 0xFF, step, out);
+            }
+        }
+    }
+
+    fn take_slot(&mut self, number: usize, step: (Step, u8), out: &mut Line<'_, '_, WordOf<L>>) {
+        let (Some(slots), Some(spans)) = (
+            self.cache.slots.get(number >> 5),
+            self.cache.spans.get(number >> 5),
+        ) else {
+            return;
+        };
+        let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
+        let state = out.view.state(slot.object);
+        let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
+            return;
+        };
+        let known = Known {
+            plane: slot.item.depth,
+            cells: self.depth,
+            written: &mut self.written,
+        };
+        let drawn = Drawn::of(slot);
+        take::<L>(Ruled { drawn, span, state }, known, self.volumes, out);
+    }
+
+    fn take_alone(&mut self, object: u16, step: (Step, u8), out: &mut Line<'_, '_, WordOf<L>>) {
+        let state = out.view.state(object);
+        let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
+            return;
+        };
+        let Some(mut alone) = self.set_up_alone(object, out) else {
+            return;
+        };
+        let plane = Self::find_depth(&mut alone, out.view);
+        let known = Known {
+            plane,
+            cells: self.depth,
+            written: &mut self.written,
+        };
+        let (drawn, span) = (alone.drawn(), alone.span);
+        take::<L>(Ruled { drawn, span, state }, known, self.volumes, out);
+    }
+}

@@ -1,0 +1,260 @@
+//! What a draw call has to do with the shadows of a light, and shadow volumes of meshes (K9).
+//!
+//! A scene with shadows has three kinds of calls: what is seen, drawn as always; the volumes, most of them by
+//! [`Scene::draw_shadow`]; and what is seen again, with what shadow or light makes of it. Which pixels that is, is
+//! counted on each line, light by light, after all that is opaque and before what is translucent.
+//!
+//! A volume's faces are filed twice, those seen from outside and those seen from inside, with a draw state each: so
+//! which side is seen is known once a draw call, and no record of a triangle has anything for it.
+
+use super::cut::{Corner, cut_all, near_ends};
+use super::pass::{Pass, colour_all};
+use super::project::{Point, View};
+use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene};
+use crate::geometry::{
+    Affine, Camera, Coordinate, Cull, DepthFunction, Extrusion, Faces, Mesh, ShadowLight,
+    ShadowMemory, check, each_triangle, triangles,
+};
+
+/// What a draw call has to do with the shadows of a light, by the light's number, below [`Shadow::LIGHTS`].
+///
+/// A call with a shadow writes no depth. Where it compares with what is there is said by the shadow, unless the
+/// call's own [`depth`](Draw::depth) is another than [`DepthTest::HIDES`]: then that says so.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shadow {
+    /// The call bounds the shadow volume of the light: it is not seen, but counted where it is nearer than what is
+    /// seen, one way for faces that are seen from outside, and the other for those from inside. Neither is dropped.
+    /// Pixels in front of which they do not balance are in the light's shadow.
+    ///
+    /// Colours, light, textures, blends and dither do nothing. Counts are modulo 256: no more than 255 volumes of a
+    /// light may lie over each other.
+    Volume(u8),
+    /// The call is a surface drawn again, for pixels that the light reaches, where it is as far as what is seen: what
+    /// the light adds, or how the surface looks in it.
+    Lit(u8),
+    /// The same for pixels that are in the light's shadow.
+    Shadowed(u8),
+}
+
+impl Shadow {
+    /// How many lights can have shadows.
+    pub const LIGHTS: u8 = 8;
+
+    fn light(self) -> u8 {
+        match self {
+            Self::Volume(light) | Self::Lit(light) | Self::Shadowed(light) => light,
+        }
+    }
+
+    fn is_volume(self) -> bool {
+        matches!(self, Self::Volume(_))
+    }
+}
+
+impl Master {
+    /// What a call with this shadow has to do without: a volume has no colours.
+    pub(super) fn with_shadow(self, shadow: Option<Shadow>) -> Self {
+        if !shadow.is_some_and(Shadow::is_volume) {
+            return self;
+        }
+        let dark = self.without_shading().without_texture();
+        dark.without_blend().without_dither()
+    }
+
+    /// Whether a call with this shadow is left out.
+    pub(super) fn leaves_out(self, shadow: Option<Shadow>) -> bool {
+        let is_lit = matches!(shadow, None | Some(Shadow::Lit(_)));
+        !is_lit && !(self.has_shadows() && self.has_depth())
+    }
+}
+
+impl<'t, L> Scene<'_, 't, L> {
+    /// Draws the shadow volume of a mesh that stands at `model`: what is inside is in the shadow of the light.
+    ///
+    /// The mesh should be closed; of one that is not, faces that look at the light cast shadows. It has to be drawn
+    /// as well, or what is behind its lit faces is in the shadow of their own backs. Where `model` stretches it, it
+    /// must do so by the same factor in all directions. The camera may be inside the volume.
+    ///
+    /// It takes two vertices and two triangles for each edge of the silhouette, and two draw states; where the near
+    /// plane cuts it, two states more, and a triangle with three vertices of its own for each face that is cut.
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw), and [`DrawError::Shadow`] when the memory lent for the volume is too short. What was
+    /// kept of a volume that found no room is wrong.
+    pub fn draw_shadow<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        model: &Affine,
+        light: &ShadowLight,
+        mut memory: ShadowMemory<'_>,
+    ) -> Result<(), DrawError> {
+        let Some(camera) = self.camera else {
+            return Err(DrawError::NotBegun);
+        };
+        check(mesh).map_err(DrawError::Mesh)?;
+        let shadow = Some(Shadow::Volume(light.light));
+        self.check_shadow(shadow, 0)?;
+        if self.master.leaves_out(shadow) {
+            return Ok(());
+        }
+        let extrusion = Extrusion::new(light, model);
+        let sides = extrusion.sides(mesh, &mut memory);
+        let sides = sides.map_err(DrawError::Shadow)?;
+        let volume = Draw {
+            model: extrusion.model(model),
+            shadow,
+            ..Draw::new(Mesh {
+                positions: sides.positions,
+                normals: &[],
+                colours: &[],
+                faces: Faces::Triangles(sides.faces),
+            })
+        };
+        self.assemble(&volume, false, None)?;
+        let cap = Draw {
+            // In front of all that is seen, wherever rounding puts it.
+            depth: DepthTest::new(DepthFunction::ALWAYS),
+            ..volume
+        };
+        self.close_near(&cap, &camera, &extrusion, mesh)
+    }
+
+    /// Closes a shadow volume where the near plane cuts it: triangles from the border of the cut to one point of it,
+    /// each with its own sign, count as the cut does.
+    fn close_near<C: Coordinate>(
+        &mut self,
+        cap: &Draw<'_, 't, i32>,
+        camera: &Camera,
+        extrusion: &Extrusion,
+        mesh: &Mesh<'_, C>,
+    ) -> Result<(), DrawError> {
+        let view = View::new(camera, self.screen, &cap.model);
+        let is_before = |p: [i32; 3]| view.point(p).z < view.near;
+        let mut ends = mesh.positions.iter().map(|&p| extrusion.ends(p));
+        if !ends.any(|[a, b]| is_before(a) || is_before(b)) {
+            return Ok(());
+        }
+        let state = DrawState::new(self.objects.len() as u16, cap, self.master);
+        let full = DrawError::no_draws(0);
+        self.draws.push(state).ok_or(full)?;
+        self.push_back(0)?;
+        let mut pass = Pass::dark(view, &self.scale, self.vertices.len());
+        let mut submitted = 0;
+        for is_back in [false, true] {
+            if is_back {
+                self.begin_back();
+                submitted = 0;
+            }
+            let mut hub = None;
+            let mut close = |corners: [[i32; 3]; 3]| {
+                let points = corners.map(|p| pass.view.point(p));
+                // The border of the cut goes against the way of the triangle.
+                if let Some([to, from]) = near_ends(points, &pass.view) {
+                    let hub = *hub.get_or_insert(from);
+                    let [a, b] = if is_back { [to, from] } else { [from, to] };
+                    self.file_cut([hub, a, b], submitted, &mut pass);
+                    submitted += 1;
+                }
+            };
+            extrusion.each_lit(mesh, |_, corners| {
+                let [a, b, c] = corners.map(|corner| extrusion.ends(corner));
+                close([a[0], b[0], c[0]]);
+                close([c[1], b[1], a[1]]);
+            });
+            let at = |i: u16| cap.mesh.positions.get(usize::from(i)).copied();
+            each_triangle(cap.mesh.faces, |_, [a, b, c], _| {
+                if let (Some(a), Some(b), Some(c)) = (at(a), at(b), at(c)) {
+                    close([a, b, c]);
+                }
+            });
+        }
+        self.count(&pass, submitted)
+    }
+
+    /// Files a triangle that lies in the near plane, cut to the guard band.
+    fn file_cut(&mut self, points: [Point; 3], number: u32, pass: &mut Pass<'_>) {
+        let corner = |point| Corner {
+            point,
+            colour: pass.one.unwrap_or_default(),
+            texel: [0; 2],
+        };
+        let polygon = cut_all(points.map(corner), &pass.view, 0);
+        for i in 2..polygon.len() {
+            let piece = [polygon[0], polygon[i - 1], polygon[i]];
+            if let Err(memory) = self.file_piece(piece, pass) {
+                return pass.lost.lose(memory, number);
+            }
+        }
+    }
+
+    /// Whether a call of this shadow and priority may be drawn beside those that were.
+    pub(super) fn check_shadow(
+        &self,
+        shadow: Option<Shadow>,
+        priority: u8,
+    ) -> Result<(), DrawError> {
+        match shadow {
+            Some(shadow) if shadow.light() >= Shadow::LIGHTS => Err(DrawError::ShadowLight),
+            Some(_) if self.is_ranked || priority != 0 => Err(DrawError::ShadowRanked),
+            None if self.has_shadows && priority != 0 => Err(DrawError::ShadowRanked),
+            _ => Ok(()),
+        }
+    }
+
+    /// Keeps the state of a volume's faces that are seen from inside, after that of the others; both or none.
+    fn push_back(&mut self, triangles: u32) -> Result<(), DrawError> {
+        let kept = self.draws.len();
+        let front = self.draws.as_slice().last().copied();
+        let mut back = front.unwrap_or(DrawState::EMPTY);
+        back.turn();
+        if self.draws.push(back).is_some() {
+            return Ok(());
+        }
+        self.draws.truncate(kept.saturating_sub(1));
+        Err(DrawError::no_draws(triangles))
+    }
+
+    /// Files the faces of a volume: those seen from outside, then those from inside.
+    #[inline(never)]
+    pub(super) fn file_volume<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        pass: &mut Pass<'_>,
+    ) -> Result<(), DrawError> {
+        let before = self.objects.len();
+        let submitted = triangles(mesh.faces);
+        if let Err(error) = self.push_back(submitted) {
+            self.vertices.truncate(pass.base);
+            return Err(error);
+        }
+        pass.cull = Cull::Back;
+        for is_back in [false, true] {
+            if is_back {
+                self.begin_back();
+                pass.clipped = 0;
+            }
+            each_triangle(mesh.faces, |face, [a, b, c], _| {
+                let corners = if is_back { [a, c, b] } else { [a, b, c] };
+                if pass.shared == 0 || !self.file_known(corners, pass) {
+                    self.file_one(mesh, face, corners, pass.one, pass);
+                }
+            });
+        }
+        // No face is seen from both sides.
+        pass.culled = pass.culled.saturating_sub(submitted);
+        if self.objects.len() == before {
+            self.vertices.truncate(pass.base);
+        } else if let Some(colour) = pass.one {
+            colour_all(colour, self.shared(pass));
+        }
+        Ok(())
+    }
+
+    /// What is filed from now on are faces that are seen from inside.
+    fn begin_back(&mut self) {
+        let first = self.objects.len() as u16;
+        if let Some(state) = self.draws.as_mut_slice().last_mut() {
+            state.first = first;
+        }
+    }
+}
