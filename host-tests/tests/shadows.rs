@@ -19,7 +19,7 @@ type Plain = GouraudDepth<Rgb888>;
 type Shady = Shadowed<Counted<Plain>>;
 
 /// A mesh that stands in the world.
-struct Body {
+pub struct Body {
     positions: Vec<[i16; 3]>,
     faces: Vec<[u16; 3]>,
     scale: f64,
@@ -27,7 +27,7 @@ struct Body {
 }
 
 impl Body {
-    fn mesh<'a>(&'a self, colours: &'a [[u8; 3]]) -> Mesh<'a> {
+    pub fn mesh<'a>(&'a self, colours: &'a [[u8; 3]]) -> Mesh<'a> {
         Mesh {
             positions: &self.positions,
             normals: &[],
@@ -36,7 +36,7 @@ impl Body {
         }
     }
 
-    fn model(&self) -> Affine {
+    pub fn model(&self) -> Affine {
         Affine::placed(self.scale as f32, self.offset.map(|c| c as f32)).unwrap()
     }
 
@@ -69,7 +69,7 @@ impl Body {
     }
 }
 
-const WHITE: [[u8; 3]; 128] = [[255; 3]; 128];
+pub const WHITE: [[u8; 3]; 128] = [[255; 3]; 128];
 
 /// A ball of 6 to 66 corners whose radii are random: closed, and anything but convex.
 fn ball(rng: &mut Rng, scale: f64, offset: V) -> Body {
@@ -162,13 +162,14 @@ fn cast(
     })
 }
 
-struct World {
-    bodies: Vec<Body>,
-    floor: Body,
-    lights: Vec<ShadowLight>,
+/// Bodies that throw shadows, and a floor.
+pub struct World {
+    pub bodies: Vec<Body>,
+    pub floor: Body,
+    pub lights: Vec<ShadowLight>,
 }
 
-fn camera() -> Camera {
+pub fn camera() -> Camera {
     Camera::look_at(
         [0.0; 3],
         [0.0, 0.0, -1.0],
@@ -182,7 +183,7 @@ fn camera() -> Camera {
 
 /// Where the light comes from.
 #[derive(Clone, Copy, PartialEq)]
-enum From {
+pub enum From {
     /// From above.
     Above,
     /// From behind the eye, with a body between it and the eye.
@@ -191,7 +192,7 @@ enum From {
     Beside,
 }
 
-fn world(rng: &mut Rng, lights: u8, from: From) -> World {
+pub fn world(rng: &mut Rng, lights: u8, from: From) -> World {
     let lights: Vec<ShadowLight> = (0..lights)
         .map(|light| {
             let towards = match from {
@@ -231,10 +232,10 @@ fn towards(light: &ShadowLight) -> V {
     light.direction.map(|c| f64::from(c.to_bits()) / 16_384.0)
 }
 
-const DARK: [[u8; 3]; 128] = [[30, 20, 10]; 128];
+pub const DARK: [[u8; 3]; 128] = [[30, 20, 10]; 128];
 /// What each light adds.
-const ADDS: [[[u8; 3]; 128]; 2] = [[[100, 0, 7]; 128], [[0, 150, 70]; 128]];
-const LIT: [[u8; 3]; 128] = [[130, 20, 17]; 128];
+pub const ADDS: [[[u8; 3]; 128]; 2] = [[[100, 0, 7]; 128], [[0, 150, 70]; 128]];
+pub const LIT: [[u8; 3]; 128] = [[130, 20, 17]; 128];
 
 /// Draws a world; in one light the dark is drawn over, in several each adds its own.
 fn build(scene: &mut Scene<'_, Shady>, world: &World, volumes: bool) {
@@ -272,16 +273,20 @@ fn rooms() -> SceneRooms<Shady> {
     SceneRooms::new(20_000, 8_000, HEIGHT)
 }
 
-fn screen() -> Screen {
+pub fn screen() -> Screen {
     Screen::new(WIDTH as u16, HEIGHT as u16).unwrap()
 }
 
-/// Compares a world with rays: pixels that were compared, and how many of them are in shadow.
-fn compare(world: &World) -> (u32, u32) {
+/// A world as these rooms draw it.
+fn drawn(world: &World) -> Vec<Vec<[u8; 3]>> {
     let mut memory = rooms();
     let mut scene = memory.scene(screen());
     build(&mut scene, world, true);
-    let drawn = frame(&scene, 2000);
+    frame(&scene, 2000)
+}
+
+/// Compares a picture of a world with rays: pixels that were compared, and how many of them are in shadow.
+fn compare(world: &World, drawn: &[Vec<[u8; 3]>]) -> (u32, u32) {
     let casters: Vec<_> = world.bodies.iter().flat_map(Body::triangles).collect();
     let mut all = casters.clone();
     all.extend(world.floor.triangles());
@@ -328,12 +333,14 @@ fn compare(world: &World) -> (u32, u32) {
     (compared, shadows)
 }
 
-fn many(seed: u64, lights: u8, from: From) {
+/// Compares random worlds that `draw` has drawn.
+pub fn many(seed: u64, lights: u8, from: From, draw: fn(&World) -> Vec<Vec<[u8; 3]>>) {
     let mut rng = Rng::new(seed);
     let (mut compared, mut shadows) = (0, 0);
     let rounds = 40;
     for _ in 0..rounds {
-        let (c, s) = compare(&world(&mut rng, lights, from));
+        let world = world(&mut rng, lights, from);
+        let (c, s) = compare(&world, &draw(&world));
         compared += c;
         shadows += s;
     }
@@ -344,23 +351,23 @@ fn many(seed: u64, lights: u8, from: From) {
 
 #[test]
 fn shadows_of_random_closed_meshes_are_those_of_rays() {
-    many(41, 1, From::Above);
+    many(41, 1, From::Above, drawn);
 }
 
 #[test]
 fn several_lights_each_have_their_shadows() {
-    many(43, 2, From::Above);
+    many(43, 2, From::Above, drawn);
 }
 
 #[test]
 fn the_eye_may_be_in_a_shadow() {
-    many(47, 1, From::Behind);
+    many(47, 1, From::Behind, drawn);
 }
 
 /// Both ends of a volume cross the near plane: the lit faces, and their copies far away.
 #[test]
 fn the_far_end_of_a_shadow_may_be_cut_too() {
-    many(78, 1, From::Beside);
+    many(78, 1, From::Beside, drawn);
 }
 
 #[test]

@@ -150,7 +150,8 @@ impl core::error::Error for LineError {}
 pub(super) type DrawValues<L, const WORDS: usize> =
     fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>, WordOf<L>) -> bool;
 
-/// Draws what has to do with shadows on a line whose opaque spans are drawn.
+/// Draws what has to do with shadows on a line whose opaque spans are drawn; of a line that is not drawn by depth, hides
+/// what is never seen of it.
 pub(super) type DrawShadows<L, const WORDS: usize> =
     fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>);
 

@@ -5,7 +5,7 @@
 //! line of counts serves all lights.
 
 use super::near::insert;
-use super::renderer::Renderer;
+use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
 use super::slot::Flags;
@@ -13,7 +13,7 @@ use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
-use crate::scene::Role;
+use crate::scene::{DrawState, Role};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
 
 /// What is done with the spans of a light.
@@ -104,9 +104,13 @@ fn take<L: Look>(
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Counts the volumes of all lights, and draws what they fall on, on a line that is drawn by depth.
+    /// Counts the volumes of all lights, and draws what they fall on, on a line that is drawn by depth. On another, slots
+    /// that are seen by their counts alone lose their spans.
     #[inline(never)]
     pub(super) fn draw_shadows(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+        if !out.deep {
+            return self.hide_shadows(out.view);
+        }
         let (slots, lights) = self.list_shadows(out);
         let mut lit = lights.with_lit | lights.with_shadowed & lights.with_volumes;
         while lit != 0 {
@@ -117,6 +121,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 settle(self.volumes);
             }
             self.take_step((Step::Draw, light as u8), slots, out);
+        }
+    }
+
+    /// Empties spans of which nothing is to be seen where nothing is counted.
+    fn hide_shadows(&mut self, view: &View<'_>) {
+        for word in 0..WORDS {
+            let mut others = self.cache.used[word] & !self.cache.plain[word];
+            while others != 0 {
+                let i = take_first(&mut others) as usize & 31;
+                let state = view.state(self.cache.slots[word][i].object);
+                if state.is_some_and(DrawState::is_in_vain) {
+                    self.cache.spans[word][i] = 0;
+                }
+            }
         }
     }
 

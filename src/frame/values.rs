@@ -37,6 +37,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.met = out.deep;
         if self.met {
             self.find_compared(out);
+        } else if let Some(hide) = self.shadows {
+            hide(self, out);
         }
         self.draw_in_order(out);
         if self.met {
@@ -133,7 +135,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             _ if is_compared => &DrawState::EMPTY,
             _ => return colour::<L>(Drawn::of(slot), span, out),
         };
-        if state.waits(is_compared) {
+        if is_compared && state.waits() {
             return;
         }
         if is_compared {
@@ -149,11 +151,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Draws a span without a slot; the next of its kind.
+    #[inline(always)]
     pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let state = out.view.state(at.object());
         let state = state.unwrap_or(&DrawState::EMPTY);
         let after = next(self.links, at);
-        if state.waits(self.met) {
+        if state.waits() && (self.met || state.is_in_vain()) {
             return after;
         }
         let Some(mut alone) = self.set_up_alone(at.object(), out) else {

@@ -233,11 +233,16 @@ impl<'t> DrawState<'t> {
         self.late.is_translucent()
     }
 
-    /// Whether it is not drawn among what is opaque: where depth is compared since it comes later, otherwise since it
-    /// is never seen.
+    /// Whether it is drawn after all that is opaque, where depth is compared.
     #[inline(always)]
-    pub(crate) fn waits(&self, is_compared: bool) -> bool {
-        self.late.waits(is_compared)
+    pub(crate) fn waits(&self) -> bool {
+        self.late.waits()
+    }
+
+    /// Whether nothing is to be seen of it where nothing is counted.
+    #[inline(never)]
+    pub(crate) fn is_in_vain(&self) -> bool {
+        !matches!(self.role(), Role::None | Role::Lit(_))
     }
 
     /// What it has to do with shadows.

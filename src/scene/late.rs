@@ -45,7 +45,7 @@ impl Role {
     }
 }
 
-/// When a draw call is drawn, and its role, in a byte: a draw state has room for one more.
+/// Whether a draw call is drawn later, and its role, in a byte: a draw state has room for one more.
 ///
 /// Bits 0 to 2 are the light; 3 to 5 tell roles apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -62,26 +62,20 @@ impl Late {
     const LIT: u8 = 3 << 3;
     const SHADOWED: u8 = 4 << 3;
     const TRANSLUCENT: u8 = 5 << 3;
-    /// Later, where depth is compared.
-    const COMPARED: u8 = 1 << 6;
-    /// Never, where it is not.
-    const UNCOMPARED: u8 = 1 << 7;
 
     pub(super) fn of(role: Role, blend: Option<Blend>) -> Self {
-        const NEVER: u8 = Late::COMPARED | Late::UNCOMPARED;
         const { assert!(Shadow::LIGHTS - 1 == Self::LIGHT) };
-        let (when, what, light) = match role {
+        let (what, light) = match role {
             Role::None if blend.is_some_and(|blend| blend.is_translucent()) => {
-                (Self::COMPARED, Self::TRANSLUCENT, 0)
+                (Self::TRANSLUCENT, 0)
             }
             Role::None => return Self::NOT,
-            Role::Lit(light) => (Self::COMPARED, Self::LIT, light),
-            // Nothing is to be seen of it where nothing is counted.
-            Role::Front(light) => (NEVER, Self::FRONT, light),
-            Role::Back(light) => (NEVER, Self::BACK, light),
-            Role::Shadowed(light) => (NEVER, Self::SHADOWED, light),
+            Role::Front(light) => (Self::FRONT, light),
+            Role::Back(light) => (Self::BACK, light),
+            Role::Lit(light) => (Self::LIT, light),
+            Role::Shadowed(light) => (Self::SHADOWED, light),
         };
-        Self(when | what | light & Self::LIGHT)
+        Self(what | light & Self::LIGHT)
     }
 
     pub(super) fn role(self) -> Role {
@@ -108,14 +102,10 @@ impl Late {
         self.0 & Self::ROLE == Self::TRANSLUCENT
     }
 
+    /// Whether it is drawn later, where depth is compared.
     #[inline(always)]
-    pub(super) fn waits(self, is_compared: bool) -> bool {
-        let bit = if is_compared {
-            Self::COMPARED
-        } else {
-            Self::UNCOMPARED
-        };
-        self.0 & bit != 0
+    pub(super) fn waits(self) -> bool {
+        self != Self::NOT
     }
 }
 
@@ -127,17 +117,16 @@ mod tests {
     fn a_byte_keeps_role_light_and_when() {
         let glass = Some(Blend::filter(100));
         for light in 0..Shadow::LIGHTS {
-            for (role, is_hidden) in [
-                (Role::Front(light), true),
-                (Role::Back(light), true),
-                (Role::Lit(light), false),
-                (Role::Shadowed(light), true),
+            for role in [
+                Role::Front(light),
+                Role::Back(light),
+                Role::Lit(light),
+                Role::Shadowed(light),
             ] {
                 for blend in [None, glass] {
                     let late = Late::of(role, blend);
                     assert_eq!(late.role(), role);
-                    assert!(late.waits(true) && !late.is_translucent());
-                    assert_eq!(late.waits(false), is_hidden);
+                    assert!(late.waits() && !late.is_translucent());
                     let turned = match role {
                         Role::Front(light) => Role::Back(light),
                         other => other,
@@ -147,9 +136,9 @@ mod tests {
             }
         }
         let late = Late::of(Role::None, glass);
-        assert!(late.is_translucent() && late.waits(true) && !late.waits(false));
+        assert!(late.is_translucent() && late.waits());
         let opaque = Late::of(Role::None, None);
-        assert!(!opaque.is_translucent() && !opaque.waits(true) && !opaque.waits(false));
+        assert!(!opaque.is_translucent() && !opaque.waits());
         assert_eq!([late.role(), opaque.role()], [Role::None; 2]);
     }
 }

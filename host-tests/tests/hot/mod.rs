@@ -115,6 +115,8 @@ pub struct LineRooms<L: Look> {
     pub cache: Box<FastMemory<L, 4>>,
     pub links: Vec<Link>,
     pub depth: Vec<u32>,
+    /// One a pixel.
+    pub counts: Vec<u8>,
 }
 
 impl<L: Look> LineRooms<L> {
@@ -127,11 +129,22 @@ impl<L: Look> LineRooms<L> {
             cache,
             links: vec![Link::EMPTY; scene.objects()],
             depth: vec![0; cells],
+            counts: vec![77; scene.screen().width().into()],
         }
     }
 
     pub fn renderer(&mut self) -> Renderer<'_, L, 4> {
         Renderer::new(self.lent())
+    }
+
+    /// One that draws shadows.
+    pub fn with_shadows(&mut self) -> Renderer<'_, L, 4> {
+        let lent = Lent {
+            cache: &mut self.cache,
+            links: &mut self.links,
+            depth: &mut self.depth,
+        };
+        Renderer::with_shadows(lent, &mut self.counts)
     }
 
     /// One that refuses draw calls with values that few have.
