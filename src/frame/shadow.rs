@@ -16,13 +16,18 @@ use crate::num::{bit, take_first};
 use crate::scene::{DrawState, Role};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
 
-/// What is done with the spans of a light.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Step {
-    /// Its volumes are counted.
-    Count,
-    /// What is seen again is drawn.
-    Draw,
+/// What is done with spans of a light, in this order: volumes are counted, then what is seen again is drawn.
+///
+/// In a number: twice the light, and 1 for what is drawn.
+type Step = u32;
+
+/// The step that a span belongs to.
+fn step_of(role: Role) -> Option<Step> {
+    match role {
+        Role::None => None,
+        Role::Front(light) | Role::Back(light) => Some(2 * Step::from(light)),
+        Role::Lit(light) | Role::Shadowed(light) => Some(2 * Step::from(light) + 1),
+    }
 }
 
 /// Lights that have something on a line, a bit for each.
@@ -41,15 +46,6 @@ impl Lights {
             Role::Lit(light) => self.with_lit |= bit(light.into()),
             Role::Shadowed(light) => self.with_shadowed |= bit(light.into()),
         }
-    }
-}
-
-/// The step and the light that a span belongs to.
-fn step_of(role: Role) -> Option<(Step, u8)> {
-    match role {
-        Role::None => None,
-        Role::Front(light) | Role::Back(light) => Some((Step::Count, light)),
-        Role::Lit(light) | Role::Shadowed(light) => Some((Step::Draw, light)),
     }
 }
 
@@ -117,10 +113,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let light = take_first(&mut lit);
             self.volumes.fill(0);
             if lights.with_volumes & bit(light) != 0 {
-                self.take_step((Step::Count, light as u8), slots, out);
+                self.take_step(2 * light, slots, out);
                 settle(self.volumes);
             }
-            self.take_step((Step::Draw, light as u8), slots, out);
+            self.take_step(2 * light + 1, slots, out);
         }
     }
 
@@ -138,8 +134,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Lists the slots that have to do with shadows in order of submission, and finds their depth; how many there are,
-    /// and the lights of all spans.
+    /// Lists the slots that have to do with shadows by their steps, and of a step in order of submission, and finds their
+    /// depth; how many there are, and the lights of all spans.
     fn list_shadows(&mut self, out: &Line<'_, '_, WordOf<L>>) -> (usize, Lights) {
         let (mut count, mut lights) = (0, Lights::default());
         for word in 0..WORDS {
@@ -152,10 +148,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     continue;
                 }
                 let role = out.view.state(slot.object).map(|state| state.role());
-                if let Some(role) = role.filter(|&role| role != Role::None) {
+                let role = role.unwrap_or_default();
+                if let Some(step) = step_of(role) {
                     lights.add(role);
                     deepen::<L>(slot, out.view);
-                    let key = u32::from(slot.object) << 8 | word as u32 * 32 + i;
+                    let key = step << 24 | u32::from(slot.object) << 8 | word as u32 * 32 + i;
                     let keys = self.cache.order.as_flattened_mut();
                     insert(keys, count, key, |other| other < key);
                     count += 1;
@@ -172,24 +169,29 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         (count, lights)
     }
 
-    /// Takes the spans of a step in order of submission, so many slots that are listed and what has none between them.
-    fn take_step(&mut self, step: (Step, u8), slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    /// Takes the spans of a step in order of submission: of so many slots that are listed, and what has none between
+    /// them.
+    fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let mut slow = self.cache.spilled;
-        for k in 0..=slots {
-            let key = self.cache.order.as_flattened().get(k).copied();
-            let key = key.filter(|_| k < slots);
-            let object = key.map_or(u32::MAX, |key| key >> 8);
+        let keys = self.cache.order.as_flattened().get(..slots);
+        let first = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
+        for k in first.. {
+            let keys = self.cache.order.as_flattened().get(..slots);
+            let key = keys.and_then(|keys| keys.get(k)).copied();
+            let key = key.filter(|key| key >> 24 == step);
+            let object = key.map_or(u32::MAX, |key| key >> 8 & 0xFFFF);
             while slow.is_some() && u32::from(slow.object()) < object {
                 self.take_alone(slow.object(), step, out);
                 slow = next(self.links, slow);
             }
-            if let Some(key) = key {
-                self.take_slot(key as usize & 0xFF, step, out);
-            }
+            let Some(key) = key else {
+                return;
+            };
+            self.take_slot(key as usize & 0xFF, out);
         }
     }
 
-    fn take_slot(&mut self, number: usize, step: (Step, u8), out: &mut Line<'_, '_, WordOf<L>>) {
+    fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (Some(slots), Some(spans)) = (
             self.cache.slots.get(number >> 5),
             self.cache.spans.get(number >> 5),
@@ -197,8 +199,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         };
         let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
-        let state = out.view.state(slot.object);
-        let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
+        let Some(state) = out.view.state(slot.object) else {
             return;
         };
         let known = Known {
@@ -210,7 +211,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         take::<L>(Ruled { drawn, span, state }, known, self.volumes, out);
     }
 
-    fn take_alone(&mut self, object: u16, step: (Step, u8), out: &mut Line<'_, '_, WordOf<L>>) {
+    fn take_alone(&mut self, object: u16, step: Step, out: &mut Line<'_, '_, WordOf<L>>) {
         let state = out.view.state(object);
         let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
             return;

@@ -7,7 +7,8 @@ use crate::link::Link;
 use crate::look::{Gouraud, Look, Textured, WordOf};
 use crate::num::random::Rng;
 use crate::scene::{
-    Budget, Draw, DrawState, Memory, NONE, Object, Scene, Skin, Texture, TexturePlace, Vertex,
+    Budget, Draw, DrawState, Memory, NONE, Object, Scene, Shadow, Skin, Texture, TexturePlace,
+    Vertex,
 };
 use std::boxed::Box;
 use std::vec::Vec;
@@ -46,6 +47,7 @@ struct Crowd {
     colours: Vec<[u8; 3]>,
     faces: Vec<[u16; 3]>,
     priority: u8,
+    shadow: Option<Shadow>,
 }
 
 impl Crowd {
@@ -56,6 +58,7 @@ impl Crowd {
             colours: Vec::new(),
             faces: Vec::new(),
             priority,
+            shadow: None,
         };
         for i in 0..triangles {
             let middle = [(); 3].map(|()| rng.below(40_000) as i32 - 20_000);
@@ -103,7 +106,7 @@ fn with_scene<L: Look>(
     let mut places = std::vec![TexturePlace::EMPTY; 4_000];
     let mut objects = std::vec![Object::EMPTY; 2_000];
     let mut bins = std::vec![NONE; seen.height.into()];
-    let mut draws = [DrawState::EMPTY; 4];
+    let mut draws = [DrawState::EMPTY; 6];
     let screen = Screen::new(WIDTH, seen.height).unwrap();
     let memory = Memory {
         vertices: &mut vertices,
@@ -126,6 +129,7 @@ fn with_scene<L: Look>(
                 budget: Budget::BALANCED,
             }),
             priority: crowd.priority,
+            shadow: crowd.shadow,
             ..Draw::new(Mesh {
                 positions: &crowd.positions,
                 normals: &[],
@@ -149,11 +153,13 @@ fn lines<L: Look>(
     cache.set_limit(slots);
     let mut links = std::vec![Link::NONE; scene.objects()];
     let mut depth = std::vec![0; if depth { WIDTH.into() } else { 0 }];
-    let mut renderer = Renderer::new(Lent {
+    let mut counts = [99; WIDTH as usize];
+    let memory = Lent {
         cache: &mut cache,
         links: &mut links,
         depth: &mut depth,
-    });
+    };
+    let mut renderer = Renderer::with_shadows(memory, &mut counts);
     let background = L::Pixel::from_rgb8([9, 9, 9]);
     let line = |&line: &u16| {
         let mut pixels = std::vec![WordOf::<L>::default(); WIDTH.into()];
@@ -225,4 +231,56 @@ fn what_has_no_slot_is_drawn_as_what_has_one() {
         });
     }
     assert!(missed > 5000, "{missed}");
+}
+
+/// A crowd, and the same again in the light and in the shadow of another, which is counted.
+#[test]
+fn shadows_do_not_depend_on_the_cache() {
+    let mut rng = Rng(53);
+    let all: Vec<u16> = (0..WIDE.height).collect();
+    let mut differing = 0;
+    for round in 0..12 {
+        let count = [3, 20, 60][round % 3];
+        let again = |rng: &mut Rng, shadow: Shadow, of: &Crowd| Crowd {
+            positions: of.positions.clone(),
+            places: of.places.clone(),
+            colours: of
+                .colours
+                .iter()
+                .map(|_| [(); 3].map(|()| rng.below(256) as u8))
+                .collect(),
+            faces: of.faces.clone(),
+            priority: 0,
+            shadow: Some(shadow),
+        };
+        let crowd = Crowd::new(&mut rng, count, 0);
+        let lit = again(&mut rng, Shadow::Lit(5), &crowd);
+        let dark = again(&mut rng, Shadow::Shadowed(5), &crowd);
+        let other = Crowd::new(&mut rng, count, 0);
+        let volume = again(&mut rng, Shadow::Volume(5), &other);
+        let mut crowds = [lit, volume, crowd, dark];
+        let mut picture = Vec::new();
+        with_scene::<Gouraud<Rgb888>>(WIDE, &crowds, None, |scene| {
+            let (want, _) = lines(scene, 224, true, &all);
+            for slots in [0, 3, 32, 90] {
+                let (got, _) = lines(scene, slots, true, &all);
+                assert!(got == want, "{slots} slots, round {round}");
+                let some: Vec<u16> = (0..20)
+                    .map(|_| rng.below(WIDE.height.into()) as u16)
+                    .collect();
+                let (got, _) = lines(scene, slots, true, &some);
+                let same = some
+                    .iter()
+                    .zip(&got)
+                    .all(|(&y, line)| *line == want[usize::from(y)]);
+                assert!(same, "alone, {slots} slots, round {round}");
+            }
+            picture = want;
+        });
+        crowds[1].shadow = Some(Shadow::Volume(4));
+        with_scene::<Gouraud<Rgb888>>(WIDE, &crowds, None, |scene| {
+            differing += u32::from(lines(scene, 224, true, &all).0 != picture);
+        });
+    }
+    assert!(differing > 7, "{differing}");
 }

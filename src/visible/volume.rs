@@ -70,3 +70,58 @@ pub(crate) fn receive(
     }
     seen
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    /// Faces one behind the other, against what a ray through each pixel meets; then surfaces of all kinds, drawn again.
+    #[test]
+    fn counts_are_those_of_rays_and_say_who_is_drawn() {
+        let mut rng = Rng(19);
+        let mut seen = [0; 4];
+        for _ in 0..4_000 {
+            let width = 1 + rng.below(MOST_TESTED as u32) as usize;
+            let cells: Vec<u32> = (0..width).map(|_| 100 + rng.below(20)).collect();
+            let (mut counts, mut rays) = (std::vec![0; width], std::vec![0i32; width]);
+            let ramp = |rng: &mut Rng| [95 + rng.below(30), rng.below(3).wrapping_sub(1)];
+            let at = |[at, step]: [u32; 2], i: usize| at.wrapping_add(step.wrapping_mul(i as u32));
+            for _ in 0..rng.below(5) {
+                let (face, is_back) = (ramp(&mut rng), rng.below(2) == 1);
+                let change = if is_back { 1 } else { u8::MAX };
+                count(&mut counts, &cells, face, DepthFunction::NEARER, change);
+                for i in (0..width).filter(|&i| at(face, i) > cells[i]) {
+                    rays[i] += if is_back { 1 } else { -1 };
+                }
+            }
+            settle(&mut counts);
+            let mut done = std::vec![[false; 2]; width];
+            for _ in 0..4 {
+                let surface = ramp(&mut rng);
+                let [is_shadowed, is_once] = [(); 2].map(|()| rng.below(2) == 1);
+                let how = Receives {
+                    passes: DepthFunction::EQUAL,
+                    is_shadowed,
+                    is_once,
+                };
+                let bits = receive(&mut counts, &cells, surface, how);
+                for i in 0..32 {
+                    let want = i < width && {
+                        let done = &mut done[i][usize::from(is_shadowed)];
+                        let is_here = at(surface, i) == cells[i];
+                        let is_due = is_here && is_shadowed == (rays[i] != 0);
+                        let is_first = !(is_once && *done);
+                        *done |= is_due && is_once;
+                        is_due && is_first
+                    };
+                    assert_eq!(bits >> i & 1 == 1, want);
+                    let kind = usize::from(is_shadowed) * 2 + usize::from(is_once);
+                    seen[kind] += usize::from(want);
+                }
+            }
+        }
+        assert!(seen.iter().all(|&n| n > 300), "{seen:?}");
+    }
+}

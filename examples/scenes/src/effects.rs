@@ -220,7 +220,7 @@ fn shadows(scene: &mut Scene<'_, Shady>) -> Result<(), ShotError> {
 }
 
 const ONE: i16 = 1 << 14;
-static CORNERS: [[i16; 3]; 8] = [
+pub(crate) static CORNERS: [[i16; 3]; 8] = [
     [-ONE, -ONE, -ONE],
     [ONE, -ONE, -ONE],
     [-ONE, ONE, -ONE],
@@ -230,7 +230,7 @@ static CORNERS: [[i16; 3]; 8] = [
     [-ONE, ONE, ONE],
     [ONE, ONE, ONE],
 ];
-static SIDES: [[u16; 4]; 6] = [
+pub(crate) static SIDES: [[u16; 4]; 6] = [
     [1, 3, 7, 5],
     [0, 4, 6, 2],
     [2, 6, 7, 3],

@@ -11,12 +11,14 @@
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
+//! | `values_shadows` | two cubes, a floor and a pane in the shadows of two lights |
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
 mod scenes;
+mod shadows;
 
 use crate::contours::LeanContours;
 use crate::lean::{LeanError, LeanLook, LeanTextured};
@@ -33,6 +35,7 @@ use scanbeam::scan_out::{
 use scanbeam::scene::{DrawState, Master, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Link, Screen};
 use scenes::{ball, bands, blends, dither, holes, lamps, mirror, phong, sprites, teapot};
+use shadows::shadows;
 
 /// Pixels a line of such a frame.
 pub const VALUES_WIDTH: u16 = 160;
@@ -46,6 +49,8 @@ pub const VALUES_SHOWN: usize =
 
 /// Draw calls of the frame that has most.
 const DRAWS: usize = 12;
+/// Likewise with shadows.
+const SHADOW_DRAWS: usize = 20;
 /// Columns and lines of a cell.
 const CELL: (u16, u16) = (16, 2);
 
@@ -71,6 +76,8 @@ pub enum Values {
     Ranked,
     /// What blends has, with all switched off that can be.
     Master,
+    /// Volumes of two lights, and what they light.
+    Shadows,
     /// Below sprites.
     Overlay,
     /// A frame, and the changed lines of another.
@@ -82,7 +89,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 12] = [
+pub const VALUES: [(&str, Values); 13] = [
     ("values_phong", Values::Phong),
     ("values_bands", Values::Bands),
     ("values_mirror", Values::Mirror),
@@ -91,6 +98,7 @@ pub const VALUES: [(&str, Values); 12] = [
     ("values_blends", Values::Blends),
     ("values_ranked", Values::Ranked),
     ("values_master", Values::Master),
+    ("values_shadows", Values::Shadows),
     ("values_overlay", Values::Overlay),
     ("values_lines", Values::Lines),
     ("values_runs", Values::Runs),
@@ -198,13 +206,50 @@ impl Values {
                 let is_ranked = self == Self::Ranked;
                 rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
             }
+            Self::Shadows => rest.send_shadows(lent.smooth, pump),
             Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
         }
     }
 }
 
+/// What is seen where nothing is.
+fn background() -> u16 {
+    Rgb565Be::from_rgb8([24, 32, 48])
+}
+
 impl Rest<'_> {
+    /// Sends the scene with shadows: a function of its own, so that other looks do not have their code.
+    #[inline(never)]
+    fn send_shadows<D>(
+        self,
+        cache: &mut FastMemory<LeanLook>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut draws = [const { DrawState::EMPTY }; SHADOW_DRAWS];
+        let memory = Memory {
+            vertices: self.vertices,
+            places: self.places,
+            objects: self.objects,
+            bins: self.bins,
+            draws: &mut draws,
+        };
+        let mut scene = Scene::new(values_screen(), memory);
+        shadows(&mut scene)?;
+        let mut counts = [0; VALUES_WIDTH as usize];
+        let memory = LineMemory {
+            cache,
+            links: self.links,
+            depth: self.depth,
+        };
+        let mut renderer = Renderer::with_shadows(memory, &mut counts);
+        draw_frame(&scene, &mut renderer, pump, background(), 3)?;
+        Ok(())
+    }
+
     /// Makes the scene by `build`, of this moment, and sends it.
     #[inline(never)]
     fn send<'t, L, D>(
@@ -232,7 +277,7 @@ impl Rest<'_> {
             links: self.links,
             depth: self.depth,
         });
-        let background = Rgb565Be::from_rgb8([24, 32, 48]);
+        let background = background();
         if values == Values::Master {
             let master = Master::ALL.without_shading().without_depth();
             scene.set_master(master.without_texture().without_blend().without_dither());

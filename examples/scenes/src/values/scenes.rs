@@ -17,12 +17,12 @@ use scanbeam::scene::{
 use scanbeam::{Affine, Camera, Cull, Light, Mesh};
 
 /// Who looks at it.
-fn camera() -> Result<Camera, LeanError> {
+pub(super) fn camera() -> Result<Camera, LeanError> {
     let (eye, up) = ([0.6, 1.0, 2.8], [0.0, 1.0, 0.0]);
     Camera::look_at(eye, [0.0; 3], up, 140.0, 0.1, 100.0).map_err(LeanError::Camera)
 }
 
-fn at(scale: f32, place: [f32; 3]) -> Affine {
+pub(super) fn at(scale: f32, place: [f32; 3]) -> Affine {
     Affine::placed(scale, place).unwrap_or(Affine::IDENTITY)
 }
 
@@ -39,7 +39,7 @@ pub(super) fn lamps() -> Result<Option<PixelLamps>, LeanError> {
 }
 
 /// A mesh without colours of its own.
-fn uncoloured(mesh: Mesh<'static>) -> Mesh<'static> {
+pub(super) fn uncoloured(mesh: Mesh<'static>) -> Mesh<'static> {
     Mesh {
         colours: &[],
         ..mesh

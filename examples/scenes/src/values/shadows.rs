@@ -1,0 +1,101 @@
+//! Two cubes and a pane over a floor, in two lights: what light from everywhere makes of them, the volumes of both
+//! lights, and what each light adds where it is not in the way (K9).
+
+use super::scenes::{at, camera, uncoloured};
+use crate::CUBE;
+use crate::effects::{CORNERS, SIDES};
+use crate::lean::{LeanError, LeanLook};
+use scanbeam::mesh::QuadSplit;
+use scanbeam::scene::{Blend, Draw, Scene, Shadow, ShadowEdge, ShadowLight, ShadowMemory};
+use scanbeam::{Affine, Cull, Faces, Light, Mesh};
+
+/// Where a light comes from, and what it makes of white.
+struct Lamp {
+    towards: [f32; 3],
+    colour: [u8; 3],
+}
+
+const LAMPS: [Lamp; 2] = [
+    Lamp {
+        towards: [0.7, 1.0, 0.4],
+        colour: [200, 170, 110],
+    },
+    Lamp {
+        towards: [-0.8, 0.9, 0.7],
+        colour: [30, 60, 110],
+    },
+];
+
+/// Each corner once, so that the mesh is closed.
+const CLOSED: Mesh<'static> = Mesh {
+    positions: &CORNERS,
+    normals: &[],
+    colours: &[],
+    faces: Faces::Quads(&SIDES, QuadSplit::Corner0To2),
+};
+
+/// Draws the volumes of a cube.
+fn throw(
+    scene: &mut Scene<'_, 'static, LeanLook>,
+    model: &Affine,
+    light: &ShadowLight,
+) -> Result<(), LeanError> {
+    let memory = ShadowMemory {
+        edges: &mut [ShadowEdge::default(); 36],
+        positions: &mut [[0; 3]; 24],
+        faces: &mut [[0; 3]; 24],
+    };
+    let drawn = scene.draw_shadow(&CLOSED, model, light, memory);
+    drawn.map_err(LeanError::Draw)
+}
+
+/// Makes the scene.
+pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), LeanError> {
+    scene.begin(&camera()?).map_err(LeanError::Begin)?;
+    let cubes = [
+        Affine::rotation_y(0.5).then(&at(0.35, [-0.3, -0.1, 0.2])),
+        Affine::rotation_x(0.8).then(&at(0.25, [0.45, 0.5, 0.5])),
+    ];
+    let floor = at(4.0, [0.0, -4.6, 0.0]);
+    let draw_all = |scene: &mut Scene<'_, 'static, LeanLook>, dressed: &Draw<'_, 'static>| {
+        for model in cubes.into_iter().chain([floor]) {
+            let call = Draw { model, ..*dressed };
+            scene.draw(&call).map_err(LeanError::Draw)?;
+        }
+        Ok(())
+    };
+    let dark = Draw {
+        colour: [50, 50, 60],
+        ..Draw::new(uncoloured(CUBE))
+    };
+    draw_all(scene, &dark)?;
+    for (light, lamp) in (0..).zip(&LAMPS) {
+        let Some(lit) = Light::new(lamp.towards, 0.0) else {
+            continue;
+        };
+        let thrown = ShadowLight {
+            light,
+            direction: lit.direction,
+            reach: 5,
+        };
+        for model in &cubes {
+            throw(scene, model, &thrown)?;
+        }
+        let adds = Draw {
+            colour: lamp.colour,
+            light: Some(lit),
+            shadow: Some(Shadow::Lit(light)),
+            blend: Some(Blend::add(255)),
+            ..dark
+        };
+        draw_all(scene, &adds)?;
+    }
+    let pane = Draw {
+        model: Affine::rotation_y(0.9).then(&at(0.3, [0.0, 0.0, 1.0])),
+        cull: Cull::None,
+        colour: [90, 200, 120],
+        blend: Some(Blend::filter(110)),
+        ..Draw::new(uncoloured(CUBE))
+    };
+    scene.draw(&pane).map_err(LeanError::Draw)
+}
