@@ -54,7 +54,7 @@
 //! | module | there |
 //! |---|---|
 //! | [`mesh`], [`light`], [`list`], [`input`] | what is drawn, by calls or as data |
-//! | [`scene`] | pass one: draw calls, their textures, blends, scissors, priorities |
+//! | [`scene`] | pass one: draw calls, their textures, blends, scissors, priorities, shadows |
 //! | [`look`], [`pixel`] | what a triangle's pixels look like |
 //! | [`frame`] | pass two: lines, frames, two cores |
 //! | [`overlay`], [`scan_out`] | what is painted over lines, and how they get to displays |
@@ -67,10 +67,10 @@
 //! |---|---|
 //! | a whole program, memory and all | [`guide::first_triangle`] |
 //! | textures | [`guide::textures`] |
-//! | blends, scissors, priorities, reflections, lists | [`guide::draw_calls`] |
+//! | blends, scissors, priorities, shadows, reflections, lists | [`guide::draw_calls`] |
 //! | your display, your memory, two cores | [`guide::own_display`], [`guide::own_memory`], [`guide::two_cores`] |
 //! | speed against error, and what a frame did | [`guide::quality`], [`guide::figures`] |
-//! | shadows, levels of detail, filters, pictures over 1,016 pixels | [`guide::presets`] |
+//! | levels of detail, filters, pictures over 1,016 pixels | [`guide::presets`] |
 //! | which requirement is met where, and which test says so | [`guide::rows`] |
 #![no_std]
 #![forbid(unsafe_code)]
