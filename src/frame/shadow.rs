@@ -152,7 +152,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 if let Some(step) = step_of(role) {
                     lights.add(role);
                     deepen::<L>(slot, out.view);
-                    let key = step << 24 | u32::from(slot.object) << 8 | word as u32 * 32 + i;
+                    let number = word as u32 * 32 + i;
+                    let key = step << 24 | u32::from(slot.object) << 8 | number;
                     let keys = self.cache.order.as_flattened_mut();
                     insert(keys, count, key, |other| other < key);
                     count += 1;

@@ -63,8 +63,9 @@ impl Master {
 
     /// Whether a call with this shadow is left out.
     pub(super) fn leaves_out(self, shadow: Option<Shadow>) -> bool {
-        let is_lit = matches!(shadow, None | Some(Shadow::Lit(_)));
-        !is_lit && !(self.has_shadows() && self.has_depth())
+        let is_counted = matches!(shadow, Some(Shadow::Volume(_) | Shadow::Shadowed(_)));
+        let are_on = self.has_shadows() && self.has_depth();
+        is_counted && !are_on
     }
 }
 

@@ -11,7 +11,7 @@
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
-//! | `values_shadows` | two cubes, a floor and a pane in the shadows of two lights |
+//! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
@@ -50,7 +50,7 @@ pub const VALUES_SHOWN: usize =
 /// Draw calls of the frame that has most.
 const DRAWS: usize = 12;
 /// Likewise with shadows.
-const SHADOW_DRAWS: usize = 20;
+const SHADOW_DRAWS: usize = 24;
 /// Columns and lines of a cell.
 const CELL: (u16, u16) = (16, 2);
 

@@ -1,10 +1,10 @@
-//! Two cubes and a pane over a floor, in two lights: what light from everywhere makes of them, the volumes of both
+//! Two cubes, a ribbon and a pane over a floor, in two lights: what light from everywhere makes of them, the volumes of both
 //! lights, and what each light adds where it is not in the way (K9).
 
 use super::scenes::{at, camera, uncoloured};
-use crate::CUBE;
 use crate::effects::{CORNERS, SIDES};
 use crate::lean::{LeanError, LeanLook};
+use crate::{CUBE, RIBBON};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::scene::{Blend, Draw, Scene, Shadow, ShadowEdge, ShadowLight, ShadowMemory};
 use scanbeam::{Affine, Cull, Faces, Light, Mesh};
@@ -18,7 +18,7 @@ struct Lamp {
 const LAMPS: [Lamp; 2] = [
     Lamp {
         towards: [0.7, 1.0, 0.4],
-        colour: [200, 170, 110],
+        colour: [150, 125, 80],
     },
     Lamp {
         towards: [-0.8, 0.9, 0.7],
@@ -57,15 +57,22 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Le
         Affine::rotation_x(0.8).then(&at(0.25, [0.45, 0.5, 0.5])),
     ];
     let floor = at(4.0, [0.0, -4.6, 0.0]);
+    let ribbon = Affine::rotation_y(0.3).then(&at(0.7, [0.5, -0.3, 0.3]));
     let draw_all = |scene: &mut Scene<'_, 'static, LeanLook>, dressed: &Draw<'_, 'static>| {
         for model in cubes.into_iter().chain([floor]) {
             let call = Draw { model, ..*dressed };
             scene.draw(&call).map_err(LeanError::Draw)?;
         }
-        Ok(())
+        let open = Draw {
+            mesh: uncoloured(RIBBON),
+            model: ribbon,
+            cull: Cull::None,
+            ..*dressed
+        };
+        scene.draw(&open).map_err(LeanError::Draw)
     };
     let dark = Draw {
-        colour: [50, 50, 60],
+        colour: [40, 40, 50],
         ..Draw::new(uncoloured(CUBE))
     };
     draw_all(scene, &dark)?;
@@ -91,7 +98,7 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Le
         draw_all(scene, &adds)?;
     }
     let pane = Draw {
-        model: Affine::rotation_y(0.9).then(&at(0.3, [0.0, 0.0, 1.0])),
+        model: Affine::rotation_y(0.9).then(&at(0.2, [-0.75, 0.05, 0.8])),
         cull: Cull::None,
         colour: [90, 200, 120],
         blend: Some(Blend::filter(110)),
