@@ -359,10 +359,7 @@ impl<'v> Stray<'v> {
             return Slope::of_place(out.view, self.object);
         }
         match depth_plane(&self.triangle) {
-            Some([at, step, down]) => Slope {
-                at: at.wrapping_add(down.wrapping_mul(out.number)),
-                step,
-            },
+            Some(plane) => Slope::of_plane(plane, out.number),
             None => thin_slope::<L>(self.object, self.span, out),
         }
     }

@@ -341,11 +341,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 start: sides.left.column(out.number),
                 end: sides.right.column(out.number),
             };
-            let [at, step, down] = slot.item.depth;
-            let slope = Slope {
-                at: at.wrapping_add(down.wrapping_mul(out.number)),
-                step,
-            };
+            let slope = Slope::of_plane(slot.item.depth, out.number);
             key = self.keep_span(key, span, slope);
         } else {
             key = self.find_other(key, out);

@@ -36,6 +36,15 @@ impl Slope {
         Self { at, step: 0 }
     }
 
+    /// That of a plane of depth on a line.
+    #[inline(always)]
+    pub(super) fn of_plane([at, step, down]: [u32; 3], line: u32) -> Self {
+        Self {
+            at: at.wrapping_add(down.wrapping_mul(line)),
+            step,
+        }
+    }
+
     #[inline(always)]
     fn at(self, column: u32) -> u32 {
         self.at.wrapping_add(self.step.wrapping_mul(column))
@@ -116,11 +125,7 @@ pub(super) fn slope_of<L: Look>(
     if Flags(slot.flags).lacks_depth() {
         return thin_slope::<L>(slot.object, span, out);
     }
-    let [at, step, down] = slot.item.depth;
-    Slope {
-        at: at.wrapping_add(down.wrapping_mul(out.number)),
-        step,
-    }
+    Slope::of_plane(slot.item.depth, out.number)
 }
 
 #[cold]

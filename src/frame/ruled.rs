@@ -5,6 +5,7 @@
 //! first, 32 at a time, and what they leave is compared.
 
 use super::renderer::View;
+use super::rival::Slope;
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::leading_zeros;
@@ -107,8 +108,8 @@ pub(super) fn depth_on_line<L: Look>(
         let [at, step] = thin_depth::<L>(drawn.object, span, out);
         return [at.wrapping_sub(step.wrapping_mul(span.start)), step];
     }
-    let [at, step, down] = plane;
-    [at.wrapping_add(down.wrapping_mul(out.number)), step]
+    let Slope { at, step } = Slope::of_plane(plane, out.number);
+    [at, step]
 }
 
 /// The depths of a run; what nobody has written is farthest away.

@@ -8,7 +8,6 @@ use super::near::insert;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
-use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
 use crate::look::{Look, WordOf};
@@ -140,13 +139,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (mut count, mut lights) = (0, Lights::default());
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
-            while others != 0 {
-                let i = take_first(&mut others);
+            while let Some(i) = self.next_with_values(word, &mut others) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                let span = Span::of(self.cache.spans[word][i as usize & 31]);
-                if !Flags(slot.flags).has_values() || span.start >= span.end {
-                    continue;
-                }
                 let role = out.view.state(slot.object).map(|state| state.role());
                 let role = role.unwrap_or_default();
                 if let Some(step) = step_of(role) {

@@ -11,7 +11,6 @@
 use super::renderer::Renderer;
 use super::rival::deepen;
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
-use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
 use crate::look::{Look, WordOf};
@@ -220,13 +219,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut count = 0;
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
-            while others != 0 {
-                let i = take_first(&mut others);
+            while let Some(i) = self.next_with_values(word, &mut others) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                let span = Span::of(self.cache.spans[word][i as usize & 31]);
-                if !Flags(slot.flags).has_values() || span.start >= span.end {
-                    continue;
-                }
                 let state = out.view.state(slot.object);
                 if state.is_some_and(DrawState::is_translucent) {
                     deepen::<L>(slot, out.view);

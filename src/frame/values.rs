@@ -73,6 +73,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
+    /// Takes the next slot of a word that has values and pixels on the line out of a set.
+    #[inline(always)]
+    pub(super) fn next_with_values(&self, word: usize, set: &mut u32) -> Option<u32> {
+        while *set != 0 {
+            let i = take_first(set);
+            let flags = Flags(self.cache.slots[word][i as usize & 31].flags);
+            let span = Span::of(self.cache.spans[word][i as usize & 31]);
+            if flags.has_values() && span.start < span.end {
+                return Some(i);
+            }
+        }
+        None
+    }
+
     /// Whether a draw call on this line has values.
     fn has_values(&self, view: &View<'_>) -> bool {
         for word in 0..WORDS {

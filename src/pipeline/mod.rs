@@ -45,10 +45,9 @@ pub use crate::renderer::{
     DepthUse, DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, RendererError,
     Scene, SceneError, SceneMemory, draw_frame,
 };
-pub use crate::shade::Quality;
 pub use crate::shade::{
     Auto, Forward, HalfRate, Interpolation, Levels, Lirp10, Lirp12, Lirp16, LirpPacked, Method,
-    Packed8, Packed16, Precision, QuarterRate,
+    Packed8, Packed16, Precision, Quality, QuarterRate,
 };
 use crate::shade::{Lamplight, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
