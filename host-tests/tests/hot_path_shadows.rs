@@ -5,7 +5,7 @@
 
 use crate::common::Rng;
 use crate::hot::exact::{doubled_area, within};
-use crate::hot::values::{Cut, FUNCTIONS, Function, blended, passes};
+use crate::hot::values::{Cut, FUNCTIONS, Function, WHITE, blended, passes, some_corners};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Textured};
@@ -36,13 +36,6 @@ static HOLED: Texture<'static> = {
         Err(_) => panic!("8 x 8 texels"),
     }
 };
-static WHITE: Texture<'static> = {
-    static WORDS: [u16; 64] = [0xFFFF; 64];
-    match Texture::words(&WORDS, 8, 8) {
-        Ok(texture) => texture.wrapping(Wrap::Repeat),
-        Err(_) => panic!("8 x 8 texels"),
-    }
-};
 
 /// A draw call of one triangle of one colour.
 #[derive(Clone, Debug)]
@@ -57,20 +50,7 @@ struct Call {
 
 impl Call {
     fn new(rng: &mut Rng, screen: Screen) -> Self {
-        let size = rng.pick(&[40, 200, 600, 3_000]);
-        let middle =
-            [screen.width(), screen.height()].map(|side| rng.within(0, 8 * i32::from(side)));
-        let w = 1.0 + 7.0 * rng.unit();
-        let slant = rng.pick(&[1.0, 1.0, 1.0, 3.0]);
-        let colour = [(); 3].map(|()| rng.below(256) as u8);
-        let corners = [(); 3].map(|()| Corner {
-            at: (
-                middle[0] + rng.within(-size, size),
-                middle[1] + rng.within(-size, size),
-            ),
-            w: w * rng.between(1.0, slant),
-            colour,
-        });
+        let corners = some_corners(rng, screen);
         Self {
             corners,
             shadow: None,

@@ -6,27 +6,19 @@
 use crate::common::Rng;
 use crate::hot::exact::within;
 use crate::hot::layers::{Layer, lay_all};
-use crate::hot::values::{Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, blended, some_mode};
+use crate::hot::values::{
+    Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, WHITE, blended, some_corners, some_mode,
+};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
-    Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Scene, Skin, Texture, TexturePlace,
-    Wrap,
+    Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Scene, Skin, TexturePlace,
 };
 use scanbeam::{Cull, Screen};
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
-
-/// A texture that leaves colours as they are.
-static WHITE: Texture<'static> = {
-    static WORDS: [u16; 64] = [0xFFFF; 64];
-    match Texture::words(&WORDS, 8, 8) {
-        Ok(texture) => texture.wrapping(Wrap::Repeat),
-        Err(_) => panic!("8 x 8 texels"),
-    }
-};
 
 /// A draw call of one triangle of one colour, and its values.
 #[derive(Clone, Debug)]
@@ -43,20 +35,7 @@ struct Call {
 impl Call {
     /// Any triangle, and no values.
     fn new(rng: &mut Rng, screen: Screen) -> Self {
-        let size = rng.pick(&[40, 200, 600, 3_000]);
-        let middle =
-            [screen.width(), screen.height()].map(|side| rng.within(0, 8 * i32::from(side)));
-        let w = 1.0 + 7.0 * rng.unit();
-        let slant = rng.pick(&[1.0, 1.0, 1.0, 3.0]);
-        let colour = [(); 3].map(|()| rng.below(256) as u8);
-        let corners = [(); 3].map(|()| Corner {
-            at: (
-                middle[0] + rng.within(-size, size),
-                middle[1] + rng.within(-size, size),
-            ),
-            w: w * rng.between(1.0, slant),
-            colour,
-        });
+        let corners = some_corners(rng, screen);
         Self {
             corners,
             cut: None,

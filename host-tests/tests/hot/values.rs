@@ -1,8 +1,9 @@
 //! Values of draw calls, and what they mean to a reference: rectangles, functions of depth, modes of blending.
 
+use super::Corner;
 use crate::common::Rng;
 use scanbeam::Screen;
-use scanbeam::scene::{BlendMode, DepthFunction, Factor, Scissor};
+use scanbeam::scene::{BlendMode, DepthFunction, Factor, Scissor, Texture, Wrap};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -118,4 +119,30 @@ pub fn some_mode(rng: &mut Rng) -> BlendMode {
         6 => BlendMode::Replace,
         _ => BlendMode::Filter(alpha),
     }
+}
+
+/// A texture that leaves colours as they are.
+pub static WHITE: Texture<'static> = {
+    static WORDS: [u16; 64] = [0xFFFF; 64];
+    match Texture::words(&WORDS, 8, 8) {
+        Ok(texture) => texture.wrapping(Wrap::Repeat),
+        Err(_) => panic!("8 x 8 texels"),
+    }
+};
+
+/// The corners of any triangle of one colour, about the screen.
+pub fn some_corners(rng: &mut Rng, screen: Screen) -> [Corner; 3] {
+    let size = rng.pick(&[40, 200, 600, 3_000]);
+    let middle = [screen.width(), screen.height()].map(|side| rng.within(0, 8 * i32::from(side)));
+    let w = 1.0 + 7.0 * rng.unit();
+    let slant = rng.pick(&[1.0, 1.0, 1.0, 3.0]);
+    let colour = [(); 3].map(|()| rng.below(256) as u8);
+    [(); 3].map(|()| Corner {
+        at: (
+            middle[0] + rng.within(-size, size),
+            middle[1] + rng.within(-size, size),
+        ),
+        w: w * rng.between(1.0, slant),
+        colour,
+    })
 }

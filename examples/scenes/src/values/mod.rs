@@ -218,7 +218,32 @@ fn background() -> u16 {
     Rgb565Be::from_rgb8([24, 32, 48])
 }
 
-impl Rest<'_> {
+impl<'m> Rest<'m> {
+    /// What a scene is lent, what a renderer is, and what is shown.
+    #[inline(always)]
+    fn lend<'a, 't, L: Look>(
+        self,
+        draws: &'a mut [DrawState<'t>],
+        cache: &'a mut FastMemory<L>,
+    ) -> (Memory<'a, 't>, LineMemory<'a, L>, &'a mut [u32])
+    where
+        'm: 'a,
+    {
+        let memory = Memory {
+            vertices: self.vertices,
+            places: self.places,
+            objects: self.objects,
+            bins: self.bins,
+            draws,
+        };
+        let lines = LineMemory {
+            cache,
+            links: self.links,
+            depth: self.depth,
+        };
+        (memory, lines, self.shown)
+    }
+
     /// Sends the scene with shadows: a function of its own, so that other looks do not have their code.
     #[inline(never)]
     fn send_shadows<D>(
@@ -230,22 +255,11 @@ impl Rest<'_> {
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
         let mut draws = [const { DrawState::EMPTY }; SHADOW_DRAWS];
-        let memory = Memory {
-            vertices: self.vertices,
-            places: self.places,
-            objects: self.objects,
-            bins: self.bins,
-            draws: &mut draws,
-        };
+        let (memory, lines, _) = self.lend(&mut draws, cache);
         let mut scene = Scene::new(values_screen(), memory);
         shadows(&mut scene)?;
         let mut counts = [0; VALUES_WIDTH as usize];
-        let memory = LineMemory {
-            cache,
-            links: self.links,
-            depth: self.depth,
-        };
-        let mut renderer = Renderer::with_shadows(memory, &mut counts);
+        let mut renderer = Renderer::with_shadows(lines, &mut counts);
         draw_frame(&scene, &mut renderer, pump, background(), 3)?;
         Ok(())
     }
@@ -264,19 +278,9 @@ impl Rest<'_> {
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
         let mut draws = [const { DrawState::EMPTY }; DRAWS];
-        let memory = Memory {
-            vertices: self.vertices,
-            places: self.places,
-            objects: self.objects,
-            bins: self.bins,
-            draws: &mut draws,
-        };
+        let (memory, lines, known) = self.lend(&mut draws, cache);
         let mut scene = Scene::<L>::new(values_screen(), memory);
-        let mut renderer = Renderer::new(LineMemory {
-            cache,
-            links: self.links,
-            depth: self.depth,
-        });
+        let mut renderer = Renderer::new(lines);
         let background = background();
         if values == Values::Master {
             let master = Master::ALL.without_shading().without_depth();
@@ -310,7 +314,7 @@ impl Rest<'_> {
             draw_frame(&scene, &mut renderer, pump, background, 3)?;
             return Ok(());
         }
-        let (lines, cells) = self.shown.split_at_mut(VALUES_HEIGHT.into());
+        let (lines, cells) = known.split_at_mut(VALUES_HEIGHT.into());
         let mut lines = ShownLines::new(lines);
         let mut cells = ShownRuns::new(cells, VALUES_WIDTH, CELL.0, CELL.1);
         for moment in [0.0, 0.25, 0.25] {
