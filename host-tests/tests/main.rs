@@ -46,6 +46,7 @@ mod hot_path_ground;
 mod hot_path_master;
 mod hot_path_phong;
 mod hot_path_reflection;
+mod hot_path_sampling;
 mod hot_path_shader;
 mod hot_path_shading;
 mod hot_path_shadows;

@@ -45,16 +45,17 @@ enum Axis {
     Key,
     Application,
     Dither,
+    Filter,
 }
 
 /// How many choices each has.
-const CHOICES: [usize; 18] = [8, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3, 2];
+const CHOICES: [usize; 19] = [10, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3, 2, 2];
 
 /// The first look that has textures.
 const TEXTURED: usize = 5;
 
 /// A choice on each axis.
-type Choices = [usize; 18];
+type Choices = [usize; 19];
 
 /// A direction that 14 bits hold.
 fn some_normal(rng: &mut Rng) -> V3 {
@@ -115,6 +116,7 @@ fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
         places: [(); 3].map(|()| [(); 2].map(|()| rng.within(-20_000, 20_000))),
         budget: BUDGETS[of(Axis::Budget)],
         is_keyed: of(Axis::Key) == 1,
+        is_filtered: of(Axis::Filter) == 1,
         application: APPLICATIONS[of(Axis::Application)],
     });
     let cut = (of(Axis::Scissor) > 0).then(|| {
@@ -199,7 +201,9 @@ impl Case {
             4 => self.hold_as::<Gouraud<Xrgb8888>>(rng, OF_888),
             5 => self.hold_as::<Textured<Rgb565>>(rng, OF_TEXELS),
             6 => self.hold_as::<Textured<Rgb565Be>>(rng, OF_TEXELS),
-            _ => self.hold_as::<Textured<Rgb565Le>>(rng, OF_TEXELS),
+            7 => self.hold_as::<Textured<Rgb565Le>>(rng, OF_TEXELS),
+            8 => self.hold_as::<Textured<Rgb888>>(rng, OF_WIDE_TEXELS),
+            _ => self.hold_as::<Textured<Xrgb8888>>(rng, OF_WIDE_TEXELS),
         }
     }
 
@@ -321,6 +325,15 @@ const OF_TEXELS: Rounding = Rounding {
     by_twos: true,
 };
 
+/// The texel as levels, times the shade of the pixel's own place.
+const OF_WIDE_TEXELS: Rounding = Rounding {
+    written: 1.4,
+    sloped: 1.9,
+    blended: 1.01,
+    dithered: 0.0,
+    by_twos: false,
+};
+
 fn some_choices(rng: &mut Rng) -> Choices {
     CHOICES.map(|choices| rng.below(choices as u32) as usize)
 }
@@ -354,9 +367,10 @@ fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
         let all = textures();
         let forms = &all.of[usize::from(is_swapped)][usize::from(skin.is_keyed)];
         let wrap = WRAPS.iter().position(|wrap| *wrap == skin.wrap);
+        let texture = &forms[skin.form][wrap.expect("one of them")];
         let places: &'static [_] = skin.places.to_vec().leak();
         Skin {
-            texture: &forms[skin.form][wrap.expect("one of them")],
+            texture: &texture[usize::from(skin.is_filtered)],
             places,
             budget: skin.budget.0,
         }

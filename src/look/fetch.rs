@@ -386,7 +386,7 @@ impl Texture<'_> {
 impl Form<'_> {
     /// A texel by its index.
     #[inline(always)]
-    fn get(&self, i: usize) -> Option<u16> {
+    pub(super) fn get(&self, i: usize) -> Option<u16> {
         match *self {
             Form::Words(texels) => texels.get(i).copied(),
             Form::Index8(bytes, palette) => Some(palette[usize::from(*bytes.get(i)?)]),

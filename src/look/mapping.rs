@@ -25,9 +25,10 @@ use super::stride::{Range, Reach, Stride, reach};
 #[cfg(test)]
 use super::word_plane::Near;
 use crate::num::{leading_zeros, mul_high, mul_high_unsigned};
+pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
-use crate::scene::{Budget, Square, Texture};
+use crate::scene::{Budget, SampledSpan, Sampling, Square, Texture};
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -40,18 +41,6 @@ pub struct Corner {
     pub depth: u32,
     /// Place on the texture, to the right and down: texels with 8 fraction bits, modulo 2^32.
     pub texel: [i32; 2],
-}
-
-/// How texture coordinates are found along a span.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Method {
-    /// Affine: one plane of one word, for [`copy`].
-    #[default]
-    Word,
-    /// Affine: planes of u and v, for [`copy_wide`].
-    Wide,
-    /// Planes of u/w, v/w and 1/w.
-    Perspective,
 }
 
 /// What a triangle keeps of its texture coordinates.
@@ -342,6 +331,31 @@ impl Mapping {
             }
             Method::Perspective => self.draw_long(run, place, texture, budget),
         }
+    }
+
+    /// The same as the texture wants them to be taken; `is_swapped` as in [`SampledSpan`].
+    #[inline(never)]
+    pub fn draw_sampled(
+        &self,
+        run: &mut [u16],
+        place: Place,
+        (texture, budget): (&Texture<'_>, Budget),
+        sampling: Sampling,
+        is_swapped: bool,
+    ) {
+        let span = SampledSpan {
+            texture,
+            budget,
+            is_swapped,
+            method: self.method,
+            steps: self.reach.line,
+            base: self.base,
+            planes: &self.planes,
+            line: place.line,
+            columns: place.span..place.end,
+            column: place.column,
+        };
+        (sampling.0)(&span, run);
     }
 
     #[inline(always)]

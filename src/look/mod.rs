@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `paint` | what a look does, and what it is told |
 //! | `gouraud` | colours linear between vertices |
-//! | `textured` | texels times such colours |
+//! | `textured`, `textured_wide` | texels times such colours, in pixels of 16 bits and of more |
+//! | `shades` | the planes of those colours, and what they are along a span |
 //! | `phong` | normals linear between vertices, lit at each pixel |
 //! | `shaded` | pixels by a function of one's own, from parameters of vertices |
 //! | `ramp` | the loops over pixels that all looks share |
@@ -13,6 +14,8 @@
 //! | `fetch` | texels along a way that is linear on the texture |
 //! | `perspective` | a span in perspective: exact places at its ends or every 16 to 1 pixels, fetched between |
 //! | `stride` | how far these exact places may be apart |
+//! | `sampling` | levels of detail: where each begins along a span |
+//! | `linear` | the weighted mean of four texels, and levels of detail made of means |
 //! | `tint` | texels times a shade, in place |
 //!
 //! A textured span is a sum of two passes over its pixels: a fetcher writes plain texels, then a
@@ -22,20 +25,25 @@
 mod area;
 mod fetch;
 mod gouraud;
+mod linear;
 mod mapping;
 mod paint;
 mod perspective;
 mod phong;
 mod ramp;
+mod sampling;
 mod shaded;
+mod shades;
 mod stride;
 #[cfg(test)]
 mod tests;
 mod textured;
+mod textured_wide;
 mod tint;
 mod word_plane;
 
 pub use gouraud::Gouraud;
+pub use linear::halved;
 pub(crate) use paint::{Fill, Paint, Parts, Place, ThinSpan, WordOf};
 pub use phong::Phong;
 pub(crate) use ramp::fill_even;

@@ -301,18 +301,32 @@ impl Perspective {
     /// Places every 8 or 16 pixels, from any form and size, with any wrap.
     #[inline(never)]
     fn any(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
+        self.ways(run, within, stride, |run, way| {
+            copy_exact(run, texture, way)
+        });
+    }
+
+    /// Calls `draw` for the parts of a run between exact places, which are taken as straight.
+    #[inline(always)]
+    pub(super) fn ways(
+        &self,
+        run: &mut [u16],
+        within: Within,
+        stride: Stride,
+        mut draw: impl FnMut(&mut [u16], Way),
+    ) {
         let base = self.base;
-        let copy = |run: &mut [u16], piece: Piece, step: Uv| {
+        let mut along = |run: &mut [u16], piece: Piece, step: Uv| {
             let at = piece.from;
-            copy_exact(run, texture, Way { base, at, step }.skip(piece.skipped));
+            draw(run, Way { base, at, step }.skip(piece.skipped));
         };
         let log = stride.log();
         let rest = self.pieces(run, within, log, |run, piece| {
-            copy(run, piece, piece.way.part(log));
+            along(run, piece, piece.way.part(log));
         });
         if !rest.run.is_empty() {
             let piece = rest.last(self.step);
-            copy(rest.run, piece, nth(piece.way, piece.steps));
+            along(rest.run, piece, nth(piece.way, piece.steps));
         }
     }
 }

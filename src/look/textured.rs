@@ -10,20 +10,22 @@
 //! | thin | from both ends of each span | likewise |
 
 use super::fetch::copy_from;
-use super::gouraud::{Course, Planes as Shades, at, course, fields, thin_shades, wide_shades};
+use super::gouraud::{Planes as Shades, course, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Short, Values, word_at};
+use super::shades::{shade_at, shade_planes, small_shade};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
 use super::{Fill, Paint, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::scene::{Budget, DrawState, ORIGIN, Texture, TexturePlace, Vertex};
-use crate::span::{Rise, Shares, Size, Triangle, across, down};
+use crate::scene::{Budget, DrawState, Holes, ORIGIN, Texture, TexturePlace, Vertex};
+use crate::span::{Size, Triangle, across, down};
 use core::marker::PhantomData;
 use core::slice::from_mut;
 
-/// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`](crate::pixel::Rgb565) or
-/// [`Rgb565Be`](crate::pixel::Rgb565Be). Texels have the same order of bytes.
+/// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`](crate::pixel::Rgb565),
+/// [`Rgb565Be`](crate::pixel::Rgb565Be) or [`Rgb565Le`](crate::pixel::Rgb565Le), and texels have the same order of bytes;
+/// or [`Rgb888`](crate::pixel::Rgb888) or [`Xrgb8888`](crate::pixel::Xrgb8888), with texels as `Rgb565` has them.
 #[derive(Clone, Copy, Debug)]
 pub struct Textured<F>(PhantomData<F>);
 
@@ -38,6 +40,41 @@ pub struct Planes {
     shaded: Option<Fill>,
     /// Whether there is a mapping.
     mapped: bool,
+}
+
+impl Planes {
+    /// Whether there is a shade: else there is full light.
+    #[inline(always)]
+    pub(super) fn is_shaded(&self) -> bool {
+        self.shaded.is_some()
+    }
+
+    /// Hands the shades of a place's pixel and of those after it to `take`, until that has enough.
+    #[inline(always)]
+    pub(super) fn each_shade(&self, place: Place, mut take: impl FnMut(Shade) -> bool) {
+        let Some(fill) = self.shaded else {
+            return;
+        };
+        if fill == Fill::Small {
+            let [shade, step] = small_shade(&self.shade, place);
+            let mut shade = shade.minus_quarter(step.times(2));
+            while take(shade) {
+                shade = shade.plus(step);
+            }
+            return;
+        }
+        let mut course = course(fill, &self.shade, place);
+        // A pixel alone has the shade of its own place.
+        while take(shade_at(&course.still(), 1)[0]) {
+            course.skip(1);
+        }
+    }
+
+    /// What transparent texels are, where there may be any.
+    pub(super) fn holes(&self, draws: &[DrawState<'_>]) -> Option<Holes> {
+        let state = draws.get(usize::from(self.draw))?;
+        state.holes.filter(|_| self.mapped)
+    }
 }
 
 /// Pixels between two evaluations of the shade's planes: steps are rounded to 2^-15 of full light.
@@ -129,7 +166,7 @@ impl<F: Texel> Textured<F> {
 
     /// The texels of a run, as they are; white without any.
     #[inline(always)]
-    fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+    pub(super) fn texels(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
         let state = draws.get(usize::from(planes.draw));
         if let Some(square) = state.and_then(DrawState::square) {
             // Without a mapping none is short enough.
@@ -146,9 +183,16 @@ impl<F: Texel> Textured<F> {
     #[inline(never)]
     fn other_texels(planes: &Planes, place: Place, state: Option<&DrawState<'_>>, run: &mut [u16]) {
         match state.and_then(DrawState::texture) {
-            Some((texture, budget)) if planes.mapped => {
-                planes.mapping.draw_any(run, place, texture, budget);
-            }
+            Some((texture, budget)) if planes.mapped => match texture.sampling() {
+                None => planes.mapping.draw_any(run, place, texture, budget),
+                Some(sampling) => {
+                    let is_swapped = F::ordered(1) != 1;
+                    let texture = (texture, budget);
+                    planes
+                        .mapping
+                        .draw_sampled(run, place, texture, sampling, is_swapped);
+                }
+            },
             _ => run.fill(0xFFFF),
         }
     }
@@ -169,25 +213,11 @@ impl<F: Texel> Textured<F> {
     /// Multiplies a run by the shade of a triangle within 64 pixels.
     #[inline(always)]
     fn shade_small(planes: &Shades, place: Place, run: &mut [u16]) {
-        let [at, step] = Self::small_shade(planes, place);
+        let [at, step] = small_shade(planes, place);
         if run.len() as u32 == place.pixels() {
             return F::tint(run, at, step);
         }
         Self::shade_part(run, place, [at, step]);
-    }
-
-    /// The shade of a triangle within 64 pixels half a pixel beyond a place, and its step.
-    #[inline(always)]
-    fn small_shade(planes: &Shades, place: Place) -> [Shade; 2] {
-        let step = Shade {
-            red_blue: planes[1],
-            green: planes[4],
-        };
-        let at = Shade {
-            red_blue: at(planes, 0, place),
-            green: at(planes, 3, place),
-        };
-        [at, step]
     }
 
     /// [`shade`](Textured::shade), dithered.
@@ -198,7 +228,7 @@ impl<F: Texel> Textured<F> {
         };
         let at = [place.column, place.line];
         if fill == Fill::Small {
-            let [shade, step] = Self::small_shade(&planes.shade, place);
+            let [shade, step] = small_shade(&planes.shade, place);
             let first = shade.minus_quarter(step.times(2));
             return F::tint_dithered(run, first, step, at);
         }
@@ -262,54 +292,6 @@ impl<F: Texel> Textured<F> {
             F::tint(one, shade, Shade::default());
         }
     }
-}
-
-/// Half of full light: where a shade rises by as much in a pixel, half of a step is not told from another, and spans
-/// have one pixel or two.
-const STEEP: i32 = 1 << 14;
-
-/// Planes of a shade half a pixel beyond each pixel, of a triangle within 64 pixels: red and blue, then green. Whether
-/// it is not too steep for them.
-#[inline(always)]
-fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) -> bool {
-    let shares = shares.cut::<6>();
-    let [a, b, c] = colour.map(fields);
-    let red = shares.rise::<6, 5>(b[0] - a[0], c[0] - a[0]);
-    let green = shares.rise::<6, 5>(b[1] - a[1], c[1] - a[1]);
-    let blue = shares.rise::<6, 6>(b[2] - a[2], c[2] - a[2]);
-    let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
-    let first = |rise: &Rise, value: i32| rise.at.wrapping_add(value).wrapping_add(rise.dx >> 1);
-    planes[0] = join(first(&red, a[0] << 5), first(&blue, a[2] << 6));
-    planes[1] = join(red.dx, blue.dx);
-    planes[2] = join(red.dy, blue.dy);
-    planes[3] = (first(&green, a[1] << 5) << 16) as u32;
-    planes[4] = (green.dx << 16) as u32;
-    planes[5] = (green.dy << 16) as u32;
-    let raised = |rise: &Rise| rise.dx.wrapping_add(STEEP) as u32;
-    raised(&red) | raised(&green) | raised(&blue) < 2 * STEEP as u32
-}
-
-/// The shade half a pixel beyond a place, and its step, for a part of a span with so many pixels. A pixel alone in a
-/// steep shade has that of its own place.
-#[inline(always)]
-fn shade_at(course: &Course, pixels: u32) -> [Shade; 2] {
-    let is_alone = pixels == 1
-        && course
-            .step
-            .iter()
-            .any(|step| (step ^ step >> 31) >> 15 >= STEEP);
-    let step = if is_alone { [0; 3] } else { course.step };
-    let half = |i: usize| course.value[i].wrapping_add((step[i] >> 1) as u32);
-    let rounded = |i: usize| step[i].wrapping_add(1 << 14) >> 15;
-    let shade = Shade {
-        red_blue: half(0) << 1 & 0xFFFF_0000 | half(2) >> 15 & 0xFFFF,
-        green: half(1) << 1 & 0xFFFF_0000,
-    };
-    let step = Shade {
-        red_blue: ((rounded(0) << 16) as u32).wrapping_add(rounded(2) as u32),
-        green: (rounded(1) << 16) as u32,
-    };
-    [shade, step]
 }
 
 impl<F: Texel> Paint for Textured<F> {
@@ -429,8 +411,7 @@ impl<F: Texel> Paint for Textured<F> {
         run: &mut [u16],
     ) -> u32 {
         let state = draws.get(usize::from(planes.draw));
-        let holes = state.and_then(|state| state.holes.filter(|_| planes.mapped));
-        let (Some(state), Some(holes)) = (state, holes) else {
+        let (Some(state), Some(holes)) = (state, planes.holes(draws)) else {
             Self::fill(fill, planes, place, draws, run);
             return u32::MAX;
         };

@@ -260,6 +260,9 @@ pub trait Texel: Pixel<Word = u16> {
 
     /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
     fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]);
+
+    /// A pixel in the order of numbers, or such a number as a pixel.
+    fn ordered(word: u16) -> u16;
 }
 
 impl Texel for Rgb565 {
@@ -270,7 +273,12 @@ impl Texel for Rgb565 {
 
     #[inline(never)]
     fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        tint_ordered(run, shade, step, at, |word| word);
+        tint_ordered(run, shade, step, at, Self::ordered);
+    }
+
+    #[inline(always)]
+    fn ordered(word: u16) -> u16 {
+        word
     }
 }
 
@@ -286,8 +294,12 @@ impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
 
     #[inline(never)]
     fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        let order = |word: u16| if BIG { word.to_be() } else { word.to_le() };
-        tint_ordered(run, shade, step, at, order);
+        tint_ordered(run, shade, step, at, Self::ordered);
+    }
+
+    #[inline(always)]
+    fn ordered(word: u16) -> u16 {
+        if BIG { word.to_be() } else { word.to_le() }
     }
 }
 

@@ -206,7 +206,7 @@ impl<'t> DrawState<'t> {
             colour: draw.colour,
             lamps: draw.lamps.filter(|_| master.has_shading()),
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
-            square: texture.and_then(Texture::square),
+            square: texture.and_then(Texture::plain_square),
         }
     }
 

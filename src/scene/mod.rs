@@ -12,7 +12,7 @@
 //! | `flat` | faces of one colour each |
 //! | `cut` | triangles that cross a plane |
 //! | `texgen` | texture places from normals |
-//! | `texture`, `budget` | textures as values, and how exact they are drawn |
+//! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
 //! | `late` | what is not drawn among what is opaque |
@@ -34,6 +34,7 @@ mod master;
 mod pass;
 mod project;
 mod record;
+mod sampling;
 mod scissor;
 mod shadow;
 #[cfg(test)]
@@ -45,6 +46,7 @@ pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, 
 pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
+pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub(crate) use late::Role;
@@ -53,10 +55,12 @@ pub use master::Master;
 pub(crate) use pass::WordOfNormal;
 pub(crate) use record::{NONE, ORIGIN, first_line};
 pub use record::{Object, TexturePlace, Vertex};
+pub use sampling::Sampling;
+pub(crate) use sampling::{Method, SampledSpan};
 pub use scissor::Scissor;
 pub use shadow::Shadow;
 pub use texgen::TexGen;
-pub(crate) use texture::{Form, Square};
+pub(crate) use texture::{Form, Square, half};
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
 use crate::arena::Arena;

@@ -12,9 +12,9 @@
 //! };
 //! ```
 //!
-//! Texels are words of the panel, in its byte order, so that a copy is a copy. Levels of detail
-//! would be a slice of textures beside `form`, a filter would be a field beside `wrap`.
+//! Texels are words of the panel, in its byte order, so that a copy is a copy.
 
+use super::Sampling;
 use core::fmt;
 
 /// Longest side of a texture, in texels.
@@ -46,6 +46,15 @@ pub enum TextureError {
         /// Bytes lent.
         have: usize,
     },
+    /// A level of detail does not have half the sides of the one before.
+    Level {
+        /// Its number, 1 for the first below the texture.
+        level: usize,
+        /// Its width.
+        width: u32,
+        /// Its height.
+        height: u32,
+    },
     /// Fewer colours than an index can name.
     Palette {
         /// Colours that an index can name.
@@ -62,6 +71,16 @@ impl fmt::Display for TextureError {
                 return write!(
                     f,
                     "texture: {width}x{height}, where sides are powers of two from 1 to {MAX_SIDE}"
+                );
+            }
+            Self::Level {
+                level,
+                width,
+                height,
+            } => {
+                return write!(
+                    f,
+                    "texture: level {level} has {width}x{height} texels, not half the sides of the one before"
                 );
             }
             Self::Words { needed, have } => (needed, have, "words"),
@@ -110,8 +129,14 @@ pub struct Texture<'t> {
     log_height: u8,
     /// The power of two of both sides of a [`Square`]; else 0.
     square: u8,
+    /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
+    /// sampled.
+    spare: u8,
     wrap: Wrap,
     key: Option<u16>,
+    sampling: Option<Sampling>,
+    /// Each half of the one before.
+    coarser: &'t [Texture<'t>],
 }
 
 /// Rows of a square of words, whose side is known to the compiler, so that no index needs a check.
@@ -218,13 +243,25 @@ impl<'t> Texture<'t> {
             log @ 5..=8 if is_square => log,
             _ => 0,
         };
+        let longest = if sides.log_width > sides.log_height {
+            sides.log_width
+        } else {
+            sides.log_height
+        };
         Self {
             form,
             log_width: sides.log_width,
             log_height: sides.log_height,
             square,
+            spare: match longest {
+                0..=7 => 2,
+                8 => 1,
+                _ => 0,
+            },
             wrap: Wrap::Repeat,
             key: None,
+            sampling: None,
+            coarser: &[],
         }
     }
 
@@ -286,6 +323,64 @@ impl<'t> Texture<'t> {
         }
     }
 
+    /// The same texture, whose texels are taken in another way than the nearest one of this size (H6).
+    ///
+    /// `coarser` are levels of detail below it, each half as wide and half as high as the one before (a side of one
+    /// texel stays), for where the texture is small on the picture; there may be any number, or none. Their wrap and
+    /// their key are those of the texture.
+    ///
+    /// # Errors
+    /// A level of other sides.
+    pub const fn sampled(
+        self,
+        sampling: Sampling,
+        coarser: &'t [Texture<'t>],
+    ) -> Result<Self, TextureError> {
+        let (mut width, mut height) = (self.width(), self.height());
+        let mut i = 0;
+        while i < coarser.len() {
+            let is_least = width == 1 && height == 1;
+            (width, height) = (half(width), half(height));
+            let of = (coarser[i].width(), coarser[i].height());
+            if is_least || of.0 != width || of.1 != height {
+                return Err(TextureError::Level {
+                    level: i + 1,
+                    width: of.0,
+                    height: of.1,
+                });
+            }
+            i += 1;
+        }
+        let sampling = Some(sampling);
+        Ok(Self {
+            sampling,
+            coarser,
+            spare: 0,
+            ..self
+        })
+    }
+
+    /// How its texels are taken, if not by the nearest one of this size.
+    #[inline(always)]
+    pub(crate) const fn sampling(&self) -> Option<Sampling> {
+        self.sampling
+    }
+
+    /// How many levels there are below it.
+    pub(crate) const fn levels(&self) -> usize {
+        self.coarser.len()
+    }
+
+    /// One of its levels, 0 for itself, with its wrap and its key.
+    pub(crate) fn level(&self, level: usize) -> Self {
+        let coarser = level.checked_sub(1).and_then(|i| self.coarser.get(i));
+        Self {
+            wrap: self.wrap,
+            key: self.key,
+            ..*coarser.unwrap_or(self)
+        }
+    }
+
     /// The word of texels that are transparent.
     #[must_use]
     pub const fn key(&self) -> Option<u16> {
@@ -325,18 +420,18 @@ impl<'t> Texture<'t> {
         self.log_height as u32
     }
 
-    /// Whether places fit into one word: no side is above 256.
+    /// Whether places fit into one word: no side is above 256, and the nearest texel of this size is taken.
     #[inline(always)]
     #[must_use]
-    pub const fn is_small(&self) -> bool {
-        self.log_width <= 8 && self.log_height <= 8
+    pub(crate) const fn is_small(&self) -> bool {
+        self.spare > 0
     }
 
     /// Whether places in one word have a bit to spare: no side is above 128.
     #[inline(always)]
     #[must_use]
     pub(crate) const fn is_tiny(&self) -> bool {
-        self.log_width <= 7 && self.log_height <= 7
+        self.spare > 1
     }
 
     /// The power of two of both sides where it is a [`Square`] and repeats; else 0.
@@ -345,6 +440,15 @@ impl<'t> Texture<'t> {
         match self.wrap {
             Wrap::Repeat => self.square.into(),
             _ => 0,
+        }
+    }
+
+    /// The rows, if it is one of the squares that have loops of their own, and the nearest texel is taken.
+    #[inline(always)]
+    pub(crate) fn plain_square(&self) -> Option<Square<'t>> {
+        match self.sampling {
+            None => self.square(),
+            Some(_) => None,
         }
     }
 
@@ -362,6 +466,11 @@ impl<'t> Texture<'t> {
             _ => None,
         }
     }
+}
+
+/// Half of a side, which has one texel at least.
+pub(crate) const fn half(side: u32) -> u32 {
+    if side > 1 { side / 2 } else { 1 }
 }
 
 /// Words as `N` rows of `N`.

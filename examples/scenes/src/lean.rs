@@ -5,7 +5,7 @@ use crate::{TEXELS_F_PANEL, TEXELS_PANEL};
 use scanbeam::CameraError;
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::scene::{BeginError, Budget, Draw, DrawError, Scene, Skin, Texture};
+use scanbeam::scene::{BeginError, Budget, Draw, DrawError, Scene, Skin, Texture, TextureError};
 
 /// What they are drawn with: smooth colours, as an SPI panel takes them.
 pub type LeanLook = Gouraud<Rgb565Be>;
@@ -49,6 +49,8 @@ pub enum LeanError {
     Begin(BeginError),
     /// A part was not drawn.
     Draw(DrawError),
+    /// A level of detail was not made.
+    Texture(TextureError),
     /// Sprites are not in order.
     Sprites,
 }

@@ -68,7 +68,9 @@ smooth!(
     Phong<Rgb888>,
     Textured<Rgb565Be>,
     Textured<Rgb565Le>,
-    Textured<Rgb565>
+    Textured<Rgb565>,
+    Textured<Rgb888>,
+    Textured<Xrgb8888>
 );
 
 /// What a scene is lent.

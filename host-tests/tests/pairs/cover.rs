@@ -17,9 +17,15 @@ fn shows(choices: &Choices, pair: &Pair) -> bool {
     let is_meant = of(Axis::Look) >= TEXTURED || of(Axis::Form) == 0;
     let is_seen = if has(Axis::Look) && has(Axis::Form) {
         true
-    } else if [Axis::Wrap, Axis::Budget, Axis::Key, Axis::Application]
-        .into_iter()
-        .any(has)
+    } else if [
+        Axis::Wrap,
+        Axis::Budget,
+        Axis::Key,
+        Axis::Application,
+        Axis::Filter,
+    ]
+    .into_iter()
+    .any(has)
     {
         is_meant && (of(Axis::Form) > 0 || has(Axis::Form) || has(Axis::Look))
     } else {

@@ -33,6 +33,8 @@ pub struct Skin64 {
     /// And how far a texel may be from its place, in texels.
     pub budget: (Budget, f64),
     pub is_keyed: bool,
+    /// Whether four texels are mixed.
+    pub is_filtered: bool,
     pub application: Application,
 }
 
@@ -198,15 +200,19 @@ impl Call {
         let texels = &all[skin.form];
         let mut levels = [[255.0f64, 0.0f64]; 3];
         let (mut keys, mut others) = (0, 0);
-        for v in span[1][0]..=span[1][1] {
-            for u in span[0][0]..=span[0][1] {
+        // Of four that are mixed, two are the next ones on each axis; whether it is a hole is said by the nearest.
+        let beyond = i32::from(skin.is_filtered);
+        for v in span[1][0] - beyond..=span[1][1] + beyond {
+            for u in span[0][0] - beyond..=span[0][1] + beyond {
                 let at = texels.at(skin.wrap, u, v);
                 let rgb = texels.rgb[at];
+                let may_be_nearest = (span[0][0]..=span[0][1]).contains(&u)
+                    && (span[1][0]..=span[1][1]).contains(&v);
                 if skin.is_keyed && texels.is_key[at] {
-                    keys += 1;
+                    keys += usize::from(may_be_nearest);
                     continue;
                 }
-                others += 1;
+                others += usize::from(may_be_nearest);
                 for i in 0..3 {
                     levels[i] = [levels[i][0].min(rgb[i]), levels[i][1].max(rgb[i])];
                 }

@@ -1,7 +1,7 @@
 //! Textures of every form and wrap, with and without a key, and what they are to the reference.
 
 use super::reference::Texels;
-use scanbeam::scene::{Application, Budget, Texture, Wrap};
+use scanbeam::scene::{Application, Budget, Sampling, Texture, Wrap};
 use std::sync::OnceLock;
 
 /// Sides and bits a texel of the forms; the first choice is none. 16 bits are words of the panel.
@@ -43,9 +43,10 @@ fn steps(form: usize, u: i32, v: i32) -> Steps {
     }
 }
 
-/// All textures by form and wrap, in the byte order of this machine or the other; without a key, and with.
+/// All textures by form and wrap, as they are and filtered, in the byte order of this machine or the other; without a
+/// key, and with.
 pub struct Textures {
-    pub of: [[Vec<[Texture<'static>; 3]>; 2]; 2],
+    pub of: [[Vec<[[Texture<'static>; 2]; 3]>; 2]; 2],
     pub texels: Vec<Texels>,
 }
 
@@ -111,7 +112,13 @@ pub fn textures() -> &'static Textures {
                 .map(|form| texture(form, is_swapped))
                 .collect();
             let key = word(KEY, is_swapped);
-            let wrapped = |t: Texture<'static>| WRAPS.map(|wrap| t.wrapping(wrap));
+            let filtered = |t: Texture<'static>| t.sampled(Sampling::LINEAR, &[]);
+            let wrapped = |t: Texture<'static>| {
+                WRAPS.map(|wrap| {
+                    let plain = t.wrapping(wrap);
+                    [plain, filtered(plain).expect("no levels")]
+                })
+            };
             [
                 forms.iter().map(|&t| wrapped(t)).collect(),
                 forms.iter().map(|t| wrapped(t.keyed(key))).collect(),

@@ -7,6 +7,7 @@
 //! triangle that is drawn without divisions has one level.
 
 use super::corners::Corners;
+use crate::num::{exp2, log2};
 use core::fmt::Debug;
 
 /// How many levels there are, the texture itself among them.
@@ -148,29 +149,6 @@ impl Corners {
         let d = |i: usize| (p[i].0 - p[0].0, p[i].1 - p[0].1);
         let (a, b) = (d(1), d(2));
         (a.0 * b.1 - a.1 * b.0).unsigned_abs()
-    }
-}
-
-/// The logarithm of a number above 0, 8 fraction bits, within 3 of 2^-8.
-fn log2(x: u64) -> i32 {
-    let whole = 63 - x.leading_zeros() as i32;
-    let part = ((x << x.leading_zeros() >> 55) & 0xFF) as i32;
-    // log2(1 + f) is above f by about 0.344 f (1 - f).
-    (whole << 8) + part + ((part * (256 - part) * 88) >> 16)
-}
-
-/// 2 to the power of a number with 8 fraction bits; 0 below 2^0, the largest above 2^32.
-fn exp2(log: i32) -> u32 {
-    if log < 0 {
-        return 0;
-    }
-    let part = log & 0xFF;
-    let part = (256 + part - ((part * (256 - part) * 88) >> 16)) as u64;
-    let value = part.checked_shl(log as u32 >> 8).unwrap_or(u64::MAX) >> 8;
-    if log >= 32 << 8 {
-        u32::MAX
-    } else {
-        value as u32
     }
 }
 

@@ -11,17 +11,20 @@
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
+//! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
 //! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
+mod sampled;
 mod scenes;
 mod shadows;
 
 use crate::contours::LeanContours;
 use crate::lean::{LeanError, LeanLook, LeanTextured};
+use sampled::{levels, sampled, textures};
 use scanbeam::frame::{
     FastMemory, FrameError, Memory as LineMemory, Renderer, draw_frame, draw_frame_changed,
     draw_frame_changed_runs, draw_frame_overlaid,
@@ -76,6 +79,8 @@ pub enum Values {
     Ranked,
     /// What blends has, with all switched off that can be.
     Master,
+    /// Levels of detail, and means of texels.
+    Sampled,
     /// Volumes of two lights, and what they light.
     Shadows,
     /// Below sprites.
@@ -89,7 +94,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 13] = [
+pub const VALUES: [(&str, Values); 14] = [
     ("values_phong", Values::Phong),
     ("values_bands", Values::Bands),
     ("values_mirror", Values::Mirror),
@@ -98,6 +103,7 @@ pub const VALUES: [(&str, Values); 13] = [
     ("values_blends", Values::Blends),
     ("values_ranked", Values::Ranked),
     ("values_master", Values::Master),
+    ("values_sampled", Values::Sampled),
     ("values_shadows", Values::Shadows),
     ("values_overlay", Values::Overlay),
     ("values_lines", Values::Lines),
@@ -206,6 +212,7 @@ impl Values {
                 let is_ranked = self == Self::Ranked;
                 rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
             }
+            Self::Sampled => rest.send_sampled(lent.textured, pump),
             Self::Shadows => rest.send_shadows(lent.smooth, pump),
             Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
@@ -262,6 +269,24 @@ impl<'m> Rest<'m> {
         let mut renderer = Renderer::with_shadows(lines, &mut counts);
         draw_frame(&scene, &mut renderer, pump, background(), 3)?;
         Ok(())
+    }
+
+    /// Makes levels of detail, and sends the scene that has them.
+    #[inline(never)]
+    fn send_sampled<D>(
+        self,
+        cache: &mut FastMemory<LeanTextured>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut words = ([0; 1024], [0; 256], [0; 64], [0; 16]);
+        let levels = levels(&mut words)?;
+        let textures = textures(&levels)?;
+        self.send(Values::Sampled, cache, pump, |scene, _| {
+            sampled(scene, &textures)
+        })
     }
 
     /// Makes the scene by `build`, of this moment, and sends it.

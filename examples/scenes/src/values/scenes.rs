@@ -123,12 +123,12 @@ static GRILLE_TEXELS: [u16; 64 * 64] = {
     texels
 };
 
-static GRILLE: Texture<'static> = match Texture::words(&GRILLE_TEXELS, 64, 64) {
+pub(super) static GRILLE: Texture<'static> = match Texture::words(&GRILLE_TEXELS, 64, 64) {
     Ok(texture) => texture.keyed(KEY),
     Err(_) => panic!("as many texels as the sides need"),
 };
 
-static PANEL: Texture<'static> = match Texture::words(&TEXELS_F_PANEL, 64, 64) {
+pub(super) static PANEL: Texture<'static> = match Texture::words(&TEXELS_F_PANEL, 64, 64) {
     Ok(texture) => texture,
     Err(_) => panic!("as many texels as the sides need"),
 };
@@ -140,7 +140,7 @@ const SKIN: Skin<'static, 'static> = Skin {
     budget: Budget::BALANCED,
 };
 
-fn light() -> Option<Light> {
+pub(super) fn light() -> Option<Light> {
     Light::new([0.3, 0.8, 0.6], 0.3)
 }
 

@@ -1,0 +1,96 @@
+//! A floor in levels of detail that reaches to the horizon, and cubes near enough to show single texels: one whose texels
+//! are mixed, one whose are not, and one with holes (H6).
+
+use super::scenes::{GRILLE, PANEL, at, camera, light, uncoloured};
+use crate::lean::{LeanError, LeanTextured};
+use crate::{CUBE, PLACES_F};
+use scanbeam::look::halved;
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::scene::{Budget, Draw, Sampling, Scene, Skin, Texture};
+use scanbeam::{Cull, Faces, Mesh, mesh::QuadSplit};
+
+const ONE: i16 = 1 << 14;
+
+const FLOOR: Mesh<'static> = Mesh {
+    positions: &[
+        [-ONE, 0, -ONE],
+        [ONE, 0, -ONE],
+        [ONE, 0, ONE],
+        [-ONE, 0, ONE],
+    ],
+    normals: &[],
+    colours: &[],
+    faces: Faces::Quads(&[[3, 2, 1, 0]], QuadSplit::Corner0To2),
+};
+
+/// The texture twelve times each way, in texels with 8 fraction bits.
+const FAR: i32 = 12 * 64 * 256;
+const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
+
+/// Words of four levels below 64 x 64 texels.
+pub(super) type Words = ([u16; 1024], [u16; 256], [u16; 64], [u16; 16]);
+
+/// The levels below the texture of the floor.
+pub(super) fn levels(words: &mut Words) -> Result<[Texture<'_>; 4], LeanError> {
+    let half = |texture: &Texture<'_>, words| {
+        halved::<Rgb565Be>(texture, words).map_err(LeanError::Texture)
+    };
+    let first = half(&PANEL, &mut words.0)?;
+    let second = half(&first, &mut words.1)?;
+    let third = half(&second, &mut words.2)?;
+    let fourth = half(&third, &mut words.3)?;
+    Ok([first, second, third, fourth])
+}
+
+/// The textures: in levels, in levels that are mixed, mixed, and mixed with holes.
+pub(super) fn textures<'t>(levels: &'t [Texture<'t>]) -> Result<[Texture<'t>; 4], LeanError> {
+    let of = |texture: Texture<'t>, sampling, levels| {
+        texture
+            .sampled(sampling, levels)
+            .map_err(LeanError::Texture)
+    };
+    Ok([
+        of(PANEL, Sampling::NEAREST, levels)?,
+        of(PANEL, Sampling::LINEAR, levels)?,
+        of(PANEL, Sampling::LINEAR, &[])?,
+        of(GRILLE, Sampling::LINEAR, &[])?,
+    ])
+}
+
+/// Makes the scene.
+pub(super) fn sampled<'t>(
+    scene: &mut Scene<'_, 't, LeanTextured>,
+    [near, mixed, cube, holes]: &'t [Texture<'t>; 4],
+) -> Result<(), LeanError> {
+    scene.begin(&camera()?).map_err(LeanError::Begin)?;
+    let floor = |texture: &'t Texture<'t>, x: f32| Draw {
+        model: at(6.0, [x, -0.5, -4.0]),
+        texture: Some(Skin {
+            texture,
+            places: &FLOOR_PLACES,
+            budget: Budget::BALANCED,
+        }),
+        ..Draw::new(FLOOR)
+    };
+    let shape = |texture: &'t Texture<'t>, angle: f32, place: [f32; 3]| Draw {
+        model: scanbeam::Affine::rotation_y(angle).then(&at(0.3, place)),
+        cull: Cull::None,
+        light: light(),
+        texture: Some(Skin {
+            texture,
+            places: &PLACES_F,
+            budget: Budget::EXACT,
+        }),
+        ..Draw::new(uncoloured(CUBE))
+    };
+    for call in [
+        floor(near, -6.0),
+        floor(mixed, 6.0),
+        shape(cube, 0.5, [-0.1, 0.0, 1.2]),
+        shape(&PANEL, 0.9, [0.8, 0.2, 0.8]),
+        shape(holes, 0.2, [-0.7, 0.3, 0.6]),
+    ] {
+        scene.draw(&call).map_err(LeanError::Draw)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,240 @@
+//! Texels of textures that are [sampled](Texture::sampled): which level of detail, and through which filter (H6).
+//!
+//! Within a triangle the texture's area under a pixel is `D q^-3`, with one constant D and the 1/w q, since it is a
+//! projective map. So a span finds D once, from the planes at its first pixel, and with it the 1/w at which each level
+//! begins; there the span is cut. A level is taken where its texels are at least `1 / sqrt 2` pixels wide on average
+//! and the next one's more than `sqrt 2`; so a texture that is magnified is always taken whole. A triangle that is
+//! drawn without 1/w has one level. One that is too thin for planes has the finest, as has one seen from its edge.
+//!
+//! Cuts and exact places count from the span's first pixel, so that a pixel has the same bits in whatever runs its span
+//! is drawn.
+
+use super::fetch::{Uv, Way, copy_exact};
+use super::linear::copy_linear;
+use super::mapping::Method;
+use super::perspective::{Homogeneous, Perspective, Within};
+use super::stride::Stride;
+use crate::num::{exp2, log2, mul_high};
+use crate::scene::{MAX_SIDE, SampledSpan, Sampling, Texture};
+
+impl Sampling {
+    /// The nearest texel of the level that fits.
+    pub const NEAREST: Self = Self(|span, run| draw(span, run, nearest));
+
+    /// The weighted mean of the four nearest texels of the level that fits, with 4 bits of weight each way.
+    ///
+    /// It takes some four times the instructions of the nearest one, more where texels are not words. Of texels that
+    /// are transparent the nearest alone counts, and it counts for those beside it.
+    pub const LINEAR: Self = Self(|span, run| draw(span, run, copy_linear));
+}
+
+/// Copies texels of a texture along a way.
+type Read = fn(&mut [u16], &Texture<'_>, Way, bool);
+
+fn nearest(run: &mut [u16], texture: &Texture<'_>, way: Way, _: bool) {
+    copy_exact(run, texture, way);
+}
+
+/// Most levels below a texture.
+const MOST: usize = MAX_SIDE.trailing_zeros() as usize;
+
+/// A run of a span.
+#[inline(never)]
+fn draw(span: &SampledSpan<'_>, run: &mut [u16], read: Read) {
+    match span.method {
+        Method::Perspective => span.perspective(run, read),
+        // Places in one word know no level, so there are none.
+        Method::Word | Method::Wide => affine(span, run, span.affine_way(), read),
+    }
+}
+
+/// A run of a triangle that is affine, along the way of its span, with the way to the next line.
+fn affine(span: &SampledSpan<'_>, run: &mut [u16], [way, down]: [Way; 2], read: Read) {
+    let level = match area(way.step, down.step) {
+        0 => 0,
+        // Of which one texel has 2^36.
+        area => level_of(log2(area) - (36 << 8), span.texture.levels()),
+    };
+    let way = way.skip((span.column - span.columns.start) as usize);
+    read(
+        run,
+        &span.texture.level(level),
+        way.coarser(level),
+        span.is_swapped,
+    );
+}
+
+/// A quarter of the area that two ways span.
+fn area(across: Uv, down: Uv) -> u64 {
+    let product = |a: i32, b: i32| (i64::from(a) * i64::from(b)) >> 2;
+    (product(across.u, down.v) - product(across.v, down.u)).unsigned_abs()
+}
+
+/// The level where a pixel has so many texels, as a logarithm with 8 fraction bits.
+fn level_of(texels: i32, levels: usize) -> usize {
+    let level = ((texels >> 8) + 1) >> 1;
+    level.clamp(0, levels as i32) as usize
+}
+
+impl Way {
+    /// The same on a level of detail.
+    fn coarser(self, level: usize) -> Self {
+        Self {
+            base: self.base.map(|texels| texels >> level),
+            at: self.at.part(level as u32),
+            step: self.step.part(level as u32),
+        }
+    }
+}
+
+impl SampledSpan<'_> {
+    /// The value of a plane at the span's first pixel.
+    fn first(&self, plane: usize) -> u32 {
+        let [at, right, below] = self.planes[plane];
+        at.wrapping_add(right.wrapping_mul(self.columns.start))
+            .wrapping_add(below.wrapping_mul(self.line))
+    }
+
+    /// The way of the span, and that to the next line, of a triangle that is affine.
+    fn affine_way(&self) -> [Way; 2] {
+        let of = |word: [u32; 2]| Uv {
+            u: word[0] as i32,
+            v: word[1] as i32,
+        };
+        [1, 2].map(|i| Way {
+            base: self.base,
+            at: of([self.first(0), self.first(1)]),
+            step: of([self.planes[0][i], self.planes[1][i]]),
+        })
+    }
+
+    /// A run whose pixels have a 1/w each.
+    fn perspective(&self, run: &mut [u16], read: Read) {
+        let of = |value: &dyn Fn(usize) -> u32| Homogeneous {
+            q: value(2),
+            s: value(0) as i32,
+            t: value(1) as i32,
+        };
+        let at = of(&|plane| self.first(plane));
+        let step = of(&|plane| self.planes[plane][1]);
+        let down = of(&|plane| self.planes[plane][2]);
+        let whole = Perspective {
+            base: self.base,
+            at,
+            step,
+        };
+        let steps = if self.budget.is_coarse() {
+            self.steps
+        } else {
+            self.steps.min(4)
+        };
+        let ends = Ends::new(at, [step, down], self.texture.levels());
+        let pixels = self.columns.len();
+        let (mut rest, mut skipped) = (run, (self.column - self.columns.start) as usize);
+        let mut first = 0;
+        while !rest.is_empty() && first < pixels {
+            let at = at.plus(step.times(first));
+            let level = ends.level(at.q);
+            let count = ends.same(at.q, step.q as i32, pixels - first);
+            let within = Within {
+                skipped,
+                pixels: count,
+            };
+            (first, skipped) = match skipped.checked_sub(count) {
+                Some(skipped) => (first + count, skipped),
+                None => {
+                    let (now, more) = rest.split_at_mut(rest.len().min(count - skipped));
+                    let texture = self.texture.level(level);
+                    let part = Perspective { at, ..whole }.coarser(level);
+                    part.ways(now, within, Stride::within(steps), |run, way| {
+                        read(run, &texture, way, self.is_swapped);
+                    });
+                    rest = more;
+                    (first + count, 0)
+                }
+            };
+        }
+    }
+}
+
+impl Perspective {
+    /// The same on a level of detail.
+    fn coarser(self, level: usize) -> Self {
+        let of = |value: Homogeneous| Homogeneous {
+            q: value.q,
+            s: value.s >> level,
+            t: value.t >> level,
+        };
+        Self {
+            base: self.base.map(|texels| texels >> level),
+            at: of(self.at),
+            step: of(self.step),
+        }
+    }
+}
+
+/// At which 1/w each coarser level begins.
+struct Ends {
+    at: [u32; MOST],
+    levels: usize,
+}
+
+impl Ends {
+    /// From a place in the triangle, with the steps to the right and down.
+    fn new(at: Homogeneous, steps: [Homogeneous; 2], levels: usize) -> Self {
+        let mut ends = Self {
+            at: [0; MOST],
+            levels: levels.min(MOST),
+        };
+        if levels == 0 || at.q == 0 {
+            return ends;
+        }
+        // Times q 2^-11: the ways of u and v.
+        let place = at.place();
+        let [across, down] = steps.map(|step| {
+            let way = |s: i32, place: i32| s.wrapping_sub(mul_high(place, step.q as i32) << 2);
+            Uv {
+                u: way(step.s, place.u),
+                v: way(step.t, place.v),
+            }
+        });
+        let area = area(across, down);
+        if area == 0 {
+            return ends;
+        }
+        // Texels under a pixel, times q^3; of which the area is a quarter, times q^2 2^-22.
+        let texels = log2(area) + (24 << 8) + log2(at.q.into());
+        for (i, end) in (0..).zip(ends.at.iter_mut().take(levels)) {
+            *end = exp2((texels - ((2 * i + 1) << 8)).div_euclid(3));
+        }
+        ends
+    }
+
+    /// The level where 1/w is `q`, coarser as 1/w falls.
+    fn level(&self, q: u32) -> usize {
+        let ends = self.at.iter().take(self.levels);
+        ends.take_while(|&&end| q < end).count()
+    }
+
+    /// How many of `pixels` pixels (at least 1), with 1/w of `q` at the first and a step of `step`, have its level.
+    fn same(&self, q: u32, step: i32, pixels: usize) -> usize {
+        let level = self.level(q);
+        let ahead = if step < 0 {
+            Some(level)
+        } else {
+            level.checked_sub(1)
+        };
+        let end = ahead
+            .filter(|&i| i < self.levels)
+            .and_then(|i| self.at.get(i));
+        let (Some(&end), 1..) = (end, step.unsigned_abs()) else {
+            return pixels;
+        };
+        let way = if step < 0 {
+            q.wrapping_sub(end)
+        } else {
+            end.wrapping_sub(q).wrapping_sub(1)
+        };
+        pixels.min((way / step.unsigned_abs()).saturating_add(1) as usize)
+    }
+}

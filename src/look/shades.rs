@@ -1,0 +1,68 @@
+//! The shade of a textured triangle: its planes, and what they are along a span.
+
+use super::Place;
+use super::gouraud::{Course, Planes as Shades, at, fields};
+use super::tint::Shade;
+use crate::span::{Rise, Shares};
+
+/// The shade of a triangle within 64 pixels half a pixel beyond a place, and its step.
+#[inline(always)]
+pub(super) fn small_shade(planes: &Shades, place: Place) -> [Shade; 2] {
+    let step = Shade {
+        red_blue: planes[1],
+        green: planes[4],
+    };
+    let at = Shade {
+        red_blue: at(planes, 0, place),
+        green: at(planes, 3, place),
+    };
+    [at, step]
+}
+
+/// Half of full light: where a shade rises by as much in a pixel, half of a step is not told from another, and spans
+/// have one pixel or two.
+const STEEP: i32 = 1 << 14;
+
+/// Planes of a shade half a pixel beyond each pixel, of a triangle within 64 pixels: red and blue, then green. Whether
+/// it is not too steep for them.
+#[inline(always)]
+pub(super) fn shade_planes(shares: &Shares, colour: [u32; 3], planes: &mut Shades) -> bool {
+    let shares = shares.cut::<6>();
+    let [a, b, c] = colour.map(fields);
+    let red = shares.rise::<6, 5>(b[0] - a[0], c[0] - a[0]);
+    let green = shares.rise::<6, 5>(b[1] - a[1], c[1] - a[1]);
+    let blue = shares.rise::<6, 6>(b[2] - a[2], c[2] - a[2]);
+    let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
+    let first = |rise: &Rise, value: i32| rise.at.wrapping_add(value).wrapping_add(rise.dx >> 1);
+    planes[0] = join(first(&red, a[0] << 5), first(&blue, a[2] << 6));
+    planes[1] = join(red.dx, blue.dx);
+    planes[2] = join(red.dy, blue.dy);
+    planes[3] = (first(&green, a[1] << 5) << 16) as u32;
+    planes[4] = (green.dx << 16) as u32;
+    planes[5] = (green.dy << 16) as u32;
+    let raised = |rise: &Rise| rise.dx.wrapping_add(STEEP) as u32;
+    raised(&red) | raised(&green) | raised(&blue) < 2 * STEEP as u32
+}
+
+/// The shade half a pixel beyond a place, and its step, for a part of a span with so many pixels. A pixel alone in a
+/// steep shade has that of its own place.
+#[inline(always)]
+pub(super) fn shade_at(course: &Course, pixels: u32) -> [Shade; 2] {
+    let is_alone = pixels == 1
+        && course
+            .step
+            .iter()
+            .any(|step| (step ^ step >> 31) >> 15 >= STEEP);
+    let step = if is_alone { [0; 3] } else { course.step };
+    let half = |i: usize| course.value[i].wrapping_add((step[i] >> 1) as u32);
+    let rounded = |i: usize| step[i].wrapping_add(1 << 14) >> 15;
+    let shade = Shade {
+        red_blue: half(0) << 1 & 0xFFFF_0000 | half(2) >> 15 & 0xFFFF,
+        green: half(1) << 1 & 0xFFFF_0000,
+    };
+    let step = Shade {
+        red_blue: ((rounded(0) << 16) as u32).wrapping_add(rounded(2) as u32),
+        green: (rounded(1) << 16) as u32,
+    };
+    [shade, step]
+}

@@ -1,0 +1,204 @@
+//! The look of textures in pixels of 24 and 32 bits: [`Textured`] of [`Rgb888`] and of [`Xrgb8888`].
+//!
+//! Texels have 16 bits, as numbers ([`Rgb565`]), so that a texture takes as little memory as for any panel. A span's
+//! texels are fetched as for a panel of 16 bits, some at a time, and become pixels when they are shaded: the product
+//! of 8 bits a channel and a shade of 15, rounded once.
+
+use super::textured::{Planes, Textured};
+use super::tint::Shade;
+use super::{Fill, Paint, Place, ThinSpan};
+use crate::composite::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
+use crate::geometry::Scale;
+use crate::scene::DrawState;
+use crate::span::{Size, Triangle};
+
+/// The look that fetches texels.
+type Texels = Textured<Rgb565>;
+
+/// Texels that are fetched before any is shaded.
+const AT_ONCE: usize = 64;
+
+/// The levels of a texel, rounded to nearest, without a division.
+#[inline(always)]
+fn levels(texel: u16) -> [u8; 3] {
+    let [r, g, b] = [texel >> 11, texel >> 5 & 63, texel & 31];
+    [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
+}
+
+/// A texel times a shade.
+#[inline(always)]
+fn shaded<F: PixelFormat>(texel: u16, shade: Shade) -> F::Word {
+    const FULL: u32 = 1 << 15;
+    let by = [
+        shade.red_blue >> 16,
+        shade.green >> 16,
+        shade.red_blue & 0xFFFF,
+    ];
+    let texel = levels(texel);
+    // A little more than full light is full light.
+    F::from_rgb8([0, 1, 2].map(|i| {
+        let product = u32::from(texel[i]) * by[i].min(FULL);
+        (product.wrapping_add(FULL / 2) >> 15) as u8
+    }))
+}
+
+/// Texels as pixels: those at `place`, times the triangle's shade.
+fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mut [F::Word]) {
+    let mut pairs = texels.iter().zip(run);
+    if !planes.is_shaded() {
+        return pairs.for_each(|(&texel, pixel)| *pixel = F::from_rgb8(levels(texel)));
+    }
+    planes.each_shade(place, |shade| match pairs.next() {
+        Some((&texel, pixel)) => {
+            *pixel = shaded::<F>(texel, shade);
+            true
+        }
+        None => false,
+    });
+}
+
+/// Colours a run, texels first.
+#[inline(never)]
+fn fill<F: PixelFormat>(
+    planes: &Planes,
+    place: Place,
+    draws: &[DrawState<'_>],
+    run: &mut [F::Word],
+) {
+    let mut texels = [0; AT_ONCE];
+    let mut place = place;
+    for run in run.chunks_mut(AT_ONCE) {
+        let texels = &mut texels[..run.len()];
+        Texels::texels(planes, place, draws, texels);
+        shade::<F>(planes, place, texels, run);
+        place.column += run.len() as u32;
+    }
+}
+
+/// Colours a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
+#[inline(never)]
+fn fill_holed<F: PixelFormat>(
+    planes: &Planes,
+    place: Place,
+    draws: &[DrawState<'_>],
+    run: &mut [F::Word],
+) -> u32 {
+    let Some(holes) = planes.holes(draws) else {
+        fill::<F>(planes, place, draws, run);
+        return u32::MAX;
+    };
+    let mut texels = [0; 32];
+    let count = run.len().min(texels.len());
+    let texels = &mut texels[..count];
+    Texels::texels(planes, place, draws, texels);
+    if !holes.are_filled {
+        let opaque = texels.iter().rev().fold(0, |bits, &texel| {
+            bits >> 1 | u32::from(texel != holes.key) << 31
+        });
+        shade::<F>(planes, place, texels, run);
+        return opaque;
+    }
+    shade::<F>(planes, place, &[0xFFFF; 32][..count], run);
+    for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
+        if texel != holes.key {
+            *pixel = F::from_rgb8(levels(texel));
+        }
+    }
+    u32::MAX
+}
+
+/// The look in a format of more than 16 bits.
+macro_rules! wide {
+    ($($format:ty),+) => {$(
+        impl Paint for Textured<$format> {
+            type Pixel = $format;
+            type Planes = Planes;
+            const EMPTY: Planes = Texels::EMPTY;
+            const TEXTURED: bool = true;
+            const SCALE: Scale = Texels::SCALE;
+
+            #[inline(always)]
+            fn set_up(
+                triangle: &Triangle<'_>,
+                object: u16,
+                size: Size,
+                area: u32,
+                draws: &[DrawState<'_>],
+                planes: &mut Planes,
+            ) -> Fill {
+                Texels::set_up(triangle, object, size, area, draws, planes)
+            }
+
+            fn set_up_thin(
+                span: &ThinSpan<'_>,
+                object: u16,
+                draws: &[DrawState<'_>],
+                planes: &mut Planes,
+            ) {
+                Texels::set_up_thin(span, object, draws, planes);
+            }
+
+            #[inline(always)]
+            fn fill_plain(
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [<$format as PixelFormat>::Word],
+            ) {
+                fill::<$format>(planes, place, draws, run);
+            }
+
+            #[inline(always)]
+            fn fill(
+                _: Fill,
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [<$format as PixelFormat>::Word],
+            ) {
+                fill::<$format>(planes, place, draws, run);
+            }
+
+            #[inline(always)]
+            fn fill_dithered(
+                _: Fill,
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [<$format as PixelFormat>::Word],
+            ) {
+                fill::<$format>(planes, place, draws, run);
+            }
+
+            #[inline(always)]
+            fn fill_holed(
+                _: Fill,
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [<$format as PixelFormat>::Word],
+            ) -> u32 {
+                fill_holed::<$format>(planes, place, draws, run)
+            }
+
+            #[inline(always)]
+            fn lacks_texture(planes: &Planes, draws: &[DrawState<'_>]) -> bool {
+                Texels::lacks_texture(planes, draws)
+            }
+        }
+    )+};
+}
+wide!(Rgb888, Xrgb8888);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Kills: levels that are cut, or repeat the upper bits.
+    #[test]
+    fn levels_are_the_nearest() {
+        for texel in 0..=u16::MAX {
+            assert_eq!(levels(texel), Rgb565::to_rgb8(texel));
+        }
+    }
+}

@@ -1,0 +1,43 @@
+//! How a texture's texels are taken where the nearest one is not enough: levels of detail and filters (H6).
+//!
+//! What they do is in room `look`. A texture leads there by a function, so that a program which names no
+//! [`Sampling`] does not have the code.
+
+use super::{Budget, Texture};
+use core::ops::Range;
+
+/// A way from places on a texture to colours, for [`Texture::sampled`].
+#[derive(Clone, Copy, Debug)]
+pub struct Sampling(pub(crate) fn(&SampledSpan<'_>, &mut [u16]));
+
+/// How texture coordinates are found along a span.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub(crate) enum Method {
+    /// Affine: one plane of one word, v above u, 16 bits of the period each.
+    #[default]
+    Word,
+    /// Affine: planes of u and v.
+    Wide,
+    /// Planes of u/w, v/w and 1/w.
+    Perspective,
+}
+
+/// A span of a textured triangle, and a run of its pixels.
+#[derive(Debug)]
+pub(crate) struct SampledSpan<'a> {
+    pub(crate) texture: &'a Texture<'a>,
+    pub(crate) budget: Budget,
+    /// Whether texels have their bytes in the other order than numbers.
+    pub(crate) is_swapped: bool,
+    pub(crate) method: Method,
+    /// Steps from one exact place to the next, where each has its own 1/w.
+    pub(crate) steps: u8,
+    /// Whole texels that come on top of what the planes give.
+    pub(crate) base: [i32; 2],
+    /// Values at the picture's first pixel, steps to the right, steps down.
+    pub(crate) planes: &'a [[u32; 3]; 3],
+    pub(crate) line: u32,
+    pub(crate) columns: Range<u32>,
+    /// The first column of the run.
+    pub(crate) column: u32,
+}
