@@ -2,7 +2,7 @@
 
 use crate::common::Rng;
 use crate::listing::PLENTY;
-use crate::played::{Kept, drawn, played};
+use crate::played::{Kept, drawn, drawn_in, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::input::PlayerSettings;
 use scanbeam::list::{
@@ -10,7 +10,7 @@ use scanbeam::list::{
     TexelForm, Texture as TextureBlock,
 };
 use scanbeam::look::Textured;
-use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Xrgb8888};
 use scanbeam::scene::{Budget, Draw, Skin, Texture, Wrap};
 use scanbeam::{Cull, Faces, Mesh};
 
@@ -295,4 +295,49 @@ fn a_texture_is_made_once_for_each_palette() {
         assert_eq!(error.reason, Reason::Lent(Lent::Texels));
         assert_eq!(scene.objects(), 0);
     });
+}
+
+/// Pixels of 32 bits are made of the texels that panels of 16 bits get. Kills: texels that are cut, black, or in the
+/// order of bytes of another panel.
+#[test]
+fn pixels_of_more_bits_are_made_of_the_same_texels() {
+    let mut rng = Rng::new(9);
+    let mut seen = 0;
+    for form in TexelForm::ALL {
+        let sample = sample(&mut rng, form, false);
+        let mut memory = vec![0; 4096];
+        let mut writer = ListWriter::new(&mut memory);
+        let block = State::Texture(sample.block);
+        writer.bulk(&block, &sample.words).unwrap();
+        if !sample.colours.is_empty() {
+            let (number, count, at) = (2, sample.colours.len() as u16, 0);
+            let palette = State::Palette(Palette { number, count, at });
+            writer.bulk(&palette, &sample.colours).unwrap();
+        }
+        draw_quad(&mut writer, 1, true);
+        writer.flow(Flow::End).unwrap();
+        let list = writer.words();
+        let mut kept = Kept::new(64, 96);
+        let mut player = kept.player::<Skinned>(PlayerSettings::default());
+        let narrow = drawn::<Skinned>(|scene| {
+            player.start(0);
+            assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+        });
+        let mut kept = Kept::new(64, 96);
+        let mut player = kept.player::<Textured<Xrgb8888>>(PlayerSettings::default());
+        let wide = drawn_in::<Xrgb8888, Textured<Xrgb8888>>(|scene| {
+            player.start(0);
+            assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+        });
+        for (narrow, wide) in narrow.into_iter().zip(wide) {
+            // A texel in full light is itself.
+            assert_eq!(
+                Rgb565Be::to_rgb8(narrow),
+                Xrgb8888::to_rgb8(wide),
+                "{form:?}"
+            );
+            seen += usize::from(narrow != 0);
+        }
+    }
+    assert!(seen > 4_000, "{seen}");
 }

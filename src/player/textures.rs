@@ -5,7 +5,7 @@
 //! 8 bits stay where they lie, and so do texels of 16 bits where the panel has their order of bytes; palettes, and
 //! other texels, become words of the panel in memory that is lent.
 
-use crate::composite::PixelFormat;
+use crate::composite::{PixelFormat, Rgb565};
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
 use crate::scene::{Texture, TextureError, Wrap};
 
@@ -143,7 +143,11 @@ impl<'t> Shelf<'t> {
         dithers: bool,
     ) -> Result<Texture<'t>, Reason> {
         let panel = Panel {
-            word: |rgb| F::to_half(F::from_rgb8(rgb)),
+            // Pixels of more than 16 bits are made of texels that are numbers.
+            word: |rgb| match F::HALVES {
+                true => F::to_half(F::from_rgb8(rgb)),
+                false => Rgb565::from_rgb8(rgb),
+            },
             dithers,
         };
         let mut key = None;

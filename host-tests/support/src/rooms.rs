@@ -22,12 +22,12 @@ pub struct Room {
 ///
 /// # Errors
 /// Those of `build`, and when a line cannot be drawn.
-pub fn picture<'t, P: PixelFormat<Word = u16>, L: Look<Pixel = P>>(
+pub fn picture<'t, P: PixelFormat, L: Look<Pixel = P>>(
     screen: Screen,
     room: Room,
-    background: u16,
+    background: P::Word,
     build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), Box<dyn Error>>,
-) -> Result<Vec<u16>, Box<dyn Error>> {
+) -> Result<Vec<P::Word>, Box<dyn Error>> {
     let mut vertices = vec![Vertex::EMPTY; room.vertices];
     let mut places = vec![TexturePlace::EMPTY; room.vertices];
     let mut objects = vec![Object::EMPTY; room.objects];
@@ -50,7 +50,7 @@ pub fn picture<'t, P: PixelFormat<Word = u16>, L: Look<Pixel = P>>(
         links: &mut links,
         depth: &mut depth,
     });
-    let (mut words, mut line) = (Vec::new(), vec![0; width]);
+    let (mut words, mut line) = (Vec::new(), vec![background; width]);
     for y in scene.lines() {
         renderer.draw_line(&scene, y, &mut line, background)?;
         words.extend_from_slice(&line);

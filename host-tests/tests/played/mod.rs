@@ -7,7 +7,7 @@ use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListError, TextureSlot, Words};
 use scanbeam::look::Look;
-use scanbeam::pixel::Rgb565Be;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::Scene;
 use scanbeam::{Camera, Screen};
 
@@ -16,8 +16,15 @@ pub const HEIGHT: u16 = 72;
 
 /// The picture of what is drawn by the camera of most tests.
 pub fn drawn<'t, L: Look<Pixel = Rgb565Be>>(build: impl FnOnce(&mut Scene<'_, 't, L>)) -> Vec<u16> {
+    drawn_in(build)
+}
+
+/// The same in any format.
+pub fn drawn_in<'t, P: PixelFormat, L: Look<Pixel = P>>(
+    build: impl FnOnce(&mut Scene<'_, 't, L>),
+) -> Vec<P::Word> {
     let camera = Camera::look_at([0.3, 0.5, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 90.0, 0.1, 99.0);
-    begun(&camera.unwrap(), build)
+    begun_in(&camera.unwrap(), build)
 }
 
 /// The picture of what is drawn, by any camera.
@@ -25,6 +32,14 @@ pub fn begun<'t, L: Look<Pixel = Rgb565Be>>(
     camera: &Camera,
     build: impl FnOnce(&mut Scene<'_, 't, L>),
 ) -> Vec<u16> {
+    begun_in(camera, build)
+}
+
+/// The same in any format.
+fn begun_in<'t, P: PixelFormat, L: Look<Pixel = P>>(
+    camera: &Camera,
+    build: impl FnOnce(&mut Scene<'_, 't, L>),
+) -> Vec<P::Word> {
     let room = Room {
         vertices: 20_000,
         objects: 20_000,
@@ -36,7 +51,7 @@ pub fn begun<'t, L: Look<Pixel = Rgb565Be>>(
         build(scene);
         Ok(())
     };
-    picture(screen, room, 0, built).unwrap()
+    picture(screen, room, P::Word::default(), built).unwrap()
 }
 
 /// Memory of players.
