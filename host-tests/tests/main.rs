@@ -44,6 +44,7 @@ mod hot_path_errors;
 mod hot_path_frames;
 mod hot_path_ground;
 mod hot_path_master;
+mod hot_path_palette;
 mod hot_path_phong;
 mod hot_path_reflection;
 mod hot_path_sampling;

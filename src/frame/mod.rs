@@ -22,6 +22,7 @@
 //! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `send` | all lines of a frame, with overlays, through a pump, awaited, or to a panel with a clock of its own |
 //! | `changed` | likewise, what has changed alone |
+//! | `palette` | likewise, of pixels that are numbers of a palette |
 //! | `relay` | a frame of two cores |
 
 mod advance;
@@ -31,6 +32,7 @@ mod guests;
 mod line;
 mod meet;
 mod near;
+mod palette;
 mod plan;
 mod rank;
 mod relay;
@@ -50,6 +52,7 @@ mod values;
 
 pub use crate::active::CacheUse;
 pub use changed::{draw_frame_changed, draw_frame_changed_runs};
+pub use palette::draw_frame_indexed;
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};
 #[cfg(feature = "async")]

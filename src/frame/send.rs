@@ -135,6 +135,9 @@ impl<'a, L: Look, O: LineOverlay<L::Pixel>> Lines<'a, L, O> {
     }
 }
 
+/// A pixel as a sink sends it.
+pub(super) type SentBy<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
+
 /// Sends all lines of `scene`, each as `draw` writes it, which says whether something is active there.
 #[inline(always)]
 pub(super) fn send<'m, L, D, const WORDS: usize>(
@@ -142,11 +145,11 @@ pub(super) fn send<'m, L, D, const WORDS: usize>(
     renderer: &mut Renderer<'m, L, WORDS>,
     pump: &mut Pump<D>,
     lines_per_transfer: u16,
-    mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [WordOf<L>]) -> Result<bool, LineError>,
+    mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [SentBy<D>]) -> Result<bool, LineError>,
 ) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
 where
     L: Look,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
+    D: ScanoutDma,
 {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;
     let mut skipped = 0;

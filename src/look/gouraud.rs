@@ -64,7 +64,7 @@ impl<F: Pixel> Gouraud<F> {
     #[inline(never)]
     fn other_planes(triangle: &Triangle<'_>, size: Size, area: u32, planes: &mut Planes) -> Fill {
         let colour = triangle.vertex.map(|v| v.colour);
-        if size == Size::Sharp && F::PACKED && is_flat(colour) {
+        if size == Size::Sharp && F::MADE_OF.is_one_word() && is_flat(colour) {
             Self::packed_planes(triangle.vertex, area, planes);
             return Fill::Plain;
         }
@@ -92,7 +92,7 @@ impl<F: Pixel> Gouraud<F> {
             mean[i] = (low + high) >> 1;
         }
         *planes = [0; 9];
-        if F::PACKED {
+        if F::MADE_OF.is_one_word() {
             planes[0] = ((mean[0] << 21) | (mean[2] << 11) | mean[1]) as u32;
             return Some(Fill::Plain);
         }
@@ -104,7 +104,7 @@ impl<F: Pixel> Gouraud<F> {
     /// A run of what is not in one word.
     #[inline(never)]
     fn fill_other(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        if fill == Fill::Small && F::PACKED {
+        if fill == Fill::Small && F::MADE_OF.is_one_word() {
             return Self::fill_small(planes, place, run);
         }
         Self::fill_wide(fill, planes, place, run);
@@ -161,7 +161,7 @@ impl<F: Pixel> Gouraud<F> {
             return ramp::fill_even::<F>(run, course.even::<F>());
         }
         each_part(run, off, |part, off| {
-            if F::PACKED {
+            if F::MADE_OF.is_one_word() {
                 ramp::fill::<F>(part, course.packed(off));
             } else {
                 let [at, step] = course.pair(off);
@@ -264,7 +264,7 @@ impl Course {
     /// The pixel of a colour that does not step.
     #[inline(always)]
     fn even<F: Pixel>(&self) -> F::Word {
-        if F::PACKED {
+        if F::MADE_OF.is_one_word() {
             return F::of_word(self.packed(0).word);
         }
         let [at, _] = self.pair(0);
@@ -435,7 +435,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
         _: &[DrawState<'_>],
         planes: &mut Planes,
     ) -> Fill {
-        if size == Size::Tiny && F::PACKED {
+        if size == Size::Tiny && F::MADE_OF.is_one_word() {
             Self::packed_planes(triangle.vertex, area, planes);
             return Fill::Plain;
         }
@@ -472,7 +472,7 @@ impl<F: Pixel> Paint for Gouraud<F> {
         draws: &[DrawState<'_>],
         run: &mut [F::Word],
     ) {
-        if !F::PACKED || fill == Fill::Plain {
+        if !F::MADE_OF.is_one_word() || fill == Fill::Plain {
             return Self::fill(fill, planes, place, draws, run);
         }
         let Course {

@@ -145,7 +145,7 @@ impl<F: Pixel> Paint for Phong<F> {
     ) {
         if let Some(state) = DrawState::of(planes.object, draws) {
             // That is, in 16 bits.
-            Self::light(state, &planes.normal, place, F::PACKED, run);
+            Self::light(state, &planes.normal, place, F::MADE_OF.is_one_word(), run);
         }
     }
 }

@@ -19,10 +19,28 @@ mod ordered;
 
 pub(crate) use ordered::threshold;
 
+/// What pixels of a format are made of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MadeOf {
+    /// One word of colour, which keeps enough of it over 25 pixels.
+    OneWord,
+    /// Two words of colour.
+    TwoWords,
+    /// Red alone, which is a number of a palette: no two pixels have one between them.
+    Index,
+}
+
+impl MadeOf {
+    #[inline(always)]
+    pub(crate) const fn is_one_word(self) -> bool {
+        matches!(self, Self::OneWord)
+    }
+}
+
 /// How a pixel is made of a colour, and of other pixels.
 pub trait Pixel: PixelFormat {
-    /// Whether a word of colour keeps enough of it over 25 pixels.
-    const PACKED: bool;
+    /// What a pixel is made of.
+    const MADE_OF: MadeOf;
 
     /// A pixel from a word of colour.
     #[inline(always)]
@@ -75,7 +93,7 @@ fn halves(word: u32) -> [u16; 2] {
 }
 
 impl Pixel for Rgb565 {
-    const PACKED: bool = true;
+    const MADE_OF: MadeOf = MadeOf::OneWord;
 
     #[inline(always)]
     fn of_word(word: u32) -> u16 {
@@ -98,7 +116,7 @@ impl Pixel for Rgb565 {
 }
 
 impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
-    const PACKED: bool = true;
+    const MADE_OF: MadeOf = MadeOf::OneWord;
 
     #[inline(always)]
     fn of_word(word: u32) -> u16 {
@@ -133,7 +151,7 @@ impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
 }
 
 impl Pixel for Rgb888 {
-    const PACKED: bool = false;
+    const MADE_OF: MadeOf = MadeOf::TwoWords;
 
     #[inline(always)]
     fn widen([red, green, blue]: [u8; 3]) -> [u32; 2] {
@@ -152,7 +170,7 @@ impl Pixel for Rgb888 {
 }
 
 impl Pixel for Xrgb8888 {
-    const PACKED: bool = false;
+    const MADE_OF: MadeOf = MadeOf::TwoWords;
 
     #[inline(always)]
     fn widen(word: u32) -> [u32; 2] {
@@ -162,6 +180,41 @@ impl Pixel for Xrgb8888 {
     #[inline(always)]
     fn narrow([red_blue, green]: [u32; 2]) -> u32 {
         (red_blue + 0x8_0008) >> 4 & 0xFF_00FF | (green + 8) << 4 & 0xFF00
+    }
+}
+
+impl Pixel for Grey8 {
+    const MADE_OF: MadeOf = MadeOf::TwoWords;
+
+    #[inline(always)]
+    fn widen(word: u8) -> [u32; 2] {
+        [word.into(), 0]
+    }
+
+    #[inline(always)]
+    fn narrow([grey, _]: [u32; 2]) -> u8 {
+        ((grey + 8) >> 4) as u8
+    }
+}
+
+/// Numbers are not mixed: of doubled lines and columns each pixel is the nearest one.
+impl<const N: usize> Pixel for Indexed<N> {
+    const MADE_OF: MadeOf = MadeOf::Index;
+
+    #[inline(always)]
+    fn widen(word: u8) -> [u32; 2] {
+        [word.into(), 0]
+    }
+
+    #[inline(always)]
+    fn narrow([index, _]: [u32; 2]) -> u8 {
+        (index >> 4) as u8
+    }
+
+    fn mix_lines(near: &[u8], _: &[u8], sent: &mut [u8]) {
+        for (pair, index) in sent.chunks_mut(2).zip(near) {
+            pair.fill(*index);
+        }
     }
 }
 

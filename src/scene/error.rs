@@ -84,6 +84,8 @@ pub enum DrawError {
     Light,
     /// The call has a texture, and the scene's look draws none; nothing of it is drawn.
     Untextured,
+    /// The call has a blend, and pixels of the scene are numbers of a palette, which have no mean; nothing of it is drawn.
+    Indices,
     /// The memory lent for a shadow volume is too short; nothing of it is drawn.
     Shadow(ShadowRoom),
     /// The number of a shadow's light is not below [`Shadow::LIGHTS`]; nothing of the call is drawn.
@@ -131,6 +133,9 @@ impl fmt::Display for DrawError {
             ),
             Self::Untextured => {
                 f.write_str("scene: a texture is drawn, and the look of the scene has none")
+            }
+            Self::Indices => {
+                f.write_str("scene: colours are blended, and pixels are numbers of a palette")
             }
             Self::Shadow(room) => write!(f, "shadow: no room for all {room}"),
             Self::ShadowLight => {

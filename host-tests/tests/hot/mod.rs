@@ -8,7 +8,9 @@ pub mod values;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
 use scanbeam::look::{Gouraud, Look, Phong, Textured};
-use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
+use scanbeam::pixel::{
+    Grey8, Index4, Index8, PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888,
+};
 use scanbeam::scene::{Draw, DrawError, DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 
@@ -64,6 +66,9 @@ smooth!(
     Gouraud<Rgb565Le>,
     Gouraud<Rgb888>,
     Gouraud<Xrgb8888>,
+    Gouraud<Grey8>,
+    Gouraud<Index8>,
+    Gouraud<Index4>,
     Phong<Rgb565Be>,
     Phong<Rgb888>,
     Textured<Rgb565Be>,

@@ -1,0 +1,42 @@
+//! Frames of indices: each line becomes colours by its own palette on the way to the sink (H18).
+//!
+//! The sink's buffers have its own pixels; the renderer draws into a lent line of bytes, best in fast RAM, and from there
+//! each pixel is looked up.
+
+use super::renderer::{LineError, Renderer};
+use super::send::{FrameError, FrameUse, Lines, SentBy, send};
+use crate::composite::{Indexed, LinePalettes, expand_indices};
+use crate::look::Look;
+use crate::scan_out::{ErrorType, Pump, ScanoutDma};
+use crate::scene::Scene;
+
+/// Draws and sends all lines of `scene` as [`draw_frame`](super::draw_frame) does, over the index `background`. `indices`
+/// has a byte for each pixel of a line, and `palettes` say what these mean on a line.
+///
+/// # Errors
+/// When the sink fails, naming the line, or the renderer has too little memory, or `indices` is shorter than a line.
+pub fn draw_frame_indexed<L, D, const N: usize, const WORDS: usize>(
+    scene: &Scene<'_, '_, L>,
+    renderer: &mut Renderer<'_, L, WORDS>,
+    pump: &mut Pump<D>,
+    background: u8,
+    lines_per_transfer: u16,
+    indices: &mut [u8],
+    palettes: impl LinePalettes<SentBy<D>, N>,
+) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+where
+    L: Look<Pixel = Indexed<N>>,
+    D: ScanoutDma,
+{
+    let (needed, have) = (usize::from(scene.screen().width()), indices.len());
+    let Some(indices) = indices.get_mut(..needed) else {
+        return Err(FrameError::Line(LineError::Pixels { needed, have }));
+    };
+    let (mut palettes, mut lines) = (palettes, Lines::new(scene, background, ()));
+    let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [SentBy<D>]| {
+        let is_active = lines.draw(renderer, line, indices)?;
+        expand_indices(indices, palettes.palette(line), pixels);
+        Ok(is_active)
+    };
+    send(scene, renderer, pump, lines_per_transfer, draw)
+}
