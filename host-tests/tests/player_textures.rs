@@ -11,7 +11,7 @@ use scanbeam::list::{
 };
 use scanbeam::look::Textured;
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Xrgb8888};
-use scanbeam::scene::{Budget, Draw, Skin, Texture, Wrap};
+use scanbeam::scene::{Budget, Draw, Sampling, Skin, Texture, Wrap};
 use scanbeam::{Cull, Faces, Mesh};
 
 type Skinned = Textured<Rgb565Be>;
@@ -340,4 +340,58 @@ fn pixels_of_more_bits_are_made_of_the_same_texels() {
         }
     }
     assert!(seen > 4_000, "{seen}");
+}
+
+/// The settings say how texels of lists are taken: as those of a call that is sampled so. Kills: settings that nobody
+/// asks, a filter of another texture.
+#[test]
+fn textures_of_lists_are_filtered_as_those_of_calls() {
+    let mut rng = Rng::new(11);
+    let mut differ = 0;
+    for form in [TexelForm::Rgb565, TexelForm::Index4, TexelForm::Rgba] {
+        let sample = sample(&mut rng, form, false);
+        let mut memory = vec![0; 4096];
+        let mut writer = ListWriter::new(&mut memory);
+        let block = State::Texture(sample.block);
+        writer.bulk(&block, &sample.words).unwrap();
+        if !sample.colours.is_empty() {
+            let (number, count, at) = (2, sample.colours.len() as u16, 0);
+            let palette = State::Palette(Palette { number, count, at });
+            writer.bulk(&palette, &sample.colours).unwrap();
+        }
+        draw_quad(&mut writer, 1, true);
+        writer.flow(Flow::End).unwrap();
+        let list = writer.words();
+        let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
+        let words: Vec<u16> = sample.texels.iter().map(|t| word(*t)).collect();
+        let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
+        let wrap = match sample.block.clamped {
+            true => Wrap::Clamp,
+            false => Wrap::Repeat,
+        };
+        let plain = Texture::words(&words, width, height)
+            .unwrap()
+            .wrapping(wrap);
+        let pictures = [None, Some(Sampling::LINEAR)].map(|sampling| {
+            let texture = match sampling {
+                Some(sampling) => plain.sampled(sampling, &[]).unwrap(),
+                None => plain,
+            };
+            let want = call_quad(&texture, Budget::BALANCED);
+            let mut kept = Kept::new(64, 96);
+            let mut player = kept.player::<Skinned>(PlayerSettings {
+                sampling,
+                ..PlayerSettings::default()
+            });
+            let got = drawn::<Skinned>(|scene| {
+                player.start(0);
+                assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+            });
+            assert!(got == want, "{form:?}, {sampling:?}");
+            got
+        });
+        let [near, mixed] = &pictures;
+        differ += near.iter().zip(mixed).filter(|(a, b)| a != b).count();
+    }
+    assert!(differ > 1_000, "{differ}");
 }

@@ -3,6 +3,7 @@
 use super::gather::Refusal;
 use super::play::{Player, Stage};
 use super::state::Drawer;
+use super::textures::Asked;
 use crate::geometry::{Affine, Camera, Light, Sphere};
 use crate::list::{
     Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
@@ -110,8 +111,12 @@ impl<'t, L: Look> Player<'_, 't, L> {
             NoTexture::Palette => Reason::NoPalette(number),
             _ => Reason::NoTexture(number),
         })?;
-        let dithers = self.state.draw.dither;
-        let texture = self.shelf.texture::<L::Pixel>(words, pair, dithers)?;
+        let asked = Asked {
+            pair,
+            dithers: self.state.draw.dither,
+            sampling: self.settings.sampling,
+        };
+        let texture = self.shelf.texture::<L::Pixel>(words, asked)?;
         self.state.texture = Some(texture);
         Ok(())
     }

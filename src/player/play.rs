@@ -11,7 +11,7 @@ use crate::list::{
     Walker, Window, Words,
 };
 use crate::look::Look;
-use crate::scene::{Budget, Draw, Scene};
+use crate::scene::{Budget, Draw, Sampling, Scene};
 use core::marker::PhantomData;
 
 /// Memory of a player, lent by the application.
@@ -53,6 +53,8 @@ pub struct PlayerSettings<'m, 't> {
     pub window: Option<Window>,
     /// How far texels may be from their places where a block has PRSP; elsewhere [`Budget::FAST`].
     pub budget: Budget,
+    /// How texels are taken; `None`: the nearest one.
+    pub sampling: Option<Sampling>,
     /// After an access violation.
     pub on_violation: OnViolation,
     /// Where commands come from, beside [`Player::command`].
@@ -72,6 +74,7 @@ impl Default for PlayerSettings<'_, '_> {
             camera: false,
             window: None,
             budget: Budget::BALANCED,
+            sampling: None,
             on_violation: OnViolation::GoOn,
             control: None,
         }
@@ -88,7 +91,7 @@ impl Default for PlayerSettings<'_, '_> {
 /// | MATRIX | `model`: the list's, then that of the settings |
 /// | LIGHT 0, white | `light` |
 /// | MATERIAL | `colour`, `cull`, `blend` of its opacity; not lit: no light |
-/// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent |
+/// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |
 /// | WINDOW | `scissor` |
 /// | nothing | `shading`, `depth`, `dither`, `priority`, `application`, `lamps`: those of the settings |

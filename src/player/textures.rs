@@ -7,7 +7,7 @@
 
 use crate::composite::{PixelFormat, Rgb565};
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
-use crate::scene::{Texture, TextureError, Wrap};
+use crate::scene::{Sampling, Texture, TextureError, Wrap};
 
 /// Room for a texture that is drawn with.
 #[derive(Debug)]
@@ -43,6 +43,15 @@ struct Key {
     form: TexelForm,
     log_sides: [u8; 2],
     clamped: bool,
+}
+
+/// A texture that is to be drawn with.
+#[derive(Clone, Copy)]
+pub(super) struct Asked {
+    pub(super) pair: Pair,
+    /// Whether its draw calls are dithered.
+    pub(super) dithers: bool,
+    pub(super) sampling: Option<Sampling>,
 }
 
 /// The textures that were made, and memory for more.
@@ -86,15 +95,18 @@ impl<'t> Shelf<'t> {
         }
     }
 
-    /// The texture of a pair, whose draw calls are dithered or not.
+    /// The texture that is asked for.
     ///
     /// # Errors
     /// [`Reason::Missing`] and [`Reason::Lent`].
     pub(super) fn texture<F: PixelFormat>(
         &mut self,
         words: impl Words<'t>,
-        pair: Pair,
-        dithers: bool,
+        Asked {
+            pair,
+            dithers,
+            sampling,
+        }: Asked,
     ) -> Result<&'t Texture<'t>, Reason> {
         let in_place = |at, count| {
             let slice = words.slice(at, count);
@@ -120,7 +132,11 @@ impl<'t> Shelf<'t> {
         if self.free.is_empty() {
             return Err(Reason::Lent(Lent::Textures));
         }
-        let made = self.make::<F>(source, dithers)?;
+        let mut made = self.make::<F>(source, dithers)?;
+        if let Some(sampling) = sampling {
+            // Without levels there is none of other sides.
+            made = made.sampled(sampling, &[]).unwrap_or(made);
+        }
         let full = Reason::Lent(Lent::Textures);
         let (room, free) = core::mem::take(&mut self.free)
             .split_first_mut()
