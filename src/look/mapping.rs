@@ -339,7 +339,8 @@ impl Mapping {
         &self,
         run: &mut [u16],
         place: Place,
-        (texture, budget): (&Texture<'_>, Budget),
+        texture: &Texture<'_>,
+        budget: Budget,
         sampling: Sampling,
         is_swapped: bool,
     ) {

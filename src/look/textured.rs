@@ -186,11 +186,8 @@ impl<F: Texel> Textured<F> {
             Some((texture, budget)) if planes.mapped => match texture.sampling() {
                 None => planes.mapping.draw_any(run, place, texture, budget),
                 Some(sampling) => {
-                    let is_swapped = F::ordered(1) != 1;
-                    let texture = (texture, budget);
-                    planes
-                        .mapping
-                        .draw_sampled(run, place, texture, sampling, is_swapped);
+                    let (mapping, is_swapped) = (&planes.mapping, F::ordered(1) != 1);
+                    mapping.draw_sampled(run, place, texture, budget, sampling, is_swapped);
                 }
             },
             _ => run.fill(0xFFFF),
