@@ -114,7 +114,7 @@ impl Turn {
     fn draw(count: u32, mut done: impl FnMut()) -> Result<Self, Box<dyn Error>> {
         let mut memory = SceneRooms::new(ROOM, HEIGHT);
         let mut scene = memory.scene::<Look>(Screen::new(WIDTH, HEIGHT)?);
-        let mut lines = LineRooms::<Look>::new(ROOM.objects, WIDTH);
+        let mut lines: LineRooms<Look> = LineRooms::new(ROOM.objects, WIDTH);
         let mut renderer = lines.renderer();
         let words = usize::from(WIDTH * LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);

@@ -55,14 +55,14 @@ impl<'t> SceneRooms<'t> {
     }
 }
 
-/// What a renderer with 64 slots is lent.
-pub struct LineRooms<L: Look> {
-    cache: Box<FastMemory<L>>,
+/// What a renderer with `32 WORDS` slots is lent.
+pub struct LineRooms<L: Look, const WORDS: usize = 2> {
+    cache: Box<FastMemory<L, WORDS>>,
     links: Vec<Link>,
     depth: Vec<u32>,
 }
 
-impl<L: Look> LineRooms<L> {
+impl<L: Look, const WORDS: usize> LineRooms<L, WORDS> {
     /// For so many triangles, and lines of so many pixels, with depth.
     #[must_use]
     pub fn new(objects: usize, width: u16) -> Self {
@@ -73,8 +73,15 @@ impl<L: Look> LineRooms<L> {
         }
     }
 
+    /// The same, of which no more than so many slots are used.
+    #[must_use]
+    pub fn with_limit(mut self, slots: u16) -> Self {
+        self.cache.set_limit(slots);
+        self
+    }
+
     /// A renderer in this memory, for any scene without shadows.
-    pub fn renderer(&mut self) -> Renderer<'_, L> {
+    pub fn renderer(&mut self) -> Renderer<'_, L, WORDS> {
         Renderer::new(LineMemory {
             cache: &mut self.cache,
             links: &mut self.links,
@@ -96,7 +103,7 @@ pub fn picture<'t, P: PixelFormat<Word = u16>, L: Look<Pixel = P>>(
     let mut memory = SceneRooms::new(room, screen.height());
     let mut scene = memory.scene(screen);
     build(&mut scene)?;
-    let mut lines = LineRooms::new(room.objects, screen.width());
+    let mut lines: LineRooms<L> = LineRooms::new(room.objects, screen.width());
     let mut renderer = lines.renderer();
     let (mut words, mut line) = (Vec::new(), vec![0; screen.width().into()]);
     for y in scene.lines() {
