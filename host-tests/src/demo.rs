@@ -6,17 +6,16 @@
 
 use crate::args::DemoArgs;
 use crate::image_out::{Frame, ImageError, make_folder, write_animation, write_image, write_strip};
-use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
+use crate::rooms::{LineRooms, Room, SceneRooms};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
-use scanbeam::pipeline::send::draw_frame_changed;
-use scanbeam::pipeline::{
-    CellOf, Counted, FrameStats, GouraudDepth, Instance, ObjectOf, SlotOf, VertexOf, WordOf,
-};
+use scanbeam::frame::{FastMemory, FrameUse, draw_frame_changed};
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ShownLines};
-use scanbeam::{Affine, Camera, Light, Link, Screen};
+use scanbeam::scene::{DrawState, Object, Vertex};
+use scanbeam::{Affine, Camera, Draw, Light, Link, Screen};
 use scenes::TEAPOT;
 use std::error::Error;
 use std::f32::consts::TAU;
@@ -30,15 +29,21 @@ pub const HEIGHT: u16 = 240;
 /// The colour where nothing is, 8-bit levels.
 pub const BACKGROUND: [u8; 3] = [34, 42, 56];
 
-/// Gouraud, 32-bit depth, 16-bit pixels as an SPI panel takes them; counted.
-type Drawn = Counted<GouraudDepth<Rgb565Be>>;
+/// Smooth colours, 16-bit pixels as an SPI panel takes them.
+type Look = Gouraud<Rgb565Be>;
+/// What holds a pixel on its way to the panel.
+type Word = <Rgb565Be as PixelFormat>::Word;
 
 /// Slots of the object cache.
 const SLOTS: usize = 64;
-/// Vertices that the scene has room for: a teapot that is never clipped has 1,178.
-const VERTICES: usize = 1_184;
-/// Objects that the scene has room for: about half of the 2,256 triangles look away.
-const OBJECTS: usize = 1_280;
+/// What the scene has room for: a teapot that is never clipped has 1,178 vertices, and about half of its 2,256
+/// triangles look away.
+const ROOM: Room = Room {
+    vertices: 1_184,
+    places: 0,
+    objects: 1_280,
+    draws: 1,
+};
 /// Lines of one transfer, and of each of the two line buffers.
 const LINES: u16 = 8;
 /// Polls that the mocked display is late by, so that the pump has to wait.
@@ -93,16 +98,24 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
 /// All frames of a turn.
 struct Turn {
     frames: Vec<Frame>,
-    stats: Vec<FrameStats>,
+    took: Vec<Took>,
+}
+
+/// What a frame took.
+struct Took {
+    frame: FrameUse,
+    /// Triangles and vertices of the scene.
+    objects: usize,
+    vertices: usize,
 }
 
 impl Turn {
     /// Draws `count` frames, each one the same angle on, and calls `done` after each.
     fn draw(count: u32, mut done: impl FnMut()) -> Result<Self, Box<dyn Error>> {
-        let mut lent = SceneRooms::<Drawn>::new(VERTICES, OBJECTS, HEIGHT.into());
-        let mut scene = lent.scene(Screen::new(WIDTH, HEIGHT)?);
-        let mut rooms = LineRooms::<Drawn>::new(SLOTS, OBJECTS, WIDTH.into());
-        let mut renderer = rooms.renderer();
+        let mut memory = SceneRooms::new(ROOM, HEIGHT);
+        let mut scene = memory.scene::<Look>(Screen::new(WIDTH, HEIGHT)?);
+        let mut lines: LineRooms<Look> = LineRooms::new(ROOM.objects, WIDTH);
+        let mut renderer = lines.renderer();
         let words = usize::from(WIDTH * LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
         let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
@@ -114,27 +127,32 @@ impl Turn {
         let background = Rgb565Be::from_rgb8(BACKGROUND);
         let mut turn = Self {
             frames: Vec::new(),
-            stats: Vec::new(),
+            took: Vec::new(),
         };
         for frame in 0..count {
             let angle = FIRST_TURN + TAU * frame as f32 / count as f32;
             scene.begin(&camera)?;
-            let instance = Instance {
+            scene.draw(&Draw {
                 model: Affine::rotation_y(angle),
                 light,
                 colour: COLOUR,
-                ..Instance::default()
-            };
-            scene.draw(&TEAPOT, &instance)?;
+                ..Draw::new(TEAPOT)
+            })?;
             pump.sink_mut().next_frame();
-            let stats = draw_frame_changed(
+            let frame = draw_frame_changed(
                 &scene,
                 &mut renderer,
                 &mut pump,
                 background,
                 LINES,
                 &mut shown,
+                (),
             )?;
+            turn.took.push(Took {
+                frame,
+                objects: scene.objects(),
+                vertices: scene.vertices(),
+            });
             // What the display shows, lines of earlier frames among it.
             let pixels: Option<Vec<u16>> = pump.sink().shown().iter().copied().collect();
             let pixels = pixels.ok_or("a line never arrived")?;
@@ -142,7 +160,6 @@ impl Turn {
             let frame = Frame::new(u32::from(WIDTH), u32::from(HEIGHT), rgb);
             turn.frames
                 .push(frame.ok_or("the display has another size")?);
-            turn.stats.push(stats);
             done();
         }
         Ok(turn)
@@ -170,30 +187,26 @@ impl Turn {
 
     /// What each frame took.
     fn figures(&self) -> Table {
-        type Figure = (&'static str, fn(&FrameStats) -> u64);
-        const FIGURES: [Figure; 18] = [
-            ("triangles in", |s| s.pass_one.triangles.into()),
-            ("triangles culled", |s| s.pass_one.culled.into()),
-            ("objects kept", |s| s.pass_one.objects.into()),
-            ("lines with nothing on", |s| s.scanlines_skipped.into()),
-            ("spans", |s| s.spans.spans.into()),
-            ("spans without depth", |s| s.spans.spans_untested.into()),
-            ("spans hidden", |s| s.spans.spans_hidden.into()),
-            ("pixels shaded", |s| s.spans.pixels_shaded.into()),
-            ("pixels hidden", |s| s.spans.pixels_hidden.into()),
-            ("depth tests", |s| s.spans.depth_tests.into()),
-            ("cache hits", |s| s.cache.hits.into()),
-            ("cache misses", |s| s.cache.misses.into()),
-            ("peak cache slots", |s| s.cache.peak_slots.into()),
-            ("slow bytes read", |s| s.slow_read_bytes),
-            ("slow bytes written", |s| s.slow_write_bytes),
-            ("bytes sent", |s| s.scan_out.bytes_sent),
-            ("lines not sent", |s| s.scan_out.lines_unsent.into()),
-            ("bytes not sent", |s| s.scan_out.bytes_unsent),
+        type Figure = (&'static str, fn(&Took) -> u64);
+        const FIGURES: [Figure; 14] = [
+            ("triangles in", |t| t.frame.assembled.triangles.into()),
+            ("triangles culled", |t| t.frame.assembled.culled.into()),
+            ("triangles kept", |t| t.objects as u64),
+            ("lines with nothing on", |t| t.frame.lines_skipped.into()),
+            ("found a slot", |t| t.frame.cache.hits.into()),
+            ("found none", |t| t.frame.cache.spilled.into()),
+            ("found one later", |t| t.frame.cache.moved_in.into()),
+            ("lines from slow RAM", |t| t.frame.cache.misses.into()),
+            ("set-ups", |t| t.frame.cache.set_ups.into()),
+            ("peak cache slots", |t| t.frame.cache.peak.into()),
+            ("bytes sent", |t| t.frame.scan_out.bytes_sent),
+            ("transfers", |t| t.frame.scan_out.transfers.into()),
+            ("lines not sent", |t| t.frame.scan_out.lines_unsent.into()),
+            ("bytes not sent", |t| t.frame.scan_out.bytes_unsent),
         ];
         let mut table = table(["per frame", "min", "median", "max"]);
         for (name, figure) in FIGURES {
-            let mut values: Vec<u64> = self.stats.iter().map(figure).collect();
+            let mut values: Vec<u64> = self.took.iter().map(figure).collect();
             values.sort_unstable();
             let at = |index: usize| number(values.get(index).copied().unwrap_or(0));
             let last = values.len().saturating_sub(1);
@@ -202,34 +215,40 @@ impl Turn {
         table
     }
 
-    /// The memory that was lent, and how much of it the largest frame used.
-    fn memory(&self) -> Table {
-        let most = |figure: fn(&FrameStats) -> u32| {
-            let values = self.stats.iter().map(figure);
-            values.max().unwrap_or(0) as usize
-        };
-        let objects = most(|s| s.pass_one.objects);
-        let vertices = most(|s| s.pass_one.vertices);
-        let slots = most(|s| s.cache.peak_slots);
+    /// The memory that was lent, fast and slow, and how much of it the largest frame used.
+    fn lent(&self) -> [Vec<Lent>; 2] {
+        let most = |figure: fn(&Took) -> usize| self.took.iter().map(figure).max().unwrap_or(0);
+        let objects = most(|t| t.objects);
+        let vertices = most(|t| t.vertices);
+        let slots = most(|t| t.frame.cache.peak as usize);
         let (width, height) = (usize::from(WIDTH), usize::from(HEIGHT));
         let line_words = 2 * width * usize::from(LINES);
-        let fast = [
-            Lent::new::<SlotOf<Drawn>>("object cache", SLOTS, slots),
-            Lent::new::<CellOf<Drawn>>("depth of one line", width, width),
-            Lent::new::<WordOf<Drawn>>("two line buffers", line_words, line_words),
+        let slot = FastMemory::<Look>::SLOT_BYTES;
+        let sets = size_of::<FastMemory<Look>>() - SLOTS * slot;
+        let fast = vec![
+            Lent::new("slots of the cache", slot, SLOTS, slots),
+            Lent::new("what finds them", sets, 1, 1),
+            Lent::of::<u32>("depth of one line", width, width),
+            Lent::of::<Word>("two line buffers", line_words, line_words),
         ];
-        let slow = [
-            Lent::new::<VertexOf<Drawn>>("vertices", VERTICES, vertices),
-            Lent::new::<ObjectOf<Drawn>>("objects", OBJECTS, objects),
-            Lent::new::<Link>("links", OBJECTS, objects),
-            Lent::new::<Link>("line buckets", height, height),
-            Lent::new::<u32>("hashes of lines", height, height),
+        let slow = vec![
+            Lent::of::<Vertex>("vertices", ROOM.vertices, vertices),
+            Lent::of::<Object>("triangles", ROOM.objects, objects),
+            Lent::of::<Link>("links", ROOM.objects, objects),
+            Lent::of::<u16>("bins of lines", height, height),
+            Lent::of::<DrawState>("draw calls", ROOM.draws, ROOM.draws),
+            Lent::of::<u32>("hashes of lines", height, height),
         ];
+        [fast, slow]
+    }
+
+    /// What was lent, as a table.
+    fn memory(&self) -> Table {
         let mut table = table(["RAM", "what", "count", "bytes each", "bytes", "bytes used"]);
-        for (region, rooms) in [("fast", &fast[..]), ("slow", &slow[..])] {
+        for (region, rooms) in ["fast", "slow"].into_iter().zip(self.lent()) {
             let mut sums = [0; 2];
             for lent in rooms {
-                let bytes = [lent.count, lent.used].map(|count| count * lent.each);
+                let bytes = lent.bytes();
                 sums = [sums[0] + bytes[0], sums[1] + bytes[1]];
                 let [lent_bytes, used_bytes] = bytes.map(number);
                 table.add_row([
@@ -268,14 +287,22 @@ struct Lent {
 }
 
 impl Lent {
-    fn new<T>(what: &'static str, count: usize, used: usize) -> Self {
-        let each = size_of::<T>();
+    fn new(what: &'static str, each: usize, count: usize, used: usize) -> Self {
         Self {
             what,
             each,
             count,
             used,
         }
+    }
+
+    fn of<T>(what: &'static str, count: usize, used: usize) -> Self {
+        Self::new(what, size_of::<T>(), count, used)
+    }
+
+    /// Lent, and used.
+    fn bytes(&self) -> [usize; 2] {
+        [self.count, self.used].map(|count| count * self.each)
     }
 }
 
@@ -324,15 +351,50 @@ mod tests {
         }
     }
 
+    /// Kills: a frame that is sent whole though the display shows most of it, memory that is full or hardly used.
     #[test]
     fn a_turn_fits_the_memory_at_any_angle() {
         let turn = Turn::draw(97, || ()).unwrap();
         assert_eq!(turn.frames.len(), 97);
-        for stats in &turn.stats {
-            assert_eq!(stats.pass_one.dropped, 0);
-            assert_eq!(stats.pass_one.clipped, 0, "the whole teapot is in sight");
-            let scan_out = stats.scan_out;
+        for (number, took) in turn.took.iter().enumerate() {
+            let assembled = took.frame.assembled;
+            assert_eq!(assembled.dropped, 0);
+            assert_eq!(assembled.clipped, 0, "the whole teapot is in sight");
+            // None is clipped, so what is left of each is one or nothing.
+            let kept = assembled.triangles - assembled.culled;
+            assert_eq!(took.objects, kept as usize);
+            let (cache, scan_out) = (took.frame.cache, took.frame.scan_out);
+            assert!(cache.hits + cache.spilled <= kept && cache.moved_in <= cache.spilled);
             assert_eq!(scan_out.bytes_sent + scan_out.bytes_unsent, 320 * 240 * 2);
+            assert_eq!(scan_out.lines_unsent > 60, number > 0, "frame {number}");
         }
+        for lent in turn.lent().iter().flatten() {
+            let [bytes, used] = lent.bytes();
+            assert!(
+                used <= bytes && 10 * used >= 9 * bytes,
+                "{}: {used} of {bytes}",
+                lent.what
+            );
+        }
+    }
+
+    #[test]
+    fn the_readme_says_how_much_memory_is_lent() {
+        let lent = Turn::draw(1, || ()).unwrap().lent();
+        let bytes = |rooms: &[Lent]| {
+            let sum: usize = rooms.iter().map(|lent| lent.bytes()[0]).sum();
+            thousands(&sum.to_string())
+        };
+        let [fast, slow] = &lent;
+        let said = format!(
+            "takes {} bytes of fast RAM ({} of the object cache, {} of depth, {} of two line buffers) \
+             and {} of slow RAM",
+            bytes(fast),
+            bytes(&fast[..2]),
+            bytes(&fast[2..3]),
+            bytes(&fast[3..]),
+            bytes(slow)
+        );
+        assert!(include_str!("../../README.md").contains(&said), "{said}");
     }
 }

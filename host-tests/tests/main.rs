@@ -19,6 +19,7 @@ mod accuracy_frontier;
 mod against_reference;
 mod arenas;
 mod block_fix_depth;
+mod by_calls;
 mod cache;
 mod changed;
 mod clip;

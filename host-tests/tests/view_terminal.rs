@@ -196,7 +196,7 @@ fn keys_and_sizes_are_followed() {
         ("q", "fast"),
         ("s", "none"),
         ("s", "flat"),
-        ("c", "256 slots"),
+        ("c", "224 slots"),
         ("r", "2 renderers"),
         ("F", "rgb888"),
     ] {

@@ -11,6 +11,7 @@ mod prepared;
 pub mod scene_file;
 mod scenes;
 mod textured;
+mod values;
 
 pub use bands::{Bands, Overfull, Setting};
 pub use depth::draw_by_depth;
@@ -19,6 +20,7 @@ pub use interp::{draw_by, draw_prepared};
 pub use prepared::Prepared;
 pub use scenes::{SceneParts, draw_scene_file};
 pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
+pub use values::{Called, MOST_SLOTS, draw_by_calls};
 
 use crate::choice::{DEFAULT_SLOTS, PixelFormatArg};
 use host_support::image_out::Frame;
@@ -80,6 +82,9 @@ pub enum DrawFailure {
     /// The mocked display refused something.
     #[error("display: {0}")]
     Display(FrameError<MockError>),
+    /// The same, of a picture by draw calls.
+    #[error("display: {0}")]
+    Calls(scanbeam::frame::FrameError<MockError>),
     /// The mocked display refused what the hardware model drew.
     #[error("display: {0:?}")]
     Model(ModelFrameError<MockError>),
@@ -256,7 +261,7 @@ fn draw_scenes<P: Pipeline<Textures: Sync>>(
     // A link column for each renderer.
     let column_bytes = renderers.len() * size_of::<Link>();
     let background = P::Pixel::from_rgb8(view.background);
-    let (mut pump, lines) = display::<P>(width, height);
+    let (mut pump, lines) = display::<WordOf<P>>(width, height);
     let mut total = FrameStats::default();
     let mut slow_bytes = 0;
     let bands = setting.bands_of((&mut rooms, 0..height), (steps, build), |scene| {
@@ -271,7 +276,7 @@ fn draw_scenes<P: Pipeline<Textures: Sync>>(
         setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
     }
     Ok(Drawn {
-        frame: shown::<P>(&pump, view)?,
+        frame: shown::<P::Pixel>(&pump, view)?,
         stats: total,
         bands: bands.count,
         overfull: bands.overfull,
@@ -292,7 +297,7 @@ where
     let mut lines_of_model = ModelLines::new(width);
     let mut renderer = lines_of_model.renderer();
     let background = P::Pixel::from_rgb8(view.background);
-    let (mut pump, lines) = display::<P>(width, height);
+    let (mut pump, lines) = display::<WordOf<P>>(width, height);
     let mut total = FrameStats::default();
     let mut slow_bytes = 0;
     let bands = setting.bands(prepared, &mut rooms, 0..height, |scene| {
@@ -315,7 +320,7 @@ where
     total.spans.pixels_hidden = counts.hidden as u32;
     total.spans.depth_tests = counts.pixels as u32;
     Ok(Drawn {
-        frame: shown::<P>(&pump, view)?,
+        frame: shown::<P::Pixel>(&pump, view)?,
         stats: total,
         bands: bands.count,
         overfull: bands.overfull,
@@ -351,7 +356,10 @@ impl ModelLines {
 }
 
 /// A mocked display and its pump, and the lines of a transfer.
-fn display<P: Pipeline>(width: u16, height: u16) -> (Pump<MockFrameBuffer<WordOf<P>>>, u16) {
+fn display<W: Copy + Default + 'static>(
+    width: u16,
+    height: u16,
+) -> (Pump<MockFrameBuffer<W>>, u16) {
     let lines = LINES_PER_TRANSFER.min(height);
     let words = usize::from(width) * usize::from(lines);
     let sink = MockFrameBuffer::new(width, height).late_by(LATE);
@@ -365,12 +373,12 @@ fn line_bytes<P: Pipeline>(width: u16, lines: u16) -> usize {
 }
 
 /// The picture that has arrived.
-fn shown<P: Pipeline>(
-    pump: &Pump<MockFrameBuffer<WordOf<P>>>,
+fn shown<F: PixelFormat>(
+    pump: &Pump<MockFrameBuffer<F::Word>>,
     view: &View,
 ) -> Result<Frame, DrawFailure> {
     let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
-    let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
+    let rgb = pixels.into_iter().flat_map(F::to_rgb8).collect();
     Frame::new(view.width, view.height, rgb)
         .ok_or_else(|| DrawFailure::View("the picture has another size".into()))
 }

@@ -80,6 +80,7 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
 ) -> Result<Vec<u8>, Box<dyn Error>> {
     let room = Room {
         vertices: SUITE_VERTICES,
+        places: SUITE_VERTICES,
         objects: SUITE_OBJECTS,
         draws: LEAN_DRAWS,
     };

@@ -180,6 +180,7 @@ fn mirrored() -> Result<Vec<u16>, Box<dyn Error>> {
     let map = Texture::words(&texels, MAP, MAP)?;
     let room = Room {
         vertices: 1_200,
+        places: 1_200,
         objects: 2_300,
         draws: 1,
     };

@@ -3,13 +3,15 @@
 use super::State;
 use crate::args::QualityArg;
 use crate::draw::{
-    CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, TextureSet, TextureSetError,
-    draw_prepared, draw_scene_file, draw_textured,
+    Called, CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, TextureSet,
+    TextureSetError, draw_by_calls, draw_prepared, draw_scene_file, draw_textured,
 };
+use crate::image_out::Frame;
 use crate::model::Model;
 use crate::reference::View;
 use crate::scene_file::{Loaded, SceneFile};
-use scanbeam::pipeline::texture;
+use scanbeam::frame::FrameUse;
+use scanbeam::pipeline::{FrameStats, texture};
 use std::time::{Duration, Instant};
 
 /// What is shown.
@@ -98,6 +100,33 @@ impl<'m> Scenery<'m> {
     pub fn frame(&self, state: &State, width: u32, height: u32) -> Result<Shown, DrawFailure> {
         let start = Instant::now();
         let view = state.view(self, width, height);
+        let (frame, did) = match self.by_calls(state, &view)? {
+            Some(Called { frame, used }) => (frame, Did::Calls(used)),
+            None => {
+                let drawn = self.by_presets(state, &view)?;
+                (drawn.frame, Did::Presets(Box::new(drawn.stats)))
+            }
+        };
+        Ok(Shown {
+            frame,
+            did,
+            took: start.elapsed(),
+        })
+    }
+
+    /// By draw calls: models without textures, where that can be.
+    fn by_calls(&self, state: &State, view: &View) -> Result<Option<Called>, DrawFailure> {
+        match &self.what {
+            What::Model {
+                prepared, textures, ..
+            } if textures.is_empty() => {
+                draw_by_calls(prepared, view, state.format, state.renderers, state.slots)
+            }
+            _ => Ok(None),
+        }
+    }
+
+    fn by_presets(&self, state: &State, view: &View) -> Result<Drawn, DrawFailure> {
         let crew = CrewSettings {
             renderers: state.renderers,
             slots: state.slots.into(),
@@ -105,13 +134,13 @@ impl<'m> Scenery<'m> {
             quality: state.quality.quality(),
             ..CrewSettings::default()
         };
-        let drawn = match &self.what {
+        match &self.what {
             What::Scene { scene, parts, .. } => {
-                draw_scene_file(parts, &view, scene.in_format(state.format), crew)?
+                draw_scene_file(parts, view, scene.in_format(state.format), crew)
             }
             What::Model {
                 prepared, textures, ..
-            } if textures.is_empty() => draw_prepared(prepared, &view, state.format, crew)?,
+            } if textures.is_empty() => draw_prepared(prepared, view, state.format, crew),
             What::Model {
                 model, textures, ..
             } => {
@@ -121,20 +150,27 @@ impl<'m> Scenery<'m> {
                     QualityArg::Exact => texture::Quality::Exact,
                 };
                 let how = (FilterArg::Nearest, quality);
-                draw_textured(model, textures, how, &view, state.format, crew)?
+                draw_textured(model, textures, how, view, state.format, crew)
             }
-        };
-        Ok(Shown {
-            drawn,
-            took: start.elapsed(),
-        })
+        }
     }
+}
+
+/// What was done for a frame, by whom.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Did {
+    /// By draw calls.
+    Calls(FrameUse),
+    /// By a preset.
+    Presets(Box<FrameStats>),
 }
 
 /// A frame, and how long it took on this machine.
 pub struct Shown {
-    /// The picture and its figures.
-    pub drawn: Drawn,
+    /// The picture.
+    pub frame: Frame,
+    /// Its figures.
+    pub did: Did,
     /// To set the scene up and draw it.
     pub took: Duration,
 }
@@ -143,19 +179,33 @@ impl Shown {
     /// What was done and what was skipped, in one line without times.
     #[must_use]
     pub fn figures(&self) -> String {
-        let s = &self.drawn.stats;
-        format!(
-            "{} of {} triangles left out, {} of {} spans hidden, {} pixels shaded, {} hidden, \
-             {} lines empty, cache {}.{} %",
-            s.pass_one.culled,
-            s.pass_one.triangles,
-            s.spans.spans_hidden,
-            s.spans.spans,
-            s.spans.pixels_shaded,
-            s.spans.pixels_hidden,
-            s.scanlines_skipped,
-            s.cache.hits_per_mille() / 10,
-            s.cache.hits_per_mille() % 10,
-        )
+        match &self.did {
+            Did::Calls(used) => {
+                let (done, cache) = (&used.assembled, &used.cache);
+                format!(
+                    "{} of {} triangles left out, {} of {} found no slot at first, {} set-ups, \
+                     {} lines empty",
+                    done.culled,
+                    done.triangles,
+                    cache.spilled,
+                    cache.hits + cache.spilled,
+                    cache.set_ups,
+                    used.lines_skipped,
+                )
+            }
+            Did::Presets(s) => format!(
+                "{} of {} triangles left out, {} of {} spans hidden, {} pixels shaded, {} hidden, \
+                 {} lines empty, cache {}.{} %",
+                s.pass_one.culled,
+                s.pass_one.triangles,
+                s.spans.spans_hidden,
+                s.spans.spans,
+                s.spans.pixels_shaded,
+                s.spans.pixels_hidden,
+                s.scanlines_skipped,
+                s.cache.hits_per_mille() / 10,
+                s.cache.hits_per_mille() % 10,
+            ),
+        }
     }
 }

@@ -2,6 +2,7 @@
 
 use super::Scenery;
 use crate::args::{PixelFormatArg, QualityArg, ViewArgs};
+use crate::draw::MOST_SLOTS;
 use crate::reference::{Cull, Shade, View};
 use crate::scene_file::{Format, SceneFile};
 use crossterm::event::KeyCode;
@@ -20,7 +21,7 @@ const STEEPEST: f64 = TAU / 4.0 - 0.05;
 /// Nearest and farthest, in distances at which the whole model is seen.
 const DISTANCES: std::ops::RangeInclusive<f64> = 0.3..=8.0;
 /// Sizes of the cache, in slots.
-const SLOTS: [u16; 6] = [0, 4, 16, 64, 256, 1024];
+const SLOTS: [u16; 5] = [0, 4, 16, 64, MOST_SLOTS];
 /// Numbers of renderers.
 const RENDERERS: [u16; 4] = [1, 2, 3, 4];
 
@@ -46,7 +47,7 @@ pub struct State {
     pub spins: bool,
     /// How light is applied.
     pub shade: Shade,
-    /// How far colours may be off.
+    /// How far colours and texels may be off, where presets draw.
     pub quality: QualityArg,
     /// Slots of each renderer's object cache.
     pub slots: u16,

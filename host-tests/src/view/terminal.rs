@@ -43,7 +43,7 @@ pub fn print(
     let mut out = io::stdout().lock();
     for _ in 0..frames {
         let shown = scenery.frame(&state, size.width, size.height)?;
-        let mut lines = half_blocks(&shown.drawn.frame, colours);
+        let mut lines = half_blocks(&shown.frame, colours);
         lines.extend([state.choices(), shown.figures()]);
         match writeln!(out, "{}", lines.join("\n")) {
             Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
@@ -140,7 +140,7 @@ fn turn(
                 let text = screen.text(&[(&figures, ", "), (KEYS, "  ")]);
                 if screen.left() == (columns, rows) {
                     let mut out = Vec::new();
-                    screen.show(&mut out, half_blocks(&shown.drawn.frame, colours), text)?;
+                    screen.show(&mut out, half_blocks(&shown.frame, colours), text)?;
                     let mut stdout = io::stdout().lock();
                     stdout.write_all(&out)?;
                     stdout.flush()?;

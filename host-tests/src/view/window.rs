@@ -69,7 +69,7 @@ pub fn run(
             }
         };
         let shown = scenery.frame(&state, width, height)?;
-        let words: Vec<u32> = (shown.drawn.frame.rgb().chunks_exact(3))
+        let words: Vec<u32> = (shown.frame.rgb().chunks_exact(3))
             .map(|pixel| u32::from_be_bytes([0, pixel[0], pixel[1], pixel[2]]))
             .collect();
         let (rate, choices) = (pace.rate(), state.choices());

@@ -1,4 +1,4 @@
-//! Pictures of scenes in the rooms `scene`, `look` and `frame`, in memory on the heap.
+//! The memory that firmware would lend to the rooms `scene` and `frame`, on the heap, and pictures drawn in it.
 
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::look::Look;
@@ -10,12 +10,84 @@ use std::error::Error;
 /// What a scene has room for.
 #[derive(Clone, Copy, Debug)]
 pub struct Room {
-    /// Vertices, and their places on textures.
+    /// Vertices.
     pub vertices: usize,
+    /// Places of vertices on textures: as many as vertices, or none where nothing has a texture.
+    pub places: usize,
     /// Triangles.
     pub objects: usize,
     /// Draw calls.
     pub draws: usize,
+}
+
+/// What a scene is lent.
+pub struct SceneRooms<'t> {
+    vertices: Vec<Vertex>,
+    places: Vec<TexturePlace>,
+    objects: Vec<Object>,
+    bins: Vec<u16>,
+    draws: Vec<DrawState<'t>>,
+}
+
+impl<'t> SceneRooms<'t> {
+    /// Of a picture of so many lines.
+    #[must_use]
+    pub fn new(room: Room, lines: u16) -> Self {
+        Self {
+            vertices: vec![Vertex::EMPTY; room.vertices],
+            places: vec![TexturePlace::EMPTY; room.places],
+            objects: vec![Object::EMPTY; room.objects],
+            bins: vec![0; lines.into()],
+            draws: vec![DrawState::EMPTY; room.draws],
+        }
+    }
+
+    /// An empty scene in this memory.
+    pub fn scene<L: Look>(&mut self, screen: Screen) -> Scene<'_, 't, L> {
+        let memory = Memory {
+            vertices: &mut self.vertices,
+            places: &mut self.places,
+            objects: &mut self.objects,
+            bins: &mut self.bins,
+            draws: &mut self.draws,
+        };
+        Scene::new(screen, memory)
+    }
+}
+
+/// What a renderer with `32 WORDS` slots is lent.
+pub struct LineRooms<L: Look, const WORDS: usize = 2> {
+    cache: Box<FastMemory<L, WORDS>>,
+    links: Vec<Link>,
+    depth: Vec<u32>,
+}
+
+impl<L: Look, const WORDS: usize> LineRooms<L, WORDS> {
+    /// For so many triangles, and lines of so many pixels, with depth.
+    #[must_use]
+    pub fn new(objects: usize, width: u16) -> Self {
+        Self {
+            cache: Box::new(FastMemory::new()),
+            links: vec![Link::EMPTY; objects],
+            depth: vec![0; width.into()],
+        }
+    }
+
+    /// The same, of which no more than so many slots are used.
+    #[must_use]
+    pub fn with_limit(mut self, slots: u16) -> Self {
+        self.cache.set_limit(slots);
+        self
+    }
+
+    /// A renderer in this memory, for any scene without shadows.
+    pub fn renderer(&mut self) -> Renderer<'_, L, WORDS> {
+        Renderer::new(LineMemory {
+            cache: &mut self.cache,
+            links: &mut self.links,
+            depth: &mut self.depth,
+        })
+    }
 }
 
 /// The words of the lines from the first that was begun on, over a background, of a scene that `build` makes, with depth.
@@ -28,29 +100,12 @@ pub fn picture<'t, P: PixelFormat, L: Look<Pixel = P>>(
     background: P::Word,
     build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), Box<dyn Error>>,
 ) -> Result<Vec<P::Word>, Box<dyn Error>> {
-    let mut vertices = vec![Vertex::EMPTY; room.vertices];
-    let mut places = vec![TexturePlace::EMPTY; room.vertices];
-    let mut objects = vec![Object::EMPTY; room.objects];
-    let mut bins = vec![0; screen.height().into()];
-    let mut draws = vec![DrawState::EMPTY; room.draws];
-    let memory = Memory {
-        vertices: &mut vertices,
-        places: &mut places,
-        objects: &mut objects,
-        bins: &mut bins,
-        draws: &mut draws,
-    };
-    let mut scene = Scene::<L>::new(screen, memory);
+    let mut memory = SceneRooms::new(room, screen.height());
+    let mut scene = memory.scene(screen);
     build(&mut scene)?;
-    let width = usize::from(screen.width());
-    let mut cache = Box::new(FastMemory::<L>::new());
-    let (mut links, mut depth) = (vec![Link::NONE; room.objects], vec![0; width]);
-    let mut renderer = Renderer::new(LineMemory {
-        cache: &mut cache,
-        links: &mut links,
-        depth: &mut depth,
-    });
-    let (mut words, mut line) = (Vec::new(), vec![background; width]);
+    let mut lines: LineRooms<L> = LineRooms::new(room.objects, screen.width());
+    let mut renderer = lines.renderer();
+    let (mut words, mut line) = (Vec::new(), vec![background; screen.width().into()]);
     for y in scene.lines() {
         renderer.draw_line(&scene, y, &mut line, background)?;
         words.extend_from_slice(&line);

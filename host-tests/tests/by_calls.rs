@@ -1,0 +1,195 @@
+//! Models by draw calls, as `view` shows them: near the reference, the same by whoever draws, and what they leave to
+//! the presets.
+
+use host_tests::args::{self, Command, PixelFormatArg};
+use host_tests::draw::{Called, CrewSettings, MOST_SLOTS, Prepared, draw_by_calls, draw_prepared};
+use host_tests::image_out::Frame;
+use host_tests::model::{Model, obj_text};
+use host_tests::reference::{self, Comparison, Cull, Shade, TOLERANCE_LEVELS, View, compare};
+use host_tests::view::{Did, Scenery, State};
+use std::fmt::Write as _;
+use std::path::Path;
+
+const SHADES: [Shade; 3] = [Shade::None, Shade::Flat, Shade::Gouraud];
+
+/// The teapot off the origin, in colours that differ from vertex to vertex.
+fn teapot() -> Model {
+    let text = obj_text(&scenes::TEAPOT).expect("triangles");
+    let mut model = Model::from_obj_text(&text, Path::new("teapot.obj")).expect("an OBJ");
+    for vertex in &mut model.vertices {
+        // Whole levels, as meshes have them.
+        vertex.colour = vertex.position.map(|c| (c * 127.0 + 128.0).round() / 255.0);
+        vertex.position[0] += 5.0;
+    }
+    model
+}
+
+/// From so near that the picture's sides cut the teapot.
+fn view(width: u32, height: u32, shade: Shade) -> View {
+    View {
+        width,
+        height,
+        eye: [5.4, 0.9, 1.1],
+        at: [5.0, 0.0, 0.0],
+        light: [-0.9, 0.8, 0.5],
+        shade,
+        ..View::default()
+    }
+}
+
+fn called(prepared: &Prepared, view: &View, format: PixelFormatArg) -> Option<Called> {
+    draw_by_calls(prepared, view, format, 1, 64).expect("a view")
+}
+
+/// A square of so many cells a side, each of two triangles, before the eye of [`View::default`].
+fn grid(cells: usize) -> Model {
+    let mut text = String::new();
+    let side = cells + 1;
+    for i in 0..side * side {
+        let at = |k: usize| k as f64 / cells as f64 - 0.5;
+        writeln!(text, "v {} {} 0", at(i % side), at(i / side)).expect("a string");
+    }
+    for i in 0..cells * cells {
+        let a = i / cells * side + i % cells + 1;
+        let b = a + side;
+        writeln!(text, "f {a} {} {}\nf {a} {} {b}", a + 1, b + 1, b + 1).expect("a string");
+    }
+    Model::from_obj_text(&text, Path::new("grid.obj")).expect("an OBJ")
+}
+
+/// Kills: faces lit as if they were smooth, light where none was asked, faces that are dropped or not, another's camera.
+#[test]
+fn pictures_are_as_near_the_reference_as_those_of_the_presets() {
+    let model = teapot();
+    let prepared = Prepared::new(&model);
+    for (shade, cull) in SHADES
+        .into_iter()
+        .flat_map(|shade| [(shade, Cull::Back), (shade, Cull::None)])
+    {
+        let view = View {
+            cull,
+            ..view(320, 240, shade)
+        };
+        let exact = reference::render(&model, &view).expect("a view");
+        let held = |frame: &Frame| -> Comparison {
+            compare(&exact, view.background, frame).expect("the same size")
+        };
+        // A pixel of 16 bits is half a step of 8.2 levels off by itself, and colours of small triangles are less than
+        // another half.
+        for (format, most) in [
+            (PixelFormatArg::Rgb565, 8.3),
+            (PixelFormatArg::Rgb888, TOLERANCE_LEVELS),
+            (PixelFormatArg::Xrgb8888, TOLERANCE_LEVELS),
+        ] {
+            let by_calls = held(&called(&prepared, &view, format).expect("it fits").frame);
+            let drawn = draw_prepared(&prepared, &view, format, CrewSettings::default());
+            let by_presets = held(&drawn.expect("a view").frame);
+            let what = format!("{shade:?} {cull:?} {format:?}\n{by_calls:?}\n{by_presets:?}");
+            assert!(by_calls.max_error_levels < most, "{what}");
+            let [mean, other] = [by_calls, by_presets].map(|by| by.mean_error_levels);
+            assert!(mean < other + 0.01, "{what}");
+            assert_eq!(by_calls.covered_differently_away, 0, "{what}");
+            assert!(by_calls.covered_reference > 20_000, "{what}");
+        }
+    }
+}
+
+/// Kills: a line that two draw, or nobody; a renderer that is told of another cache; figures of one renderer alone.
+#[test]
+fn whoever_draws_the_picture_is_the_same() {
+    let prepared = Prepared::new(&teapot());
+    for shade in SHADES {
+        let view = view(90, 61, shade);
+        let draw = |renderers, slots| {
+            let format = PixelFormatArg::Rgb888;
+            let called = draw_by_calls(&prepared, &view, format, renderers, slots);
+            called.expect("a view").expect("it fits")
+        };
+        let first = draw(1, 64);
+        let begun = |called: &Called| called.used.cache.hits + called.used.cache.spilled;
+        let is_empty = |line: &&[u8]| line.iter().all(|&level| level == 0);
+        let empty = first.frame.rgb().chunks(3 * 90).filter(is_empty).count() as u32;
+        assert!(empty > 10 && first.used.lines_skipped == empty);
+        assert_eq!(first.used.scan_out.bytes_sent, 90 * 61 * 3);
+        assert!(first.used.assembled.culled < first.used.assembled.triangles);
+        for (renderers, slots) in [
+            (1, 0),
+            (1, 7),
+            (1, MOST_SLOTS),
+            (2, 64),
+            (3, 5),
+            (7, 64),
+            (61, 64),
+            (62, 64),
+        ] {
+            let again = draw(renderers, slots);
+            let what = format!("{shade:?}, {renderers} renderers, {slots} slots");
+            assert_eq!(again.frame, first.frame, "{what}");
+            let (a, b) = (&again.used, &first.used);
+            assert_eq!(a.assembled, b.assembled, "{what}");
+            // What found no slot counts until somebody has looked at it, though it may have no pixel.
+            let least = empty - u32::from(slots < 64);
+            assert!((least..=empty).contains(&a.lines_skipped), "{what}: {a:?}");
+            assert_eq!(a.scan_out.bytes_sent, b.scan_out.bytes_sent, "{what}");
+            assert!(a.cache.peak <= u32::from(slots), "{what}: {a:?}");
+            if slots == 0 {
+                assert_eq!(a.cache.hits, 0, "{what}");
+            }
+            if renderers == 1 {
+                assert_eq!(begun(&again), begun(&first), "{what}");
+            } else {
+                // Each has what is on its lines.
+                let most = u32::from(renderers) * begun(&first);
+                assert!(
+                    begun(&again) > begun(&first) && begun(&again) <= most,
+                    "{what}"
+                );
+            }
+        }
+    }
+}
+
+/// Kills: a scene with half of its triangles that passes for the whole, pictures that `Scene::begin` refuses.
+#[test]
+fn what_draw_calls_do_not_draw_is_left_to_the_presets() {
+    let prepared = Prepared::new(&teapot());
+    let is_drawn = |width, height, format, slots| {
+        let view = view(width, height, Shade::Gouraud);
+        let called = draw_by_calls(&prepared, &view, format, 1, slots);
+        called.expect("a view").is_some()
+    };
+    use PixelFormatArg::{Dithered565, Dithered888, Grey8, Mono, Rgb565};
+    assert!(is_drawn(1016, 8, Rgb565, 64) && is_drawn(8, 1016, Rgb565, MOST_SLOTS));
+    assert!(!is_drawn(1017, 8, Rgb565, 64) && !is_drawn(8, 1017, Rgb565, 64));
+    assert!(!is_drawn(8, 8, Rgb565, MOST_SLOTS + 1));
+    for format in [Grey8, Mono, Dithered565, Dithered888] {
+        assert!(!is_drawn(8, 8, format, 64), "{format:?}");
+    }
+
+    // 24,200 flat triangles need more than 65,536 vertices, and 64,800 are more than a scene holds.
+    for (cells, shade, fits) in [
+        (110, "gouraud", true),
+        (110, "flat", false),
+        (180, "none", false),
+    ] {
+        let model = grid(cells);
+        let scenery = Scenery::new(&model).expect("no textures");
+        let words = ["scanbeam", "view", "--shade", shade];
+        let Ok(Command::View(flags)) = args::parse(words) else {
+            panic!("{words:?}");
+        };
+        let shown = scenery
+            .frame(&State::new(&flags), 640, 480)
+            .expect("a view");
+        assert_eq!(matches!(shown.did, Did::Calls(_)), fits, "{cells} {shade}");
+        assert!(
+            shown
+                .figures()
+                .contains(&format!("of {} tri", 2 * cells * cells))
+        );
+        let rgb = shown.frame.rgb();
+        let background = &rgb[..3];
+        let seen = rgb.chunks_exact(3).filter(|pixel| *pixel != background);
+        assert!((60_000..250_000).contains(&seen.count()), "{cells} {shade}");
+    }
+}
