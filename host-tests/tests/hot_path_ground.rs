@@ -90,6 +90,7 @@ fn picture(budget: Budget, roll: f64) -> Vec<u16> {
     };
     let room = Room {
         vertices: 64,
+        places: 64,
         objects: 64,
         draws: 1,
     };

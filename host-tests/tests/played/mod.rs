@@ -42,6 +42,7 @@ fn begun_in<'t, P: PixelFormat, L: Look<Pixel = P>>(
 ) -> Vec<P::Word> {
     let room = Room {
         vertices: 20_000,
+        places: 20_000,
         objects: 20_000,
         draws: 4_000,
     };
