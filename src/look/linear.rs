@@ -1,4 +1,7 @@
 //! The weighted mean of the four nearest texels (H6), and levels of detail made of means.
+//!
+//! Instructions a pixel (rustc 1.95, opt-level 3, counted in QEMU; `firmware --profile values_sampled`): 97 of words that
+//! repeat on a Cortex-M4, 139 on a Cortex-M0+; 115 of all others on the M4.
 
 use super::fetch::{FRACTION, Way};
 use super::tint::Texel;
@@ -25,15 +28,14 @@ fn joined(sum: u32) -> u16 {
 /// Four texels, the right ones with `right` parts of 16, the lower ones with `down`.
 #[inline(always)]
 fn mixed(four: [u16; 4], right: u32, down: u32) -> u16 {
-    let both = (right * down + 4) >> 3;
-    let weights = [
-        32 + both - 2 * right - 2 * down,
-        2 * right - both,
-        2 * down - both,
-        both,
-    ];
-    let parts = four.into_iter().zip(weights);
-    joined(parts.fold(0, |sum, (texel, weight)| sum + apart(texel) * weight))
+    // Modulo 2^32 no field of the sum is lost, whatever the differences borrow from each other.
+    let [a, b, c, d] = four.map(apart);
+    let across = b.wrapping_sub(a).wrapping_mul(2 * right);
+    let below = c.wrapping_sub(a).wrapping_mul(2 * down);
+    let turn = a.wrapping_sub(b).wrapping_sub(c).wrapping_add(d);
+    let both = turn.wrapping_mul((right * down + 4) >> 3);
+    let sum = (a << 5).wrapping_add(across).wrapping_add(below);
+    joined(sum.wrapping_add(both))
 }
 
 /// Columns or rows of a texture.
@@ -76,21 +78,60 @@ impl Side {
 /// their bytes in the other order than numbers.
 #[inline(never)]
 pub(super) fn copy_linear(run: &mut [u16], texture: &Texture<'_>, way: Way, is_swapped: bool) {
-    let form = texture.form;
-    match form {
-        Form::Words(words) => each(run, texture, way, is_swapped, |i| words.get(i).copied()),
-        _ => each(run, texture, way, is_swapped, |i| form.get(i)),
+    let sides = [texture.log_width(), texture.log_height()];
+    let is_plain = texture.wrap() == Wrap::Repeat && texture.key().is_none();
+    match texture.form {
+        // A side of one texel has no bits: nothing is shifted by 32.
+        Form::Words(words) if is_plain && !sides.contains(&0) => {
+            copy_repeated(run, words, sides, way, is_swapped);
+        }
+        _ => copy_any(run, texture, way, is_swapped),
     }
 }
 
-#[inline(always)]
-fn each(
+/// From words that repeat, with places as 32-bit fractions of the period.
+#[inline(never)]
+fn copy_repeated(
     run: &mut [u16],
-    texture: &Texture<'_>,
+    words: &[u16],
+    [log_width, log_height]: [u32; 2],
     way: Way,
     is_swapped: bool,
-    texel: impl Fn(usize) -> Option<u16>,
 ) {
+    let order = |word: u16| if is_swapped { word.swap_bytes() } else { word };
+    let turn = |texels: i32, log: u32| (texels << (13 - log)) as u32;
+    // Texels lie in the middle of their squares.
+    let first = |at: i32, base: i32, log: u32| {
+        let low = at.wrapping_sub(1 << (FRACTION - 1));
+        turn(low.wrapping_add(base << FRACTION), log)
+    };
+    let mut u = first(way.at.u, way.base[0], log_width);
+    let mut v = first(way.at.v, way.base[1], log_height);
+    let (du, dv) = (turn(way.step.u, log_width), turn(way.step.v, log_height));
+    let (right, down) = (32 - log_width, 32 - log_height);
+    let (last, all) = ((1u32 << log_width) - 1, words.len() as u32 - 1);
+    for pixel in run {
+        let (column, row) = (u >> right, v >> down << log_width);
+        let (next, below) = ((column + 1) & last, (row + last + 1) & all);
+        let texel = |at: u32| words.get(at as usize).copied();
+        let (Some(a), Some(b), Some(c), Some(d)) = (
+            texel(row | column),
+            texel(row | next),
+            texel(below | column),
+            texel(below | next),
+        ) else {
+            return;
+        };
+        let (across, along) = (u >> (right - 4) & 15, v >> (down - 4) & 15);
+        *pixel = order(mixed([a, b, c, d].map(order), across, along));
+        u = u.wrapping_add(du);
+        v = v.wrapping_add(dv);
+    }
+}
+
+/// From any form and size, with any wrap, with holes or without.
+#[inline(never)]
+fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, is_swapped: bool) {
     let wrap = texture.wrap();
     let side = |base: i32, log: u32| Side { base, log, wrap };
     let columns = side(way.base[0], texture.log_width());
@@ -100,7 +141,8 @@ fn each(
     for pixel in run {
         let ([left, right], across) = columns.pair(at.u);
         let ([upper, lower], down) = rows.pair(at.v);
-        let texel = |column: usize, row: usize| texel(row << texture.log_width() | column);
+        let texel =
+            |column: usize, row: usize| texture.form.get(row << texture.log_width() | column);
         let (Some(a), Some(b), Some(c), Some(d)) = (
             texel(left, upper),
             texel(right, upper),
@@ -110,14 +152,11 @@ fn each(
             return;
         };
         let four = [a, b, c, d];
+        let mean = |four: [u16; 4]| order(mixed(four.map(order), across, down));
+        let nearest = four[usize::from(across >= 8) + 2 * usize::from(down >= 8)];
         *pixel = match texture.key() {
-            None => order(mixed(four.map(order), across, down)),
-            Some(key) => {
-                let nearest = four[usize::from(across >= 8) + 2 * usize::from(down >= 8)];
-                opaque(four, nearest, key, |four| {
-                    order(mixed(four.map(order), across, down))
-                })
-            }
+            None => mean(four),
+            Some(key) => opaque(four, nearest, key, mean),
         };
         at = at.plus(way.step);
     }
