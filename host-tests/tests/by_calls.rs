@@ -94,6 +94,38 @@ fn pictures_are_as_near_the_reference_as_those_of_the_presets() {
     }
 }
 
+/// Kills: grey that is a channel, bits that are not packed, or at another place.
+#[test]
+fn grey_pictures_and_those_of_one_bit_are_those_of_the_presets() {
+    let prepared = Prepared::new(&teapot());
+    for shade in SHADES {
+        let view = view(203, 150, shade);
+        for (format, bytes) in [
+            (PixelFormatArg::Grey8, 203 * 150),
+            (PixelFormatArg::Mono, 26 * 150),
+        ] {
+            let Called { frame, used } = called(&prepared, &view, format).expect("it fits");
+            assert_eq!(used.scan_out.bytes_sent, bytes);
+            let drawn = draw_prepared(&prepared, &view, format, CrewSettings::default());
+            let drawn = drawn.expect("a view").frame;
+            let off = |i: usize| frame.rgb()[i].abs_diff(drawn.rgb()[i]);
+            let off: Vec<u8> = (0..frame.rgb().len()).step_by(3).map(off).collect();
+            let most = |levels: u8| off.iter().filter(|&&off| off > levels).count();
+            // Of 30,450; at a rim another triangle may be in front.
+            let more = [0, 1].map(most);
+            assert!(
+                more[0] < 100 && more[1] < 10,
+                "{shade:?} {format:?}: {more:?}"
+            );
+            let bright = frame.rgb().iter().filter(|&&level| level > 100).count();
+            assert!(
+                (3_000..60_000).contains(&bright),
+                "{shade:?} {format:?}: {bright}"
+            );
+        }
+    }
+}
+
 /// Kills: a line that two draw, or nobody; a renderer that is told of another cache; figures of one renderer alone.
 #[test]
 fn whoever_draws_the_picture_is_the_same() {
@@ -158,11 +190,11 @@ fn what_draw_calls_do_not_draw_is_left_to_the_presets() {
         let called = draw_by_calls(&prepared, &view, format, 1, slots);
         called.expect("a view").is_some()
     };
-    use PixelFormatArg::{Dithered565, Dithered888, Grey8, Mono, Rgb565};
+    use PixelFormatArg::{Dithered565, Dithered888, Rgb565};
     assert!(is_drawn(1016, 8, Rgb565, 64) && is_drawn(8, 1016, Rgb565, MOST_SLOTS));
     assert!(!is_drawn(1017, 8, Rgb565, 64) && !is_drawn(8, 1017, Rgb565, 64));
     assert!(!is_drawn(8, 8, Rgb565, MOST_SLOTS + 1));
-    for format in [Grey8, Mono, Dithered565, Dithered888] {
+    for format in [Dithered565, Dithered888] {
         assert!(!is_drawn(8, 8, format, 64), "{format:?}");
     }
 

@@ -21,7 +21,11 @@ pub(super) fn draw_in(
         PixelFormatArg::Dithered888 => shaded::<Dithered<Rgb888>>(prepared, view, crew),
         PixelFormatArg::Xrgb8888 => shaded::<Xrgb8888>(prepared, view, crew),
         PixelFormatArg::Grey8 => shaded::<Grey8>(prepared, view, crew),
-        PixelFormatArg::Mono => mono(shaded::<Grey8>(prepared, view, crew)?),
+        PixelFormatArg::Mono => {
+            let mut drawn = shaded::<Grey8>(prepared, view, crew)?;
+            drawn.stats.scan_out.bytes_sent = mono(&mut drawn.frame)?;
+            Ok(drawn)
+        }
     }
 }
 
@@ -36,10 +40,10 @@ fn shaded<F: PixelFormat>(
     }
 }
 
-/// Grey lines packed into bits, as a display would take them, and what it shows then.
-fn mono(mut drawn: Drawn) -> Result<Drawn, DrawFailure> {
-    let (width, height) = (drawn.frame.width(), drawn.frame.height());
-    let grey: Vec<u8> = drawn.frame.rgb().iter().step_by(3).copied().collect();
+/// Makes of a grey picture what a display of one bit shows of it, whose lines are packed; how many bytes they are.
+pub(super) fn mono(frame: &mut Frame) -> Result<u64, DrawFailure> {
+    let (width, height) = (frame.width(), frame.height());
+    let grey: Vec<u8> = frame.rgb().iter().step_by(3).copied().collect();
     let mut packed = vec![0; width.div_ceil(8) as usize];
     let mut rgb = Vec::new();
     let mut sent = 0;
@@ -51,10 +55,9 @@ fn mono(mut drawn: Drawn) -> Result<Drawn, DrawFailure> {
             rgb.extend([255 * white; 3]);
         }
     }
-    drawn.stats.scan_out.bytes_sent = sent as _;
-    drawn.frame = Frame::new(width, height, rgb)
+    *frame = Frame::new(width, height, rgb)
         .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?;
-    Ok(drawn)
+    Ok(sent as u64)
 }
 
 /// What draws in the two common formats alone says of another.

@@ -1,6 +1,7 @@
 //! A model without textures by draw calls.
 
 use crate::choice::PixelFormatArg;
+use crate::formats::mono;
 use crate::{DrawFailure, Prepared, Setting, display, shown};
 use host_support::image_out::Frame;
 use host_support::mock::{MockError, MockFrameBuffer};
@@ -8,7 +9,7 @@ use host_support::reference::{Shade, View};
 use host_support::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::frame::{CacheUse, FrameError, FrameUse, LineError, draw_frame};
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{Pixel, Rgb565Be, Rgb888, Xrgb8888};
+use scanbeam::pixel::{Grey8, Pixel, Rgb565Be, Rgb888, Xrgb8888};
 use scanbeam::scan_out::{Pump, Window};
 use scanbeam::scene::{DrawError, LARGEST, Shading};
 use scanbeam::{Draw, Link, Renderer, Scene};
@@ -37,8 +38,8 @@ pub struct Called {
 /// Draws a model that was prepared without textures, each of its parts by a draw call: by one renderer on this thread,
 /// or by several on a thread each, with so many slots of the cache each.
 ///
-/// `None` is for what draw calls do not draw, or not at once: a side over [`LARGEST`] pixels, grey and dithered pixels,
-/// more than [`MOST_SLOTS`] slots, and models of which too much is seen for the memory of one scene.
+/// `None` is for what draw calls do not draw, or not at once: a side over [`LARGEST`] pixels, dithered pixels of 16 and
+/// 24 bits, more than [`MOST_SLOTS`] slots, and models of which too much is seen for the memory of one scene.
 ///
 /// # Errors
 /// See [`DrawFailure`].
@@ -56,12 +57,14 @@ pub fn draw_by_calls(
         PixelFormatArg::Rgb565 => draw_in::<Rgb565Be>,
         PixelFormatArg::Rgb888 => draw_in::<Rgb888>,
         PixelFormatArg::Xrgb8888 => draw_in::<Xrgb8888>,
-        PixelFormatArg::Grey8
-        | PixelFormatArg::Mono
-        | PixelFormatArg::Dithered565
-        | PixelFormatArg::Dithered888 => return Ok(None),
+        PixelFormatArg::Grey8 | PixelFormatArg::Mono => draw_in::<Grey8>,
+        PixelFormatArg::Dithered565 | PixelFormatArg::Dithered888 => return Ok(None),
     };
-    draw(prepared, view, renderers.max(1), slots)
+    let mut called = draw(prepared, view, renderers.max(1), slots)?;
+    if let (PixelFormatArg::Mono, Some(called)) = (format, &mut called) {
+        called.used.scan_out.bytes_sent = mono(&mut called.frame)?;
+    }
+    Ok(called)
 }
 
 fn draw_in<F: Pixel + Send + Sync>(
