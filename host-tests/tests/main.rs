@@ -79,6 +79,7 @@ mod palette;
 mod phong;
 mod player;
 mod player_fuzz;
+mod player_lights;
 mod player_refused;
 mod player_textures;
 mod priority;

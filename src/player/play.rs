@@ -1,9 +1,10 @@
 //! The player: it walks a list, and halts where that says so (H12, H13, X7).
 
 use super::gather::{Gather, Unpacked};
+use super::lights;
 use super::state::State;
 use super::textures::Shelf;
-use super::{OnViolation, RunCounts, TextureRoom};
+use super::{LightRoom, OnViolation, RunCounts, TextureRoom};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Mesh, Screen};
 use crate::list::{
@@ -39,6 +40,8 @@ pub struct PlayerMemory<'m, 't> {
     /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 320 for one of 6 bits, and one a texel
     /// of other forms, but for those of 16 bits in the panel's order of bytes.
     pub texels: &'t mut [u16],
+    /// Where lists may have coloured lights, several, and highlights: room for them.
+    pub lights: Option<&'m mut LightRoom>,
 }
 
 /// What a list starts from, and what it may do.
@@ -89,7 +92,8 @@ impl Default for PlayerSettings<'_, '_> {
 /// | of a list | in a draw call |
 /// |---|---|
 /// | MATRIX | `model`: the list's, then that of the settings |
-/// | LIGHT 0, white | `light` |
+/// | LIGHT 0, white, alone on what is matt | `light` |
+/// | LIGHT 0 to 7, highlights, where memory has a [`LightRoom`](super::LightRoom) | `lights` |
 /// | MATERIAL | `colour`, `cull`, `blend` of its opacity; not lit: no light |
 /// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |
@@ -98,8 +102,8 @@ impl Default for PlayerSettings<'_, '_> {
 ///
 /// **What a player does not have is refused, never left out**: [`Reason::Missing`](crate::list::Reason::Missing) says
 /// what, and where. These are vertices that were set up beforehand, points, overlays, several levels of detail, texels
-/// that are neither opaque nor transparent, places of 32 bits, coloured or several lights, highlights, and what the
-/// look of the scene cannot have. A list that is started is walked once without drawing, as far as the budget reaches,
+/// that are neither opaque nor transparent, places of 32 bits, coloured or several lights and highlights without memory
+/// for them, and what the look of the scene cannot have. A list that is started is walked once without drawing, as far as the budget reaches,
 /// before any of it is drawn: what is malformed, missing or too large for the memory is an error then, and the scene
 /// is as it was. [`ListCommand::Restart`](crate::list::ListCommand) plays the same list again without that walk.
 ///
@@ -136,6 +140,7 @@ pub struct Player<'m, 't, L> {
     pub(super) names: TextureSlots<'m>,
     pub(super) shelf: Shelf<'t>,
     pub(super) state: State<'m, 't>,
+    pub(super) lights: Option<&'m mut LightRoom>,
     /// The list that begins is to be looked at before it is drawn.
     unchecked: bool,
     pub(super) counts: RunCounts,
@@ -166,6 +171,7 @@ impl<'m, 't, L: Look> Player<'m, 't, L> {
             names: TextureSlots(memory.names),
             shelf: Shelf::new(memory.textures, memory.texels),
             state: State::new(&settings),
+            lights: memory.lights,
             settings,
             unchecked: false,
             counts: RunCounts::default(),
@@ -212,6 +218,7 @@ impl<'m, 't, L: Look> Player<'m, 't, L> {
         self.counts = RunCounts::default();
         self.state = State::new(&self.settings);
         self.names.clear();
+        lights::begin(self.lights.as_deref_mut(), self.settings.draw.light);
     }
 
     /// Executes the list until it halts. The scene must have been begun.
