@@ -232,8 +232,8 @@ impl<'t, L: Look> Player<'_, 't, L> {
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {
         // What lights of the settings fall on is for those to say, and so is light at pixels.
-        let has_lights = self.lights.is_some() && L::LIT_AT_PIXELS.is_none();
-        if material.specular != [0; 3] && !(has_lights && !self.state.has_lights()) {
+        let is_theirs = self.state.has_lights() || L::LIT_AT_PIXELS.is_some();
+        if material.specular != [0; 3] && (is_theirs || self.lights.is_none()) {
             return Err(Reason::Missing(Missing::Highlights));
         }
         if material.texture.is_some() && !L::TEXTURED {

@@ -13,11 +13,20 @@ use crate::scene::Lights;
 #[derive(Clone, Copy, Debug)]
 pub struct LightRoom {
     words: Words,
-    /// [`shine`], by a pointer that only [`new`](LightRoom::new) makes: what no program makes, no program has.
-    shine: fn(&Words, &Material, &mut dyn FnMut(Option<&dyn Lights>)),
+    /// By pointers that only [`new`](LightRoom::new) makes: what no program makes, no program has.
+    deeds: &'static Deeds,
 }
 
 type Words = [Option<LightWords>; Lighting::MAX_LIGHTS];
+type Then<'a> = &'a mut dyn FnMut(Option<&dyn Lights>);
+
+/// What is done with several lights.
+#[derive(Debug)]
+struct Deeds {
+    begin: fn(&mut Words, Option<Light>),
+    set: fn(&mut Words, u8, Option<LightWords>) -> bool,
+    fall: fn(&Words, &Material, Then<'_>),
+}
 
 const OFF: DirectionalLight = DirectionalLight {
     direction: [I2F14::ZERO; 3],
@@ -35,28 +44,23 @@ impl LightRoom {
     #[must_use]
     pub const fn new() -> Self {
         let words = [None; Lighting::MAX_LIGHTS];
-        Self { words, shine }
-    }
-
-    /// Whether light 0 alone, in white and without a highlight, says what falls on this surface, or no light is on.
-    fn is_plain(&self, surface: &Material) -> bool {
-        let [first, others @ ..] = &self.words;
-        let is_white = first.is_none_or(|l| l.colour == [255; 3]);
-        let is_matt = surface.specular == [0; 3] || first.is_none();
-        is_white && is_matt && others.iter().all(Option::is_none)
+        let deeds = &Deeds {
+            begin: begin_all,
+            set: set_one,
+            fall: fall_all,
+        };
+        Self { words, deeds }
     }
 }
 
-/// As a list begins: at most light 0 is on. Once for all looks, as what follows.
-#[inline(never)]
+/// As a list begins: at most light 0 is on.
 pub(super) fn begin(room: Option<&mut LightRoom>, first: Option<Light>) {
     if let Some(room) = room {
-        room.words = [None; Lighting::MAX_LIGHTS];
-        room.words[0] = first.map(LightWords::from);
+        (room.deeds.begin)(&mut room.words, first);
     }
 }
 
-/// Sets the light of a number, or puts it out.
+/// Sets the light of a number, or puts it out. Once for all looks.
 ///
 /// # Errors
 /// When there is no room for it, and it is another than light 0 in white.
@@ -67,35 +71,50 @@ pub(super) fn set(
     number: u8,
     light: Option<LightWords>,
 ) -> Result<(), Reason> {
-    let is_plain = light.is_none_or(|l| number == 0 && l.colour == [255; 3]);
-    match room.and_then(|room| room.words.get_mut(usize::from(number))) {
-        Some(slot) => *slot = light,
-        None if !is_plain => return Err(Reason::Missing(Missing::Lights)),
-        None => {}
-    }
+    let is_kept = match room {
+        Some(room) => (room.deeds.set)(&mut room.words, number, light),
+        None => number == 0 && light.is_none_or(|l| l.colour == [255; 3]),
+    };
     match (number, light) {
+        // One that is not there is off.
+        (1.., None) => {}
+        _ if !is_kept => return Err(Reason::Missing(Missing::Lights)),
         (0, light) => state.light(light.map(Light::from)),
         (_, Some(_)) => state.light(state.light),
-        // One that is not there is off.
-        (_, None) => {}
     }
     Ok(())
 }
 
 /// Hands over the lights of a list that fall on a surface, where one white light does not say it; else `None`.
-#[inline(never)]
-pub(super) fn fall(
-    room: Option<&LightRoom>,
-    surface: &Material,
-    then: &mut dyn FnMut(Option<&dyn Lights>),
-) {
-    match room.filter(|room| !surface.unlit && !room.is_plain(surface)) {
-        Some(room) => (room.shine)(&room.words, surface, then),
+pub(super) fn fall(room: Option<&LightRoom>, surface: &Material, then: Then<'_>) {
+    match room.filter(|_| !surface.unlit) {
+        Some(room) => (room.deeds.fall)(&room.words, surface, then),
         None => then(None),
     }
 }
 
-fn shine(words: &Words, surface: &Material, then: &mut dyn FnMut(Option<&dyn Lights>)) {
+fn begin_all(words: &mut Words, first: Option<Light>) {
+    *words = [None; Lighting::MAX_LIGHTS];
+    words[0] = first.map(LightWords::from);
+}
+
+/// Whether there is a light of that number.
+fn set_one(words: &mut Words, number: u8, light: Option<LightWords>) -> bool {
+    let slot = words.get_mut(usize::from(number));
+    slot.map(|slot| *slot = light).is_some()
+}
+
+/// Whether light 0 alone, in white and without a highlight, says what falls on a surface, or no light is on.
+fn is_plain([first, others @ ..]: &Words, surface: &Material) -> bool {
+    let is_white = first.is_none_or(|l| l.colour == [255; 3]);
+    let is_matt = surface.specular == [0; 3] || first.is_none();
+    is_white && is_matt && others.iter().all(Option::is_none)
+}
+
+fn fall_all(words: &Words, surface: &Material, then: Then<'_>) {
+    if is_plain(words, surface) {
+        return then(None);
+    }
     let lights = words.map(|l| l.map_or(OFF, DirectionalLight::from));
     let ambient: u32 = words.iter().flatten().map(|l| u32::from(l.ambient)).sum();
     let ambient = (1 << 15).min(ambient) as u16;
