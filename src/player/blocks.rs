@@ -1,6 +1,6 @@
 //! Blocks of a list, one by one: what each does to the draw call, and what is refused.
 
-use super::gather::Refusal;
+use super::gather::{ListCoordinate, Refusal};
 use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
@@ -13,7 +13,7 @@ use crate::list::{
 use crate::look::Look;
 use crate::scene::Scissor;
 
-impl<'t, L: Look> Player<'_, 't, L> {
+impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
     /// Does one block.
     pub(super) fn execute(
         &mut self,

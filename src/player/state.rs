@@ -1,6 +1,6 @@
 //! The draw call that blocks of state change.
 
-use super::gather::{Gathered, Out, Places};
+use super::gather::{Gathered, ListCoordinate, Out, Places};
 use super::lights;
 use super::play::Stage;
 use super::{LightRoom, PlayerSettings, RunCounts};
@@ -140,9 +140,9 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     ///
     /// # Errors
     /// What could not be drawn.
-    pub(super) fn gather<R>(
+    pub(super) fn gather<R, C: ListCoordinate>(
         mut self,
-        gather: impl FnOnce(&mut Out<'_, i16>) -> R,
+        gather: impl FnOnce(&mut Out<'_, C>) -> R,
     ) -> Result<R, Reason> {
         let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
         let done = gather(&mut Out {
@@ -154,7 +154,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     }
 
     /// Draws a mesh.
-    fn draw(&mut self, gathered: &Gathered<'_, i16>) {
+    fn draw<C: ListCoordinate>(&mut self, gathered: &Gathered<'_, C>) {
         let places = match gathered.places {
             Places::Texels(places) => Some(places),
             Places::None => None,
@@ -180,10 +180,9 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         lights::fall(self.lights, &self.state.material, &mut |lights| {
             let begin = &self.state.draw;
             done = scene.draw(&Draw {
-                mesh: gathered.mesh,
                 texture,
                 lights: lights.or(begin.lights),
-                ..*begin
+                ..begin.with_mesh(gathered.mesh)
             });
         });
         let after = scene.assembled();
