@@ -32,7 +32,8 @@
 //! A [`Player`] does the same for a [`scene::Scene`](crate::scene::Scene): see there.
 
 pub use crate::player::{
-    ListCoordinate, OnViolation, Player, PlayerMemory, PlayerSettings, RunCounts, TextureRoom,
+    LightRoom, ListCoordinate, OnViolation, Player, PlayerMemory, PlayerSettings, RunCounts,
+    TextureRoom,
 };
 pub use crate::renderer::{
     Command, EightLights, Input, InputError, InputQueue, ListLights, ListMemory, ListRunner,

@@ -79,6 +79,8 @@ mod palette;
 mod phong;
 mod player;
 mod player_fuzz;
+mod player_lights;
+mod player_places;
 mod player_refused;
 mod player_textures;
 mod priority;

@@ -30,6 +30,15 @@ fn rich(rng: &mut Rng) -> Vec<u32> {
         writer.bulk(&State::Palette(palette), &colours).unwrap();
         let light = LightWords::from(Light::new([0.0, 1.0, 0.4], 0.1).unwrap());
         writer.state(&State::Light { number: 0, light }).unwrap();
+        let red = LightWords {
+            colour: [200, 0, 0],
+            ..light
+        };
+        let other = State::Light {
+            number: 5,
+            light: red,
+        };
+        writer.state(&other).unwrap();
         let matrix = Affine::rotation_y(rng.signed() as f32);
         let matrix = Matrix::try_from(&matrix).unwrap();
         writer.state(&State::Matrix(matrix)).unwrap();
@@ -72,7 +81,7 @@ fn survives(list: &[u32]) -> (bool, bool) {
         vertices: 4096,
         jumps: 8,
     };
-    let mut kept = Kept::new(64, 96);
+    let mut kept = Kept::new(64, 96).with_lights();
     let mut player = kept.player_with::<Skinned>(
         PlayerSettings {
             camera: true,

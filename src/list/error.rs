@@ -103,7 +103,7 @@ pub enum Missing {
     Textures,
     /// Texels that do not lie in one piece as the processor reads them.
     TexelsInPieces,
-    /// Places of 32 bits.
+    /// Places of 32 bits, in memory for those of 16.
     FinePlaces,
     /// Coloured lights, or others than number 0.
     Lights,
@@ -145,7 +145,7 @@ impl core::fmt::Display for Missing {
             Self::Undithered => "texels that are not dithered among others that are",
             Self::Textures => "textures in a scene whose look has none",
             Self::TexelsInPieces => "texels that do not lie in one piece",
-            Self::FinePlaces => "places of 32 bits",
+            Self::FinePlaces => "places of 32 bits in memory for those of 16",
             Self::Lights => "coloured lights, or several",
             Self::Highlights => "highlights",
             Self::LightAtVertices => {

@@ -1,10 +1,11 @@
 //! Blocks of a list, one by one: what each does to the draw call, and what is refused.
 
-use super::gather::Refusal;
+use super::gather::{ListCoordinate, Refusal};
+use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
 use super::textures::Asked;
-use crate::geometry::{Affine, Camera, Light, Sphere};
+use crate::geometry::{Affine, Camera, Sphere};
 use crate::list::{
     Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
     NoTexture, Reason, Run, State, Step, Texture, Window, Words, read_block,
@@ -12,7 +13,7 @@ use crate::list::{
 use crate::look::Look;
 use crate::scene::Scissor;
 
-impl<'t, L: Look> Player<'_, 't, L> {
+impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
     /// Does one block.
     pub(super) fn execute(
         &mut self,
@@ -61,7 +62,8 @@ impl<'t, L: Look> Player<'_, 't, L> {
             return Err(Reason::Lent(Lent::Places));
         }
         let offset = self.walker.offset();
-        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
+        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
+            .lit_by(self.lights.as_deref());
         let gather = &mut self.gather;
         let done = drawer.gather(|out| match instruction {
             Instruction::Table(run) => gather.table(words, format, run, out),
@@ -93,7 +95,8 @@ impl<'t, L: Look> Player<'_, 't, L> {
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<(), Reason> {
         let offset = self.walker.offset();
-        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
+        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
+            .lit_by(self.lights.as_deref());
         drawer.gather(|out| self.gather.flush(words, out))
     }
 
@@ -189,9 +192,9 @@ impl<'t, L: Look> Player<'_, 't, L> {
         match state {
             State::Matrix(matrix) => self.state.place(&Affine::from(&matrix), &self.settings),
             State::Light { number, light } => self.light(number, light)?,
-            State::LightOff { number: 0 } => self.state.light(None),
-            // A light that is not there is off.
-            State::LightOff { .. } => {}
+            State::LightOff { number } => {
+                lights::set(self.lights.as_deref_mut(), &mut self.state, number, None)?;
+            }
             State::Material(material) => self.material(material)?,
             State::Camera(_) if !self.settings.camera => return Ok(Step::Violation),
             State::Camera(camera) => {
@@ -219,15 +222,18 @@ impl<'t, L: Look> Player<'_, 't, L> {
         if L::LIT_AT_PIXELS.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
-        if number != 0 || light.colour != [255; 3] {
-            return Err(Reason::Missing(Missing::Lights));
-        }
-        self.state.light(Some(Light::from(light)));
-        Ok(())
+        lights::set(
+            self.lights.as_deref_mut(),
+            &mut self.state,
+            number,
+            Some(light),
+        )
     }
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {
-        if material.specular != [0; 3] {
+        // What lights of the settings fall on is for those to say, and so is light at pixels.
+        let is_theirs = self.state.has_lights() || L::LIT_AT_PIXELS.is_some();
+        if material.specular != [0; 3] && (is_theirs || self.lights.is_none()) {
             return Err(Reason::Missing(Missing::Highlights));
         }
         if material.texture.is_some() && !L::TEXTURED {

@@ -12,10 +12,12 @@
 //! | `state` | the draw call that blocks change |
 //! | `textures` | textures of a list as values of the rooms |
 //! | `gather` | vertices into meshes |
+//! | `lights` | several lights, whose code only a player that has room for them brings in |
 //! | `outcome` | what was done |
 
 mod blocks;
 mod gather;
+mod lights;
 mod outcome;
 mod play;
 mod state;
@@ -23,6 +25,7 @@ mod textures;
 
 pub use gather::ListCoordinate;
 pub(crate) use gather::{Gather, Gathered, Out, Places, Refusal, Unpacked, texels};
+pub use lights::LightRoom;
 pub use outcome::{OnViolation, RunCounts};
 pub use play::{Player, PlayerMemory, PlayerSettings};
 pub use textures::TextureRoom;

@@ -1,9 +1,10 @@
 //! The player: it walks a list, and halts where that says so (H12, H13, X7).
 
-use super::gather::{Gather, Unpacked};
+use super::gather::{Gather, ListCoordinate, Unpacked};
+use super::lights;
 use super::state::State;
 use super::textures::Shelf;
-use super::{OnViolation, RunCounts, TextureRoom};
+use super::{LightRoom, OnViolation, RunCounts, TextureRoom};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Mesh, Screen};
 use crate::list::{
@@ -19,10 +20,12 @@ use core::marker::PhantomData;
 /// Vertices are unpacked into the first three: as many at once as the shortest of those that a block needs has. 4 are
 /// the least; what a list's largest table needs is in its HEAD. Columns of a table that have a mesh's own form are
 /// used where they lie, and need none.
+///
+/// `C` is the coordinate type of the meshes that are drawn: `i16`, or `i32` for lists that have places of 32 bits.
 #[derive(Default)]
-pub struct PlayerMemory<'m, 't> {
-    /// Places, 6 bytes each.
-    pub positions: &'m mut [[i16; 3]],
+pub struct PlayerMemory<'m, 't, C = i16> {
+    /// Places, 6 bytes each, or 12.
+    pub positions: &'m mut [[C; 3]],
     /// Normals, 6 bytes each.
     pub normals: &'m mut [[i16; 3]],
     /// Colours, 3 bytes each.
@@ -39,6 +42,8 @@ pub struct PlayerMemory<'m, 't> {
     /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 320 for one of 6 bits, and one a texel
     /// of other forms, but for those of 16 bits in the panel's order of bytes.
     pub texels: &'t mut [u16],
+    /// Where lists may have coloured lights, several, and highlights: room for them.
+    pub lights: Option<&'m mut LightRoom>,
 }
 
 /// What a list starts from, and what it may do.
@@ -89,7 +94,8 @@ impl Default for PlayerSettings<'_, '_> {
 /// | of a list | in a draw call |
 /// |---|---|
 /// | MATRIX | `model`: the list's, then that of the settings |
-/// | LIGHT 0, white | `light` |
+/// | LIGHT 0, white, alone on what is matt | `light` |
+/// | LIGHT 0 to 7, highlights, where memory has a [`LightRoom`](super::LightRoom) | `lights` |
 /// | MATERIAL | `colour`, `cull`, `blend` of its opacity; not lit: no light |
 /// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |
@@ -98,8 +104,9 @@ impl Default for PlayerSettings<'_, '_> {
 ///
 /// **What a player does not have is refused, never left out**: [`Reason::Missing`](crate::list::Reason::Missing) says
 /// what, and where. These are vertices that were set up beforehand, points, overlays, several levels of detail, texels
-/// that are neither opaque nor transparent, places of 32 bits, coloured or several lights, highlights, and what the
-/// look of the scene cannot have. A list that is started is walked once without drawing, as far as the budget reaches,
+/// that are neither opaque nor transparent, places of 32 bits where `C` is `i16`, coloured or several lights and
+/// highlights without memory for them, and what the look of the scene cannot have. A list that is started is walked
+/// once without drawing, as far as the budget reaches,
 /// before any of it is drawn: what is malformed, missing or too large for the memory is an error then, and the scene
 /// is as it was. [`ListCommand::Restart`](crate::list::ListCommand) plays the same list again without that walk.
 ///
@@ -116,7 +123,7 @@ impl Default for PlayerSettings<'_, '_> {
 ///     bytes: &'t [u8],
 /// ) -> Result<(), Box<dyn std::error::Error>> {
 ///     let memory = PlayerMemory {
-///         positions: &mut [[0; 3]; 255],
+///         positions: &mut [[0i16; 3]; 255],
 ///         normals: &mut [[0; 3]; 255],
 ///         indices: &mut [0; 1536],
 ///         ..PlayerMemory::default()
@@ -129,13 +136,14 @@ impl Default for PlayerSettings<'_, '_> {
 ///     Ok(())
 /// }
 /// ```
-pub struct Player<'m, 't, L> {
+pub struct Player<'m, 't, L, C = i16> {
     pub(super) settings: PlayerSettings<'m, 't>,
     pub(super) walker: Walker,
-    pub(super) gather: Gather<'m, i16>,
+    pub(super) gather: Gather<'m, C>,
     pub(super) names: TextureSlots<'m>,
     pub(super) shelf: Shelf<'t>,
     pub(super) state: State<'m, 't>,
+    pub(super) lights: Option<&'m mut LightRoom>,
     /// The list that begins is to be looked at before it is drawn.
     unchecked: bool,
     pub(super) counts: RunCounts,
@@ -150,10 +158,10 @@ pub(super) struct Stage<'s, 'm, 't, L> {
     pub(super) events: &'s mut dyn EventSink,
 }
 
-impl<'m, 't, L: Look> Player<'m, 't, L> {
+impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
     /// Stopped; [`start`](Player::start) begins.
     #[must_use]
-    pub fn new(memory: PlayerMemory<'m, 't>, settings: PlayerSettings<'m, 't>) -> Self {
+    pub fn new(memory: PlayerMemory<'m, 't, C>, settings: PlayerSettings<'m, 't>) -> Self {
         Self {
             walker: Walker::new(),
             gather: Gather::new(Unpacked {
@@ -166,6 +174,7 @@ impl<'m, 't, L: Look> Player<'m, 't, L> {
             names: TextureSlots(memory.names),
             shelf: Shelf::new(memory.textures, memory.texels),
             state: State::new(&settings),
+            lights: memory.lights,
             settings,
             unchecked: false,
             counts: RunCounts::default(),
@@ -212,6 +221,7 @@ impl<'m, 't, L: Look> Player<'m, 't, L> {
         self.counts = RunCounts::default();
         self.state = State::new(&self.settings);
         self.names.clear();
+        lights::begin(self.lights.as_deref_mut(), self.settings.draw.light);
     }
 
     /// Executes the list until it halts. The scene must have been begun.

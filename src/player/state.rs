@@ -1,8 +1,9 @@
 //! The draw call that blocks of state change.
 
-use super::gather::{Gathered, Out, Places};
+use super::gather::{Gathered, ListCoordinate, Out, Places};
+use super::lights;
 use super::play::Stage;
-use super::{PlayerSettings, RunCounts};
+use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
 use crate::list::{Lent, Material, Reason};
@@ -75,6 +76,11 @@ impl<'m, 't> State<'m, 't> {
         self.shine();
     }
 
+    /// Whether several lights of the settings fall on what is drawn.
+    pub(super) fn has_lights(&self) -> bool {
+        self.lights.is_some()
+    }
+
     fn shine(&mut self) {
         self.draw.light = self.light.filter(|_| !self.material.unlit);
         self.draw.lights = self.lights.filter(|_| !self.material.unlit);
@@ -100,6 +106,8 @@ pub(super) struct Drawer<'d, 's, 'm, 't, L> {
     events: &'d mut dyn EventSink,
     offset: u32,
     lack: Option<Reason>,
+    /// Several lights of the list.
+    lights: Option<&'d LightRoom>,
 }
 
 impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
@@ -119,16 +127,22 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             events: &mut *stage.events,
             offset,
             lack: None,
+            lights: None,
         }
+    }
+
+    /// The same, lit by the lights of the list too.
+    pub(super) fn lit_by(self, lights: Option<&'d LightRoom>) -> Self {
+        Self { lights, ..self }
     }
 
     /// Draws what `gather` hands over; what that says.
     ///
     /// # Errors
     /// What could not be drawn.
-    pub(super) fn gather<R>(
+    pub(super) fn gather<R, C: ListCoordinate>(
         mut self,
-        gather: impl FnOnce(&mut Out<'_, i16>) -> R,
+        gather: impl FnOnce(&mut Out<'_, C>) -> R,
     ) -> Result<R, Reason> {
         let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
         let done = gather(&mut Out {
@@ -140,7 +154,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     }
 
     /// Draws a mesh.
-    fn draw(&mut self, gathered: &Gathered<'_, i16>) {
+    fn draw<C: ListCoordinate>(&mut self, gathered: &Gathered<'_, C>) {
         let places = match gathered.places {
             Places::Texels(places) => Some(places),
             Places::None => None,
@@ -153,20 +167,24 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             return;
         };
         let skin = self.state.texture.zip(places);
-        let call = Draw {
-            mesh: gathered.mesh,
-            texture: skin.map(|(texture, places)| Skin {
-                texture,
-                places,
-                budget: match gathered.prsp {
-                    true => self.budget,
-                    false => Budget::FAST,
-                },
-            }),
-            ..self.state.draw
-        };
+        let texture = skin.map(|(texture, places)| Skin {
+            texture,
+            places,
+            budget: match gathered.prsp {
+                true => self.budget,
+                false => Budget::FAST,
+            },
+        });
         let before = scene.assembled();
-        let done = scene.draw(&call);
+        let mut done = Ok(());
+        lights::fall(self.lights, &self.state.material, &mut |lights| {
+            let begin = &self.state.draw;
+            done = scene.draw(&Draw {
+                texture,
+                lights: lights.or(begin.lights),
+                ..begin.with_mesh(gathered.mesh)
+            });
+        });
         let after = scene.assembled();
         self.counts.draws += 1;
         self.counts.vertices += gathered.mesh.positions.len() as u32;

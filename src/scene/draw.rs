@@ -123,6 +123,35 @@ impl<'a, C> Draw<'a, '_, C> {
     }
 }
 
+impl<'a, 't> Draw<'a, 't> {
+    /// The same of another mesh.
+    #[inline(always)]
+    pub(crate) fn with_mesh<'b, C>(&self, mesh: Mesh<'b, C>) -> Draw<'b, 't, C>
+    where
+        'a: 'b,
+    {
+        Draw {
+            mesh,
+            model: self.model,
+            cull: self.cull,
+            light: self.light,
+            lights: self.lights,
+            lamps: self.lamps,
+            shading: self.shading,
+            colour: self.colour,
+            texture: self.texture,
+            texgen: self.texgen,
+            application: self.application,
+            scissor: self.scissor,
+            depth: self.depth,
+            blend: self.blend,
+            dither: self.dither,
+            shadow: self.shadow,
+            priority: self.priority,
+        }
+    }
+}
+
 /// What pass two needs of a draw call, kept once a call.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DrawState<'t> {

@@ -4,7 +4,7 @@ pub mod lists;
 
 use host_tests::rooms::{Room, picture};
 use scanbeam::event::Notice;
-use scanbeam::input::{Player, PlayerMemory, PlayerSettings, TextureRoom};
+use scanbeam::input::{LightRoom, Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListError, TextureSlot, Words};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
@@ -63,6 +63,7 @@ pub struct Kept {
     indices: Vec<u16>,
     places: Vec<[i32; 2]>,
     names: Vec<TextureSlot>,
+    lights: Option<LightRoom>,
 }
 
 impl Kept {
@@ -74,7 +75,14 @@ impl Kept {
             indices: vec![0; indices],
             places: vec![[0; 2]; vertices],
             names: (0..16).map(|_| TextureSlot::new()).collect(),
+            lights: None,
         }
+    }
+
+    /// The same, with room for several lights.
+    pub fn with_lights(self) -> Self {
+        let lights = Some(LightRoom::new());
+        Self { lights, ..self }
     }
 
     /// A player with room for 8 textures, which is never given back.
@@ -102,6 +110,7 @@ impl Kept {
             names: &self.names,
             textures: Vec::leak(textures),
             texels: Vec::leak(vec![0; texels]),
+            lights: self.lights.as_mut(),
         };
         Player::new(memory, settings)
     }
