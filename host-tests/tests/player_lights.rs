@@ -142,8 +142,8 @@ fn some_list(rng: &mut Rng, cloud: &Cloud, first: Option<Light>) -> (Vec<u32>, V
             };
             writer.state(&state).unwrap();
             match rng.below(6) {
-                0 => drop(writer.flow(Flow::Pause).unwrap()),
-                1 => drop(writer.flow(Flow::Sync).unwrap()),
+                0 => writer.flow(Flow::Pause).unwrap(),
+                1 => writer.flow(Flow::Sync).unwrap(),
                 _ => {}
             }
         }
