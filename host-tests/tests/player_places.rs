@@ -119,7 +119,7 @@ impl Fine {
             1 => {
                 let header = header(Id::Quads, order.len());
                 writer.vertices(header, &self.rows(header, &order)).unwrap();
-                Err(order.as_chunks::<4>().0.to_vec())
+                Err(in_arrays(&order))
             }
             _ => {
                 let header = Header {
@@ -129,10 +129,16 @@ impl Fine {
                 writer.vertices(header, &self.columns(header)).unwrap();
                 let indices = order.iter().map(|i| Some(*i));
                 writer.indexed(None, false, indices).unwrap();
-                Ok(order.as_chunks::<3>().0.to_vec())
+                Ok(in_arrays(&order))
             }
         }
     }
+}
+
+/// Indices in groups of as many.
+fn in_arrays<const N: usize>(indices: &[u16]) -> Vec<[u16; N]> {
+    let groups = indices.chunks_exact(N);
+    groups.filter_map(|group| group.try_into().ok()).collect()
 }
 
 /// What a player with places of 32 bits draws, in a scene that was begun.
