@@ -431,9 +431,7 @@ impl<F: Texel> Paint for Textured<F> {
             }
             return u32::MAX;
         }
-        let opaque = run.iter().rev().fold(0, |bits, &texel| {
-            bits >> 1 | u32::from(texel != holes.key) << 31
-        });
+        let opaque = holes.opaque(run);
         shade(run);
         opaque
     }

@@ -92,11 +92,8 @@ fn fill_holed<F: PixelFormat>(
     let texels = &mut texels[..count];
     Texels::texels(planes, place, draws, texels);
     if !holes.are_filled {
-        let opaque = texels.iter().rev().fold(0, |bits, &texel| {
-            bits >> 1 | u32::from(texel != holes.key) << 31
-        });
         shade::<F>(planes, place, texels, run);
-        return opaque;
+        return holes.opaque(texels);
     }
     shade::<F>(planes, place, &[0xFFFF; 32][..count], run);
     for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {

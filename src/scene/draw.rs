@@ -184,6 +184,14 @@ pub(crate) struct Holes {
 }
 
 impl Holes {
+    /// A bit for each of up to 32 texels that is not transparent, the first the top one.
+    #[inline(always)]
+    pub(crate) fn opaque(self, texels: &[u16]) -> u32 {
+        texels.iter().rev().fold(0, |bits, &texel| {
+            bits >> 1 | u32::from(texel != self.key) << 31
+        })
+    }
+
     fn of(texture: &Texture<'_>, application: Application) -> Option<Self> {
         let key = texture.key()?;
         Some(Self {
