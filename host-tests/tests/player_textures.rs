@@ -168,6 +168,24 @@ fn sample(rng: &mut Rng, form: TexelForm, has_holes: bool) -> Sample {
     }
 }
 
+impl Sample {
+    /// A list that draws a quad with it, with PRSP or not.
+    fn list(&self, prsp: bool) -> Vec<u32> {
+        let mut memory = vec![0; 4096];
+        let mut writer = ListWriter::new(&mut memory);
+        let block = State::Texture(self.block);
+        writer.bulk(&block, &self.words).unwrap();
+        if !self.colours.is_empty() {
+            let (number, count, at) = (2, self.colours.len() as u16, 0);
+            let palette = State::Palette(Palette { number, count, at });
+            writer.bulk(&palette, &self.colours).unwrap();
+        }
+        draw_quad(&mut writer, 1, prsp);
+        writer.flow(Flow::End).unwrap();
+        writer.words().to_vec()
+    }
+}
+
 #[test]
 fn textures_of_every_form_are_those_of_calls() {
     let (mut holes, mut texels) = (0, 0);
@@ -177,24 +195,7 @@ fn textures_of_every_form_are_those_of_calls() {
             let has_holes = seed % 3 == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
             let sample = sample(&mut rng, form, has_holes);
             let prsp = seed % 2 == 0;
-            let mut memory = vec![0; 4096];
-            let mut writer = ListWriter::new(&mut memory);
-            writer
-                .bulk(&State::Texture(sample.block), &sample.words)
-                .unwrap();
-            if !sample.colours.is_empty() {
-                let palette = Palette {
-                    number: 2,
-                    count: sample.colours.len() as u16,
-                    at: 0,
-                };
-                writer
-                    .bulk(&State::Palette(palette), &sample.colours)
-                    .unwrap();
-            }
-            draw_quad(&mut writer, 1, prsp);
-            writer.flow(Flow::End).unwrap();
-            let list = writer.words();
+            let list = &sample.list(prsp)[..];
 
             // A word that is no texel's stands for the holes.
             let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
@@ -305,18 +306,7 @@ fn pixels_of_more_bits_are_made_of_the_same_texels() {
     let mut seen = 0;
     for form in TexelForm::ALL {
         let sample = sample(&mut rng, form, false);
-        let mut memory = vec![0; 4096];
-        let mut writer = ListWriter::new(&mut memory);
-        let block = State::Texture(sample.block);
-        writer.bulk(&block, &sample.words).unwrap();
-        if !sample.colours.is_empty() {
-            let (number, count, at) = (2, sample.colours.len() as u16, 0);
-            let palette = State::Palette(Palette { number, count, at });
-            writer.bulk(&palette, &sample.colours).unwrap();
-        }
-        draw_quad(&mut writer, 1, true);
-        writer.flow(Flow::End).unwrap();
-        let list = writer.words();
+        let list = &sample.list(true)[..];
         let mut kept = Kept::new(64, 96);
         let mut player = kept.player::<Skinned>(PlayerSettings::default());
         let narrow = drawn::<Skinned>(|scene| {
@@ -350,18 +340,7 @@ fn textures_of_lists_are_filtered_as_those_of_calls() {
     let mut differ = 0;
     for form in [TexelForm::Rgb565, TexelForm::Index4, TexelForm::Rgba] {
         let sample = sample(&mut rng, form, false);
-        let mut memory = vec![0; 4096];
-        let mut writer = ListWriter::new(&mut memory);
-        let block = State::Texture(sample.block);
-        writer.bulk(&block, &sample.words).unwrap();
-        if !sample.colours.is_empty() {
-            let (number, count, at) = (2, sample.colours.len() as u16, 0);
-            let palette = State::Palette(Palette { number, count, at });
-            writer.bulk(&palette, &sample.colours).unwrap();
-        }
-        draw_quad(&mut writer, 1, true);
-        writer.flow(Flow::End).unwrap();
-        let list = writer.words();
+        let list = &sample.list(true)[..];
         let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
         let words: Vec<u16> = sample.texels.iter().map(|t| word(*t)).collect();
         let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
