@@ -116,19 +116,13 @@ impl SampledSpan<'_> {
 
     /// A run whose pixels have a 1/w each.
     fn perspective(&self, run: &mut [u16], read: Read) {
-        let of = |value: &dyn Fn(usize) -> u32| Homogeneous {
-            q: value(2),
-            s: value(0) as i32,
-            t: value(1) as i32,
+        let of = |[s, t, q]: [u32; 3]| Homogeneous {
+            q,
+            s: s as i32,
+            t: t as i32,
         };
-        let at = of(&|plane| self.first(plane));
-        let step = of(&|plane| self.planes[plane][1]);
-        let down = of(&|plane| self.planes[plane][2]);
-        let whole = Perspective {
-            base: self.base,
-            at,
-            step,
-        };
+        let (at, base) = (of([0, 1, 2].map(|plane| self.first(plane))), self.base);
+        let [step, down] = [1, 2].map(|i| of(self.planes.map(|plane| plane[i])));
         let steps = if self.budget.is_coarse() {
             self.steps
         } else {
@@ -151,7 +145,7 @@ impl SampledSpan<'_> {
                 None => {
                     let (now, more) = rest.split_at_mut(rest.len().min(count - skipped));
                     let texture = self.texture.level(level);
-                    let part = Perspective { at, ..whole }.coarser(level);
+                    let part = Perspective { base, at, step }.coarser(level);
                     part.ways(now, within, Stride::within(steps), |run, way| {
                         read(run, &texture, way, self.is_swapped);
                     });
