@@ -23,7 +23,9 @@ const VERTICES: u16 = 40;
 
 fn some_light(rng: &mut Rng) -> LightWords {
     let towards = [0; 3].map(|_: i32| rng.signed() as f32);
-    let light = Light::new(towards, 0.4 * rng.signed().abs() as f32).unwrap();
+    // Together they are often above 1, and sometimes above 2.
+    let most = rng.pick(&[0.4, 0.4, 1.0]);
+    let light = Light::new(towards, most * rng.signed().abs() as f32).unwrap();
     LightWords {
         colour: match rng.below(2) {
             0 => [255; 3],
