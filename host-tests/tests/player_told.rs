@@ -47,57 +47,114 @@ fn draw_triangle(writer: &mut ListWriter<'_>, grey: u8, near: i32) {
     writer.vertices(header, &words).unwrap();
 }
 
-/// Kills: sums of a scene's triangles in place of those of the list, triangles without room that nobody counts, and a
+/// What a player says of a list that it draws where there is room for so many triangles, and so many indices at once.
+fn told(list: &[u32], objects: usize, indices: usize) -> (RunCounts, Vec<Notice>) {
+    let camera = Camera::look_at([0.0, 0.0, 1.2], [0.0; 3], [0.0, 1.0, 0.0], 60.0, 0.5, 9.0);
+    let room = Room {
+        vertices: 99,
+        places: 0,
+        objects,
+        draws: 9,
+    };
+    let mut kept = Kept::new(64, indices);
+    let mut notices: Vec<Notice> = Vec::new();
+    let mut counts = RunCounts::default();
+    let screen = Screen::new(96, 72).unwrap();
+    picture(screen, room, 0, |scene: &mut Scene<'_, '_, _>| {
+        scene.begin(&camera.unwrap())?;
+        let mut player = kept.player::<Smooth>(PlayerSettings::default());
+        player.start(0);
+        let mut budget = PLENTY;
+        let tell = &mut |n: Notice| notices.push(n);
+        assert_eq!(player.run(list, scene, &mut budget, tell), Ok(Halt::End));
+        counts = player.counts();
+        Ok(())
+    })
+    .unwrap();
+    (counts, notices)
+}
+
+/// Kills: notices at another block's place, sums of a scene's triangles in place of those of the list, triangles without room that nobody counts, and a
 /// block that is told as clipped since one before it was.
 #[test]
 fn a_player_counts_what_each_block_drew_and_lost() {
     let mut memory = vec![0; 256];
     let mut writer = ListWriter::new(&mut memory);
     // A new state between two blocks parts their meshes.
+    let mut places = Vec::new();
     for near in [0, 30_000, 0, 0] {
         writer.state(&State::Material(WHITE)).unwrap();
+        places.push(4 * writer.position());
         draw_triangle(&mut writer, 255, near);
     }
     writer.flow(Flow::End).unwrap();
     let list = writer.words();
-    let camera = Camera::look_at([0.0, 0.0, 1.2], [0.0; 3], [0.0, 1.0, 0.0], 60.0, 0.5, 9.0);
-    let camera = camera.unwrap();
-    let room = |objects| Room {
-        vertices: 99,
-        places: 0,
-        objects,
-        draws: 9,
-    };
     // The triangle that is cut leaves two, so that there is room for the first two, and no more; or for all.
     for (objects, dropped) in [(3, 2), (9, 0)] {
-        let mut kept = Kept::new(64, 96);
-        let mut notices: Vec<Notice> = Vec::new();
-        let mut counts = RunCounts::default();
-        let screen = Screen::new(96, 72).unwrap();
-        picture(screen, room(objects), 0, |scene: &mut Scene<'_, '_, _>| {
-            scene.begin(&camera)?;
-            let mut player = kept.player::<Smooth>(PlayerSettings::default());
-            player.start(0);
-            let mut budget = PLENTY;
-            let tell = &mut |n: Notice| notices.push(n);
-            assert_eq!(player.run(list, scene, &mut budget, tell), Ok(Halt::End));
-            counts = player.counts();
-            Ok(())
-        })
-        .unwrap();
+        let (counts, notices) = told(list, objects, 96);
         assert_eq!(
             (counts.draws, counts.triangles, counts.dropped),
             (4, 4, dropped)
         );
         let told = |event| {
             let of = notices.iter().filter(move |n| n.event == event);
-            of.map(|n| n.value).collect::<Vec<_>>()
+            of.map(|n| (n.offset, n.value)).collect::<Vec<_>>()
         };
-        assert_eq!(told(Event::Clipped), [1], "{objects}");
+        assert_eq!(told(Event::Clipped), [(places[1], 1)], "{objects}");
         // One triangle a block.
-        let lost = vec![1; dropped as usize];
+        let lost: Vec<_> = places[4 - dropped as usize..]
+            .iter()
+            .map(|at| (*at, 1))
+            .collect();
         assert_eq!(told(Event::Full), lost, "{objects}");
     }
+}
+
+/// Places of the blocks of which a triangle was cut.
+fn clipped(notices: &[Notice]) -> Vec<u32> {
+    let clipped = notices.iter().filter(|n| n.event == Event::Clipped);
+    clipped.map(|n| n.offset).collect()
+}
+
+/// Blocks without a state between them are drawn together, as far as there is memory; a table has no faces of its own.
+/// Kills: the place of the block that makes room, of the first block of all, of a state, and of a table.
+#[test]
+fn what_is_drawn_together_is_told_of_its_first_block() {
+    let mut memory = vec![0; 256];
+    let mut writer = ListWriter::new(&mut memory);
+    let mut places = Vec::new();
+    for near in [0, 30_000, 0] {
+        places.push(4 * writer.position());
+        draw_triangle(&mut writer, 255, near);
+    }
+    writer.flow(Flow::End).unwrap();
+    for (indices, block) in [(4, 1), (96, 0)] {
+        let (_, notices) = told(writer.words(), 9, indices);
+        assert_eq!(clipped(&notices), [places[block]], "{indices}");
+    }
+
+    let mut memory = vec![0; 256];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.state(&State::Material(WHITE)).unwrap();
+    let mut words = Vec::new();
+    let mut packer = FieldPacker::new(|w| words.push(w));
+    for near in [0, 30_000] {
+        for [x, y, z] in [[-9000, -9000, 0], [9000, -9000, 0], [0, 9000, near]] {
+            packer.field(FieldForm::S16x3, [x, y, z, 0]);
+        }
+    }
+    packer.align();
+    writer.vertices(Header::of(Id::Table, 6), &words).unwrap();
+    let mut places = Vec::new();
+    for first in [3, 0, 3] {
+        places.push(4 * writer.position());
+        let corners = (first..first + 3).map(Some);
+        writer.indexed(None, false, corners).unwrap();
+        writer.state(&State::Material(WHITE)).unwrap();
+    }
+    writer.flow(Flow::End).unwrap();
+    let (_, notices) = told(writer.words(), 9, 96);
+    assert_eq!(clipped(&notices), [places[0], places[2]]);
 }
 
 /// The picture of a triangle of a material and a grey over nothing.

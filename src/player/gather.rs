@@ -125,6 +125,8 @@ pub(crate) struct Gathered<'a, C> {
     pub(crate) points: Option<u8>,
     /// All indices are known to be below this.
     pub(crate) below: usize,
+    /// Byte offset of the block of its first face.
+    pub(crate) block: u32,
 }
 
 /// Where meshes go.
@@ -133,6 +135,8 @@ pub(crate) struct Out<'o, C> {
     pub(crate) textured: bool,
     /// Binary logarithms of the sides of the texture that is drawn with.
     pub(crate) sides: Option<[u8; 2]>,
+    /// Byte offset of the block that is taken.
+    pub(crate) block: u32,
     /// Who draws them.
     pub(crate) draw: &'o mut dyn FnMut(&Gathered<'_, C>),
 }
@@ -148,6 +152,8 @@ pub(crate) struct Gather<'m, C> {
     vertices: usize,
     /// Indices in use.
     indices: usize,
+    /// Byte offset of the block of the first of them.
+    block: u32,
     /// The last vertices, from which a strip goes on.
     strip: Strip,
 }
@@ -161,6 +167,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
             base: 0,
             vertices: 0,
             indices: 0,
+            block: 0,
             strip: Strip::default(),
         }
     }
@@ -177,6 +184,13 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         self.flush(words, out);
         self.kind = Kind::Nothing;
         self.strip.restart();
+    }
+
+    /// Faces of a block follow.
+    fn begin(&mut self, out: &Out<'_, C>) {
+        if self.indices == 0 {
+            self.block = out.block;
+        }
     }
 
     /// Vertices that can be unpacked where these attributes are.
@@ -204,7 +218,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         if let Some(gathered) = self.gathered(words, run, placed) {
             (out.draw)(&gathered);
         }
-        self.indices = 0;
+        (self.indices, self.block) = (0, out.block);
         if let Kind::Run { has, .. } = self.kind {
             self.keep(has, kept);
         }
@@ -262,6 +276,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
             prsp,
             points,
             below,
+            block: self.block,
         })
     }
 

@@ -104,6 +104,7 @@ pub(super) struct Drawer<'d, 's, 'm, 't, L> {
     budget: Budget,
     counts: &'d mut RunCounts,
     events: &'d mut dyn EventSink,
+    /// Of the block that is taken.
     offset: u32,
     lack: Option<Reason>,
     /// Several lights of the list.
@@ -148,6 +149,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         let done = gather(&mut Out {
             textured: L::TEXTURED,
             sides: self.state.texture.map(sides),
+            block: self.offset,
             draw: &mut |mesh| self.draw(mesh),
         });
         self.lack.map_or(Ok(done), Err)
@@ -193,21 +195,22 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             Ok(()) => {}
             Err(DrawError::Full { triangles, .. }) => {
                 self.counts.dropped += triangles;
-                self.tell(Event::Full, triangles);
+                self.tell(Event::Full, gathered.block, triangles);
             }
             // Lengths and indices were checked when they were gathered.
-            Err(_) => self.tell(Event::Malformed, 0),
+            Err(_) => self.tell(Event::Malformed, gathered.block, 0),
         }
         if after.clipped > before.clipped {
-            self.tell(Event::Clipped, after.clipped - before.clipped);
+            let clipped = after.clipped - before.clipped;
+            self.tell(Event::Clipped, gathered.block, clipped);
         }
     }
 
     #[cold]
-    fn tell(&mut self, event: Event, value: u32) {
+    fn tell(&mut self, event: Event, offset: u32, value: u32) {
         self.events.notice(Notice {
             event,
-            offset: self.offset,
+            offset,
             value,
         });
     }

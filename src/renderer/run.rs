@@ -330,6 +330,7 @@ impl<'m, 'c, C: ListCoordinate, L: ListLights> ListRunner<'m, 'c, C, L> {
         let mut out = Out {
             textured: P::Shading::TEXTURED,
             sides: target.sides(),
+            block: target.offset,
             draw: &mut |mesh| target.draw(mesh),
         };
         self.gather.flush(words, &mut out);

@@ -102,6 +102,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
         run: Run,
         out: &mut Out<'_, C>,
     ) -> Result<(), Refusal> {
+        self.begin(out);
         let Some(table) = self.table.filter(|t| t.usable) else {
             return Err(Refusal::Table);
         };

@@ -18,6 +18,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
         point_size: u8,
         out: &mut Out<'_, C>,
     ) -> Result<(), Refusal> {
+        self.begin(out);
         let header = run.header;
         let (quads, points) = (header.id == Id::Quads, header.id == Id::Points);
         let layout = Layout::new(format, header);

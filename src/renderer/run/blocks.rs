@@ -41,6 +41,7 @@ impl<C: ListCoordinate, L: ListLights> ListRunner<'_, '_, C, L> {
         let mut out = Out {
             textured: P::Shading::TEXTURED,
             sides: target.sides(),
+            block: target.offset,
             draw: &mut |mesh| target.draw(mesh),
         };
         let format = self.walker.format();
