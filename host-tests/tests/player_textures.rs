@@ -374,3 +374,70 @@ fn textures_of_lists_are_filtered_as_those_of_calls() {
     }
     assert!(differ > 1_000, "{differ}");
 }
+
+/// A table whose faces have two textures of different sides is what a table for each is. Kills: places in texels of the
+/// texture before.
+#[test]
+fn a_table_has_places_on_each_of_its_textures() {
+    let mut rng = Rng::new(7);
+    let samples = [(1, 3, 5), (2, 5, 3)].map(|(number, log_width, log_height)| {
+        let block = TextureBlock {
+            number,
+            log_width,
+            log_height,
+            ..sample(&mut rng, TexelForm::Rgb565, false).block
+        };
+        let words: Vec<u32> = (0..block.words()).map(|_| rng.below(u32::MAX)).collect();
+        (block, words)
+    });
+    let [one, two] = [false, true].map(|again| {
+        let mut memory = vec![0; 2048];
+        let mut writer = ListWriter::new(&mut memory);
+        for (block, words) in &samples {
+            writer.bulk(&State::Texture(*block), words).unwrap();
+        }
+        for (number, face) in [(1, [0u16, 1, 2]), (2, [0, 2, 3])] {
+            if number == 1 || again {
+                write_table(&mut writer);
+            }
+            let material = Material {
+                texture: Some(number),
+                two_sided: true,
+                ..Material::default()
+            };
+            writer.state(&State::Material(material)).unwrap();
+            writer
+                .indexed(None, false, face.map(Some).into_iter())
+                .unwrap();
+        }
+        writer.flow(Flow::End).unwrap();
+        let list = writer.words().to_vec();
+        let mut kept = Kept::new(64, 96);
+        drawn::<Skinned>(|scene| {
+            let mut player = kept.player::<Skinned>(PlayerSettings::default());
+            player.start(0);
+            assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
+        })
+    });
+    assert!(one.iter().filter(|word| **word != 0).count() > 500);
+    assert!(one == two);
+}
+
+/// The corners of the quad as a table.
+fn write_table(writer: &mut ListWriter<'_>) {
+    let mut words = Vec::new();
+    let mut packer = FieldPacker::new(|w| words.push(w));
+    for [x, y] in CORNERS {
+        packer.field(FieldForm::S16x3, [x, y, 0, 0]);
+    }
+    packer.align();
+    for [u, v] in SIDES {
+        packer.field(FieldForm::U16x2, [u, v, 0, 0]);
+    }
+    packer.align();
+    let header = Header {
+        text: true,
+        ..Header::of(Id::Table, 4)
+    };
+    writer.vertices(header, &words).unwrap();
+}
