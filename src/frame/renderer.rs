@@ -340,6 +340,7 @@ impl<'a> View<'a> {
             draws: scene.draws.as_slice(),
             frame: Frame {
                 width: i32::from(screen.width()),
+                height: i32::from(screen.height()),
             },
             content: scene.content(),
             first: scene.lines().start,

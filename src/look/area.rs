@@ -2,6 +2,45 @@
 
 use super::mapping::Corner;
 use crate::num::{leading_zeros, mul_high, recip, recip_16};
+use crate::span::Frame;
+
+/// What the planes of a triangle share.
+pub(super) enum Area {
+    Small(Small),
+    Large(Large),
+}
+
+impl Area {
+    /// `None` where the triangle is too thin for planes.
+    #[inline(always)]
+    pub(super) fn new(corners: &[Corner; 3]) -> Option<Self> {
+        match Small::new(corners) {
+            Some(area) => Some(Self::Small(area)),
+            None => Large::new(corners),
+        }
+    }
+
+    /// The plane of values below 2^30 either way, modulo 2^32: at the picture's first pixel, and the steps to the right and
+    /// down; `None` where it is too steep.
+    ///
+    /// That of 1/w comes first, with the picture: where the nearest corner lies far beside it, this plane and those after
+    /// it are in a unit that is [finer](Self::finer).
+    #[inline(never)]
+    pub(super) fn plane(&mut self, value: [i32; 3], picture: Option<Frame>) -> Option<[u32; 3]> {
+        match self {
+            Self::Small(area) => area.plane(value),
+            Self::Large(area) => area.plane(value, picture),
+        }
+    }
+
+    /// By how many bits.
+    pub(super) fn finer(&self) -> u32 {
+        match self {
+            Self::Small(_) => 0,
+            Self::Large(area) => area.finer,
+        }
+    }
+}
 
 /// What the planes of a triangle within 64 pixels share.
 ///
@@ -17,7 +56,7 @@ pub(super) struct Small {
 
 impl Small {
     #[inline(always)]
-    pub(super) fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
+    fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
         let (dx1, dy1) = (b.x.wrapping_sub(a.x), b.y.wrapping_sub(a.y));
         let (dx2, dy2) = (c.x.wrapping_sub(a.x), c.y.wrapping_sub(a.y));
         let magnitude = |d: i32| d ^ (d >> 31);
@@ -50,9 +89,8 @@ impl Small {
         (leading_zeros((sum ^ (sum >> 31)) as u32) > left).then(|| sum << (left & 31))
     }
 
-    /// Of values below 2^30 either way.
     #[inline(never)]
-    pub(super) fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
+    fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
         let (e1, e2) = (value[1] - value[0], value[2] - value[0]);
         let [y2, y1, x1, x2] = self.share;
         let dx = self.step(e1, y2, e2, y1)?;
@@ -71,65 +109,79 @@ impl Small {
 
 /// What the planes of a triangle of any size share. It takes long products: few triangles have it.
 pub(super) struct Large {
-    side: [i64; 4],
+    side: [i32; 4],
     /// The doubled area's reciprocal, `mantissa 2^(up - 94)`.
     mantissa: u32,
     up: u32,
     x: i32,
     y: i32,
+    /// By how many bits the unit of planes is finer than that of values.
+    finer: u32,
 }
 
 impl Large {
     /// Fraction bits of steps on the way from a corner to the picture, which may be 2,048 pixels long.
-    const FINER: u32 = 10;
+    const FINER: u32 = 12;
 
     #[inline(never)]
-    pub(super) fn new([a, b, c]: &[Corner; 3]) -> Option<Self> {
-        let (dx1, dy1) = (
-            i64::from(b.x) - i64::from(a.x),
-            i64::from(b.y) - i64::from(a.y),
-        );
-        let (dx2, dy2) = (
-            i64::from(c.x) - i64::from(a.x),
-            i64::from(c.y) - i64::from(a.y),
-        );
-        let limit = 1 << 20;
-        if [dx1, dy1, dx2, dy2].iter().any(|d| d.abs() > limit) {
-            return None;
-        }
-        let area = dx1 * dy2 - dx2 * dy1;
+    fn new([a, b, c]: &[Corner; 3]) -> Option<Area> {
+        let way = |from: i32, to: i32| {
+            let way = to.checked_sub(from)?;
+            (way.unsigned_abs() <= 1 << 20).then_some(way)
+        };
+        let (dx1, dy1) = (way(a.x, b.x)?, way(a.y, b.y)?);
+        let (dx2, dy2) = (way(a.x, c.x)?, way(a.y, c.y)?);
+        let area = i64::from(dx1) * i64::from(dy2) - i64::from(dx2) * i64::from(dy1);
         if area <= 0 {
             return None;
         }
         let up = area.leading_zeros();
-        Some(Self {
+        Some(Area::Large(Self {
             side: [dy2, -dy1, dx1, -dx2],
             mantissa: recip((area << up >> 32) as u32),
             up,
             x: a.x,
             y: a.y,
-        })
+            finer: 0,
+        }))
     }
 
-    /// `64 (a b + c d) / area` with [`Self::FINER`] fraction bits, rounded down; `None` where 32 bits do not hold it.
-    fn step(&self, a: i64, b: i64, c: i64, d: i64) -> Option<i64> {
-        let sum = a * b + c * d;
+    /// `64 (a b + c d) / area`, of a rise and a side each, with [`Self::FINER`] fraction bits, rounded down; `None` where 32
+    /// bits do not hold it.
+    #[inline(never)]
+    fn step(&self, a: i32, b: i32, c: i32, d: i32) -> Option<i64> {
+        let sum = i64::from(a) * i64::from(b) + i64::from(c) * i64::from(d);
         let down = 33u32.saturating_sub(sum.unsigned_abs().leading_zeros());
         let product = (sum >> down) * i64::from(self.mantissa);
-        let step = product >> (88 - Self::FINER - self.up - down).min(63);
+        let step = product >> (88 - Self::FINER).checked_sub(self.up + down)?.min(63);
         i32::try_from(step >> Self::FINER).ok().map(|_| step)
     }
 
+    /// The unit becomes finer by the bits by which 1/w is smaller anywhere in the picture than the 30 bits that the
+    /// nearest corner's has.
     #[inline(never)]
-    pub(super) fn plane(&self, value: [i32; 3]) -> Option<[u32; 3]> {
-        let e1 = i64::from(value[1]) - i64::from(value[0]);
-        let e2 = i64::from(value[2]) - i64::from(value[0]);
+    fn plane(&mut self, value: [i32; 3], picture: Option<Frame>) -> Option<[u32; 3]> {
+        // Less than 4,096 texels, and less than the greatest 1/w.
+        let (e1, e2) = (
+            value[1].wrapping_sub(value[0]),
+            value[2].wrapping_sub(value[0]),
+        );
         let [y2, y1, x1, x2] = self.side;
         let dx = self.step(e1, y2, e2, y1)?;
         let dy = self.step(e2, x1, e1, x2)?;
-        let way = (dx * i64::from(self.x) + dy * i64::from(self.y)) >> (6 + Self::FINER);
-        let rounded = |step: i64| ((step + (1 << Self::FINER >> 1)) >> Self::FINER) as u32;
-        let at = (i64::from(value[0]) - way) as u32;
-        Some([at, rounded(dx), rounded(dy)])
+        let way = (dx * i64::from(self.x) + dy * i64::from(self.y)) >> 6;
+        let at = (i64::from(value[0]) << Self::FINER) - way;
+        if let Some(Frame { width, height }) = picture {
+            let way =
+                |step: i64, by: i32| i64::from((step >> Self::FINER).max(0) as i32) * i64::from(by);
+            let most = (at >> Self::FINER) + way(dx, width) + way(dy, height);
+            let spare = |most| leading_zeros(most).saturating_sub(2).min(Self::FINER);
+            self.finer = u32::try_from(most).map_or(0, spare);
+        }
+        let down = Self::FINER - self.finer;
+        let half = i64::from(1u32 << (down & 31) >> 1);
+        // Fewer instructions than a shift of 64 bits by any number.
+        let lower = |v: i64| (v as u32) >> (down & 31) | ((v >> 32) as u32) << 1 << (!down & 31);
+        Some([at, dx + half, dy + half].map(lower))
     }
 }

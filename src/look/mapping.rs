@@ -18,7 +18,7 @@
 //! near its middle, in whole repeats where the texture repeats.
 
 use super::Place;
-use super::area::{Large, Small};
+use super::area::Area;
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::{Range, Reach, Stride, reach};
@@ -29,6 +29,7 @@ pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
 use crate::scene::{Budget, SampledSpan, Sampling, Square, Texture};
+use crate::span::Frame;
 
 /// A corner of a triangle; corners go clockwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -39,7 +40,7 @@ pub struct Corner {
     pub y: i32,
     /// 1/w in any unit, 1 ..< 2^31.
     pub depth: u32,
-    /// Place on the texture, to the right and down: texels with 8 fraction bits, modulo 2^32.
+    /// Place on the texture, to the right and down: texels with 14 fraction bits, modulo 2^18.
     pub texel: [i32; 2],
 }
 
@@ -84,8 +85,8 @@ pub struct Values {
     pub places: [[i32; 2]; 2],
 }
 
-/// Widest triangle, in texels with 8 fraction bits.
-const WIDEST: u32 = 4096 << 8;
+/// Widest triangle, in texels with 14 fraction bits.
+const WIDEST: u32 = 4096 << 14;
 
 /// Least and most of three numbers.
 #[inline(always)]
@@ -111,14 +112,14 @@ fn width(corners: &[Corner; 3]) -> Option<u32> {
 }
 
 /// Whether u and v may be taken as linear on the screen: `width (max - min) <= 4 budget min`, of
-/// the depths, for a triangle of `width` on the texture. See [`perspective`](super::perspective).
+/// the depths, for a triangle of `width` on the texture, with 14 fraction bits. See [`perspective`](super::perspective).
 #[inline]
 #[must_use]
 pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
     let [least, most] = range(depth);
     let up = leading_zeros(most) & 31;
     // Both sides by 2^-21, the left one rounded up.
-    let off = mul_high_unsigned(width << 11, (most - least) << up);
+    let off = mul_high_unsigned(width << 5, (most - least) << up);
     let may = mul_high_unsigned(budget.for_curves() << 13, least << up);
     most == least || off < may
 }
@@ -142,13 +143,13 @@ impl Values {
         {
             let ways = ways(corners, axis);
             let [low, high] = range(ways);
-            let middle = corners[0].texel[axis].wrapping_add((low + high) >> 1) >> 8;
+            let middle = corners[0].texel[axis].wrapping_add((low + high) >> 1) >> 14;
             let grain = 1 << log.min(8);
             base[axis] = middle.wrapping_add(grain >> 1) & -grain;
-            let first = corners[0].texel[axis].wrapping_sub(base[axis] << 8);
+            let first = corners[0].texel[axis].wrapping_sub(base[axis] << 14);
             // Below 2,177 texels, 19 fraction bits.
-            of[axis] = ways.map(|e| first.wrapping_add(e) << 11);
-            places[axis] = [low, high].map(|e| first.wrapping_add(e) << 11);
+            of[axis] = ways.map(|e| first.wrapping_add(e) << 5);
+            places[axis] = [low, high].map(|e| first.wrapping_add(e) << 5);
         }
         let method = if is_affine(width, depth, budget) {
             Method::Wide
@@ -171,38 +172,32 @@ impl Values {
         })
     }
 
-    /// The mapping by planes through the values; `false` where the triangle is too thin for them.
+    /// The mapping by planes through the values, of a triangle in a picture; `false` where it is too thin for them.
     #[inline(never)]
     #[must_use]
     pub fn planes(
         &self,
         corners: &[Corner; 3],
+        frame: Frame,
         texture: &Texture<'_>,
         budget: Budget,
         mapping: &mut Mapping,
     ) -> bool {
         mapping.method = self.method;
         mapping.base = self.base;
-        let small = Small::new(corners);
-        let large = if small.is_none() {
-            Large::new(corners)
-        } else {
-            None
+        let mut area = Area::new(corners);
+        let Some(area) = &mut area else {
+            return false;
         };
         let used = if self.method == Method::Wide { 2 } else { 3 };
-        for (to, values) in mapping.planes.iter_mut().zip(self.of).take(used) {
-            let plane = match (&small, &large) {
-                (Some(area), _) => area.plane(values),
-                (_, Some(area)) => area.plane(values),
-                _ => None,
-            };
-            let Some(plane) = plane else {
+        for i in (0..used).rev() {
+            let Some(plane) = area.plane(self.of[i], (i == 2).then_some(frame)) else {
                 return false;
             };
-            *to = plane;
+            mapping.planes[i] = plane;
         }
         if self.method == Method::Perspective {
-            self.stride(mapping, texture, budget);
+            self.stride(area.finer(), mapping, texture, budget);
         }
         true
     }
@@ -211,12 +206,12 @@ impl Values {
 impl Values {
     /// How far exact places may be apart, from planes that are made.
     #[inline(always)]
-    fn stride(&self, mapping: &mut Mapping, texture: &Texture<'_>, budget: Budget) {
-        let [low, _] = range(self.of[2]);
-        let of = |axis: usize| Range {
-            low: self.places[axis][0],
-            high: self.places[axis][1],
-            step: mapping.planes[axis][1] as i32,
+    fn stride(&self, finer: u32, mapping: &mut Mapping, texture: &Texture<'_>, budget: Budget) {
+        let low = range(self.of[2])[0].min(i32::MAX >> finer) << finer;
+        let of = |axis: usize| {
+            let [low, high] = self.places[axis];
+            let step = mapping.planes[axis][1] as i32;
+            Range { low, high, step }
         };
         let step = mapping.planes[2][1] as i32;
         let log = texture.repeated();
@@ -246,7 +241,7 @@ impl Mapping {
         planes: [[0; 3]; 3],
     };
 
-    /// The mapping of a triangle; `None` where [`Values`] has none or planes have none.
+    /// The mapping of a triangle in a picture of 320 x 240 pixels; `None` where [`Values`] has none or planes have none.
     #[cfg(test)]
     #[must_use]
     pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
@@ -257,9 +252,13 @@ impl Mapping {
             return Some(mapping);
         }
         let values = Values::new(corners, texture, budget)?;
+        let frame = Frame {
+            width: 320,
+            height: 240,
+        };
         let mut mapping = Self::EMPTY;
         values
-            .planes(corners, texture, budget, &mut mapping)
+            .planes(corners, frame, texture, budget, &mut mapping)
             .then_some(mapping)
     }
 

@@ -160,7 +160,13 @@ impl<F: Texel> Textured<F> {
         let Some(values) = Values::new(&corners, texture, budget) else {
             return false;
         };
-        planes.mapped = values.planes(&corners, texture, budget, &mut planes.mapping);
+        planes.mapped = values.planes(
+            &corners,
+            triangle.frame,
+            texture,
+            budget,
+            &mut planes.mapping,
+        );
         !planes.mapped
     }
 

@@ -55,7 +55,7 @@ impl<'a> Near<'a> {
             return None;
         }
         let area = dx[0] * dy[1] - dx[1] * dy[0];
-        let texel = self.texture.map(TexturePlace::texel);
+        let texel = self.texture.map(coarse);
         let first = texel[0];
         let rise = |i: usize, axis: usize| texel[i][axis].wrapping_sub(first[axis]);
         let rises = [0, 1].map(|axis| [rise(1, axis), rise(2, axis)]);
@@ -64,7 +64,7 @@ impl<'a> Near<'a> {
         // Two pixels; on thinner ones steps grow.
         if area < 4 << 12
             || width >= 128 << 8
-            || !is_affine(width, self.depth, budget)
+            || !is_affine(width << TexturePlace::FINER, self.depth, budget)
             || texture.wrap() != Wrap::Repeat && !lies_inside(self.texture, texture)
         {
             return None;
@@ -85,6 +85,12 @@ impl<'a> Near<'a> {
             .wrapping_sub(below.wrapping_mul((y >> 6) as u32));
         Some([at, right, below])
     }
+}
+
+/// Texels with 8 fraction bits.
+#[inline(always)]
+fn coarse(place: TexturePlace) -> [i32; 2] {
+    place.texel().map(|texel| texel >> TexturePlace::FINER)
 }
 
 /// The place of one axis at the first corner's pixel, and its steps, with `16 - log` fraction bits.
@@ -116,6 +122,6 @@ fn lies_inside(places: &[TexturePlace; 3], texture: &Texture<'_>) -> bool {
     let sides = [texture.width(), texture.height()];
     places
         .iter()
-        .map(|place| place.texel())
+        .map(|&place| coarse(place))
         .all(|[u, v]| within(u, sides[0]) && within(v, sides[1]))
 }

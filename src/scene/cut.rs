@@ -15,7 +15,7 @@ use heapless::Vec;
 pub(super) struct Corner {
     pub(super) point: Point,
     pub(super) colour: u32,
-    /// Texels with 8 fraction bits.
+    /// Texels with 14 fraction bits, modulo 2^18.
     pub(super) texel: [i32; 2],
 }
 
@@ -105,12 +105,11 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
     let down = 31u32.saturating_sub(whole.leading_zeros());
     let whole = ((whole >> down) as u32).max(1);
     let t = divide((near.unsigned_abs() >> down) << 30, whole);
-    let mix = |a: i32, b: i32| mix(a, b, t);
     let (a, b) = (inner.point, outer.point);
     let point = Point {
-        x: mix(a.x, b.x),
-        y: mix(a.y, b.y),
-        z: mix(a.z, b.z),
+        x: mix(a.x, b.x, t),
+        y: mix(a.y, b.y, t),
+        z: mix(a.z, b.z, t),
     };
     // On the screen the same point is at t zb / z of the projected edge.
     let along = if on_screen && point.z > 0 {
@@ -126,7 +125,10 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
     Corner {
         point,
         colour: colour.word(),
-        texel: [0, 1].map(|i| mix(inner.texel[i], outer.texel[i])),
+        texel: [0, 1].map(|i| {
+            let from = inner.texel[i];
+            from.wrapping_add(mix(0, outer.texel[i].wrapping_sub(from), t))
+        }),
     }
 }
 

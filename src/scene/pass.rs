@@ -161,15 +161,16 @@ impl Pass<'_> {
         }
     }
 
-    /// The texture place of a vertex.
+    /// The texture place of a vertex, texels with 14 fraction bits.
     pub(super) fn texel(&self, i: usize) -> [i32; 2] {
-        match self.generated {
+        let texel = match self.generated {
             Some(generated) => generated.texel(i),
             None => self
                 .texels
                 .and_then(|texels| texels.get(i).copied())
                 .unwrap_or_default(),
-        }
+        };
+        texel.map(|t| t << TexturePlace::FINER)
     }
 
     /// The order of corners from the topmost on, and their places in it; `None` where the face is not seen.

@@ -251,10 +251,10 @@ pub(super) fn project_textured<C: Coordinate>(
         if view.is_within(p) {
             let on = view.project(p);
             *vertex = Vertex::unused(on.place, on.depth);
-            *place = TexturePlace::new(texel, on.fine);
+            *place = TexturePlace::of_mesh(texel, on.fine);
         } else {
             *vertex = view.outside(p.x, p.y, p.z);
-            *place = TexturePlace::new(texel, [0; 2]);
+            *place = TexturePlace::of_mesh(texel, [0; 2]);
             all = false;
         }
     }

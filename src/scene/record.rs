@@ -61,7 +61,7 @@ impl Vertex {
 
 /// Where a vertex lies on its texture, and the fraction of its place that coverage does not use (X13).
 ///
-/// Upper 29 bits: texels with 8 fraction bits, modulo 2^29. Lower 3 bits: units of 1/64 pixel beyond
+/// Upper 29 bits: texels with 11 fraction bits, modulo 2^18 texels. Lower 3 bits: units of 1/64 pixel beyond
 /// the vertex's place, -4 to 3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 #[repr(transparent)]
@@ -71,16 +71,25 @@ impl TexturePlace {
     /// What fresh memory is filled with.
     pub const EMPTY: Self = Self([0; 2]);
 
-    /// From texels with 8 fraction bits, and units of 1/64 pixel.
+    /// Fraction bits of texels beyond the 8 of meshes: corners that are cut are not rounded to those.
+    pub(crate) const FINER: u32 = 6;
+
+    /// From texels with 14 fraction bits, of which 11 are kept, and units of 1/64 pixel.
     #[inline(always)]
     pub(crate) fn new(texel: [i32; 2], fine: [i32; 2]) -> Self {
-        Self([0, 1].map(|i| (texel[i] << 3) as u32 | (fine[i] & 7) as u32))
+        Self([0, 1].map(|i| (texel[i].wrapping_add(4) & !7 | fine[i] & 7) as u32))
     }
 
-    /// Texels with 8 fraction bits: across and down.
+    /// From texels with 8 fraction bits, as meshes have them.
+    #[inline(always)]
+    pub(crate) fn of_mesh(texel: [i32; 2], fine: [i32; 2]) -> Self {
+        Self([0, 1].map(|i| (texel[i] << Self::FINER | fine[i] & 7) as u32))
+    }
+
+    /// Texels with 14 fraction bits: across and down, modulo 2^18 texels.
     #[inline(always)]
     pub(crate) fn texel(self) -> [i32; 2] {
-        self.0.map(|w| w as i32 >> 3)
+        self.0.map(|w| (w & !7) as i32)
     }
 
     /// Units of 1/64 pixel beyond the vertex's place: across and down.
@@ -125,11 +134,13 @@ mod tests {
 
     #[test]
     fn a_texture_place_keeps_texels_and_fractions() {
-        for texel in [0, 1, -1, 1 << 27, -(1 << 27), 123_456_789] {
+        for texel in [0, 8, -8, 1 << 30, -(1 << 30), 987_654_320] {
             for fine in -4..4 {
                 let place = TexturePlace::new([texel, -texel], [fine, -1 - fine]);
                 assert_eq!(place.texel(), [texel, -texel]);
                 assert_eq!(place.fine(), [fine, -1 - fine]);
+                let rounded = TexturePlace::new([texel - 4, texel + 3], [fine; 2]);
+                assert_eq!(rounded.texel(), [texel; 2]);
             }
         }
     }

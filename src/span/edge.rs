@@ -22,6 +22,8 @@ use crate::scene::ORIGIN;
 pub struct Frame {
     /// Columns of the picture.
     pub(crate) width: i32,
+    /// Its lines.
+    pub(crate) height: i32,
 }
 
 impl Frame {

@@ -117,7 +117,10 @@ fn some_colour<L: Paint>(rng: &mut Rng) -> u32 {
 fn spans_of<L: Paint>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
     let mut rng = Rng(seed);
     let mut fills = [0; 4];
-    let frame = Frame { width: 320 };
+    let frame = Frame {
+        width: 320,
+        height: 240,
+    };
     for i in 0..24_000 {
         let Some(corner) = some_corners(&mut rng, [12, 40, 90, 270][i % 4]) else {
             continue;
@@ -138,7 +141,10 @@ fn spans_of<L: Paint>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
         });
         let places = vertices.map(|v| {
             let texel = [v.place & 0xFFFF, v.place >> 16];
-            TexturePlace::new(texel.map(|p| (20 * p + rng.below(800)) as i32), [0; 2])
+            TexturePlace::new(
+                texel.map(|p| ((20 * p + rng.below(800)) as i32) << 6),
+                [0; 2],
+            )
         });
         let object = Object {
             corner: [0, 1, 2],

@@ -5,6 +5,7 @@ use super::{WRAPS, coordinates, draw_mapped, off};
 use crate::look::Place;
 use crate::num::random::Rng;
 use crate::scene::{Budget, Texture};
+use crate::span::Frame;
 use std::vec::Vec;
 
 /// A triangle of so many pixels each way, and so many texels, clockwise, at random.
@@ -16,13 +17,18 @@ pub(super) fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[
         x: axis(pixels * 32.0, 64.0 * 150.0),
         y: axis(pixels * 32.0, 64.0 * 100.0),
         depth: axis(spread, f64::from(1 << 27)) as u32,
-        texel: middle.map(|m| m + axis(texels * 128.0, 0.0)),
+        texel: middle.map(|m| (m + axis(texels * 128.0, 0.0)) << 6),
     };
     let c = [corner(), corner(), corner()];
     let d = |i: usize| (i64::from(c[i].x - c[0].x), i64::from(c[i].y - c[0].y));
     let area = d(1).0 * d(2).1 - d(2).0 * d(1).1;
     (area > 1 << 14).then_some(c)
 }
+
+const FRAME: Frame = Frame {
+    width: 320,
+    height: 240,
+};
 
 /// A span of so many pixels.
 fn span(column: u32, pixels: usize, line: u32) -> Place {
@@ -47,7 +53,7 @@ pub(super) fn inside(c: &[Corner; 3], column: i32, line: i32) -> Option<[f64; 2]
     let w = [0, 1, 2].map(|i| weights[i] as f64 * f64::from(c[i].depth));
     let sum: f64 = w.iter().sum();
     let of = |axis: usize| -> f64 {
-        let at = |i: usize| w[i] * f64::from(c[i].texel[axis]) / 256.0;
+        let at = |i: usize| w[i] * f64::from(c[i].texel[axis]) / 16_384.0;
         (at(0) + at(1) + at(2)) / sum
     };
     Some([of(0), of(1)])
@@ -123,15 +129,19 @@ fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
         ]
     };
     let values = |c: &[Corner; 3]| Values::new(c, &texture, Budget::FAST);
-    assert!(values(&of((4096 << 8) - 1)).is_some());
-    assert!(values(&of(4096 << 8)).is_none() && values(&of(-(4096 << 8))).is_none());
-    let mut none = of(256);
+    assert!(values(&of((4096 << 14) - 1)).is_some());
+    assert!(values(&of(4096 << 14)).is_none() && values(&of(-(4096 << 14))).is_none());
+    let mut none = of(1 << 14);
     none[1].depth = 0;
     assert!(values(&none).is_none());
     // Thin: values, and no planes.
-    let thin = [corner(0, 0, 0), corner(64, 64, 256), corner(128, 128, 512)];
+    let thin = [
+        corner(0, 0, 0),
+        corner(64, 64, 1 << 14),
+        corner(128, 128, 2 << 14),
+    ];
     let mut none = Mapping::EMPTY;
-    let planes = |v: Values| v.planes(&thin, &texture, Budget::FAST, &mut none);
+    let planes = |v: Values| v.planes(&thin, FRAME, &texture, Budget::FAST, &mut none);
     assert_eq!(values(&thin).map(planes), Some(false));
 }
 
@@ -140,7 +150,7 @@ fn affine_is_what_the_bound_allows() {
     let mut rng = Rng(12);
     let (mut yes, mut doubt) = (0, 0);
     for _ in 0..200_000 {
-        let width = rng.below(1 << 20) >> rng.below(18);
+        let width = rng.below(1 << 20) >> rng.below(18) << 6;
         let most = 1 + (rng.bits() >> 1 >> rng.below(20));
         let depth = [
             most,
@@ -148,8 +158,8 @@ fn affine_is_what_the_bound_allows() {
             (f64::from(most) * 1.2f64.powf(-rng.unit())) as u32 + 1,
         ];
         let least = f64::from(depth[2].min(most));
-        let budget = Budget::new([32, 64, 128, 40_000][(width % 4) as usize]);
-        let is = f64::from(width) * (f64::from(depth[2].max(most)) - least);
+        let budget = Budget::new([32, 64, 128, 40_000][(width / 64 % 4) as usize]);
+        let is = f64::from(width) / 64.0 * (f64::from(depth[2].max(most)) - least);
         let may = 4.0 * f64::from(budget.for_curves()) * least;
         let got = is_affine(width, depth, budget);
         assert!(is <= may || !got, "{width} {depth:?}");
