@@ -16,7 +16,7 @@ impl Area {
     pub(super) fn new(corners: &[Corner; 3]) -> Option<Self> {
         match Small::new(corners) {
             Some(area) => Some(Self::Small(area)),
-            None => Large::new(corners),
+            None => Large::of(corners),
         }
     }
 
@@ -124,7 +124,7 @@ impl Large {
     const FINER: u32 = 12;
 
     #[inline(never)]
-    fn new([a, b, c]: &[Corner; 3]) -> Option<Area> {
+    fn of([a, b, c]: &[Corner; 3]) -> Option<Area> {
         let way = |from: i32, to: i32| {
             let way = to.checked_sub(from)?;
             (way.unsigned_abs() <= 1 << 20).then_some(way)
