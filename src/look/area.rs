@@ -148,7 +148,6 @@ impl Large {
 
     /// `64 (a b + c d) / area`, of a rise and a side each, with [`Self::FINER`] fraction bits, rounded down; `None` where 32
     /// bits do not hold it.
-    #[inline(never)]
     fn step(&self, a: i32, b: i32, c: i32, d: i32) -> Option<i64> {
         let sum = i64::from(a) * i64::from(b) + i64::from(c) * i64::from(d);
         let down = 33u32.saturating_sub(sum.unsigned_abs().leading_zeros());
