@@ -10,9 +10,9 @@
 //! | 7 | 0.25 % | 1.45 % | 1.45 % |
 //! | -31 | 0.20 % | 1.67 % | 1.65 % |
 //!
-//! Two roundings are held: planes count in a unit that is fine enough
-//! for what the picture shows, since the guard band puts the nearest corner 2,000 pixels below the middle, where 1/w is 16
-//! and more times as large; and places of corners that are cut keep 11 fraction bits.
+//! Two roundings are small enough for that: planes count in a unit that is fine enough for what the picture shows, since
+//! the guard band puts the nearest corner 2,000 pixels below the middle, where 1/w is 16 and more times as large; and
+//! places of corners that are cut keep 11 fraction bits.
 
 use host_tests::rooms::{Room, picture as drawn};
 use scanbeam::look::Textured;
@@ -165,7 +165,7 @@ fn wrong_part(budget: Budget, roll: f64) -> f64 {
     part
 }
 
-/// Kills: planes in the nearest corner's unit, places of cut corners with 8 fraction bits, corners that are cut at 1/8 pixel, a
+/// Kills: planes whose rounded steps are followed from a corner to the picture, corners that are cut at 1/8 pixel, a
 /// stride of one budget for another.
 #[test]
 fn a_ground_that_the_near_plane_cuts_shows_the_texels_of_f64() {

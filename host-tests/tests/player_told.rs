@@ -74,7 +74,7 @@ fn told(list: &[u32], objects: usize, indices: usize) -> (RunCounts, Vec<Notice>
     (counts, notices)
 }
 
-/// Kills: notices at another block's place, sums of a scene's triangles in place of those of the list, triangles without room that nobody counts, and a
+/// Kills: sums of a scene's triangles in place of those of the list, triangles without room that nobody counts, and a
 /// block that is told as clipped since one before it was.
 #[test]
 fn a_player_counts_what_each_block_drew_and_lost() {

@@ -88,8 +88,8 @@ pub struct Skin<'a, 't> {
     /// The texture.
     pub texture: &'t Texture<'t>,
     /// The place of each vertex on it: to the right and down from its upper left corner, in texels with 8 fraction
-    /// bits, -2^17 to 2^17 texels; beyond, modulo 2^18 texels, which
-    /// is the same where the texture repeats. As many as there are positions.
+    /// bits, -2^17 to 2^17 texels; beyond, modulo 2^18 texels, which is the same where the
+    /// texture repeats. As many as there are positions.
     ///
     /// A triangle may stretch over less than 4,096 texels; one that stretches farther is drawn without the texture,
     /// and counted.
