@@ -1,10 +1,11 @@
 //! The command line tool: see `scanbeam --help`.
 
 use host_tests::args::{
-    self, Command, EXIT_BAD_INPUT, InterpArg, PixelFormatArg, QualityArg, RenderArgs, Stop,
+    self, Command, DepthArg, EXIT_BAD_INPUT, InterpArg, PixelFormatArg, QualityArg, RenderArgs,
+    Stop,
 };
 use host_tests::draw::TextureSet;
-use host_tests::image_out::{Staged, encode_image};
+use host_tests::image_out::{Frame, Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::scene_file::Loaded;
@@ -83,11 +84,61 @@ fn crew(args: &RenderArgs) -> draw::CrewSettings {
     }
 }
 
+/// What is written and told of a picture.
+struct Picture {
+    frame: Frame,
+    figures: serde_json::Value,
+    overfull: Option<draw::Overfull>,
+    untextured: u32,
+    /// Whether texels have fewer levels than pixels.
+    is_rounded: bool,
+}
+
+impl From<draw::Drawn> for Picture {
+    fn from(drawn: draw::Drawn) -> Self {
+        Self {
+            figures: drawn.to_json(),
+            frame: drawn.frame,
+            overfull: drawn.overfull,
+            untextured: drawn.stats.pass_one.untextured,
+            is_rounded: false,
+        }
+    }
+}
+
+/// Draws a model with textures by draw calls, where those have what is asked.
+fn render_by_calls(
+    args: &RenderArgs,
+    model: &Model,
+    textures: &TextureSet,
+) -> Result<Option<Picture>, draw::DrawFailure> {
+    let is_usual = args.interp.is_none() && args.depth == DepthArg::Auto && args.prefetch == 0;
+    if textures.is_empty() || !is_usual {
+        return Ok(None);
+    }
+    let skins = draw::Skins {
+        set: textures,
+        filter: args.filter,
+        quality: args.texture_quality(),
+    };
+    let prepared = draw::Prepared::textured(model, textures, skins.quality);
+    let (view, format) = (args.view(), args.format());
+    let skins = Some(skins);
+    let called = draw::draw_by_calls(&prepared, skins, &view, format, args.renderers, args.cache)?;
+    Ok(called.map(|called| Picture {
+        figures: called.to_json(),
+        untextured: called.used.cache.untextured,
+        frame: called.frame,
+        overfull: None,
+        is_rounded: format != PixelFormatArg::Rgb565,
+    }))
+}
+
 /// Writes a picture and, where they are asked for, its figures: both files, or none.
-fn write(args: &RenderArgs, drawn: &draw::Drawn) -> Result<(), Box<dyn Error>> {
+fn write(args: &RenderArgs, drawn: &Picture) -> Result<(), Box<dyn Error>> {
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
-        let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
+        let mut text = serde_json::to_string_pretty(&drawn.figures)?;
         text.push('\n');
         Staged::new(path, text.as_bytes())?.commit()?;
     }
@@ -106,7 +157,7 @@ fn render_scene(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         let view = loaded.scene.view();
         draw::draw_scene_file(&parts, &view, loaded.scene.pixel_format(), crew(args))
     });
-    let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
+    let drawn = Picture::from(drawn.map_err(|error| format!("{file}: {error}"))?);
     write(args, &drawn)?;
     if let Some(overfull) = &drawn.overfull {
         tell!("warning: {file}: {overfull}");
@@ -144,8 +195,15 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         .into());
     }
     let file = args.model.display();
-    let drawn = if args.depth.is_a_pipeline() {
-        draw::draw_by_depth(&model, &view, format, crew, args.depth)
+    let by_calls = match seen {
+        false => render_by_calls(args, &model, &textures),
+        true => Ok(None),
+    };
+    let by_calls = by_calls.map_err(|error| format!("{file}: {error}"))?;
+    let drawn = if let Some(picture) = by_calls {
+        Ok(picture)
+    } else if args.depth.is_a_pipeline() {
+        draw::draw_by_depth(&model, &view, format, crew, args.depth).map(Picture::from)
     } else if !is_plain && (seen || is_dithered && !textures.is_empty()) {
         if !textures.is_empty() && !textures.has_levels() {
             return Err(
@@ -155,11 +213,12 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         }
         let how = (args.filter, args.texture_quality());
         draw::draw_effects(&model, &textures, how, (&view, format), crew, effects)
+            .map(Picture::from)
     } else if textures.is_empty() {
-        draw::draw_by(&model, &view, format, crew, args.method())
+        draw::draw_by(&model, &view, format, crew, args.method()).map(Picture::from)
     } else {
         let how = (args.filter, args.texture_quality());
-        draw::draw_textured(&model, &textures, how, &view, format, crew)
+        draw::draw_textured(&model, &textures, how, &view, format, crew).map(Picture::from)
     };
     let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
     write(args, &drawn)?;
@@ -176,7 +235,10 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     for note in textures.notes() {
         tell!("note: {note}");
     }
-    let untextured = drawn.stats.pass_one.untextured;
+    if drawn.is_rounded {
+        tell!("note: texels of textures are rounded to 5, 6 and 5 bits");
+    }
+    let untextured = drawn.untextured;
     if untextured > 0 {
         tell!(
             "note: {untextured} triangles are drawn untextured, as they stretch over more than 4096 texels"

@@ -38,7 +38,7 @@ fn view(width: u32, height: u32, shade: Shade) -> View {
 }
 
 fn called(prepared: &Prepared, view: &View, format: PixelFormatArg) -> Option<Called> {
-    draw_by_calls(prepared, view, format, 1, 64).expect("a view")
+    draw_by_calls(prepared, None, view, format, 1, 64).expect("a view")
 }
 
 /// A square of so many cells a side, each of two triangles, before the eye of [`View::default`].
@@ -104,7 +104,7 @@ fn grey_pictures_and_those_of_one_bit_are_those_of_the_presets() {
             (PixelFormatArg::Grey8, 203 * 150),
             (PixelFormatArg::Mono, 26 * 150),
         ] {
-            let Called { frame, used } = called(&prepared, &view, format).expect("it fits");
+            let Called { frame, used, .. } = called(&prepared, &view, format).expect("it fits");
             assert_eq!(used.scan_out.bytes_sent, bytes);
             let drawn = draw_prepared(&prepared, &view, format, CrewSettings::default());
             let drawn = drawn.expect("a view").frame;
@@ -134,7 +134,7 @@ fn whoever_draws_the_picture_is_the_same() {
         let view = view(90, 61, shade);
         let draw = |renderers, slots| {
             let format = PixelFormatArg::Rgb888;
-            let called = draw_by_calls(&prepared, &view, format, renderers, slots);
+            let called = draw_by_calls(&prepared, None, &view, format, renderers, slots);
             called.expect("a view").expect("it fits")
         };
         let first = draw(1, 64);
@@ -187,7 +187,7 @@ fn what_draw_calls_do_not_draw_is_left_to_the_presets() {
     let prepared = Prepared::new(&teapot());
     let is_drawn = |width, height, format, slots| {
         let view = view(width, height, Shade::Gouraud);
-        let called = draw_by_calls(&prepared, &view, format, 1, slots);
+        let called = draw_by_calls(&prepared, None, &view, format, 1, slots);
         called.expect("a view").is_some()
     };
     use PixelFormatArg::{Dithered565, Dithered888, Rgb565};

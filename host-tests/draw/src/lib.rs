@@ -19,7 +19,7 @@ pub use effects::{Effects, draw_effects};
 pub use interp::{draw_by, draw_prepared};
 pub use prepared::Prepared;
 pub use scenes::{SceneParts, draw_scene_file};
-pub use textured::{FilterArg, HostTexture, TextureSet, TextureSetError, draw_textured};
+pub use textured::{FilterArg, HostTexture, Skins, TextureSet, TextureSetError, draw_textured};
 pub use values::{Called, MOST_SLOTS, draw_by_calls};
 
 use crate::choice::{DEFAULT_SLOTS, PixelFormatArg};

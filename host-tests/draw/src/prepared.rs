@@ -74,8 +74,8 @@ pub(super) struct Chunk {
     /// Around all positions.
     pub(super) sphere: Sphere,
     /// Texture places, where there is a texture.
-    places: Vec<[i32; 2]>,
-    texture: Option<u16>,
+    pub(super) places: Vec<[i32; 2]>,
+    pub(super) texture: Option<u16>,
     quality: Quality,
     /// Which of the model's looks.
     pub(super) look: u16,

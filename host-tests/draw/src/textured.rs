@@ -7,11 +7,12 @@ use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use host_support::texture_file::{TextureFileError, TextureImage, of_materials};
 use scanbeam::pipeline::texture::{
-    Bilinear, Detail, DetailedTextures, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871,
+    Bilinear, Detail, DetailedTextures, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871, Size,
     Texel, TexelFormat, Texels, Texture, TextureSource, Textured, Textures, Uv, Words,
 };
 use scanbeam::pipeline::{Counted, Depth32, Flat, Gouraud, Packed8, Parts, Shading};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::scene::{self, Budget, Sampling};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -114,6 +115,96 @@ impl TextureSet {
     pub(super) fn of(&self, triangle: usize) -> Option<(u16, &TextureImage)> {
         let number = self.of_triangle.get(triangle).copied().flatten()?;
         Some((number, self.images.get(usize::from(number))?))
+    }
+}
+
+/// Textures for draw calls, and how they are read.
+#[derive(Debug, Clone, Copy)]
+pub struct Skins<'s> {
+    /// Those that a model was prepared with.
+    pub set: &'s TextureSet,
+    /// How texels are taken.
+    pub filter: FilterArg,
+    /// How far texture places may be off.
+    pub quality: Quality,
+}
+
+impl Skins<'_> {
+    /// How far that is in texels.
+    pub(super) fn budget(&self) -> Budget {
+        match self.quality {
+            Quality::Fast => Budget::FAST,
+            Quality::Balanced => Budget::BALANCED,
+            Quality::Exact => Budget::EXACT,
+        }
+    }
+
+    fn sampling(&self) -> Option<Sampling> {
+        match self.filter {
+            FilterArg::Bilinear => Some(Sampling::LINEAR),
+            FilterArg::Nearest => self.set.levels.then_some(Sampling::NEAREST),
+        }
+    }
+}
+
+/// A level of a texture in words of 16 bits.
+struct Level {
+    words: Vec<u16>,
+    size: Size,
+}
+
+impl Level {
+    fn texture(&self) -> Result<scene::Texture<'_>, scene::TextureError> {
+        scene::Texture::words(&self.words, self.size.width(), self.size.height())
+    }
+}
+
+/// The texels of a set's textures as draw calls read them: of each the levels of detail, the picture first.
+pub(super) struct Texels16(Vec<Vec<Level>>);
+
+impl Texels16 {
+    /// Levels rounded to those of the format `F`; coarser ones only where the set has them.
+    pub(super) fn of<F: PixelFormat<Word = u16>>(set: &TextureSet) -> Self {
+        let count = if set.levels { LEVELS } else { 1 };
+        let levels = |image: &TextureImage| {
+            let mut levels: Vec<Level> = Vec::new();
+            for (level, words) in (0..).zip(&image.levels).take(count) {
+                let size = image.size.level(level);
+                // One texel has no level below it.
+                if levels.last().is_some_and(|above| above.size == size) {
+                    break;
+                }
+                let word = |&word: &u32| F::from_rgb8(Rgba8871::expand(word).rgb);
+                let words = words.iter().map(word).collect();
+                levels.push(Level { words, size });
+            }
+            levels
+        };
+        Self(set.images.iter().map(levels).collect())
+    }
+
+    /// The levels below each picture.
+    pub(super) fn coarser(&self) -> Result<Vec<Vec<scene::Texture<'_>>>, scene::TextureError> {
+        let below = self.0.iter().map(|levels| levels.iter().skip(1));
+        below
+            .map(|below| below.map(Level::texture).collect())
+            .collect()
+    }
+
+    /// The textures, read as `skins` says.
+    pub(super) fn textures<'t>(
+        &'t self,
+        coarser: &'t [Vec<scene::Texture<'t>>],
+        skins: Skins<'_>,
+    ) -> Result<Vec<scene::Texture<'t>>, scene::TextureError> {
+        let texture = |(levels, coarser): (&'t Vec<Level>, &'t Vec<scene::Texture<'t>>)| {
+            let texture = levels[0].texture()?;
+            match skins.sampling() {
+                Some(sampling) => texture.sampled(sampling, coarser),
+                None => Ok(texture),
+            }
+        };
+        self.0.iter().zip(coarser).map(texture).collect()
     }
 }
 

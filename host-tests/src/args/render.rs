@@ -31,6 +31,17 @@ impl QualityArg {
             Self::Exact => Quality::exact(),
         }
     }
+
+    /// What textures are drawn by.
+    #[must_use]
+    pub fn texture_quality(self) -> scanbeam::pipeline::texture::Quality {
+        use scanbeam::pipeline::texture::Quality;
+        match self {
+            Self::Fast => Quality::Fast,
+            Self::Balanced => Quality::Balanced,
+            Self::Exact => Quality::Exact,
+        }
+    }
 }
 
 /// Whether something is done.
@@ -68,7 +79,9 @@ pub struct RenderArgs {
     /// How what is seen is found
     #[arg(long, value_enum, value_name = "METHOD", default_value_t = DepthArg::Auto)]
     pub depth: DepthArg,
-    /// Texture of the whole model, .png or .ppm; without it those of its materials (map_Kd)
+    /// Texture of the whole model, .png or .ppm; without it those of its materials (map_Kd).
+    /// Its levels are rounded to 5, 6 and 5 bits, unless --interp, --depth, --prefetch, a side over
+    /// 1016 pixels, dither, shadows or materials that shine or are transparent are there too
     #[arg(long, value_name = "FILE")]
     pub texture: Option<PathBuf>,
     /// How texels are taken from textures
@@ -102,7 +115,8 @@ pub struct RenderArgs {
     /// Bytes a line that each renderer fetches ahead into its cache
     #[arg(long, value_name = "BYTES", default_value_t = 0)]
     pub prefetch: u32,
-    /// Also write figures of the frame, as JSON
+    /// Also write figures of the frame, as JSON; with textures those of spans and pixels are left
+    /// out where texels are rounded
     #[arg(long, value_name = "OUT.json")]
     pub stats: Option<PathBuf>,
 }
@@ -152,12 +166,8 @@ impl RenderArgs {
     /// How far texture places may be off.
     #[must_use]
     pub fn texture_quality(&self) -> scanbeam::pipeline::texture::Quality {
-        use scanbeam::pipeline::texture::Quality;
-        match self.quality {
-            Some(QualityArg::Fast) => Quality::Fast,
-            Some(QualityArg::Balanced) | None => Quality::Balanced,
-            Some(QualityArg::Exact) => Quality::Exact,
-        }
+        let quality = self.quality.unwrap_or(QualityArg::Balanced);
+        quality.texture_quality()
     }
 
     /// Whether the method by which what is seen is found goes with the rest.

@@ -1,9 +1,8 @@
 //! What is shown: the model, and a frame of it in a state.
 
 use super::State;
-use crate::args::QualityArg;
 use crate::draw::{
-    Called, CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, TextureSet,
+    Called, CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, Skins, TextureSet,
     TextureSetError, draw_by_calls, draw_prepared, draw_scene_file, draw_textured,
 };
 use crate::image_out::Frame;
@@ -49,11 +48,12 @@ impl<'m> Scenery<'m> {
             let off = vertex.position.iter().zip(centre);
             most.max(off.fold(0.0, |sum: f64, (at, centre)| sum.hypot(at - centre)))
         });
+        let textures = TextureSet::load(model, None)?.with_levels(true);
         Ok(Self {
             what: What::Model {
                 model,
-                prepared: Prepared::new(model),
-                textures: TextureSet::load(model, None)?.with_levels(true),
+                prepared: Prepared::textured(model, &textures, texture::Quality::default()),
+                textures,
             },
             centre,
             radius: if radius > 0.0 { radius } else { 1.0 },
@@ -101,7 +101,7 @@ impl<'m> Scenery<'m> {
         let start = Instant::now();
         let view = state.view(self, width, height);
         let (frame, did) = match self.by_calls(state, &view)? {
-            Some(Called { frame, used }) => (frame, Did::Calls(used)),
+            Some(Called { frame, used, .. }) => (frame, Did::Calls(used)),
             None => {
                 let drawn = self.by_presets(state, &view)?;
                 (drawn.frame, Did::Presets(Box::new(drawn.stats)))
@@ -114,15 +114,21 @@ impl<'m> Scenery<'m> {
         })
     }
 
-    /// By draw calls: models without textures, where that can be.
+    /// By draw calls: models, where that can be.
     fn by_calls(&self, state: &State, view: &View) -> Result<Option<Called>, DrawFailure> {
         match &self.what {
             What::Model {
                 prepared, textures, ..
-            } if textures.is_empty() => {
-                draw_by_calls(prepared, view, state.format, state.renderers, state.slots)
+            } => {
+                let skins = Skins {
+                    set: textures,
+                    filter: FilterArg::Nearest,
+                    quality: state.quality.texture_quality(),
+                };
+                let (format, slots) = (state.format, state.slots);
+                draw_by_calls(prepared, Some(skins), view, format, state.renderers, slots)
             }
-            _ => Ok(None),
+            What::Scene { .. } => Ok(None),
         }
     }
 
@@ -144,12 +150,7 @@ impl<'m> Scenery<'m> {
             What::Model {
                 model, textures, ..
             } => {
-                let quality = match state.quality {
-                    QualityArg::Fast => texture::Quality::Fast,
-                    QualityArg::Balanced => texture::Quality::Balanced,
-                    QualityArg::Exact => texture::Quality::Exact,
-                };
-                let how = (FilterArg::Nearest, quality);
+                let how = (FilterArg::Nearest, state.quality.texture_quality());
                 draw_textured(model, textures, how, view, state.format, crew)
             }
         }
