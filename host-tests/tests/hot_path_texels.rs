@@ -258,8 +258,7 @@ fn model() -> (Model, TextureImage) {
     (model, image)
 }
 
-/// Kills: the tool's pictures by presets, of which 707 pixels are wrong at exact; texels in the other byte order or of another level;
-/// a budget that is not what was asked.
+/// Kills: the tool's pictures by presets, of which 707 pixels are wrong at exact.
 #[test]
 fn the_tool_shows_the_texels_of_f64() {
     let (model, image) = model();

@@ -78,7 +78,7 @@ fn picture(width: u32, height: u32) -> Frame {
 }
 
 /// What is said of every textured picture of 24 bits.
-const ROUNDED: &str = "note: texels of textures are rounded to 5, 6 and 5 bits\n";
+pub(crate) const ROUNDED: &str = "note: texels of textures are rounded to 5, 6 and 5 bits\n";
 const DRAW: &str = "render m.obj -o o.png --size 64x64 --fov 60 --eye 0,0,1.7320508 --stats s.json";
 
 #[test]
