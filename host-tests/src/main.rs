@@ -129,7 +129,7 @@ fn render_by_calls(
         figures: called.to_json(),
         untextured: called.used.cache.untextured,
         frame: called.frame,
-        overfull: None,
+        overfull: called.overfull,
         is_rounded: format != PixelFormatArg::Rgb565,
     }))
 }

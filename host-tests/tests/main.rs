@@ -20,6 +20,7 @@ mod against_reference;
 mod arenas;
 mod block_fix_depth;
 mod by_calls;
+mod by_calls_parts;
 mod cache;
 mod changed;
 mod clip;

@@ -88,6 +88,10 @@ impl Screen {
 pub struct Camera {
     /// World to camera: x right, y down, z ahead.
     pub(super) view: Affine,
+    /// The same, sheared by `shift`: what is in the middle of the picture is on the axis.
+    pub(super) seen: Affine,
+    /// Where the middle of the picture is, from where the camera looks: right and down, in 1/8 pixel.
+    pub(super) shift: [i32; 2],
     /// Focal length in units of 1/8 pixel.
     pub(super) focal: Block<1>,
     pub(super) near: Block<1>,
@@ -111,6 +115,8 @@ pub enum CameraError {
     Range,
     /// The far plane is more than [`Camera::MOST_FAR`] times as far as the near plane.
     Ratio,
+    /// The middle of the picture is more than 8,192 pixels or 64 focal lengths from where the camera looks.
+    Shift,
 }
 
 impl core::fmt::Display for CameraError {
@@ -122,6 +128,9 @@ impl core::fmt::Display for CameraError {
             Self::Focal => "camera: the focal length is not within 2^-10 to 2^20 pixels",
             Self::Range => "camera: near and far must satisfy 2^-60 <= near < far < 2^90",
             Self::Ratio => "camera: far is more than 65536 times near: depth has no bits for that",
+            Self::Shift => {
+                "camera: the picture is more than 8192 pixels or 64 focal lengths from where it looks"
+            }
         })
     }
 }
@@ -193,9 +202,44 @@ impl Camera {
         let one = |v| Block::from_f32([v]).ok_or(CameraError::NotFinite);
         Ok(Self {
             view,
+            seen: view,
+            shift: [0; 2],
             focal: one(focal * 8.0)?,
             near: one(near)?,
             far: one(far)?,
+        })
+    }
+
+    /// The same camera, the middle of whose picture is so many pixels to the right of where it looks and below that,
+    /// rounded to 1/8 pixel: each part of a picture that is larger than a scene can be is a scene of its own.
+    ///
+    /// The part that begins at a column `x` of a picture of `whole` columns and has `part` of them is seen by
+    /// `x + part / 2 - whole / 2` to the right. Vertices are rounded in each part for itself, so edges of neighbours may
+    /// be 1/8 pixel apart.
+    ///
+    /// # Errors
+    /// [`CameraError::Shift`] when that is not within 8,192 pixels and 64 focal lengths each way.
+    pub fn shifted(&self, pixels: [f32; 2]) -> Result<Self, CameraError> {
+        if !pixels.iter().all(|p| p.abs() <= 8192.0) {
+            return Err(CameraError::Shift);
+        }
+        let shift = pixels.map(|p| (p * 8.0 + if p < 0.0 { -0.5 } else { 0.5 }) as i32);
+        // In focal lengths, of which `one` is one: below 2^32.
+        let [focal] = self.focal.mantissa.map(i64::from);
+        let [x, y] = shift.map(|s| (i64::from(s) << 44) / focal);
+        let one = 1i64 << (14 + self.focal.exponent);
+        if x.abs().max(y.abs()) > one << 6 {
+            return Err(CameraError::Shift);
+        }
+        let rows = [one, 0, -x, 0, one, -y, 0, 0, one];
+        let shear = Affine {
+            linear: Block::new(rows, 16 - self.focal.exponent),
+            offset: Block::ZERO,
+        };
+        Ok(Self {
+            seen: self.view.then(&shear),
+            shift,
+            ..*self
         })
     }
 }

@@ -46,7 +46,7 @@ impl PixelLamps {
         });
         Self {
             lamps: Lamps::new(lighting, |l| camera.view.direction_from_model_q30(l)),
-            centre: screen.centre(),
+            centre: [0, 1].map(|i| screen.centre()[i] - camera.shift[i]),
             focal: focal.clamp(1, 1 << 29) as i32,
             first: [screen.left(), screen.top()],
         }

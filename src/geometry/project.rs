@@ -65,7 +65,7 @@ pub(crate) struct Projection {
 impl Projection {
     #[inline(never)]
     pub(crate) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
-        let map = model.then(&camera.view);
+        let map = model.then(&camera.seen);
         // A vertex is within 2 each way, so a row reaches at most twice the sum of its entries.
         let mut row_bits = -200;
         for i in 0..3 {

@@ -1,9 +1,8 @@
 //! Scenes whose choices are types: one type parameter says which method does each step.
 //!
 //! What a program does not choose has no code and no bytes. What is here and not yet in [`scene`](crate::scene),
-//! [`look`](crate::look) and [`frame`](crate::frame): alpha of vertices, fetching ahead, counters of
-//! pixels, pictures over [`LARGEST`](crate::scene::LARGEST). For all else these draw in half to two thirds of the
-//! instructions.
+//! [`look`](crate::look) and [`frame`](crate::frame): alpha of vertices, fetching ahead, counters of pixels. For all else
+//! these draw in half to two thirds of the instructions.
 //!
 //! | preset | shading | depth | pixel | interpolation |
 //! |---|---|---|---|---|

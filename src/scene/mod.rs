@@ -113,7 +113,8 @@ pub(crate) struct Content {
     changes: u32,
 }
 
-/// The widest and the highest picture, in pixels.
+/// The widest and the highest picture, in pixels; larger ones are parts, each a scene by a [shifted](Camera::shifted)
+/// camera.
 pub const LARGEST: u16 = 1016;
 
 /// A scene in memory: shared by any number of renderers, read-only while they draw.

@@ -264,6 +264,7 @@ pub(super) fn project_textured<C: Coordinate>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::CameraError;
     use crate::num::random::Rng;
 
     #[test]
@@ -311,5 +312,46 @@ mod tests {
         assert!(worst < 0.505, "{worst}");
         assert!(worst_fine < 0.13, "{worst_fine}");
         assert!(worst_depth < 3e-5, "{worst_depth}");
+    }
+
+    /// Kills: a shift of the other sign or unit, or of one axis alone.
+    #[test]
+    fn cameras_that_are_shifted_see_the_same_from_another_middle() {
+        let screen = Screen::new(320, 240).unwrap();
+        let mut rng = Rng(10);
+        let mut worst = 0;
+        for i in 0..20_000 {
+            let focal = [90.0f32, 700.0, 3000.0][i % 3];
+            let (o, ahead, y) = ([0.0; 3], [0.2, 0.1, -1.0], [0.0, 1.0, 0.0]);
+            let camera = Camera::look_at(o, ahead, y, focal, 0.1, 100.0).unwrap();
+            let shift = [rng.signed(), rng.signed()].map(|s| s * 900.0);
+            let shifted = camera.shifted(shift).unwrap();
+            let model = Affine::placed(1.0, [0.0, 0.0, -4.0]).unwrap();
+            let q = [rng.signed(), rng.signed(), rng.signed()].map(|c| (c * 16_384.0) as i16);
+            let place = |camera: &Camera| {
+                let view = View::new(camera, screen, &model);
+                let p = view.point(q);
+                let on = (view.beyond(p) == 0).then(|| view.project(p).place)?;
+                Some([on & 0xFFFF, on >> 16].map(|c| c as i32))
+            };
+            let (Some(one), Some(other)) = (place(&camera), place(&shifted)) else {
+                continue;
+            };
+            for k in 0..2 {
+                let by = (f64::from(shift[k]) * 8.0).round() as i32;
+                worst = worst.max((one[k] - by - other[k]).abs());
+            }
+        }
+        assert_eq!(worst, 1);
+        let camera = Camera::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 2.0, 0.1, 9.0);
+        let camera = camera.unwrap();
+        assert!(camera.shifted([128.0, -128.0]).is_ok());
+        for far in [[129.0, 0.0], [0.0, -129.0], [f32::NAN, 0.0], [0.0, 1e9]] {
+            assert_eq!(
+                camera.shifted(far).err(),
+                Some(CameraError::Shift),
+                "{far:?}"
+            );
+        }
     }
 }

@@ -10,7 +10,7 @@ use scanbeam::{Camera, Faces, Light, Mesh, Screen};
 use std::ops::Range;
 
 /// Lines that have more triangles than an arena can hold: they show those that fit.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Overfull {
     /// The first such line.
     pub line: u16,
@@ -19,7 +19,7 @@ pub struct Overfull {
     /// How many triangles are left out, each on each of the lines.
     pub triangles: u32,
     /// What was full on the first line.
-    pub first: DrawError,
+    pub first: String,
 }
 
 impl std::fmt::Display for Overfull {
@@ -38,7 +38,7 @@ impl std::fmt::Display for Overfull {
 }
 
 /// How a picture was put together.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Bands {
     /// Bands of lines that were drawn one after the other.
     pub count: u32,
@@ -181,11 +181,11 @@ impl Setting {
                     count = count.div_ceil(2);
                     continue;
                 }
-                let overfull = bands.overfull.get_or_insert(Overfull {
+                let overfull = bands.overfull.get_or_insert_with(|| Overfull {
                     line: start,
                     lines: 0,
                     triangles: 0,
-                    first: error,
+                    first: error.to_string(),
                 });
                 overfull.lines += 1;
                 overfull.triangles += scene.pass_one().dropped;

@@ -2,28 +2,25 @@
 
 use crate::choice::PixelFormatArg;
 use crate::formats::mono;
+use crate::parts::{Figures, Job, WORDS, add_cache, draw_parts};
 use crate::textured::{Skins, Texels16};
-use crate::{DrawFailure, Prepared, Setting, display, shown};
+use crate::{DrawFailure, Overfull, Prepared, Setting};
 use host_support::image_out::Frame;
 use host_support::mock::{MockError, MockFrameBuffer};
 use host_support::reference::{Shade, View};
-use host_support::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::frame::{CacheUse, FastMemory, FrameError, FrameUse, LineError, draw_frame};
+use host_support::rooms::Room;
+use scanbeam::frame::{FrameError, FrameUse, LineError};
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::{Grey8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
 use scanbeam::scan_out::{Pump, Window};
-use scanbeam::scene::{
-    Budget, DrawError, DrawState, LARGEST, Object, Shading, Skin, Texture, TexturePlace, Vertex,
-};
+use scanbeam::scene::{Budget, LARGEST, Shading, Skin, Texture};
 use scanbeam::{Draw, Link, Renderer, Scene};
 use serde_json::json;
 use std::sync::mpsc::sync_channel;
 use std::thread;
 
-/// Words of 32 slots that the cache of a renderer has.
-const WORDS: usize = 7;
 /// Most slots that a renderer is lent, inclusive.
-pub const MOST_SLOTS: u16 = 32 * WORDS as u16;
+pub const MOST_SLOTS: u16 = 224;
 /// Lines that a thread may be ahead of the sender.
 const AHEAD: usize = 4;
 
@@ -35,41 +32,33 @@ type Failed = FrameError<MockError>;
 pub struct Called {
     /// The picture, converted back to 8-bit levels.
     pub frame: Frame,
-    /// What it took, all renderers together; of the most slots in use and of the triangles without their texture, those
-    /// of the renderer that has most.
+    /// What it took, all parts and renderers together; of the most slots in use and of the triangles without their
+    /// texture, those of the renderer that has most.
     pub used: FrameUse,
-    /// Triangles in memory: more than are seen where clipping cuts.
-    pub objects: usize,
-    /// Vertices in memory.
-    pub vertices: usize,
-    /// Bytes of slow memory in use: the scene, and a column of links for each renderer.
-    pub slow_bytes: usize,
-    /// Bytes of fast memory: slots of the caches and depth of a line, for each renderer.
-    pub fast_bytes: usize,
-    /// Bytes of the two line buffers.
-    pub line_bytes: usize,
+    /// Memory.
+    pub figures: Figures,
+    /// What is left out.
+    pub overfull: Option<Overfull>,
 }
 
 impl Called {
     /// The figures as `render --stats` writes them, by the names that [`Drawn::to_json`](crate::Drawn::to_json) has.
     ///
     /// What draw calls do not count is left out: spans, pixels, depth tests, texels fetched, what was skipped as a
-    /// whole, bytes of slow memory that were moved, and what was fetched ahead.
+    /// whole, bytes of slow memory that were moved, and what was fetched ahead; of a picture in several parts, what is
+    /// culled, clipped and kept, since a triangle may be on more than one.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let (done, cache, sent) = (&self.used.assembled, &self.used.cache, &self.used.scan_out);
-        json!({
+        let figures = &self.figures;
+        let mut all = json!({
             "objects_in": done.triangles,
-            "objects_culled": done.culled,
-            "objects_clipped": done.clipped,
-            "objects_kept": self.objects,
-            "vertices_kept": self.vertices,
             "scanlines_skipped": self.used.lines_skipped,
             "bytes_sent": sent.bytes_sent,
             "lines_unsent": sent.lines_unsent,
             "bytes_unsent": sent.bytes_unsent,
             "transfers": sent.transfers,
-            "bands": 1,
+            "bands": figures.parts,
             "cache": {
                 "hits": cache.hits,
                 "misses": cache.misses,
@@ -78,11 +67,18 @@ impl Called {
                 "peak_slots": cache.peak,
             },
             "ram": {
-                "slow_bytes": self.slow_bytes,
-                "fast_bytes": self.fast_bytes,
-                "line_bytes": self.line_bytes,
+                "slow_bytes": figures.slow_bytes,
+                "fast_bytes": figures.fast_bytes,
+                "line_bytes": figures.line_bytes,
             },
-        })
+        });
+        if figures.parts == 1 {
+            all["objects_culled"] = json!(done.culled);
+            all["objects_clipped"] = json!(done.clipped);
+            all["objects_kept"] = json!(figures.objects);
+            all["vertices_kept"] = json!(figures.vertices);
+        }
+        all
     }
 }
 
@@ -91,9 +87,9 @@ impl Called {
 ///
 /// Texels have 16 bits whatever the format: the levels of a picture are rounded to 5, 6 and 5 bits.
 ///
-/// `None` is for what draw calls do not draw, or not at once: a side over [`LARGEST`] pixels, dithered pixels of 16 and
-/// 24 bits, textures in grey and in one bit, more than [`MOST_SLOTS`] slots, and models of which too much is seen for
-/// the memory of one scene.
+/// A picture that is larger than a scene can be, or shows more than the memory of one holds, is put together from parts.
+/// `None` is for what draw calls do not draw: dithered pixels of 16 and 24 bits, textures in grey and in one bit, and more
+/// than [`MOST_SLOTS`] slots.
 ///
 /// # Errors
 /// See [`DrawFailure`].
@@ -105,7 +101,7 @@ pub fn draw_by_calls(
     renderers: u16,
     slots: u16,
 ) -> Result<Option<Called>, DrawFailure> {
-    if view.width.max(view.height) > u32::from(LARGEST) || slots > MOST_SLOTS {
+    if slots > MOST_SLOTS {
         return Ok(None);
     }
     let asked = Asked {
@@ -170,17 +166,21 @@ where
 {
     let (prepared, view) = (asked.prepared, asked.view);
     let setting = Setting::new(prepared, view)?;
-    let (width, height) = (setting.screen.width(), setting.screen.height());
-    let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
-    let room = room(asked, !textures.is_empty());
-    let mut memory = SceneRooms::new(room, height);
-    let mut scene = memory.scene::<L>(setting.screen);
-    scene.begin(&setting.camera).map_err(|e| bad(&e))?;
-    for chunk in &prepared.chunks {
+    let job = Job {
+        size: [view.width, view.height],
+        most: LARGEST,
+        camera: setting.camera,
+        background: view.background,
+        renderers: asked.renderers,
+        slots: asked.slots,
+        room: room(asked, !textures.is_empty()),
+    };
+    draw_parts::<L, F>(&job, prepared.chunks.len(), |scene, number| {
+        let chunk = &prepared.chunks[number];
         let texture = chunk
             .texture
             .and_then(|number| textures.get(usize::from(number)));
-        let call = Draw {
+        scene.draw(&Draw {
             model: setting.instance.model,
             cull: setting.instance.cull,
             light: setting.instance.light,
@@ -194,49 +194,12 @@ where
                 budget,
             }),
             ..Draw::new(chunk.mesh())
-        };
-        match scene.draw(&call) {
-            Err(DrawError::Full { .. }) => return Ok(None),
-            done => done.map_err(|e| bad(&e))?,
-        }
-    }
-    let mut lines: Vec<LineRooms<L, WORDS>> = (0..asked.renderers)
-        .map(|_| LineRooms::new(scene.objects(), width).with_limit(asked.slots))
-        .collect();
-    let mut crew: Vec<_> = lines.iter_mut().map(LineRooms::renderer).collect();
-    let (mut pump, band) = display::<F::Word>(width, height);
-    let background = F::from_rgb8(view.background);
-    let used = match &mut crew[..] {
-        [alone] => draw_frame(&scene, alone, &mut pump, background, band),
-        several => draw_shared(&scene, several, &mut pump, background, band),
-    };
-    let line = usize::from(width);
-    let fast = usize::from(asked.slots) * FastMemory::<L, WORDS>::SLOT_BYTES + line * 4;
-    Ok(Some(Called {
-        used: used.map_err(DrawFailure::Calls)?,
-        frame: shown::<F>(&pump, view)?,
-        objects: scene.objects(),
-        vertices: scene.vertices(),
-        slow_bytes: slow_bytes(&scene, asked),
-        fast_bytes: usize::from(asked.renderers) * fast,
-        line_bytes: 2 * line * usize::from(band) * size_of::<F::Word>(),
-    }))
+        })
+    })
+    .map(Some)
 }
 
-/// Bytes of slow memory that a scene takes, with the links of its renderers.
-fn slow_bytes<L: Look>(scene: &Scene<'_, '_, L>, asked: &Asked<'_>) -> usize {
-    let place = match L::TEXTURED {
-        true => size_of::<TexturePlace>(),
-        false => 0,
-    };
-    let object = size_of::<Object>() + usize::from(asked.renderers) * size_of::<Link>();
-    scene.vertices() * (size_of::<Vertex>() + place)
-        + scene.objects() * object
-        + scene.lines().len() * size_of::<u16>()
-        + asked.prepared.chunks.len() * size_of::<DrawState<'_>>()
-}
-
-/// Room for a model; what needs more is not drawn at once.
+/// Room for a model; what needs more is drawn in several bands of lines.
 fn room(asked: &Asked<'_>, textured: bool) -> Room {
     let prepared = asked.prepared;
     let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
@@ -257,7 +220,7 @@ fn room(asked: &Asked<'_>, textured: bool) -> Room {
 }
 
 /// Draws a frame by a thread for each renderer, which share the lines in turns; this one sends them.
-fn draw_shared<L, F>(
+pub(crate) fn draw_shared<L, F>(
     scene: &Scene<'_, '_, L>,
     renderers: &mut [Renderer<'_, L, WORDS>],
     pump: &mut Pump<MockFrameBuffer<F::Word>>,
@@ -268,7 +231,7 @@ where
     L: Look<Pixel = F, Planes: Send> + Sync,
     F: Pixel + Sync,
 {
-    let (width, height) = (scene.screen().width(), scene.screen().height());
+    let (width, all) = (scene.screen().width(), scene.lines());
     let count = renderers.len();
     let mut used = FrameUse {
         assembled: scene.assembled(),
@@ -292,9 +255,9 @@ where
         }
         let window = Window {
             x: 0,
-            y: 0,
+            y: all.start,
             width,
-            height,
+            height: all.len() as u16,
         };
         pump.begin(window, lines_per_transfer)?;
         for (line, lines) in scene.lines().zip(drawn.iter().cycle()) {
@@ -308,20 +271,8 @@ where
         Ok::<_, Failed>(())
     })?;
     for renderer in renderers {
-        add(&mut used.cache, &renderer.counts());
+        add_cache(&mut used.cache, &renderer.counts());
     }
     used.scan_out = pump.stats();
     Ok(used)
-}
-
-/// Adds what another cache has done.
-fn add(all: &mut CacheUse, one: &CacheUse) {
-    all.hits += one.hits;
-    all.spilled += one.spilled;
-    all.moved_in += one.moved_in;
-    all.misses += one.misses;
-    all.set_ups += one.set_ups;
-    all.peak = all.peak.max(one.peak);
-    // One that is on lines of several is one.
-    all.untextured = all.untextured.max(one.untextured);
 }

@@ -1,0 +1,303 @@
+//! A picture by draw calls in as many scenes as it takes: tiles where it is larger than a scene can be, and bands of
+//! lines where more is seen than the memory of a scene holds.
+
+use crate::values::{Called, MOST_SLOTS, draw_shared};
+use crate::{DrawFailure, Overfull, display};
+use host_support::image_out::Frame;
+use host_support::rooms::{LineRooms, Room, SceneRooms};
+use scanbeam::frame::{CacheUse, FastMemory, FrameUse, draw_frame};
+use scanbeam::look::Look;
+use scanbeam::pixel::{Pixel, PixelFormat};
+use scanbeam::scene::{DrawError, DrawState, Object, TexturePlace, Vertex};
+use scanbeam::{Camera, Link, Scene, Screen};
+
+/// Words of 32 slots that the cache of a renderer has.
+pub(crate) const WORDS: usize = MOST_SLOTS as usize / 32;
+
+/// What is to be drawn, and by how many.
+#[derive(Clone, Copy)]
+pub(crate) struct Job {
+    /// Columns and lines of the picture.
+    pub(crate) size: [u32; 2],
+    /// Most columns and lines of a tile, at most [`LARGEST`](scanbeam::scene::LARGEST).
+    pub(crate) most: u16,
+    pub(crate) camera: Camera,
+    pub(crate) background: [u8; 3],
+    /// At least 1.
+    pub(crate) renderers: u16,
+    pub(crate) slots: u16,
+    /// Memory of a scene.
+    pub(crate) room: Room,
+}
+
+/// A rectangle of the picture.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tile {
+    /// First column and line.
+    first: [u32; 2],
+    /// Columns and lines.
+    size: [u16; 2],
+}
+
+impl Tile {
+    /// The camera that sees it in the middle of its picture.
+    fn camera(&self, job: &Job) -> Result<Camera, DrawFailure> {
+        let shift = |i: usize| {
+            let middle = f64::from(self.first[i]) + f64::from(self.size[i]) / 2.0;
+            (middle - f64::from(job.size[i]) / 2.0) as f32
+        };
+        let shifted = job.camera.shifted([shift(0), shift(1)]);
+        shifted.map_err(|error| DrawFailure::View(error.to_string()))
+    }
+}
+
+/// Parts of `length` pixels, as many as there must be for none to have more than `most`: the first of each, and how many.
+fn split(length: u32, most: u16) -> impl Iterator<Item = (u32, u16)> + Clone {
+    let count = length.div_ceil(u32::from(most)).max(1);
+    let begin = move |i: u32| length * i / count;
+    (0..count).map(move |i| (begin(i), (begin(i + 1) - begin(i)) as u16))
+}
+
+/// The tiles of a picture, row by row.
+fn tiles(job: &Job) -> impl Iterator<Item = Tile> {
+    let columns = split(job.size[0], job.most);
+    split(job.size[1], job.most).flat_map(move |(y, height)| {
+        columns.clone().map(move |(x, width)| Tile {
+            first: [x, y],
+            size: [width, height],
+        })
+    })
+}
+
+/// Draws a picture of what `step` draws, for each number from 0 to below `steps` once a scene. A line that has more than a
+/// scene's memory holds shows what does.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub(crate) fn draw_parts<'t, L, F>(
+    job: &Job,
+    steps: usize,
+    step: impl FnMut(&mut Scene<'_, 't, L>, usize) -> Result<(), DrawError>,
+) -> Result<Called, DrawFailure>
+where
+    L: Look<Pixel = F, Planes: Send> + Sync,
+    F: Pixel + Sync,
+{
+    let [width, height] = job.size;
+    let mut parts = Parts {
+        rgb: vec![0; 3 * width as usize * height as usize],
+        used: FrameUse::default(),
+        figures: Figures::default(),
+        overfull: None,
+        steps,
+        step,
+    };
+    for tile in tiles(job) {
+        parts.tile::<L, F>(job, tile)?;
+    }
+    Ok(Called {
+        frame: Frame::new(width, height, parts.rgb)
+            .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
+        used: parts.used,
+        figures: parts.figures,
+        overfull: parts.overfull,
+    })
+}
+
+/// A picture as its parts become ready.
+struct Parts<S> {
+    rgb: Vec<u8>,
+    used: FrameUse,
+    figures: Figures,
+    overfull: Option<Overfull>,
+    steps: usize,
+    step: S,
+}
+
+impl<S> Parts<S> {
+    /// Draws a tile, in as many bands of lines as it takes.
+    fn tile<'t, L, F>(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure>
+    where
+        L: Look<Pixel = F, Planes: Send> + Sync,
+        F: Pixel + Sync,
+        S: FnMut(&mut Scene<'_, 't, L>, usize) -> Result<(), DrawError>,
+    {
+        let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
+        let [width, height] = tile.size;
+        let camera = tile.camera(job)?;
+        let mut memory = SceneRooms::new(job.room, height);
+        let mut scene = memory.scene::<L>(Screen::new(width, height).map_err(|e| bad(&e))?);
+        let mut lines: Vec<LineRooms<L, WORDS>> = (0..job.renderers)
+            .map(|_| LineRooms::new(job.room.objects, width).with_limit(job.slots))
+            .collect();
+        let mut crew: Vec<_> = lines.iter_mut().map(LineRooms::renderer).collect();
+        let (mut pump, band) = display::<F::Word>(width, height);
+        let background = F::from_rgb8(job.background);
+        let (mut start, mut count) = (0, height);
+        while start < height {
+            count = count.min(height - start);
+            let begun = scene.begin_lines(&camera, start..start + count);
+            begun.map_err(|e| bad(&e))?;
+            let full = self.build(&mut scene, count > 1)?;
+            match full {
+                // Fewer lines have fewer triangles.
+                Some(_) if count > 1 => {
+                    count = count.div_ceil(2);
+                    continue;
+                }
+                Some(first) => {
+                    let line = tile.first[1] as u16 + start;
+                    self.is_overfull(line, first, scene.assembled().dropped);
+                }
+                None => {}
+            }
+            let used = match &mut crew[..] {
+                [alone] => draw_frame(&scene, alone, &mut pump, background, band),
+                several => draw_shared(&scene, several, &mut pump, background, band),
+            };
+            add(&mut self.used, &used.map_err(DrawFailure::Calls)?);
+            self.figures.count(job, &scene, band);
+            start += count;
+        }
+        let words = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
+        self.take(job, tile, words.into_iter().map(F::to_rgb8));
+        Ok(())
+    }
+
+    /// Draws all that a scene has room for; what found none first. Where that is asked for, it stops there.
+    fn build<'t, L>(
+        &mut self,
+        scene: &mut Scene<'_, 't, L>,
+        stops: bool,
+    ) -> Result<Option<DrawError>, DrawFailure>
+    where
+        S: FnMut(&mut Scene<'_, 't, L>, usize) -> Result<(), DrawError>,
+    {
+        let mut full = None;
+        for step in 0..self.steps {
+            match (self.step)(scene, step) {
+                Ok(()) => {}
+                Err(error @ DrawError::Full { .. }) => {
+                    full.get_or_insert(error);
+                    if stops {
+                        break;
+                    }
+                }
+                Err(error) => return Err(DrawFailure::View(error.to_string())),
+            }
+        }
+        Ok(full)
+    }
+
+    /// A line shows less than there is.
+    fn is_overfull(&mut self, line: u16, first: DrawError, dropped: u32) {
+        let overfull = self.overfull.get_or_insert_with(|| Overfull {
+            line,
+            lines: 0,
+            triangles: 0,
+            first: first.to_string(),
+        });
+        overfull.lines += 1;
+        overfull.triangles += dropped;
+    }
+
+    /// Puts a tile's pixels into the picture.
+    fn take(&mut self, job: &Job, tile: Tile, pixels: impl Iterator<Item = [u8; 3]>) {
+        let [x, y] = tile.first.map(|first| first as usize);
+        let [columns, lines] = tile.size.map(usize::from);
+        let stride = 3 * job.size[0] as usize;
+        let rows = self.rgb.chunks_exact_mut(stride).skip(y).take(lines);
+        let places = rows.flat_map(|row| row[3 * x..3 * (x + columns)].chunks_exact_mut(3));
+        for (place, pixel) in places.zip(pixels) {
+            place.copy_from_slice(&pixel);
+        }
+    }
+}
+
+/// Adds what another part of a picture took. Of pass one, each part is given all triangles.
+fn add(all: &mut FrameUse, one: &FrameUse) {
+    all.assembled.triangles = one.assembled.triangles;
+    all.assembled.culled += one.assembled.culled;
+    all.assembled.clipped += one.assembled.clipped;
+    all.assembled.dropped += one.assembled.dropped;
+    add_cache(&mut all.cache, &one.cache);
+    all.lines_skipped += one.lines_skipped;
+    all.scan_out.bytes_sent += one.scan_out.bytes_sent;
+    all.scan_out.transfers += one.scan_out.transfers;
+    all.scan_out.stall_polls += one.scan_out.stall_polls;
+    all.scan_out.lines_unsent += one.scan_out.lines_unsent;
+    all.scan_out.bytes_unsent += one.scan_out.bytes_unsent;
+}
+
+/// Adds what another cache has done.
+pub(crate) fn add_cache(all: &mut CacheUse, one: &CacheUse) {
+    all.hits += one.hits;
+    all.spilled += one.spilled;
+    all.moved_in += one.moved_in;
+    all.misses += one.misses;
+    all.set_ups += one.set_ups;
+    all.peak = all.peak.max(one.peak);
+    // One that is on lines of several is one.
+    all.untextured = all.untextured.max(one.untextured);
+}
+
+/// Memory that a picture takes: that of the part with the most of each.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Figures {
+    /// Parts that the picture is put together from.
+    pub parts: u32,
+    /// Triangles in memory: more than are seen where clipping cuts.
+    pub objects: usize,
+    /// Vertices in memory.
+    pub vertices: usize,
+    /// Bytes of slow memory in use: the scene, and a column of links for each renderer.
+    pub slow_bytes: usize,
+    /// Bytes of fast memory: slots of the caches and depth of a line, for each renderer.
+    pub fast_bytes: usize,
+    /// Bytes of the two line buffers.
+    pub line_bytes: usize,
+}
+
+impl Figures {
+    /// Counts another part, that has sent so many lines a transfer.
+    fn count<L: Look>(&mut self, job: &Job, scene: &Scene<'_, '_, L>, lines: u16) {
+        let place = match L::TEXTURED {
+            true => size_of::<TexturePlace>(),
+            false => 0,
+        };
+        let renderers = usize::from(job.renderers);
+        let object = size_of::<Object>() + renderers * size_of::<Link>();
+        let slow = scene.vertices() * (size_of::<Vertex>() + place)
+            + scene.objects() * object
+            + scene.lines().len() * size_of::<u16>()
+            + job.room.draws * size_of::<DrawState<'_>>();
+        let line = usize::from(scene.screen().width());
+        let fast = usize::from(job.slots) * FastMemory::<L, WORDS>::SLOT_BYTES + line * 4;
+        let word = size_of::<<L::Pixel as PixelFormat>::Word>();
+        self.parts += 1;
+        self.objects = self.objects.max(scene.objects());
+        self.vertices = self.vertices.max(scene.vertices());
+        self.slow_bytes = self.slow_bytes.max(slow);
+        self.fast_bytes = self.fast_bytes.max(renderers * fast);
+        self.line_bytes = self.line_bytes.max(2 * line * usize::from(lines) * word);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_all_of_it_and_none_is_too_large() {
+        for (length, most) in [(1, 1016), (1016, 1016), (1017, 1016), (4096, 1016), (7, 2)] {
+            let parts: Vec<_> = split(length, most).collect();
+            let mut next = 0;
+            for &(first, count) in &parts {
+                assert!(first == next && (1..=most).contains(&count), "{parts:?}");
+                next += u32::from(count);
+            }
+            assert_eq!(next, length, "{parts:?}");
+            assert_eq!(parts.len() as u32, length.div_ceil(most.into()));
+        }
+    }
+}
