@@ -106,6 +106,36 @@ impl From<draw::Drawn> for Picture {
     }
 }
 
+impl Picture {
+    /// A picture by draw calls, with textures or without.
+    fn called(called: draw::Called, textured: bool, format: PixelFormatArg) -> Self {
+        use PixelFormatArg::{Dithered565, Rgb565};
+        Self {
+            figures: called.to_json(),
+            untextured: called.used.cache.untextured,
+            frame: called.frame,
+            overfull: called.overfull,
+            is_rounded: textured && !matches!(format, Rgb565 | Dithered565),
+        }
+    }
+
+    /// Tells what is not as it was asked for.
+    fn tell(&self, file: &std::path::Display<'_>) {
+        if let Some(overfull) = &self.overfull {
+            tell!("warning: {file}: {overfull}");
+        }
+        if self.is_rounded {
+            tell!("note: texels of textures are rounded to 5, 6 and 5 bits");
+        }
+        if self.untextured > 0 {
+            tell!(
+                "note: {} triangles are drawn untextured, as they stretch over more than 4096 texels",
+                self.untextured
+            );
+        }
+    }
+}
+
 /// Draws a model with textures by draw calls, where those have what is asked.
 fn render_by_calls(
     args: &RenderArgs,
@@ -125,13 +155,7 @@ fn render_by_calls(
     let (view, format) = (args.view(), args.format());
     let skins = Some(skins);
     let called = draw::draw_by_calls(&prepared, skins, &view, format, args.renderers, args.cache)?;
-    Ok(called.map(|called| Picture {
-        figures: called.to_json(),
-        untextured: called.used.cache.untextured,
-        frame: called.frame,
-        overfull: called.overfull,
-        is_rounded: format != PixelFormatArg::Rgb565,
-    }))
+    Ok(called.map(|called| Picture::called(called, true, format)))
 }
 
 /// Writes a picture and, where they are asked for, its figures: both files, or none.
@@ -149,22 +173,17 @@ fn write(args: &RenderArgs, drawn: &Picture) -> Result<(), Box<dyn Error>> {
 fn render_scene(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let loaded = Loaded::load(&args.model)?;
     let file = args.model.display();
-    if loaded.scene.has_palettes() && args.renderers > 1 {
-        return Err(format!("{file}: `palettes` and --renderers cannot be had together").into());
-    }
-    let parts = draw::SceneParts::new(&loaded);
-    let drawn = parts.and_then(|parts| {
-        let view = loaded.scene.view();
-        draw::draw_scene_file(&parts, &view, loaded.scene.pixel_format(), crew(args))
+    let (view, format) = (loaded.scene.view(), loaded.scene.pixel_format());
+    let drawn = draw::SceneParts::new(&loaded).and_then(|parts| {
+        let called = draw::draw_scene_file(&parts, &view, format, crew(args))?;
+        Ok(Picture::called(called, parts.are_textured(), format))
     });
-    let drawn = Picture::from(drawn.map_err(|error| format!("{file}: {error}"))?);
+    let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
     write(args, &drawn)?;
-    if let Some(overfull) = &drawn.overfull {
-        tell!("warning: {file}: {overfull}");
-    }
     for note in loaded.notes() {
         tell!("note: {note}");
     }
+    drawn.tell(&file);
     Ok(())
 }
 
@@ -224,9 +243,6 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     write(args, &drawn)?;
     // Last, so that a refusal is one line alone.
     model.print_warnings();
-    if let Some(overfull) = &drawn.overfull {
-        tell!("warning: {file}: {overfull}");
-    }
     if seen && is_plain {
         tell!(
             "note: with --interp, and with formats other than rgb888 and rgb565, highlights and transparency of materials are left out"
@@ -235,14 +251,6 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     for note in textures.notes() {
         tell!("note: {note}");
     }
-    if drawn.is_rounded {
-        tell!("note: texels of textures are rounded to 5, 6 and 5 bits");
-    }
-    let untextured = drawn.untextured;
-    if untextured > 0 {
-        tell!(
-            "note: {untextured} triangles are drawn untextured, as they stretch over more than 4096 texels"
-        );
-    }
+    drawn.tell(&file);
     Ok(())
 }

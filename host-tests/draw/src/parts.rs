@@ -34,9 +34,9 @@ pub(crate) struct Job {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tile {
     /// First column and line.
-    first: [u32; 2],
+    pub(crate) first: [u32; 2],
     /// Columns and lines.
-    size: [u16; 2],
+    pub(crate) size: [u16; 2],
 }
 
 impl Tile {
@@ -51,10 +51,14 @@ impl Tile {
     }
 }
 
-/// Parts of `length` pixels, as many as there must be for none to have more than `most`: the first of each, and how many.
+/// Parts of `length` pixels of which none has more than `most`, a multiple of 4: the first of each, and how many. They
+/// begin at multiples of 4, so that a dither goes on from one to the next.
 fn split(length: u32, most: u16) -> impl Iterator<Item = (u32, u16)> + Clone {
     let count = length.div_ceil(u32::from(most)).max(1);
-    let begin = move |i: u32| length * i / count;
+    let begin = move |i: u32| match i == count {
+        true => length,
+        false => (length * i).div_ceil(count).next_multiple_of(4).min(length),
+    };
     (0..count).map(move |i| (begin(i), (begin(i + 1) - begin(i)) as u16))
 }
 
@@ -77,7 +81,7 @@ fn tiles(job: &Job) -> impl Iterator<Item = Tile> {
 pub(crate) fn draw_parts<'t, L, F>(
     job: &Job,
     steps: usize,
-    step: impl FnMut(&mut Scene<'_, 't, L>, usize) -> Result<(), DrawError>,
+    step: impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize) -> Result<(), DrawError>,
 ) -> Result<Called, DrawFailure>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
@@ -120,7 +124,7 @@ impl<S> Parts<S> {
     where
         L: Look<Pixel = F, Planes: Send> + Sync,
         F: Pixel + Sync,
-        S: FnMut(&mut Scene<'_, 't, L>, usize) -> Result<(), DrawError>,
+        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize) -> Result<(), DrawError>,
     {
         let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
         let [width, height] = tile.size;
@@ -138,7 +142,7 @@ impl<S> Parts<S> {
             count = count.min(height - start);
             let begun = scene.begin_lines(&camera, start..start + count);
             begun.map_err(|e| bad(&e))?;
-            let full = self.build(&mut scene, count > 1)?;
+            let full = self.build(&mut scene, &tile, count > 1)?;
             match full {
                 // Fewer lines have fewer triangles.
                 Some(_) if count > 1 => {
@@ -168,14 +172,15 @@ impl<S> Parts<S> {
     fn build<'t, L>(
         &mut self,
         scene: &mut Scene<'_, 't, L>,
+        tile: &Tile,
         stops: bool,
     ) -> Result<Option<DrawError>, DrawFailure>
     where
-        S: FnMut(&mut Scene<'_, 't, L>, usize) -> Result<(), DrawError>,
+        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize) -> Result<(), DrawError>,
     {
         let mut full = None;
         for step in 0..self.steps {
-            match (self.step)(scene, step) {
+            match (self.step)(scene, tile, step) {
                 Ok(()) => {}
                 Err(error @ DrawError::Full { .. }) => {
                     full.get_or_insert(error);
@@ -289,10 +294,11 @@ mod tests {
 
     #[test]
     fn parts_are_all_of_it_and_none_is_too_large() {
-        for (length, most) in [(1, 1016), (1016, 1016), (1017, 1016), (4096, 1016), (7, 2)] {
+        for (length, most) in [(1, 1016), (1016, 1016), (1017, 1016), (4096, 1016), (9, 4)] {
             let parts: Vec<_> = split(length, most).collect();
             let mut next = 0;
             for &(first, count) in &parts {
+                assert_eq!(first % 4, 0, "{parts:?}");
                 assert!(first == next && (1..=most).contains(&count), "{parts:?}");
                 next += u32::from(count);
             }

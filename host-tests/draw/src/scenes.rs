@@ -1,94 +1,39 @@
-//! Scenes of a file: several models, each with its place, blend, depth function, priority and
-//! window, in several lights or in palettes a line.
-//!
-//! | what the file says | pipeline |
-//! |---|---|
-//! | neither palettes nor priorities | surfaces with a finish and windows, 32 bits of depth |
-//! | `priority` | the same with priorities in place of depth |
-//! | `palettes` | flat indices and windows, 32 bits of depth |
+//! Scenes of a file by draw calls: several models, each with its place, blend, depth function, priority and window, in
+//! several lights or in palettes a line.
 
-use super::prepared::{Dress, Prepared};
-use super::textured::{HostTexture, textures};
-use super::{
-    Bands, CrewSettings, DrawFailure, Drawn, FilterArg, LINES_PER_TRANSFER, Setting, add,
-    draw_scenes,
-};
 use crate::choice::PixelFormatArg;
+use crate::parts::{Job, Tile, draw_parts};
 use crate::scene_file::{BlendKind, DepthKind, Item, Loaded, SceneFile};
-use host_support::image_out::Frame;
-use host_support::lent::{LineRooms, SceneRooms};
-use host_support::mock::{HostLine, MockFrameBuffer};
-use host_support::reference::{Cull, View};
-use scanbeam::light::{DirectionalLight, Lighting};
-use scanbeam::list::Window;
-use scanbeam::mesh::{Material, U1F15};
-use scanbeam::pipeline::blend::{DepthFunction, Finish, ShadowError, Surface};
-use scanbeam::pipeline::send::draw_frame_indexed;
-use scanbeam::pipeline::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
-use scanbeam::pipeline::{
-    Auto, Clip, Composited, Counted, Depth32, FlatDepth, FrameStats, Gouraud, Instance, Parts,
-    Pipeline, Prioritised, Priority, Scene, Shading, SkinOf, Windowed,
+use crate::textured::Texels16;
+use crate::{
+    Called, CrewSettings, DrawFailure, FilterArg, MOST_SLOTS, Prepared, Skins, TextureSet,
 };
-use scanbeam::pixel::{Dithered, Index8, PaletteTable, PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::scan_out::Pump;
-use scanbeam::{Affine, Camera, Link, Screen};
-
-/// Colours linear over faces, times texels in levels of detail.
-type Plain<'t, F> = Counted<
-    Parts<
-        Textured<Gouraud, LevelEnds>,
-        Depth32,
-        F,
-        (),
-        Auto,
-        DetailedTextures<'t, HostTexture<'t>>,
-    >,
->;
-/// Surfaces with a finish, cut to windows.
-type Finished<'t, F> = Windowed<Composited<Plain<'t, F>>>;
-/// Indices of palettes.
-type Numbered = Windowed<Counted<FlatDepth<Index8>>>;
-
-/// Steps of the palettes of [`Numbered`].
-const PALETTE: usize = 256;
+use host_support::image_out::Frame;
+use host_support::reference::{Cull, View};
+use host_support::rooms::Room;
+use scanbeam::light::{DirectionalLight, Lighting};
+use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::mesh::{Material, U1F15};
+use scanbeam::pipeline::texture::Quality;
+use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
+use scanbeam::scene::{
+    Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, LARGEST, Lights, Scissor, Skin,
+    Texture,
+};
+use scanbeam::{Affine, Camera, Draw, Link, Scene};
 
 /// A scene in the crate's number formats.
 pub struct SceneParts<'a> {
     scene: &'a SceneFile,
     parts: Vec<Placed<'a>>,
-    textures: Vec<Levels<HostTexture<'a>>>,
 }
 
 /// An object.
 struct Placed<'a> {
     item: &'a Item,
+    textures: &'a TextureSet,
     prepared: Prepared,
     model: Affine,
-    worn: Worn,
-}
-
-/// A finish, and the number of the first of an object's textures.
-#[derive(Clone, Copy)]
-struct Worn {
-    finish: Finish,
-    first: u16,
-}
-
-impl<P> Dress<P> for Worn
-where
-    P: Pipeline<Shading: for<'a> Shading<Skin<'a> = Surface<'a, Skin<'a>>>>,
-{
-    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P> {
-        let texture = match skin.texture {
-            Skin::TEXTURES => Skin::TEXTURES,
-            number => number + self.first,
-        };
-        Surface {
-            skin: Skin { texture, ..skin },
-            finish: self.finish,
-            alphas: &[],
-        }
-    }
 }
 
 impl<'a> SceneParts<'a> {
@@ -97,7 +42,6 @@ impl<'a> SceneParts<'a> {
     /// # Errors
     /// A model that is too large or too far away.
     pub fn new(loaded: &'a Loaded) -> Result<Self, DrawFailure> {
-        let mut all = Vec::new();
         let mut parts = Vec::new();
         for (number, part) in loaded.parts.iter().enumerate() {
             let item = &part.item;
@@ -108,26 +52,45 @@ impl<'a> SceneParts<'a> {
             let model = placed(&prepared, item).ok_or_else(|| {
                 DrawFailure::View(format!("object {number} is too large, or too far away"))
             })?;
-            let worn = Worn {
-                finish: finish(item),
-                first: all.len() as u16,
-            };
-            all.extend(textures(&part.textures, FilterArg::Nearest)?);
-            if all.len() > usize::from(Skin::TEXTURES) {
-                return Err(DrawFailure::View("the scene has too many textures".into()));
-            }
             parts.push(Placed {
                 item,
+                textures: &part.textures,
                 prepared,
                 model,
-                worn,
             });
         }
         Ok(Self {
             scene: &loaded.scene,
             parts,
-            textures: all,
         })
+    }
+
+    /// Whether anything has a texture.
+    #[must_use]
+    pub fn are_textured(&self) -> bool {
+        self.parts.iter().any(|part| !part.textures.is_empty())
+    }
+
+    /// All parts of all objects, by their numbers, in order.
+    fn steps(&self) -> Vec<(usize, usize)> {
+        let of = |(number, part): (usize, &Placed<'_>)| {
+            (0..part.prepared.chunks.len()).map(move |chunk| (number, chunk))
+        };
+        self.parts.iter().enumerate().flat_map(of).collect()
+    }
+
+    /// Room for all of it; what needs more is drawn in several bands of lines.
+    fn room(&self) -> Room {
+        let chunks = || self.parts.iter().flat_map(|part| &part.prepared.chunks);
+        let faces: usize = chunks().map(|chunk| chunk.faces.len()).sum();
+        let vertices: usize = chunks().map(|chunk| chunk.positions.len()).sum();
+        let vertices = (vertices + 8 * faces + 64).min(1 << 16);
+        Room {
+            vertices,
+            places: if self.are_textured() { vertices } else { 0 },
+            objects: (4 * faces + 64).min(usize::from(Link::CACHED)),
+            draws: chunks().count(),
+        }
     }
 }
 
@@ -144,21 +107,23 @@ fn placed(prepared: &Prepared, item: &Item) -> Option<Affine> {
     Some(model.then(&Affine::placed(1.0, place)?))
 }
 
-fn finish(item: &Item) -> Finish {
+fn blend(item: &Item) -> Option<Blend> {
     let alpha = item.alpha.unwrap_or(255);
-    let mut finish = match item.blend {
-        None => Finish::OPAQUE,
-        Some(BlendKind::Filter) => Finish::filtered(alpha),
-        Some(BlendKind::Add) => Finish::additive(alpha),
-        Some(BlendKind::Subtract) => Finish::subtractive(alpha),
-    };
-    let writes = item.writes_depth.unwrap_or(item.blend.is_none());
-    finish.colour_if = item.depth.map_or(finish.colour_if, function);
-    finish.depth_if = match writes {
-        true => finish.colour_if,
-        false => DepthFunction::NEVER,
-    };
-    finish
+    item.blend.map(|kind| match kind {
+        BlendKind::Filter => Blend::filter(alpha),
+        BlendKind::Add => Blend::add(alpha),
+        BlendKind::Subtract => Blend::new(BlendMode::Subtract(alpha)),
+    })
+}
+
+fn depth(item: &Item) -> DepthTest {
+    let test = item
+        .depth
+        .map_or(DepthTest::HIDES, |kind| DepthTest::new(function(kind)));
+    match item.writes_depth {
+        Some(false) => test.without_write(),
+        _ => test,
+    }
 }
 
 fn function(kind: DepthKind) -> DepthFunction {
@@ -174,19 +139,29 @@ fn function(kind: DepthKind) -> DepthFunction {
     }
 }
 
-fn clip(item: &Item) -> Clip {
-    let Some(cut) = item.window else {
-        return Clip::Picture;
-    };
-    let window = Window {
-        left: cut.left,
-        top: cut.top,
-        right: cut.left.saturating_add(cut.width),
-        bottom: cut.top.saturating_add(cut.height),
-    };
-    match cut.outside {
-        true => Clip::Outside(window),
-        false => Clip::Inside(window),
+/// The window of an object, in pixels of a tile.
+fn scissor(item: &Item, tile: &Tile) -> Option<Scissor> {
+    item.window.map(|cut| {
+        let within = |axis: usize, at: u32| {
+            let at = at.saturating_sub(tile.first[axis]);
+            at.min(u16::MAX.into()) as u16
+        };
+        let range = |axis: usize, first: u16, count: u16| {
+            let end = u32::from(first) + u32::from(count);
+            within(axis, first.into())..within(axis, end)
+        };
+        let (columns, lines) = (range(0, cut.left, cut.width), range(1, cut.top, cut.height));
+        match cut.outside {
+            true => Scissor::outside(columns, lines),
+            false => Scissor::inside(columns, lines),
+        }
+    })
+}
+
+fn cull(item: &Item) -> scanbeam::Cull {
+    match item.cull.map(Cull::from) {
+        Some(Cull::Back) => scanbeam::Cull::Back,
+        Some(Cull::None) | None => scanbeam::Cull::None,
     }
 }
 
@@ -199,90 +174,79 @@ pub fn draw_scene_file(
     view: &View,
     format: PixelFormatArg,
     crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    let (palettes, ranks) = (parts.scene.has_palettes(), parts.scene.has_priorities());
-    match (format, palettes, ranks) {
-        (PixelFormatArg::Rgb888, true, _) => by_palettes::<Rgb888>(parts, view, crew),
-        (PixelFormatArg::Rgb565, true, _) => by_palettes::<Rgb565Be>(parts, view, crew),
-        (PixelFormatArg::Rgb888, _, true) => by_priority::<Rgb888>(parts, view, crew),
-        (PixelFormatArg::Rgb565, _, true) => by_priority::<Rgb565Be>(parts, view, crew),
-        (PixelFormatArg::Rgb888, ..) => by_depth::<Rgb888>(parts, view, crew),
-        (PixelFormatArg::Rgb565, ..) => by_depth::<Rgb565Be>(parts, view, crew),
-        (PixelFormatArg::Dithered565, ..) => by_depth::<Dithered<Rgb565Be>>(parts, view, crew),
-        _ => Err(super::formats::refused("scenes are drawn")),
+) -> Result<Called, DrawFailure> {
+    let job = job(parts, view, crew)?;
+    match (format, parts.scene.has_palettes()) {
+        (PixelFormatArg::Rgb888, true) => by_palettes::<Rgb888>(parts, &job),
+        (PixelFormatArg::Rgb565, true) => by_palettes::<Rgb565Be>(parts, &job),
+        (PixelFormatArg::Rgb888, _) => {
+            by_colours::<Textured<Rgb888>, _, Rgb565>(parts, &job, false)
+        }
+        (PixelFormatArg::Xrgb8888, _) => {
+            by_colours::<Textured<Xrgb8888>, _, Rgb565>(parts, &job, false)
+        }
+        (PixelFormatArg::Rgb565 | PixelFormatArg::Dithered565, _) => {
+            let dithers = format == PixelFormatArg::Dithered565;
+            by_colours::<Textured<Rgb565Be>, _, Rgb565Be>(parts, &job, dithers)
+        }
+        _ => Err(crate::formats::refused("scenes are drawn")),
     }
 }
 
-/// The camera of a view, and nothing that is one model's.
-fn setting(view: &View) -> Result<Setting, DrawFailure> {
+/// What is drawn, and by whom.
+fn job(parts: &SceneParts<'_>, view: &View, crew: CrewSettings) -> Result<Job, DrawFailure> {
     let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
+    let slots = u16::try_from(crew.slots)
+        .ok()
+        .filter(|&slots| slots <= MOST_SLOTS);
+    let slots = slots.ok_or_else(|| bad(&format!("scenes have at most {MOST_SLOTS} slots")))?;
+    if crew.prefetch > 0 {
+        return Err(bad(&"scenes fetch nothing ahead"));
+    }
     let single = |v: [f64; 3]| v.map(|c| c as f32);
     let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
     let (near, far) = (view.near as f32, view.far as f32);
     let places = [view.eye, view.at, view.up].map(single);
     let camera = Camera::look_at(places[0], places[1], places[2], focal as f32, near, far);
-    Ok(Setting {
-        screen: Screen::new(view.width as u16, view.height as u16).map_err(|e| bad(&e))?,
-        camera: camera.map_err(|e| bad(&e))?,
-        instance: Instance::default(),
+    Ok(Job {
+        size: [view.width, view.height],
+        most: LARGEST,
+        camera: camera.map_err(|error| bad(&error))?,
+        background: view.background,
+        renderers: crew.renderers.max(1),
+        slots,
+        room: parts.room(),
     })
 }
 
-/// Memory for any scene: what finds no room is drawn in bands.
-fn rooms<P: Pipeline>(view: &View) -> SceneRooms<P> {
-    SceneRooms::new(1 << 16, usize::from(Link::CACHED), view.height as usize)
-}
-
-fn cull(item: &Item) -> scanbeam::Cull {
-    match item.cull.map(Cull::from) {
-        Some(Cull::Back) => scanbeam::Cull::Back,
-        Some(Cull::None) | None => scanbeam::Cull::None,
+/// Surfaces in several lights, with textures whose texels are pixels of the format `T`.
+fn by_colours<L, F, T>(
+    parts: &SceneParts<'_>,
+    job: &Job,
+    dither: bool,
+) -> Result<Called, DrawFailure>
+where
+    L: Look<Pixel = F, Planes: Send> + Sync,
+    F: Pixel + Sync,
+    T: PixelFormat<Word = u16>,
+{
+    let bad = |error| DrawFailure::View(format!("a texture: {error}"));
+    let texels: Vec<_> = (parts
+        .parts
+        .iter()
+        .map(|part| Texels16::of::<T>(part.textures)))
+    .collect();
+    let coarser: Result<Vec<_>, _> = texels.iter().map(Texels16::coarser).collect();
+    let coarser = coarser.map_err(bad)?;
+    let mut textures = Vec::new();
+    for ((part, texels), coarser) in parts.parts.iter().zip(&texels).zip(&coarser) {
+        let skins = Skins {
+            set: part.textures,
+            filter: FilterArg::Nearest,
+            quality: Quality::default(),
+        };
+        textures.push(texels.textures(coarser, skins).map_err(bad)?);
     }
-}
-
-/// Surfaces with a finish, by depth.
-fn by_depth<F>(
-    parts: &SceneParts<'_>,
-    view: &View,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure>
-where
-    F: PixelFormat,
-    for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::pipeline::texture::TextureSource<F>,
-{
-    by::<Finished<'_, F>>(parts, view, crew, |_, _| {})
-}
-
-/// The same by priority.
-fn by_priority<F>(
-    parts: &SceneParts<'_>,
-    view: &View,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure>
-where
-    F: PixelFormat,
-    for<'t> DetailedTextures<'t, HostTexture<'t>>: scanbeam::pipeline::texture::TextureSource<F>,
-{
-    let rank = |scene: &mut Scene<'_, Prioritised<Finished<'_, F>>>, item: &Item| {
-        scene.set_priority(Priority(item.priority.unwrap_or(0)));
-    };
-    by::<Prioritised<Finished<'_, F>>>(parts, view, crew, rank)
-}
-
-/// Surfaces with a finish in several lights; `rank` gives each its priority, where there are any.
-fn by<'t, P>(
-    parts: &'t SceneParts<'t>,
-    view: &View,
-    crew: CrewSettings,
-    rank: impl Fn(&mut Scene<'_, P>, &Item),
-) -> Result<Drawn, DrawFailure>
-where
-    P: Pipeline<
-            Shading: for<'a> Shading<Skin<'a> = Surface<'a, Skin<'a>>>,
-            Textures = DetailedTextures<'t, HostTexture<'t>>,
-        >,
-{
-    let level = |value: f64| U1F15::from_bits((value * 32_768.0).round() as u16);
     let lamps: Option<Vec<DirectionalLight>> = (parts.scene.lights.iter())
         .map(|lamp| {
             let largest = lamp.towards.iter().fold(0.0f64, |m, c| m.max(c.abs()));
@@ -296,108 +260,103 @@ where
         diffuse: [U1F15::ONE; 3],
         ..Material::default()
     };
+    let level = |value: f64| U1F15::from_bits((value * 32_768.0).round() as u16);
     let ambient = level(parts.scene.ambient.unwrap_or(0.2));
     let light = Lighting::new(&lamps, [ambient; 3], material).filter(|_| !lamps.is_empty());
-    let steps = steps(parts);
-    let build = |scene: &mut Scene<'_, P>, step: usize, alone: bool| {
-        let (part, chunk) = steps[step];
-        scene.set_clip(clip(part.item));
-        rank(scene, part.item);
-        let instance = Instance {
-            model: part.model,
-            cull: cull(part.item),
-            light,
-            colour: [255; 3],
-        };
-        let done = part.prepared.chunks[chunk].draw(scene, (&instance, &part.worn), alone);
-        done.map_err(ShadowError::Draw)
+    let worn = Worn {
+        parts,
+        textures: &textures,
+        lights: light.as_ref().map(|light| light as &dyn Lights),
+        dither,
     };
-    let mut rooms = rooms::<P>(view);
-    rooms.textures = DetailedTextures(&parts.textures);
-    let setting = setting(view)?;
-    draw_scenes::<P>((None, &setting, rooms), (view, crew), (steps.len(), build))
-}
-
-/// The chunks of all objects, in order.
-fn steps<'p>(parts: &'p SceneParts<'_>) -> Vec<(&'p Placed<'p>, usize)> {
-    let of = |part: &'p Placed<'p>| (0..part.prepared.chunks.len()).map(move |i| (part, i));
-    parts.parts.iter().flat_map(of).collect()
-}
-
-/// Indices, and a palette for each line; by one renderer.
-fn by_palettes<F: PixelFormat>(
-    parts: &SceneParts<'_>,
-    view: &View,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    let steps = steps(parts);
-    let build = |scene: &mut Scene<'_, Numbered>, step: usize, alone: bool| {
-        let (part, chunk) = steps[step];
-        scene.set_clip(clip(part.item));
-        let instance = Instance {
-            model: part.model,
-            cull: cull(part.item),
-            ..Instance::default()
-        };
-        let done = part.prepared.chunks[chunk].draw(scene, (&instance, &()), alone);
-        done.map_err(ShadowError::Draw)
-    };
-    let (width, height) = (view.width as u16, view.height as u16);
-    let (palettes, of_line) = palettes::<F>(parts.scene, view.height);
-    let table = PaletteTable::new(&palettes, &of_line)
-        .ok_or_else(|| DrawFailure::View("there are no palettes".into()))?;
-    let mut rooms = rooms::<Numbered>(view);
-    let mut lines = LineRooms::<Numbered>::new(crew.slots, rooms.objects(), width.into());
-    let fast_bytes = lines.fast_bytes();
-    let mut renderer = lines.renderer();
-    renderer.set_prefetch(crew.prefetch);
-    let transfer = LINES_PER_TRANSFER.min(height);
-    let words = usize::from(width) * usize::from(transfer);
-    let sink = MockFrameBuffer::<F::Word>::new(width, height);
-    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
-    let mut indices = vec![0; usize::from(width)];
-    let (mut stats, mut slow_bytes) = (FrameStats::default(), 0);
-    let all = (&mut rooms, 0..height);
-    let bands: Bands = setting(view)?.bands_of(all, (steps.len(), build), |scene| {
-        let by = (&mut indices[..], table);
-        let band = draw_frame_indexed(scene, &mut renderer, &mut pump, 0, transfer, by);
-        add(&mut stats, &band.map_err(DrawFailure::Display)?);
-        slow_bytes = slow_bytes.max(scene.bytes());
-        Ok(())
-    })?;
-    let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
-    let rgb = pixels.into_iter().flat_map(F::to_rgb8).collect();
-    Ok(Drawn {
-        frame: Frame::new(view.width, view.height, rgb)
-            .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
-        stats,
-        bands: bands.count,
-        overfull: bands.overfull,
-        slow_bytes,
-        fast_bytes,
-        line_bytes: 2 * words * size_of::<F::Word>() + indices.len(),
+    let steps = parts.steps();
+    draw_parts::<L, F>(job, steps.len(), |scene, tile, step| {
+        worn.draw(scene, tile, steps[step])
     })
 }
 
-/// The palettes of a scene, and which of them each line of a picture of this height has: of one of
-/// another height than the file's, the lines in proportion.
-fn palettes<F: PixelFormat>(scene: &SceneFile, height: u32) -> (Vec<[F::Word; PALETTE]>, Vec<u8>) {
-    let black = F::from_rgb8([0; 3]);
-    let filled = |colours: &Vec<[u8; 3]>| {
-        let mut words = [black; PALETTE];
-        for (word, colour) in words.iter_mut().zip(colours) {
-            *word = F::from_rgb8(*colour);
-        }
-        words
+/// What the parts of a scene have in common.
+struct Worn<'s, 't> {
+    parts: &'s SceneParts<'s>,
+    /// The textures of each object.
+    textures: &'t [Vec<Texture<'t>>],
+    lights: Option<&'s dyn Lights>,
+    dither: bool,
+}
+
+impl<'t> Worn<'_, 't> {
+    /// Draws a part of an object, by the numbers of both.
+    fn draw<L: Look>(
+        &self,
+        scene: &mut Scene<'_, 't, L>,
+        tile: &Tile,
+        (number, chunk): (usize, usize),
+    ) -> Result<(), DrawError> {
+        let part = &self.parts.parts[number];
+        let chunk = &part.prepared.chunks[chunk];
+        let textures = self.textures.get(number);
+        let texture = chunk
+            .texture
+            .and_then(|texture| textures?.get(usize::from(texture)));
+        scene.draw(&Draw {
+            model: part.model,
+            cull: cull(part.item),
+            lights: self.lights,
+            texture: texture.map(|texture| Skin {
+                texture,
+                places: &chunk.places,
+                budget: Budget::BALANCED,
+            }),
+            scissor: scissor(part.item, tile),
+            depth: depth(part.item),
+            blend: blend(part.item),
+            dither: self.dither,
+            priority: self.parts.scene.rank(part.item),
+            ..Draw::new(chunk.mesh())
+        })
+    }
+}
+
+/// Indices, which become colours by the palette of each line.
+fn by_palettes<F: PixelFormat>(parts: &SceneParts<'_>, job: &Job) -> Result<Called, DrawFailure> {
+    let worn = Worn {
+        parts,
+        textures: &[],
+        lights: None,
+        dither: false,
     };
-    let words = scene.palettes.iter().map(|p| filled(&p.colours)).collect();
-    let number = |line: u32| {
-        let line = u64::from(line) * u64::from(scene.size[1]) / u64::from(height);
-        let begun = scene
-            .palettes
-            .iter()
-            .filter(|p| u64::from(p.from_line) <= line);
-        (begun.count() - 1) as u8
+    let steps = parts.steps();
+    let indices = Job {
+        background: Index8::colour(0),
+        ..*job
     };
-    (words, (0..height).map(number).collect())
+    let mut called =
+        draw_parts::<Gouraud<Index8>, Index8>(&indices, steps.len(), |scene, tile, step| {
+            worn.draw(scene, tile, steps[step])
+        })?;
+    let [width, height] = job.size;
+    let palettes = &parts.scene.palettes;
+    let lines = called.frame.rgb().chunks_exact(3 * width as usize);
+    let rgb = (0..height).zip(lines).flat_map(|(line, row)| {
+        let palette = &palettes[palette_of(parts.scene, line, height)].colours;
+        let colour = |index: u8| palette.get(usize::from(index)).copied().unwrap_or([0; 3]);
+        // An index is a level of grey.
+        row.chunks_exact(3)
+            .flat_map(move |pixel| F::to_rgb8(F::from_rgb8(colour(pixel[0]))))
+    });
+    called.frame = Frame::new(width, height, rgb.collect())
+        .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?;
+    let word = size_of::<F::Word>();
+    // The line that is drawn has a byte a pixel; what is sent of it, a word.
+    called.used.scan_out.bytes_sent *= word as u64;
+    called.figures.line_bytes =
+        called.figures.line_bytes * word + width.min(LARGEST.into()) as usize;
+    Ok(called)
+}
+
+/// The palette of a line of a picture of this height: of one of another height than the file's, the lines in proportion.
+fn palette_of(scene: &SceneFile, line: u32, height: u32) -> usize {
+    let line = u64::from(line) * u64::from(scene.size[1]) / u64::from(height);
+    let begun = (scene.palettes.iter()).filter(|palette| u64::from(palette.from_line) <= line);
+    begun.count() - 1
 }

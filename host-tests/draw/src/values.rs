@@ -175,7 +175,7 @@ where
         slots: asked.slots,
         room: room(asked, !textures.is_empty()),
     };
-    draw_parts::<L, F>(&job, prepared.chunks.len(), |scene, number| {
+    draw_parts::<L, F>(&job, prepared.chunks.len(), |scene, _, number| {
         let chunk = &prepared.chunks[number];
         let texture = chunk
             .texture

@@ -61,10 +61,6 @@ pub fn run(args: &ViewArgs) -> Result<(), Box<dyn Error>> {
 /// Shows a scene, from its camera at first.
 fn run_scene(args: &ViewArgs, file: &Path) -> Result<(), Box<dyn Error>> {
     let loaded = Loaded::load(file)?;
-    if loaded.scene.has_palettes() && args.renderers > 1 {
-        let file = file.display();
-        return Err(format!("{file}: `palettes` and --renderers cannot be had together").into());
-    }
     let named = |failure: DrawFailure| format!("{}: {failure}", file.display());
     let scenery = Scenery::of_scene(&loaded).map_err(named)?;
     let state = State::of_scene(args, &loaded.scene);

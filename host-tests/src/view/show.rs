@@ -114,7 +114,7 @@ impl<'m> Scenery<'m> {
         })
     }
 
-    /// By draw calls: models, where that can be.
+    /// By draw calls: scenes, and models where that can be.
     fn by_calls(&self, state: &State, view: &View) -> Result<Option<Called>, DrawFailure> {
         match &self.what {
             What::Model {
@@ -128,32 +128,37 @@ impl<'m> Scenery<'m> {
                 let (format, slots) = (state.format, state.slots);
                 draw_by_calls(prepared, Some(skins), view, format, state.renderers, slots)
             }
-            What::Scene { .. } => Ok(None),
+            What::Scene { scene, parts, .. } => {
+                let format = scene.in_format(state.format);
+                draw_scene_file(parts, view, format, crew(state)).map(Some)
+            }
         }
     }
 
     fn by_presets(&self, state: &State, view: &View) -> Result<Drawn, DrawFailure> {
-        let crew = CrewSettings {
-            renderers: state.renderers,
-            slots: state.slots.into(),
-            prefetch: 0,
-            quality: state.quality.quality(),
-            ..CrewSettings::default()
-        };
         match &self.what {
-            What::Scene { scene, parts, .. } => {
-                draw_scene_file(parts, view, scene.in_format(state.format), crew)
-            }
-            What::Model {
-                prepared, textures, ..
-            } if textures.is_empty() => draw_prepared(prepared, view, state.format, crew),
             What::Model {
                 model, textures, ..
-            } => {
+            } if !textures.is_empty() => {
                 let how = (FilterArg::Nearest, state.quality.texture_quality());
-                draw_textured(model, textures, how, view, state.format, crew)
+                draw_textured(model, textures, how, view, state.format, crew(state))
             }
+            What::Model { prepared, .. } => {
+                draw_prepared(prepared, view, state.format, crew(state))
+            }
+            What::Scene { .. } => Err(DrawFailure::View("scenes are drawn by draw calls".into())),
         }
+    }
+}
+
+/// Who draws in a state.
+fn crew(state: &State) -> CrewSettings {
+    CrewSettings {
+        renderers: state.renderers,
+        slots: state.slots.into(),
+        prefetch: 0,
+        quality: state.quality.quality(),
+        ..CrewSettings::default()
     }
 }
 

@@ -255,6 +255,17 @@ impl SceneFile {
         self.objects.iter().any(|item| item.priority.is_some())
     }
 
+    /// The priority of a draw call: where the file has any, one is above 0.
+    pub(crate) fn rank(&self, item: &Item) -> u8 {
+        let most = self.objects.iter().filter_map(|item| item.priority).max();
+        match most {
+            // All alike, the later in front.
+            Some(0) => 1,
+            Some(_) => item.priority.unwrap_or(0),
+            None => 0,
+        }
+    }
+
     /// What the display is sent.
     #[must_use]
     pub fn pixel_format(&self) -> PixelFormatArg {
@@ -322,9 +333,6 @@ impl SceneFile {
         if self.dither && self.format != Format::Rgb565 && !self.has_palettes() {
             return Err("`dither` needs `format` rgb565".into());
         }
-        if self.dither && self.has_priorities() {
-            return Err("`dither` and `priority` cannot be had together".into());
-        }
         self.check_palettes()
     }
 
@@ -376,6 +384,9 @@ impl SceneFile {
         }
         if item.alpha.is_some() && item.blend.is_none() {
             return Err("`alpha` needs `blend`".into());
+        }
+        if item.blend.is_some() && item.writes_depth == Some(true) {
+            return Err("`blend` writes no depth: `writes_depth` cannot be true".into());
         }
         if item.window.is_some_and(|w| w.width == 0 || w.height == 0) {
             return Err("`window` has no pixels".into());
