@@ -83,6 +83,7 @@ mod player_fuzz;
 mod player_lights;
 mod player_places;
 mod player_refused;
+mod player_screen;
 mod player_textures;
 mod player_told;
 mod priority;

@@ -58,16 +58,14 @@ fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: 
 #[test]
 fn what_a_player_does_not_have_is_refused_where_it_stands() {
     use Missing::*;
-    let block = |id: Id, words: usize| {
-        after_a_triangle(|writer| {
-            let header = Header {
-                new: id == Id::Long,
-                ..Header::of(id, 3)
-            };
-            writer.vertices(header, &vec![0; words]).unwrap();
-            0
-        })
-    };
+    let long = after_a_triangle(|writer| {
+        let header = Header {
+            new: true,
+            ..Header::of(Id::Long, 3)
+        };
+        writer.vertices(header, &[0; 3]).unwrap();
+        0
+    });
     let state = |state: State, data: &[u32]| {
         after_a_triangle(|writer| {
             match data {
@@ -77,10 +75,8 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
             0
         })
     };
-    let (list, at) = block(Id::Long, 3);
-    refused::<Smooth>(&list, at, Id::Long, Reason::Missing(LongVertices));
-    let (list, at) = block(Id::Points, 6);
-    refused::<Smooth>(&list, at, Id::Points, Reason::Missing(Points));
+    let (list, at) = long;
+    refused::<Phong<Rgb565Be>>(&list, at, Id::Long, Reason::Missing(LightAtVertices));
     let overlay = Overlay {
         left: 0,
         top: 0,
@@ -92,9 +88,7 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         at: 0,
     };
     let (list, at) = state(State::Overlay(overlay), &[0]);
-    refused::<Smooth>(&list, at, Id::State, Reason::Missing(Overlays));
-    let (list, at) = state(State::Texture(texture(TexelForm::Index4, 2)), &[0; 3]);
-    refused::<Skinned>(&list, at, Id::State, Reason::Missing(DetailLevels));
+    refused::<Smooth>(&list, at, Id::State, Reason::Lent(Lent::Overlays));
     let light = LightWords::from(Light::new([0.0, 1.0, 0.0], 0.1).unwrap());
     let (list, at) = state(State::Light { number: 3, light }, &[]);
     refused::<Smooth>(&list, at, Id::State, Reason::Missing(Lights));

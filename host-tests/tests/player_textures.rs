@@ -89,10 +89,17 @@ struct Sample {
 }
 
 fn sample(rng: &mut Rng, form: TexelForm, has_holes: bool) -> Sample {
+    let sides = [3 + rng.below(3) as u8, 3 + rng.below(2) as u8];
+    sample_of(rng, form, has_holes, sides)
+}
+
+/// One with sides of these logarithms.
+fn sample_of(rng: &mut Rng, form: TexelForm, has_holes: bool, sides: [u8; 2]) -> Sample {
+    let [log_width, log_height] = sides;
     let block = TextureBlock {
         number: 1,
-        log_width: 3 + rng.below(3) as u8,
-        log_height: 3 + rng.below(2) as u8,
+        log_width,
+        log_height,
         form,
         levels: 1,
         palette: 2,
@@ -171,7 +178,7 @@ fn sample(rng: &mut Rng, form: TexelForm, has_holes: bool) -> Sample {
 impl Sample {
     /// A list that draws a quad with it, with PRSP or not.
     fn list(&self, prsp: bool) -> Vec<u32> {
-        let mut memory = vec![0; 4096];
+        let mut memory = vec![0; 16_384];
         let mut writer = ListWriter::new(&mut memory);
         let block = State::Texture(self.block);
         writer.bulk(&block, &self.words).unwrap();
@@ -240,6 +247,110 @@ fn textures_of_every_form_are_those_of_calls() {
         }
     }
     assert!(holes > 10_000 && texels > 50_000, "{holes}, {texels}");
+}
+
+/// A texture of a form with four levels of detail, as a list has it; and each level as words of the panel, with the word of
+/// holes.
+fn levelled(form: TexelForm, seed: u64, sides: [u8; 2]) -> (Sample, Vec<Vec<u16>>, u16) {
+    let mut rng = Rng::new(900 + seed);
+    let has_holes = seed == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
+    let log = |level: u8| sides.map(|log: u8| log.saturating_sub(level));
+    let mut all: Vec<Sample> = (0..4)
+        .map(|level| sample_of(&mut rng, form, has_holes, log(level)))
+        .collect();
+    let colours = all[0].colours.clone();
+    for sample in &mut all {
+        for (n, texel) in sample.texels.iter_mut().enumerate() {
+            if let Some(colour) = colours.get(n * 7 % colours.len().max(1)) {
+                *texel = colour.to_le_bytes();
+            }
+        }
+    }
+    let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
+    let texels = || all.iter().flat_map(|sample| &sample.texels);
+    let opaque: Vec<u16> = texels().filter(|t| t[3] == 255).map(|t| word(*t)).collect();
+    let key = (0..=u16::MAX)
+        .rev()
+        .find(|word| !opaque.contains(word))
+        .unwrap();
+    let of = |texel: &[u8; 4]| if texel[3] == 0 { key } else { word(*texel) };
+    let levels = (all.iter())
+        .map(|sample| sample.texels.iter().map(of).collect())
+        .collect();
+    let whole = Sample {
+        block: TextureBlock {
+            levels: 4,
+            ..all[0].block
+        },
+        words: all.iter().flat_map(|sample| sample.words.clone()).collect(),
+        colours,
+        texels: Vec::new(),
+    };
+    (whole, levels, key)
+}
+
+/// Kills: a level that is read from another's texels, levels that are left out, a palette for each of them, holes of the
+/// first level alone.
+#[test]
+fn levels_of_detail_are_those_of_calls() {
+    let mut different = 0;
+    for (form, seed) in TexelForm::ALL
+        .into_iter()
+        .flat_map(|f| [(f, 0), (f, 1), (f, 2)])
+    {
+        // The third has a side of one texel.
+        let sides = [[5, 4], [6, 6], [6, 1]][seed as usize];
+        let (whole, words, key) = levelled(form, seed, sides);
+        let level = |level: usize| {
+            let [width, height] = sides.map(|log: u8| 1 << log.saturating_sub(level as u8));
+            Texture::words(&words[level], width, height).unwrap()
+        };
+        let coarser = [level(1), level(2), level(3)];
+        let wrap = match whole.block.clamped {
+            true => Wrap::Clamp,
+            false => Wrap::Repeat,
+        };
+        let first = level(0).wrapping(wrap).keyed(key);
+        let sampled = first.sampled(Sampling::NEAREST, &coarser).unwrap();
+        let want = call_quad(&sampled, Budget::BALANCED);
+        let mut kept = Kept::new(64, 96);
+        let list = Vec::leak(whole.list(true));
+        let mut player = kept.player::<Skinned>(PlayerSettings::default());
+        let got = drawn::<Skinned>(|scene| {
+            player.start(0);
+            assert_eq!(played(&mut player, &*list, scene, PLENTY), Ok(Halt::End));
+        });
+        assert!(got == want, "{form:?}, seed {seed}");
+        let alone = call_quad(&first, Budget::BALANCED);
+        different += got.iter().zip(&alone).filter(|(a, b)| a != b).count();
+    }
+    assert!(different > 8_000, "{different}");
+}
+
+/// Kills: levels that are left out where they find no room.
+#[test]
+fn levels_of_detail_without_room_are_refused() {
+    let mut memory = vec![0; 4096];
+    let mut writer = ListWriter::new(&mut memory);
+    for number in [1, 2] {
+        let (whole, ..) = levelled(TexelForm::Rgb565, 0, [4, 4]);
+        let block = TextureBlock {
+            number,
+            ..whole.block
+        };
+        writer.bulk(&State::Texture(block), &whole.words).unwrap();
+        draw_quad(&mut writer, number, true);
+    }
+    writer.flow(Flow::End).unwrap();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Skinned>(PlayerSettings::default());
+    let list = writer.words();
+    drawn::<Skinned>(|scene| {
+        player.start(0);
+        let error = played(&mut player, list, scene, PLENTY).unwrap_err();
+        assert_eq!(error.reason, Reason::Lent(Lent::Levels));
+        assert_eq!(scene.objects(), 0);
+    });
 }
 
 #[test]

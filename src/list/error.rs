@@ -87,14 +87,6 @@ pub enum Reason {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Missing {
-    /// Vertices that were set up beforehand.
-    LongVertices,
-    /// Points.
-    Points,
-    /// Overlays.
-    Overlays,
-    /// Levels of detail: textures of more than one.
-    DetailLevels,
     /// Texels or colours of a palette that are neither opaque nor transparent.
     Alpha,
     /// Texels that are not dithered where the rest of a draw call is.
@@ -132,15 +124,15 @@ pub enum Lent {
     Textures,
     /// For palettes and texels as the panel has them.
     Texels,
+    /// For levels of detail.
+    Levels,
+    /// For overlays.
+    Overlays,
 }
 
 impl core::fmt::Display for Missing {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
-            Self::LongVertices => "vertices that were set up beforehand",
-            Self::Points => "points",
-            Self::Overlays => "overlays",
-            Self::DetailLevels => "textures of several levels of detail",
             Self::Alpha => "texels that are neither opaque nor transparent",
             Self::Undithered => "texels that are not dithered among others that are",
             Self::Textures => "textures in a scene whose look has none",
@@ -165,6 +157,8 @@ impl core::fmt::Display for Lent {
             Self::Names => "numbers of textures and palettes",
             Self::Textures => "textures",
             Self::Texels => "palettes and texels",
+            Self::Levels => "levels of detail",
+            Self::Overlays => "overlays",
         })
     }
 }

@@ -221,6 +221,8 @@ pub struct Pair {
     pub log_sides: [u8; 2],
     /// Form of a texel.
     pub form: TexelForm,
+    /// Levels of detail, 1 to 4.
+    pub levels: u8,
     /// The edge goes on outside; else the picture repeats.
     pub clamped: bool,
     /// Position of the first texel.
@@ -232,19 +234,25 @@ pub struct Pair {
 }
 
 impl Pair {
-    /// Width and height.
+    /// Width and height of a level of detail, 0 for the largest.
     #[must_use]
-    pub const fn sides(&self) -> [u32; 2] {
+    pub const fn sides(&self, level: u8) -> [u32; 2] {
         let [width, height] = self.log_sides;
-        [1 << (width & 15), 1 << (height & 15)]
+        [
+            1 << (width & 15).saturating_sub(level),
+            1 << (height & 15).saturating_sub(level),
+        ]
     }
 
-    /// Words of the texels.
+    /// Words of the texels of all levels above one of them.
     #[must_use]
-    pub const fn words(&self) -> u32 {
+    pub fn words_above(&self, level: u8) -> u32 {
         // Sides are at most 2^10, so there are at most 2^25 bits.
-        let [width, height] = self.log_sides;
-        (self.form.bits() << (width & 15) << (height & 15)).div_ceil(32)
+        let words = |level: u8| {
+            let [width, height] = self.sides(level);
+            (self.form.bits() * width * height).div_ceil(32)
+        };
+        (0..level).map(words).sum()
     }
 }
 
@@ -327,7 +335,8 @@ impl<'m> TextureSlots<'m> {
             | (t.form as u32) << 16
             | u32::from(t.clamped) << 20
             | u32::from(t.palette) << 21;
-        self.define(name, t.at)
+        // Lists have less than 2^30 words.
+        self.define(name, t.at | u32::from(t.levels.saturating_sub(1)) << 30)
     }
 
     /// Gives a palette its number; `false` where no slot is free.
@@ -357,11 +366,13 @@ impl<'m> TextureSlots<'m> {
             true => self.colours((name >> 21) as u8).ok_or(NoTexture::Palette)?,
             false => (0, 0),
         };
+        let at = texture.at.load(Ordering::Relaxed);
         Ok(Pair {
+            levels: (at >> 30) as u8 + 1,
             log_sides: [(name >> 8) as u8 & 15, (name >> 12) as u8 & 15],
             form,
             clamped: name & CLAMPED != 0,
-            at: texture.at.load(Ordering::Relaxed),
+            at: at & (u32::MAX >> 2),
             colours,
             count,
         })

@@ -8,7 +8,7 @@ use super::textures::Asked;
 use crate::geometry::{Affine, Camera, Sphere};
 use crate::list::{
     Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
-    NoTexture, Reason, Run, State, Step, Texture, Window, Words, read_block,
+    NoTexture, Overlay, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
 use crate::scene::Scissor;
@@ -29,12 +29,16 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
             }
             Instruction::Short(run)
             | Instruction::Quads(run)
+            | Instruction::Points(run)
             | Instruction::Table(run)
             | Instruction::Indexed(run) => {
                 (run.header.id, self.take(words, instruction, run, stage))
             }
-            Instruction::Long(_) => (Id::Long, Err(Reason::Missing(Missing::LongVertices))),
-            Instruction::Points(_) => (Id::Points, Err(Reason::Missing(Missing::Points))),
+            Instruction::Long(run) => (
+                Id::Long,
+                self.take_long(words, run, stage)
+                    .map(|()| Step::Do(instruction)),
+            ),
             // The walker keeps the others.
             _ => (Id::Later, Ok(Step::Passed)),
         };
@@ -64,11 +68,11 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
         let offset = self.walker.offset();
         let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
             .lit_by(self.lights.as_deref());
-        let gather = &mut self.gather;
+        let (gather, point_size) = (&mut self.gather, self.state.point_size);
         let done = drawer.gather(|out| match instruction {
             Instruction::Table(run) => gather.table(words, format, run, out),
             Instruction::Indexed(run) => gather.indexed(words, run, out),
-            _ => gather.run(words, format, run, 1, out),
+            _ => gather.run(words, format, run, point_size, out),
         })?;
         match done {
             Ok(()) => Ok(Step::Do(instruction)),
@@ -77,6 +81,32 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
             Err(Refusal::Fine) => Err(Reason::Missing(Missing::FinePlaces)),
             Err(Refusal::Index { index, count }) => Err(Reason::Index { index, count }),
         }
+    }
+
+    /// Draws vertices that were set up beforehand; what was gathered before them first.
+    fn take_long(
+        &mut self,
+        words: impl Words<'t>,
+        run: Run,
+        stage: &mut Stage<'_, '_, 't, L>,
+    ) -> Result<(), Reason> {
+        if L::LIT_AT_PIXELS.is_some() {
+            return Err(Reason::Missing(Missing::LightAtVertices));
+        }
+        let offset = self.walker.offset();
+        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
+            .lit_by(self.lights.as_deref());
+        drawer.gather(|out| self.gather.pause(words, out))?;
+        if self.state.is_stale {
+            self.find_texture(words)?;
+        }
+        self.counts.vertices += u32::from(run.header.count);
+        let mut drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
+        let (colour, sides) = (self.state.draw.colour, drawer.sides());
+        self.long.take(words, run, colour, sides, |triangles| {
+            drawer.draw_long(triangles, run.header.text, run.header.prsp);
+        });
+        Ok(())
     }
 
     /// Draws what was gathered.
@@ -143,9 +173,6 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
 
     /// Gives a texture its number.
     fn define(&mut self, texture: &Texture) -> Result<(), Reason> {
-        if texture.levels > 1 {
-            return Err(Reason::Missing(Missing::DetailLevels));
-        }
         self.state.is_stale = true;
         match !L::TEXTURED || self.names.texture(texture) {
             true => Ok(()),
@@ -182,7 +209,7 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<Step, Reason> {
         match state {
-            State::Head(_) | State::Format(_) | State::PointSize(_) => return Ok(Step::Passed),
+            State::Head(_) | State::Format(_) => return Ok(Step::Passed),
             State::Bounds(bounds) => {
                 self.skip(words, &bounds, stage);
                 return Ok(Step::Passed);
@@ -207,15 +234,34 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
             State::Window(window) => return self.window(window, stage),
             State::Texture(texture) => self.define(&texture)?,
             State::Palette(palette) => {
-                if L::TEXTURED && !self.names.palette(&palette) {
+                let is_used = L::TEXTURED || !self.overlays.0.is_empty();
+                if is_used && !self.names.palette(&palette) {
                     return Err(Reason::Lent(Lent::Names));
                 }
                 self.state.is_stale = true;
             }
-            State::Overlay(_) => return Err(Reason::Missing(Missing::Overlays)),
-            State::Head(_) | State::Format(_) | State::PointSize(_) | State::Bounds(_) => {}
+            State::Overlay(overlay) => self.overlay(words, &overlay)?,
+            State::PointSize(size) => self.state.point_size = size,
+            State::Head(_) | State::Format(_) | State::Bounds(_) => {}
         }
         Ok(Step::Passed)
+    }
+
+    /// Keeps an overlay for those who draw the lines.
+    fn overlay(&self, words: impl Words<'t>, overlay: &Overlay) -> Result<(), Reason> {
+        if self.overlays.0.is_empty() {
+            return Err(Reason::Lent(Lent::Overlays));
+        }
+        let colours = match overlay.form.is_indexed() {
+            true => self.names.colours(overlay.palette),
+            false => Some((0, 1)),
+        };
+        let colours = colours.ok_or(Reason::NoPalette(overlay.palette))?;
+        if words.slice(overlay.at, overlay.words()).is_none() {
+            return Err(Reason::Missing(Missing::TexelsInPieces));
+        }
+        let is_kept = self.overlays.push(overlay, colours);
+        is_kept.then_some(()).ok_or(Reason::Lent(Lent::Overlays))
     }
 
     fn light(&mut self, number: u8, light: LightWords) -> Result<(), Reason> {

@@ -12,12 +12,14 @@
 //! | `state` | the draw call that blocks change |
 //! | `textures` | textures of a list as values of the rooms |
 //! | `gather` | vertices into meshes |
+//! | `long` | vertices that were set up beforehand |
 //! | `lights` | several lights, whose code only a player that has room for them brings in |
 //! | `outcome` | what was done |
 
 mod blocks;
 mod gather;
 mod lights;
+mod long;
 mod outcome;
 mod play;
 mod state;

@@ -2,17 +2,18 @@
 
 use super::gather::{Gather, ListCoordinate, Unpacked};
 use super::lights;
+use super::long::LongStrip;
 use super::state::State;
 use super::textures::Shelf;
 use super::{LightRoom, OnViolation, RunCounts, TextureRoom};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Mesh, Screen};
 use crate::list::{
-    Halt, ListCommand, ListControl, ListError, Missing, Reason, Step, TextureSlot, TextureSlots,
-    Walker, Window, Words,
+    Halt, ListCommand, ListControl, ListError, Missing, OverlaySlot, OverlaySlots, Reason, Step,
+    TextureSlot, TextureSlots, Walker, Window, Words,
 };
 use crate::look::Look;
-use crate::scene::{Budget, Draw, Sampling, Scene};
+use crate::scene::{Budget, Draw, Sampling, Scene, Texture};
 use core::marker::PhantomData;
 
 /// Memory of a player, lent by the application.
@@ -42,6 +43,12 @@ pub struct PlayerMemory<'m, 't, C = i16> {
     /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 320 for one of 6 bits, and one a texel
     /// of other forms, but for those of 16 bits in the panel's order of bytes.
     pub texels: &'t mut [u16],
+    /// Levels of detail below the first: up to 3 for each texture that has several.
+    pub levels: &'t mut [Texture<'t>],
+    /// One for each overlay of a frame; none where there are none. The
+    /// [`ListOverlays`](crate::overlay::ListOverlays) that paint them have the same ones, and the names above have those
+    /// of their palettes.
+    pub overlays: &'m [OverlaySlot],
     /// Where lists may have coloured lights, several, and highlights: room for them.
     pub lights: Option<&'m mut LightRoom>,
 }
@@ -100,14 +107,14 @@ impl Default for PlayerSettings<'_, '_> {
 /// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |
 /// | WINDOW | `scissor` |
+/// | POINTS, LONG | [`Scene::draw_points`], [`Scene::draw_screen`] |
+/// | OVERLAY | none: [`ListOverlays`](crate::overlay::ListOverlays) over the lines |
 /// | nothing | `shading`, `depth`, `dither`, `priority`, `application`, `lamps`: those of the settings |
 ///
 /// **What a player does not have is refused, never left out**: [`Reason::Missing`](crate::list::Reason::Missing) says
-/// what, and where. These are vertices that were set up beforehand, points, overlays, several levels of detail, texels
-/// that are neither opaque nor transparent, places of 32 bits where `C` is `i16`, coloured or several lights and
-/// highlights without memory for them, and what the look of the scene cannot have. A list that is started is walked
-/// once without drawing, as far as the budget reaches,
-/// before any of it is drawn: what is malformed, missing or too large for the memory is an error then, and the scene
+/// what, and where. These are texels that are neither opaque nor transparent, places of 32 bits where `C` is `i16`,
+/// coloured or several lights and highlights without memory for them, and what the look of the scene cannot have. A list
+/// that is started is walked once without drawing, as far as the budget reaches, before any of it is drawn: what is malformed, missing or too large for the memory is an error then, and the scene
 /// is as it was. [`ListCommand::Restart`](crate::list::ListCommand) plays the same list again without that walk.
 ///
 /// ```
@@ -140,7 +147,11 @@ pub struct Player<'m, 't, L, C = i16> {
     pub(super) settings: PlayerSettings<'m, 't>,
     pub(super) walker: Walker,
     pub(super) gather: Gather<'m, C>,
+    pub(super) long: LongStrip,
     pub(super) names: TextureSlots<'m>,
+    pub(super) overlays: OverlaySlots<'m>,
+    /// What was drawn has been shown: its overlays are no longer.
+    is_shown: bool,
     pub(super) shelf: Shelf<'t>,
     pub(super) state: State<'m, 't>,
     pub(super) lights: Option<&'m mut LightRoom>,
@@ -171,8 +182,11 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
                 indices: memory.indices,
                 places: memory.places,
             }),
+            long: LongStrip::default(),
             names: TextureSlots(memory.names),
-            shelf: Shelf::new(memory.textures, memory.texels),
+            overlays: OverlaySlots(memory.overlays),
+            is_shown: false,
+            shelf: Shelf::new(memory.textures, memory.texels, memory.levels),
             state: State::new(&settings),
             lights: memory.lights,
             settings,
@@ -221,6 +235,9 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
         self.counts = RunCounts::default();
         self.state = State::new(&self.settings);
         self.names.clear();
+        self.overlays.clear();
+        self.is_shown = false;
+        self.long.restart();
         lights::begin(self.lights.as_deref_mut(), self.settings.draw.light);
     }
 
@@ -323,6 +340,9 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
         budget: &mut crate::list::Budget,
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<Option<Halt>, ListError> {
+        if core::mem::take(&mut self.is_shown) {
+            self.overlays.clear();
+        }
         let mut step = self.walker.step(words, budget)?;
         if let Step::Do(instruction) = step {
             step = self.execute(words, instruction, stage)?;
@@ -345,6 +365,7 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
             }
             Step::Halt(halt) => {
                 self.flush(words, stage)?;
+                self.is_shown = halt == Halt::Sync;
                 if let Some(event) = self.walker.event_of(halt, words) {
                     self.notice(stage, event, 0);
                 }

@@ -8,7 +8,9 @@ use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
 use crate::list::{Lent, Material, Reason};
 use crate::look::Look;
-use crate::scene::{Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, Skin, Texture};
+use crate::scene::{
+    Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin, Texture,
+};
 
 /// What is drawn with next.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +23,8 @@ pub(super) struct State<'m, 't> {
     /// The blend of what is opaque.
     blend: Option<Blend>,
     pub(super) material: Material,
+    /// Pixels each way that a point has.
+    pub(super) point_size: u8,
     /// The texture that the material names, once something is drawn with it.
     pub(super) texture: Option<&'t Texture<'t>>,
     /// The texture is to be found anew.
@@ -42,6 +46,7 @@ impl<'m, 't> State<'m, 't> {
             lights: draw.lights,
             blend: draw.blend,
             material,
+            point_size: 1,
             texture: None,
             is_stale: true,
         };
@@ -145,10 +150,9 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         mut self,
         gather: impl FnOnce(&mut Out<'_, C>) -> R,
     ) -> Result<R, Reason> {
-        let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
         let done = gather(&mut Out {
             textured: L::TEXTURED,
-            sides: self.state.texture.map(sides),
+            sides: self.sides(),
             block: self.offset,
             draw: &mut |mesh| self.draw(mesh),
         });
@@ -181,29 +185,78 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         let mut done = Ok(());
         lights::fall(self.lights, &self.state.material, &mut |lights| {
             let begin = &self.state.draw;
-            done = scene.draw(&Draw {
+            let draw = Draw {
                 texture,
                 lights: lights.or(begin.lights),
                 ..begin.with_mesh(gathered.mesh)
-            });
+            };
+            done = match gathered.points {
+                Some(size) => scene.draw_points(&draw, size),
+                None => scene.draw(&draw),
+            };
         });
+        let vertices = gathered.mesh.positions.len();
+        self.count(vertices, before, done, gathered.block);
+    }
+
+    /// Draws triangles that were set up beforehand, of vertices that are exact on their texture or not; so many vertices
+    /// are new.
+    pub(super) fn draw_long(
+        &mut self,
+        triangles: &[[ScreenCorner; 3]],
+        textured: bool,
+        prsp: bool,
+    ) {
+        let Some(scene) = &mut self.scene else {
+            return;
+        };
+        let texture = self.state.texture.filter(|_| textured);
+        let draw = Draw {
+            texture: texture.map(|texture| Skin {
+                texture,
+                places: &[],
+                budget: if prsp { self.budget } else { Budget::FAST },
+            }),
+            ..self.state.draw
+        };
+        let before = scene.assembled();
+        let done = scene.draw_screen(&draw, triangles);
+        self.count(0, before, done, self.offset);
+    }
+
+    /// Counts what a call has done with some vertices of the block at an offset, and tells what was lost.
+    fn count(
+        &mut self,
+        vertices: usize,
+        before: Assembled,
+        done: Result<(), DrawError>,
+        block: u32,
+    ) {
+        let Some(scene) = &self.scene else {
+            return;
+        };
         let after = scene.assembled();
         self.counts.draws += 1;
-        self.counts.vertices += gathered.mesh.positions.len() as u32;
+        self.counts.vertices += vertices as u32;
         self.counts.triangles += after.triangles - before.triangles;
         match done {
             Ok(()) => {}
             Err(DrawError::Full { triangles, .. }) => {
                 self.counts.dropped += triangles;
-                self.tell(Event::Full, gathered.block, triangles);
+                self.tell(Event::Full, block, triangles);
             }
             // Lengths and indices were checked when they were gathered.
-            Err(_) => self.tell(Event::Malformed, gathered.block, 0),
+            Err(_) => self.tell(Event::Malformed, block, 0),
         }
         if after.clipped > before.clipped {
-            let clipped = after.clipped - before.clipped;
-            self.tell(Event::Clipped, gathered.block, clipped);
+            self.tell(Event::Clipped, block, after.clipped - before.clipped);
         }
+    }
+
+    /// The sides of the texture, as logarithms.
+    pub(super) fn sides(&self) -> Option<[u8; 2]> {
+        let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
+        self.state.texture.map(sides)
     }
 
     #[cold]

@@ -28,6 +28,7 @@ impl TextureRoom<'_> {
             count: 0,
             form: TexelForm::Index1,
             log_sides: [0; 2],
+            levels: 1,
             clamped: false,
         },
         before: None,
@@ -42,6 +43,7 @@ struct Key {
     count: u32,
     form: TexelForm,
     log_sides: [u8; 2],
+    levels: u8,
     clamped: bool,
 }
 
@@ -60,6 +62,7 @@ pub(super) struct Shelf<'t> {
     free: &'t mut [TextureRoom<'t>],
     last: Option<&'t TextureRoom<'t>>,
     words: &'t mut [u16],
+    levels: &'t mut [Texture<'t>],
 }
 
 /// Where texels and colours lie.
@@ -87,11 +90,16 @@ struct Colour {
 }
 
 impl<'t> Shelf<'t> {
-    pub(super) fn new(rooms: &'t mut [TextureRoom<'t>], words: &'t mut [u16]) -> Self {
+    pub(super) fn new(
+        rooms: &'t mut [TextureRoom<'t>],
+        words: &'t mut [u16],
+        levels: &'t mut [Texture<'t>],
+    ) -> Self {
         Self {
             free: rooms,
             last: None,
             words,
+            levels,
         }
     }
 
@@ -114,7 +122,7 @@ impl<'t> Shelf<'t> {
             readable.ok_or(Reason::Missing(Missing::TexelsInPieces))
         };
         let source = Source {
-            texels: in_place(pair.at, pair.words())?,
+            texels: in_place(pair.at, pair.words_above(pair.levels))?,
             colours: match pair.count {
                 0 => &[],
                 count => in_place(pair.colours, count)?,
@@ -132,11 +140,7 @@ impl<'t> Shelf<'t> {
         if self.free.is_empty() {
             return Err(Reason::Lent(Lent::Textures));
         }
-        let mut made = self.make::<F>(source, dithers)?;
-        if let Some(sampling) = sampling {
-            // Without levels there is none of other sides.
-            made = made.sampled(sampling, &[]).unwrap_or(made);
-        }
+        let made = self.make::<F>(source, dithers, sampling)?;
         let full = Reason::Lent(Lent::Textures);
         let (room, free) = core::mem::take(&mut self.free)
             .split_first_mut()
@@ -152,11 +156,12 @@ impl<'t> Shelf<'t> {
         room.made.as_ref().ok_or(full)
     }
 
-    /// Makes a texture.
+    /// Makes a texture, with its levels of detail.
     fn make<F: PixelFormat>(
         &mut self,
         source: Source<'t>,
         dithers: bool,
+        sampling: Option<Sampling>,
     ) -> Result<Texture<'t>, Reason> {
         let panel = Panel {
             // Pixels of more than 16 bits are made of texels that are numbers.
@@ -167,36 +172,53 @@ impl<'t> Shelf<'t> {
             dithers,
         };
         let mut key = None;
-        let made = match source.pair.form.is_indexed() {
-            true => self.indexed(source, panel, &mut key)?,
-            false => self.direct(source, panel, &mut key)?,
+        let form = source.pair.form;
+        let words = match form.is_indexed() {
+            true => self.colours(source, panel, &mut key)?,
+            false if form == TexelForm::Rgb565 && panel.is_native() => None,
+            false => Some(self.converted(source, panel, &mut key)?),
         };
         let wrap = match source.pair.clamped {
             true => Wrap::Clamp,
             false => Wrap::Repeat,
         };
         // Sides and lengths are those that the block was checked for.
-        let made = made.map_err(|_| Reason::Lent(Lent::Texels))?;
-        Ok(match key {
-            Some(key) => made.keyed(key).wrapping(wrap),
-            None => made.wrapping(wrap),
+        let level = |level| {
+            source
+                .level(level, words)
+                .map_err(|_| Reason::Lent(Lent::Texels))
+        };
+        let made = level(0)?.wrapping(wrap);
+        let made = key.map_or(made, |key| made.keyed(key));
+        let coarser = usize::from(source.pair.levels.saturating_sub(1));
+        if self.levels.len() < coarser {
+            return Err(Reason::Lent(Lent::Levels));
+        }
+        let (taken, rest) = core::mem::take(&mut self.levels).split_at_mut(coarser);
+        self.levels = rest;
+        for (number, slot) in (1..).zip(taken.iter_mut()) {
+            *slot = level(number)?;
+        }
+        let default = (coarser > 0).then_some(Sampling::NEAREST);
+        Ok(match sampling.or(default) {
+            // Each level has half the sides of the one above it.
+            Some(sampling) => made.sampled(sampling, taken).unwrap_or(made),
+            None => made,
         })
     }
 
-    /// One whose texels name colours of a palette.
-    fn indexed(
+    /// The palette of one whose texels name colours.
+    fn colours(
         &mut self,
         source: Source<'t>,
         panel: Panel,
         key: &mut Option<u16>,
-    ) -> Result<Result<Texture<'t>, TextureError>, Reason> {
-        let bytes: &'t [u8] = bytemuck::cast_slice(source.texels);
-        let [width, height] = source.pair.sides();
+    ) -> Result<Option<&'t [u16]>, Reason> {
         let mut palette = |count| self.palette(panel, source.colours, count, key);
-        Ok(match source.pair.form {
-            TexelForm::Index1 => Texture::index1(bytes, palette(2)?, width, height),
-            TexelForm::Index2 => Texture::index2(bytes, palette(4)?, width, height),
-            TexelForm::Index4 => Texture::index4(bytes, palette(16)?, width, height),
+        Ok(Some(match source.pair.form {
+            TexelForm::Index1 => palette(2)?,
+            TexelForm::Index2 => palette(4)?,
+            TexelForm::Index4 => palette(16)?,
             TexelForm::Index6 => {
                 // Two bits of a byte mean nothing.
                 let palette = palette(64)?;
@@ -204,31 +226,40 @@ impl<'t> Shelf<'t> {
                 for (slot, colour) in all.iter_mut().zip(palette.iter().cycle()) {
                     *slot = *colour;
                 }
-                Texture::index8(bytes, all, width, height)
+                all
             }
-            _ => Texture::index8(bytes, palette(256)?, width, height),
-        })
+            _ => palette(256)?,
+        }))
     }
 
-    /// One whose texels are colours.
-    fn direct(
+    /// The texels of one whose texels are colours, level by level.
+    fn converted(
         &mut self,
         source: Source<'t>,
         panel: Panel,
         key: &mut Option<u16>,
-    ) -> Result<Result<Texture<'t>, TextureError>, Reason> {
-        let [width, height] = source.pair.sides();
-        if source.pair.form == TexelForm::Rgb565 && panel.is_native() {
-            let words = bytemuck::cast_slice(source.texels);
-            return Ok(Texture::words(words, width, height));
-        }
-        let words = self.take((width * height) as usize)?;
-        let all = Texels::new(source.texels, source.pair.form, &[]);
-        *key = panel.write(words, |n| Colour {
-            rgba: all.rgba(n),
-            undithered: all.is_undithered(n),
+    ) -> Result<&'t [u16], Reason> {
+        let pair = source.pair;
+        let words = self.take(source.texels_above(pair.levels))?;
+        // The level of a texel, and its number there.
+        let of = |mut n: u32| {
+            let mut level = 0;
+            loop {
+                let [width, height] = pair.sides(level);
+                if n < width * height || level == pair.levels {
+                    break (Texels::new(source.words_of(level), pair.form, &[]), n);
+                }
+                (n, level) = (n - width * height, level + 1);
+            }
+        };
+        *key = panel.write(words, |n| {
+            let (texels, n) = of(n);
+            Colour {
+                rgba: texels.rgba(n),
+                undithered: texels.is_undithered(n),
+            }
         })?;
-        Ok(Texture::words(words, width, height))
+        Ok(words)
     }
 
     /// So many words of the lent memory.
@@ -264,7 +295,45 @@ impl<'t> Shelf<'t> {
     }
 }
 
-impl Source<'_> {
+impl<'t> Source<'t> {
+    /// The words of a level's texels.
+    fn words_of(&self, level: u8) -> &'t [u32] {
+        let [from, to] = [level, level + 1].map(|l| self.pair.words_above(l) as usize);
+        self.texels.get(from..to).unwrap_or_default()
+    }
+
+    /// Texels of all levels above one of them.
+    fn texels_above(&self, level: u8) -> usize {
+        let texels = |level| {
+            let [width, height] = self.pair.sides(level);
+            (width * height) as usize
+        };
+        (0..level).map(texels).sum()
+    }
+
+    /// A level: its texels as they lie in the list with a palette, or in words that were made of all of them, or as they
+    /// are.
+    fn level(&self, level: u8, words: Option<&'t [u16]>) -> Result<Texture<'t>, TextureError> {
+        let [width, height] = self.pair.sides(level);
+        let bytes: &'t [u8] = bytemuck::cast_slice(self.words_of(level));
+        let colours = words.unwrap_or_default();
+        let count = (width * height) as usize;
+        match (self.pair.form, words) {
+            (TexelForm::Index1, _) => Texture::index1(bytes, colours, width, height),
+            (TexelForm::Index2, _) => Texture::index2(bytes, colours, width, height),
+            (TexelForm::Index4, _) => Texture::index4(bytes, colours, width, height),
+            (form, _) if form.is_indexed() => Texture::index8(bytes, colours, width, height),
+            (_, Some(words)) => {
+                let from = words.get(self.texels_above(level)..).unwrap_or_default();
+                Texture::words(from.get(..count).unwrap_or_default(), width, height)
+            }
+            (_, None) => {
+                let words: &'t [u16] = bytemuck::cast_slice(self.words_of(level));
+                Texture::words(words.get(..count).unwrap_or_default(), width, height)
+            }
+        }
+    }
+
     fn key(&self) -> Key {
         Key {
             texels: self.texels.as_ptr().addr(),
@@ -272,6 +341,7 @@ impl Source<'_> {
             count: self.pair.count,
             form: self.pair.form,
             log_sides: self.pair.log_sides,
+            levels: self.pair.levels,
             clamped: self.pair.clamped,
         }
     }

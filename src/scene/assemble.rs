@@ -11,7 +11,7 @@ use super::pass::{
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Role, Scene, Shading,
+    Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading, Shadow,
     TexturePlace, Vertex,
 };
 use crate::geometry::{
@@ -63,7 +63,11 @@ fn check_draw<C: Coordinate>(
     }
 }
 
-impl<'t, L> Scene<'_, 't, L> {
+/// Files what a draw call brings.
+type File<'f, 'm, 't, L> =
+    &'f mut dyn FnMut(&mut Scene<'m, 't, L>, &mut Pass<'_>) -> Result<(), DrawError>;
+
+impl<'m, 't, L> Scene<'m, 't, L> {
     /// Draws a mesh, with its texture, which only a look that is `textured` has. Where light falls on pixels, vertices
     /// have words of normals.
     ///
@@ -75,6 +79,38 @@ impl<'t, L> Scene<'_, 't, L> {
         textured: bool,
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
+        let mesh = &draw.mesh;
+        let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
+        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
+        let file: File<'_, 'm, 't, L> = &mut |scene, pass| {
+            scene.share(mesh, pass);
+            match is_volume {
+                true => scene.file_volume(mesh, pass),
+                false => scene.file(is_flat, mesh, pass),
+            }
+        };
+        self.assemble_by(draw, textured, word_of, triangles(mesh.faces), file)
+    }
+
+    /// Whether colours and light of a draw call are seen nowhere: where texels are drawn as they are, or shading is
+    /// switched off.
+    pub(super) fn is_plain<C>(&self, draw: &Draw<'_, 't, C>) -> bool {
+        let master = self.master.with_shadow(draw.shadow);
+        master.applied(draw) == Some(Application::Replace) || !master.has_shading()
+    }
+
+    /// Draws what `file` brings of a draw call, so many triangles.
+    ///
+    /// # Errors
+    /// As [`assemble`](Self::assemble).
+    pub(super) fn assemble_by<C: Coordinate>(
+        &mut self,
+        draw: &Draw<'_, 't, C>,
+        textured: bool,
+        word_of: Option<WordOfNormal>,
+        submitted: u32,
+        file: File<'_, 'm, 't, L>,
+    ) -> Result<(), DrawError> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
         };
@@ -84,18 +120,14 @@ impl<'t, L> Scene<'_, 't, L> {
         if self.master.leaves_out(draw.shadow) {
             return Ok(());
         }
-        let mesh = &draw.mesh;
         let master = self.master.with_shadow(draw.shadow);
-        let submitted = triangles(mesh.faces);
         let state = DrawState::new(self.objects.len() as u16, draw, master);
         if self.draws.push(state).is_none() {
             return Err(DrawError::no_draws(submitted));
         }
         self.generation = self.generation.wrapping_add(1);
-        // Where texels are drawn as they are, nobody sees colours or light.
         let is_replaced = master.applied(draw) == Some(Application::Replace);
-        let is_plain = is_replaced || !master.has_shading();
-        let is_flat = draw.shading == Shading::Flat && !is_plain;
+        let is_plain = self.is_plain(draw);
         let colour = if is_replaced { [255; 3] } else { draw.colour };
         let tint = Tint::new(colour, &self.scale);
         let (model, view) = (&draw.model, camera.view());
@@ -103,7 +135,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let light = draw.light.filter(|_| lamps.is_none());
         let light = light.map(|light| light.in_model(model, view));
         let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
-        let has_one = is_plain || !is_lit && mesh.colours.is_empty();
+        let has_one = is_plain || !is_lit && draw.mesh.colours.is_empty();
         let generated = match (draw.texgen, &draw.texture) {
             (Some(rule), Some(skin)) => {
                 Some(rule.generated(&model.then(view), skin.texture, draw.mesh.normals))
@@ -130,11 +162,7 @@ impl<'t, L> Scene<'_, 't, L> {
             clipped: 0,
             lost: Lost::default(),
         };
-        self.share(mesh, &mut pass);
-        match state.role() {
-            Role::Front(_) => self.file_volume(mesh, &mut pass)?,
-            _ => self.file(is_flat, mesh, &mut pass)?,
-        }
+        file(self, &mut pass)?;
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)

@@ -11,6 +11,7 @@
 //! | `lights` | several lights, whose code only a call that has them brings in |
 //! | `flat` | faces of one colour each |
 //! | `cut` | triangles that cross a plane |
+//! | `screen` | triangles and points that are made on the screen |
 //! | `texgen` | texture places from normals |
 //! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
@@ -36,6 +37,7 @@ mod project;
 mod record;
 mod sampling;
 mod scissor;
+mod screen;
 mod shadow;
 #[cfg(test)]
 mod tests;
@@ -58,6 +60,7 @@ pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
 pub(crate) use sampling::{Method, SampledSpan};
 pub use scissor::Scissor;
+pub use screen::ScreenCorner;
 pub use shadow::Shadow;
 pub use texgen::TexGen;
 pub(crate) use texture::{Form, Square, half};

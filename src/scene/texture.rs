@@ -237,6 +237,12 @@ macro_rules! indexed {
 }
 
 impl<'t> Texture<'t> {
+    /// A black texel, for memory that textures are to be put into.
+    pub const EMPTY: Self = match Self::words(&[0], 1, 1) {
+        Ok(texture) => texture,
+        Err(_) => unreachable!(),
+    };
+
     const fn new(form: Form<'t>, sides: Sides) -> Self {
         let is_square = matches!(form, Form::Words(_)) && sides.log_width == sides.log_height;
         let square = match sides.log_width {

@@ -5,10 +5,10 @@ pub mod lists;
 use host_tests::rooms::{Room, picture};
 use scanbeam::event::Notice;
 use scanbeam::input::{LightRoom, Player, PlayerMemory, PlayerSettings, TextureRoom};
-use scanbeam::list::{Budget, Halt, ListError, TextureSlot, Words};
+use scanbeam::list::{Budget, Halt, ListError, OverlaySlot, TextureSlot, Words};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::Scene;
+use scanbeam::scene::{Scene, Texture};
 use scanbeam::{Camera, Screen};
 
 pub const WIDTH: u16 = 96;
@@ -100,6 +100,24 @@ impl Kept {
         textures: usize,
         texels: usize,
     ) -> Player<'m, 't, L> {
+        self.player_in(settings, (textures, texels), &[])
+    }
+
+    /// A player with room for these overlays.
+    pub fn player_over<'m, 't, L: Look>(
+        &'m mut self,
+        settings: PlayerSettings<'m, 't>,
+        overlays: &'m [OverlaySlot],
+    ) -> Player<'m, 't, L> {
+        self.player_in(settings, (8, 8192), overlays)
+    }
+
+    fn player_in<'m, 't, L: Look>(
+        &'m mut self,
+        settings: PlayerSettings<'m, 't>,
+        (textures, texels): (usize, usize),
+        overlays: &'m [OverlaySlot],
+    ) -> Player<'m, 't, L> {
         let textures: Vec<TextureRoom<'t>> = (0..textures).map(|_| TextureRoom::EMPTY).collect();
         let memory = PlayerMemory {
             positions: &mut self.positions,
@@ -110,6 +128,8 @@ impl Kept {
             names: &self.names,
             textures: Vec::leak(textures),
             texels: Vec::leak(vec![0; texels]),
+            levels: Vec::leak(vec![Texture::EMPTY; 3]),
+            overlays,
             lights: self.lights.as_mut(),
         };
         Player::new(memory, settings)

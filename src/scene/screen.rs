@@ -1,0 +1,185 @@
+//! What is made on the screen itself: triangles of vertices that were set up beforehand, and points (H11).
+//!
+//! Each triangle has vertices of its own. A point of one pixel is one triangle: corners 12 units of 1/8 pixel apart hold
+//! the centre of that pixel and no other.
+
+use super::pass::{Own, Pass, colour_of};
+use super::project::{OnScreen, Point};
+use super::{Draw, DrawError, ORIGIN, Scene, Shading, Skin, TexturePlace, Vertex, WordOfNormal};
+use crate::geometry::{Coordinate, Cull, Faces, Mesh, ScreenVertex, Tint};
+use crate::num::mul_high_unsigned;
+
+/// How far places may lie from the first column and line of guard space: what the guard band has, from the middle of the
+/// largest picture.
+const REACH: i32 = 8 * 2047;
+
+/// A corner of a triangle that was set up beforehand, for [`Scene::draw_screen`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ScreenCorner {
+    /// Where it is on the screen. What lies farther out than 2,047 pixels from the picture's middle is moved to there.
+    pub vertex: ScreenVertex,
+    /// The place on the texture, in texels with 8 fraction bits.
+    pub texel: [i32; 2],
+}
+
+/// What a draw call of no mesh brings.
+const EMPTY: Mesh<'static, i16> = Mesh {
+    positions: &[],
+    normals: &[],
+    colours: &[],
+    faces: Faces::Triangles(&[]),
+};
+
+impl<'t, L> Scene<'_, 't, L> {
+    /// Draws triangles by their corners on the screen, with the texture of a call, if its look has any, and without its
+    /// mesh, light and texture places.
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw).
+    pub(crate) fn assemble_screen(
+        &mut self,
+        draw: &Draw<'_, 't>,
+        faces: &[[ScreenCorner; 3]],
+        textured: bool,
+    ) -> Result<(), DrawError> {
+        let is_flat = draw.shading == Shading::Flat;
+        let draw = Draw {
+            mesh: EMPTY,
+            light: None,
+            lights: None,
+            texture: draw.texture.map(|skin| Skin {
+                places: &[],
+                ..skin
+            }),
+            ..*draw
+        };
+        let (scale, is_plain) = (self.scale, self.is_plain(&draw));
+        let middle = [self.screen.width(), self.screen.height()].map(|s| 4 * i32::from(s));
+        self.assemble_by(
+            &draw,
+            textured,
+            None,
+            faces.len() as u32,
+            &mut |scene, pass| {
+                let near = pass.view.near_depth();
+                let plain = pass.one.filter(|_| is_plain);
+                for (number, corners) in (0..).zip(faces) {
+                    let own = corners.map(|ScreenCorner { vertex, texel }| {
+                        let from = if is_flat { corners[0].vertex } else { vertex };
+                        let at = |v: i16, axis: usize| {
+                            let v = i32::from(v).clamp(middle[axis] - REACH, middle[axis] + REACH);
+                            (v + 8 * ORIGIN) as u32
+                        };
+                        let (x, y) = (at(vertex.x, 0), at(vertex.y, 1));
+                        // 1/w of a list is 2^31 at the near plane.
+                        let depth = mul_high_unsigned(vertex.depth, near) << 1;
+                        let texel = texel.map(|t| t << TexturePlace::FINER);
+                        Own {
+                            vertex: Vertex {
+                                place: y << 16 | x,
+                                depth: depth.clamp(1, (1 << 31) - 1),
+                                colour: plain.unwrap_or_else(|| {
+                                    Tint::new(from.colour, &scale).lit(1 << 15).word()
+                                }),
+                            },
+                            place: TexturePlace::new(texel, [0; 2]),
+                        }
+                    });
+                    scene.file_on_screen(number, own, pass);
+                }
+                Ok(())
+            },
+        )
+    }
+
+    /// Draws the vertices of a mesh as squares of so many pixels each way; its faces do not count.
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw).
+    pub(crate) fn assemble_points<C: Coordinate>(
+        &mut self,
+        draw: &Draw<'_, 't, C>,
+        size: u8,
+        textured: bool,
+        word_of: Option<WordOfNormal>,
+    ) -> Result<(), DrawError> {
+        let mesh = Mesh {
+            faces: Faces::Triangles(&[]),
+            ..draw.mesh
+        };
+        let draw = Draw {
+            mesh,
+            cull: Cull::None,
+            ..*draw
+        };
+        let faces: &[[usize; 3]] = match size {
+            0 => return Ok(()),
+            1 => &[[0, 1, 2]],
+            _ => &[[0, 1, 3], [1, 2, 3]],
+        };
+        let submitted = (mesh.positions.len() * faces.len()) as u32;
+        let scale = self.scale;
+        self.assemble_by(&draw, textured, word_of, submitted, &mut |scene, pass| {
+            for (i, &position) in mesh.positions.iter().enumerate() {
+                let point = pass.view.point(position);
+                if pass.view.beyond(point) != 0 {
+                    pass.culled += faces.len() as u32;
+                    continue;
+                }
+                let on = pass.view.project(point);
+                let colour = match pass.one {
+                    Some(colour) => colour,
+                    None => colour_of(&mesh, i, pass, &scale),
+                };
+                let texel = TexturePlace::new(pass.texel(i), [0; 2]);
+                for face in faces {
+                    let own = face.map(|corner| Own {
+                        vertex: Vertex {
+                            place: corner_of(&on, size, corner),
+                            depth: on.depth,
+                            colour,
+                        },
+                        place: texel,
+                    });
+                    scene.file_on_screen(i as u32, own, pass);
+                }
+            }
+            Ok(())
+        })
+    }
+
+    /// Files a triangle of a face, and counts it.
+    fn file_on_screen(&mut self, face: u32, own: [Own; 3], pass: &mut Pass<'_>) {
+        let before = self.objects.len();
+        match self.file_own(own, pass) {
+            Err(memory) => pass.lost.lose(memory, face),
+            Ok(()) => pass.culled += u32::from(self.objects.len() == before),
+        }
+    }
+}
+
+/// The place of a corner of a point, from the upper left one against the clock: of the square of whole pixels whose middle
+/// is nearest, or of a triangle around the centre of one pixel.
+fn corner_of(on: &OnScreen, size: u8, corner: usize) -> u32 {
+    let side = 8 * i32::from(size);
+    let far = if size == 1 { 12 } else { side };
+    let [x, y] = [on.place & 0xFFFF, on.place >> 16].map(|at| {
+        let first = (at as i32 - (side >> 1) + 4) & !7;
+        // Points lie within the guard band, and so do their corners, moved to its rim.
+        [first, first + far].map(|at| at.clamp(RIM[0], RIM[1]) as u32)
+    });
+    let down = matches!((size, corner), (1, 1) | (2.., 1 | 2));
+    let right = matches!((size, corner), (1, 2) | (2.., 2 | 3));
+    y[usize::from(down)] << 16 | x[usize::from(right)]
+}
+
+/// Places that points of the largest size may have: 32 bits of both, neither below 0.
+const RIM: [i32; 2] = [0, 0xFFF8];
+
+impl super::project::View {
+    /// The depth of the near plane.
+    fn near_depth(&self) -> u32 {
+        let z = self.near;
+        self.project(Point { x: 0, y: 0, z }).depth
+    }
+}
