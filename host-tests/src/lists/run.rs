@@ -3,21 +3,22 @@
 use super::args::RunListArgs;
 use super::{print, read_list};
 use crate::image_out::{Frame, write_image};
-use crate::lent::{LineRooms, SceneRooms};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::reference::{Cull, Shade, View};
+use crate::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::event::{Event, Notice};
-use scanbeam::input::{EightLights, ListMemory, ListRunner, ListSettings, RunCounts};
+use scanbeam::frame::draw_frame_overlaid;
+use scanbeam::input::{LightRoom, Player, PlayerMemory, PlayerSettings, RunCounts, TextureRoom};
 use scanbeam::list::{
-    Budget, Halt, Head, Instruction, OverlaySlot, State, TextureSlot, VertexFormat, read_block,
+    Budget, Halt, Head, Instruction, ListCommand, OverlaySlot, State, TextureSlot, TextureSlots,
+    VertexFormat, read_block,
 };
-use scanbeam::overlay::{ListOverlays, draw_frame_overlaid};
-use scanbeam::pipeline::texture::{ListTextures, Textured};
-use scanbeam::pipeline::{Composited, Depth32, Flat, Gouraud, Instance, Packed8, Parts, Pipeline};
+use scanbeam::look::Textured;
+use scanbeam::overlay::ListOverlays;
 use scanbeam::pixel::{PixelFormat, Rgb888};
 use scanbeam::scan_out::Pump;
-use scanbeam::stats::SpanCounts;
-use scanbeam::{Affine, Camera, Light, Link, Screen};
+use scanbeam::scene::{Draw, Scene, Shading, Texture};
+use scanbeam::{Camera, Faces, Light, Link, Mesh, Screen};
 use std::error::Error;
 
 /// Vertices that a table can have.
@@ -28,8 +29,11 @@ const INDICES: usize = 6 * TABLE;
 const TEXTURES: usize = 1024;
 /// Overlays of a picture.
 const OVERLAYS: usize = 256;
-/// Slots of the object cache.
-const SLOTS: usize = 64;
+/// Draw calls of a picture.
+const DRAWS: usize = 1 << 16;
+
+/// The pixels, and what they look like.
+type Look = Textured<Rgb888>;
 
 /// Executes or prints a list.
 ///
@@ -51,6 +55,9 @@ pub fn run(args: &RunListArgs) -> Result<(), Box<dyn Error>> {
     for (event, offset, times) in &ran.events {
         tell!("warning: {file}: {event:?}, first at offset {offset:#x}, {times} times");
     }
+    if ran.is_textured {
+        tell!("note: texels of textures are rounded to 5, 6 and 5 bits");
+    }
     Ok(())
 }
 
@@ -67,6 +74,8 @@ pub struct Ran {
     pub events: Vec<(Event, u32, u32)>,
     /// What the list did.
     pub counts: RunCounts,
+    /// Whether it has textures.
+    pub is_textured: bool,
 }
 
 /// What HEAD says, where a list begins with one.
@@ -81,115 +90,131 @@ pub fn head(list: &[u32]) -> Option<Head> {
 /// Draws a list.
 ///
 /// # Errors
-/// When the view cannot be had, or the list is malformed.
+/// When the view cannot be had, or the list is malformed or asks for what players do not have.
 pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn Error>> {
-    let slots: Vec<TextureSlot> = (0..TEXTURES).map(|_| TextureSlot::new()).collect();
-    let textures = ListTextures {
-        words: list,
-        slots: &slots,
+    let names: Vec<TextureSlot> = (0..TEXTURES).map(|_| TextureSlot::new()).collect();
+    let overlays: Vec<OverlaySlot> = (0..OVERLAYS).map(|_| OverlaySlot::new()).collect();
+    let mut textures: Vec<TextureRoom<'_>> = (0..TEXTURES).map(|_| TextureRoom::EMPTY).collect();
+    // Two texels a word of the list at most, in several forms; and palettes.
+    let mut texels = vec![0; 4 * list.len() + 320 * TEXTURES];
+    let mut levels = vec![Texture::EMPTY; 3 * TEXTURES];
+    let (mut positions, mut normals) = (vec![[0i32; 3]; TABLE], vec![[0; 3]; TABLE]);
+    let (mut colours, mut places) = (vec![[0; 3]; TABLE], vec![[0; 2]; TABLE]);
+    let (mut indices, mut lights) = (vec![0; INDICES], LightRoom::new());
+    let memory = PlayerMemory {
+        positions: &mut positions,
+        normals: &mut normals,
+        colours: &mut colours,
+        indices: &mut indices,
+        places: &mut places,
+        names: &names,
+        textures: &mut textures,
+        texels: &mut texels,
+        levels: &mut levels,
+        overlays: &overlays,
+        lights: Some(&mut lights),
     };
-    let slots: Vec<OverlaySlot> = (0..OVERLAYS).map(|_| OverlaySlot::new()).collect();
-    let overlays = ListOverlays {
-        words: list,
-        slots: &slots,
+    let mut player = Player::<Look, i32>::new(memory, settings(view));
+    let room = Room {
+        vertices: 1 << 16,
+        places: 1 << 16,
+        objects: Link::CACHED.into(),
+        draws: DRAWS,
     };
-    match view.shade {
-        Shade::Flat => execute_as::<Look<'_, Flat>>((textures, overlays), view, budget),
-        _ => execute_as::<Look<'_, Gouraud>>((textures, overlays), view, budget),
+    let mut memory = SceneRooms::new(room, view.height as u16);
+    let mut scene = memory.scene::<Look>(Screen::new(view.width as u16, view.height as u16)?);
+    scene.begin(&camera(view)?)?;
+    player.start(0);
+    let (halt, events) = play(list, &mut player, &mut scene, budget)?;
+    let painted = ListOverlays {
+        words: list,
+        slots: &overlays,
+    };
+    // Any number may be one.
+    let is_texture = |number| TextureSlots(&names).pair(number).is_ok();
+    Ok(Ran {
+        frame: shown(&scene, view, painted)?,
+        halt,
+        position: player.position(),
+        events,
+        counts: player.counts(),
+        is_textured: (0..=u8::MAX).any(is_texture),
+    })
+}
+
+/// What a list begins with.
+fn settings(view: &View) -> PlayerSettings<'static, 'static> {
+    let light = Light::new(view.light.map(|c| c as f32), view.ambient as f32);
+    PlayerSettings {
+        draw: Draw {
+            cull: match view.cull {
+                Cull::Back => scanbeam::Cull::Back,
+                Cull::None => scanbeam::Cull::None,
+            },
+            light: light.filter(|_| view.shade != Shade::None),
+            shading: match view.shade {
+                Shade::Flat => Shading::Flat,
+                Shade::None | Shade::Gouraud => Shading::Smooth,
+            },
+            ..Draw::new(Mesh {
+                positions: &[],
+                normals: &[],
+                colours: &[],
+                faces: Faces::Triangles(&[]),
+            })
+        },
+        camera: true,
+        ..PlayerSettings::default()
     }
 }
 
-/// A shading times the list's textures, of surfaces that may be transparent.
-type Look<'t, S> =
-    Composited<Parts<Textured<S>, Depth32, Rgb888, SpanCounts, Packed8, ListTextures<'t>>>;
-
-fn execute_as<'t, P>(
-    (textures, overlays): (ListTextures<'t>, ListOverlays<'t>),
-    view: &View,
-    mut budget: Budget,
-) -> Result<Ran, Box<dyn Error>>
-where
-    P: Pipeline<Pixel = Rgb888, Textures = ListTextures<'t>>,
-{
-    let list = textures.words;
-    let (width, height) = (view.width as u16, view.height as u16);
-    let single = |v: [f64; 3]| v.map(|c| c as f32);
+fn camera(view: &View) -> Result<Camera, Box<dyn Error>> {
+    let [eye, at, up] = [view.eye, view.at, view.up].map(|v| v.map(|c| c as f32));
     let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
-    let camera = Camera::look_at(
-        single(view.eye),
-        single(view.at),
-        single(view.up),
-        focal as f32,
-        view.near as f32,
-        view.far as f32,
-    )?;
-    let mut lent = SceneRooms::<P>::new(1 << 16, usize::from(Link::CACHED), height.into());
-    let mut scene = lent.scene(Screen::new(width, height)?);
-    scene.begin(&camera)?;
-    scene.set_textures(textures);
+    let (near, far) = (view.near as f32, view.far as f32);
+    Ok(Camera::look_at(eye, at, up, focal as f32, near, far)?)
+}
 
-    let mut positions = vec![[0i32; 3]; TABLE];
-    let mut normals = vec![[0; 3]; TABLE];
-    let mut colours = vec![[0; 3]; TABLE];
-    let mut indices = vec![0; INDICES];
-    let mut places = vec![[0; 2]; TABLE];
-    let light = Light::new(single(view.light), view.ambient as f32);
-    let mut runner = ListRunner::<'_, '_, _, EightLights>::with_lights(
-        ListMemory {
-            positions: &mut positions,
-            normals: &mut normals,
-            colours: &mut colours,
-            indices: &mut indices,
-            places: &mut places,
-            textures: textures.slots,
-            overlays: overlays.slots,
-        },
-        ListSettings {
-            instance: Instance {
-                model: Affine::IDENTITY,
-                cull: match view.cull {
-                    Cull::Back => scanbeam::Cull::Back,
-                    Cull::None => scanbeam::Cull::None,
-                },
-                light: light.filter(|_| view.shade != Shade::None),
-                colour: [255; 3],
-            },
-            camera: true,
-            ..ListSettings::default()
-        },
-    );
-    runner.start(0);
+/// Plays it to its end: a picture has no later frame to wait for, so pauses and syncs are passed over. Why it ended, and
+/// what events there were, as [`Ran`] has them.
+fn play<'t>(
+    list: &'t [u32],
+    player: &mut Player<'_, 't, Look, i32>,
+    scene: &mut Scene<'_, 't, Look>,
+    mut budget: Budget,
+) -> Result<(Halt, Vec<(Event, u32, u32)>), Box<dyn Error>> {
     let mut events: Vec<(Event, u32, u32)> = Vec::new();
     let mut note = |n: Notice| match events.iter_mut().find(|e| e.0 == n.event) {
         Some(known) => known.2 += 1,
         None => events.push((n.event, n.offset, 1)),
     };
-    // A picture has no later frame to wait for: pauses and syncs are passed over.
     let halt = loop {
-        let halt = runner.run(list, &mut scene, &mut budget, &mut note)?;
-        match halt {
+        match player.run(list, scene, &mut budget, &mut note)? {
             Halt::Sync => {}
-            Halt::Paused => runner.command(scanbeam::list::ListCommand::Resume),
+            Halt::Paused => player.command(ListCommand::Resume),
             halt => break halt,
         }
     };
     events.retain(|e| !matches!(e.0, Event::ListEnd | Event::Clipped));
+    Ok((halt, events))
+}
 
-    let mut rooms = LineRooms::<P>::new(SLOTS, usize::from(Link::CACHED), width.into());
+/// The picture of a scene, with overlays over it.
+fn shown(
+    scene: &Scene<'_, '_, Look>,
+    view: &View,
+    overlays: ListOverlays<'_>,
+) -> Result<Frame, Box<dyn Error>> {
+    let (width, height) = (view.width as u16, view.height as u16);
+    let mut rooms = LineRooms::<Look>::new(scene.objects(), width);
     let mut renderer = rooms.renderer();
     let words = usize::from(width);
     let sink = MockFrameBuffer::new(width, height);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb888::from_rgb8(view.background);
-    draw_frame_overlaid(&scene, &mut renderer, &mut pump, background, 1, overlays)
+    draw_frame_overlaid(scene, &mut renderer, &mut pump, background, 1, overlays)
         .map_err(|error| format!("display: {error}"))?;
     let pixels = pump.sink().frame().map_err(|e| format!("display: {e:?}"))?;
     let rgb = pixels.into_iter().flat_map(Rgb888::to_rgb8).collect();
-    Ok(Ran {
-        frame: Frame::new(view.width, view.height, rgb).ok_or("the picture has another size")?,
-        halt,
-        position: runner.position(),
-        events,
-        counts: runner.counts(),
-    })
+    Frame::new(view.width, view.height, rgb).ok_or("the picture has another size".into())
 }
