@@ -276,16 +276,12 @@ impl Compared {
         };
         let (listed, called) = (figure("list_pass_one"), figure("calls_pass_one"));
         let vertices = figure("list_vertices");
-        let (played, drawn) = (figure("lean_list_pass_one"), figure("lean_calls_pass_one"));
         json!({
             "pass_one": listed,
             "pass_one_by_calls": called,
             "vertices": vertices,
             "more_per_vertex": (listed as f64 - called as f64) / vertices.max(1) as f64,
-            "pass_one_in_the_rooms": played,
-            "pass_one_in_the_rooms_by_calls": drawn,
-            "pass_one_in_the_rooms_checked_first": figure("lean_list_checked"),
-            "more_per_vertex_in_the_rooms": (played as f64 - drawn as f64) / vertices.max(1) as f64,
+            "pass_one_checked_first": figure("list_checked"),
         })
     }
 

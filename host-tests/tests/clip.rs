@@ -5,10 +5,7 @@
 //! clips of their own; at each pixel the right picture is that of the groups which keep the pixel.
 
 use crate::common::{LineRooms, Rng, SceneRooms};
-use host_tests::lists::writer::{FieldPacker, ListWriter};
-use scanbeam::event::{Event, EventSet, Notice};
-use scanbeam::input::{ListMemory, ListRunner, ListSettings};
-use scanbeam::list::{Budget, FieldForm, Halt, Header, Id, State, Window};
+use scanbeam::list::Window;
 use scanbeam::pipeline::blend::Finish;
 use scanbeam::pipeline::parallel::Interleave;
 use scanbeam::pipeline::{
@@ -274,98 +271,4 @@ fn what_is_outside_is_skipped_and_counted() {
         assert_eq!(none.culled, none.triangles);
     }
     assert!(some > 60, "{some}");
-}
-
-/// A triangle over all of the picture, as a list's block.
-fn everywhere(writer: &mut ListWriter<'_>) {
-    let header = Header {
-        new: true,
-        ..Header::of(Id::Short, 3)
-    };
-    let mut words = Vec::new();
-    let mut packer = FieldPacker::new(|word| words.push(word));
-    for [x, y] in [[-32_000, -32_000], [32_000, -32_000], [0, 32_000]] {
-        packer.field(FieldForm::S16x3, [x, y, 0, 0]);
-        packer.align();
-    }
-    writer.vertices(header, &words).unwrap();
-}
-
-/// H13: a list draws within the window that it asks for, and within the one that it was granted.
-#[test]
-fn the_windows_of_lists_cut() {
-    type P = Windowed<FlatDepth<Rgb888>>;
-    let granted = Window {
-        left: 4,
-        top: 3,
-        right: 40,
-        bottom: 30,
-    };
-    let asked = Window {
-        left: 10,
-        top: 5,
-        right: 39,
-        bottom: 12,
-    };
-    let wide = Window { left: 3, ..asked };
-    let has = |w: Window, x, y| (w.left..w.right).contains(&x) && (w.top..w.bottom).contains(&y);
-    let draw = |windows: &[Window], settings: ListSettings<'_>| {
-        let mut words = [0; 64];
-        let mut writer = ListWriter::new(&mut words);
-        for window in windows {
-            writer.state(&State::Window(*window)).unwrap();
-        }
-        everywhere(&mut writer);
-        let list = writer.words().to_vec();
-        let mut rooms = SceneRooms::<P>::new(200, 200, 64);
-        let mut scene = rooms.scene(Screen::new(SIZE.0, SIZE.1).unwrap());
-        begin(&mut scene, 0..SIZE.1);
-        let memory = ListMemory {
-            positions: &mut [[0i16; 3]; 9],
-            normals: &mut [[0; 3]; 9],
-            colours: &mut [[0; 3]; 9],
-            indices: &mut [0; 9],
-            ..ListMemory::default()
-        };
-        let mut runner = ListRunner::new(memory, settings);
-        runner.start(0);
-        let mut budget = Budget {
-            instructions: 99,
-            vertices: 99,
-            jumps: 9,
-        };
-        let mut seen = EventSet::NONE;
-        let mut events = |n: Notice| seen = seen.with(n.event);
-        let halt = runner.run(&list[..], &mut scene, &mut budget, &mut events);
-        assert_eq!(halt, Ok(Halt::End));
-        assert!(!seen.has(Event::Unimplemented));
-        assert_eq!(scene.clip(), Clip::Picture, "as it was");
-        (crate::common::frame(&scene, 9), runner.counts().violations)
-    };
-    let whole = draw(&[], ListSettings::default()).0;
-    let confined = ListSettings {
-        window: Some(granted),
-        ..ListSettings::default()
-    };
-    let ways = [
-        (&[asked][..], ListSettings::default(), asked, 0),
-        (&[], confined, granted, 0),
-        (&[asked], confined, asked, 0),
-        // What is not granted changes nothing.
-        (&[asked, wide], confined, asked, 1),
-        (&[wide], confined, granted, 1),
-    ];
-    for (windows, settings, window, violations) in ways {
-        let (frame, count) = draw(windows, settings);
-        assert_eq!(count, violations);
-        let mut drawn = 0;
-        for (y, (row, open)) in (0..).zip(frame.iter().zip(&whole)) {
-            for (x, (pixel, open)) in (0..).zip(row.iter().zip(open)) {
-                let expected = if has(window, x, y) { *open } else { [0; 3] };
-                assert_eq!(*pixel, expected, "{window:?} {x} {y}");
-                drawn += u32::from(*pixel != [0; 3]);
-            }
-        }
-        assert!(drawn > 50, "{drawn}");
-    }
 }

@@ -5,8 +5,8 @@ use scanbeam::mesh::{I2F14, U1F15};
 use scanbeam::pipeline::blend::{ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
 use scanbeam::pipeline::{
     Composited, DrawError, FlatDepth, FlatPainter, GouraudDepth, Instance, LineDepth, LineMemory,
-    LineRenderer, ListedDepth, ObjectOf, PhongDepth, Pipeline, Prioritised, Scene, SceneMemory,
-    Shadowed, SlotOf, VertexOf, Windowed,
+    LineRenderer, ObjectOf, PhongDepth, Pipeline, Prioritised, Scene, SceneMemory, Shadowed,
+    SlotOf, VertexOf, Windowed,
 };
 use scanbeam::pixel::{Grey8, Rgb565, Rgb888};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanoutDma, ShownRuns, Window};
@@ -430,10 +430,10 @@ impl<P: Pipeline> Arenas<P> {
 #[test]
 fn arenas_can_be_statics() {
     type Plain = GouraudDepth<Rgb565>;
-    type Marks = Windowed<Prioritised<Composited<ListedDepth<'static, Rgb565>>>>;
+    type Marks = Windowed<Prioritised<Composited<PhongDepth<'static, Rgb565>>>>;
     static GOURAUD: Mutex<Arenas<Plain>> = Mutex::new(Arenas::new());
     static FLAT: Mutex<Arenas<FlatDepth<Rgb565>>> = Mutex::new(Arenas::new());
-    static LISTED: Mutex<Arenas<ListedDepth<'static, Rgb565>>> = Mutex::new(Arenas::new());
+    static LISTED: Mutex<Arenas<PhongDepth<'static, Rgb565>>> = Mutex::new(Arenas::new());
     static PHONG: Mutex<Arenas<Shadowed<PhongDepth<'static, Rgb565>>>> = Mutex::new(Arenas::new());
     static MARKS: Mutex<Arenas<Marks>> = Mutex::new(Arenas::new());
     assert!(GOURAUD.lock().unwrap().draws());

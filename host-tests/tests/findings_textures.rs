@@ -1,20 +1,15 @@
 //! Places on textures at the ends of their ranges: far from the first texel, and far apart.
 
 use crate::common::{Rng, SceneRooms, frame};
-use crate::listing::{PLENTY, Room};
-use host_tests::lists::writer::ListWriter;
 use host_tests::places::{PlaceFormat, Places};
-use scanbeam::event::{Event, Notice};
-use scanbeam::input::ListSettings;
-use scanbeam::list::{self, Halt, Header, Id, Material, State, TexelForm, TextureSlot};
+use scanbeam::event::Event;
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pipeline::texture::{
-    Address, Checker, Clamp, Gradient, ListTextures, Mirror, Quality, Size, Skin, TexelOf, Texels,
-    Texture, Textured, Textures, Words, Wrap,
+    Address, Checker, Clamp, Gradient, Mirror, Quality, Size, Skin, TexelOf, Texels, Texture,
+    Textured, Textures, Words, Wrap,
 };
 use scanbeam::pipeline::{
-    Composited, Depth32, Flat, FrameStats, Instance, ListedDepth, Packed8, Parts, PhongDepth,
-    Pipeline, TexturedDepth, Windowed,
+    Composited, Depth32, Flat, FrameStats, Instance, Packed8, Parts, TexturedDepth, Windowed,
 };
 use scanbeam::pixel::Rgb888;
 use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
@@ -285,127 +280,6 @@ fn wide_triangles_of_meshes_are_counted_once() {
         .draw_skinned(&mesh, none.into(), &Instance::default())
         .unwrap();
     assert_eq!(scene.pass_one().untextured, 0);
-}
-
-/// A list of one triangle of long vertices on a texture `1 << log` x 1, grey by its column from 1
-/// on modulo 251, with u from `from` to `to` in 1/4096 of its width.
-fn list_of((log, clamped): (u8, bool), from: u16, to: u16) -> Vec<u32> {
-    let mut memory = vec![0; 2048];
-    let mut writer = ListWriter::new(&mut memory);
-    let block = list::Texture {
-        number: 1,
-        log_width: log,
-        log_height: 0,
-        form: TexelForm::Rgba,
-        levels: 1,
-        palette: 0,
-        clamped,
-        at: 0,
-    };
-    let texels: Vec<u32> = (0..1 << log).map(|i| (i % 251 + 1) * 0x0001_0101).collect();
-    writer.bulk(&State::Texture(block), &texels).unwrap();
-    let material = Material {
-        diffuse: [255; 3],
-        two_sided: true,
-        texture: Some(1),
-        ..Material::default()
-    };
-    writer.state(&State::Material(material)).unwrap();
-    let header = Header {
-        text: true,
-        prsp: true,
-        new: true,
-        ..Header::of(Id::Long, 3)
-    };
-    let corners = [(0u32, 0u32, from), (128, 0, to), (0, 128, from)];
-    let words: Vec<u32> = corners
-        .into_iter()
-        .flat_map(|(x, y, u)| [x | y << 16, 1 << 30, u32::from(u)])
-        .collect();
-    writer.vertices(header, &words).unwrap();
-    writer.words().to_vec()
-}
-
-/// What a list draws, and what it tells but for its end.
-fn told<P>(
-    words: &[u32],
-    slots: &[TextureSlot],
-    textures: P::Textures,
-) -> (Vec<u8>, Vec<(Event, u32)>)
-where
-    P: Pipeline<Pixel = Rgb888>,
-{
-    let mut rooms = SceneRooms::<P>::new(99, 99, 16);
-    rooms.textures = textures;
-    let mut scene = rooms.scene(Screen::new(16, 16).unwrap());
-    scene.begin(&camera()).unwrap();
-    let settings = ListSettings {
-        quality: Quality::Exact,
-        ..ListSettings::default()
-    };
-    let mut notices = Vec::new();
-    let mut room = Room::<i16>::new(16, 32);
-    let mut runner = room.textured(settings, slots);
-    runner.start(0);
-    let mut note = |n: Notice| notices.push((n.event, n.value));
-    let halt = runner.run(words, &mut scene, &mut PLENTY.clone(), &mut note);
-    assert_eq!(halt, Ok(Halt::End));
-    notices.retain(|n| n.0 != Event::ListEnd);
-    let line = frame(&scene, 1)[0][..15].iter().map(|p| p[0]).collect();
-    (line, notices)
-}
-
-/// The textures of a list go on beyond their sides as the list says, and tell what is too wide.
-#[test]
-fn textures_of_lists_go_on_beyond_their_sides() {
-    let draw = |texture: (u8, bool), from: u16, to: u16| {
-        let words = list_of(texture, from, to);
-        let slots: Vec<TextureSlot> = (0..4).map(|_| TextureSlot::new()).collect();
-        let textures = ListTextures {
-            words: &words,
-            slots: &slots,
-        };
-        told::<ListedDepth<'_, Rgb888>>(&words, &slots, textures)
-    };
-    // Texels of a texture of 128, in 1/4096 of its width.
-    for (from, to) in [
-        (0, 16),
-        (120, 136),
-        (1024, 1040),
-        (1000, 1048),
-        (2032, 2047),
-    ] {
-        let (u, v) = (32 * from as u16, 32 * to as u16);
-        let want = wanted(from, to, |u| (u.min(127) + 1) as u8);
-        assert_eq!(draw((7, true), u, v), (want, vec![]), "{from}");
-        let want = wanted(from, to, |u| (u % 128 + 1) as u8);
-        assert_eq!(draw((7, false), u, v), (want, vec![]), "{from}");
-    }
-    // Sides of 1,024: up to 4,096 texels, and then none.
-    for clamped in [false, true] {
-        let (_, events) = draw((10, clamped), 0, 4 * 4096 - 4);
-        assert_eq!(events, []);
-        let (line, events) = draw((10, clamped), 0, 4 * 4096 + 4);
-        assert_eq!(
-            (line, events),
-            (vec![255; 15], vec![(Event::Untextured, 1)])
-        );
-    }
-}
-
-/// Lights at pixels are no textures: a list that asks for one there is told that it has none.
-#[test]
-fn pipelines_lit_at_pixels_tell_that_they_have_no_textures() {
-    type Lit<'l> = PhongDepth<'l, Rgb888>;
-    let words = list_of((7, false), 0, 512);
-    let slots: Vec<TextureSlot> = (0..4).map(|_| TextureSlot::new()).collect();
-    for events in [
-        told::<Lit<'_>>(&words, &slots, ()).1,
-        told::<Composited<Lit<'_>>>(&words, &slots, ()).1,
-        told::<Windowed<Lit<'_>>>(&words, &slots, ()).1,
-    ] {
-        assert!(events.contains(&(Event::Unimplemented, 0)), "{events:?}");
-    }
 }
 
 /// How far places are off in a picture of random triangles, in texels, beyond what the budget

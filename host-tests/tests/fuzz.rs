@@ -8,7 +8,7 @@ mod formats;
 #[path = "../fuzz/src/frames.rs"]
 mod frames;
 #[path = "../fuzz/src/list.rs"]
-mod list;
+pub mod list;
 
 use crate::common::Rng;
 // `files` finds it here, and in the fuzz package where that has it.

@@ -1,92 +1,17 @@
 //! Any bytes: no panic, no hang, bounded work (X7). What `fuzz/src/list.rs` does for as
 //! long as it is let, done here for a while, on random words and on damaged lists.
 
-use crate::common::{self, LineRooms, Rng, SceneRooms};
+use crate::common::Rng;
+use crate::fuzz::list::{BUDGET, play};
 use host_tests::lists::print;
 use host_tests::lists::writer::{Form, ListWriter};
-use scanbeam::event::Notice;
-use scanbeam::input::{EightLights, ListMemory, ListRunner, ListSettings};
 use scanbeam::list::{
-    Bounds, Budget, CameraWords, Field, FieldForm, Flow, Halt, Head, Header, Id, LightWords,
-    Material, Matrix, Overlay, OverlaySlot, Palette, State, TexelForm, Texture, TextureSlot,
-    VertexFormat, Window, parameter,
+    Bounds, CameraWords, Field, FieldForm, Flow, Head, Header, Id, LightWords, Material, Matrix,
+    Overlay, Palette, State, TexelForm, Texture, VertexFormat, Window, parameter,
 };
-use scanbeam::overlay::{LineOverlay, ListOverlays};
-use scanbeam::pipeline::texture::ListTextures;
-use scanbeam::pipeline::{Instance, ListedDepth};
-use scanbeam::pixel::Rgb888;
-use scanbeam::{Camera, Light, Screen};
-
-/// Memory of a scene whose textures lie in a list.
-type Rooms<'t> = SceneRooms<ListedDepth<'t, Rgb888>>;
-
-const BUDGET: Budget = Budget {
-    instructions: 64,
-    vertices: 4096,
-    jumps: 8,
-};
-
-/// Runs a list and draws two lines of what it made; what is left of the budget, and whether it came
-/// to its end.
-fn survives<'t>(list: &'t [u32], slots: &'t [TextureSlot]) -> (Budget, bool) {
-    let overlays = [const { OverlaySlot::new() }; 2];
-    let mut rooms = Rooms::<'t>::new(512, 512, 30);
-    let mut scene = rooms.scene(Screen::new(40, 30).unwrap());
-    let camera = Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 40.0, 0.1, 99.0);
-    scene.begin(&camera.unwrap()).unwrap();
-    scene.set_textures(ListTextures { words: list, slots });
-    let (mut positions, mut normals) = ([[0i16; 3]; 64], [[0; 3]; 64]);
-    let (mut colours, mut indices) = ([[0; 3]; 64], [0; 96]);
-    let mut places = [[0; 2]; 64];
-    let memory = ListMemory {
-        positions: &mut positions,
-        normals: &mut normals,
-        colours: &mut colours,
-        indices: &mut indices,
-        places: &mut places,
-        textures: slots,
-        overlays: &overlays,
-    };
-    let settings = ListSettings {
-        instance: Instance {
-            light: Light::new([0.0, 1.0, 0.0], 0.1),
-            ..Instance::default()
-        },
-        camera: true,
-        ..ListSettings::default()
-    };
-    let mut runner = ListRunner::<'_, '_, _, EightLights>::with_lights(memory, settings);
-    runner.start(0);
-    let mut left = BUDGET;
-    let mut notices = 0;
-    let mut ended = false;
-    for _ in 0..3 {
-        let halt = runner.run(list, &mut scene, &mut left, &mut |_: Notice| notices += 1);
-        ended = halt == Ok(Halt::End);
-        runner.command(scanbeam::list::ListCommand::Resume);
-    }
-    // Each block can cause a few events, a face that finds no room among them.
-    assert!(notices < 10_000, "{notices}");
-    let mut line = LineRooms::fitting(4, &scene);
-    let mut renderer = line.renderer();
-    let mut over = ListOverlays {
-        words: list,
-        slots: &overlays,
-    };
-    for y in [0, 17] {
-        let mut pixels = common::line(&mut renderer, &scene, y);
-        LineOverlay::<Rgb888>::paint(&mut over, y, &mut pixels);
-    }
-    (left, ended)
-}
-
-fn slots() -> [TextureSlot; 6] {
-    [const { TextureSlot::new() }; 6]
-}
 
 #[test]
 fn random_words_do_no_harm() {
-    let slots = slots();
     let mut rng = Rng::new(1);
     let mut blocks = 0;
     for _ in 0..100_000 {
@@ -101,7 +26,7 @@ fn random_words_do_no_harm() {
                 }
             })
             .collect();
-        let (left, _) = survives(&list, &slots);
+        let left = play(&list).left;
         blocks += BUDGET.instructions - left.instructions;
     }
     assert!(blocks > 10_000, "{blocks} blocks were run");
@@ -279,21 +204,20 @@ fn headless(list: &[u32]) -> Vec<u32> {
 
 #[test]
 fn every_cut_and_every_flipped_bit_is_survived() {
-    let slots = slots();
     let mut rng = Rng::new(2);
     for _ in 0..3 {
         let list = valid(&mut rng);
-        assert!(survives(&list, &slots).1, "undamaged it comes to its end");
+        assert!(play(&list).ended, "undamaged it comes to its end");
         // With a head that does not say how long it is, a cut is noticed only where it is.
         let open = headless(&list);
         for len in 0..list.len() {
-            survives(&open[..len], &slots);
-            assert!(len == 0 || !survives(&list[..len], &slots).1);
+            play(&open[..len]);
+            assert!(len == 0 || !play(&list[..len]).ended);
         }
         for bit in 0..32 * list.len() {
             let mut list = list.clone();
             list[bit / 32] ^= 1 << (bit % 32);
-            survives(&list, &slots);
+            play(&list);
         }
     }
 }

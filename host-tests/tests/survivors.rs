@@ -3,11 +3,7 @@
 //! and figures.
 
 use crate::common::{LineRooms, SceneRooms, frame};
-use crate::listing::{PLENTY, Room};
-use host_tests::lists::writer::ListWriter;
-use scanbeam::event::{Event, Notice};
-use scanbeam::input::ListSettings;
-use scanbeam::list::{Budget, Flow, Halt};
+use scanbeam::event::Event;
 use scanbeam::mesh::{I2F14, ScreenVertex};
 use scanbeam::pipeline::blend::{
     Blend, Factor, Finish, ShadowEdge, ShadowLight, ShadowMemory, Surface,
@@ -296,32 +292,6 @@ fn edges_of_several_faces_are_drawn_out_for_each() {
         let dark = |p: &Vec<Vec<[u8; 3]>>| p.iter().flatten().filter(|p| **p == [40; 3]).count();
         assert!(dark(&one_by_one) > 30, "{}", dark(&one_by_one));
         assert!(together == one_by_one, "{faces:?}");
-    }
-}
-
-/// X7: each jump is paid for, and with none left the list waits where it is.
-#[test]
-fn jumps_are_counted() {
-    let mut memory = [0; 16];
-    let mut writer = ListWriter::new(&mut memory);
-    let at = writer.position();
-    writer.flow(Flow::Jump(at)).unwrap();
-    let words = writer.words().to_vec();
-    let mut rooms = SceneRooms::<FlatDepth<Rgb888>>::new(4, 4, 16);
-    let mut scene = rooms.scene(Screen::new(16, 16).unwrap());
-    scene.begin(&camera()).unwrap();
-    let mut room = Room::<i16>::new(4, 4);
-    let mut runner = room.runner(ListSettings::default());
-    runner.start(0);
-    for jumps in [0, 3, 20] {
-        let mut budget = Budget {
-            instructions: 1000,
-            jumps,
-            ..PLENTY
-        };
-        let halt = runner.run(&words[..], &mut scene, &mut budget, &mut |_: Notice| {});
-        assert_eq!(halt, Ok(Halt::Budget));
-        assert_eq!((budget.jumps, budget.instructions), (0, 1000 - jumps));
     }
 }
 

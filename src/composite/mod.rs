@@ -9,7 +9,7 @@
 //! | `words.rs` | colours straight into words of depth and colour |
 //! | `texels.rs` | texels times the shaded colour |
 //! | `detailed.rs` | texels in levels of detail |
-//! | `listed.rs` | textures and overlays of an instruction list |
+//! | `listed.rs` | overlays of an instruction list |
 //! | `blend/` | a new pixel and the one that is there become one |
 //! | `compositing.rs` | whether surfaces have a finish |
 //! | `dither.rs` | ordered dither, and cutting instead of rounding |
@@ -49,7 +49,7 @@ pub use detailed::DetailedTextures;
 pub use dither::{Cut, CutOff, Dithered, Ordered, Ranks, Threshold};
 pub use grey::{Grey8, mono_page, mono_row};
 pub use indexed::{Index4, Index8, Indexed, LinePalettes, PaletteTable, expand_indices};
-pub use listed::{ListOverlays, ListTexel, ListTextures};
+pub use listed::ListOverlays;
 pub use overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
 pub(crate) use paint::paint;
 pub use ramp::{OneWord, Ramp, TwoWords};

@@ -44,7 +44,7 @@
 //! **Long vertices** are a word of x and y each, signed 13.3 from the picture's left top corner, x
 //! lower; with PRSP a word of depth (1/w, the near plane at 2^31; without it the near plane);
 //! with SHADE a word of colour (4x8U), else the material's; with TEXT a word of u and v (2x16U).
-//! They are not lit, moved or clipped.
+//! They are not lit, moved or clipped; what lies farther out than 2,047 pixels from the picture's middle is moved to there.
 //!
 //! **Points** are squares of as many pixels each way as POINT SIZE says, of one at first, around
 //! their vertices, with their depths. They are lit by their own normals.
@@ -75,8 +75,7 @@
 //! | `flow.rs` | which block comes next: jumps, commands, budget |
 //!
 //! Lists are written on the host: `scanbeam bake` makes them of models.
-//! A list is drawn by a [`Player`](crate::input::Player) into a scene of the rooms, or by the
-//! [`ListRunner`](crate::input::ListRunner) of the renderer; this room knows neither.
+//! A list is drawn by a [`Player`](crate::input::Player) into a [`Scene`](crate::scene::Scene); this room knows neither.
 
 mod block;
 mod error;
@@ -101,9 +100,6 @@ pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
 pub use overlays::{OverlayRow, OverlaySlot, OverlaySlots};
 pub use reader::{Parsed, long_words, read_block};
 pub use strip::Strip;
-pub use texels::{
-    Bound, Codes, Direct, Fields, NoTexture, Pair, Picture, Reading, Texels, TextureSlot,
-    TextureSlots,
-};
+pub use texels::{NoTexture, Pair, Texels, TextureSlot, TextureSlots};
 pub use vertex::{Layout, Place, Slot, colour, normal};
 pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};

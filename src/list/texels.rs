@@ -1,8 +1,6 @@
 //! Texels of a list, read where they lie, and which of its textures is which (H7, H12).
 //!
-//! A TEXTURE or PALETTE block gives a number to texels or colours. What is drawn with is a pair of
-//! both, which stays while the frame is drawn, whatever numbers are given anew. All three are
-//! kept in slots that the application lends; readers on other cores see them through atomics.
+//! A TEXTURE or PALETTE block gives a number to texels or colours; both are kept in slots that the application lends.
 
 use super::block::{Palette, TexelForm, Texture};
 use core::sync::atomic::{AtomicU32, Ordering};
@@ -31,13 +29,37 @@ impl<'w> Texels<'w> {
     #[inline(always)]
     #[must_use]
     pub fn rgba(&self, index: u32) -> [u8; 4] {
-        match Codes::of(self.form) {
-            Some(codes) => codes.rgba(self, index),
-            None => match self.form {
-                TexelForm::Rgb565 => Fields.rgba(self, index),
-                form => Direct(form).rgba(self, index),
-            },
-        }
+        let (log_bits, mask) = match self.form {
+            TexelForm::Index1 => (0, 1),
+            TexelForm::Index2 => (1, 3),
+            TexelForm::Index4 => (2, 15),
+            TexelForm::Index6 => (3, 63),
+            TexelForm::Index8 => (3, 255),
+            TexelForm::Rgb565 => {
+                let v = self.word(index >> 1) >> (16 * (index & 1));
+                return [grown(v >> 11, 5), grown(v >> 5, 6), grown(v, 5), 255];
+            }
+            TexelForm::Rgb888 => return self.rgb888(index),
+            TexelForm::Rgba => {
+                let [r, g, b, a] = self.word(index).to_le_bytes();
+                return [r, g, b, grown(u32::from(a), 7)];
+            }
+        };
+        let bit = index << log_bits;
+        let code = self.word(bit >> 5) >> (bit & 31) & mask;
+        let colour = self.colours.get(code as usize);
+        colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
+    }
+
+    /// Three bytes, which may lie in two words.
+    fn rgb888(&self, index: u32) -> [u8; 4] {
+        let byte = index.wrapping_mul(3);
+        let shift = 8 * (byte & 3);
+        let low = self.word(byte >> 2) >> shift;
+        // The upper bytes of the next word, if they are needed; none by a shift of 32.
+        let high = u64::from(self.word((byte >> 2) + 1)) << (32 - shift);
+        let [r, g, b, _] = (low | high as u32).to_le_bytes();
+        [r, g, b, 255]
     }
 
     /// Whether the texel at an index says that it is not to be dithered (H10): D of 32 bits.
@@ -59,127 +81,14 @@ fn grown(v: u32, bits: u32) -> u8 {
     (v | v >> bits) as u8
 }
 
-/// How texels are read that have a form, so that it is asked for once and not at each texel.
-pub trait Reading: Copy {
-    /// As [`Texels::rgba`], of texels that have the form.
-    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4];
-}
-
-/// Texels of any indexed form.
-#[derive(Clone, Copy, Debug)]
-pub struct Codes {
-    log_bits: u32,
-    mask: u32,
-}
-
-impl Codes {
-    /// Of a form; `None` where it has no palette.
-    #[inline(always)]
-    #[must_use]
-    pub const fn of(form: TexelForm) -> Option<Self> {
-        let (log_bits, mask) = match form {
-            TexelForm::Index1 => (0, 1),
-            TexelForm::Index2 => (1, 3),
-            TexelForm::Index4 => (2, 15),
-            TexelForm::Index6 => (3, 63),
-            TexelForm::Index8 => (3, 255),
-            _ => return None,
-        };
-        Some(Self { log_bits, mask })
-    }
-}
-
-impl Reading for Codes {
-    #[inline(always)]
-    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4] {
-        let bit = index << self.log_bits;
-        let code = texels.word(bit >> 5) >> (bit & 31) & self.mask;
-        let colour = texels.colours.get(code as usize);
-        colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
-    }
-}
-
-/// Texels of [`TexelForm::Rgb565`].
-#[derive(Clone, Copy, Debug)]
-pub struct Fields;
-
-impl Reading for Fields {
-    #[inline(always)]
-    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4] {
-        let v = texels.word(index >> 1) >> (16 * (index & 1));
-        [grown(v >> 11, 5), grown(v >> 5, 6), grown(v, 5), 255]
-    }
-}
-
-/// Texels of 24 bits where it has [`TexelForm::Rgb888`], and of 32 bits otherwise.
-#[derive(Clone, Copy, Debug)]
-pub struct Direct(
-    /// The form.
-    pub TexelForm,
-);
-
-impl Reading for Direct {
-    #[inline(always)]
-    fn rgba(self, texels: &Texels<'_>, index: u32) -> [u8; 4] {
-        if self.0 != TexelForm::Rgb888 {
-            let [r, g, b, a] = texels.word(index).to_le_bytes();
-            return [r, g, b, grown(u32::from(a), 7)];
-        }
-        let byte = index.wrapping_mul(3);
-        let shift = 8 * (byte & 3);
-        let low = texels.word(byte >> 2) >> shift;
-        // The upper bytes of the next word, if they are needed; none by a shift of 32.
-        let high = u64::from(texels.word((byte >> 2) + 1)) << (32 - shift);
-        let [r, g, b, _] = (low | high as u32).to_le_bytes();
-        [r, g, b, 255]
-    }
-}
-
-/// The full picture of a texture, with sides.
-#[derive(Clone, Copy, Debug)]
-pub struct Picture<'w> {
-    texels: Texels<'w>,
-    log_width: u32,
-    log_height: u32,
-    clamped: bool,
-}
-
-impl Picture<'_> {
-    /// The form of its texels.
-    #[inline(always)]
-    #[must_use]
-    pub fn form(&self) -> TexelForm {
-        self.texels.form
-    }
-
-    /// The texel at a column and row, which go on beyond the sides as the texture says, read as its
-    /// form is.
-    #[inline(always)]
-    #[must_use]
-    pub fn at(&self, (column, row): (i32, i32), reading: impl Reading) -> [u8; 4] {
-        let side = |v: i32, log: u32| {
-            let last = (1 << log) - 1;
-            if self.clamped {
-                v.clamp(0, last) as u32
-            } else {
-                (v & last) as u32
-            }
-        };
-        let (x, y) = (side(column, self.log_width), side(row, self.log_height));
-        reading.rgba(&self.texels, y << self.log_width | x)
-    }
-}
-
-/// Room for the name of a texture or palette, or for a pair of them that is drawn with.
+/// Room for the name of a texture or palette.
 ///
 /// Bits 31..30 of the first word say which, 0 for none; see [`TextureSlots`].
 #[derive(Debug, Default)]
 pub struct TextureSlot {
     name: AtomicU32,
-    /// Position of the texels, or of the colours.
+    /// Position of the texels, with the levels of detail less one in bits 31..30, or of the colours.
     at: AtomicU32,
-    /// Position of the colours of a pair.
-    colours: AtomicU32,
 }
 
 impl TextureSlot {
@@ -189,7 +98,6 @@ impl TextureSlot {
         Self {
             name: AtomicU32::new(0),
             at: AtomicU32::new(0),
-            colours: AtomicU32::new(0),
         }
     }
 }
@@ -201,17 +109,6 @@ pub enum NoTexture {
     Missing,
     /// The palette that it names is not there.
     Palette,
-    /// No slot is free.
-    Full,
-}
-
-/// A texture that can be drawn with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Bound {
-    /// Its slot.
-    pub index: u16,
-    /// Binary logarithms of width and height.
-    pub log_sides: [u8; 2],
 }
 
 /// A texture and its palette, as a number names them now.
@@ -261,15 +158,12 @@ impl Pair {
 const TEXTURE: u32 = 1 << 30;
 /// A palette has a number: bits 7..0 the number, 8..15 colours less one.
 const PALETTE: u32 = 2 << 30;
-/// A pair: bits 7..0 colours less one, 8..20 as those of the texture.
-const PAIR: u32 = 3 << 30;
 /// The bit of what is clamped.
 const CLAMPED: u32 = 1 << 20;
 /// Bits that say what a slot is.
 const KIND: u32 = 3 << 30;
 
-/// The slots that textures are kept in: one for each number of a texture and of a palette, and
-/// one for each pair that is drawn with.
+/// The slots that textures are kept in: one for each number of a texture and of a palette.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct TextureSlots<'m>(
     /// The slots.
@@ -277,23 +171,11 @@ pub struct TextureSlots<'m>(
 );
 
 impl<'m> TextureSlots<'m> {
-    /// Slots that can be drawn with: as many as faces can name.
-    pub const MOST: u16 = 0xFFF;
-
     /// Forgets everything.
     pub fn clear(self) {
         self.0
             .iter()
             .for_each(|s| s.name.store(0, Ordering::Relaxed));
-    }
-
-    /// Forgets the pairs, once what was drawn with them is on the display.
-    pub fn release(self) {
-        for slot in self.0 {
-            if slot.name.load(Ordering::Relaxed) & KIND == PAIR {
-                slot.name.store(0, Ordering::Relaxed);
-            }
-        }
     }
 
     /// The first slot whose words satisfy `is`.
@@ -375,77 +257,6 @@ impl<'m> TextureSlots<'m> {
             at: at & (u32::MAX >> 2),
             colours,
             count,
-        })
-    }
-
-    /// Makes the texture of a number, as its palette is now, one that can be drawn with.
-    ///
-    /// # Errors
-    /// [`NoTexture`].
-    pub fn bind(self, number: u8) -> Result<Bound, NoTexture> {
-        let Pair {
-            log_sides: [width, height],
-            at,
-            colours,
-            count,
-            ..
-        } = self.pair(number)?;
-        let texture = self.numbered(TEXTURE, number).ok_or(NoTexture::Missing)?;
-        let name = texture.name.load(Ordering::Relaxed);
-        let pair = PAIR | name & 0x001F_FF00 | count.saturating_sub(1);
-        let same = |name: u32, s: &TextureSlot| {
-            name == pair
-                && s.at.load(Ordering::Relaxed) == at
-                && s.colours.load(Ordering::Relaxed) == colours
-        };
-        let index = match self.find(same) {
-            Some((index, _)) => index,
-            None => {
-                let (index, slot) = self.free().ok_or(NoTexture::Full)?;
-                slot.at.store(at, Ordering::Relaxed);
-                slot.colours.store(colours, Ordering::Relaxed);
-                slot.name.store(pair, Ordering::Relaxed);
-                index
-            }
-        };
-        Ok(Bound {
-            index: u16::try_from(index)
-                .ok()
-                .filter(|index| *index < Self::MOST)
-                .ok_or(NoTexture::Full)?,
-            log_sides: [width, height],
-        })
-    }
-
-    /// Whether the texture of the pair in a slot goes on with the texels at its rim, and does not
-    /// repeat; `None` where there is none.
-    #[must_use]
-    pub fn is_clamped(self, index: u16) -> Option<bool> {
-        let name = self.0.get(usize::from(index))?.name.load(Ordering::Relaxed);
-        (name & KIND == PAIR).then_some(name & CLAMPED != 0)
-    }
-
-    /// The picture of the pair in a slot, out of the words of its list; `None` where there is none.
-    #[inline]
-    #[must_use]
-    pub fn picture<'w>(self, index: u16, words: &'w [u32]) -> Option<Picture<'w>> {
-        let slot = self.0.get(usize::from(index))?;
-        let name = slot.name.load(Ordering::Relaxed);
-        if name & KIND != PAIR {
-            return None;
-        }
-        let from = |at: u32| words.get(at as usize..);
-        let form = form_of(name);
-        let mut colours: &[u32] = &[];
-        if form.is_indexed() {
-            let count = (name as usize & 0xFF) + 1;
-            colours = from(slot.colours.load(Ordering::Relaxed))?.get(..count)?;
-        }
-        Some(Picture {
-            texels: Texels::new(from(slot.at.load(Ordering::Relaxed))?, form, colours),
-            log_width: name >> 8 & 15,
-            log_height: name >> 12 & 15,
-            clamped: name & CLAMPED != 0,
         })
     }
 }

@@ -11,7 +11,6 @@
 //! | [`GouraudPainter`] | [`Gouraud`] | none: drawn in order of submission | any | [`Packed8`] |
 //! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
 //! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
-//! | [`ListedDepth`] | [`Gouraud`] times a list's texture | [`Depth32`] | any | forward |
 //! | [`DetailedDepth`] | [`Gouraud`] times a texture in levels of detail | [`Depth32`] | any | forward |
 //! | [`PhongDepth`] | [`Gouraud`], lit at each pixel | [`Depth32`] | any | pixel by pixel |
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
@@ -31,7 +30,7 @@ pub mod texture;
 
 pub use crate::active::Slot;
 use crate::composite::{
-    Blending, Compositing, DetailedTextures, ListTextures, PixelFormat, TextureSource, Textures,
+    Blending, Compositing, DetailedTextures, PixelFormat, TextureSource, Textures,
 };
 use crate::geometry::texturing::{LevelEnds, Textured};
 use crate::geometry::{Blended, Phong};
@@ -119,8 +118,6 @@ pub type FlatPainter<F> = Parts<Flat, (), F>;
 /// [`Scene::set_textures`]: crate::pipeline::Scene::set_textures
 pub type TexturedDepth<'t, F, T> =
     Parts<Textured<Gouraud>, Depth32, F, (), Packed8, Textures<'t, T>>;
-/// Colours linear between vertices times the textures of an instruction list, 32-bit depth.
-pub type ListedDepth<'t, F> = Parts<Textured<Gouraud>, Depth32, F, (), Packed8, ListTextures<'t>>;
 /// The same with textures in levels of detail.
 pub type DetailedDepth<'t, F, T> =
     Parts<Textured<Gouraud, LevelEnds>, Depth32, F, (), Packed8, DetailedTextures<'t, T>>;

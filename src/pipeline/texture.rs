@@ -1,9 +1,7 @@
 //! Textures: how texels lie in memory, how they are found along a span, and what a pipeline that
 //! has some is lent.
 
-pub use crate::composite::{
-    DetailedTextures, ListTexel, ListTextures, TexelOf, TextureSource, Textures,
-};
+pub use crate::composite::{DetailedTextures, TexelOf, TextureSource, Textures};
 pub use crate::shade::texture::{
     Address, AllSeen, Bilinear, BlockCache, BlockRun, BlockRuns, Blocked, Budget, CacheError,
     CacheReads, Checker, Clamp, Corner, Corners, Detail, FRACTION, Fetch, Gradient, Homogeneous,

@@ -123,8 +123,6 @@ pub(crate) struct Gathered<'a, C> {
     pub(crate) prsp: bool,
     /// Its vertices are points of so many pixels each way, and it has no faces.
     pub(crate) points: Option<u8>,
-    /// All indices are known to be below this.
-    pub(crate) below: usize,
     /// Byte offset of the block of its first face.
     pub(crate) block: u32,
 }
@@ -235,14 +233,11 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         let m = &self.memory;
         let indices = m.indices.get(..self.indices).unwrap_or(&[]);
         let mut points = None;
-        let mut below = usize::MAX;
         let (mesh, prsp) = match self.kind {
             Kind::Nothing => return None,
             Kind::Table => {
                 let t = self.table.as_ref()?;
                 let n = usize::from(t.count);
-                // They were checked as they were gathered.
-                below = n;
                 let mesh = Mesh {
                     positions: column(words, t, t.place, m.positions.get(..n)),
                     normals: column(words, t, t.normal, m.normals.get(..n)),
@@ -275,7 +270,6 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
             places: placed.of(m.places),
             prsp,
             points,
-            below,
             block: self.block,
         })
     }

@@ -26,7 +26,6 @@ mod state;
 mod textures;
 
 pub use gather::ListCoordinate;
-pub(crate) use gather::{Gather, Gathered, Out, Places, Refusal, Unpacked, texels};
 pub use lights::LightRoom;
 pub use outcome::{OnViolation, RunCounts};
 pub use play::{Player, PlayerMemory, PlayerSettings};

@@ -5,6 +5,7 @@ use super::lines::LineRenderer;
 use super::scene::Scene;
 use crate::active::Interleave;
 use crate::composite::PixelFormat;
+use crate::event::{Event, EventSet};
 use crate::pipeline::{Pipeline, WordOf};
 use crate::scan_out::{
     ErrorType, LineBuf, LineWord, Pump, ScanError, ScanStats, ScanoutDma, ShownLines, ShownRuns,
@@ -340,5 +341,32 @@ impl<P: Pipeline> LineSource<P> for Alone<'_, '_, '_, P> {
     #[inline]
     fn idle(&mut self, line: u16) {
         self.renderer.prefetch_for(self.scene, line);
+    }
+}
+
+impl FrameStats {
+    /// The events of a frame that was drawn (H14). Those of pixels need a pipeline that counts.
+    #[must_use]
+    pub fn events(&self) -> EventSet {
+        let spans = &self.spans;
+        let seen = [
+            (Event::PixelRendered, spans.pixels_shaded > 0),
+            (
+                Event::Clipped,
+                self.pass_one.clipped + self.pass_one.outside_window > 0,
+            ),
+            (
+                Event::DepthPassed,
+                spans.depth_tests > 0 && spans.pixels_shaded > 0,
+            ),
+            (Event::DepthFailed, spans.pixels_hidden > 0),
+            (Event::Full, self.pass_one.dropped > 0),
+            (Event::Untextured, self.pass_one.untextured > 0),
+        ];
+        let mut set = EventSet::NONE;
+        for (event, _) in seen.into_iter().filter(|(_, seen)| *seen) {
+            set = set.with(event);
+        }
+        set
     }
 }

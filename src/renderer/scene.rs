@@ -160,11 +160,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
                 "this pipeline cuts nothing to windows: use `Windowed`"
             );
         }
-        self.cut_to(clip);
-    }
-
-    /// The same for callers that have looked at the pipeline.
-    pub(super) fn cut_to(&mut self, clip: Clip) {
         self.clip = clip;
     }
 
@@ -221,17 +216,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.textures
     }
 
-    /// Sees what is drawn from now on through another camera; what is there stays. Before
-    /// [`begin`](Scene::begin) it does nothing.
-    ///
-    /// Depths compare as the near planes have them: two cameras that share a picture should have
-    /// the same near plane.
-    pub fn set_camera(&mut self, camera: &Camera) {
-        if let Some(seen) = &mut self.camera {
-            *seen = *camera;
-        }
-    }
-
     /// Draws a mesh into the scene. Before [`begin`](Scene::begin) it does nothing.
     ///
     /// # Errors
@@ -270,28 +254,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     ) -> Result<Assembled, DrawError> {
         self.assemble(instance, skin, |assembler, mut filing| {
             assembler.mesh(mesh, |object, first, all| filing.file(object, first, all))
-        })
-    }
-
-    /// Draws vertices as points: squares of `size` pixels each way around them, with their depths
-    /// (H11); of 0 pixels nothing. A point that is lit needs a normal, and one that is textured
-    /// has the texel of its place. Points that are not within the guard band are culled.
-    ///
-    /// A point of one pixel is a triangle of the scene, a larger one two.
-    ///
-    /// # Errors
-    /// As [`draw_skinned`](Scene::draw_skinned); a face is a vertex here.
-    pub fn draw_points<C: Coordinate, L: LightingModel>(
-        &mut self,
-        mesh: &Mesh<'_, C>,
-        size: u8,
-        skin: SkinOf<'_, P>,
-        instance: &Instance<L>,
-    ) -> Result<Assembled, DrawError> {
-        self.assemble(instance, skin, |assembler, mut filing| {
-            assembler.points(mesh, size, |object, first, all| {
-                filing.file(object, first, all)
-            })
         })
     }
 

@@ -43,10 +43,7 @@ pub use effects::{
     Numbered, Ranked, Shady, Transparent, by_effect,
 };
 pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook, LeanTextured};
-pub use listed::{
-    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, LIST_INDICES, LIST_TABLE, ListedError, build_crate,
-    build_listed, crate_list, teapot_list,
-};
+pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
 pub use methods::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
 };

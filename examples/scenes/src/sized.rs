@@ -16,8 +16,6 @@ macro_rules! sized {
             "deferred", "Deferred<GouraudDepth>",
                 scanbeam::pipeline::Deferred<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "textured-depth", "TexturedDepth", $crate::LookB;
-            "listed-depth", "ListedDepth",
-                scanbeam::pipeline::ListedDepth<'static, scanbeam::pixel::Rgb565Be>;
             "phong-depth", "PhongDepth",
                 scanbeam::pipeline::PhongDepth<'static, scanbeam::pixel::Rgb565Be>;
             "windowed", "Windowed<GouraudDepth>",

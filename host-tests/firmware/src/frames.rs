@@ -6,29 +6,26 @@ use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::light::Lamplight;
-use scanbeam::list::TextureSlot;
 use scanbeam::pipeline::parallel::{Crew, Interleave};
 use scanbeam::pipeline::send::{draw_frame_indexed, send_frame};
 use scanbeam::pipeline::texture::Textures;
 use scanbeam::pipeline::{
     BlockFixed, Deferred, FlatDepth, GouraudDepth, Interpolated, Interpolation, LineMemory,
-    LineRenderer, ListedDepth, Pipeline, Quality, Scene, SceneMemory, Worded, draw_frame,
+    LineRenderer, Pipeline, Quality, Scene, SceneMemory, Worded, draw_frame,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    CRATE_TEXTURES, Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
+    Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
     LEAN, Lit, LookB, METHODS, Numbered, PLAYED, Played, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS,
     STRESS, SUITE, SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES,
-    VARIANTS, Values, Variant, build_crate, build_listed, build_method, by_effect, by_method,
+    VARIANTS, Values, Variant, build_method, by_effect, by_method,
     method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
 pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
-/// The same times textures of a list.
-pub(crate) type Listed = ListedDepth<'static, Rgb565Be>;
 /// One colour a face.
 pub(crate) type Faceted = FlatDepth<Rgb565Be>;
 
@@ -42,10 +39,6 @@ enum Way {
     Faceted,
     /// The hardware model, from a smooth scene.
     Model,
-    /// A baked list in flash.
-    List,
-    /// One with textures.
-    Crate,
     /// A small frame by this interpolation method of the scenes' table.
     Method(usize),
     /// A small frame of this effect of the scenes' table.
@@ -76,7 +69,7 @@ pub(crate) struct Frame {
 
 /// Every frame, in the order in which they are drawn: the suite, the same, lists and
 /// what few draw calls have in the new rooms, all other shots, those of stress
-/// too, then flat faces, one by the hardware model and two from baked lists, then what the cache and its
+/// too, then flat faces and one by the hardware model, then what the cache and its
 /// renderers must not change, then the interpolation methods and effects, other depths, and scene B.
 pub(crate) fn frames() -> impl Iterator<Item = Frame> {
     let plain = |name, shot, way| Frame {
@@ -112,8 +105,6 @@ pub(crate) fn frames() -> impl Iterator<Item = Frame> {
             plain("teapot_flat", Shot::Teapot, Way::Faceted),
             plain("teapot_model", Shot::Teapot, Way::Model),
             plain("crossings_flat", Shot::Crossings, Way::Faceted),
-            plain("teapot_list", Shot::Teapot, Way::List),
-            plain("crate_list", Shot::Teapot, Way::Crate),
         ])
         .chain(variants)
         .chain(
@@ -143,8 +134,6 @@ impl Frame {
                 draw_as::<Faceted, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
             }
             Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
-            Way::List => draw_list(rooms, &mut pump),
-            Way::Crate => draw_crate(rooms, &mut pump),
             Way::Method(index) => by_method(
                 index,
                 &mut SmallFrame {
@@ -330,28 +319,6 @@ fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
     });
     let background = Rgb565Be::from_rgb8(shot.background());
     draw_model_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
-        .expect("the sink cannot fail and the rooms are large enough");
-}
-
-/// The baked teapot, from flash.
-fn draw_list(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
-    let smooth = &mut rooms.smooth;
-    let (mut scene, mut renderer) = smooth.lend::<Smooth>(Shot::screen(), SLOTS);
-    build_listed(&mut scene, rooms.list.memory()).expect("the rooms are large enough");
-    let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
-    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
-        .expect("the sink cannot fail and the rooms are large enough");
-}
-
-/// The baked crate, from flash, its texels too.
-#[inline(never)]
-fn draw_crate(rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
-    static TEXTURES: [TextureSlot; CRATE_TEXTURES] = [const { TextureSlot::new() }; CRATE_TEXTURES];
-    let listed = &mut rooms.listed;
-    let (mut scene, mut renderer) = listed.lend::<Listed>(Shot::screen(), SLOTS);
-    build_crate(&mut scene, rooms.list.memory(), &TEXTURES).expect("the rooms are large enough");
-    let background = Rgb565Be::from_rgb8(Shot::Teapot.background());
-    draw_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");
 }
 

@@ -1,27 +1,23 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
-use crate::frames::{Faceted, LINES_PER_TRANSFER, Listed, Smooth};
+use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
 use crate::lean::LeanRooms;
 use crate::lend::lend;
 use crate::unpacked::Unpacked;
-use scanbeam::input::ListMemory;
 use scanbeam::pipeline::{
     BlockFixed, CellOf, Deferred, LineDepth, LineMemory, LineRenderer, Object, ObjectOf, Pipeline,
     Scene, SceneMemory, SceneVertex, SlotOf, VertexOf,
 };
 use scanbeam::{Link, Screen};
 use scenes::{
-    BLOCK_TEXELS_B, CACHE_SLOTS_B, CRATE_TABLE, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
-    Grainy, HEIGHT, LIST_INDICES, LIST_TABLE, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,
+    BLOCK_TEXELS_B, CACHE_SLOTS_B, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
+    Grainy, HEIGHT, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,
     Ranked, SHEET_TRIANGLES, SUITE_SLOTS, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL,
     Transparent, VERTICES, VERTICES_B, WIDTH,
 };
 
 /// Slots of the object cache.
 pub(crate) const SLOTS: usize = 43;
-
-/// Vertices, and objects, of a scene with few of them.
-const FEW: usize = 64;
 
 /// What one pipeline is lent.
 pub(crate) struct RoomsOf<P: Pipeline> {
@@ -62,36 +58,12 @@ impl<P: Pipeline> RoomsOf<P> {
     }
 }
 
-/// Normals and indices of a list, and for a small one with textures places in space and on them;
-/// those of the teapot are used where they lie. None has colours.
-pub(crate) struct ListRoom {
-    pub(crate) positions: &'static mut [[i16; 3]],
-    pub(crate) places: &'static mut [[i32; 2]],
-    pub(crate) normals: &'static mut [[i16; 3]],
-    pub(crate) indices: &'static mut [u16],
-}
-
-impl ListRoom {
-    /// As a runner wants it.
-    pub(crate) fn memory(&mut self) -> ListMemory<'_> {
-        ListMemory {
-            positions: self.positions,
-            places: self.places,
-            normals: self.normals,
-            indices: self.indices,
-            ..ListMemory::default()
-        }
-    }
-}
-
 /// What frames are drawn with.
 pub(crate) struct Rooms {
     pub(crate) smooth: RoomsOf<Smooth>,
     pub(crate) faceted: RoomsOf<Faceted>,
     /// For scenes of the suite in the new rooms.
     pub(crate) lean: LeanRooms,
-    /// For a textured list; all in external RAM.
-    pub(crate) listed: RoomsOf<Listed>,
     /// For scenes B and F; all in external RAM.
     pub(crate) textured: RoomsOf<LookB>,
     /// For scene B in blocks: its texels, in external RAM, and the cache through which they are
@@ -107,8 +79,6 @@ pub(crate) struct Rooms {
     /// What comparisons take beyond what one renderer needs: a cache for everything and a second
     /// renderer's links and depth. No scene. All in external RAM: here instructions count.
     pub(crate) second: RoomsOf<Smooth>,
-    /// What a list's vertices are unpacked into: external RAM.
-    pub(crate) list: ListRoom,
     /// For sheets, which are drawn without depth and counted.
     pub(crate) sheet: RoomsOf<SheetPipeline>,
     /// For small frames of effects, one after the other: external RAM.
@@ -199,7 +169,6 @@ impl Rooms {
             smooth: rooms_of!(Smooth, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
             faceted: rooms_of!(Faceted, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
             lean: LeanRooms::take(),
-            listed: rooms_of!(Listed, ".slow", (FEW, FEW), (HEIGHT, WIDTH)),
             textured: rooms_of!(
                 LookB,
                 ".slow",
@@ -218,12 +187,6 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
-            list: ListRoom {
-                positions: lend!(".slow", [i16; 3], CRATE_TABLE, [0; 3]),
-                places: lend!(".slow", [i32; 2], CRATE_TABLE, [0; 2]),
-                normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
-                indices: lend!(".slow", u16, LIST_INDICES, 0),
-            },
             sheet: rooms_of!(
                 SheetPipeline,
                 ".slow",

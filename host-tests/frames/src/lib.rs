@@ -15,23 +15,20 @@ use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockFrameBuffer};
 use lean::lean_frame;
 pub use lean::played_frame;
-use scanbeam::input::ListMemory;
-use scanbeam::list::TextureSlot;
 use scanbeam::pipeline::texture::{
     Quality, Size as TextureSize, Texture, Textured, Textures, Words, Wrap,
 };
 use scanbeam::pipeline::{
     BlockFixed, Counted, Deferred, DepthUse, FlatDepth, FrameStats, Gouraud, GouraudDepth,
-    ListedDepth, Pipeline, Scene, TexturedDepth, Worded, draw_frame,
+    Pipeline, Scene, TexturedDepth, Worded, draw_frame,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
 use scanbeam_model::draw_model_frame;
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, CRATE_TEXTURES, DEPTHS, HEIGHT, KeepsDepth, LEAN, LIST_INDICES,
-    LIST_TABLE, LookB, LookF, OBJECTS, PLAYED, SCENE_B_BLOCKS, SCENES_B, SHOTS, STACKS, STRESS,
-    SUITE, SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL, TEXTURES_B, TEXTURES_F, VALUES,
-    VARIANTS, VERTICES, WIDTH, build_crate, build_listed,
+    DEPTHS, HEIGHT, KeepsDepth, LEAN, LookB, LookF, OBJECTS, PLAYED, SCENE_B_BLOCKS, SCENES_B,
+    SHOTS, STACKS, STRESS, SUITE, SWATCHES, SceneB, Shot, Suite, TEXEL_SIDE, TEXELS_PANEL,
+    TEXTURES_B, TEXTURES_F, VALUES, VARIANTS, VERTICES, WIDTH,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -69,12 +66,6 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     frames.insert("crossings_flat", crc32fast::hash(&flat));
     let model = draw_by_model(Shot::Teapot)?;
     frames.insert("teapot_model", crc32fast::hash(&model));
-    let (listed, _) = shown(Shot::Teapot, build_list, by_lines)?;
-    frames.insert("teapot_list", crc32fast::hash(&listed));
-    let slots = [const { TextureSlot::new() }; CRATE_TEXTURES];
-    let build = |scene: &mut Scene<'_, _>| build_crate_list(scene, &slots);
-    let (listed, _) = shown(Shot::Teapot, build, by_lines)?;
-    frames.insert("crate_list", crc32fast::hash(&listed));
     for (name, shot, keeps) in DEPTHS {
         frames.insert(name, crc32fast::hash(&draw_keeping(shot, keeps)?));
     }
@@ -340,36 +331,6 @@ fn draw_by_model(shot: Shot) -> Result<Vec<u8>, Box<dyn Error>> {
 fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), Box<dyn Error>> {
     shot.build(scene)
         .map_err(|error| format!("{}: {error:?}", shot.name()))?;
-    Ok(())
-}
-
-/// The baked list, as the firmware runs it from flash.
-fn build_list(scene: &mut Scene<'_, GouraudDepth<Rgb565Be>>) -> Result<(), Box<dyn Error>> {
-    let (mut normals, mut indices) = ([[0; 3]; LIST_TABLE], [0; LIST_INDICES]);
-    let memory = ListMemory {
-        normals: &mut normals,
-        indices: &mut indices,
-        ..ListMemory::default()
-    };
-    build_listed(scene, memory).map_err(|error| format!("teapot.list: {error:?}"))?;
-    Ok(())
-}
-
-/// The baked crate, as the firmware runs it from flash.
-fn build_crate_list<'t>(
-    scene: &mut Scene<'_, ListedDepth<'t, Rgb565Be>>,
-    slots: &'t [TextureSlot],
-) -> Result<(), Box<dyn Error>> {
-    let (mut positions, mut normals) = ([[0; 3]; CRATE_TABLE], [[0; 3]; CRATE_TABLE]);
-    let (mut places, mut indices) = ([[0; 2]; CRATE_TABLE], [0; CRATE_INDICES]);
-    let memory = ListMemory {
-        positions: &mut positions,
-        normals: &mut normals,
-        indices: &mut indices,
-        places: &mut places,
-        ..ListMemory::default()
-    };
-    build_crate(scene, memory, slots).map_err(|error| format!("crate.list: {error:?}"))?;
     Ok(())
 }
 

@@ -1,130 +1,21 @@
-//! What tests of lists share: clouds of vertices in every form, and rooms to run lists in.
+//! What tests of lists share: clouds of vertices in every form.
 
-use crate::common::{Rng, SceneRooms, frame};
+use crate::common::Rng;
 use host_tests::lists::writer::{FieldPacker, ListWriter};
-use scanbeam::event::{Event, Notice};
-use scanbeam::input::{EightLights, ListCoordinate, ListMemory, ListRunner, ListSettings};
+use scanbeam::Affine;
 use scanbeam::list::{
-    Budget, Field, FieldForm, Halt, Header, Id, Matrix, OverlaySlot, State, TextureSlot,
-    VertexFormat, parameter,
+    Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat, parameter,
 };
 use scanbeam::mesh::Vertices;
-use scanbeam::pipeline::{FlatDepth, GouraudDepth, Instance, Pipeline, Scene, WordOf};
-use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Light, Screen};
-
-pub type Smooth = GouraudDepth<Rgb888>;
-pub type Faceted = FlatDepth<Rgb888>;
 
 pub const WIDTH: u16 = 96;
 pub const HEIGHT: u16 = 72;
-
-pub fn rooms<P: Pipeline>() -> SceneRooms<P> {
-    SceneRooms::new(60_000, 60_000, usize::from(HEIGHT))
-}
-
-pub fn begin<P: Pipeline>(scene: &mut Scene<'_, P>) {
-    let camera = Camera::look_at([0.3, 0.5, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 90.0, 0.1, 99.0);
-    scene.begin(&camera.unwrap()).unwrap();
-}
-
-/// What a call draws.
-pub fn drawn<P: Pipeline>(draw: impl FnOnce(&mut Scene<'_, P>)) -> Vec<Vec<WordOf<P>>> {
-    let mut rooms = rooms::<P>();
-    let mut scene = rooms.scene(Screen::new(WIDTH, HEIGHT).unwrap());
-    begin(&mut scene);
-    draw(&mut scene);
-    frame(&scene, 16)
-}
-
-/// Memory of a runner: so many vertices and indices.
-pub struct Room<C> {
-    pub positions: Vec<[C; 3]>,
-    pub normals: Vec<[i16; 3]>,
-    pub colours: Vec<[u8; 3]>,
-    pub indices: Vec<u16>,
-    pub places: Vec<[i32; 2]>,
-}
-
-impl<C: ListCoordinate> Room<C> {
-    pub fn new(vertices: usize, indices: usize) -> Self {
-        Self {
-            positions: vec![[C::default(); 3]; vertices],
-            normals: vec![[0; 3]; vertices],
-            colours: vec![[0; 3]; vertices],
-            indices: vec![0; indices],
-            places: vec![[0; 2]; vertices],
-        }
-    }
-
-    pub fn runner<'m, 'c>(&'m mut self, settings: ListSettings<'c>) -> ListRunner<'m, 'c, C> {
-        self.textured(settings, &[])
-    }
-
-    /// A runner that knows textures.
-    pub fn textured<'m, 'c>(
-        &'m mut self,
-        settings: ListSettings<'c>,
-        textures: &'m [TextureSlot],
-    ) -> ListRunner<'m, 'c, C> {
-        let memory = ListMemory {
-            positions: &mut self.positions,
-            normals: &mut self.normals,
-            colours: &mut self.colours,
-            indices: &mut self.indices,
-            places: &mut self.places,
-            textures,
-            ..ListMemory::default()
-        };
-        ListRunner::new(memory, settings)
-    }
-
-    /// A runner that knows eight lights and overlays.
-    pub fn lit<'m, 'c>(
-        &'m mut self,
-        settings: ListSettings<'c>,
-        (textures, overlays): (&'m [TextureSlot], &'m [OverlaySlot]),
-    ) -> ListRunner<'m, 'c, C, EightLights> {
-        let memory = ListMemory {
-            positions: &mut self.positions,
-            normals: &mut self.normals,
-            colours: &mut self.colours,
-            indices: &mut self.indices,
-            places: &mut self.places,
-            textures,
-            overlays,
-        };
-        ListRunner::with_lights(memory, settings)
-    }
-}
 
 pub const PLENTY: Budget = Budget {
     instructions: 1 << 20,
     vertices: 1 << 24,
     jumps: 1 << 10,
 };
-
-/// What a list draws, with so much memory; every event but the end's is a failure.
-pub fn listed<P: Pipeline, C: ListCoordinate>(
-    list: &[u32],
-    instance: Instance,
-    (vertices, indices): (usize, usize),
-) -> Vec<Vec<WordOf<P>>> {
-    drawn::<P>(|scene| {
-        let mut room = Room::<C>::new(vertices, indices);
-        let mut runner = room.runner(ListSettings {
-            instance,
-            ..ListSettings::default()
-        });
-        runner.start(0);
-        let mut notices = Vec::new();
-        let mut budget = PLENTY;
-        let halt = runner.run(list, scene, &mut budget, &mut |n: Notice| notices.push(n));
-        assert_eq!(halt, Ok(Halt::End));
-        notices.retain(|n| !matches!(n.event, Event::ListEnd | Event::Clipped));
-        assert_eq!(notices, []);
-    })
-}
 
 /// Vertices whose numbers every form of a format can hold.
 pub struct Cloud {
@@ -272,17 +163,6 @@ pub fn in_blocks(rng: &mut Rng, order: &[u16], mut block: impl FnMut(&[u16], boo
         let (part, left) = rest.split_at(rng.below(rest.len() as u32 + 1) as usize);
         block(part, new);
         (rest, new) = (left, false);
-    }
-}
-
-pub fn some_instance(rng: &mut Rng) -> Instance {
-    Instance {
-        model: Affine::rotation_y(rng.signed() as f32 * 3.0),
-        cull: rng.pick(&[Cull::Back, Cull::None]),
-        light: rng
-            .pick(&[true, false])
-            .then(|| Light::new([0.3, 0.9, 0.5], 0.2).unwrap()),
-        colour: [200, 90, 40],
     }
 }
 

@@ -1,21 +1,13 @@
-//! What is made on the screen itself: triangles of vertices that were set up beforehand, and points
-//! (H11).
-//!
-//! Both end as objects of the scene like those of any mesh, so caches, depth and order see no
-//! difference. A point of one pixel is one triangle: corners 12 units of 1/8 pixel apart hold the
-//! centre of that pixel and no other.
+//! Triangles of vertices that were set up beforehand (H11): they end as objects of the scene like those of any mesh, so
+//! caches, depth and order see no difference.
 
 use super::super::camera::Screen;
 use super::super::colour::Colour;
-use super::super::light::ModelLight;
-use super::super::mesh::{Coordinate, Faces, Mesh};
 use super::super::object::{Object, SceneVertex};
 use super::super::project::{DEPTH_MAX, DEPTH_MIN};
 use super::super::shading::Shading;
 use super::faces::Picture;
-use super::{
-    Assembled, Assembler, Cull, Dropped, MeshError, Room, Store, Surfaced, check_known, first_line,
-};
+use super::{Assembled, Cull, Dropped, MeshError, Room, Store, Surfaced, first_line};
 use core::ops::Range;
 
 /// A vertex that was set up beforehand.
@@ -45,15 +37,6 @@ pub(crate) struct ScreenMesh<'v> {
     pub(crate) vertices: &'v [ScreenVertex],
     pub(crate) faces: &'v [[u16; 3]],
     pub(crate) cull: Cull,
-}
-
-/// A point as it is kept: what all of its corners have in common.
-struct Point<S: Shading> {
-    /// Index of its vertex.
-    number: u32,
-    depth: u32,
-    attribute: S::Vertex,
-    face: S::Face,
 }
 
 /// Takes triangles of vertices that are on the screen already; `file` as in
@@ -173,116 +156,4 @@ pub(crate) fn on_screen<S: Shading>(
         arena.truncate(base);
     }
     Ok(done)
-}
-
-impl<S: Shading, L: ModelLight> Assembler<'_, '_, '_, S, L> {
-    /// Takes the vertices of a mesh as points of `size` pixels; its faces do not count.
-    ///
-    /// # Errors
-    /// As [`mesh`](Assembler::mesh).
-    pub(crate) fn points<C: Coordinate>(
-        mut self,
-        mesh: &Mesh<'_, C>,
-        size: u8,
-        mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
-    ) -> Result<Assembled, MeshError> {
-        let mesh = &Mesh {
-            faces: Faces::Triangles(&[]),
-            ..*mesh
-        };
-        check_known(mesh, 0)?;
-        if !S::fits(&self.skin, mesh.positions.len()) {
-            return Err(MeshError::AttributeLength);
-        }
-        // A triangle that holds the centre of one pixel, or the two of a square.
-        let side = 8 * i32::from(size);
-        let faces: &[[usize; 3]] = match size {
-            0 => return Ok(self.done),
-            1 => &[[0, 1, 2]],
-            _ => &[[0, 1, 3], [1, 2, 3]],
-        };
-        for (i, position) in mesh.positions.iter().enumerate() {
-            self.done.triangles += faces.len() as u32;
-            let point = self.projection.transform(*position);
-            if !self.projection.is_within(point) {
-                self.done.culled += faces.len() as u32;
-                continue;
-            }
-            let at = self.projection.project(point);
-            // The square of whole pixels whose middle is nearest.
-            let first = |v: u16| (i32::from(v) - (side >> 1) + 4) & !7;
-            let (left, top) = (first(at.x), first(at.y));
-            let far = if size == 1 { 12 } else { side };
-            let third = if size == 1 { 0 } else { far };
-            let place = [
-                (left, top),
-                (left, top + far),
-                (left + far, top + third),
-                (left + far, top),
-            ]
-            .map(|(x, y)| (guarded(x), guarded(y)));
-            let colour = self.vertex_colour(mesh, i);
-            let mut attribute = S::Vertex::default();
-            let mut face_colour = S::Face::default();
-            if S::PER_FACE {
-                face_colour = S::face(colour);
-            } else {
-                attribute = S::vertex(colour);
-            }
-            S::dress(&mut attribute, &self.skin, i);
-            S::dress_face(&mut face_colour, &self.skin);
-            let point = Point {
-                number: i as u32,
-                depth: at.depth,
-                attribute,
-                face: face_colour,
-            };
-            self.point(point, faces, place, &mut file);
-        }
-        Ok(self.done)
-    }
-
-    /// One point.
-    fn point(
-        &mut self,
-        point: Point<S>,
-        faces: &[[usize; 3]],
-        place: [(u16, u16); 4],
-        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
-    ) {
-        let (before, kept) = (self.vertices.len(), self.done.kept);
-        let mut index = [0; 4];
-        let corners = if faces.len() == 1 { 3 } else { 4 };
-        for (slot, (x, y)) in index.iter_mut().zip(place).take(corners) {
-            let vertex = SceneVertex {
-                x,
-                y,
-                depth: point.depth,
-                attribute: point.attribute,
-            };
-            match self.vertices.push(vertex) {
-                Some(at) => *slot = at,
-                None => {
-                    self.vertices.truncate(before);
-                    self.dropped(Room::Vertices, point.number);
-                    self.count_lost();
-                    return;
-                }
-            }
-        }
-        for &[a, b, c] in faces {
-            match self.first_line([place[a], place[b], place[c]]) {
-                Some(first) => {
-                    let object = Object::new([index[a], index[b], index[c]], point.face);
-                    let kept = self.done.kept;
-                    self.keep(object, first, point.number, file);
-                    self.settle(kept);
-                }
-                None => self.done.culled += 1,
-            }
-        }
-        if self.done.kept == kept {
-            self.vertices.truncate(before);
-        }
-    }
 }

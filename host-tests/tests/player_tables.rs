@@ -1,0 +1,178 @@
+//! Quads, strips of quads and tables of lists that are played: what the same calls draw (H11, H16, K2, K15).
+
+use crate::common::Rng;
+use crate::listing::{Cloud, PLENTY, some_format, unrolled};
+use crate::played::{Kept, drawn, played};
+use host_tests::lists::writer::{Form, ListWriter};
+use scanbeam::input::PlayerSettings;
+use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, SPLIT, State};
+use scanbeam::look::Gouraud;
+use scanbeam::mesh::QuadSplit;
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::scene::{Draw, Shading};
+use scanbeam::{Affine, Cull, Faces, Light, Mesh};
+
+type Smooth = Gouraud<Rgb565Be>;
+
+/// How a list begins.
+fn some_call(rng: &mut Rng) -> Draw<'static, 'static> {
+    Draw {
+        model: Affine::rotation_y(rng.signed() as f32 * 3.0),
+        cull: rng.pick(&[Cull::Back, Cull::None]),
+        light: (rng.below(2) == 0).then(|| Light::new([0.3, 0.9, 0.5], 0.2).unwrap()),
+        colour: [200, 90, 40],
+        shading: rng.pick(&[Shading::Smooth, Shading::Flat]),
+        ..PlayerSettings::default().draw
+    }
+}
+
+/// What a list draws, with memory for so many vertices and indices.
+fn listed(
+    list: &[u32],
+    draw: Draw<'static, 'static>,
+    (vertices, indices): (usize, usize),
+) -> Vec<u16> {
+    let settings = PlayerSettings {
+        draw,
+        ..PlayerSettings::default()
+    };
+    let mut kept = Kept::new(vertices, indices);
+    let mut player = kept.player::<Smooth>(settings);
+    drawn::<Smooth>(|scene| {
+        player.start(0);
+        assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+    })
+}
+
+/// Kills: a split that is another's, a strip of quads that forgets its last two vertices.
+#[test]
+fn quads_and_quad_strips_are_those_of_meshes() {
+    for seed in 0..100 {
+        let mut rng = Rng::new(seed);
+        let (format, place, normal) = some_format(&mut rng);
+        let cloud = Cloud::random(&mut rng, 40, place, normal);
+        let call = some_call(&mut rng);
+        let strip = rng.below(2) == 1;
+        let split = rng.pick(&[QuadSplit::Corner0To2, QuadSplit::Corner1To3]);
+        let group = if strip { 2 } else { 4 };
+        let order: Vec<u16> = (0..group * (2 + rng.below(8)))
+            .map(|_| rng.below(40) as u16)
+            .collect();
+        let mut memory = vec![0; 4096];
+        let mut writer = ListWriter::new(&mut memory);
+        writer.state(&State::Format(format)).unwrap();
+        let (mut rest, mut new) = (&order[..], true);
+        while !rest.is_empty() {
+            let most = rest.len() as u32 / group;
+            let (part, left) = rest.split_at((group * (1 + rng.below(most))) as usize);
+            rest = left;
+            let header = Header {
+                shade: true,
+                new: new || !strip,
+                rm: strip,
+                low: if split == QuadSplit::Corner1To3 {
+                    SPLIT
+                } else {
+                    0
+                },
+                ..Header::of(Id::Quads, part.len() as u16)
+            };
+            let words = cloud.vertices(&format, header, part);
+            writer.vertices(header, &words).unwrap();
+            new = false;
+        }
+        writer.flow(Flow::End).unwrap();
+        let list = writer.words();
+        let mut fours = Vec::new();
+        fours.extend(order.chunks_exact(4).map(|q| [q[0], q[1], q[2], q[3]]));
+        let vertices = cloud.plain(true, &format);
+        let want = drawn::<Smooth>(|scene| {
+            let mesh = Mesh {
+                positions: vertices.positions,
+                normals: vertices.normals,
+                colours: vertices.colours,
+                faces: if strip {
+                    Faces::QuadStrip(&order, split)
+                } else {
+                    Faces::Quads(&fours, split)
+                },
+            };
+            scene.draw(&Draw { mesh, ..call }).unwrap();
+        });
+        for room in [(4, 4), (5, 6), (9, 100), (1000, 1000)] {
+            assert!(
+                listed(list, call, room) == want,
+                "seed {seed}, room {room:?}, strip {strip}"
+            );
+        }
+    }
+}
+
+/// Kills: columns of another attribute, strips that go on where they end, indices of another width.
+#[test]
+fn tables_are_indexed_meshes() {
+    for seed in 0..120 {
+        let mut rng = Rng::new(seed);
+        let (format, place, normal) = some_format(&mut rng);
+        let count = 30 + rng.below(3) as usize;
+        let cloud = Cloud::random(&mut rng, count, place, normal);
+        let call = some_call(&mut rng);
+        let mut memory = vec![0; 4096];
+        let mut writer = ListWriter::new(&mut memory);
+        writer.state(&State::Format(format)).unwrap();
+        let header = Header {
+            shade: true,
+            ..Header::of(Id::Table, count as u16)
+        };
+        writer
+            .vertices(header, &cloud.columns(&format, header))
+            .unwrap();
+        let mut faces = Vec::new();
+        for _ in 0..1 + rng.below(4) {
+            let form = rng.pick(&[None, Some(Form::Strip), Some(Form::Fan)]);
+            let mut indices = Vec::new();
+            for _ in 0..1 + rng.below(4) {
+                let mut len = rng.below(12);
+                len -= if form.is_none() { len % 3 } else { 0 };
+                let order: Vec<u16> = (0..len).map(|_| rng.below(count as u32) as u16).collect();
+                match form {
+                    None => faces.extend(order.chunks_exact(3).map(|f| [f[0], f[1], f[2]])),
+                    Some(form) => faces.extend(unrolled(&order, form == Form::Fan)),
+                }
+                if form.is_some() && !indices.is_empty() {
+                    indices.push(None);
+                }
+                indices.extend(order.into_iter().map(Some));
+            }
+            let wide = rng.below(2) == 1;
+            writer.indexed(form, wide, indices.into_iter()).unwrap();
+        }
+        writer.flow(Flow::End).unwrap();
+        let list = writer.words();
+        let want = drawn::<Smooth>(|scene| {
+            let vertices = cloud.plain(true, &format);
+            let mesh = Mesh {
+                positions: vertices.positions,
+                normals: vertices.normals,
+                colours: vertices.colours,
+                faces: Faces::Triangles(&faces),
+            };
+            scene.draw(&Draw { mesh, ..call }).unwrap();
+        });
+        for room in [(40, 4), (33, 31), (1000, 1000)] {
+            assert!(
+                listed(list, call, room) == want,
+                "seed {seed}, room {room:?}"
+            );
+        }
+        // What can be used where it lies needs no room.
+        if format.fields().iter().all(|f| {
+            matches!(
+                (f.parameter, f.form),
+                (0 | 4, FieldForm::S16x3) | (2, FieldForm::U8x3) | (9, _)
+            )
+        }) {
+            assert!(listed(list, call, (4, 9)) == want);
+        }
+    }
+}
