@@ -50,8 +50,8 @@ fn random_bytes_are_tokens_and_vertices() {
 fn random_bytes_are_lists() {
     let mut rng = Rng::new(74);
     // Few random bytes make a block: three in a thousand tries.
-    let blocks: usize = (0..100_000).map(|_| list::run(&bytes(&mut rng, 240))).sum();
-    assert!(blocks > 200, "{blocks}");
+    let words: usize = (0..100_000).map(|_| list::run(&bytes(&mut rng, 240))).sum();
+    assert!(words > 200, "{words}");
 }
 
 #[test]

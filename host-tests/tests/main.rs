@@ -36,7 +36,7 @@ mod findings_textures;
 mod formats;
 mod frame_events;
 mod frames;
-pub mod fuzz;
+mod fuzz;
 mod golden;
 mod hot_path_colours;
 mod hot_path_cover;

@@ -113,14 +113,14 @@ fn the_windows_of_lists_cut() {
     let granted = Window {
         left: 4,
         top: 3,
-        right: 40,
-        bottom: 30,
+        right: 60,
+        bottom: 50,
     };
     let asked = Window {
-        left: 10,
-        top: 5,
-        right: 39,
-        bottom: 12,
+        left: 20,
+        top: 15,
+        right: 59,
+        bottom: 42,
     };
     let wide = Window { left: 3, ..asked };
     let has = |w: Window, x, y| (w.left..w.right).contains(&x) && (w.top..w.bottom).contains(&y);

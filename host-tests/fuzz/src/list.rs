@@ -13,7 +13,7 @@ use scanbeam::{Camera, Light, Link, Screen};
 type Look = Textured<Rgb565>;
 
 /// What a list may cause, each resumption included.
-pub const BUDGET: Budget = Budget {
+const BUDGET: Budget = Budget {
     instructions: 64,
     vertices: 4096,
     jumps: 8,
@@ -22,19 +22,19 @@ pub const BUDGET: Budget = Budget {
 /// What became of a list.
 #[derive(Debug)]
 pub struct Played {
-    /// What is left of the budget.
-    pub left: Budget,
+    /// Words of the list before the block that was refused, or before the one that would come next.
+    pub good: u32,
     /// Whether it came to its end.
     pub ended: bool,
 }
 
-/// Plays the bytes; panics when something does not hold. How many blocks were executed.
+/// Plays the bytes; panics when something does not hold. How many words of good blocks there were.
 pub fn run(data: &[u8]) -> usize {
     let list: Vec<u32> = data
         .chunks_exact(4)
         .map(|b| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]))
         .collect();
-    (BUDGET.instructions - play(&list).left.instructions) as usize
+    play(&list).good as usize
 }
 
 /// Plays a list, and draws three lines of what it made; panics when something does not hold.
@@ -86,21 +86,23 @@ pub fn play(list: &[u32]) -> Played {
     };
     let mut player = Player::<Look>::new(memory, settings);
     player.start(0);
-    let (mut left, mut notices, mut ended) = (BUDGET, 0, false);
+    let (mut left, mut notices) = (BUDGET, 0);
+    let mut done = Ok(Halt::Sync);
     for _ in 0..4 {
-        match player.run(list, &mut scene, &mut left, &mut |_: Notice| notices += 1) {
+        done = player.run(list, &mut scene, &mut left, &mut |_: Notice| notices += 1);
+        match done {
             Ok(Halt::Paused | Halt::Sync) => player.command(ListCommand::Resume),
-            done => {
-                ended = done == Ok(Halt::End);
-                break;
-            }
+            _ => break,
         }
     }
     // Each block can cause a few events, a face that finds no room among them.
     assert!(notices < 10_000, "{notices}");
     assert!(player.counts().blocks <= BUDGET.instructions - left.instructions);
     show(&scene, list, &overlays);
-    Played { left, ended }
+    Played {
+        good: done.map_or_else(|error| error.offset / 4, |_| player.position()),
+        ended: done == Ok(Halt::End),
+    }
 }
 
 /// Draws some lines of a scene, with the overlays of a list.

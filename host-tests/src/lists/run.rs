@@ -125,7 +125,9 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
     let mut scene = memory.scene::<Look>(Screen::new(view.width as u16, view.height as u16)?);
     scene.begin(&camera(view)?)?;
     player.start(0);
-    let (halt, events) = play(list, &mut player, &mut scene, budget)?;
+    let mut events = Vec::new();
+    let halt = play(list, &mut player, &mut scene, budget, &mut events)?;
+    events.retain(|e| !matches!(e.0, Event::ListEnd | Event::Clipped));
     let painted = ListOverlays {
         words: list,
         slots: &overlays,
@@ -175,28 +177,26 @@ fn camera(view: &View) -> Result<Camera, Box<dyn Error>> {
     Ok(Camera::look_at(eye, at, up, focal as f32, near, far)?)
 }
 
-/// Plays it to its end: a picture has no later frame to wait for, so pauses and syncs are passed over. Why it ended, and
-/// what events there were, as [`Ran`] has them.
+/// Plays it to its end: a picture has no later frame to wait for, so pauses and syncs are passed over. Why it ended;
+/// events are counted as [`Ran`] has them.
 fn play<'t>(
     list: &'t [u32],
     player: &mut Player<'_, 't, Look, i32>,
     scene: &mut Scene<'_, 't, Look>,
     mut budget: Budget,
-) -> Result<(Halt, Vec<(Event, u32, u32)>), Box<dyn Error>> {
-    let mut events: Vec<(Event, u32, u32)> = Vec::new();
+    events: &mut Vec<(Event, u32, u32)>,
+) -> Result<Halt, Box<dyn Error>> {
     let mut note = |n: Notice| match events.iter_mut().find(|e| e.0 == n.event) {
         Some(known) => known.2 += 1,
         None => events.push((n.event, n.offset, 1)),
     };
-    let halt = loop {
+    loop {
         match player.run(list, scene, &mut budget, &mut note)? {
             Halt::Sync => {}
             Halt::Paused => player.command(ListCommand::Resume),
-            halt => break halt,
+            halt => return Ok(halt),
         }
-    };
-    events.retain(|e| !matches!(e.0, Event::ListEnd | Event::Clipped));
-    Ok((halt, events))
+    }
 }
 
 /// The picture of a scene, with overlays over it.
