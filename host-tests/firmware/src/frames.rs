@@ -17,11 +17,10 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth,
-    LEAN, Lit, LookB, METHODS, Numbered, PLAYED, Played, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS,
-    STRESS, SUITE, SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES,
-    VARIANTS, Values, Variant, build_method, by_effect, by_method,
-    method_screen,
+    Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth, LEAN, Lit, LookB,
+    METHODS, Numbered, PLAYED, Played, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE,
+    SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES, VARIANTS, Values,
+    Variant, build_method, by_effect, by_method, method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.

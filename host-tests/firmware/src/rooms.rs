@@ -10,10 +10,10 @@ use scanbeam::pipeline::{
 };
 use scanbeam::{Link, Screen};
 use scenes::{
-    BLOCK_TEXELS_B, CACHE_SLOTS_B, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH,
-    Grainy, HEIGHT, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B,
-    Ranked, SHEET_TRIANGLES, SUITE_SLOTS, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL,
-    Transparent, VERTICES, VERTICES_B, WIDTH,
+    BLOCK_TEXELS_B, CACHE_SLOTS_B, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy,
+    HEIGHT, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B, Ranked, SHEET_TRIANGLES,
+    SUITE_SLOTS, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL, Transparent, VERTICES,
+    VERTICES_B, WIDTH,
 };
 
 /// Slots of the object cache.
