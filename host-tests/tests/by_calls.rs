@@ -163,7 +163,6 @@ fn whoever_draws_the_picture_is_the_same() {
     }
 }
 
-/// Kills: slots, dithered pixels that are drawn as if nobody had asked.
 #[test]
 fn what_draw_calls_do_not_draw_is_left_to_the_presets() {
     let prepared = Prepared::new(&teapot());

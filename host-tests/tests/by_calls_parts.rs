@@ -38,7 +38,6 @@ fn differ(a: &Frame, b: &Frame, levels: u8) -> usize {
     pixels.filter(|&pixels| off(pixels)).count()
 }
 
-/// Kills: a tile that is drawn at another's place, a camera that is not shifted, or the other way.
 #[test]
 fn pictures_of_several_tiles_are_whole() {
     let model = teapot();
@@ -65,7 +64,6 @@ fn pictures_of_several_tiles_are_whole() {
     }
 }
 
-/// Kills: texture places of a tile that are those of another.
 #[test]
 fn textures_of_several_tiles_are_whole() {
     let mut model = grid(9);
@@ -101,7 +99,6 @@ fn textures_of_several_tiles_are_whole() {
     assert!(differ < 400, "{differ} pixels");
 }
 
-/// Kills: a scene with half of its triangles that passes for the whole, a band that is drawn at another's lines.
 #[test]
 fn models_that_are_more_than_a_scene_holds_are_drawn_in_bands() {
     // 24,200 flat triangles need more than 65,536 vertices, and 64,800 are more than a scene holds.
@@ -147,7 +144,6 @@ fn models_that_are_more_than_a_scene_holds_are_drawn_in_bands() {
     }
 }
 
-/// Kills: lines that are given up without a word.
 #[test]
 fn a_line_with_too_many_triangles_is_told() {
     // Each is on the middle line.

@@ -70,8 +70,6 @@ fn long_words(v: &ScreenVertex, header: Header) -> Vec<u32> {
     words
 }
 
-/// Kills: a strip that forgets a vertex from one block to the next, corners of another order, 17 faces at once, a
-/// vertex without a colour that is not the material's.
 #[test]
 fn long_vertices_are_triangles_of_calls() {
     for seed in 0..80 {
@@ -150,7 +148,6 @@ fn covers(p: [(i64, i64); 3], (x, y): (i64, i64)) -> bool {
     sides.len() == 2 && sides.iter().any(|s| *s < 0) && sides.iter().any(|s| *s >= 0)
 }
 
-/// Kills: places that are not the picture's, an axis for the other, a nearer depth that is hidden.
 #[test]
 fn triangles_on_the_screen_cover_what_the_rule_says_and_the_nearest_is_seen() {
     let white = Rgb565Be::from_rgb8([255; 3]);
@@ -259,7 +256,6 @@ fn what_cannot_be_drawn_on_the_screen_is_said() {
     });
 }
 
-/// Kills: points of another size, those that are gathered with another size, the memory's end.
 #[test]
 fn points_of_lists_are_those_of_calls() {
     for seed in 0..60 {
@@ -318,8 +314,7 @@ fn points_of_lists_are_those_of_calls() {
     }
 }
 
-/// A point is the square of whole pixels around the place that `f64` projects it to. Kills: a corner that is off, a size
-/// that is off by one, one axis for the other.
+/// A point is the square of whole pixels around the place that `f64` projects it to.
 #[test]
 fn points_are_squares_of_pixels_where_they_project_to() {
     let white = Rgb565Be::from_rgb8([255; 3]);
@@ -373,7 +368,6 @@ fn overlay(writer: &mut ListWriter<'_>, overlay: Overlay, words: &[u32]) {
     writer.bulk(&State::Overlay(overlay), words).unwrap();
 }
 
-/// Kills: overlays that are kept after they were shown, a palette that is another's.
 #[test]
 fn overlays_of_lists_are_painted_until_they_were_shown() {
     let patch = |left: u16, form: TexelForm, additive: bool| Overlay {
@@ -437,7 +431,6 @@ fn overlays_of_lists_are_painted_until_they_were_shown() {
     });
 }
 
-/// Kills: overlays that find no room and are left out without a word, a palette that is not there.
 #[test]
 fn overlays_without_room_or_palette_are_refused() {
     let one = |form| Overlay {

@@ -44,7 +44,6 @@ fn listed(
     })
 }
 
-/// Kills: a split that is another's, a strip of quads that forgets its last two vertices.
 #[test]
 fn quads_and_quad_strips_are_those_of_meshes() {
     for seed in 0..100 {
@@ -108,7 +107,6 @@ fn quads_and_quad_strips_are_those_of_meshes() {
     }
 }
 
-/// Kills: columns of another attribute, strips that go on where they end, indices of another width.
 #[test]
 fn tables_are_indexed_meshes() {
     for seed in 0..120 {

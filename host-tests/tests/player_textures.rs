@@ -289,8 +289,6 @@ fn levelled(form: TexelForm, seed: u64, sides: [u8; 2]) -> (Sample, Vec<Vec<u16>
     (whole, levels, key)
 }
 
-/// Kills: a level that is read from another's texels, levels that are left out, a palette for each of them, holes of the
-/// first level alone.
 #[test]
 fn levels_of_detail_are_those_of_calls() {
     let mut different = 0;
@@ -327,7 +325,6 @@ fn levels_of_detail_are_those_of_calls() {
     assert!(different > 8_000, "{different}");
 }
 
-/// Kills: levels that are left out where they find no room.
 #[test]
 fn levels_of_detail_without_room_are_refused() {
     let mut memory = vec![0; 4096];

@@ -314,7 +314,6 @@ mod tests {
         assert!(worst_depth < 3e-5, "{worst_depth}");
     }
 
-    /// Kills: a shift of the other sign or unit, or of one axis alone.
     #[test]
     fn cameras_that_are_shifted_see_the_same_from_another_middle() {
         let screen = Screen::new(320, 240).unwrap();
