@@ -3,6 +3,7 @@
 //! Where a mesh's vertices find room, all are projected and lit once and shared; where they do not, each
 //! face brings its own. Triangles keep the order in which they were submitted.
 
+use super::check::check_draw;
 use super::cut::{Corner, cut_all};
 use super::lights::Lamps;
 use super::pass::{
@@ -15,8 +16,7 @@ use super::{
     TexturePlace, Vertex,
 };
 use crate::geometry::{
-    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Scale, Tint, check_mesh,
-    each_triangle, triangles,
+    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Scale, Tint, each_triangle, triangles,
 };
 use core::ops::Range;
 
@@ -26,41 +26,6 @@ struct Picture {
     lines: Range<u32>,
     /// The column after the last, in units of 1/8 pixel.
     right: u32,
-}
-
-/// Whether a mesh is one, and whether the look has what a draw call asks for: textures, light at corners or at pixels.
-fn check_draw<C: Coordinate>(
-    draw: &Draw<'_, '_, C>,
-    textured: bool,
-    lit_at_pixels: bool,
-) -> Result<(), DrawError> {
-    let mesh = &draw.mesh;
-    // Indices of triangles are looked at on the way.
-    let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
-    let is_filed_at_once = is_looked_at && draw.shading == Shading::Smooth;
-    let below = if is_filed_at_once && draw.shadow.is_none() {
-        0
-    } else {
-        usize::MAX
-    };
-    check_mesh(mesh, below).map_err(DrawError::Mesh)?;
-    let at_corners = draw.light.is_some() || draw.lights.is_some() || !mesh.colours.is_empty();
-    if lit_at_pixels && at_corners || !lit_at_pixels && draw.lamps.is_some() {
-        return Err(DrawError::Light);
-    }
-    match draw.texture {
-        Some(_) if !textured => Err(DrawError::Untextured),
-        Some(skin) => {
-            let places = match draw.texgen {
-                Some(_) => mesh.normals.len(),
-                None => skin.places.len(),
-            };
-            let fits = places == mesh.positions.len();
-            let error = DrawError::Mesh(MeshError::AttributeLength);
-            fits.then_some(()).ok_or(error)
-        }
-        None => Ok(()),
-    }
 }
 
 /// Files what a draw call brings.

@@ -6,6 +6,7 @@
 //! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
+//! | `check` | what is wrong with a draw call |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
 //! | `master` | what a supervisor has switched off |
 //! | `lights` | several lights, whose code only a call that has them brings in |
@@ -24,6 +25,7 @@
 mod assemble;
 mod blend;
 mod budget;
+mod check;
 mod cut;
 mod depth;
 mod draw;
