@@ -28,11 +28,7 @@ struct Picture {
     right: u32,
 }
 
-/// Files what a draw call brings.
-type File<'f, 'm, 't, L> =
-    &'f mut dyn FnMut(&mut Scene<'m, 't, L>, &mut Pass<'_>) -> Result<(), DrawError>;
-
-impl<'m, 't, L> Scene<'m, 't, L> {
+impl<'t, L> Scene<'_, 't, L> {
     /// Draws a mesh, with its texture, which only a look that is `textured` has. Where light falls on pixels, vertices
     /// have words of normals.
     ///
@@ -47,7 +43,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         let mesh = &draw.mesh;
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
         let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
-        let file: File<'_, 'm, 't, L> = &mut |scene, pass| {
+        let file = |scene: &mut Self, pass: &mut Pass<'_>| {
             scene.share(mesh, pass);
             match is_volume {
                 true => scene.file_volume(mesh, pass),
@@ -59,22 +55,25 @@ impl<'m, 't, L> Scene<'m, 't, L> {
 
     /// Whether colours and light of a draw call are seen nowhere: where texels are drawn as they are, or shading is
     /// switched off.
+    #[inline(always)]
     pub(super) fn is_plain<C>(&self, draw: &Draw<'_, 't, C>) -> bool {
         let master = self.master.with_shadow(draw.shadow);
         master.applied(draw) == Some(Application::Replace) || !master.has_shading()
     }
 
-    /// Draws what `file` brings of a draw call, so many triangles.
+    /// Draws what `file` brings of a draw call, so many triangles; in line, so that a program has no code of what its
+    /// calls never have.
     ///
     /// # Errors
     /// As [`assemble`](Self::assemble).
+    #[inline(always)]
     pub(super) fn assemble_by<C: Coordinate>(
         &mut self,
         draw: &Draw<'_, 't, C>,
         textured: bool,
         word_of: Option<WordOfNormal>,
         submitted: u32,
-        file: File<'_, 'm, 't, L>,
+        file: impl FnOnce(&mut Self, &mut Pass<'_>) -> Result<(), DrawError>,
     ) -> Result<(), DrawError> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
@@ -150,6 +149,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
     }
 
     /// Files the faces of a mesh, and lights its vertices.
+    #[inline(never)]
     fn file<C: Coordinate>(
         &mut self,
         is_flat: bool,

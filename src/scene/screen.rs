@@ -55,41 +55,35 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         let (scale, is_plain) = (self.scale, self.is_plain(&draw));
         let middle = [self.screen.width(), self.screen.height()].map(|s| 4 * i32::from(s));
-        self.assemble_by(
-            &draw,
-            textured,
-            None,
-            faces.len() as u32,
-            &mut |scene, pass| {
-                let near = pass.view.near_depth();
-                let plain = pass.one.filter(|_| is_plain);
-                for (number, corners) in (0..).zip(faces) {
-                    let own = corners.map(|ScreenCorner { vertex, texel }| {
-                        let from = if is_flat { corners[0].vertex } else { vertex };
-                        let at = |v: i16, axis: usize| {
-                            let v = i32::from(v).clamp(middle[axis] - REACH, middle[axis] + REACH);
-                            (v + 8 * ORIGIN) as u32
-                        };
-                        let (x, y) = (at(vertex.x, 0), at(vertex.y, 1));
-                        // 1/w of a list is 2^31 at the near plane.
-                        let depth = mul_high_unsigned(vertex.depth, near) << 1;
-                        let texel = texel.map(|t| t << TexturePlace::FINER);
-                        Own {
-                            vertex: Vertex {
-                                place: y << 16 | x,
-                                depth: depth.clamp(1, (1 << 31) - 1),
-                                colour: plain.unwrap_or_else(|| {
-                                    Tint::new(from.colour, &scale).lit(1 << 15).word()
-                                }),
-                            },
-                            place: TexturePlace::new(texel, [0; 2]),
-                        }
-                    });
-                    scene.file_on_screen(number, own, pass);
-                }
-                Ok(())
-            },
-        )
+        self.assemble_by(&draw, textured, None, faces.len() as u32, |scene, pass| {
+            let near = pass.view.near_depth();
+            let plain = pass.one.filter(|_| is_plain);
+            for (number, corners) in (0..).zip(faces) {
+                let own = corners.map(|ScreenCorner { vertex, texel }| {
+                    let from = if is_flat { corners[0].vertex } else { vertex };
+                    let at = |v: i16, axis: usize| {
+                        let v = i32::from(v).clamp(middle[axis] - REACH, middle[axis] + REACH);
+                        (v + 8 * ORIGIN) as u32
+                    };
+                    let (x, y) = (at(vertex.x, 0), at(vertex.y, 1));
+                    // 1/w of a list is 2^31 at the near plane.
+                    let depth = mul_high_unsigned(vertex.depth, near) << 1;
+                    let texel = texel.map(|t| t << TexturePlace::FINER);
+                    Own {
+                        vertex: Vertex {
+                            place: y << 16 | x,
+                            depth: depth.clamp(1, (1 << 31) - 1),
+                            colour: plain.unwrap_or_else(|| {
+                                Tint::new(from.colour, &scale).lit(1 << 15).word()
+                            }),
+                        },
+                        place: TexturePlace::new(texel, [0; 2]),
+                    }
+                });
+                scene.file_on_screen(number, own, pass);
+            }
+            Ok(())
+        })
     }
 
     /// Draws the vertices of a mesh as squares of so many pixels each way; its faces do not count.
@@ -119,7 +113,7 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         let submitted = (mesh.positions.len() * faces.len()) as u32;
         let scale = self.scale;
-        self.assemble_by(&draw, textured, word_of, submitted, &mut |scene, pass| {
+        self.assemble_by(&draw, textured, word_of, submitted, |scene, pass| {
             for (i, &position) in mesh.positions.iter().enumerate() {
                 let point = pass.view.point(position);
                 if pass.view.beyond(point) != 0 {
