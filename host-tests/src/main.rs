@@ -136,26 +136,38 @@ impl Picture {
     }
 }
 
-/// Draws a model with textures by draw calls, where those have what is asked.
+/// Draws a model with textures or dither by draw calls, where those have what is asked.
 fn render_by_calls(
     args: &RenderArgs,
     model: &Model,
     textures: &TextureSet,
 ) -> Result<Option<Picture>, draw::DrawFailure> {
+    let (view, format) = (args.view(), args.format());
+    let is_dithered = format == PixelFormatArg::Dithered565;
     let is_usual = args.interp.is_none() && args.depth == DepthArg::Auto && args.prefetch == 0;
-    if textures.is_empty() || !is_usual {
+    if textures.is_empty() && !is_dithered || !is_usual {
         return Ok(None);
     }
-    let skins = draw::Skins {
-        set: textures,
+    let skins = skins(args, textures);
+    let prepared = draw::Prepared::textured(model, textures, skins.quality);
+    let called = draw::draw_by_calls(
+        &prepared,
+        Some(skins),
+        &view,
+        format,
+        args.renderers,
+        args.cache,
+    )?;
+    Ok(called.map(|called| Picture::called(called, !textures.is_empty(), format)))
+}
+
+/// Textures as the flags ask for them.
+fn skins<'s>(args: &RenderArgs, set: &'s TextureSet) -> draw::Skins<'s> {
+    draw::Skins {
+        set,
         filter: args.filter,
         quality: args.texture_quality(),
-    };
-    let prepared = draw::Prepared::textured(model, textures, skins.quality);
-    let (view, format) = (args.view(), args.format());
-    let skins = Some(skins);
-    let called = draw::draw_by_calls(&prepared, skins, &view, format, args.renderers, args.cache)?;
-    Ok(called.map(|called| Picture::called(called, true, format)))
+    }
 }
 
 /// Writes a picture and, where they are asked for, its figures: both files, or none.
@@ -202,37 +214,32 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     };
     let effects = args.effects();
     let seen = effects.are_seen(&model, &view);
-    let dithered = [PixelFormatArg::Dithered565, PixelFormatArg::Dithered888];
+    let is_dithered = format == PixelFormatArg::Dithered565;
     let common = [PixelFormatArg::Rgb565, PixelFormatArg::Rgb888];
-    let is_dithered = dithered.contains(&format);
     let is_plain = args.interp.is_some() || !is_dithered && !common.contains(&format);
-    if args.depth.is_a_pipeline() && (seen || !textures.is_empty()) {
+    if args.depth != DepthArg::Auto && seen && !is_plain {
         return Err(format!(
-            "--depth {} draws no textures, and no materials that shine or are transparent",
+            "--depth {} draws no materials that shine or are transparent",
             args.depth
         )
         .into());
     }
+    if args.depth.is_a_pipeline() && !textures.is_empty() {
+        return Err(format!("--depth {} draws no textures", args.depth).into());
+    }
     let file = args.model.display();
-    let by_calls = match seen {
-        false => render_by_calls(args, &model, &textures),
-        true => Ok(None),
+    let by_calls = if seen && !is_plain {
+        let skins = skins(args, &textures);
+        draw::draw_effects(&model, skins, (&view, format), crew, effects)
+            .map(|called| Some(Picture::called(called, !textures.is_empty(), format)))
+    } else {
+        render_by_calls(args, &model, &textures)
     };
     let by_calls = by_calls.map_err(|error| format!("{file}: {error}"))?;
     let drawn = if let Some(picture) = by_calls {
         Ok(picture)
     } else if args.depth.is_a_pipeline() {
         draw::draw_by_depth(&model, &view, format, crew, args.depth).map(Picture::from)
-    } else if !is_plain && (seen || is_dithered && !textures.is_empty()) {
-        if !textures.is_empty() && !textures.has_levels() {
-            return Err(
-                "--levels off draws textures without dither, and without materials that shine or are transparent"
-                    .into(),
-            );
-        }
-        let how = (args.filter, args.texture_quality());
-        draw::draw_effects(&model, &textures, how, (&view, format), crew, effects)
-            .map(Picture::from)
     } else if textures.is_empty() {
         draw::draw_by(&model, &view, format, crew, args.method()).map(Picture::from)
     } else {

@@ -171,9 +171,6 @@ fn what_draw_calls_do_not_draw_is_left_to_the_presets() {
         let called = draw_by_calls(&prepared, None, &view, format, 1, slots);
         called.expect("a view").is_some()
     };
-    use PixelFormatArg::{Dithered565, Dithered888, Rgb565};
+    use PixelFormatArg::Rgb565;
     assert!(is_drawn(Rgb565, MOST_SLOTS) && !is_drawn(Rgb565, MOST_SLOTS + 1));
-    for format in [Dithered565, Dithered888] {
-        assert!(!is_drawn(format, 64), "{format:?}");
-    }
 }

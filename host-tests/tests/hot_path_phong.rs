@@ -9,10 +9,10 @@ use crate::hot::exact::{weights, within};
 use crate::hot::shine::{V3, dot, q14, some_direction, unit};
 use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
-use scanbeam::look::{Gouraud, Phong};
+use scanbeam::look::{Gouraud, Phong, TexturedPhong};
 use scanbeam::mesh::{Material, U1F15};
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::scene::{Draw, DrawError, Shading};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
+use scanbeam::scene::{Application, Budget, Draw, DrawError, Shading, Skin, Texture};
 use scanbeam::{Cull, Light, Screen};
 
 /// Lights and a material, in f64.
@@ -102,11 +102,16 @@ struct Facet {
 
 impl Facet {
     fn new(rng: &mut Rng, screen: Screen) -> Self {
+        Self::slanted(rng, screen, &[1.0, 2.0])
+    }
+
+    /// Up to one of so many times as far at one corner as at another.
+    fn slanted(rng: &mut Rng, screen: Screen, slants: &[f64]) -> Self {
         let size = rng.pick(&[20, 60, 300, 2_000]);
         let middle =
             [screen.width(), screen.height()].map(|side| rng.within(0, 8 * i32::from(side)));
         let w = 1.0 + 3.0 * rng.unit();
-        let slant = rng.pick(&[1.0, 2.0]);
+        let slant = rng.pick(slants);
         let towards = some_direction(rng);
         Self {
             corners: [(); 3].map(|()| Corner {
@@ -196,6 +201,143 @@ fn every_pixel_is_lit_by_its_own_normal() {
     // Half a step of 5 bits.
     let pixels = pixels_are_the_formula::<Phong<Rgb565Be>>(1_802, 4.7);
     assert!(pixels > 40_000, "{pixels}");
+}
+
+/// A texture of 64 x 32 texels, an eighth of which may be holes, that lies on the picture pixel by pixel.
+struct Wallpaper {
+    words: &'static [u16],
+    texture: &'static Texture<'static>,
+}
+
+/// The word of a hole.
+const HOLE: u16 = 0x1234;
+
+impl Wallpaper {
+    fn new(rng: &mut Rng) -> Self {
+        let word = |rng: &mut Rng| match rng.below(8) {
+            0 => HOLE,
+            _ => rng.below(1 << 16) as u16,
+        };
+        let words: &'static [u16] = (0..64 * 32).map(|_| word(rng)).collect::<Vec<_>>().leak();
+        let texture = Texture::words(words, 64, 32).expect("sides of powers of two");
+        let texture = match rng.below(3) {
+            0 => texture,
+            _ => texture.keyed(HOLE),
+        };
+        Self {
+            words,
+            texture: Box::leak(Box::new(texture)),
+        }
+    }
+
+    fn texel(&self, x: usize, y: u16) -> (u16, [u8; 3]) {
+        let word = self.words[64 * (usize::from(y) % 32) + x % 64];
+        (word, Rgb565::to_rgb8(word))
+    }
+
+    fn dress(&self, draw: &mut Draw<'_, '_, i32>, facet: &Facet) {
+        let place = |corner: &Corner| [32 * corner.at.0, 32 * corner.at.1];
+        let places: &'static [_] = facet.corners.each_ref().map(place).to_vec().leak();
+        draw.texture = Some(Skin {
+            texture: self.texture,
+            places,
+            budget: Budget::EXACT,
+        });
+    }
+}
+
+/// The texel of each pixel times the call's colour is what light falls on; holes are as they are in textures that are
+/// lit at corners.
+///
+/// Kills: a colour that the texel is not multiplied with, texels of a run that begin anew at its start, normals of
+/// small triangles taken as shades, lamps that shine on texels that replace.
+fn texels_are_lit<L: Smooth>(seed: u64, off: f64) -> [usize; 3] {
+    let mut rng = Rng::new(seed);
+    let mut seen = [0; 3];
+    for round in 0..400 {
+        let screen = Screen::new(rng.pick(&[40, 200]), 24).expect("a screen");
+        let facet = Facet::slanted(&mut rng, screen, &[1.0]);
+        let shine = Shine::new(&mut rng, round % 9);
+        let lamps: &'static _ = Box::leak(Box::new(shine.lamps(screen)));
+        let paper = Wallpaper::new(&mut rng);
+        let application = rng.pick(&[
+            Application::Product,
+            Application::Replace,
+            Application::Decal,
+        ]);
+        let colour = [(); 3].map(|()| rng.below(256) as u8);
+        let mut rooms = SceneRooms::of_triangles(1, screen);
+        let mut scene = rooms.scene::<L>(screen);
+        scene.begin(&camera()).expect("the rooms are large enough");
+        draw_with(&mut scene, &[facet.corners], |draw| {
+            facet.dress(draw, lamps, colour);
+            paper.dress(draw, &facet);
+            draw.application = application;
+        })
+        .expect("there is room");
+        let slots = rng.pick(&[0, 4]);
+        let background = L::Format::from_rgb8([1, 250, 3]);
+        let lines = frame(&scene, slots, true, background);
+        for (y, words) in (0..).zip(&lines) {
+            for x in within(facet.corners.map(|c| c.at), y.into(), screen.width()) {
+                let (word, texel) = paper.texel(x, y);
+                let is_hole = paper.texture.key().is_some() && word == HOLE;
+                let (own, is_lit) = match application {
+                    Application::Product if is_hole => ([0.0; 3], false),
+                    Application::Replace if is_hole => ([0.0; 3], false),
+                    Application::Decal if is_hole => (colour.map(|c| f64::from(c) / 255.0), true),
+                    Application::Product => {
+                        let own = |i: usize| f64::from(colour[i]) * f64::from(texel[i]) / 65_025.0;
+                        ([0, 1, 2].map(own), true)
+                    }
+                    Application::Replace | Application::Decal => {
+                        (texel.map(|c| f64::from(c) / 255.0), false)
+                    }
+                };
+                if is_hole && !is_lit {
+                    assert!(words[x] == background, "{x}, {y}");
+                    seen[2] += 1;
+                    continue;
+                }
+                let normal = facet.normal(x as u16, y);
+                let length = dot(normal, normal).sqrt();
+                let got = L::Format::to_rgb8(words[x]);
+                for i in 0..3 {
+                    let level = 255.0 * own[i];
+                    let [least, most] = match is_lit {
+                        true => {
+                            let eye = eye(screen, x as u16, y);
+                            shine.level(i, own[i], unit(normal), eye, 0.0013 / length)
+                        }
+                        false => [level; 2],
+                    };
+                    let got = f64::from(got[i]);
+                    assert!(
+                        least - off <= got && got <= most + off,
+                        "{got} for {least} to {most} at {x}, {y}, {slots} slots: {:?}",
+                        facet.corners.map(|c| c.at)
+                    );
+                }
+                seen[usize::from(is_lit)] += 1;
+            }
+        }
+    }
+    seen
+}
+
+#[test]
+fn texels_are_lit_by_their_own_normal() {
+    // What is a hole is so whatever the format: a texel of 16 bits is what light falls on.
+    for seen in [
+        texels_are_lit::<TexturedPhong<Rgb888>>(1_805, 1.0),
+        texels_are_lit::<TexturedPhong<Rgb565Be>>(1_806, 4.7),
+    ] {
+        let [replaced, lit, holes] = seen;
+        assert!(
+            lit > 20_000 && replaced > 20_000 && holes > 3_000,
+            "{seen:?}"
+        );
+    }
 }
 
 /// Many triangles across each other, by depth: any cache gives the same bits.

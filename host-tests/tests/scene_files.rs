@@ -282,7 +282,7 @@ fn what_cannot_be_read_or_does_nothing_is_refused() {
     write(&scene(json!([{ "model": "red.obj" }])));
     for flags in ["--cache 225", "--prefetch 4"] {
         let line = desk.refused(&format!("render s.json -o p.png {flags}"));
-        assert!(line.contains("scenes "), "{line}");
+        assert!(line.contains("drawn by draw calls"), "{line}");
     }
     for flag in [
         "--size 4x4",

@@ -6,7 +6,7 @@
 //! | `gouraud` | colours linear between vertices |
 //! | `textured`, `textured_wide` | texels times such colours, in pixels of 16 bits and of more |
 //! | `shades` | the planes of those colours, and what they are along a span |
-//! | `phong` | normals linear between vertices, lit at each pixel |
+//! | `phong`, `textured_phong` | normals linear between vertices, lit at each pixel; texels lit so |
 //! | `shaded` | pixels by a function of one's own, from parameters of vertices |
 //! | `ramp` | the loops over pixels that all looks share |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
@@ -38,6 +38,7 @@ mod stride;
 #[cfg(test)]
 mod tests;
 mod textured;
+mod textured_phong;
 mod textured_wide;
 mod tint;
 mod word_plane;
@@ -49,8 +50,9 @@ pub use phong::Phong;
 pub(crate) use ramp::fill_even;
 pub use shaded::{Shaded, Shader};
 pub use textured::Textured;
+pub use textured_phong::TexturedPhong;
 
-/// How the triangles of a scene look: [`Gouraud`], [`Textured`], [`Phong`], or [`Shaded`] by a [`Shader`] of one's own.
+/// How the triangles of a scene look: [`Gouraud`], [`Textured`], [`Phong`], [`TexturedPhong`], or [`Shaded`] by a [`Shader`] of one's own.
 pub trait Look: Paint {}
 
 impl<T: Paint> Look for T {}

@@ -61,38 +61,40 @@ fn pixel<F: Pixel>(channels: [i32; 3], parts: i32) -> F::Word {
     F::pack_words(sixteen(0) << 16 | sixteen(2), sixteen(1) << 16)
 }
 
-impl<F: Pixel> Phong<F> {
-    /// Lights a run of pixels from a place on.
-    #[inline(never)]
-    fn light(
-        state: &DrawState<'_>,
-        planes: &Three,
-        place: Place,
-        dithers: bool,
-        run: &mut [F::Word],
-    ) {
-        let steps = |i: usize| {
-            let level = u32::from(state.colour[i]) * u32::from(F::STEPS[i]);
-            (((level << 16) + 127) / 255 + (1 << 15)) as i32
+/// The call's colour in 16.16 steps of the format.
+pub(super) fn steps_of<F: Pixel>(state: &DrawState<'_>) -> [u32; 3] {
+    let steps = |i: usize| u32::from(state.colour[i]) * u32::from(F::STEPS[i]);
+    [0, 1, 2].map(|i| ((steps(i) << 16) + 127) / 255)
+}
+
+/// Lights a run of pixels from a place on; `own` is the colour of each, in 16.16 steps and one half.
+#[inline(always)]
+pub(super) fn light<F: Pixel>(
+    state: &DrawState<'_>,
+    planes: &Three,
+    place: Place,
+    run: &mut [F::Word],
+    mut own: impl FnMut() -> [i32; 3],
+) {
+    // What is dithered is dithered in 16 bits.
+    let dithers = state.dithers && F::MADE_OF.is_one_word();
+    let mut value = values(planes, place);
+    for (pixel, column) in run.iter_mut().zip(place.column..) {
+        let [x, y, z] = value.map(|v| v.wrapping_sub(MIDDLE) as i32);
+        let at = [column, place.line];
+        let colour = own();
+        let lit = match state.lamps {
+            Some(lamps) => lamps.lit_in_picture(unit_normal([x, y, z]), at, colour, F::STEPS),
+            None => colour,
         };
-        let colour = [steps(0), steps(1), steps(2)];
-        let mut value = values(planes, place);
-        for (pixel, column) in run.iter_mut().zip(place.column..) {
-            let [x, y, z] = value.map(|v| v.wrapping_sub(MIDDLE) as i32);
-            let at = [column, place.line];
-            let lit = match state.lamps {
-                Some(lamps) => lamps.lit_in_picture(unit_normal([x, y, z]), at, colour, F::STEPS),
-                None => colour,
-            };
-            let parts = if dithers {
-                threshold(column, place.line)
-            } else {
-                0
-            };
-            *pixel = self::pixel::<F>(lit, parts);
-            for (i, value) in value.iter_mut().enumerate() {
-                *value = value.wrapping_add(planes[3 * i + 1]);
-            }
+        let parts = if dithers {
+            threshold(column, place.line)
+        } else {
+            0
+        };
+        *pixel = self::pixel::<F>(lit, parts);
+        for (i, value) in value.iter_mut().enumerate() {
+            *value = value.wrapping_add(planes[3 * i + 1]);
         }
     }
 }
@@ -132,20 +134,18 @@ impl<F: Pixel> Paint for Phong<F> {
     #[inline(never)]
     fn fill(_: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
         if let Some(state) = DrawState::of(planes.object, draws) {
-            Self::light(state, &planes.normal, place, false, run);
+            let colour = steps_of::<F>(state).map(|steps| steps as i32 + (1 << 15));
+            light::<F>(state, &planes.normal, place, run, || colour);
         }
     }
 
     fn fill_dithered(
-        _: Fill,
+        fill: Fill,
         planes: &Planes,
         place: Place,
         draws: &[DrawState<'_>],
         run: &mut [F::Word],
     ) {
-        if let Some(state) = DrawState::of(planes.object, draws) {
-            // That is, in 16 bits.
-            Self::light(state, &planes.normal, place, F::MADE_OF.is_one_word(), run);
-        }
+        Self::fill(fill, planes, place, draws, run);
     }
 }

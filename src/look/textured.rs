@@ -72,8 +72,21 @@ impl Planes {
 
     /// What transparent texels are, where there may be any.
     pub(super) fn holes(&self, draws: &[DrawState<'_>]) -> Option<Holes> {
-        let state = draws.get(usize::from(self.draw))?;
-        state.holes.filter(|_| self.mapped)
+        self.state(draws)?.holes.filter(|_| self.mapped)
+    }
+
+    /// What the triangle's draw call says.
+    pub(super) fn state<'d, 't>(&self, draws: &'d [DrawState<'t>]) -> Option<&'d DrawState<'t>> {
+        draws.get(usize::from(self.draw))
+    }
+
+    /// The planes of the shade.
+    pub(super) fn shades(&self) -> &Shades {
+        &self.shade
+    }
+
+    pub(super) fn shades_mut(&mut self) -> &mut Shades {
+        &mut self.shade
     }
 }
 

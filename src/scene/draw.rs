@@ -22,14 +22,14 @@ pub struct Draw<'a, 't, C = i16> {
     pub light: Option<Light>,
     /// Several lights and the material that they fall on, in place of the one: a [`Lighting`](crate::light::Lighting).
     pub lights: Option<&'a dyn Lights>,
-    /// What shines on pixels, for [`Phong`](crate::look::Phong) alone, which refuses the other two and colours of
-    /// corners. It is what the camera sees: to be made anew when that moves, and the scene with it.
+    /// What shines on pixels, for [`Phong`](crate::look::Phong) and [`TexturedPhong`](crate::look::TexturedPhong) alone,
+    /// which refuse the other two and colours of corners. It is what the camera sees: to be made anew when that moves, and the scene with it.
     pub lamps: Option<&'t PixelLamps>,
     /// Where a face's colour comes from.
     pub shading: Shading,
     /// Colour of vertices that have none of their own.
     pub colour: [u8; 3],
-    /// The texture, which other looks than [`Textured`](crate::look::Textured) refuse; colours and light are multiplied
+    /// The texture, which looks without one refuse; colours and light are multiplied
     /// with it.
     pub texture: Option<Skin<'a, 't>>,
     /// How places on the texture are made of vertices, in place of those of the skin: reflections.
@@ -227,6 +227,8 @@ impl<'t> DrawState<'t> {
         let blend = draw.blend.filter(|_| master.has_blend());
         let role = Role::of(draw.shadow, master);
         let depth = role.depth(draw.depth);
+        let is_replaced = master.applied(draw) == Some(Application::Replace);
+        let is_lit = master.has_shading() && !is_replaced;
         Self {
             first,
             texture,
@@ -241,8 +243,8 @@ impl<'t> DrawState<'t> {
             dithers: draw.dither && master.has_dither(),
             priority: draw.priority,
             late: Late::of(role, blend),
-            colour: draw.colour,
-            lamps: draw.lamps.filter(|_| master.has_shading()),
+            colour: if is_replaced { [255; 3] } else { draw.colour },
+            lamps: draw.lamps.filter(|_| is_lit),
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
             square: texture.and_then(Texture::plain_square),
         }

@@ -3,7 +3,6 @@
 use crate::{DrawFailure, Prepared};
 use host_support::lent::SceneRooms;
 use host_support::reference::{Cull, Shade, View};
-use scanbeam::pipeline::blend::ShadowError;
 use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene};
 use scanbeam::stats::PassOne;
 use scanbeam::{Camera, Faces, Light, Mesh, Screen};
@@ -118,8 +117,7 @@ impl Setting {
         draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
     ) -> Result<Bands, DrawFailure> {
         let build = |scene: &mut Scene<'_, P>, chunk: usize, alone: bool| {
-            let done = prepared.chunks[chunk].draw(scene, (&self.instance, &()), alone);
-            done.map_err(ShadowError::Draw)
+            prepared.chunks[chunk].draw(scene, &self.instance, alone)
         };
         self.bands_of((rooms, lines), (prepared.chunks.len(), build), draw)
     }
@@ -132,7 +130,7 @@ impl Setting {
         (rooms, lines): (&mut SceneRooms<P>, Range<u16>),
         (steps, mut build): (
             usize,
-            impl FnMut(&mut Scene<'_, P>, usize, bool) -> Result<(), ShadowError>,
+            impl FnMut(&mut Scene<'_, P>, usize, bool) -> Result<(), DrawError>,
         ),
         mut draw: impl FnMut(&Scene<'_, P>) -> Result<(), DrawFailure>,
     ) -> Result<Bands, DrawFailure> {
@@ -153,7 +151,7 @@ impl Setting {
                 let before = scene.pass_one();
                 match build(&mut scene, step, *alone) {
                     Ok(()) => {}
-                    Err(ShadowError::Draw(error @ DrawError::Full(_))) => {
+                    Err(error @ DrawError::Full(_)) => {
                         full.get_or_insert(error);
                         if count > 1 {
                             break;

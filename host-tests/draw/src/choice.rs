@@ -25,9 +25,6 @@ pub enum PixelFormatArg {
     /// 16 bits, dithered: --dither on
     #[value(skip)]
     Dithered565,
-    /// 24 bits, dithered
-    #[value(skip)]
-    Dithered888,
 }
 
 /// How colours are taken from pixel to pixel of a line, and with the model also depth.

@@ -1,28 +1,26 @@
 //! What light and materials do beside one matt light: highlights, transparency, shadows, light at
 //! each pixel.
 //!
-//! A picture that has any of it is drawn by a pipeline whose surfaces have a finish. First comes
-//! what is opaque; with shadows, then its shadow volume and the same surfaces again as they are
+//! First comes what is opaque; with shadows, then its shadow volume and the same surfaces again as they are
 //! without the light (K9); last what is transparent, which throws no shadow and gets none.
 
-use super::prepared::{Dress, Prepared, ShadowMesh};
-use super::textured::{HostTexture, textures};
-use super::{
-    CrewSettings, DrawFailure, Drawn, FilterArg, Setting, TextureSet, draw_scenes, rooms_for,
-};
+use super::parts::{Job, Tile, draw_parts, tiles};
+use super::prepared::{Chunk, Prepared, ShadowMesh, colour8};
+use super::scenes::most_slots;
+use super::textured::Texels16;
+use super::{Called, CrewSettings, DrawFailure, Setting, Skins};
 use crate::choice::PixelFormatArg;
 use host_support::model::{Material, Model};
 use host_support::reference::{Shade, View};
-use scanbeam::Link;
-use scanbeam::light::{DirectionalLight, Lamplight, Lighting, LitSkin, Phong, PixelLamps};
+use host_support::rooms::Room;
+use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
+use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::mesh::U1F15;
-use scanbeam::pipeline::blend::{Blended, Finish, ShadowError, ShadowLight, Surface};
-use scanbeam::pipeline::texture::{DetailedTextures, LevelEnds, Levels, Quality, Skin, Textured};
-use scanbeam::pipeline::{
-    Auto, Counted, Depth32, DrawError, Flat, Gouraud, Parts, Pipeline, Scene, Shading, Shadowed,
-    SkinOf,
+use scanbeam::pixel::{Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888};
+use scanbeam::scene::{
+    Blend, DrawError, LARGEST, Lights, Shading, Shadow, ShadowLight, Skin, Texture,
 };
-use scanbeam::pixel::{Dithered, PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::{Draw, Link, Mesh, Scene};
 
 /// What is asked for beside what materials say.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -55,6 +53,8 @@ struct Looks {
     specular: [U1F15; 3],
     shininess: u16,
     alpha: u8,
+    /// Where light falls on pixels; else corners have colours.
+    colour: [u8; 3],
 }
 
 impl Looks {
@@ -70,6 +70,7 @@ impl Looks {
             specular: ks.map(level),
             shininess: ns,
             alpha: (material.d * 255.0).round() as u8,
+            colour: [255; 3],
         }
     }
 
@@ -80,6 +81,7 @@ impl Looks {
             specular: [self::level(level); 3],
             shininess,
             alpha: 255,
+            colour: [255; 3],
         }
     }
 
@@ -87,11 +89,8 @@ impl Looks {
         self.specular != [U1F15::ZERO; 3]
     }
 
-    fn finish(&self) -> Finish {
-        match self.alpha {
-            255 => Finish::OPAQUE,
-            alpha => Finish::filtered(alpha),
-        }
+    fn is_opaque(&self) -> bool {
+        self.alpha == 255
     }
 }
 
@@ -99,92 +98,61 @@ fn level(value: f64) -> U1F15 {
     U1F15::from_bits((value.clamp(0.0, 1.99) * 32_768.0).round() as u16)
 }
 
-impl<P, S> Dress<P> for Finish
-where
-    S: Shading,
-    P: Pipeline<Shading = Blended<S>>,
-{
-    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P> {
-        Surface {
-            skin: skin.into(),
-            finish: *self,
-            alphas: &[],
-        }
-    }
+/// The colour of a triangle whose corners have one, 8 bits a channel.
+fn colour_of(model: &Model, triangle: usize) -> Option<[u8; 3]> {
+    let colours = model.triangles[triangle].map(|i| colour8(model.vertices[i as usize].colour));
+    let [a, b, c] = colours;
+    (a == b && b == c).then_some(a)
 }
 
-/// A finish, and which lamps shine on it.
-#[derive(Clone, Copy, Debug)]
-struct LitFinish(Finish, u16);
-
-impl<P, S> Dress<P> for LitFinish
-where
-    S: Shading,
-    P: Pipeline<Shading = Blended<Phong<S>>>,
-{
-    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P> {
-        let skin = LitSkin {
-            skin: skin.into(),
-            lamps: self.1,
-        };
-        Surface {
-            skin,
-            finish: self.0,
-            alphas: &[],
-        }
-    }
-}
-
-/// A model's materials by number, and which of them its triangles have.
-fn looks(model: &Model, specular: Option<(f64, u16)>) -> (Vec<Looks>, Vec<u16>) {
+/// A model's looks by number, and which of them its triangles have. Where light falls on pixels, a look has one colour.
+fn looks(model: &Model, effects: Effects) -> Result<(Vec<Looks>, Vec<u16>), DrawFailure> {
     let mut all: Vec<Looks> = Vec::new();
-    let mut number = |looks: Looks| match all.iter().position(|l| *l == looks) {
-        Some(number) => number as u16,
-        None => {
+    let mut of_triangle = Vec::new();
+    for (triangle, material) in model.triangle_materials.iter().enumerate() {
+        let looks = match material {
+            Some(material) => Looks::new(&model.materials[*material as usize], effects.specular),
+            None => Looks::plain(effects.specular),
+        };
+        let colour = match effects.phong {
+            true => colour_of(model, triangle).ok_or_else(|| {
+                DrawFailure::View(format!(
+                    "--shade phong lights one colour a triangle: triangle {triangle} has several"
+                ))
+            })?,
+            false => [255; 3],
+        };
+        let looks = Looks { colour, ..looks };
+        // Neighbours look alike, as a rule.
+        let known = all.iter().rposition(|known| *known == looks);
+        let number = known.unwrap_or_else(|| {
             all.push(looks);
-            all.len() as u16 - 1
-        }
-    };
-    let plain = number(Looks::plain(specular));
-    let of_material: Vec<u16> = model
-        .materials
-        .iter()
-        .map(|material| number(Looks::new(material, specular)))
-        .collect();
-    let of_triangle = model
-        .triangle_materials
-        .iter()
-        .map(|material| material.map_or(plain, |m| of_material[m as usize]))
-        .collect();
-    (all, of_triangle)
+            all.len() - 1
+        });
+        let number = u16::try_from(number).map_err(|_| {
+            DrawFailure::View("--shade phong has at most 65536 colours and materials".into())
+        })?;
+        of_triangle.push(number);
+    }
+    Ok((all, of_triangle))
 }
 
-/// What a picture is drawn of.
-struct Task<'a> {
-    prepared: &'a Prepared,
-    looks: &'a [Looks],
-    shadows: &'a [ShadowMesh],
-    view: &'a View,
-    crew: CrewSettings,
-    textures: &'a [Levels<HostTexture<'a>>],
-}
-
-/// Draws a model with all that its materials and `effects` say; textures have levels of detail.
+/// Draws a model with all that its materials and `effects` say; its textures are as `skins` says.
 ///
 /// # Errors
 /// See [`DrawFailure`].
 pub fn draw_effects(
     model: &Model,
-    set: &TextureSet,
-    (filter, quality): (FilterArg, Quality),
+    skins: Skins<'_>,
     (view, format): (&View, PixelFormatArg),
     crew: CrewSettings,
     effects: Effects,
-) -> Result<Drawn, DrawFailure> {
-    let (looks, of_triangle) = looks(model, effects.specular);
-    let prepared = Prepared::split(model, set, quality, |triangle| of_triangle[triangle]);
+) -> Result<Called, DrawFailure> {
+    let (looks, of_triangle) = looks(model, effects)?;
+    let look = |triangle: usize| of_triangle[triangle];
+    let prepared = Prepared::split(model, skins.set, skins.quality, look);
     let shadows = if effects.shadows {
-        let is_opaque = |triangle: usize| looks[usize::from(of_triangle[triangle])].alpha == 255;
+        let is_opaque = |triangle: usize| looks[usize::from(of_triangle[triangle])].is_opaque();
         prepared.shadow_meshes(model, is_opaque)
     } else {
         Vec::new()
@@ -194,26 +162,30 @@ pub fn draw_effects(
         looks: &looks,
         shadows: &shadows,
         view,
-        crew,
-        textures: &textures(set, filter)?,
+        setting: Setting::new(&prepared, view)?,
+        slots: most_slots(crew)?,
+        renderers: crew.renderers.max(1),
+        skins,
+        phong: effects.phong,
+        dither: format == PixelFormatArg::Dithered565,
     };
-    match (effects.phong, view.shade, format) {
-        (true, _, PixelFormatArg::Rgb888) => task.by_pixels::<Rgb888>(),
-        (_, Shade::Flat, PixelFormatArg::Rgb888) => task.by::<Flat, Rgb888>(),
-        (_, _, PixelFormatArg::Rgb888) => task.by::<Gouraud, Rgb888>(),
-        (true, _, PixelFormatArg::Rgb565) => task.by_pixels::<Rgb565Be>(),
-        (_, Shade::Flat, PixelFormatArg::Rgb565) => task.by::<Flat, Rgb565Be>(),
-        (_, _, PixelFormatArg::Rgb565) => task.by::<Gouraud, Rgb565Be>(),
-        (true, _, PixelFormatArg::Dithered888) => task.by_pixels::<Dithered<Rgb888>>(),
-        (_, Shade::Flat, PixelFormatArg::Dithered888) => task.by::<Flat, Dithered<Rgb888>>(),
-        (_, _, PixelFormatArg::Dithered888) => task.by::<Gouraud, Dithered<Rgb888>>(),
-        (true, _, PixelFormatArg::Dithered565) => task.by_pixels::<Dithered<Rgb565Be>>(),
-        (_, Shade::Flat, PixelFormatArg::Dithered565) => task.by::<Flat, Dithered<Rgb565Be>>(),
-        (_, _, PixelFormatArg::Dithered565) => task.by::<Gouraud, Dithered<Rgb565Be>>(),
-        _ => Err(super::formats::refused(
-            "transparency, highlights and shadows are drawn",
-        )),
+    let mut called = match format {
+        PixelFormatArg::Rgb888 => task.by::<Rgb888, Textured<Rgb888>, Rgb565>()?,
+        PixelFormatArg::Rgb565 | PixelFormatArg::Dithered565 => {
+            task.by::<Rgb565Be, Textured<Rgb565Be>, Rgb565Be>()?
+        }
+        _ => {
+            return Err(super::formats::refused(
+                "transparency, highlights and shadows are drawn",
+            ));
+        }
+    };
+    if effects.shadows {
+        // Volumes, and what is drawn twice, are none of the model's triangles.
+        called.used.assembled.triangles = model.triangles.len() as u32;
+        called.figures.once = false;
     }
+    Ok(called)
 }
 
 /// The light of a picture.
@@ -245,6 +217,20 @@ impl Lamps {
     }
 }
 
+/// What a picture is drawn of, and by how many.
+struct Task<'a> {
+    prepared: &'a Prepared,
+    looks: &'a [Looks],
+    shadows: &'a [ShadowMesh],
+    view: &'a View,
+    setting: Setting,
+    slots: u16,
+    renderers: u16,
+    skins: Skins<'a>,
+    phong: bool,
+    dither: bool,
+}
+
 /// What is drawn in one step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Step {
@@ -256,11 +242,14 @@ enum Step {
     Volume(usize),
 }
 
+/// The number of the light that throws shadows.
+const LIGHT: u8 = 0;
+
 impl Task<'_> {
     fn steps(&self) -> Vec<Step> {
         let (mut opaque, mut clear) = (Vec::new(), Vec::new());
         for (number, chunk) in self.prepared.chunks.iter().enumerate() {
-            if self.looks[usize::from(chunk.look)].alpha == 255 {
+            if self.looks[usize::from(chunk.look)].is_opaque() {
                 opaque.push(number);
             } else {
                 clear.push(number);
@@ -275,71 +264,162 @@ impl Task<'_> {
         steps
     }
 
-    fn by<S, F>(&self) -> Result<Drawn, DrawFailure>
+    /// Draws in the format `F`, with the look `L` where light falls on corners of what is textured; its texels are
+    /// pixels of the format `T`.
+    fn by<F, L, T>(&self) -> Result<Called, DrawFailure>
     where
-        S: Shading<Levels: scanbeam::pipeline::Levels>,
-        F: PixelFormat,
-        for<'t> DetailedTextures<'t, HostTexture<'t>>:
-            scanbeam::pipeline::texture::TextureSource<F>,
+        F: Pixel + Sync,
+        L: Look<Pixel = F, Planes: Send> + Sync,
+        T: PixelFormat<Word = u16>,
     {
-        type Plain<'t, S, F> = Counted<
-            Parts<
-                Textured<S, LevelEnds>,
-                Depth32,
-                F,
-                (),
-                Auto,
-                DetailedTextures<'t, HostTexture<'t>>,
-            >,
-        >;
-        let lamps = self.lamps()?;
-        let is_lit = self.view.shade != Shade::None;
-        let on = |looks| is_lit.then(|| lamps.on(Some(looks)));
-        let by_look: Vec<_> = self.looks.iter().map(on).collect();
-        self.draw::<Shadowed<Plain<'_, S, F>>, _, _>(
-            (DetailedTextures(self.textures), ()),
-            &lamps,
-            (&by_look, Some(lamps.on(None))),
-            |_, finish| finish,
-        )
+        match (self.phong, self.skins.set.is_empty()) {
+            (false, true) => self.draw::<F, Gouraud<F>, Rgb565>(),
+            (false, false) => self.draw::<F, L, T>(),
+            (true, true) => self.draw::<F, Phong<F>, Rgb565>(),
+            (true, false) => self.draw::<F, TexturedPhong<F>, Rgb565>(),
+        }
     }
 
-    /// The same, lit at each pixel.
-    fn by_pixels<F>(&self) -> Result<Drawn, DrawFailure>
+    fn draw<F, L, T>(&self) -> Result<Called, DrawFailure>
     where
-        F: PixelFormat,
-        for<'t> DetailedTextures<'t, HostTexture<'t>>:
-            scanbeam::pipeline::texture::TextureSource<F>,
+        F: Pixel + Sync,
+        L: Look<Pixel = F, Planes: Send> + Sync,
+        T: PixelFormat<Word = u16>,
     {
-        type Plain<'t, F> = Counted<
-            Parts<
-                Phong<Textured<Gouraud, LevelEnds>>,
-                Depth32,
-                F,
-                (),
-                Auto,
-                DetailedTextures<'t, HostTexture<'t>>,
-                (),
-                Lamplight<'t>,
-            >,
-        >;
+        let bad = |error| DrawFailure::View(format!("a texture: {error}"));
+        let texels = Texels16::of::<T>(self.skins.set);
+        let coarser = texels.coarser().map_err(bad)?;
+        let textures = texels.textures(&coarser, self.skins).map_err(bad)?;
         let lamps = self.lamps()?;
-        let setting = Setting::new(self.prepared, self.view)?;
-        // The last is the dark.
-        let shines: Vec<PixelLamps> = self
-            .looks
-            .iter()
-            .map(Some)
-            .chain([None])
-            .map(|looks| PixelLamps::new(&lamps.on(looks), &setting.camera, setting.screen))
-            .collect();
+        let steps = self.steps();
+        let job = self.job(steps.len());
+        let at_pixels = match self.phong {
+            true => self.pixel_lamps(&lamps, &job)?,
+            false => Vec::new(),
+        };
+        let is_lit = self.view.shade != Shade::None;
+        let on = |looks| is_lit.then(|| lamps.on(Some(looks)));
+        let lit = Lit {
+            by_look: self.looks.iter().map(on).collect(),
+            in_dark: lamps.on(None),
+            at_pixels: &at_pixels,
+        };
+        let shadow = ShadowLight {
+            light: LIGHT,
+            direction: lamps.light[0].direction,
+            // The model is within 2 of its middle, so no shadow on it is longer.
+            reach: 2,
+        };
+        draw_parts::<L, F>(&job, steps.len(), |scene, tile, step| match steps[step] {
+            Step::Part(part) => self.part(scene, &lit, &textures, (tile, part, false)),
+            Step::InShadow(part) => self.part(scene, &lit, &textures, (tile, part, true)),
+            Step::Volume(i) => self.shadows[i].draw(scene, &self.setting.instance.model, &shadow),
+        })
+    }
+
+    /// Draws a part of the model on a tile, in its light or as it is in the shadow.
+    fn part<'t, L: Look>(
+        &self,
+        scene: &mut Scene<'_, 't, L>,
+        lit: &Lit<'_, 't>,
+        textures: &'t [Texture<'t>],
+        (tile, number, in_shadow): (&Tile, usize, bool),
+    ) -> Result<(), DrawError> {
+        let chunk: &Chunk = &self.prepared.chunks[number];
+        let look = usize::from(chunk.look);
+        let looks = &self.looks[look];
+        let texture = chunk
+            .texture
+            .and_then(|texture| textures.get(usize::from(texture)));
+        let lights = match in_shadow {
+            true => Some(&lit.in_dark),
+            false => lit.by_look[look].as_ref(),
+        };
+        let mesh = Mesh {
+            colours: if self.phong {
+                &[]
+            } else {
+                chunk.mesh().colours
+            },
+            ..chunk.mesh()
+        };
         let dark = self.looks.len();
-        self.draw::<Shadowed<Plain<'_, F>>, _, _>(
-            (DetailedTextures(self.textures), Lamplight(&shines)),
-            &lamps,
-            (&vec![None; dark], None),
-            |look, finish| LitFinish(finish, look.unwrap_or(dark) as u16),
-        )
+        scene.draw(&Draw {
+            model: self.setting.instance.model,
+            cull: self.setting.instance.cull,
+            colour: looks.colour,
+            lights: lights
+                .filter(|_| !self.phong)
+                .map(|lights| lights as &dyn Lights),
+            lamps: lit
+                .at_pixels
+                .get(tile.number)
+                .map(|lamps| &lamps[if in_shadow { dark } else { look }]),
+            shading: match self.view.shade {
+                Shade::Flat => Shading::Flat,
+                Shade::None | Shade::Gouraud => Shading::Smooth,
+            },
+            texture: texture.map(|texture| Skin {
+                texture,
+                places: &chunk.places,
+                budget: self.skins.budget(),
+            }),
+            blend: (!looks.is_opaque()).then(|| Blend::filter(looks.alpha)),
+            shadow: in_shadow.then_some(Shadow::Shadowed(LIGHT)),
+            dither: self.dither,
+            ..Draw::new(mesh)
+        })
+    }
+
+    fn job(&self, steps: usize) -> Job {
+        let chunks = &self.prepared.chunks;
+        let faces: usize = chunks.iter().map(|chunk| chunk.faces.len()).sum();
+        let vertices: usize = chunks.iter().map(|chunk| chunk.positions.len()).sum();
+        // Those of clipped triangles, and where faces are flat three more for each.
+        let more = if self.view.shade == Shade::Flat {
+            20
+        } else {
+            8
+        };
+        let (mut vertices, mut objects) = (vertices + more * faces + 64, 4 * faces + 64);
+        let casts = !self.shadows.is_empty();
+        if casts {
+            // Each opaque part twice, and volumes of unknown size.
+            (vertices, objects) = (usize::MAX, usize::MAX);
+        }
+        let vertices = vertices.min(1 << 16);
+        Job {
+            size: [self.view.width, self.view.height],
+            most: LARGEST,
+            camera: self.setting.camera,
+            background: self.view.background,
+            renderers: self.renderers,
+            slots: self.slots,
+            shadows: casts,
+            room: Room {
+                vertices,
+                places: if self.skins.set.is_empty() {
+                    0
+                } else {
+                    vertices
+                },
+                objects: objects.min(usize::from(Link::CACHED)),
+                // A volume has two states, and two more where the near plane cuts it.
+                draws: steps + 3 * self.shadows.len(),
+            },
+        }
+    }
+
+    /// What shines on pixels, by the number of a tile and of a look; the last is the dark.
+    fn pixel_lamps(&self, lamps: &Lamps, job: &Job) -> Result<Vec<Vec<PixelLamps>>, DrawFailure> {
+        let on_tile = |tile: Tile| {
+            let (camera, screen) = (tile.camera(job)?, tile.screen()?);
+            let shines = self.looks.iter().map(Some).chain([None]);
+            Ok(shines
+                .map(|looks| PixelLamps::new(&lamps.on(looks), &camera, screen))
+                .collect())
+        };
+        tiles(job).map(on_tile).collect()
     }
 
     /// The light of the view.
@@ -354,65 +434,13 @@ impl Task<'_> {
             diffuse: [level(1.0 - self.view.ambient); 3],
         })
     }
+}
 
-    fn draw<P, S, D>(
-        &self,
-        (textures, lights): (P::Textures, P::Lights),
-        lamps: &Lamps,
-        (by_look, in_dark): (&[Option<Lighting<'_>>], Option<Lighting<'_>>),
-        dress: impl Fn(Option<usize>, Finish) -> D,
-    ) -> Result<Drawn, DrawFailure>
-    where
-        S: Shading,
-        P: Pipeline<Shading = Blended<S>, Textures: Sync>,
-        D: Dress<P>,
-    {
-        let setting = Setting::new(self.prepared, self.view)?;
-        let by_look: Vec<_> = by_look
-            .iter()
-            .map(|light| setting.instance.lit_by(*light))
-            .collect();
-        let in_dark = setting.instance.lit_by(in_dark);
-        let shadow = ShadowLight {
-            light: 0,
-            direction: lamps.light[0].direction,
-            // The model is within 2 of its middle, so no shadow on it is longer.
-            reach: 2,
-        };
-        let steps = self.steps();
-        let build = |scene: &mut Scene<'_, P>, step: usize, alone: bool| {
-            let full = |done: Result<(), DrawError>| done.map_err(ShadowError::Draw);
-            match steps[step] {
-                Step::Part(i) => {
-                    let chunk = &self.prepared.chunks[i];
-                    let look = usize::from(chunk.look);
-                    let finish = dress(Some(look), self.looks[look].finish());
-                    full(chunk.draw(scene, (&by_look[look], &finish), alone))
-                }
-                Step::InShadow(i) => {
-                    let finish = dress(None, Finish::in_shadow(shadow.light));
-                    let chunk = &self.prepared.chunks[i];
-                    full(chunk.draw(scene, (&in_dark, &finish), alone))
-                }
-                Step::Volume(i) => self.shadows[i].draw(scene, &setting.instance.model, &shadow),
-            }
-        };
-        let height = self.view.height as u16;
-        let mut rooms = rooms_for::<P>(self.prepared, height);
-        if !self.shadows.is_empty() {
-            // Each opaque part twice, and volumes of unknown size.
-            rooms = host_support::lent::SceneRooms::new(
-                1 << 16,
-                usize::from(Link::CACHED),
-                height.into(),
-            );
-        }
-        rooms.textures = textures;
-        rooms.lights = lights;
-        draw_scenes::<P>(
-            (Some(self.prepared), &setting, rooms),
-            (self.view, self.crew),
-            (steps.len(), build),
-        )
-    }
+/// The light of a picture on its looks.
+struct Lit<'l, 't> {
+    /// On corners, by the number of a look; `None` where colours are seen as they are.
+    by_look: Vec<Option<Lighting<'l>>>,
+    in_dark: Lighting<'l>,
+    /// On pixels, by the number of a tile and of a look; the last is the dark.
+    at_pixels: &'t [Vec<PixelLamps>],
 }

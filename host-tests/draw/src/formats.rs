@@ -1,11 +1,11 @@
-//! Formats of pixels beside the two common ones: 32 bits, grey, one bit, and dithered.
+//! Formats of pixels beside the two common ones: 32 bits, grey, and one bit.
 
 use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as};
 use crate::choice::PixelFormatArg;
 use host_support::image_out::Frame;
 use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{Counted, FlatDepth, GouraudDepth};
-use scanbeam::pixel::{Dithered, Grey8, PixelFormat, Rgb565Be, Rgb888, Xrgb8888, mono_row};
+use scanbeam::pixel::{Grey8, PixelFormat, Rgb565Be, Rgb888, Xrgb8888, mono_row};
 
 /// Draws a model with the pipeline that the view and the format ask for.
 pub(super) fn draw_in(
@@ -17,8 +17,7 @@ pub(super) fn draw_in(
     match format {
         PixelFormatArg::Rgb888 => shaded::<Rgb888>(prepared, view, crew),
         PixelFormatArg::Rgb565 => shaded::<Rgb565Be>(prepared, view, crew),
-        PixelFormatArg::Dithered565 => shaded::<Dithered<Rgb565Be>>(prepared, view, crew),
-        PixelFormatArg::Dithered888 => shaded::<Dithered<Rgb888>>(prepared, view, crew),
+        PixelFormatArg::Dithered565 => Err(refused("methods can be chosen")),
         PixelFormatArg::Xrgb8888 => shaded::<Xrgb8888>(prepared, view, crew),
         PixelFormatArg::Grey8 => shaded::<Grey8>(prepared, view, crew),
         PixelFormatArg::Mono => {

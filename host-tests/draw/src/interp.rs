@@ -67,10 +67,6 @@ fn smooth<I: Interpolation>(
     match format {
         PixelFormatArg::Rgb888 => draw_as::<By<Rgb888, I>>(prepared, view, crew),
         PixelFormatArg::Rgb565 => draw_as::<By<Rgb565Be, I>>(prepared, view, crew),
-        // Spans are stepped by their planes there whatever the method.
-        PixelFormatArg::Dithered565 | PixelFormatArg::Dithered888 => {
-            super::formats::draw_in(prepared, view, format, crew)
-        }
         _ => Err(super::formats::refused("methods can be chosen")),
     }
 }

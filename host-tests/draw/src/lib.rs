@@ -31,7 +31,6 @@ use host_support::mock::{HostLine, MockError, MockFrameBuffer};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::Link;
-use scanbeam::pipeline::blend::{Compositing, ShadowError};
 use scanbeam::pipeline::{
     DepthUse, FlatDepth, FrameError, FrameStats, GouraudDepth, Pipeline, Quality, Scene, WordOf,
 };
@@ -231,28 +230,9 @@ fn draw_with<P: Pipeline<Textures: Sync>>(
     let mut rooms = rooms_for::<P>(prepared, view.height as u16);
     rooms.textures = textures;
     let build = |scene: &mut Scene<'_, P>, chunk: usize, alone: bool| {
-        let chunk = &prepared.chunks[chunk];
-        let done = chunk.draw(scene, (&setting.instance, &()), alone);
-        done.map_err(ShadowError::Draw)
+        prepared.chunks[chunk].draw(scene, &setting.instance, alone)
     };
     let steps = prepared.chunks.len();
-    draw_scenes::<P>(
-        (Some(prepared), &setting, rooms),
-        (view, crew),
-        (steps, build),
-    )
-}
-
-/// Draws the scenes that `build` makes, step by step; of one prepared model, its triangles are
-/// counted once.
-fn draw_scenes<P: Pipeline<Textures: Sync>>(
-    (prepared, setting, mut rooms): (Option<&Prepared>, &Setting, SceneRooms<P>),
-    (view, crew): (&View, CrewSettings),
-    (steps, build): (
-        usize,
-        impl FnMut(&mut Scene<'_, P>, usize, bool) -> Result<(), ShadowError>,
-    ),
-) -> Result<Drawn, DrawFailure> {
     let (width, height) = (view.width as u16, view.height as u16);
     let links = rooms.objects();
     let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
@@ -273,8 +253,7 @@ fn draw_scenes<P: Pipeline<Textures: Sync>>(
         slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
         Ok(())
     })?;
-    if let Some(prepared) = prepared.filter(|_| bands.count > 1 || P::Compositing::BLENDS) {
-        // Volumes, and what is drawn twice, are none of the model's triangles.
+    if bands.count > 1 {
         setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
     }
     Ok(Drawn {

@@ -26,6 +26,8 @@ pub(crate) struct Job {
     /// At least 1.
     pub(crate) renderers: u16,
     pub(crate) slots: u16,
+    /// Whether there are shadow volumes.
+    pub(crate) shadows: bool,
     /// Memory of a scene.
     pub(crate) room: Room,
 }
@@ -33,6 +35,8 @@ pub(crate) struct Job {
 /// A rectangle of the picture.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tile {
+    /// How many come before it.
+    pub(crate) number: usize,
     /// First column and line.
     pub(crate) first: [u32; 2],
     /// Columns and lines.
@@ -41,13 +45,19 @@ pub(crate) struct Tile {
 
 impl Tile {
     /// The camera that sees it in the middle of its picture.
-    fn camera(&self, job: &Job) -> Result<Camera, DrawFailure> {
+    pub(crate) fn camera(&self, job: &Job) -> Result<Camera, DrawFailure> {
         let shift = |i: usize| {
             let middle = f64::from(self.first[i]) + f64::from(self.size[i]) / 2.0;
             (middle - f64::from(job.size[i]) / 2.0) as f32
         };
         let shifted = job.camera.shifted([shift(0), shift(1)]);
         shifted.map_err(|error| DrawFailure::View(error.to_string()))
+    }
+
+    /// What it is drawn on.
+    pub(crate) fn screen(&self) -> Result<Screen, DrawFailure> {
+        let screen = Screen::new(self.size[0], self.size[1]);
+        screen.map_err(|error| DrawFailure::View(error.to_string()))
     }
 }
 
@@ -63,14 +73,17 @@ fn split(length: u32, most: u16) -> impl Iterator<Item = (u32, u16)> + Clone {
 }
 
 /// The tiles of a picture, row by row.
-fn tiles(job: &Job) -> impl Iterator<Item = Tile> {
+pub(crate) fn tiles(job: &Job) -> impl Iterator<Item = Tile> {
     let columns = split(job.size[0], job.most);
-    split(job.size[1], job.most).flat_map(move |(y, height)| {
-        columns.clone().map(move |(x, width)| Tile {
+    let places = split(job.size[1], job.most)
+        .flat_map(move |(y, height)| columns.clone().map(move |(x, width)| (x, y, width, height)));
+    (0..)
+        .zip(places)
+        .map(|(number, (x, y, width, height))| Tile {
+            number,
             first: [x, y],
             size: [width, height],
         })
-    })
 }
 
 /// Draws a picture of what `step` draws, for each number from 0 to below `steps` once a scene. A line that has more than a
@@ -91,7 +104,10 @@ where
     let mut parts = Parts {
         rgb: vec![0; 3 * width as usize * height as usize],
         used: FrameUse::default(),
-        figures: Figures::default(),
+        figures: Figures {
+            once: true,
+            ..Figures::default()
+        },
         overfull: None,
         steps,
         step,
@@ -130,9 +146,13 @@ impl<S> Parts<S> {
         let [width, height] = tile.size;
         let camera = tile.camera(job)?;
         let mut memory = SceneRooms::new(job.room, height);
-        let mut scene = memory.scene::<L>(Screen::new(width, height).map_err(|e| bad(&e))?);
+        let mut scene = memory.scene::<L>(tile.screen()?);
         let mut lines: Vec<LineRooms<L, WORDS>> = (0..job.renderers)
             .map(|_| LineRooms::new(job.room.objects, width).with_limit(job.slots))
+            .map(|rooms| match job.shadows {
+                true => rooms.with_counts(),
+                false => rooms,
+            })
             .collect();
         let mut crew: Vec<_> = lines.iter_mut().map(LineRooms::renderer).collect();
         let (mut pump, band) = display::<F::Word>(width, height);
@@ -251,6 +271,8 @@ pub(crate) fn add_cache(all: &mut CacheUse, one: &CacheUse) {
 pub struct Figures {
     /// Parts that the picture is put together from.
     pub parts: u32,
+    /// Whether no triangle is drawn more than once in a part.
+    pub once: bool,
     /// Triangles in memory: more than are seen where clipping cuts.
     pub objects: usize,
     /// Vertices in memory.
@@ -277,7 +299,9 @@ impl Figures {
             + scene.lines().len() * size_of::<u16>()
             + job.room.draws * size_of::<DrawState<'_>>();
         let line = usize::from(scene.screen().width());
-        let fast = usize::from(job.slots) * FastMemory::<L, WORDS>::SLOT_BYTES + line * 4;
+        let fast = usize::from(job.slots) * FastMemory::<L, WORDS>::SLOT_BYTES
+            + line * 4
+            + if job.shadows { line } else { 0 };
         let word = size_of::<<L::Pixel as PixelFormat>::Word>();
         self.parts += 1;
         self.objects = self.objects.max(scene.objects());

@@ -4,9 +4,9 @@ use super::TextureSet;
 use host_support::model::Model;
 use scanbeam::light::LightingModel;
 use scanbeam::mesh::Sphere;
-use scanbeam::pipeline::blend::{Blended, ShadowEdge, ShadowError, ShadowLight, ShadowMemory};
 use scanbeam::pipeline::texture::{Quality, Skin};
-use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene, Shading, SkinOf};
+use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene};
+use scanbeam::scene::{ShadowEdge, ShadowLight, ShadowMemory};
 use scanbeam::{Affine, Faces, Mesh};
 use std::collections::HashMap;
 
@@ -18,18 +18,6 @@ pub struct Prepared {
     pub(super) scale: f64,
 }
 
-/// How a part's texture places become what a mesh brings to the pipeline `P`.
-pub(super) trait Dress<P: Pipeline> {
-    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P>;
-}
-
-/// As they are.
-impl<P: Pipeline> Dress<P> for () {
-    fn dress<'a>(&self, skin: Skin<'a>) -> SkinOf<'a, P> {
-        skin.into()
-    }
-}
-
 /// What throws a shadow.
 #[derive(Default)]
 pub(super) struct ShadowMesh {
@@ -39,16 +27,12 @@ pub(super) struct ShadowMesh {
 
 impl ShadowMesh {
     /// Draws its shadow volume.
-    pub(super) fn draw<P, S>(
+    pub(super) fn draw<L>(
         &self,
-        scene: &mut Scene<'_, P>,
+        scene: &mut scanbeam::Scene<'_, '_, L>,
         model: &Affine,
         light: &ShadowLight,
-    ) -> Result<(), ShadowError>
-    where
-        S: Shading,
-        P: Pipeline<Shading = Blended<S>>,
-    {
+    ) -> Result<(), scanbeam::scene::DrawError> {
         let edges = 3 * self.faces.len();
         let memory = ShadowMemory {
             edges: &mut vec![ShadowEdge::default(); edges],
@@ -61,8 +45,13 @@ impl ShadowMesh {
             colours: &[],
             faces: Faces::Triangles(&self.faces),
         };
-        scene.draw_shadow(&mesh, model, light, memory).map(drop)
+        scene.draw_shadow(&mesh, model, light, memory)
     }
+}
+
+/// A colour in 8 bits a channel.
+pub(super) fn colour8(colour: [f64; 3]) -> [u8; 3] {
+    colour.map(|c| (c * 255.0).round() as u8)
 }
 
 /// At most 65,536 vertices and the triangles among them.
@@ -149,9 +138,7 @@ impl Prepared {
                         chunk.places.push([u, v]);
                     }
                     chunk.normals.push(vertex.normal.map(q14));
-                    chunk
-                        .colours
-                        .push(vertex.colour.map(|c| (c * 255.0).round() as u8));
+                    chunk.colours.push(colour8(vertex.colour));
                 }
                 new_index[index]
             });
@@ -249,7 +236,7 @@ impl Chunk {
     pub(super) fn draw<P: Pipeline, L: LightingModel>(
         &self,
         scene: &mut Scene<'_, P>,
-        (instance, dress): (&Instance<L>, &impl Dress<P>),
+        instance: &Instance<L>,
         alone: bool,
     ) -> Result<(), DrawError> {
         if !alone {
@@ -261,7 +248,7 @@ impl Chunk {
             }
             let skin = self.skin(&self.places);
             return scene
-                .draw_skinned(&self.mesh(), dress.dress(skin), instance)
+                .draw_skinned(&self.mesh(), skin.into(), instance)
                 .map(drop);
         }
         for face in &self.faces {
@@ -277,7 +264,7 @@ impl Chunk {
                 Some(_) => self.skin(&places),
                 None => Skin::default(),
             };
-            scene.draw_skinned(&mesh, dress.dress(skin), instance)?;
+            scene.draw_skinned(&mesh, skin.into(), instance)?;
         }
         Ok(())
     }

@@ -193,16 +193,23 @@ pub fn draw_scene_file(
     }
 }
 
+/// The slots of each renderer, where draw calls can have them.
+pub(crate) fn most_slots(crew: CrewSettings) -> Result<u16, DrawFailure> {
+    let bad = |reason: String| Err(DrawFailure::View(reason));
+    if crew.prefetch > 0 {
+        return bad("what is drawn by draw calls fetches nothing ahead".into());
+    }
+    match u16::try_from(crew.slots) {
+        Ok(slots) if slots <= MOST_SLOTS => Ok(slots),
+        _ => bad(format!(
+            "what is drawn by draw calls has at most {MOST_SLOTS} slots"
+        )),
+    }
+}
+
 /// What is drawn, and by whom.
 fn job(parts: &SceneParts<'_>, view: &View, crew: CrewSettings) -> Result<Job, DrawFailure> {
     let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
-    let slots = u16::try_from(crew.slots)
-        .ok()
-        .filter(|&slots| slots <= MOST_SLOTS);
-    let slots = slots.ok_or_else(|| bad(&format!("scenes have at most {MOST_SLOTS} slots")))?;
-    if crew.prefetch > 0 {
-        return Err(bad(&"scenes fetch nothing ahead"));
-    }
     let single = |v: [f64; 3]| v.map(|c| c as f32);
     let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
     let (near, far) = (view.near as f32, view.far as f32);
@@ -214,7 +221,8 @@ fn job(parts: &SceneParts<'_>, view: &View, crew: CrewSettings) -> Result<Job, D
         camera: camera.map_err(|error| bad(&error))?,
         background: view.background,
         renderers: crew.renderers.max(1),
-        slots,
+        slots: most_slots(crew)?,
+        shadows: false,
         room: parts.room(),
     })
 }

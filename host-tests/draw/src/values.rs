@@ -45,8 +45,8 @@ impl Called {
     /// The figures as `render --stats` writes them, by the names that [`Drawn::to_json`](crate::Drawn::to_json) has.
     ///
     /// What draw calls do not count is left out: spans, pixels, depth tests, texels fetched, what was skipped as a
-    /// whole, bytes of slow memory that were moved, and what was fetched ahead; of a picture in several parts, what is
-    /// culled, clipped and kept, since a triangle may be on more than one.
+    /// whole, bytes of slow memory that were moved, and what was fetched ahead; of a picture in several parts or with
+    /// shadows, what is culled, clipped and kept, since a triangle may be drawn more than once.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let (done, cache, sent) = (&self.used.assembled, &self.used.cache, &self.used.scan_out);
@@ -72,7 +72,7 @@ impl Called {
                 "line_bytes": figures.line_bytes,
             },
         });
-        if figures.parts == 1 {
+        if figures.parts == 1 && figures.once {
             all["objects_culled"] = json!(done.culled);
             all["objects_clipped"] = json!(done.clipped);
             all["objects_kept"] = json!(figures.objects);
@@ -88,8 +88,7 @@ impl Called {
 /// Texels have 16 bits whatever the format: the levels of a picture are rounded to 5, 6 and 5 bits.
 ///
 /// A picture that is larger than a scene can be, or shows more than the memory of one holds, is put together from parts.
-/// `None` is for what draw calls do not draw: dithered pixels of 16 and 24 bits, textures in grey and in one bit, and more
-/// than [`MOST_SLOTS`] slots.
+/// `None` is for what draw calls do not draw: textures in grey and in one bit, and more than [`MOST_SLOTS`] slots.
 ///
 /// # Errors
 /// See [`DrawFailure`].
@@ -109,21 +108,23 @@ pub fn draw_by_calls(
         view,
         renderers: renderers.max(1),
         slots,
+        dither: format == PixelFormatArg::Dithered565,
     };
     if let Some(skins) = skins.filter(|skins| !skins.set.is_empty()) {
         return match format {
-            PixelFormatArg::Rgb565 => skinned::<Textured<Rgb565Be>, _, Rgb565Be>(&asked, skins),
+            PixelFormatArg::Rgb565 | PixelFormatArg::Dithered565 => {
+                skinned::<Textured<Rgb565Be>, _, Rgb565Be>(&asked, skins)
+            }
             PixelFormatArg::Rgb888 => skinned::<Textured<Rgb888>, _, Rgb565>(&asked, skins),
             PixelFormatArg::Xrgb8888 => skinned::<Textured<Xrgb8888>, _, Rgb565>(&asked, skins),
             _ => Ok(None),
         };
     }
     let draw = match format {
-        PixelFormatArg::Rgb565 => draw_in::<Gouraud<Rgb565Be>, _>,
+        PixelFormatArg::Rgb565 | PixelFormatArg::Dithered565 => draw_in::<Gouraud<Rgb565Be>, _>,
         PixelFormatArg::Rgb888 => draw_in::<Gouraud<Rgb888>, _>,
         PixelFormatArg::Xrgb8888 => draw_in::<Gouraud<Xrgb8888>, _>,
         PixelFormatArg::Grey8 | PixelFormatArg::Mono => draw_in::<Gouraud<Grey8>, _>,
-        PixelFormatArg::Dithered565 | PixelFormatArg::Dithered888 => return Ok(None),
     };
     let mut called = draw(&asked, &[], Budget::default())?;
     if let (PixelFormatArg::Mono, Some(called)) = (format, &mut called) {
@@ -139,6 +140,7 @@ struct Asked<'a> {
     /// At least 1.
     renderers: u16,
     slots: u16,
+    dither: bool,
 }
 
 /// Draws with textures whose texels are pixels of the format `T`.
@@ -173,6 +175,7 @@ where
         background: view.background,
         renderers: asked.renderers,
         slots: asked.slots,
+        shadows: false,
         room: room(asked, !textures.is_empty()),
     };
     draw_parts::<L, F>(&job, prepared.chunks.len(), |scene, _, number| {
@@ -193,6 +196,7 @@ where
                 places: &chunk.places,
                 budget,
             }),
+            dither: asked.dither,
             ..Draw::new(chunk.mesh())
         })
     })

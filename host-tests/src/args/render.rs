@@ -3,7 +3,7 @@
 use super::picture::{PictureArgs, ShadeArg, parse_number};
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS};
 use crate::choice::{DepthArg, InterpArg, PixelFormatArg};
-use crate::draw::{Effects, FilterArg};
+use crate::draw::{Effects, FilterArg, MOST_SLOTS};
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
@@ -80,8 +80,7 @@ pub struct RenderArgs {
     #[arg(long, value_enum, value_name = "METHOD", default_value_t = DepthArg::Auto)]
     pub depth: DepthArg,
     /// Texture of the whole model, .png or .ppm; without it those of its materials (map_Kd).
-    /// Its levels are rounded to 5, 6 and 5 bits, unless --interp, --depth, --prefetch, a side over
-    /// 1016 pixels, dither, shadows or materials that shine or are transparent are there too
+    /// Its levels are rounded to 5, 6 and 5 bits, unless --interp, --depth or --prefetch are there too
     #[arg(long, value_name = "FILE")]
     pub texture: Option<PathBuf>,
     /// How texels are taken from textures
@@ -98,7 +97,7 @@ pub struct RenderArgs {
     /// Whether the model throws shadows onto itself
     #[arg(long, value_enum, value_name = "SWITCH", default_value = "off")]
     pub shadows: SwitchArg,
-    /// Whether colours between two steps of the format are mixed by an ordered 4x4 dither
+    /// Whether colours between two steps of rgb565 are mixed by an ordered 4x4 dither
     #[arg(long, value_enum, value_name = "SWITCH", default_value = "off")]
     pub dither: SwitchArg,
     /// How far colours and texture places may be off where the method is auto
@@ -127,7 +126,6 @@ impl RenderArgs {
     pub fn format(&self) -> PixelFormatArg {
         match (self.picture.format, self.dither) {
             (PixelFormatArg::Rgb565, SwitchArg::On) => PixelFormatArg::Dithered565,
-            (PixelFormatArg::Rgb888, SwitchArg::On) => PixelFormatArg::Dithered888,
             (format, _) => format,
         }
     }
@@ -205,8 +203,15 @@ impl RenderArgs {
         self.check_depth()?;
         let common = [PixelFormatArg::Rgb888, PixelFormatArg::Rgb565];
         let is_common = common.contains(&self.picture.format);
-        if self.dither.is_on() && !is_common {
-            return Err("--dither on needs --format rgb888 or rgb565".into());
+        let by_calls = self.dither.is_on() || self.has_effects();
+        let is_usual = self.depth == DepthArg::Auto && self.prefetch == 0;
+        if by_calls && !(is_usual && self.cache <= MOST_SLOTS) {
+            return Err(format!(
+                "--dither on, --specular, --shadows on and --shade phong have no --depth, no --prefetch and at most {MOST_SLOTS} slots"
+            ));
+        }
+        if self.dither.is_on() && self.picture.format != PixelFormatArg::Rgb565 {
+            return Err("--dither on needs --format rgb565".into());
         }
         if self.interp.is_some() && !common.contains(&self.format()) {
             return Err("--interp needs --format rgb888 or rgb565, and --dither off".into());

@@ -315,8 +315,20 @@ fn refusals_say_what_is_wrong() {
     assert_eq!(refusal("--near 5 --far 5"), "error: near must be below far");
     assert_eq!(
         refusal("--dither on --format grey8"),
-        "error: --dither on needs --format rgb888 or rgb565"
+        "error: --dither on needs --format rgb565"
     );
+    for flags in [
+        "--dither on --format rgb565",
+        "--shadows on",
+        "--shade phong",
+    ] {
+        for more in ["--depth z32", "--prefetch 8", "--cache 225"] {
+            assert_eq!(
+                refusal(&format!("{flags} {more}")),
+                "error: --dither on, --specular, --shadows on and --shade phong have no --depth, no --prefetch and at most 224 slots"
+            );
+        }
+    }
     assert_eq!(
         refusal("--format grey8 --interp plane"),
         "error: --interp needs --format rgb888 or rgb565, and --dither off"

@@ -2,7 +2,7 @@
 
 use super::Page;
 use crate::args::PixelFormatArg;
-use crate::draw::{CrewSettings, Effects, FilterArg, TextureSet, draw_effects};
+use crate::draw::{CrewSettings, Effects, FilterArg, Skins, TextureSet, draw_effects};
 use crate::frames::{effect_pictures, values_pictures};
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
@@ -61,13 +61,14 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
             phong,
         };
         let set = TextureSet::default().with_levels(true);
-        let how = (FilterArg::Nearest, Quality::Balanced);
+        let skins = Skins {
+            set: &set,
+            filter: FilterArg::Nearest,
+            quality: Quality::Balanced,
+        };
         let crew = CrewSettings::default();
-        let drawn = draw_effects(&model, &set, how, (&view, format), crew, effects)?;
-        let caption = format!(
-            "`{name}`: {} pixels written",
-            drawn.stats.spans.pixels_shaded
-        );
+        let drawn = draw_effects(&model, skins, (&view, format), crew, effects)?;
+        let caption = format!("`{name}`: {} triangles in memory", drawn.figures.objects);
         page.pictures(&[&drawn.frame], &caption)?;
     }
     page.paragraph(

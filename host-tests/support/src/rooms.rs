@@ -60,6 +60,7 @@ pub struct LineRooms<L: Look, const WORDS: usize = 2> {
     cache: Box<FastMemory<L, WORDS>>,
     links: Vec<Link>,
     depth: Vec<u32>,
+    counts: Vec<u8>,
 }
 
 impl<L: Look, const WORDS: usize> LineRooms<L, WORDS> {
@@ -70,7 +71,15 @@ impl<L: Look, const WORDS: usize> LineRooms<L, WORDS> {
             cache: Box::new(FastMemory::new()),
             links: vec![Link::EMPTY; objects],
             depth: vec![0; width.into()],
+            counts: Vec::new(),
         }
+    }
+
+    /// The same, with counts for shadows.
+    #[must_use]
+    pub fn with_counts(mut self) -> Self {
+        self.counts = vec![0; self.depth.len()];
+        self
     }
 
     /// The same, of which no more than so many slots are used.
@@ -80,13 +89,17 @@ impl<L: Look, const WORDS: usize> LineRooms<L, WORDS> {
         self
     }
 
-    /// A renderer in this memory, for any scene without shadows.
+    /// A renderer in this memory; without counts for any scene without shadows.
     pub fn renderer(&mut self) -> Renderer<'_, L, WORDS> {
-        Renderer::new(LineMemory {
+        let memory = LineMemory {
             cache: &mut self.cache,
             links: &mut self.links,
             depth: &mut self.depth,
-        })
+        };
+        match self.counts.is_empty() {
+            true => Renderer::new(memory),
+            false => Renderer::with_shadows(memory, &mut self.counts),
+        }
     }
 }
 

@@ -7,7 +7,7 @@ pub mod shine;
 pub mod values;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
-use scanbeam::look::{Gouraud, Look, Phong, Textured};
+use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::pixel::{
     Grey8, Index4, Index8, PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888,
 };
@@ -75,7 +75,9 @@ smooth!(
     Textured<Rgb565Le>,
     Textured<Rgb565>,
     Textured<Rgb888>,
-    Textured<Xrgb8888>
+    Textured<Xrgb8888>,
+    TexturedPhong<Rgb565Be>,
+    TexturedPhong<Rgb888>
 );
 
 /// What a scene is lent.
