@@ -1,6 +1,3 @@
 //! Lights beyond the [`Light`](crate::Light) of an instance, at vertices and at pixels.
 
-pub use crate::geometry::{
-    DirectionalLight, Lighting, LightingModel, ListLamps, ListLighting, LitSkin, Phong, PixelLamps,
-};
-pub use crate::shade::{Lamplight, PixelLights};
+pub use crate::geometry::{DirectionalLight, Lighting, LightingModel, PixelLamps};

@@ -2,8 +2,7 @@
 //! there cannot be.
 
 pub use crate::geometry::{
-    Assembled, Colour, Coordinate, Dropped, Material, MatrixRange, QuadSplit, Room, ScreenError,
-    ScreenVertex, Sphere,
+    Assembled, Colour, Coordinate, Dropped, Material, QuadSplit, Room, ScreenError, ScreenVertex,
+    Sphere,
 };
 pub use crate::num::{I2F14, U1F15};
-pub use crate::renderer::Vertices;

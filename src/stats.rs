@@ -221,9 +221,6 @@ pub struct PassOne {
     pub triangles_skipped: u32,
     /// Vertices of these meshes: neither transformed nor lit.
     pub vertices_skipped: u32,
-    /// Triangles, or pieces of clipped ones, that have nothing in what a window keeps (H15). The
-    /// triangles are among the culled.
-    pub outside_window: u32,
 }
 
 /// Adds, up to the maximum.

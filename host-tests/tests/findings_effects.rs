@@ -4,7 +4,7 @@ use crate::common::{Rng, SceneRooms, frame};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::pipeline::blend::{DepthFunction, Finish};
 use scanbeam::pipeline::{
-    BlockFixed, Composited, FlatDepth, FlatPainter, Instance, Pipeline, Scene, Shadowed, Worded,
+    BlockFixed, Composited, FlatDepth, FlatPainter, Instance, Pipeline, Scene, Worded,
 };
 use scanbeam::pixel::Rgb888;
 use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
@@ -198,5 +198,4 @@ fn finishes_see_depth_as_it_is_kept() {
     sees_its_own_depth::<Composited<BlockFixed<Flat>>>(412);
     sees_its_own_depth::<BlockFixed<Composited<Flat>>>(413);
     sees_its_own_depth::<Composited<Worded<Flat>>>(414);
-    sees_its_own_depth::<Shadowed<Flat>>(415);
 }

@@ -9,7 +9,7 @@ use scanbeam::pipeline::texture::{
     Textured, Textures, Words, Wrap,
 };
 use scanbeam::pipeline::{
-    Composited, Depth32, Flat, FrameStats, Instance, Packed8, Parts, TexturedDepth, Windowed,
+    Composited, Depth32, Flat, FrameStats, Instance, Packed8, Parts, TexturedDepth,
 };
 use scanbeam::pixel::Rgb888;
 use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
@@ -217,7 +217,7 @@ fn triangles_have_4096_texels_wherever_they_begin() {
 /// are too wide: each is counted once.
 #[test]
 fn wide_triangles_of_meshes_are_counted_once() {
-    type Wide<'t> = Windowed<Composited<Look<'t, Texture<Words<'t, [u8; 3]>>>>>;
+    type Wide<'t> = Composited<Look<'t, Texture<Words<'t, [u8; 3]>>>>;
     let texels: Vec<_> = (0..8).map(|i| [20 * (i + 1); 3]).collect();
     let textures = [texture::<Wrap>(&texels, 8)];
     let mut positions = Vec::new();

@@ -207,13 +207,16 @@ fn every_pixel_is_lit_by_its_own_normal() {
 struct Wallpaper {
     words: &'static [u16],
     texture: &'static Texture<'static>,
+    /// The levels of a word.
+    levels: fn(u16) -> [u8; 3],
 }
 
 /// The word of a hole.
 const HOLE: u16 = 0x1234;
 
 impl Wallpaper {
-    fn new(rng: &mut Rng) -> Self {
+    /// Of words of `T`.
+    fn new<T: PixelFormat<Word = u16>>(rng: &mut Rng) -> Self {
         let word = |rng: &mut Rng| match rng.below(8) {
             0 => HOLE,
             _ => rng.below(1 << 16) as u16,
@@ -227,12 +230,13 @@ impl Wallpaper {
         Self {
             words,
             texture: Box::leak(Box::new(texture)),
+            levels: T::to_rgb8,
         }
     }
 
     fn texel(&self, x: usize, y: u16) -> (u16, [u8; 3]) {
         let word = self.words[64 * (usize::from(y) % 32) + x % 64];
-        (word, Rgb565::to_rgb8(word))
+        (word, (self.levels)(word))
     }
 
     fn dress(&self, draw: &mut Draw<'_, '_, i32>, facet: &Facet) {
@@ -251,7 +255,7 @@ impl Wallpaper {
 ///
 /// Kills: a colour that the texel is not multiplied with, texels of a run that begin anew at its start, normals of
 /// small triangles taken as shades, lamps that shine on texels that replace.
-fn texels_are_lit<L: Smooth>(seed: u64, off: f64) -> [usize; 3] {
+fn texels_are_lit<L: Smooth, T: PixelFormat<Word = u16>>(seed: u64, off: f64) -> [usize; 3] {
     let mut rng = Rng::new(seed);
     let mut seen = [0; 3];
     for round in 0..400 {
@@ -259,7 +263,7 @@ fn texels_are_lit<L: Smooth>(seed: u64, off: f64) -> [usize; 3] {
         let facet = Facet::slanted(&mut rng, screen, &[1.0]);
         let shine = Shine::new(&mut rng, round % 9);
         let lamps: &'static _ = Box::leak(Box::new(shine.lamps(screen)));
-        let paper = Wallpaper::new(&mut rng);
+        let paper = Wallpaper::new::<T>(&mut rng);
         let application = rng.pick(&[
             Application::Product,
             Application::Replace,
@@ -327,10 +331,9 @@ fn texels_are_lit<L: Smooth>(seed: u64, off: f64) -> [usize; 3] {
 
 #[test]
 fn texels_are_lit_by_their_own_normal() {
-    // What is a hole is so whatever the format: a texel of 16 bits is what light falls on.
     for seen in [
-        texels_are_lit::<TexturedPhong<Rgb888>>(1_805, 1.0),
-        texels_are_lit::<TexturedPhong<Rgb565Be>>(1_806, 4.7),
+        texels_are_lit::<TexturedPhong<Rgb888>, Rgb565>(1_805, 1.0),
+        texels_are_lit::<TexturedPhong<Rgb565Be>, Rgb565Be>(1_806, 4.7),
     ] {
         let [replaced, lit, holes] = seen;
         assert!(

@@ -1,9 +1,9 @@
 //! K9: shadow volumes of meshes in the rooms `scene`, `look` and `frame`, against rays cast in f64, and what is
-//! refused. The worlds, and what rays say of them, are those of `shadows`.
+//! refused. The worlds, and what rays say of them, are those of `shadow_world`.
 
 use crate::common::Rng;
 use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf};
-use crate::shadows::{ADDS, Body, DARK, From, LIT, WHITE, World, camera, many, screen, world};
+use crate::shadow_world::{ADDS, Body, DARK, From, LIT, WHITE, World, camera, many, screen, world};
 use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};

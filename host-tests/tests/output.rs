@@ -1,20 +1,14 @@
 //! What becomes of finished colours: dither on whole frames (H10), and overlays (K14).
 
-use crate::common::Rng;
 use embedded_graphics::mono_font::MonoTextStyle;
 use embedded_graphics::mono_font::ascii::FONT_6X10;
 use embedded_graphics::pixelcolor::Rgb888 as Colour;
 use embedded_graphics::prelude::*;
 use embedded_graphics::text::Text;
 use host_tests::lent::{LineRooms, SceneRooms};
-use host_tests::mock::{HostLine, MockFrameBuffer};
-use scanbeam::overlay::{
-    Canvas, DrawnLines, Ink, LineOverlay, Overlay, Sprite, draw_frame_overlaid,
-    draw_frame_overlaid_changed,
-};
-use scanbeam::pipeline::{Forward, GouraudDepth, Interpolated, Pipeline, WordOf, draw_frame};
+use scanbeam::overlay::{Canvas, DrawnLines, Ink, LineOverlay, Overlay, Sprite};
+use scanbeam::pipeline::{Forward, GouraudDepth, Interpolated, Pipeline, WordOf};
 use scanbeam::pixel::{Dithered, PixelFormat, Pixels, Rgb565, Rgb888};
-use scanbeam::scan_out::{Pump, ShownLines};
 use scenes::{METHOD_HEIGHT, METHOD_WIDTH, build_method, method_screen};
 
 const WIDTH: usize = METHOD_WIDTH as usize;
@@ -73,76 +67,6 @@ fn dithered_frames_are_less_than_a_step_off_and_always_the_same() {
     // Any cache, and lines alone from the last to the first.
     assert_eq!(picture::<Look>(0, 0..HEIGHT), dithered);
     assert_eq!(picture::<Look>(3, (0..HEIGHT).rev()), dithered);
-}
-
-type Smooth = GouraudDepth<Rgb565>;
-
-/// A display of the picture's size, 5 lines a transfer.
-fn display() -> Pump<MockFrameBuffer<u16>> {
-    let sink = MockFrameBuffer::new(METHOD_WIDTH, METHOD_HEIGHT).late_by(2);
-    Pump::new(sink, [HostLine::new(5 * WIDTH), HostLine::new(5 * WIDTH)])
-}
-
-fn bar(x: i16, y: i16) -> Sprite<'static, u16> {
-    Sprite {
-        x,
-        y,
-        width: 9,
-        height: 6,
-        pixels: Pixels::Colour(0xF81F),
-        ink: Ink::Opaque,
-    }
-}
-
-#[test]
-fn a_bar_that_moves_sends_its_lines_alone() {
-    let mut rooms = rooms::<Smooth>();
-    let mut scene = rooms.scene(method_screen());
-    build_method(&mut scene).unwrap();
-    let mut line_rooms = LineRooms::fitting(64, &scene);
-    let mut renderer = line_rooms.renderer();
-    let mut all = display();
-    draw_frame(&scene, &mut renderer, &mut all, 0, 5).unwrap();
-    let bare = all.sink().frame().unwrap();
-    let mut pump = display();
-    let mut hashes = [0; HEIGHT];
-    let mut shown = ShownLines::new(&mut hashes);
-    let mut last: Option<(i16, i16)> = None;
-    let mut rng = Rng::new(0x0E51);
-    for _ in 0..20 {
-        let at = (rng.within(-12, 70) as i16, rng.within(-8, 50) as i16);
-        let sprites = [bar(at.0, at.1)];
-        let mut want = bare.clone();
-        let mut touched = [false; HEIGHT];
-        for (from, paints) in [(Some(at), true), (last, false)] {
-            let Some((left, top)) = from else { continue };
-            for y in top.max(0)..(top + 6).min(HEIGHT as i16) {
-                for x in left.max(0)..(left + 9).min(WIDTH as i16) {
-                    touched[y as usize] = true;
-                    if paints {
-                        want[y as usize * WIDTH + x as usize] = 0xF81F;
-                    }
-                }
-            }
-        }
-        pump.sink_mut().next_frame();
-        let overlay = Overlay::new(&sprites).unwrap();
-        let how = (0, 5);
-        let stats =
-            draw_frame_overlaid_changed(&scene, &mut renderer, &mut pump, how, &mut shown, overlay)
-                .unwrap();
-        let on_display: Option<Vec<u16>> = pump.sink().shown().iter().copied().collect();
-        assert!(on_display.is_some_and(|pixels| pixels == want));
-        if last.is_some() {
-            let sent = HEIGHT - stats.scan_out.lines_unsent as usize;
-            assert!(sent <= touched.iter().filter(|t| **t).count());
-        }
-        let mut whole = display();
-        let overlay = Overlay::new(&sprites).unwrap();
-        draw_frame_overlaid(&scene, &mut renderer, &mut whole, 0, 5, overlay).unwrap();
-        assert_eq!(whole.sink().frame().unwrap(), want);
-        last = Some(at);
-    }
 }
 
 #[test]

@@ -3,16 +3,10 @@
 
 use std::task::Poll;
 
-use crate::common::changes::{
-    self, Lines, Look, Mock, Picture, begun, buffers, camera, change, recovered, some_fault,
-};
-use crate::common::{LineRooms, Rng, SceneRooms};
+use crate::common::Rng;
+use crate::common::changes::{self, Lines, Mock, Picture, buffers, change, recovered, some_fault};
 use host_tests::mock::{HostLine, MockError};
-use scanbeam::pipeline::send::{draw_frame_changed_runs, send_changed_runs};
-use scanbeam::pipeline::{Instance, draw_frame};
-use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
-use scanbeam::{Affine, Screen};
 
 /// The mock, with the windows that were opened.
 struct Recorder {
@@ -73,8 +67,6 @@ fn the_display_is_right_and_sent_what_changed_alone() {
     let (mut arrived, mut failed, mut sent, mut unsent) = (0, 0, 0, 0);
     for round in 0..500 {
         let (width, height) = (1 + rng.below(40) as u16, 1 + rng.below(20) as u16);
-        let mut rooms = SceneRooms::<Look>::new(8, 8, height.into());
-        let scene = begun(&mut rooms, width, height);
         let (columns, lines) = (rng.pick(&[1, 2, 3, 8, 16]), rng.pick(&[1, 1, 2, 5]));
         let mut mock = Mock::new(width, height).late_by(rng.below(4));
         if rng.below(2) == 0 {
@@ -109,7 +101,7 @@ fn the_display_is_right_and_sent_what_changed_alone() {
             }
             pump.sink_mut().mock.next_frame();
             pump.sink_mut().windows.clear();
-            let result = send_changed_runs(&scene, &mut source, &mut pump, band, &mut shown);
+            let result = source.send(&mut pump, band, &mut shown);
             for w in &pump.sink().windows {
                 let on_edge = |at: u16, cell: u16, end: u16| at.is_multiple_of(cell) || at == end;
                 assert!(w.x.is_multiple_of(columns) && on_edge(w.x + w.width, columns, width));
@@ -151,8 +143,6 @@ fn the_display_is_right_and_sent_what_changed_alone() {
 #[test]
 fn runs_are_packed_into_rectangles() {
     let (width, height) = (32, 12);
-    let mut rooms = SceneRooms::<Look>::new(8, 8, height.into());
-    let scene = begun(&mut rooms, width, height);
     let sink = Recorder {
         mock: Mock::new(width, height).late_by(1),
         windows: Vec::new(),
@@ -164,11 +154,11 @@ fn runs_are_packed_into_rectangles() {
     let mut send = |picture: &Picture| {
         pump.sink_mut().mock.next_frame();
         pump.sink_mut().windows.clear();
-        let mut source = Lines {
+        let source = Lines {
             picture,
             fails_at: None,
         };
-        let stats = send_changed_runs(&scene, &mut source, &mut pump, 4, &mut shown).unwrap();
+        let stats = source.send(&mut pump, 4, &mut shown).unwrap();
         let corners = |w: &Window| (w.x, w.y, w.width, w.height);
         let windows: Vec<_> = pump.sink().windows.iter().map(corners).collect();
         (stats, windows)
@@ -219,41 +209,4 @@ fn a_window_that_does_not_begin_at_a_cell_is_refused() {
         assert_eq!(refused, Some(want));
     }
     assert_eq!(pump.sink().windows(), 0);
-}
-
-/// A cube that turns, on any display: as whole frames show it, for a part of their bytes.
-#[test]
-fn a_scene_sends_the_runs_that_move() {
-    let (width, height) = (64, 48);
-    let mut rooms = SceneRooms::<Look>::new(64, 64, height.into());
-    let mut scene = rooms.scene(Screen::new(width, height).unwrap());
-    let mut lines = LineRooms::<Look>::new(8, 64, width.into());
-    let mut renderer = lines.renderer();
-    let words = usize::from(width) * 8;
-    let mut pump = Pump::new(Mock::new(width, height).late_by(1), buffers(words));
-    let mut all = Pump::new(Mock::new(width, height), buffers(words));
-    let mut hashes = vec![0; ShownRuns::words(width, height, 8, 1)];
-    let mut shown = ShownRuns::new(&mut hashes, width, 8, 1);
-    let (mut sent, mut whole) = (0, 0);
-    for turn in 0..10 {
-        scene.begin(&camera()).unwrap();
-        let instance = Instance {
-            model: Affine::rotation_y(turn as f32 * 0.3),
-            ..Instance::default()
-        };
-        scene.draw(&scenes::CUBE, &instance).unwrap();
-        let background = Rgb565Be::from_rgb8([20; 3]);
-        pump.sink_mut().next_frame();
-        let (renderer, shown) = (&mut renderer, &mut shown);
-        let stats =
-            draw_frame_changed_runs(&scene, renderer, &mut pump, background, 8, shown).unwrap();
-        draw_frame(&scene, renderer, &mut all, background, 8).unwrap();
-        assert_eq!(pump.sink().shown(), all.sink().shown(), "turn {turn}");
-        if turn > 0 {
-            sent += stats.scan_out.bytes_sent;
-            whole += all.stats().bytes_sent;
-        }
-    }
-    println!("{sent} of {whole} bytes");
-    assert!(sent * 3 < whole, "{sent} of {whole}");
 }

@@ -15,7 +15,6 @@ use core::ops::Range;
 
 mod colours;
 mod faces;
-mod near_cap;
 mod outcome;
 mod screen;
 
@@ -41,8 +40,6 @@ pub(crate) struct Assembler<'a, 'm, 'k, S: Shading, L> {
     light: Option<L>,
     /// Colour of vertices without one.
     tint: Tint,
-    /// What turns normals for the vertices that keep them.
-    turn: S::Turn,
     /// A piece of the current triangle found no room.
     lost: bool,
     /// Triangles have to be asked whether they can have their texture.
@@ -96,7 +93,6 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             cull: looks.cull,
             light,
             tint: Tint::new(looks.colour, scale),
-            turn: S::turn(model, &camera.view),
             lost: false,
             wide: S::may_be_plain(&skin),
             plain: false,
@@ -106,16 +102,15 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         }
     }
 
-    /// Takes a mesh; `file` keeps an object that is first seen on a line of guard space, with its
-    /// vertices, and says as how many objects, or that it has no room for it. Indices that are known to be below a number are not looked at
-    /// where there are as many vertices.
+    /// Takes a mesh; `file` keeps an object that is first seen on a line of guard space, or says that it has no room for
+    /// it. Indices that are known to be below a number are not looked at where there are as many vertices.
     ///
     /// # Errors
     /// When the mesh contradicts itself; then nothing of it has been kept.
     pub(crate) fn mesh<C: Coordinate>(
         mut self,
         (mesh, below): (&Mesh<'_, C>, usize),
-        mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+        mut file: impl FnMut(Object<S::Face>, i32) -> Option<()>,
     ) -> Result<Assembled, MeshError> {
         check_known(mesh, below)?;
         if !S::fits(&self.skin, mesh.positions.len()) {
@@ -129,12 +124,6 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             let vertices = self.vertices.as_mut_slice().get_mut(base..);
             for (i, vertex) in vertices.unwrap_or_default().iter_mut().enumerate() {
                 S::dress(&mut vertex.attribute, &self.skin, i);
-            }
-        }
-        if S::NORMALS && shared {
-            let vertices = self.vertices.as_mut_slice().get_mut(base..);
-            for (vertex, &normal) in vertices.unwrap_or_default().iter_mut().zip(mesh.normals) {
-                S::set_normal(&mut vertex.attribute, &self.turn, normal);
             }
         }
         self.done.triangles = triangles(mesh.faces);
@@ -227,11 +216,10 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         faces: &[[u16; 3]],
         from: usize,
         base: usize,
-        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> Option<()>,
     ) -> usize {
-        let all = self.vertices.as_slice();
-        let vertices = all.get(base..).unwrap_or_default();
-        let (mut kept, mut seen) = (0, 0);
+        let vertices = self.vertices.as_slice().get(base..).unwrap_or_default();
+        let mut kept = 0;
         let mut face = from;
         loop {
             let rest = faces.get(face..).unwrap_or_default();
@@ -255,16 +243,15 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
             if let Some(first) = first_of(place, &self.picture) {
                 let index = corners.map(|c| base as u16 + c);
                 let object = Object::new(index, self.face_colour(mesh, corners, corners[0]));
-                let Some(objects) = file(object, first, all) else {
+                if file(object, first).is_none() {
                     break;
-                };
-                kept += objects;
-                seen += u32::from(objects > 0);
+                }
+                kept += 1;
             }
             face += 1;
         }
         self.done.kept += kept;
-        self.done.culled += (face - from) as u32 - seen;
+        self.done.culled += (face - from) as u32 - kept;
         face
     }
 
@@ -275,7 +262,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         mesh: &Mesh<'_, C>,
         face: Face,
         base: Option<usize>,
-        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> Option<()>,
     ) {
         let look = base.map_or(Look::Outside, |base| self.look(base, face.corners));
         match look {
@@ -350,7 +337,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         &mut self,
         mesh: &Mesh<'_, C>,
         face: Face,
-        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> Option<()>,
     ) {
         let corner = face.corners.map(|i| {
             let i = usize::from(i);
@@ -360,9 +347,6 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
                 S::vertex(self.vertex_colour(mesh, i))
             };
             S::dress(&mut attribute, &self.skin, i);
-            if let Some(&normal) = mesh.normals.get(i).filter(|_| S::NORMALS) {
-                S::set_normal(&mut attribute, &self.turn, normal);
-            }
             Corner {
                 point: self.projection.transform(mesh.positions[i]),
                 attribute,
@@ -398,7 +382,7 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         corner: [Corner<S::Vertex>; 3],
         face_colour: S::Face,
         face: u32,
-        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> Option<()>,
     ) {
         let place = corner.map(|c| self.projection.project(c.point));
         let Some(first) = self.first_line(place.map(|p| (p.x, p.y))) else {
@@ -431,12 +415,12 @@ impl<'a, 'm, 'k, S: Shading, L: ModelLight> Assembler<'a, 'm, 'k, S, L> {
         object: Object<S::Face>,
         first: i32,
         face: u32,
-        file: &mut impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+        file: &mut impl FnMut(Object<S::Face>, i32) -> Option<()>,
     ) {
-        match file(object, first, self.vertices.as_slice()) {
-            Some(objects) => {
-                self.done.kept += objects;
-                if self.wide && objects > 0 {
+        match file(object, first) {
+            Some(()) => {
+                self.done.kept += 1;
+                if self.wide {
                     let corners = object.corners(self.vertices.as_slice());
                     let corners = corners.map(|c| c.map(|vertex| &vertex.attribute));
                     self.plain |= corners.is_some_and(|c| S::is_plain(&self.skin, c));

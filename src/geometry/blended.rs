@@ -1,5 +1,5 @@
 //! Surfaces with a finish: what a mesh, a vertex, a face and an active object carry so that
-//! their pixels can be composited (K11, H8, H9, K9).
+//! their pixels can be composited (K11, H8, H9).
 //!
 //! [`Blended`] is a shading around another one, as [`Textured`](super::texturing::Textured) is: what
 //! is not blended has no bytes and no code for it. Alpha is linear on the screen, as colour is.
@@ -8,7 +8,6 @@ use super::colour::{Colour, Scale};
 use super::finish::{Finish, Role};
 use super::shading::{Empty, Shading};
 use super::texturing;
-use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 use core::marker::PhantomData;
 
@@ -95,8 +94,6 @@ pub struct ObjectFinish {
     pub rules: Finish,
     /// When it is drawn.
     pub role: Role,
-    /// Whether it is seen from behind.
-    pub away: bool,
     /// Alpha of the vertices, where they have any; half a step more than levels in units of
     /// 2^-22 of a level.
     alpha: Option<Plane>,
@@ -109,7 +106,6 @@ impl ObjectFinish {
     const OPAQUE: Self = Self {
         rules: Finish::OPAQUE,
         role: Role::Plain,
-        away: false,
         alpha: None,
     };
 
@@ -133,11 +129,10 @@ impl ObjectFinish {
         self.alpha.is_some()
     }
 
-    fn new<F>(face: &BlendedFace<F>, away: bool, alpha: Option<Plane>) -> Self {
+    fn new<F>(face: &BlendedFace<F>, alpha: Option<Plane>) -> Self {
         Self {
             rules: face.finish,
             role: face.finish.role(),
-            away,
             alpha,
         }
     }
@@ -220,36 +215,6 @@ impl<S: Shading> Shading for Blended<S> {
         face.varies = !surface.alphas.is_empty();
     }
 
-    type Turn = S::Turn;
-    const NORMALS: bool = S::NORMALS;
-
-    fn turn(model: &Affine, view: &Affine) -> S::Turn {
-        S::turn(model, view)
-    }
-
-    #[inline]
-    fn set_normal(vertex: &mut Self::Vertex, turn: &S::Turn, normal: [i16; 3]) {
-        S::set_normal(&mut vertex.inner, turn, normal);
-    }
-
-    type Mark = S::Mark;
-
-    #[inline(always)]
-    fn mark(face: &Self::Face) -> S::Mark {
-        S::mark(&face.inner)
-    }
-
-    #[inline(always)]
-    fn set_mark(face: &mut Self::Face, mark: S::Mark) {
-        S::set_mark(&mut face.inner, mark);
-    }
-
-    const COMPOSITED: bool = true;
-
-    fn finished<'a>(surface: Self::Skin<'a>, finish: Finish) -> Self::Skin<'a> {
-        Surface { finish, ..surface }
-    }
-
     #[inline]
     fn finish(face: &Self::Face) -> Option<&Finish> {
         Some(&face.finish)
@@ -270,7 +235,7 @@ impl<S: Shading> Shading for Blended<S> {
         };
         Some(BlendedLevels {
             inner: S::set_up_small(area, corners.map(|c| c.inner), depths, face.inner, scale)?,
-            finish: ObjectFinish::new(&face, area.is_away(), alpha),
+            finish: ObjectFinish::new(&face, alpha),
         })
     }
 
@@ -288,7 +253,7 @@ impl<S: Shading> Shading for Blended<S> {
         };
         Some(BlendedLevels {
             inner: S::set_up(area, corners.map(|c| c.inner), depths, face.inner, scale)?,
-            finish: ObjectFinish::new(&face, area.is_away(), alpha),
+            finish: ObjectFinish::new(&face, alpha),
         })
     }
 
@@ -309,7 +274,7 @@ impl<S: Shading> Shading for Blended<S> {
         });
         BlendedLevels {
             inner: S::weighted(w, corners.map(|c| c.inner), depths, face.inner, scale),
-            finish: ObjectFinish::new(&face, false, alpha),
+            finish: ObjectFinish::new(&face, alpha),
         }
     }
 }

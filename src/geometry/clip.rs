@@ -33,26 +33,6 @@ pub(super) fn near_far<S: Shading>(
     cut::<S>(&polygon, &|p| far - i64::from(p.z), false)
 }
 
-/// Where a triangle goes out through the near plane and where it comes in again, the same points
-/// as [`near_far`] makes; `None` when it does not.
-pub(super) fn near_ends<S: Shading>(
-    triangle: [Corner<S::Vertex>; 3],
-    projection: &Projection,
-) -> Option<[ClipPoint; 2]> {
-    let inside = triangle.map(|c| i64::from(c.point.z) - i64::from(projection.near));
-    let mut ends = [None; 2];
-    for i in 0..3 {
-        let next = (i + 1) % 3;
-        let (this, that) = ((&triangle[i], inside[i]), (&triangle[next], inside[next]));
-        match (inside[i] >= 0, inside[next] >= 0) {
-            (true, false) => ends[0] = Some(between::<S>(this, that, false).point),
-            (false, true) => ends[1] = Some(between::<S>(that, this, false).point),
-            _ => {}
-        }
-    }
-    Some([ends[0]?, ends[1]?])
-}
-
 /// Clips a triangle, already within near and far, at the four sides of the guard band.
 pub(super) fn guard<S: Shading>(
     triangle: [Corner<S::Vertex>; 3],

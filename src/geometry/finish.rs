@@ -1,5 +1,5 @@
-//! What a surface does to the pixels that are there: blend, alpha, depth functions, shadow
-//! (K9, K11, H8, H9, P5).
+//! What a surface does to the pixels that are there: blend, alpha, depth functions
+//! (K11, H8, H9, P5).
 //!
 //! Plain data, kept with a face; what it means is done where pixels are drawn. Of a pipeline that
 //! does not composite no record has any of it.
@@ -94,21 +94,6 @@ impl DepthFunction {
     }
 }
 
-/// What a surface has to do with shadows (K9).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-pub enum Shadow {
-    /// Nothing: it is drawn as it is.
-    #[default]
-    None,
-    /// It bounds the shadow volume of this light, below [`Finish::LIGHTS`]. It is not seen, but
-    /// counted where [`colour_if`](Finish::colour_if) passes: -1 for its front, 1 for its back.
-    Volume(u8),
-    /// It is drawn after the volumes of this light, where the count is 0.
-    Lit(u8),
-    /// It is drawn after the volumes of this light, where the count is not 0 (InvertShadow).
-    Shadowed(u8),
-}
-
 /// What a surface does to the pixels that are there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Finish {
@@ -126,8 +111,6 @@ pub struct Finish {
     pub colour_if: DepthFunction,
     /// Where its depth is written (H9). [`DepthFunction::NEVER`] is DisableZWrite.
     pub depth_if: DepthFunction,
-    /// What it has to do with shadows.
-    pub shadow: Shadow,
 }
 
 const _: () = assert!(size_of::<Finish>() <= 14);
@@ -139,8 +122,6 @@ impl Default for Finish {
 }
 
 impl Finish {
-    /// How many lights can have shadows: 8.
-    pub const LIGHTS: u8 = 8;
     /// All channels.
     pub const RGB: u8 = 7;
     /// Hides what is behind it.
@@ -152,7 +133,6 @@ impl Finish {
         channels: Self::RGB,
         colour_if: DepthFunction::NEARER_OR_EQUAL,
         depth_if: DepthFunction::NEARER_OR_EQUAL,
-        shadow: Shadow::None,
     };
     /// Opaque, but texels of alpha 0 are cut out.
     pub const CUT_OUT: Self = Self {
@@ -189,52 +169,15 @@ impl Finish {
         Self::blended(Blend::Subtract, alpha)
     }
 
-    /// It bounds a shadow volume of a light.
-    #[must_use]
-    pub const fn volume(light: u8) -> Self {
-        Self {
-            colour_if: DepthFunction::NEARER,
-            depth_if: DepthFunction::NEVER,
-            shadow: Shadow::Volume(light),
-            ..Self::OPAQUE
-        }
-    }
-
-    /// What a surface that was drawn looks like where it is in a light's shadow: the same surface
-    /// again, with the colour it has there. On lines without shadow volumes it costs nothing.
-    #[must_use]
-    pub const fn in_shadow(light: u8) -> Self {
-        Self {
-            colour_if: DepthFunction::EQUAL,
-            depth_if: DepthFunction::NEVER,
-            shadow: Shadow::Shadowed(light),
-            ..Self::OPAQUE
-        }
-    }
-
-    /// What a light adds to a surface that was drawn: the same surface again, with the colour it
-    /// has from that light alone, added where it is not in its shadow.
-    #[must_use]
-    pub const fn lit_by(light: u8) -> Self {
-        Self {
-            colour_if: DepthFunction::EQUAL,
-            shadow: Shadow::Lit(light),
-            ..Self::additive(255)
-        }
-    }
-
     /// When it is drawn.
     #[inline]
     #[must_use]
     pub(crate) fn role(&self) -> Role {
-        match (self.shadow, self.blend) {
+        match self.blend {
             _ if *self == Self::OPAQUE => Role::Plain,
-            (Shadow::Volume(light), _) => Role::Volume(light % Self::LIGHTS),
-            (Shadow::Lit(light), _) => Role::Lit(light % Self::LIGHTS),
-            (Shadow::Shadowed(light), _) => Role::Shadowed(light % Self::LIGHTS),
-            (Shadow::None, Blend::Replace) => Role::Opaque,
-            (Shadow::None, Blend::Add | Blend::Subtract) if !self.force_additive => Role::Unsorted,
-            (Shadow::None, _) => Role::Sorted,
+            Blend::Replace => Role::Opaque,
+            Blend::Add | Blend::Subtract if !self.force_additive => Role::Unsorted,
+            _ => Role::Sorted,
         }
     }
 }
@@ -246,12 +189,6 @@ pub enum Role {
     Plain,
     /// With the plain ones, in order of submission, by its own rules.
     Opaque,
-    /// Counted after them for this light.
-    Volume(u8),
-    /// After the volumes of this light, where it is not in shadow.
-    Lit(u8),
-    /// After the volumes of this light, where it is in shadow.
-    Shadowed(u8),
     /// Last, from back to front.
     Sorted,
     /// Last, and the order does not matter among its like.

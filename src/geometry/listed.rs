@@ -2,10 +2,8 @@
 
 use super::bounds::Sphere;
 use super::camera::{Camera, CameraError};
-use super::colour::{Colour, Scale, Tint};
-use super::light::{Light, LightingModel, ModelLight};
-use super::lighting::{DirectionalLight, LampsInModel, Lighting};
-use super::mesh::Coordinate;
+use super::light::Light;
+use super::lighting::DirectionalLight;
 use super::transform::Affine;
 use crate::list::{Bounds, CameraWords, LightWords, Matrix};
 use crate::num::{Block, I2F14, U1F15};
@@ -100,53 +98,6 @@ impl From<LightWords> for DirectionalLight {
         Self {
             direction: l.direction.map(I2F14::from_bits),
             colour: l.colour.map(level),
-        }
-    }
-}
-
-/// The lights of a list that may have several: one alone, white and on a matt surface, is lit as
-/// [`Light`] does, bit by bit.
-#[derive(Clone, Copy, Debug)]
-pub enum ListLighting<'a> {
-    /// One.
-    One(Light),
-    /// Several, or coloured, or with highlights.
-    Several(Lighting<'a>),
-}
-
-/// The same in model space.
-#[derive(Clone, Copy, Debug)]
-#[expect(clippy::large_enum_variant, reason = "there is one of it a draw call")]
-pub enum ListLamps {
-    /// One.
-    One(Light),
-    /// Several.
-    Several(LampsInModel),
-}
-
-impl LightingModel for ListLighting<'_> {
-    type InModel = ListLamps;
-
-    fn in_model(&self, model: &Affine, view: &Affine) -> ListLamps {
-        match self {
-            Self::One(light) => ListLamps::One(light.in_model(model, view)),
-            Self::Several(lighting) => ListLamps::Several(lighting.in_model(model, view)),
-        }
-    }
-}
-
-impl ModelLight for ListLamps {
-    #[inline]
-    fn lit<C: Coordinate>(
-        &self,
-        tint: &Tint,
-        scale: &Scale,
-        normal: [i16; 3],
-        place: impl FnOnce() -> [C; 3],
-    ) -> Colour {
-        match self {
-            Self::One(light) => light.lit(tint, scale, normal, place),
-            Self::Several(lamps) => lamps.lit(tint, scale, normal, place),
         }
     }
 }

@@ -3,7 +3,7 @@
 //! `mesh` is what the application hands in; `transform`, `camera` and `light` are where it
 //! stands and how it is lit; `project` takes one vertex to the screen; `clip` mends triangles
 //! that cross the near, far or guard planes; `bounds` asks whether a mesh is outside; `assemble` runs them and culls;
-//! `marks` cut surfaces to windows and rank them; `setup` makes of an
+//! `setup` makes of an
 //! object's corners what drawing needs, once it is reached.
 
 mod assemble;
@@ -16,10 +16,8 @@ mod finish;
 mod light;
 mod lighting;
 mod listed;
-mod marks;
 mod mesh;
 mod object;
-mod phong;
 mod pixel_lamps;
 mod project;
 mod setup;
@@ -38,16 +36,13 @@ pub use bounds::Sphere;
 pub use camera::{Camera, CameraError, Screen, ScreenError};
 pub(crate) use colour::Tint;
 pub use colour::{Colour, Scale};
-pub use finish::{Blend, DepthFunction, Factor, Finish, Role, Shadow};
+pub use finish::{Blend, DepthFunction, Factor, Finish, Role};
 pub(crate) use light::ModelLight;
 pub use light::{Light, LightingModel};
 pub(crate) use lighting::LampsInModel;
 pub use lighting::{DirectionalLight, Lighting, Material};
-pub use listed::{ListLamps, ListLighting, MatrixRange};
-pub use marks::{Clip, Kept, Mark, Marked, Part, Priority};
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
 pub use object::{Filed, Object, SceneVertex};
-pub use phong::{LitSkin, Phong, PhongLevels};
 pub use pixel_lamps::PixelLamps;
 pub(crate) use pixel_lamps::unit_normal;
 pub(crate) use project::Projection;

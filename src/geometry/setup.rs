@@ -4,7 +4,6 @@
 //! cache: the same function of the same corners, so the same bits.
 
 use super::colour::Scale;
-use super::marks::Mark;
 use super::object::{Object, SceneVertex};
 use super::shading::Shading;
 use crate::num::{Edge, GUARD_CENTRE, InverseArea, Plane, SmallArea, column_exact, first_at};
@@ -24,7 +23,7 @@ pub enum Parameters<L> {
 
 /// A triangle, ready to be drawn on any of its lines from the one it was set up for on.
 #[derive(Clone, Copy, Debug)]
-pub struct Drawable<L, M = ()> {
+pub struct Drawable<L> {
     /// The edge from the top to the bottom corner.
     long: Edge,
     /// The edges above and below the middle corner.
@@ -38,8 +37,6 @@ pub struct Drawable<L, M = ()> {
     shallow: bool,
     /// See [`Drawable::range`].
     range: (u16, u16),
-    /// What it carries beside its colours.
-    pub(crate) mark: M,
     /// Depth and colour.
     pub parameters: Parameters<L>,
 }
@@ -56,7 +53,7 @@ enum Sides {
     Divided,
 }
 
-impl<L, M: Mark> Drawable<L, M> {
+impl<L> Drawable<L> {
     /// What an empty slot holds.
     pub const EMPTY: Self = Self {
         long: Edge::NONE,
@@ -66,7 +63,6 @@ impl<L, M: Mark> Drawable<L, M> {
         sides: Sides::Inside,
         shallow: false,
         range: (0, 0),
-        mark: M::NONE,
         parameters: Parameters::Corners,
     };
 
@@ -170,7 +166,7 @@ impl<F: Copy> Object<F> {
         vertices: &[SceneVertex<S::Vertex>],
         scale: &Scale,
         (line, picture, shallow): (i32, &Range<i32>, bool),
-        out: &mut Drawable<S::Levels, S::Mark>,
+        out: &mut Drawable<S::Levels>,
     ) -> bool {
         let Some(corners) = self.corners(vertices) else {
             return false;
@@ -179,7 +175,7 @@ impl<F: Copy> Object<F> {
         let Some(area) = SmallArea::new(place) else {
             return self.set_up_large::<S>(corners, scale, (line, picture), out);
         };
-        if !edges(place, true, line, picture, out) || !out.keep::<S>(&self.face, line) {
+        if !edges(place, true, line, picture, out) {
             return false;
         }
         let (attributes, depths) = (corners.map(|c| c.attribute), corners.map(|c| c.depth));
@@ -215,10 +211,10 @@ impl<F: Copy> Object<F> {
         corners: [&SceneVertex<S::Vertex>; 3],
         scale: &Scale,
         (line, picture): (i32, &Range<i32>),
-        out: &mut Drawable<S::Levels, S::Mark>,
+        out: &mut Drawable<S::Levels>,
     ) -> bool {
         let place = corners.map(|c| (c.x, c.y));
-        if !edges(place, false, line, picture, out) || !out.keep::<S>(&self.face, line) {
+        if !edges(place, false, line, picture, out) {
             return false;
         }
         out.parameters = large::<S>(corners, self.face, scale);
@@ -230,11 +226,7 @@ impl<F: Copy> Object<F> {
     /// Makes the depth of `out`, in which this object was set up without it.
     #[cold]
     #[inline(never)]
-    pub(crate) fn deepen<A, L, M: Mark>(
-        &self,
-        vertices: &[SceneVertex<A>],
-        out: &mut Drawable<L, M>,
-    ) {
+    pub(crate) fn deepen<A, L>(&self, vertices: &[SceneVertex<A>], out: &mut Drawable<L>) {
         let Some(corners) = self.corners(vertices) else {
             return;
         };
@@ -249,18 +241,6 @@ impl<F: Copy> Object<F> {
                 None => exact_plane(place, depths).unwrap_or_default(),
             };
         }
-    }
-}
-
-impl<L, M: Mark> Drawable<L, M> {
-    /// Takes over what a face carries beside its colours; `false` when that ends it above `line`.
-    #[inline(always)]
-    fn keep<S: Shading<Mark = M>>(&mut self, face: &S::Face, line: i32) -> bool {
-        self.mark = S::mark(face);
-        if M::CUTS {
-            self.end = self.end.min(self.mark.kept().bottom);
-        }
-        !M::CUTS || line < i32::from(self.end)
     }
 }
 
@@ -329,12 +309,12 @@ fn sorted(p: [(u16, u16); 3]) -> [(u16, u16); 3] {
 ///
 /// `small` says that no side is longer than 512 units.
 #[inline(always)]
-fn edges<L, M>(
+fn edges<L>(
     p: [(u16, u16); 3],
     small: bool,
     line: i32,
     picture: &Range<i32>,
-    out: &mut Drawable<L, M>,
+    out: &mut Drawable<L>,
 ) -> bool {
     let [top, middle, bottom] = sorted(p);
     let turn = first_at(middle.1);
@@ -370,11 +350,11 @@ fn edges<L, M>(
 /// The edges of a triangle that is large or may reach beside the picture.
 #[cold]
 #[inline(never)]
-fn wide_edges<L, M>(
+fn wide_edges<L>(
     [top, middle, bottom]: [(u16, u16); 3],
     inside: bool,
     left: i32,
-    out: &mut Drawable<L, M>,
+    out: &mut Drawable<L>,
 ) -> bool {
     const LOW: u16 = 8 * (GUARD_CENTRE - 511) as u16;
     const SPAN: u16 = 8 * 1022;

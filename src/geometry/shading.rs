@@ -4,8 +4,6 @@
 
 use super::colour::{Colour, Scale};
 use super::finish::Finish;
-use super::marks::Mark;
-use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 
 /// A record that fresh memory can be filled with at compile time, so that arenas can be statics.
@@ -80,43 +78,10 @@ pub trait Shading {
     /// Gives a face of a mesh its part of the skin.
     fn dress_face(_: &mut Self::Face, _: &Self::Skin<'_>) {}
 
-    /// What turns normals of meshes for the vertices that keep them: `()` where none do.
-    type Turn: Copy;
-    /// Whether vertices keep normals.
-    const NORMALS: bool = false;
-
-    /// By the maps of a mesh to the world and on to the camera.
-    fn turn(model: &Affine, view: &Affine) -> Self::Turn;
-
-    /// Gives a vertex its normal.
-    fn set_normal(_: &mut Self::Vertex, _turn: &Self::Turn, _normal: [i16; 3]) {}
-
-    /// Whether the same triangle may be drawn several times, with other colours where its depth is
-    /// equal: then its depth must not depend on its colours.
-    const COMPOSITED: bool = false;
-
-    /// The skin with what its pixels do to those that are there, where that is kept.
-    fn finished<'a>(skin: Self::Skin<'a>, _: Finish) -> Self::Skin<'a> {
-        skin
-    }
-
     /// What a face does to the pixels that are there, in shadings that say so.
     fn finish(_: &Self::Face) -> Option<&Finish> {
         None
     }
-
-    /// What an object carries beside its colours: `()` where there is nothing.
-    type Mark: Mark;
-
-    /// The mark of a face.
-    #[inline(always)]
-    fn mark(_: &Self::Face) -> Self::Mark {
-        Self::Mark::NONE
-    }
-
-    /// Gives a face its mark.
-    #[inline(always)]
-    fn set_mark(_: &mut Self::Face, _: Self::Mark) {}
 
     /// Sets up an object of at most 64 x 64 pixels; `None` when it is too thin.
     fn set_up_small(
@@ -194,12 +159,6 @@ impl Shading for Flat {
 
     type Skin<'a> = ();
 
-    type Mark = ();
-
-    type Turn = ();
-
-    fn turn(_: &Affine, _: &Affine) {}
-
     #[inline(always)]
     fn set_up_small(
         _: &SmallArea,
@@ -251,12 +210,6 @@ impl Shading for Gouraud {
     }
 
     type Skin<'a> = ();
-
-    type Mark = ();
-
-    type Turn = ();
-
-    fn turn(_: &Affine, _: &Affine) {}
 
     #[inline(always)]
     fn set_up_small(

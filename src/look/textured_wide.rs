@@ -20,7 +20,7 @@ const AT_ONCE: usize = 64;
 
 /// The levels of a texel, rounded to nearest, without a division.
 #[inline(always)]
-pub(super) fn levels(texel: u16) -> [u8; 3] {
+fn levels(texel: u16) -> [u8; 3] {
     let [r, g, b] = [texel >> 11, texel >> 5 & 63, texel & 31];
     [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
 }

@@ -86,13 +86,6 @@ impl InverseArea {
         })
     }
 
-    /// Whether the corners go clockwise on a screen whose lines go down.
-    #[inline]
-    #[must_use]
-    pub const fn is_away(&self) -> bool {
-        !self.negative
-    }
-
     /// The doubled area, in units of 1/64 pixel.
     #[inline]
     #[must_use]

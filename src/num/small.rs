@@ -76,13 +76,6 @@ impl SmallArea {
         })
     }
 
-    /// Whether the corners go clockwise on a screen whose lines go down.
-    #[inline]
-    #[must_use]
-    pub const fn is_away(&self) -> bool {
-        self.recip > 0
-    }
-
     /// The doubled area, in units of 1/64 pixel.
     #[inline]
     #[must_use]

@@ -12,11 +12,7 @@
 //! | [`FlatPainter`] | [`Flat`] | none: drawn in order of submission | any | none is needed |
 //! | [`TexturedDepth`] | [`Gouraud`] times a texture | [`Depth32`] | any | forward |
 //! | [`DetailedDepth`] | [`Gouraud`] times a texture in levels of detail | [`Depth32`] | any | forward |
-//! | [`PhongDepth`] | [`Gouraud`], lit at each pixel | [`Depth32`] | any | pixel by pixel |
 //! | [`Composited`] | as the preset it wraps | | any | surfaces have a finish |
-//! | [`Shadowed`] | as the preset it wraps | [`ShadowDepth32`] | any | and some bound shadows |
-//! | [`Windowed`] | as the preset it wraps | | any | surfaces are cut to windows |
-//! | [`Prioritised`] | as the preset it wraps | none: surfaces have priorities | any | |
 //! | [`Counted`] | as the preset it wraps | | counts spans and pixels | |
 //! | [`BlockFixed`] | as the preset it wraps | [`BlockFixDepth`]: 16 bits | | |
 //! | [`Worded`] | as the preset it wraps | [`DepthAndColour`]: 16 bits, in one word with the pixel | | |
@@ -32,12 +28,9 @@ pub use crate::active::Slot;
 use crate::composite::{
     Blending, Compositing, DetailedTextures, PixelFormat, TextureSource, Textures,
 };
+use crate::geometry::Blended;
 use crate::geometry::texturing::{LevelEnds, Textured};
-use crate::geometry::{Blended, Phong};
-pub use crate::geometry::{
-    Clip, Empty, Filed, Flat, Gouraud, Kept, Mark, Marked, Object, Priority, Scale, SceneVertex,
-    Shading,
-};
+pub use crate::geometry::{Empty, Filed, Flat, Gouraud, Object, Scale, SceneVertex, Shading};
 pub use crate::num::BlockFix16;
 pub use crate::renderer::{
     DepthUse, DrawError, FrameError, FrameStats, Instance, LineMemory, LineRenderer, RendererError,
@@ -47,9 +40,7 @@ pub use crate::shade::{
     Auto, Forward, HalfRate, Interpolation, Levels, Lirp10, Lirp12, Lirp16, LirpPacked, Method,
     Packed8, Packed16, Precision, Quality, QuarterRate,
 };
-use crate::shade::{Lamplight, PixelLights};
 use crate::stats::{SpanCounter, SpanCounts};
-use crate::visible::ShadowDepth32;
 pub use crate::visible::{
     BlockFixDepth, Depth32, DepthAndColour, DepthAndId, DepthCell, LineDepth,
 };
@@ -72,19 +63,16 @@ pub trait Pipeline {
     /// Whether surfaces are composited by their finish: [`Blending`], or `()` where all are
     /// opaque. Shadings that are [`Blended`] have one.
     type Compositing: Compositing;
-    /// What lights pixels: [`Lamplight`], or `()` where light falls on vertices and faces. Shadings
-    /// that are [`Phong`] have normals for it.
-    type Lights: PixelLights;
 }
 
 /// A pipeline by its parts.
 #[derive(Clone, Copy, Debug)]
-pub struct Parts<S, D, F, C = (), I = Packed8, X = (), B = (), L = ()>(
+pub struct Parts<S, D, F, C = (), I = Packed8, X = (), B = ()>(
     PhantomData<(S, D, F, C, I)>,
-    PhantomData<(X, B, L)>,
+    PhantomData<(X, B)>,
 );
 
-impl<S, D, F, C, I, X, B, L> Pipeline for Parts<S, D, F, C, I, X, B, L>
+impl<S, D, F, C, I, X, B> Pipeline for Parts<S, D, F, C, I, X, B>
 where
     S: Shading<Levels: Levels>,
     D: LineDepth,
@@ -93,7 +81,6 @@ where
     I: Interpolation,
     X: TextureSource<F>,
     B: Compositing,
-    L: PixelLights,
 {
     type Shading = S;
     type Depth = D;
@@ -102,7 +89,6 @@ where
     type Interpolation = I;
     type Textures = X;
     type Compositing = B;
-    type Lights = L;
 }
 
 /// Colours linear between vertices, 32-bit depth.
@@ -121,8 +107,6 @@ pub type TexturedDepth<'t, F, T> =
 /// The same with textures in levels of detail.
 pub type DetailedDepth<'t, F, T> =
     Parts<Textured<Gouraud, LevelEnds>, Depth32, F, (), Packed8, DetailedTextures<'t, T>>;
-/// Normals linear between vertices and light at each pixel, 32-bit depth.
-pub type PhongDepth<'l, F> = Parts<Phong<Gouraud>, Depth32, F, (), Packed8, (), (), Lamplight<'l>>;
 /// The pipeline `P`, and surfaces have a finish: some may be transparent.
 pub type Composited<P> = Parts<
     Blended<<P as Pipeline>::Shading>,
@@ -132,10 +116,7 @@ pub type Composited<P> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     Blending,
-    <P as Pipeline>::Lights,
 >;
-/// The pipeline `P`, and surfaces have a finish: some may be transparent, or bound shadows.
-pub type Shadowed<P> = WithDepth<Composited<P>, ShadowDepth32>;
 /// The pipeline `P`, and its spans and pixels are counted.
 pub type Counted<P> = Parts<
     <P as Pipeline>::Shading,
@@ -145,24 +126,6 @@ pub type Counted<P> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,
-    <P as Pipeline>::Lights,
->;
-/// The pipeline `P`, and surfaces can be cut to the inside or outside of a window (H15); see
-/// [`Scene::set_clip`](crate::pipeline::Scene::set_clip).
-pub type Windowed<P> = WithShading<P, Marked<<P as Pipeline>::Shading, Kept>>;
-/// The pipeline `P` without depth: the surface of the highest priority is seen (P1); see
-/// [`Scene::set_priority`](crate::pipeline::Scene::set_priority).
-pub type Prioritised<P> = WithDepth<WithShading<P, Marked<<P as Pipeline>::Shading, Priority>>, ()>;
-/// The pipeline `P`, with the shading `S`.
-pub type WithShading<P, S> = Parts<
-    S,
-    <P as Pipeline>::Depth,
-    <P as Pipeline>::Pixel,
-    <P as Pipeline>::Counter,
-    <P as Pipeline>::Interpolation,
-    <P as Pipeline>::Textures,
-    <P as Pipeline>::Compositing,
-    <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, with 16 bits of block-fix depth (H2).
 pub type BlockFixed<P> = WithDepth<P, BlockFixDepth>;
@@ -179,7 +142,6 @@ pub type WithDepth<P, D> = Parts<
     <P as Pipeline>::Interpolation,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,
-    <P as Pipeline>::Lights,
 >;
 /// The pipeline `P`, with colours by the method `I`.
 pub type Interpolated<P, I> = Parts<
@@ -190,7 +152,6 @@ pub type Interpolated<P, I> = Parts<
     I,
     <P as Pipeline>::Textures,
     <P as Pipeline>::Compositing,
-    <P as Pipeline>::Lights,
 >;
 
 /// The word of a pipeline's pixels.
@@ -207,9 +168,7 @@ pub type ObjectOf<P> = crate::geometry::Object<<<P as Pipeline>::Shading as Shad
 /// The cache slot of a pipeline.
 pub type SlotOf<P> = crate::active::Slot<DrawableOf<P>>;
 /// An object of a pipeline, set up for drawing.
-pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>, MarkOf<P>>;
-/// What an object of a pipeline carries beside its colours.
-pub type MarkOf<P> = <<P as Pipeline>::Shading as Shading>::Mark;
+pub type DrawableOf<P> = crate::geometry::Drawable<LevelsOf<P>>;
 /// What a mesh of a pipeline brings beside its colours.
 pub type SkinOf<'a, P> = <<P as Pipeline>::Shading as Shading>::Skin<'a>;
 /// What an object of a pipeline is coloured by.

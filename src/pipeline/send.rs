@@ -1,7 +1,3 @@
-//! Frames beyond [`draw_frame`](crate::pipeline::draw_frame): of lines that somebody else draws, of what has changed, of
-//! palette indices.
+//! Frames beyond [`draw_frame`](crate::pipeline::draw_frame): of lines that somebody else draws.
 
-pub use crate::renderer::{
-    draw_frame_changed, draw_frame_changed_runs, draw_frame_indexed, send_changed,
-    send_changed_runs, send_frame, send_frame_indexed,
-};
+pub use crate::renderer::send_frame;

@@ -7,10 +7,7 @@ use crate::active::Interleave;
 use crate::composite::PixelFormat;
 use crate::event::{Event, EventSet};
 use crate::pipeline::{Pipeline, WordOf};
-use crate::scan_out::{
-    ErrorType, LineBuf, LineWord, Pump, ScanError, ScanStats, ScanoutDma, ShownLines, ShownRuns,
-    Window,
-};
+use crate::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window};
 use crate::stats::CacheCounts;
 use crate::stats::PassOne;
 use crate::stats::SpanCounts;
@@ -112,52 +109,6 @@ where
     Ok(source.stats(scan_out))
 }
 
-/// Draws all lines of `scene` as [`draw_frame`] does, but sends only those that differ from what
-/// `shown` knows the display to show: see [`send_changed`].
-///
-/// # Errors
-/// Those of [`draw_frame`]; the lines that were reached count as not shown then.
-pub fn draw_frame_changed<P, D>(
-    scene: &Scene<'_, P>,
-    renderer: &mut LineRenderer<'_, P>,
-    pump: &mut Pump<D>,
-    background: WordOf<P>,
-    lines_per_transfer: u16,
-    shown: &mut ShownLines<'_>,
-) -> Result<FrameStats, FrameError<<D as ErrorType>::Error>>
-where
-    P: Pipeline,
-    WordOf<P>: LineWord,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
-{
-    let mut source = Alone::new(scene, renderer, background)?;
-    let scan_out = send_changed(scene, &mut source, pump, lines_per_transfer, shown)?;
-    Ok(source.stats(scan_out))
-}
-
-/// Draws all lines of `scene` as [`draw_frame`] does, but sends only the runs within them that differ
-/// from what `shown` knows the display to show: see [`send_changed_runs`].
-///
-/// # Errors
-/// Those of [`draw_frame`]; the lines that were reached count as not shown then.
-pub fn draw_frame_changed_runs<P, D>(
-    scene: &Scene<'_, P>,
-    renderer: &mut LineRenderer<'_, P>,
-    pump: &mut Pump<D>,
-    background: WordOf<P>,
-    lines_per_transfer: u16,
-    shown: &mut ShownRuns<'_>,
-) -> Result<FrameStats, FrameError<<D as ErrorType>::Error>>
-where
-    P: Pipeline,
-    WordOf<P>: LineWord,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
-{
-    let mut source = Alone::new(scene, renderer, background)?;
-    let scan_out = send_changed_runs(scene, &mut source, pump, lines_per_transfer, shown)?;
-    Ok(source.stats(scan_out))
-}
-
 /// Where the lines of a frame come from: one renderer here, or several anywhere.
 pub trait LineSource<P: Pipeline> {
     /// Writes every pixel of `line` of the picture.
@@ -198,87 +149,8 @@ where
     Ok(pump.stats())
 }
 
-/// Sends the lines of `scene` as [`send_frame`] does, but leaves those out that the display shows
-/// already, in runs or one by one (X4). [`ScanStats`] counts the lines and bytes not sent.
-///
-/// All lines are drawn: only then is it known what they show. The first frame sends all of them,
-/// and so does one of another background but for lines on which there is none. With a
-/// probability of about 2^-32 a line that has changed is not sent: see [`ShownLines`].
-///
-/// # Errors
-/// Those of [`send_frame`]. Whatever was sent or under way in this frame counts as not shown then,
-/// so the next frame sends it; lines further down are still known.
-pub fn send_changed<P, D>(
-    scene: &Scene<'_, P>,
-    source: &mut impl LineSource<P>,
-    pump: &mut Pump<D>,
-    lines_per_transfer: u16,
-    shown: &mut ShownLines<'_>,
-) -> Result<ScanStats, FrameError<<D as ErrorType>::Error>>
-where
-    P: Pipeline,
-    WordOf<P>: LineWord,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
-{
-    let mut end = scene.lines().start;
-    let mut send = || {
-        pump.take_stats();
-        pump.begin_in_parts(window(scene), lines_per_transfer)?;
-        for line in scene.lines() {
-            let pixels = pump.line()?;
-            source.line(line, pixels)?;
-            end = line + 1;
-            if shown.replace(line, pixels) {
-                pump.line_done()?;
-            } else {
-                pump.line_left_out()?;
-            }
-            source.idle(line + 1);
-        }
-        pump.finish()?;
-        Ok(pump.stats())
-    };
-    let sent = send();
-    if sent.is_err() {
-        for line in scene.lines().start..end {
-            shown.forget_line(line);
-        }
-    }
-    sent
-}
-
-/// Sends the lines of `scene` as [`send_frame`] does, but leaves those cells out that the display
-/// shows already (X4). Rectangles begin and end at edges of cells, whose size `shown` sets. [`ScanStats`]
-/// counts the bytes not sent, and the lines of which nothing was.
-///
-/// # Errors
-/// Those of [`send_frame`], and [`ScanError::Misaligned`] when the scene's lines do not begin at the
-/// edge of a cell. What an unfinished frame has reached counts as not shown, so the next sends it.
-pub fn send_changed_runs<P, D>(
-    scene: &Scene<'_, P>,
-    source: &mut impl LineSource<P>,
-    pump: &mut Pump<D>,
-    lines_per_transfer: u16,
-    shown: &mut ShownRuns<'_>,
-) -> Result<ScanStats, FrameError<<D as ErrorType>::Error>>
-where
-    P: Pipeline,
-    WordOf<P>: LineWord,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
-{
-    pump.take_stats();
-    let mut frame = pump.begin_in_runs(window(scene), lines_per_transfer, shown)?;
-    for line in scene.lines() {
-        source.line(line, frame.line()?)?;
-        frame.line_done()?;
-        source.idle(line + 1);
-    }
-    frame.finish()?;
-    Ok(pump.stats())
-}
-
 /// The part of the display that a scene fills.
-pub(super) fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
+fn window<P: Pipeline>(scene: &Scene<'_, P>) -> Window {
     let lines = scene.lines();
     Window {
         x: 0,
@@ -351,10 +223,7 @@ impl FrameStats {
         let spans = &self.spans;
         let seen = [
             (Event::PixelRendered, spans.pixels_shaded > 0),
-            (
-                Event::Clipped,
-                self.pass_one.clipped + self.pass_one.outside_window > 0,
-            ),
+            (Event::Clipped, self.pass_one.clipped > 0),
             (
                 Event::DepthPassed,
                 spans.depth_tests > 0 && spans.pixels_shaded > 0,

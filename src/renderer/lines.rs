@@ -5,12 +5,12 @@ use super::order::{Doubt, Order};
 use super::place::Place;
 use super::scene::Scene;
 use super::spans::Brush;
-use super::transparent::{is_dormant, is_special};
+use super::transparent::is_special;
 use crate::active::{ActiveList, Interleave, Member, Slot, Visitor};
 use crate::composite::{Compositing, PixelFormat};
-use crate::geometry::{Drawable, Mark};
+use crate::geometry::Drawable;
 use crate::link::Link;
-use crate::pipeline::{CellOf, DrawableOf, MarkOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
+use crate::pipeline::{CellOf, DrawableOf, ObjectOf, Pipeline, SlotOf, VertexOf, WordOf};
 use crate::shade::{Interpolation, Quality};
 use crate::span::Span;
 use crate::stats::CacheCounts;
@@ -85,7 +85,7 @@ pub struct LineRenderer<'m, P: Pipeline> {
     interpolation: P::Interpolation,
 }
 
-impl<L, M: Mark> Member for Drawable<L, M> {
+impl<L> Member for Drawable<L> {
     #[inline(always)]
     fn end(&self) -> i32 {
         i32::from(Drawable::end(self))
@@ -245,11 +245,6 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
         if self.list.is_empty() {
             return Ok(false);
         }
-        if MarkOf::<P>::RANKS {
-            pass.draw_ranked(&mut self.list, next, &mut self.spare);
-            self.list.counts.set_ups += pass.brush.reads;
-            return Ok(true);
-        }
         if P::Compositing::BLENDS && (now < *pass.special_end || self.list.has_spilled()) {
             pass.draw_composited(&mut self.list, next, &mut self.spare);
             self.list.counts.set_ups += pass.brush.reads;
@@ -300,7 +295,6 @@ impl<'m, P: Pipeline> LineRenderer<'m, P> {
     pub(super) fn leaves_depth(&mut self) -> bool {
         let apart = self.depth_use == DepthUse::WhereNeeded
             && self.apart.is_calm()
-            && !MarkOf::<P>::RANKS
             && !self.list.has_spilled();
         let leaves = !P::Compositing::BLENDS && (apart || !P::Depth::TESTS);
         self.shallow |= leaves;
@@ -394,30 +388,11 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     /// The pixels of an object on this line, if there are any.
     #[inline(always)]
     pub(super) fn span(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
-        if P::Compositing::BLENDS && is_dormant::<P>(body) {
-            return None;
-        }
-        self.columns(body)
-    }
-
-    /// The same, whatever the object's finish says.
-    #[inline(always)]
-    pub(super) fn columns(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
-        if MarkOf::<P>::CUTS {
-            return self.cut(body);
-        }
         if body.is_inside() {
             let (start, end) = body.inside(self.line);
             return (start < end).then_some((start as usize, end as usize));
         }
         self.clipped(body)
-    }
-
-    /// The same within the part of the picture that the object keeps.
-    fn cut(&self, body: &DrawableOf<P>) -> Option<(usize, usize)> {
-        let ((from, to), kept) = (body.columns(self.line, self.left), body.mark.kept());
-        let columns = (from.max(kept.left.into()), to.min(kept.right.into()));
-        Span::clipped(self.line, columns, self.left, self.pixels.len()).map(|s| (s.start, s.end))
     }
 
     #[cold]

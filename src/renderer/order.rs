@@ -11,7 +11,7 @@
 
 use super::lines::LinePass;
 use crate::active::{ActiveList, Slot};
-use crate::geometry::{Drawable, Mark, Parameters};
+use crate::geometry::{Drawable, Parameters};
 use crate::pipeline::{CellOf, DrawableOf, Pipeline};
 use crate::stats::SpanCounter;
 use crate::visible::{Cover, Covered, DepthCell};
@@ -78,7 +78,7 @@ impl Order {
 }
 
 /// The depth of a triangle that has the same everywhere.
-fn constant<L, M: Mark>(body: &Drawable<L, M>) -> Option<i32> {
+fn constant<L>(body: &Drawable<L>) -> Option<i32> {
     match &body.parameters {
         Parameters::Planes(plane, _) if plane.dx == 0 && plane.dy == 0 => Some(plane.at),
         _ => None,
@@ -86,7 +86,7 @@ fn constant<L, M: Mark>(body: &Drawable<L, M>) -> Option<i32> {
 }
 
 /// Whether the first is in front of the second wherever both are, or they are the same.
-fn is_before<L, M: Mark>(front: &Slot<Drawable<L, M>>, back: &Slot<Drawable<L, M>>) -> bool {
+fn is_before<L>(front: &Slot<Drawable<L>>, back: &Slot<Drawable<L>>) -> bool {
     let (front_range, back_range) = (front.body().range(), back.body().range());
     // What saturates is in front of nothing, and behind nothing.
     if u32::from(front_range.1) >= u32::from(back_range.0) + 2 {

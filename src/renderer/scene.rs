@@ -10,12 +10,11 @@ use crate::active::Buckets;
 use crate::arena::Arena;
 use crate::composite::TextureSource;
 use crate::geometry::{
-    Affine, Assembled, Assembler, Camera, Clip, Coordinate, Cull, LightingModel, Looks, Mark, Mesh,
-    MeshError, Part, Priority, Screen, ScreenMesh, ScreenVertex, Shading, Sphere, Store, Surfaced,
-    on_screen, triangles,
+    Affine, Assembled, Assembler, Camera, Coordinate, Cull, LightingModel, Looks, Mesh, MeshError,
+    Screen, ScreenMesh, ScreenVertex, Shading, Sphere, Store, Surfaced, on_screen, triangles,
 };
 use crate::link::Link;
-use crate::pipeline::{MarkOf, ObjectOf, Pipeline, SkinOf, VertexOf};
+use crate::pipeline::{ObjectOf, Pipeline, SkinOf, VertexOf};
 use crate::stats::PassOne;
 use core::ops::Range;
 
@@ -42,10 +41,6 @@ pub struct Scene<'m, P: Pipeline> {
     lines: Range<u16>,
     pass_one: PassOne,
     textures: P::Textures,
-    lights: P::Lights,
-    /// The marks of what is drawn next.
-    clip: Clip,
-    priority: u8,
     /// Counts changes of the content, so that a renderer notices them.
     generation: u32,
 }
@@ -66,9 +61,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             lines: 0..0,
             pass_one: PassOne::default(),
             textures: P::Textures::default(),
-            lights: P::Lights::default(),
-            clip: Clip::Picture,
-            priority: 0,
             generation: 0,
         }
     }
@@ -112,7 +104,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         self.lines = lines;
         self.camera = Some(*camera);
         self.pass_one = PassOne::default();
-        (self.clip, self.priority) = (Clip::Picture, 0);
         self.generation = self.generation.wrapping_add(1);
         Ok(())
     }
@@ -124,90 +115,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
     /// sides. One that is not there yet is taken to repeat every 8,192 texels.
     pub fn set_textures(&mut self, textures: P::Textures) {
         self.textures = textures;
-    }
-
-    /// Lends the lights that shine on pixels, where the pipeline has such; at first there are none.
-    /// They stay until others are lent.
-    pub fn set_lights(&mut self, lights: P::Lights) {
-        self.lights = lights;
-    }
-
-    /// Cuts what is drawn from now on to the inside or the outside of a window (H15). Pipelines that
-    /// do so, such as [`Windowed`](crate::pipeline::Windowed), have this; for others it does not compile.
-    /// [`begin`](Scene::begin) sets it back to the whole picture.
-    ///
-    /// Spans are cut, and what has nothing in the part that is kept is skipped, and counted in
-    /// [`PassOne::outside_window`]. What is cut to the outside may take up to four objects for a
-    /// triangle. Depth and colour are those of the whole triangle: the pixels that are kept have the same bits with
-    /// flat colours and by [`Forward`](crate::pipeline::Forward). Methods that go along a span from where it
-    /// begins, such as packed ramps, keep their own bound: at most a step of a channel.
-    ///
-    /// ```compile_fail
-    /// use scanbeam::pipeline::{Clip, GouraudDepth};
-    /// use scanbeam::pixel::Rgb565;
-    /// use scanbeam::Scene;
-    ///
-    /// fn cut(scene: &mut Scene<'_, GouraudDepth<Rgb565>>) {
-    ///     scene.set_clip(Clip::Picture);
-    /// }
-    /// # fn main() { cut as fn(&mut Scene<'_, GouraudDepth<Rgb565>>); }
-    /// ```
-    pub fn set_clip(&mut self, clip: Clip) {
-        const {
-            let cuts = <MarkOf<P> as Mark>::CUTS;
-            assert!(
-                cuts,
-                "this pipeline cuts nothing to windows: use `Windowed`"
-            );
-        }
-        self.clip = clip;
-    }
-
-    /// What is drawn now is cut to this.
-    #[must_use]
-    pub fn clip(&self) -> Clip {
-        self.clip
-    }
-
-    /// Gives what is drawn from now on a priority (P1). Pipelines with priorities, such as
-    /// [`Prioritised`](crate::pipeline::Prioritised), have this; for others it does not compile.
-    /// [`begin`](Scene::begin) sets it back to 0.
-    ///
-    /// ```compile_fail
-    /// use scanbeam::pipeline::{GouraudPainter, Priority};
-    /// use scanbeam::pixel::Rgb565;
-    /// use scanbeam::Scene;
-    ///
-    /// fn rank(scene: &mut Scene<'_, GouraudPainter<Rgb565>>) {
-    ///     scene.set_priority(Priority(1));
-    /// }
-    /// # fn main() { rank as fn(&mut Scene<'_, GouraudPainter<Rgb565>>); }
-    /// ```
-    pub fn set_priority(&mut self, priority: Priority) {
-        const {
-            let ranks = <MarkOf<P> as Mark>::RANKS;
-            assert!(ranks, "this pipeline has no priorities: use `Prioritised`");
-        }
-        self.priority = priority.0;
-    }
-
-    /// What is kept of the lines that were begun.
-    #[inline(always)]
-    fn parts(&self) -> <MarkOf<P> as Mark>::Parts {
-        let (left, top) = (self.screen.left(), self.screen.top());
-        let picture = Part {
-            left,
-            top: top + i32::from(self.lines.start),
-            right: left + i32::from(self.screen.width()),
-            bottom: top + i32::from(self.lines.end),
-        };
-        MarkOf::<P>::parts(self.clip, picture, (left, top))
-    }
-
-    /// What is lent.
-    #[inline(always)]
-    pub(super) fn lent(&self) -> (P::Textures, P::Lights) {
-        (self.textures, self.lights)
     }
 
     /// The textures lent.
@@ -253,7 +160,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         instance: &Instance<L>,
     ) -> Result<Assembled, DrawError> {
         self.assemble(instance, skin, |assembler, mut filing| {
-            assembler.mesh(mesh, |object, first, all| filing.file(object, first, all))
+            assembler.mesh(mesh, |object, first| filing.file(object, first))
         })
     }
 
@@ -272,14 +179,10 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         if self.camera.is_none() {
             return Ok(Assembled::default());
         }
-        let parts = self.parts();
         let skin = self.known(skin);
         let mut filing = Filing::<P> {
             objects: &mut self.objects,
             buckets: &mut self.buckets,
-            parts,
-            priority: self.priority,
-            outside: &mut self.pass_one.outside_window,
         };
         let done = on_screen(
             &mut self.store,
@@ -294,7 +197,7 @@ impl<'m, P: Pipeline> Scene<'m, P> {
                 faces: triangles,
                 cull,
             },
-            |object, first, all| filing.file(object, first, all),
+            |object, first| filing.file(object, first),
         );
         self.count(done)
     }
@@ -310,7 +213,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
             Filing<'_, 'm, P>,
         ) -> Result<Assembled, MeshError>,
     ) -> Result<Assembled, DrawError> {
-        let parts = self.parts();
         let skin = self.known(skin);
         let Some(camera) = &self.camera else {
             return Ok(Assembled::default());
@@ -334,9 +236,6 @@ impl<'m, P: Pipeline> Scene<'m, P> {
         let filing = Filing {
             objects: &mut self.objects,
             buckets: &mut self.buckets,
-            parts,
-            priority: self.priority,
-            outside: &mut self.pass_one.outside_window,
         };
         let done = run(assembler, filing);
         self.count(done)

@@ -1,10 +1,10 @@
 //! The pixels of one object on one line: tested, coloured, stored (K8).
 
 use super::scene::Scene;
-use crate::composite::{Compositing, PixelFormat, TextureSource, paint};
-use crate::geometry::{Parameters, Role, Scale, Shading, at_pixel};
+use crate::composite::{PixelFormat, TextureSource, paint};
+use crate::geometry::{Parameters, Scale, at_pixel};
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::{Forward, Interpolation, Levels, PixelLights, Stretch};
+use crate::shade::{Forward, Interpolation, Levels, Stretch};
 use crate::stats::SpanCounter;
 use crate::visible::{DepthRamp, Everywhere, LineDepth, Masked, Named, Placed, Tested, Visible};
 
@@ -12,7 +12,6 @@ use crate::visible::{DepthRamp, Everywhere, LineDepth, Masked, Named, Placed, Te
 pub(super) struct How<P: Pipeline, I> {
     pub(super) interpolation: I,
     pub(super) textures: P::Textures,
-    lights: P::Lights,
 }
 
 impl<P: Pipeline, I: Copy> Clone for How<P, I> {
@@ -28,11 +27,9 @@ impl<P: Pipeline, I> How<P, I> {
     /// By this method, with what the scene has.
     #[inline(always)]
     pub(super) fn new(scene: &Scene<'_, P>, interpolation: I) -> Self {
-        let (textures, lights) = scene.lent();
         Self {
             interpolation,
-            textures,
-            lights,
+            textures: scene.textures(),
         }
     }
 }
@@ -202,19 +199,6 @@ fn colour_placed<P: Pipeline, I: Interpolation>(
     how: How<P, I>,
     visible: &mut impl Visible,
 ) {
-    if P::Lights::SHINE && LevelsOf::<P>::NORMALS {
-        for (pixel, column) in pixels.chunks_mut(1).zip(column..) {
-            let format = (P::Pixel::BITS, P::Pixel::STEPS);
-            let stretch = how.lights.lit(levels, (column, line), format);
-            let how = How {
-                interpolation: Forward,
-                textures: how.textures,
-                lights: how.lights,
-            };
-            colour_stretch::<P, _>(pixel, levels, (column, line), stretch, how, visible);
-        }
-        return;
-    }
     let stretch = levels.stretch(column, line);
     colour_stretch::<P, _>(pixels, levels, (column, line), stretch, how, visible);
 }
@@ -273,11 +257,6 @@ pub(super) fn draw_thin<P: Pipeline>(
     else {
         return 0;
     };
-    // What waits for its shadow is not drawn in the usual way.
-    let finish = P::Shading::finish(&face);
-    if P::Compositing::BLENDS && finish.is_some_and(|f| f.role() != Role::Plain) {
-        return 0;
-    }
     let mut seen = 0;
     let how = How::new(scene, Forward);
     for (i, (pixel, column)) in pixels.chunks_mut(1).zip(column..).enumerate() {

@@ -1,8 +1,7 @@
 //! Lines with surfaces that have a finish: what is transparent is blended over what is opaque
-//! (K11, H8, H9, P5), and shadows are counted in between (K9).
+//! (K11, H8, H9, P5).
 //!
-//! Such a line is drawn in parts, each a walk of the list: first what is opaque, with depth; then
-//! for each light its shadow volumes and what they decide on (see `shadow`); last what is
+//! Such a line is drawn in parts, each a walk of the list: first what is opaque, with depth; last what is
 //! transparent, tested but not kept in depth. Where spans overlap that do not just add, the line is
 //! cut into stretches on which the same spans overlap, and each is drawn from back to front: that
 //! is exact for surfaces that do not cross on the stretch. No memory is lent for it: so many spans
@@ -25,7 +24,7 @@ use crate::geometry::{Finish, Parameters, Role, Shading, at_pixel};
 use crate::pipeline::{DrawableOf, LevelsOf, Pipeline};
 use crate::shade::Levels;
 use crate::stats::SpanCounter;
-use crate::visible::{DepthCell, DepthRamp, LineDepth, MOST, ShadowCount, count_span};
+use crate::visible::{DepthRamp, LineDepth, MOST};
 
 /// When an object is drawn.
 #[inline]
@@ -46,18 +45,7 @@ pub(super) fn is_special<P: Pipeline>(
     object: u16,
     body: &DrawableOf<P>,
 ) -> bool {
-    !matches!(role(scene, object, body), Role::Plain | Role::Shadowed(_))
-}
-
-/// Whether the object waits for shadow volumes. Thin ones are found out where they are drawn.
-#[inline]
-pub(super) fn is_dormant<P: Pipeline>(body: &DrawableOf<P>) -> bool {
-    match &body.parameters {
-        Parameters::Planes(_, levels) => levels
-            .finish()
-            .is_some_and(|f| matches!(f.role, Role::Shadowed(_))),
-        Parameters::Corners => false,
-    }
+    role(scene, object, body) != Role::Plain
 }
 
 /// A part of a line.
@@ -67,21 +55,15 @@ enum Part {
     Painted,
     /// What is opaque; and what else there is.
     Opaque,
-    /// The shadow volumes of a light.
-    Volumes(u8),
-    /// What these decide on.
-    Receivers(u8),
     /// What is transparent, in order of submission.
     Unsorted,
     /// Some of what is transparent.
     Pile,
 }
 
-/// What there is on a line beside plain objects; a bit for each light.
+/// What there is on a line beside plain objects.
 #[derive(Clone, Copy, Debug, Default)]
 struct Found {
-    volumes: u8,
-    receivers: u8,
     sorted: bool,
     unsorted: bool,
 }
@@ -114,31 +96,15 @@ impl<P: Pipeline> Visitor<DrawableOf<P>> for Walk<'_, '_, '_, P> {
             }
             return;
         }
-        let Some(span) = self.pass.columns(body) else {
+        let Some(span) = self.pass.span(body) else {
             return;
         };
-        let casts = |light: u8| self.found.volumes >> light & 1 != 0;
-        let any = ShadowCount::Any;
         match (self.part, role) {
-            (Part::Painted, Role::Opaque | Role::Lit(_) | Role::Sorted | Role::Unsorted)
+            (Part::Painted, Role::Opaque | Role::Sorted | Role::Unsorted)
             | (Part::Opaque, Role::Opaque)
-            | (Part::Unsorted, Role::Unsorted) => self.pass.draw_ruled(object, body, span, any),
-            (Part::Opaque, Role::Volume(light)) => self.found.volumes |= 1 << light,
-            (Part::Opaque, Role::Lit(light) | Role::Shadowed(light)) => {
-                self.found.receivers |= 1 << light;
-            }
+            | (Part::Unsorted, Role::Unsorted) => self.pass.draw_ruled(object, body, span),
             (Part::Opaque, Role::Sorted) => self.found.sorted = true,
             (Part::Opaque, Role::Unsorted) => self.found.unsorted = true,
-            (Part::Volumes(light), Role::Volume(its)) if its == light => {
-                self.pass.count_volume(object, body, span);
-            }
-            (Part::Receivers(light), Role::Lit(its)) if its == light => {
-                self.pass.draw_ruled(object, body, span, ShadowCount::Lit);
-            }
-            (Part::Receivers(light), Role::Shadowed(its)) if its == light && casts(light) => {
-                self.pass
-                    .draw_ruled(object, body, span, ShadowCount::Shadowed);
-            }
             (Part::Pile, Role::Sorted | Role::Unsorted) => {
                 if let Some(pile) = &mut self.pile {
                     pile.add(self.pass.pane((slot, object), body, span));
@@ -172,9 +138,7 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     ) {
         self.begin_together();
         let found = if P::Depth::TESTS {
-            let found = self.walk(list, spare, Part::Opaque, Found::default());
-            self.draw_lights(list, spare, found);
-            found
+            self.walk(list, spare, Part::Opaque, Found::default())
         } else {
             self.walk(list, spare, Part::Painted, Found::default())
         };
@@ -205,27 +169,6 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         };
         list.visit_all(line, spare, &mut walk);
         walk.found
-    }
-
-    /// Counts the shadow volumes of each light, and draws what they decide on.
-    fn draw_lights(
-        &mut self,
-        list: &mut ActiveList<'_, DrawableOf<P>>,
-        spare: &mut DrawableOf<P>,
-        found: Found,
-    ) {
-        for light in 0..Finish::LIGHTS {
-            if found.receivers >> light & 1 == 0 {
-                continue;
-            }
-            for cell in self.cells.iter_mut() {
-                cell.set_count(0);
-            }
-            if found.volumes >> light & 1 != 0 {
-                self.walk(list, spare, Part::Volumes(light), found);
-            }
-            self.walk(list, spare, Part::Receivers(light), found);
-        }
     }
 
     /// Draws what is transparent from back to front.
@@ -311,14 +254,14 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
     ) {
         let span = (usize::from(start), usize::from(end));
         if let Some(slot) = list.slots().get(usize::from(pane.slot)) {
-            self.draw_ruled(pane.object, slot.body(), span, ShadowCount::Any);
+            self.draw_ruled(pane.object, slot.body(), span);
         } else if self
             .brush
             .scene
             .set_up(pane.object, (self.line, false), spare)
         {
             list.counts.misses += 1;
-            self.draw_ruled(pane.object, spare, span, ShadowCount::Any);
+            self.draw_ruled(pane.object, spare, span);
         }
     }
 
@@ -355,7 +298,6 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         object: u16,
         body: &DrawableOf<P>,
         (start, end): (usize, usize),
-        count: ShadowCount,
     ) {
         let (Some(pixels), Some(cells)) = (
             self.pixels.get_mut(start..end),
@@ -375,7 +317,6 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                         cells,
                         depth: DepthRamp::of(plane, column, line),
                         grain,
-                        count,
                     };
                     seen += self.brush.blend(levels, (column, line), pixels, there);
                 }
@@ -390,7 +331,6 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
                             cells,
                             depth: DepthRamp::single(depth),
                             grain,
-                            count,
                         };
                         seen += self.brush.blend(&levels, at, pixels, there);
                     }
@@ -399,42 +339,6 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         }
         let tested = P::Depth::TESTS;
         self.brush.counter.span(seen, all - seen, tested);
-    }
-
-    /// Counts a polygon of a shadow volume where it is in front of what is seen.
-    fn count_volume(&mut self, object: u16, body: &DrawableOf<P>, (start, end): (usize, usize)) {
-        let Some(cells) = self.cells.get_mut(start..end) else {
-            return;
-        };
-        let (column, line) = (self.left + start as i32, self.line);
-        match &body.parameters {
-            Parameters::Planes(plane, levels) => {
-                if let Some(finish) = levels.finish() {
-                    let depth = DepthRamp::of(plane, column, line);
-                    let passes = finish.rules.colour_if;
-                    count_span::<P::Depth>(cells, depth, passes, finish.away);
-                }
-            }
-            Parameters::Corners => {
-                self.brush.reads += 1;
-                let scene = self.brush.scene;
-                let corners = scene
-                    .object(object)
-                    .and_then(|o| o.corners(scene.vertices()));
-                let away = corners.is_some_and(|[a, b, c]| {
-                    let to = |p: u16, q: u16| i64::from(q) - i64::from(p);
-                    to(a.x, b.x) * to(a.y, c.y) > to(a.x, c.x) * to(a.y, b.y)
-                });
-                for (cell, column) in cells.chunks_mut(1).zip(column..) {
-                    if let Some((depth, levels)) = thin::<P>(scene, object, (column, line)) {
-                        if let Some(finish) = levels.finish() {
-                            let passes = finish.rules.colour_if;
-                            count_span::<P::Depth>(cell, DepthRamp::single(depth), passes, away);
-                        }
-                    }
-                }
-            }
-        }
     }
 }
 

@@ -11,7 +11,7 @@ use crate::active::{ActiveList, Visitor};
 use crate::composite::{PixelFormat, paint_words};
 use crate::geometry::Parameters;
 use crate::pipeline::{CellOf, DrawableOf, LevelsOf, Pipeline, WordOf};
-use crate::shade::{Levels, PixelLights};
+use crate::shade::Levels;
 use crate::stats::SpanCounter;
 use crate::visible::{DepthRamp, Everywhere, WordCourse, resolve};
 
@@ -87,8 +87,7 @@ fn draw_words<P: Pipeline>(
     how: How<P, P::Interpolation>,
 ) -> u32 {
     let course = WordCourse::new(depth, pixels.len());
-    let plain = !(P::Pixel::DITHERS || P::Lights::SHINE && LevelsOf::<P>::NORMALS)
-        && levels.texture(at.0, at.1).is_none();
+    let plain = !P::Pixel::DITHERS && levels.texture(at.0, at.1).is_none();
     if let Some(course) = course.filter(|_| plain) {
         let stretch = levels.stretch(at.0, at.1);
         let seen = paint_words::<P::Pixel, _, P::Counter, CellOf<P>>(

@@ -9,8 +9,7 @@ use super::{Draw, DrawError, ORIGIN, Scene, Shading, Skin, TexturePlace, Vertex,
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, ScreenVertex, Tint};
 use crate::num::mul_high_unsigned;
 
-/// How far places may lie from the first column and line of guard space: what the guard band has, from the middle of the
-/// largest picture.
+/// How far places may lie from the picture's middle, in 13.3: what the guard band has.
 const REACH: i32 = 8 * 2047;
 
 /// A corner of a triangle that was set up beforehand, for [`Scene::draw_screen`].

@@ -3,24 +3,21 @@
 //! | file | there |
 //! |---|---|
 //! | `interpolation.rs` | which method takes a span's colours from pixel to pixel |
-//! | `lights.rs` | light at each pixel |
 //! | `quality.rs` | how far a picture may be off, and the method that follows from it |
 
 mod interpolation;
-mod lights;
 mod quality;
 
 pub use interpolation::{
     Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8,
     Packed16, Precision, QuarterRate,
 };
-pub use lights::{Lamplight, PixelLights};
 pub use quality::Quality;
 
 pub mod texture;
 
 use crate::geometry::texturing::{Detail, LevelEnds, SpanPlace, TexturedLevels};
-use crate::geometry::{BlendedLevels, FlatLevels, GouraudLevels, ObjectFinish, PhongLevels};
+use crate::geometry::{BlendedLevels, FlatLevels, GouraudLevels, ObjectFinish};
 
 /// The colours of a span from its first pixel on, steps of the output.
 #[derive(Clone, Copy, Debug)]
@@ -53,15 +50,6 @@ pub trait Levels: Copy {
         None
     }
 
-    /// Whether there are normals.
-    const NORMALS: bool = false;
-
-    /// Which lamps shine on it, and the normal at a pixel: about unit length in Q1.14.
-    #[inline(always)]
-    fn normal(&self, _column: i32, _line: i32) -> Option<(u16, [i16; 3])> {
-        None
-    }
-
     /// How it is composited, where a finish says so.
     #[inline(always)]
     fn finish(&self) -> Option<&ObjectFinish> {
@@ -91,40 +79,9 @@ impl<L: Levels> Levels for BlendedLevels<L> {
         self.inner.detail()
     }
 
-    const NORMALS: bool = L::NORMALS;
-
-    #[inline(always)]
-    fn normal(&self, column: i32, line: i32) -> Option<(u16, [i16; 3])> {
-        self.inner.normal(column, line)
-    }
-
     #[inline(always)]
     fn finish(&self) -> Option<&ObjectFinish> {
         Some(&self.finish)
-    }
-}
-
-impl<L: Levels> Levels for PhongLevels<L> {
-    #[inline(always)]
-    fn stretch(&self, column: i32, line: i32) -> Stretch {
-        self.inner.stretch(column, line)
-    }
-
-    #[inline(always)]
-    fn texture(&self, column: i32, line: i32) -> Option<(u16, SpanPlace)> {
-        self.inner.texture(column, line)
-    }
-
-    #[inline(always)]
-    fn detail(&self) -> &LevelEnds {
-        self.inner.detail()
-    }
-
-    const NORMALS: bool = true;
-
-    #[inline(always)]
-    fn normal(&self, column: i32, line: i32) -> Option<(u16, [i16; 3])> {
-        Some((self.lamps, self.normal(column, line)))
     }
 }
 

@@ -10,16 +10,6 @@ pub trait DepthCell: Copy + Send + Sync + 'static {
 
     /// Keeps a number instead of a depth, where there is room for one; 0 makes the cell farthest.
     fn set_number(&mut self, number: u32);
-
-    /// Shadow polygons in front of what is seen, backs less fronts (K9).
-    #[inline(always)]
-    fn count(&self) -> i32 {
-        0
-    }
-
-    /// Keeps a count of shadow polygons, where they can be counted.
-    #[inline(always)]
-    fn set_count(&mut self, _count: i32) {}
 }
 
 impl DepthCell for u32 {

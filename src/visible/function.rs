@@ -10,21 +10,6 @@ use crate::geometry::DepthFunction;
 /// Most pixels that are asked for in one go.
 pub const MOST: usize = 32;
 
-/// What the count of shadow polygons must be (K9).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShadowCount {
-    /// Anything.
-    Any,
-    /// 0: the light reaches the pixel. What is coloured then is not 0 any more.
-    Lit,
-    /// Not 0.
-    Shadowed,
-}
-
-/// The count of a pixel that has a light's part already: where two faces meet at one depth, such
-/// as at the outline of a mesh, the light is added once.
-const DONE: i32 = i32::MAX;
-
 /// Which pixels pass.
 #[derive(Clone, Copy, Debug)]
 pub struct Rule {
@@ -32,8 +17,6 @@ pub struct Rule {
     pub colour_if: DepthFunction,
     /// Those whose depth is written.
     pub depth_if: DepthFunction,
-    /// Where colour and depth may be written at all.
-    pub count: ShadowCount,
 }
 
 impl Rule {
@@ -51,19 +34,11 @@ impl Rule {
     ) -> u32 {
         let (mut seen, mut next) = (0, ramp.first);
         for (i, cell) in cells.iter_mut().take(MOST).enumerate() {
-            let here = match self.count {
-                ShadowCount::Any => true,
-                ShadowCount::Lit => cell.count() == 0,
-                ShadowCount::Shadowed => cell.count() != 0,
-            };
-            if here && keep >> i & 1 != 0 {
+            if keep >> i & 1 != 0 {
                 let depth = D::rounded(next, grain);
                 let order = D::compare(cell, depth);
                 let passes = self.colour_if.passes(order);
                 seen |= u32::from(passes) << i;
-                if passes && self.count == ShadowCount::Lit {
-                    cell.set_count(DONE);
-                }
                 if self.depth_if.passes(order) {
                     cell.set_number(depth);
                 }
@@ -76,8 +51,8 @@ impl Rule {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Depth32;
     use super::super::functions::FUNCTIONS;
-    use super::super::{Depth32, ShadowCell, ShadowDepth32};
     use super::*;
     use crate::num::random::Rng;
     use std::vec::Vec;
@@ -93,11 +68,8 @@ mod tests {
                 for _ in 0..60 {
                     // Few depths, so that many are equal.
                     let count = 1 + below(32) as usize;
-                    let mut cells: Vec<ShadowCell> = (0..count)
-                        .map(|_| ShadowCell::new(4 * below(6), below(3) as i32 - 1))
-                        .collect();
-                    let mut plain: Vec<u32> = cells.iter().map(DepthCell::number).collect();
-                    let before = cells.clone();
+                    let before: Vec<u32> = (0..count).map(|_| 4 * below(6)).collect();
+                    let mut cells = before.clone();
                     let (depth, step) = (
                         4 * below(6),
                         [0u32, 4, 4u32.wrapping_neg()][below(3) as usize],
@@ -108,40 +80,21 @@ mod tests {
                         below(1 << 24) << below(9)
                     };
                     let ramp = DepthRamp { first: depth, step };
-                    let rule = |count| Rule {
+                    let rule = Rule {
                         colour_if,
                         depth_if,
-                        count,
                     };
-                    let which = [ShadowCount::Any, ShadowCount::Lit, ShadowCount::Shadowed]
-                        [below(3) as usize];
-                    let seen = rule(which).apply::<ShadowDepth32>(&mut cells, ramp, (), keep);
+                    let seen = rule.apply::<Depth32>(&mut cells, ramp, (), keep);
                     for i in 0..count {
                         let new = depth.wrapping_add(step.wrapping_mul(i as u32));
-                        let old = before[i].number();
-                        let count = before[i].count();
-                        let here = keep >> i & 1 == 1
-                            && match which {
-                                ShadowCount::Any => true,
-                                ShadowCount::Lit => count == 0,
-                                ShadowCount::Shadowed => count != 0,
-                            };
+                        let old = before[i];
+                        let here = keep >> i & 1 == 1;
                         assert_eq!(seen >> i & 1 == 1, here && colours(new, old));
                         let expected = if here && writes(new, old) { new } else { old };
-                        assert_eq!(cells[i].number(), expected);
-                        let lit = which == ShadowCount::Lit && seen >> i & 1 == 1;
-                        let expected = if lit { DONE } else { count };
-                        assert_eq!(cells[i].count(), expected);
+                        assert_eq!(cells[i], expected);
                         passed[usize::from(seen >> i & 1 == 1)] += 1;
                     }
                     assert_eq!(seen.checked_shr(count as u32).unwrap_or(0), 0);
-                    // Depth alone, without counts, is the same.
-                    let any = rule(ShadowCount::Any);
-                    let mut same = before.clone();
-                    assert_eq!(
-                        any.apply::<Depth32>(&mut plain, ramp, (), keep),
-                        any.apply::<ShadowDepth32>(&mut same, ramp, (), keep)
-                    );
                 }
             }
         }

@@ -39,8 +39,7 @@ mod values;
 
 pub use contours::{CONTOURED, Contours, LeanContours};
 pub use effects::{
-    Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
-    Numbered, Ranked, Shady, Transparent, by_effect,
+    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Transparent, by_effect,
 };
 pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook, LeanTextured};
 pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
@@ -69,8 +68,8 @@ pub use suite::{
 pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
 pub use textured::textured;
 pub use values::{
-    LeanPhong, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN, VALUES_WIDTH, Values, ValuesError,
-    ValuesMemory, values_screen,
+    LeanIndexed, LeanPhong, LeanPhongTextured, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN,
+    VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,
 };
 
 use scanbeam::mesh::QuadSplit;

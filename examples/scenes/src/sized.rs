@@ -16,16 +16,8 @@ macro_rules! sized {
             "deferred", "Deferred<GouraudDepth>",
                 scanbeam::pipeline::Deferred<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "textured-depth", "TexturedDepth", $crate::LookB;
-            "phong-depth", "PhongDepth",
-                scanbeam::pipeline::PhongDepth<'static, scanbeam::pixel::Rgb565Be>;
-            "windowed", "Windowed<GouraudDepth>",
-                scanbeam::pipeline::Windowed<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
-            "prioritised", "Prioritised<GouraudDepth>",
-                scanbeam::pipeline::Prioritised<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
             "composited", "Composited<GouraudDepth>",
                 scanbeam::pipeline::Composited<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
-            "shadowed", "Shadowed<GouraudDepth>",
-                scanbeam::pipeline::Shadowed<scanbeam::pipeline::GouraudDepth<scanbeam::pixel::Rgb565Be>>;
         }
     };
 }

@@ -264,19 +264,20 @@ impl Task<'_> {
         steps
     }
 
-    /// Draws in the format `F`, with the look `L` where light falls on corners of what is textured; its texels are
+    /// Draws in the format `F`, with the look `L` where light falls on corners of what is textured; texels are
     /// pixels of the format `T`.
     fn by<F, L, T>(&self) -> Result<Called, DrawFailure>
     where
         F: Pixel + Sync,
         L: Look<Pixel = F, Planes: Send> + Sync,
+        TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
         T: PixelFormat<Word = u16>,
     {
         match (self.phong, self.skins.set.is_empty()) {
             (false, true) => self.draw::<F, Gouraud<F>, Rgb565>(),
             (false, false) => self.draw::<F, L, T>(),
             (true, true) => self.draw::<F, Phong<F>, Rgb565>(),
-            (true, false) => self.draw::<F, TexturedPhong<F>, Rgb565>(),
+            (true, false) => self.draw::<F, TexturedPhong<F>, T>(),
         }
     }
 

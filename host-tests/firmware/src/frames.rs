@@ -5,9 +5,8 @@ use crate::lean::{draw_lean, draw_played, draw_values};
 use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
 use core::convert::Infallible;
 use core::task::Poll;
-use scanbeam::light::Lamplight;
 use scanbeam::pipeline::parallel::{Crew, Interleave};
-use scanbeam::pipeline::send::{draw_frame_indexed, send_frame};
+use scanbeam::pipeline::send::send_frame;
 use scanbeam::pipeline::texture::Textures;
 use scanbeam::pipeline::{
     BlockFixed, Deferred, FlatDepth, GouraudDepth, Interpolated, Interpolation, LineMemory,
@@ -17,10 +16,10 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Cropped, DEPTHS, DrawsEffect, DrawsMethod, Dusk, EFFECTS, Grainy, KeepsDepth, LEAN, Lit, LookB,
-    METHODS, Numbered, PLAYED, Played, Ranked, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE,
-    SceneB, Shady, Shot, ShotError, Suite, TEXTURES_B, Transparent, VALUES, VARIANTS, Values,
-    Variant, build_method, by_effect, by_method, method_screen,
+    DEPTHS, DrawsEffect, DrawsMethod, EFFECTS, Grainy, KeepsDepth, LEAN, LookB, METHODS, PLAYED,
+    Played, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, ShotError, Suite,
+    TEXTURES_B, Transparent, VALUES, VARIANTS, Values, Variant, build_method, by_effect, by_method,
+    method_screen,
 };
 
 /// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
@@ -145,7 +144,7 @@ impl Frame {
                     rooms: &mut rooms.effects,
                     pump: &mut pump,
                 };
-                by_effect(index, &mut small).expect("cameras and lights can be made");
+                by_effect(index, &mut small);
             }
             Way::Depth(KeepsDepth::BlockFix) => {
                 let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.block_fix);
@@ -241,61 +240,20 @@ impl DrawsEffect for SmallEffect<'_, '_> {
         &mut self,
         build: impl Fn(&mut Scene<'_, Transparent>) -> Result<(), ShotError>,
     ) {
-        draw_effect::<Transparent>(&mut self.rooms.transparent, (), self.pump, build);
-    }
-
-    fn shady(&mut self, build: impl Fn(&mut Scene<'_, Shady>) -> Result<(), ShotError>) {
-        draw_effect::<Shady>(&mut self.rooms.shady, (), self.pump, build);
-    }
-
-    fn lit<'l>(
-        &mut self,
-        lights: Lamplight<'l>,
-        build: impl Fn(&mut Scene<'_, Lit<'l>>) -> Result<(), ShotError>,
-    ) {
-        // Records are those of lights that live for any time.
-        let rooms = &mut self.rooms.lit;
-        let (mut scene, mut renderer) = rooms.lend::<Lit<'l>>(method_screen(), SLOTS);
-        scene.set_lights(lights);
-        build(&mut scene).expect("the rooms are large enough");
-        draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
-            .expect("the sink cannot fail and the rooms are large enough");
+        draw_effect::<Transparent>(&mut self.rooms.transparent, self.pump, build);
     }
 
     fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
-        draw_effect::<Grainy>(&mut self.rooms.grainy, (), self.pump, build);
-    }
-
-    fn numbered(
-        &mut self,
-        palettes: Dusk,
-        build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
-    ) {
-        let rooms = &mut self.rooms.numbered;
-        let (mut scene, mut renderer) = rooms.lend::<Numbered>(method_screen(), SLOTS);
-        build(&mut scene).expect("the rooms are large enough");
-        let by = (&mut self.rooms.indices[..], palettes);
-        draw_frame_indexed(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER, by)
-            .expect("the sink cannot fail and the rooms are large enough");
-    }
-
-    fn cropped(&mut self, build: impl Fn(&mut Scene<'_, Cropped>) -> Result<(), ShotError>) {
-        draw_effect::<Cropped>(&mut self.rooms.cropped, (), self.pump, build);
-    }
-
-    fn ranked(&mut self, build: impl Fn(&mut Scene<'_, Ranked>) -> Result<(), ShotError>) {
-        draw_effect::<Ranked>(&mut self.rooms.ranked, (), self.pump, build);
+        draw_effect::<Grainy>(&mut self.rooms.grainy, self.pump, build);
     }
 }
 
 fn draw_effect<P: Pipeline<Pixel: PixelFormat<Word = u16>>>(
     rooms: &mut RoomsOf<P>,
-    lights: P::Lights,
     pump: &mut Pump<Emit<'_>>,
     build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
 ) {
     let (mut scene, mut renderer) = rooms.lend::<P>(method_screen(), SLOTS);
-    scene.set_lights(lights);
     build(&mut scene).expect("the rooms are large enough");
     draw_frame(&scene, &mut renderer, pump, 0, LINES_PER_TRANSFER)
         .expect("the sink cannot fail and the rooms are large enough");

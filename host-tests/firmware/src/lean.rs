@@ -12,8 +12,9 @@ use scanbeam::scan_out::{Pump, ScanoutDma};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
     CRATE_INDICES, CRATE_TABLE, HEIGHT, LEAN_DRAWS, LIST_INDICES, LIST_TABLE, LeanContours,
-    LeanLook, LeanPhong, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played,
-    SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, VALUES_SHOWN, Values, ValuesMemory,
+    LeanIndexed, LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS,
+    PLAYED_TEXTURES, Played, SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, VALUES_SHOWN,
+    Values, ValuesMemory,
 };
 
 /// What a scene is lent, in external RAM, and the object cache, in tightly coupled RAM. Links and depth are those
@@ -28,6 +29,8 @@ pub(crate) struct LeanRooms {
     textured: &'static mut [FastMemory<LeanTextured>],
     /// In external RAM, as what is shown: here instructions count.
     lit: &'static mut [FastMemory<LeanPhong>],
+    lit_texels: &'static mut [FastMemory<LeanPhongTextured>],
+    indexed: &'static mut [FastMemory<LeanIndexed>],
     banded: &'static mut [FastMemory<LeanContours>],
     shown: &'static mut [u32],
     teapot: Player<'static, 'static, LeanLook>,
@@ -42,6 +45,8 @@ impl LeanRooms {
         const EMPTY: FastMemory<LeanLook> = FastMemory::new();
         const TEXTURED: FastMemory<LeanTextured> = FastMemory::new();
         const LIT: FastMemory<LeanPhong> = FastMemory::new();
+        const LIT_TEXELS: FastMemory<LeanPhongTextured> = FastMemory::new();
+        const INDEXED: FastMemory<LeanIndexed> = FastMemory::new();
         const BANDED: FastMemory<LeanContours> = FastMemory::new();
         Self {
             vertices: lend!(".slow", Vertex, SUITE_VERTICES, Vertex::EMPTY),
@@ -52,6 +57,8 @@ impl LeanRooms {
             cache: lend!(".fast", FastMemory<LeanLook>, 1, EMPTY),
             textured: lend!(".fast", FastMemory<LeanTextured>, 1, TEXTURED),
             lit: lend!(".slow", FastMemory<LeanPhong>, 1, LIT),
+            lit_texels: lend!(".slow", FastMemory<LeanPhongTextured>, 1, LIT_TEXELS),
+            indexed: lend!(".slow", FastMemory<LeanIndexed>, 1, INDEXED),
             banded: lend!(".slow", FastMemory<LeanContours>, 1, BANDED),
             shown: lend!(".slow", u32, VALUES_SHOWN, 0),
             teapot: Player::new(teapot_memory(), Played::settings()),
@@ -220,6 +227,9 @@ where
     let ([lit], [banded]) = (&mut *lean.lit, &mut *lean.banded) else {
         return;
     };
+    let ([lit_texels], [indexed]) = (&mut *lean.lit_texels, &mut *lean.indexed) else {
+        return;
+    };
     let lent = ValuesMemory {
         vertices: &mut *lean.vertices,
         places: &mut *lean.places,
@@ -231,6 +241,8 @@ where
         smooth,
         textured,
         lit,
+        lit_texels,
+        indexed,
         banded,
     };
     let drawn = values.draw(lent, pump);

@@ -10,10 +10,9 @@ use scanbeam::pipeline::{
 };
 use scanbeam::{Link, Screen};
 use scenes::{
-    BLOCK_TEXELS_B, CACHE_SLOTS_B, Cropped, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy,
-    HEIGHT, Lit, LookB, MOST_SLOTS, Numbered, OBJECTS, OBJECTS_B, Ranked, SHEET_TRIANGLES,
-    SUITE_SLOTS, Shady, Sheet, SheetPipeline, Shot, TEXELS_PANEL, Transparent, VERTICES,
-    VERTICES_B, WIDTH,
+    BLOCK_TEXELS_B, CACHE_SLOTS_B, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy, HEIGHT, LookB,
+    MOST_SLOTS, OBJECTS, OBJECTS_B, SHEET_TRIANGLES, SUITE_SLOTS, Sheet, SheetPipeline, Shot,
+    TEXELS_PANEL, Transparent, VERTICES, VERTICES_B, WIDTH,
 };
 
 /// Slots of the object cache.
@@ -151,14 +150,7 @@ macro_rules! small_rooms_of {
 /// What the pipelines of effects are lent.
 pub(crate) struct EffectRooms {
     pub(crate) transparent: RoomsOf<Transparent>,
-    pub(crate) shady: RoomsOf<Shady>,
-    pub(crate) lit: RoomsOf<Lit<'static>>,
     pub(crate) grainy: RoomsOf<Grainy>,
-    pub(crate) numbered: RoomsOf<Numbered>,
-    /// A line of numbers.
-    pub(crate) indices: &'static mut [u8],
-    pub(crate) cropped: RoomsOf<Cropped>,
-    pub(crate) ranked: RoomsOf<Ranked>,
 }
 
 impl Rooms {
@@ -195,13 +187,7 @@ impl Rooms {
             ),
             effects: EffectRooms {
                 transparent: small_rooms_of!(Transparent),
-                shady: small_rooms_of!(Shady),
-                lit: small_rooms_of!(Lit<'static>),
                 grainy: small_rooms_of!(Grainy),
-                numbered: small_rooms_of!(Numbered),
-                indices: lend!(".slow", u8, EFFECT_WIDTH as usize, 0),
-                cropped: small_rooms_of!(Cropped),
-                ranked: small_rooms_of!(Ranked),
             },
             second: RoomsOf {
                 vertices: &mut [],

@@ -4,14 +4,12 @@ use crate::MethodFrame;
 use host_support::image_out::Frame;
 use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockFrameBuffer};
-use scanbeam::light::Lamplight;
-use scanbeam::pipeline::send::draw_frame_indexed;
 use scanbeam::pipeline::{Pipeline, Scene, WordOf, draw_frame};
-use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::Pump;
 use scenes::{
-    Cropped, DrawsEffect, Dusk, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Lit,
-    Numbered, Ranked, Shady, ShotError, Transparent, by_effect, method_screen,
+    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, ShotError, Transparent,
+    by_effect, method_screen,
 };
 use std::error::Error;
 
@@ -25,14 +23,11 @@ struct Words {
 }
 
 impl Words {
-    fn draw<P: Pipeline>(
-        &mut self,
-        lights: P::Lights,
-        build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
-    ) where
+    fn draw<P: Pipeline>(&mut self, build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>)
+    where
         WordOf<P>: Into<u16>,
     {
-        self.drawn = Some(words::<P>(self.slots, lights, build));
+        self.drawn = Some(words::<P>(self.slots, build));
     }
 }
 
@@ -41,52 +36,22 @@ impl DrawsEffect for Words {
         &mut self,
         build: impl Fn(&mut Scene<'_, Transparent>) -> Result<(), ShotError>,
     ) {
-        self.draw((), build);
-    }
-
-    fn shady(&mut self, build: impl Fn(&mut Scene<'_, Shady>) -> Result<(), ShotError>) {
-        self.draw((), build);
-    }
-
-    fn lit<'l>(
-        &mut self,
-        lights: Lamplight<'l>,
-        build: impl Fn(&mut Scene<'_, Lit<'l>>) -> Result<(), ShotError>,
-    ) {
-        self.draw(lights, build);
+        self.draw(build);
     }
 
     fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
-        self.draw((), build);
-    }
-
-    fn numbered(
-        &mut self,
-        palettes: Dusk,
-        build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
-    ) {
-        self.drawn = Some(expanded(self.slots, palettes, build));
-    }
-
-    fn cropped(&mut self, build: impl Fn(&mut Scene<'_, Cropped>) -> Result<(), ShotError>) {
-        self.draw((), build);
-    }
-
-    fn ranked(&mut self, build: impl Fn(&mut Scene<'_, Ranked>) -> Result<(), ShotError>) {
-        self.draw((), build);
+        self.draw(build);
     }
 }
 
 fn words<P: Pipeline>(
     slots: usize,
-    lights: P::Lights,
     build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
 ) -> Result<Picture, Box<dyn Error>>
 where
     WordOf<P>: Into<u16>,
 {
     let mut lent = SceneRooms::<P>::new(EFFECT_ROOM, EFFECT_ROOM, EFFECT_HEIGHT.into());
-    lent.lights = lights;
     let mut scene = lent.scene(method_screen());
     build(&mut scene).map_err(|error| format!("{error:?}"))?;
     let mut rooms = LineRooms::<P>::fitting(slots, &scene);
@@ -104,36 +69,11 @@ where
     ))
 }
 
-/// Words of the palette of each line.
-fn expanded(
-    slots: usize,
-    palettes: Dusk,
-    build: impl Fn(&mut Scene<'_, Numbered>) -> Result<(), ShotError>,
-) -> Result<Picture, Box<dyn Error>> {
-    let mut lent = SceneRooms::<Numbered>::new(EFFECT_ROOM, EFFECT_ROOM, EFFECT_HEIGHT.into());
-    let mut scene = lent.scene(method_screen());
-    build(&mut scene).map_err(|error| format!("{error:?}"))?;
-    let mut rooms = LineRooms::<Numbered>::fitting(slots, &scene);
-    let mut renderer = rooms.renderer();
-    let mut indices = [0; EFFECT_WIDTH as usize];
-    let sink = MockFrameBuffer::new(EFFECT_WIDTH, EFFECT_HEIGHT);
-    let words = indices.len();
-    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
-    let by = (&mut indices[..], palettes);
-    draw_frame_indexed(&scene, &mut renderer, &mut pump, 0, 1, by)?;
-    let words = pump.sink().frame()?;
-    let rgb = words
-        .iter()
-        .flat_map(|&word| Rgb565Be::to_rgb8(word))
-        .collect();
-    Ok((words, rgb))
-}
-
 /// All of them, by name.
 fn all(slots: usize) -> Result<Vec<(&'static str, Picture)>, Box<dyn Error>> {
     let drawn = EFFECTS.into_iter().enumerate().map(|(index, name)| {
         let mut words = Words { slots, drawn: None };
-        by_effect(index, &mut words).map_err(|error| format!("{error:?}"))?;
+        by_effect(index, &mut words);
         Ok((name, words.drawn.ok_or("nothing was drawn")??))
     });
     drawn.collect()

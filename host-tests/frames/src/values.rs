@@ -88,15 +88,14 @@ impl ScanoutDma for Sent {
 /// # Errors
 /// When it does not fit the memory that it asks for.
 pub fn values_sent(values: Values, slots: u16) -> Result<Sent, Box<dyn Error>> {
-    let (mut smooth, mut textured, mut lit, mut banded) = (
-        Box::new(FastMemory::new()),
-        Box::new(FastMemory::new()),
-        Box::new(FastMemory::new()),
-        Box::new(FastMemory::new()),
-    );
+    let (mut smooth, mut textured) = (Box::new(FastMemory::new()), Box::new(FastMemory::new()));
+    let (mut lit, mut lit_texels) = (Box::new(FastMemory::new()), Box::new(FastMemory::new()));
+    let (mut indexed, mut banded) = (Box::new(FastMemory::new()), Box::new(FastMemory::new()));
     smooth.set_limit(slots);
     textured.set_limit(slots);
     lit.set_limit(slots);
+    lit_texels.set_limit(slots);
+    indexed.set_limit(slots);
     banded.set_limit(slots);
     let lent = ValuesMemory {
         vertices: &mut vec![Vertex::EMPTY; VALUES_ROOM],
@@ -109,6 +108,8 @@ pub fn values_sent(values: Values, slots: u16) -> Result<Sent, Box<dyn Error>> {
         smooth: &mut smooth,
         textured: &mut textured,
         lit: &mut lit,
+        lit_texels: &mut lit_texels,
+        indexed: &mut indexed,
         banded: &mut banded,
     };
     // A transfer of 3 lines at most.

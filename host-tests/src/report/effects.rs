@@ -72,8 +72,7 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         page.pictures(&[&drawn.frame], &caption)?;
     }
     page.paragraph(
-        "Small frames that the firmware draws with the same bits: what is clear, shadows, light at \
-         pixels, dither, a palette for each line, windows, priority without depth.",
+        "Small frames that the firmware draws with the same bits, by presets: what is clear, and dither.",
     );
     for (name, frame) in effect_pictures()? {
         page.pictures(
@@ -82,9 +81,9 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         )?;
     }
     page.paragraph(
-        "The same in the rooms `scene`, `look` and `frame`: light at pixels, a look of one's own, \
-         texels with holes, dither, blends by depth and by priority, sprites, and what a second \
-         frame changed.",
+        "Such frames of draw calls: light at pixels, texels that are lit so, a palette for each line, a look of \
+         one's own, texels with holes, dither, blends by depth and by priority, shadows, sprites, and what a \
+         second frame changed.",
     );
     for (name, frame) in values_pictures()? {
         page.pictures(&[&frame], name.trim_start_matches("values_"))?;

@@ -13,8 +13,6 @@ pub struct SceneRooms<P: Pipeline> {
     buckets: Vec<Link>,
     /// The textures of its scenes.
     pub textures: P::Textures,
-    /// The lights of its scenes that shine on pixels.
-    pub lights: P::Lights,
 }
 
 impl<P: Pipeline> SceneRooms<P> {
@@ -26,7 +24,6 @@ impl<P: Pipeline> SceneRooms<P> {
             objects: vec![ObjectOf::<P>::default(); objects],
             buckets: vec![Link::NONE; buckets],
             textures: P::Textures::default(),
-            lights: P::Lights::default(),
         }
     }
 
@@ -47,7 +44,6 @@ impl<P: Pipeline> SceneRooms<P> {
             },
         );
         scene.set_textures(self.textures);
-        scene.set_lights(self.lights);
         scene
     }
 }

@@ -1,15 +1,10 @@
 //! Displays that are sent what changed alone: pictures that change, lines out of them, sinks that
 //! fail, and what an application does then.
 
-use super::{Rng, SceneRooms};
+use super::Rng;
 use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
-use scanbeam::pipeline::parallel::LineSource;
-use scanbeam::pipeline::{FrameError, GouraudDepth, RendererError, Scene};
-use scanbeam::pixel::Rgb565Be;
-use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanoutDma};
-use scanbeam::{Camera, Screen};
+use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
 
-pub type Look = GouraudDepth<Rgb565Be>;
 pub type Mock = MockFrameBuffer<u16>;
 /// Lines from the top.
 pub type Picture = Vec<Vec<u16>>;
@@ -20,25 +15,50 @@ pub struct Lines<'a> {
     pub fails_at: Option<u16>,
 }
 
-impl LineSource<Look> for Lines<'_> {
-    fn line(&mut self, line: u16, pixels: &mut [u16]) -> Result<(), RendererError> {
-        if self.fails_at == Some(line) {
-            return Err(RendererError::Unowned { line });
-        }
-        pixels.copy_from_slice(&self.picture[usize::from(line)]);
-        Ok(())
+/// Why a picture did not arrive.
+#[derive(Debug)]
+pub enum Failed {
+    Sink(ScanError<MockError>),
+    /// The line was not drawn.
+    Source,
+}
+
+impl From<ScanError<MockError>> for Failed {
+    fn from(error: ScanError<MockError>) -> Self {
+        Self::Sink(error)
     }
 }
 
-pub fn camera() -> Camera {
-    Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 30.0, 0.1, 100.0).unwrap()
-}
-
-/// A scene without objects.
-pub fn begun(rooms: &mut SceneRooms<Look>, width: u16, height: u16) -> Scene<'_, Look> {
-    let mut scene = rooms.scene(Screen::new(width, height).unwrap());
-    scene.begin(&camera()).unwrap();
-    scene
+impl Lines<'_> {
+    /// Sends the runs that changed.
+    pub fn send<D>(
+        &self,
+        pump: &mut Pump<D>,
+        band: u16,
+        shown: &mut ShownRuns<'_>,
+    ) -> Result<ScanStats, Failed>
+    where
+        D: ScanoutDma<Buf = HostLine<u16>> + ErrorType<Error = MockError>,
+    {
+        let window = Window {
+            x: 0,
+            y: 0,
+            width: self.picture[0].len() as u16,
+            height: self.picture.len() as u16,
+        };
+        pump.take_stats();
+        let mut frame = pump.begin_in_runs(window, band, shown)?;
+        for (line, pixels) in (0..).zip(self.picture) {
+            let out = frame.line()?;
+            if self.fails_at == Some(line) {
+                return Err(Failed::Source);
+            }
+            out.copy_from_slice(pixels);
+            frame.line_done()?;
+        }
+        frame.finish()?;
+        Ok(pump.stats())
+    }
 }
 
 pub fn buffers(words: usize) -> [HostLine<u16>; 2] {
@@ -54,16 +74,12 @@ pub fn pump<D: ScanoutDma<Buf = HostLine<u16>>>(sink: D, words: usize) -> Pump<D
 
 /// What an application does after a frame that failed: where a buffer was lost it makes new ones,
 /// for the same display.
-pub fn recovered<D>(
-    pump: Pump<D>,
-    error: &FrameError<<D as ErrorType>::Error>,
-    words: usize,
-) -> Pump<D>
+pub fn recovered<D>(pump: Pump<D>, error: &Failed, words: usize) -> Pump<D>
 where
     D: ScanoutDma<Buf = HostLine<u16>> + ErrorType<Error = MockError>,
 {
     match error {
-        FrameError::ScanOut(ScanError::BufferLost { .. }) => {
+        Failed::Sink(ScanError::BufferLost { .. }) => {
             let (sink, _) = pump.release();
             self::pump(sink, words)
         }

@@ -2,14 +2,10 @@
 
 use crate::common::Rng;
 use host_tests::lists::writer::{FieldPacker, ListWriter};
-use scanbeam::Affine;
 use scanbeam::list::{
     Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat, parameter,
 };
-use scanbeam::mesh::Vertices;
-
-pub const WIDTH: u16 = 96;
-pub const HEIGHT: u16 = 72;
+use scanbeam::{Affine, Faces, Mesh};
 
 pub const PLENTY: Budget = Budget {
     instructions: 1 << 20,
@@ -125,21 +121,22 @@ impl Cloud {
         words
     }
 
-    /// As the immediate calls take them; without colours and normals where the header has none.
-    pub fn plain(&self, shade: bool, format: &VertexFormat) -> Vertices<'_> {
+    /// As a mesh has them, without faces; without colours and normals where the header has none.
+    pub fn plain(&self, shade: bool, format: &VertexFormat) -> Mesh<'_> {
         let has = |p| shade && format.fields().iter().any(|f| f.parameter == p);
-        Vertices {
+        Mesh {
             positions: &self.positions,
             normals: if has(parameter::NORMAL) {
-                &self.normals
+                &self.normals[..]
             } else {
                 &[]
             },
             colours: if has(parameter::DIFFUSE) {
-                &self.colours
+                &self.colours[..]
             } else {
                 &[]
             },
+            faces: Faces::Triangles(&[]),
         }
     }
 }

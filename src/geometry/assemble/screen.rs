@@ -50,7 +50,7 @@ pub(crate) fn on_screen<S: Shading>(
     lines: Range<u16>,
     surface: Surfaced<'_, '_, S>,
     mesh: ScreenMesh<'_>,
-    mut file: impl FnMut(Object<S::Face>, i32, &[SceneVertex<S::Vertex>]) -> Option<u32>,
+    mut file: impl FnMut(Object<S::Face>, i32) -> Option<()>,
 ) -> Result<Assembled, MeshError> {
     let Surfaced { scale, skin } = surface;
     let ScreenMesh {
@@ -132,14 +132,10 @@ pub(crate) fn on_screen<S: Shading>(
         }
         S::dress_face(&mut face, &skin);
         let object = Object::new(index, face);
-        let filed = fits.then(|| file(object, first, arena.as_slice()));
-        if let Some(objects) = filed.flatten() {
-            done.kept += objects;
+        if fits && file(object, first).is_some() {
+            done.kept += 1;
             let attributes = [&a.attribute, &b.attribute, &c.attribute];
-            if objects == 0 {
-                done.culled += 1;
-                arena.truncate(before);
-            } else if wide && S::is_plain(&skin, attributes) {
+            if wide && S::is_plain(&skin, attributes) {
                 done.untextured += 1;
             }
             continue;

@@ -23,7 +23,6 @@ pub use place::{Budget, FRACTION, Homogeneous, Quality, Uv};
 
 use super::colour::{Colour, Scale};
 use super::shading::{Empty, Shading};
-use super::transform::Affine;
 use crate::num::{InverseArea, Plane, SmallArea};
 use core::marker::PhantomData;
 
@@ -329,30 +328,6 @@ impl<S: Shading, D: Detail> Shading for Textured<S, D> {
     #[inline]
     fn dress_face(face: &mut Self::Face, skin: &Skin<'_>) {
         face.texture = FaceTexture::new(skin);
-    }
-
-    type Mark = S::Mark;
-
-    #[inline(always)]
-    fn mark(face: &Self::Face) -> S::Mark {
-        S::mark(&face.colour)
-    }
-
-    #[inline(always)]
-    fn set_mark(face: &mut Self::Face, mark: S::Mark) {
-        S::set_mark(&mut face.colour, mark);
-    }
-
-    type Turn = S::Turn;
-    const NORMALS: bool = S::NORMALS;
-
-    fn turn(model: &Affine, view: &Affine) -> S::Turn {
-        S::turn(model, view)
-    }
-
-    #[inline]
-    fn set_normal(vertex: &mut Self::Vertex, turn: &S::Turn, normal: [i16; 3]) {
-        S::set_normal(&mut vertex.colour, turn, normal);
     }
 
     #[inline]

@@ -5,7 +5,7 @@ use crate::composite::{Blender, PixelAlpha, TextureSource};
 use crate::geometry::Blend;
 use crate::pipeline::{CellOf, LevelsOf, Pipeline, WordOf};
 use crate::shade::Levels;
-use crate::visible::{DepthRamp, Everywhere, LineDepth, MOST, Rule, ShadowCount};
+use crate::visible::{DepthRamp, Everywhere, LineDepth, MOST, Rule};
 
 /// Words on the stack, so aligned that two of 16 bits can be read as one.
 #[repr(align(4))]
@@ -17,8 +17,6 @@ pub(super) struct There<'c, P: Pipeline> {
     pub(super) depth: DepthRamp,
     /// How the depth of the surface is rounded.
     pub(super) grain: <P::Depth as LineDepth>::Grain,
-    /// In which light it is drawn.
-    pub(super) count: ShadowCount,
 }
 
 impl<P: Pipeline> Brush<'_, '_, P> {
@@ -61,7 +59,6 @@ impl<P: Pipeline> Brush<'_, '_, P> {
         let rule = Rule {
             colour_if: rules.colour_if,
             depth_if: rules.depth_if,
-            count: there.count,
         };
         let seen = rule.apply::<P::Depth>(there.cells, there.depth, there.grain, keep);
         if seen == 0 {

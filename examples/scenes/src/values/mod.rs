@@ -4,6 +4,8 @@
 //! | name | what it shows |
 //! |---|---|
 //! | `values_phong` | a ball and a ribbon that are lit at each pixel, one of them dithered |
+//! | `values_texels` | a cube and a grille whose texels are lit at each pixel, one of them dithered |
+//! | `values_dusk` | a ball and a cube of indices, by a palette for each line |
 //! | `values_bands` | heights as contour bands, by a look of its own |
 //! | `values_mirror` | a teapot that reflects its surroundings |
 //! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
@@ -18,26 +20,28 @@
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
+mod dusk;
 mod sampled;
 mod scenes;
 mod shadows;
 
 use crate::contours::LeanContours;
 use crate::lean::{LeanError, LeanLook, LeanTextured};
+use dusk::{Dusk, dusk};
 use sampled::{levels, sampled, textures};
 use scanbeam::frame::{
     FastMemory, FrameError, Memory as LineMemory, Renderer, draw_frame, draw_frame_changed,
-    draw_frame_changed_runs, draw_frame_overlaid,
+    draw_frame_changed_runs, draw_frame_indexed, draw_frame_overlaid,
 };
-use scanbeam::look::{Look, Phong};
+use scanbeam::look::{Gouraud, Look, Phong, TexturedPhong};
 use scanbeam::overlay::Overlay;
-use scanbeam::pixel::{Pixel, PixelFormat, Rgb565Be};
+use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{
     ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled,
 };
 use scanbeam::scene::{DrawState, Master, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Link, Screen};
-use scenes::{ball, bands, blends, dither, holes, lamps, mirror, phong, sprites, teapot};
+use scenes::{ball, bands, blends, dither, holes, lamps, mirror, phong, sprites, teapot, texels};
 use shadows::shadows;
 
 /// Pixels a line of such a frame.
@@ -59,12 +63,20 @@ const CELL: (u16, u16) = (16, 2);
 
 /// Light at each pixel.
 pub type LeanPhong = Phong<Rgb565Be>;
+/// The same of texels.
+pub type LeanPhongTextured = TexturedPhong<Rgb565Be>;
+/// Indices of a palette.
+pub type LeanIndexed = Gouraud<Index8>;
 
 /// A small frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Values {
     /// Light at each pixel.
     Phong,
+    /// Texels that are lit at each pixel.
+    Texels,
+    /// Indices, and palettes of lines.
+    Dusk,
     /// A look of one's own.
     Bands,
     /// Texture places from normals.
@@ -94,8 +106,10 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 14] = [
+pub const VALUES: [(&str, Values); 16] = [
     ("values_phong", Values::Phong),
+    ("values_texels", Values::Texels),
+    ("values_dusk", Values::Dusk),
     ("values_bands", Values::Bands),
     ("values_mirror", Values::Mirror),
     ("values_holes", Values::Holes),
@@ -134,6 +148,10 @@ pub struct ValuesMemory<'m> {
     pub textured: &'m mut FastMemory<LeanTextured>,
     /// The slots of light at each pixel.
     pub lit: &'m mut FastMemory<LeanPhong>,
+    /// The slots of texels that are lit so.
+    pub lit_texels: &'m mut FastMemory<LeanPhongTextured>,
+    /// The slots of indices.
+    pub indexed: &'m mut FastMemory<LeanIndexed>,
     /// The slots of a look of one's own.
     pub banded: &'m mut FastMemory<LeanContours>,
 }
@@ -204,6 +222,10 @@ impl Values {
         let lamps = lamps()?;
         match self {
             Self::Phong => rest.send(self, lent.lit, pump, |scene, _| phong(scene, &lamps)),
+            Self::Texels => rest.send(self, lent.lit_texels, pump, |scene, _| {
+                texels(scene, &lamps)
+            }),
+            Self::Dusk => rest.send_indexed(lent.indexed, pump),
             Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
             Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
@@ -268,6 +290,26 @@ impl<'m> Rest<'m> {
         let mut counts = [0; VALUES_WIDTH as usize];
         let mut renderer = Renderer::with_shadows(lines, &mut counts);
         draw_frame(&scene, &mut renderer, pump, background(), 3)?;
+        Ok(())
+    }
+
+    /// Sends the scene of indices.
+    #[inline(never)]
+    fn send_indexed<D>(
+        self,
+        cache: &mut FastMemory<LeanIndexed>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut draws = [const { DrawState::EMPTY }; DRAWS];
+        let (memory, lines, _) = self.lend(&mut draws, cache);
+        let mut scene = Scene::new(values_screen(), memory);
+        dusk(&mut scene)?;
+        let mut renderer = Renderer::new(lines);
+        let mut indices = [0; VALUES_WIDTH as usize];
+        draw_frame_indexed(&scene, &mut renderer, pump, 0, 3, &mut indices, Dusk::new())?;
         Ok(())
     }
 

@@ -1,6 +1,6 @@
 //! What the small frames show: their draw calls, their textures and sprites.
 
-use super::{LeanPhong, values_screen};
+use super::{LeanPhong, LeanPhongTextured, values_screen};
 use crate::contours::{CONTOURED, LeanContours};
 use crate::lean::{LeanError, LeanLook, LeanTextured};
 use crate::suite::{Looking, Suite, teapot_part};
@@ -47,7 +47,7 @@ pub(super) fn uncoloured(mesh: Mesh<'static>) -> Mesh<'static> {
 }
 
 /// Begins a scene and draws these calls.
-fn draw_all<'t, L: Look>(
+pub(super) fn draw_all<'t, L: Look>(
     scene: &mut Scene<'_, 't, L>,
     calls: &[Draw<'_, 't>],
 ) -> Result<(), LeanError> {
@@ -78,6 +78,40 @@ pub(super) fn phong<'t>(
         ..Draw::new(uncoloured(RIBBON))
     };
     draw_all(scene, &[ball, ribbon])
+}
+
+/// A cube, a grille in front of it and a ball without texels.
+pub(super) fn texels<'t>(
+    scene: &mut Scene<'_, 't, LeanPhongTextured>,
+    lamps: &'t Option<PixelLamps>,
+) -> Result<(), LeanError> {
+    let lamps = lamps.as_ref();
+    let cube = Draw {
+        model: Affine::rotation_x(0.5)
+            .then(&Affine::rotation_y(0.7).then(&at(0.5, [-0.3, 0.1, 0.0]))),
+        texture: Some(Skin {
+            texture: &PANEL,
+            ..SKIN
+        }),
+        lamps,
+        ..Draw::new(uncoloured(CUBE))
+    };
+    let grille = Draw {
+        model: Affine::rotation_y(0.3).then(&at(0.3, [0.2, 0.3, 0.9])),
+        cull: Cull::None,
+        texture: Some(SKIN),
+        colour: [250, 200, 90],
+        dither: true,
+        ..cube
+    };
+    let ball = Draw {
+        model: at(0.4, [0.8, -0.3, 0.2]),
+        texture: None,
+        colour: [200, 90, 60],
+        lamps,
+        ..Draw::new(SPHERE)
+    };
+    draw_all(scene, &[cube, grille, ball])
 }
 
 /// A ball with contour bands, a corner of the picture left out.

@@ -2,7 +2,6 @@
 //! lights, and what each light adds where it is not in the way (K9).
 
 use super::scenes::{at, camera, uncoloured};
-use crate::effects::{CORNERS, SIDES};
 use crate::lean::{LeanError, LeanLook};
 use crate::{CUBE, RIBBON};
 use scanbeam::mesh::QuadSplit;
@@ -24,6 +23,26 @@ const LAMPS: [Lamp; 2] = [
         towards: [-0.8, 0.9, 0.7],
         colour: [30, 60, 110],
     },
+];
+
+const ONE: i16 = 1 << 14;
+static CORNERS: [[i16; 3]; 8] = [
+    [-ONE, -ONE, -ONE],
+    [ONE, -ONE, -ONE],
+    [-ONE, ONE, -ONE],
+    [ONE, ONE, -ONE],
+    [-ONE, -ONE, ONE],
+    [ONE, -ONE, ONE],
+    [-ONE, ONE, ONE],
+    [ONE, ONE, ONE],
+];
+static SIDES: [[u16; 4]; 6] = [
+    [1, 3, 7, 5],
+    [0, 4, 6, 2],
+    [2, 6, 7, 3],
+    [0, 1, 5, 4],
+    [4, 5, 7, 6],
+    [0, 2, 3, 1],
 ];
 
 /// Each corner once, so that the mesh is closed.

@@ -1,22 +1,15 @@
-//! Shadow volumes of random closed meshes against rays cast in f64 (K9).
+//! Worlds of random closed meshes in the shadows of lights, and what rays cast in f64 say of them (K9).
 
+use crate::common::Rng;
 use crate::common::solid::{V, along, cross, dot, octahedron, sub, unit};
-use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::pipeline::blend::{
-    Finish, ShadowEdge, ShadowError, ShadowLight, ShadowMemory, ShadowRoom, Surface,
-};
-use scanbeam::pipeline::{Counted, GouraudDepth, Instance, Pipeline, Scene, Shadowed};
-use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Light, Mesh, Screen};
+use scanbeam::scene::ShadowLight;
+use scanbeam::{Affine, Camera, Faces, Light, Mesh, Screen};
 
 const WIDTH: usize = 72;
 const HEIGHT: usize = 54;
 const FOCAL: f64 = 60.0;
 /// Samples of a pixel's side.
 const FINE: usize = 2;
-
-type Plain = GouraudDepth<Rgb888>;
-type Shady = Shadowed<Counted<Plain>>;
 
 /// A mesh that stands in the world.
 pub struct Body {
@@ -47,25 +40,6 @@ impl Body {
                 [0, 1, 2].map(|k| f64::from(p[k]) / 16_384.0 * self.scale + self.offset[k])
             })
         })
-    }
-
-    fn shadow<P>(
-        &self,
-        scene: &mut Scene<'_, P>,
-        light: &ShadowLight,
-        rooms: [usize; 3],
-    ) -> Result<(), ShadowError>
-    where
-        P: Pipeline<Shading = scanbeam::pipeline::blend::Blended<scanbeam::pipeline::Gouraud>>,
-    {
-        let memory = ShadowMemory {
-            edges: &mut vec![ShadowEdge::default(); rooms[0]],
-            positions: &mut vec![[0; 3]; rooms[1]],
-            faces: &mut vec![[0; 3]; rooms[2]],
-        };
-        scene
-            .draw_shadow(&self.mesh(&WHITE), &self.model(), light, memory)
-            .map(drop)
     }
 }
 
@@ -237,52 +211,8 @@ pub const DARK: [[u8; 3]; 128] = [[30, 20, 10]; 128];
 pub const ADDS: [[[u8; 3]; 128]; 2] = [[[100, 0, 7]; 128], [[0, 150, 70]; 128]];
 pub const LIT: [[u8; 3]; 128] = [[130, 20, 17]; 128];
 
-/// Draws a world; in one light the dark is drawn over, in several each adds its own.
-fn build(scene: &mut Scene<'_, Shady>, world: &World, volumes: bool) {
-    scene.begin(&camera()).unwrap();
-    let all = || world.bodies.iter().chain([&world.floor]);
-    let draw = |scene: &mut Scene<'_, Shady>, colours: &[[u8; 3]], finish: Finish| {
-        for body in all() {
-            let instance = Instance {
-                model: body.model(),
-                cull: Cull::None,
-                ..Instance::default()
-            };
-            scene
-                .draw_skinned(&body.mesh(colours), Surface::from(finish), &instance)
-                .unwrap();
-        }
-    };
-    let alone = world.lights.len() == 1;
-    draw(scene, if alone { &LIT } else { &DARK }, Finish::OPAQUE);
-    for light in world.lights.iter().filter(|_| volumes) {
-        for body in &world.bodies {
-            body.shadow(scene, light, [1000; 3]).unwrap();
-        }
-    }
-    for (light, adds) in world.lights.iter().zip(&ADDS) {
-        if alone {
-            draw(scene, &DARK, Finish::in_shadow(light.light));
-        } else {
-            draw(scene, adds, Finish::lit_by(light.light));
-        }
-    }
-}
-
-fn rooms() -> SceneRooms<Shady> {
-    SceneRooms::new(20_000, 8_000, HEIGHT)
-}
-
 pub fn screen() -> Screen {
     Screen::new(WIDTH as u16, HEIGHT as u16).unwrap()
-}
-
-/// A world as these rooms draw it.
-fn drawn(world: &World) -> Vec<Vec<[u8; 3]>> {
-    let mut memory = rooms();
-    let mut scene = memory.scene(screen());
-    build(&mut scene, world, true);
-    frame(&scene, 2000)
 }
 
 /// Compares a picture of a world with rays: pixels that were compared, and how many of them are in shadow.
@@ -347,111 +277,4 @@ pub fn many(seed: u64, lights: u8, from: From, draw: fn(&World) -> Vec<Vec<[u8; 
     let share = f64::from(compared) / f64::from(rounds * (WIDTH * HEIGHT) as u32);
     println!("{compared} pixels compared, {share:.2} of all, {shadows} in shadow, none wrong");
     assert!(share > 0.5 && shadows > 2000, "{share} {shadows}");
-}
-
-#[test]
-fn shadows_of_random_closed_meshes_are_those_of_rays() {
-    many(41, 1, From::Above, drawn);
-}
-
-#[test]
-fn several_lights_each_have_their_shadows() {
-    many(43, 2, From::Above, drawn);
-}
-
-#[test]
-fn the_eye_may_be_in_a_shadow() {
-    many(47, 1, From::Behind, drawn);
-}
-
-/// Both ends of a volume cross the near plane: the lit faces, and their copies far away.
-#[test]
-fn the_far_end_of_a_shadow_may_be_cut_too() {
-    many(78, 1, From::Beside, drawn);
-}
-
-#[test]
-fn any_cache_and_any_lines_give_the_same_shadows() {
-    let mut rng = Rng::new(5);
-    for round in 0..6 {
-        let world = world(
-            &mut rng,
-            1 + round % 2,
-            [From::Behind, From::Above, From::Beside][round as usize % 3],
-        );
-        let mut memory = rooms();
-        let mut scene = memory.scene(screen());
-        build(&mut scene, &world, true);
-        let reference = frame(&scene, 2000);
-        for slots in [0, 1, 7, 40] {
-            assert!(frame(&scene, slots) == reference, "{slots} slots");
-            for step in [2, 3] {
-                for offset in 0..step {
-                    let mut lines = LineRooms::fitting(slots, &scene);
-                    let mut renderer = lines.renderer();
-                    for y in scene.lines().skip(offset).step_by(step) {
-                        let got = line(&mut renderer, &scene, y);
-                        assert!(got == reference[usize::from(y)], "{slots} slots, line {y}");
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn lines_without_volumes_pay_nothing() {
-    let mut rng = Rng::new(9);
-    let world = world(&mut rng, 1, From::Above);
-    let counts = |shadows: bool| {
-        let mut memory = rooms();
-        let mut scene = memory.scene(screen());
-        if shadows {
-            build(&mut scene, &world, false);
-        } else {
-            let unlit = World {
-                bodies: world.bodies.iter().map(again).collect(),
-                floor: floor(),
-                lights: Vec::new(),
-            };
-            build(&mut scene, &unlit, false);
-        }
-        let mut lines = LineRooms::fitting(2000, &scene);
-        let mut renderer = lines.renderer();
-        for y in scene.lines() {
-            let _ = line(&mut renderer, &scene, y);
-        }
-        renderer.take_span_counts()
-    };
-    let (with, without) = (counts(true), counts(false));
-    assert!(without.pixels_shaded > 1000);
-    assert_eq!(with.spans, without.spans);
-    assert_eq!(with.pixels_shaded, without.pixels_shaded);
-    assert_eq!(with.depth_tests, without.depth_tests);
-}
-
-fn again(body: &Body) -> Body {
-    Body {
-        positions: body.positions.clone(),
-        faces: body.faces.clone(),
-        ..*body
-    }
-}
-
-#[test]
-fn memory_that_is_too_short_is_named() {
-    let mut rng = Rng::new(2);
-    let world = world(&mut rng, 1, From::Above);
-    let mut memory = rooms();
-    let mut scene = memory.scene(screen());
-    scene.begin(&camera()).unwrap();
-    for (rooms, expected) in [
-        ([2, 1000, 1000], ShadowRoom::Edges),
-        ([1000, 3, 1000], ShadowRoom::Positions),
-        ([1000, 1000, 3], ShadowRoom::Faces),
-    ] {
-        let done = world.bodies[0].shadow(&mut scene, &world.lights[0], rooms);
-        assert_eq!(done, Err(ShadowError::Room(expected)));
-    }
-    assert_eq!(scene.pass_one().objects, 0);
 }
