@@ -8,8 +8,8 @@ use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
-    Blend, Draw, DrawError, Full, Master, Scene, Shadow, ShadowEdge, ShadowLight, ShadowMemory,
-    ShadowRoom,
+    Blend, Draw, DrawError, Full, Master, Scene, ScreenCorner, Shadow, ShadowEdge, ShadowLight,
+    ShadowMemory, ShadowRoom,
 };
 use scanbeam::{Cull, Mesh, Screen};
 
@@ -221,8 +221,21 @@ fn priorities_and_lights_without_a_number_are_refused() {
     };
     let done = throw(&mut scene, &world.bodies[0], &light, [1_000; 3]);
     assert_eq!(done, Err(DrawError::ShadowLight));
+    // What has no inside bounds no volume, and is drawn again like any other surface.
+    let corners = [[ScreenCorner::default(); 3]];
+    for (shadow, drawn) in [
+        (Shadow::Volume(0), Err(DrawError::ShadowFlat)),
+        (Shadow::Lit(0), Ok(())),
+    ] {
+        scene.begin(&camera()).unwrap();
+        let call = triangle(mesh, Some(shadow), 0);
+        assert_eq!(scene.draw_screen(&call, &corners), drawn);
+        assert_eq!(scene.draw_points(&call, 1), drawn);
+        assert!(drawn.is_ok() || scene.objects() == 0);
+    }
     for error in [
         DrawError::ShadowRanked,
+        DrawError::ShadowFlat,
         DrawError::ShadowLight,
         DrawError::Shadow(ShadowRoom::Edges),
     ] {

@@ -93,6 +93,9 @@ pub enum DrawError {
     /// A scene has both shadows and priorities: these decide on nothing by depth, and shadows are counted by it.
     /// Nothing of the call is drawn.
     ShadowRanked,
+    /// A shadow volume is drawn as points or by corners on the screen: its faces have no inside there. Nothing of the
+    /// call is drawn.
+    ShadowFlat,
     /// Memory is full; what was kept is drawn.
     Full {
         /// Which memory.
@@ -143,6 +146,9 @@ impl fmt::Display for DrawError {
             }
             Self::ShadowRanked => {
                 f.write_str("shadow: a scene has shadows or priorities, not both")
+            }
+            Self::ShadowFlat => {
+                f.write_str("shadow: points and triangles on the screen bound no volume")
             }
             Self::Full {
                 memory,

@@ -5,7 +5,9 @@
 
 use super::pass::{Own, Pass, colour_of};
 use super::project::{OnScreen, Point};
-use super::{Draw, DrawError, ORIGIN, Scene, Shading, Skin, TexturePlace, Vertex, WordOfNormal};
+use super::{
+    Draw, DrawError, ORIGIN, Scene, Shading, Shadow, Skin, TexturePlace, Vertex, WordOfNormal,
+};
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, ScreenVertex, Tint};
 use crate::num::mul_high_unsigned;
 
@@ -29,6 +31,14 @@ const EMPTY: Mesh<'static, i16> = Mesh {
     faces: Faces::Triangles(&[]),
 };
 
+/// Refuses what would bound a shadow volume.
+fn bounds_nothing(shadow: Option<Shadow>) -> Result<(), DrawError> {
+    match shadow {
+        Some(Shadow::Volume(_)) => Err(DrawError::ShadowFlat),
+        _ => Ok(()),
+    }
+}
+
 impl<'t, L> Scene<'_, 't, L> {
     /// Draws triangles by their corners on the screen, with the texture of a call, if its look has any, and without its
     /// mesh, light and texture places.
@@ -41,6 +51,7 @@ impl<'t, L> Scene<'_, 't, L> {
         faces: &[[ScreenCorner; 3]],
         textured: bool,
     ) -> Result<(), DrawError> {
+        bounds_nothing(draw.shadow)?;
         let is_flat = draw.shading == Shading::Flat;
         let draw = Draw {
             mesh: EMPTY,
@@ -96,6 +107,7 @@ impl<'t, L> Scene<'_, 't, L> {
         textured: bool,
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
+        bounds_nothing(draw.shadow)?;
         let mesh = Mesh {
             faces: Faces::Triangles(&[]),
             ..draw.mesh
