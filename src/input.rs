@@ -4,7 +4,6 @@
 //! A [`Player`] executes a list where it lies, into a [`Scene`](crate::scene::Scene): see there.
 
 pub use crate::player::{
-    LightRoom, ListCoordinate, OnViolation, Player, PlayerMemory, PlayerSettings, RunCounts,
-    TextureRoom,
+    Command, Input, InputError, InputQueue, LightRoom, ListCoordinate, OnViolation, Player,
+    PlayerMemory, PlayerSettings, Refused, RunCounts, Source, Stalled, Stream, TextureRoom,
 };
-pub use crate::renderer::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};

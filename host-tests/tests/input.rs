@@ -1,39 +1,76 @@
 //! The input queues lose nothing, stall, and keep the order of their sources (K17).
 
-use crate::common::{self, SceneRooms};
-use scanbeam::input::{Command, Input, InputError, InputQueue, Stalled};
-use scanbeam::pipeline::{DrawError, GouraudDepth, Instance, Scene};
+use host_tests::rooms::{LineRooms, Room, SceneRooms};
+use scanbeam::input::{Command, Input, InputError, InputQueue, Refused, Stalled};
+use scanbeam::light::{DirectionalLight, Lighting};
+use scanbeam::look::Gouraud;
+use scanbeam::mesh::{Material, U1F15};
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Faces, Mesh, MeshError, Screen};
+use scanbeam::scene::{BeginError, Blend, DrawError, Scissor};
+use scanbeam::{Affine, Camera, Draw, Faces, Mesh, MeshError, Scene, Screen};
 use scenes::{CUBE, SPHERE};
 use std::task::Poll;
 
-type Plain = GouraudDepth<Rgb888>;
+type Look = Gouraud<Rgb888>;
 
-fn rooms() -> (Screen, SceneRooms<Plain>) {
-    let screen = Screen::new(64, 48).unwrap();
-    (screen, SceneRooms::new(30_000, 30_000, 48))
+const ROOM: Room = Room {
+    vertices: 30_000,
+    places: 0,
+    objects: 30_000,
+    draws: 40,
+};
+
+fn screen() -> Screen {
+    Screen::new(64, 48).unwrap()
 }
 
-fn begin(scene: &mut Scene<'_, Plain>) {
-    let camera = Camera::look_at([0.0, 1.0, 6.0], [0.0; 3], [0.0, 1.0, 0.0], 60.0, 0.1, 99.0);
-    scene.begin(&camera.unwrap()).unwrap();
+fn camera() -> Camera {
+    let up = [0.0, 1.0, 0.0];
+    Camera::look_at([0.0, 1.0, 6.0], [0.0; 3], up, 60.0, 0.1, 99.0).unwrap()
 }
 
-fn at(i: u8) -> Instance {
+/// A call of all kinds: what a source says, it says whole.
+fn call<'c>(mesh: &Mesh<'c>, i: u8, lighting: &'c Lighting<'c>) -> Draw<'c, 'c> {
     let x = f32::from(i) / 4.0 - 1.5;
-    Instance {
+    Draw {
         model: Affine::placed(0.3, [x, 0.0, -x]).unwrap(),
         colour: [i, 255 - i, 9],
-        ..Instance::default()
+        lights: (i % 3 == 0).then_some(lighting),
+        blend: (i % 4 == 1).then(|| Blend::filter(100)),
+        scissor: (i % 5 == 2).then(|| Scissor::outside(20..30, 10..40)),
+        ..Draw::new(Mesh {
+            colours: &[],
+            ..*mesh
+        })
     }
 }
 
-fn draw(mesh: &'static Mesh<'static>, i: u8) -> Command<'static> {
-    Command::Draw {
-        mesh,
-        instance: at(i),
-    }
+/// A light from above.
+fn lighting(lights: &[DirectionalLight]) -> Lighting<'_> {
+    Lighting::new(lights, [U1F15::from_bits(9_000); 3], Material::default()).unwrap()
+}
+
+fn above() -> [DirectionalLight; 1] {
+    [DirectionalLight::new([0.3, 1.0, 0.5], [1.0, 0.8, 0.6]).unwrap()]
+}
+
+fn draw(mesh: &Mesh<'static>, i: u8) -> Command<'static> {
+    Command::Draw(Draw {
+        colour: [i, 255 - i, 9],
+        ..Draw::new(*mesh)
+    })
+}
+
+/// All lines with so many slots.
+fn frame(scene: &Scene<'_, '_, Look>, slots: u16) -> Vec<[u8; 3]> {
+    let mut rooms: LineRooms<Look> = LineRooms::new(ROOM.objects, 64).with_limit(slots);
+    let mut renderer = rooms.renderer();
+    let line = |y| {
+        let mut line = vec![[0; 3]; 64];
+        renderer.draw_line(scene, y, &mut line, [7; 3]).unwrap();
+        line
+    };
+    scene.lines().flat_map(line).collect()
 }
 
 #[test]
@@ -47,13 +84,13 @@ fn a_full_queue_stalls_and_hands_back() {
     source.send(draw(&CUBE, 0)).unwrap();
     source.send(draw(&CUBE, 1)).unwrap();
     assert!(source.stall() && !source.is_empty() && !stream.is_empty());
-    let Err(Stalled(Command::Draw { instance, .. })) = source.send(draw(&CUBE, 2)) else {
+    let Err(Stalled(Command::Draw(back))) = source.send(draw(&CUBE, 2)) else {
         panic!("a third of two");
     };
-    assert_eq!(instance.colour, [2, 253, 9]);
-    let (screen, mut rooms) = rooms();
-    let mut scene = rooms.scene(screen);
-    begin(&mut scene);
+    assert_eq!(back.colour, [2, 253, 9]);
+    let mut rooms = SceneRooms::new(ROOM, 48);
+    let mut scene = rooms.scene::<Look>(screen());
+    scene.begin(&camera()).unwrap();
     let mut input = Input::new([stream]);
     assert_eq!(input.drain(&mut scene, 1), Poll::Pending);
     assert!(!source.stall() && !input.is_empty());
@@ -61,7 +98,7 @@ fn a_full_queue_stalls_and_hands_back() {
     assert_eq!(input.drain(&mut scene, 1), Poll::Pending);
     assert_eq!(input.drain(&mut scene, 9), Poll::Ready(Ok(())));
     assert!(input.is_empty() && source.is_empty());
-    assert_eq!(scene.pass_one().triangles, 24);
+    assert_eq!(scene.assembled().triangles, 24);
     assert_eq!(input.drain(&mut scene, 9), Poll::Pending);
     assert_eq!(
         Input::<i16, 0>::new([]).drain(&mut scene, 0),
@@ -84,48 +121,74 @@ fn bad_meshes_are_named_by_their_source_and_the_rest_goes_on() {
     for command in [draw(&BAD, 0), draw(&CUBE, 1), Command::EndOfFrame] {
         b.send(command).unwrap();
     }
-    a.send(Command::EndOfFrame).unwrap();
-    let (screen, mut rooms) = rooms();
-    let mut scene = rooms.scene(screen);
-    begin(&mut scene);
+    for command in [Command::Begin(camera()), Command::EndOfFrame] {
+        a.send(command).unwrap();
+    }
+    let mut rooms = SceneRooms::new(ROOM, 48);
+    let mut scene = rooms.scene::<Look>(screen());
     let error = InputError {
         source: 2,
-        error: DrawError::Mesh(MeshError::Index { face: 0 }),
+        error: Refused::Draw(DrawError::Mesh(MeshError::Index { face: 0 })),
     };
     assert_eq!(input.drain(&mut scene, 99), Poll::Ready(Err(error)));
     assert!(error.to_string().starts_with("source 2: mesh: "));
     assert_eq!(input.drain(&mut scene, 99), Poll::Ready(Ok(())));
-    assert_eq!(scene.pass_one().triangles, 12);
+    assert_eq!(scene.assembled().triangles, 12);
+    // A scene that cannot be begun, and what is said to it all the same.
+    for command in [
+        Command::Begin(camera()),
+        draw(&CUBE, 1),
+        Command::EndOfFrame,
+    ] {
+        a.send(command).unwrap();
+    }
+    b.send(Command::EndOfFrame).unwrap();
+    let mut rooms = SceneRooms::new(ROOM, 47);
+    let mut scene = rooms.scene::<Look>(screen());
+    let bins = BeginError::Bins {
+        needed: 48,
+        have: 47,
+    };
+    for (source, error) in [
+        (1, Refused::Begin(bins)),
+        (1, Refused::Draw(DrawError::NotBegun)),
+    ] {
+        let error = InputError { source, error };
+        assert_eq!(input.drain(&mut scene, 99), Poll::Ready(Err(error)));
+        assert!(error.to_string().starts_with("source 1: scene: "));
+    }
+    assert_eq!(input.drain(&mut scene, 99), Poll::Ready(Ok(())));
 }
 
 #[test]
 fn producers_on_threads_give_the_picture_of_their_order() {
     const COUNT: u8 = 12;
-    let (screen, mut expected_rooms) = rooms();
-    let mut expected = expected_rooms.scene(screen);
-    begin(&mut expected);
-    for i in 0..COUNT {
-        expected.draw(&SPHERE, &at(i)).unwrap();
+    let lights = above();
+    let lighting = lighting(&lights);
+    let mut rooms = SceneRooms::new(ROOM, 48);
+    let mut expected = rooms.scene::<Look>(screen());
+    expected.begin(&camera()).unwrap();
+    for mesh in [&SPHERE, &CUBE] {
+        for i in 0..COUNT {
+            expected.draw(&call(mesh, i, &lighting)).unwrap();
+        }
     }
-    for i in 0..COUNT {
-        expected.draw(&CUBE, &at(i)).unwrap();
-    }
-    let expected = common::frame(&expected, 64);
+    let expected = frame(&expected, 64);
     for round in 0..10 {
         let mut queues = [InputQueue::<i16, 4>::new(), InputQueue::new()];
         let [a, b] = &mut queues;
         let ((a, a_stream), (b, b_stream)) = (a.split(0), b.split(1));
         let mut input = Input::new([a_stream, b_stream]);
-        let (_, mut rooms) = rooms();
-        let mut scene = rooms.scene(screen);
-        begin(&mut scene);
+        let mut rooms = SceneRooms::new(ROOM, 48);
+        let mut scene = rooms.scene::<Look>(screen());
         std::thread::scope(|threads| {
-            for (mut source, mesh) in [(a, &SPHERE), (b, &CUBE)] {
+            let lighting = &lighting;
+            for (mut source, mesh, begins) in [(a, &SPHERE, true), (b, &CUBE, false)] {
                 threads.spawn(move || {
-                    let all = (0..COUNT)
-                        .map(|i| draw(mesh, i))
-                        .chain([Command::EndOfFrame]);
-                    for mut command in all {
+                    let begin = begins.then(|| Command::Begin(camera()));
+                    let calls = (0..COUNT).map(|i| Command::Draw(call(mesh, i, lighting)));
+                    let all = begin.into_iter().chain(calls);
+                    for mut command in all.chain([Command::EndOfFrame]) {
                         while let Err(Stalled(back)) = source.send(command) {
                             command = back;
                             std::thread::yield_now();
@@ -140,6 +203,6 @@ fn producers_on_threads_give_the_picture_of_their_order() {
                 }
             }
         });
-        assert!(common::frame(&scene, 3) == expected, "round {round}");
+        assert!(frame(&scene, 3) == expected, "round {round}");
     }
 }

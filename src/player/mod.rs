@@ -15,6 +15,7 @@
 //! | `long` | vertices that were set up beforehand |
 //! | `lights` | several lights, whose code only a player that has room for them brings in |
 //! | `outcome` | what was done |
+//! | `queue` | draw calls and cameras that come through queues, without a list |
 
 mod blocks;
 mod gather;
@@ -22,6 +23,7 @@ mod lights;
 mod long;
 mod outcome;
 mod play;
+mod queue;
 mod state;
 mod textures;
 
@@ -29,4 +31,5 @@ pub use gather::ListCoordinate;
 pub use lights::LightRoom;
 pub use outcome::{OnViolation, RunCounts};
 pub use play::{Player, PlayerMemory, PlayerSettings};
+pub use queue::{Command, Input, InputError, InputQueue, Refused, Source, Stalled, Stream};
 pub use textures::TextureRoom;

@@ -1,6 +1,6 @@
 //! The conductor: pass one into a [`Scene`], pass two line by line out of it (K1, K12).
 //!
-//! `input` feeds pass one from queues (K17); `lines` draws, `order` from front to back where it can (X3), and
+//! `lines` draws, `order` from front to back where it can (X3), and
 //! `words` draws depth and colour in one word (K8), `place` fetches ahead (C4), `transparent` draws what has a finish
 //! (K11); `frame` sends what one renderer draws, `crew` what several do in turn (K16, X6).
 
@@ -9,7 +9,6 @@ mod deferred;
 mod error;
 mod filing;
 mod frame;
-mod input;
 mod instance;
 mod lines;
 mod order;
@@ -23,7 +22,6 @@ mod words;
 pub use crew::Crew;
 pub use error::{DrawError, RendererError, SceneError};
 pub use frame::{FrameError, FrameStats, LineSource, draw_frame, send_frame};
-pub use input::{Command, Input, InputError, InputQueue, Source, Stalled, Stream};
 pub use instance::Instance;
 pub use lines::{DepthUse, LineMemory, LineRenderer};
 pub use place::Prefetched;

@@ -9,7 +9,7 @@ use core::fmt;
 ///
 /// It is named through a reference, so that a program whose draw calls have one light, or none, does not have the
 /// code of several: 13 KB on a Cortex-M4, with what makes them.
-pub trait Lights: fmt::Debug + sealed::Several {}
+pub trait Lights: fmt::Debug + Sync + sealed::Several {}
 
 impl Lights for Lighting<'_> {}
 

@@ -1,29 +1,25 @@
-//! The input queues between producers and the renderer (K17).
+//! The input queues between producers and a scene (K17).
 //!
 //! Every source (an interrupt, another core, a parser of lists) has a bounded queue of its own
 //! with one producer and one consumer, so that it needs no lock. A full queue stalls its source:
-//! the command is handed back, nothing is lost. The renderer drains the sources one after the
+//! the command is handed back, nothing is lost. A scene drains the sources one after the
 //! other, each to its end of the frame, so that the order of submission, and with it the picture,
-//! depends on what was said and never on who was faster.
+//! depends on what was said and never on who was faster. Commands are whole: draw calls with all that they have, and
+//! cameras.
 
-use super::error::DrawError;
-use super::instance::Instance;
-use super::scene::Scene;
-use crate::geometry::{Coordinate, Mesh};
-use crate::pipeline::Pipeline;
+use crate::geometry::{Camera, Coordinate};
+use crate::look::Look;
+use crate::scene::{BeginError, Draw, DrawError, Scene};
 use core::task::Poll;
 use heapless::spsc::{Consumer, Producer, Queue};
 
 /// What a source can say.
 #[derive(Clone, Copy, Debug)]
 pub enum Command<'c, C: Coordinate = i16> {
-    /// Draw a mesh.
-    Draw {
-        /// The mesh, which stays where it is.
-        mesh: &'c Mesh<'c, C>,
-        /// Where it stands.
-        instance: Instance,
-    },
+    /// Begin the scene anew, seen by a camera: of several sources the first one says so first.
+    Begin(Camera),
+    /// A draw call: what it names stays where it is.
+    Draw(Draw<'c, 'c, C>),
     /// This source has nothing more for this frame.
     EndOfFrame,
 }
@@ -43,7 +39,7 @@ impl<'c, C: Coordinate, const N: usize> InputQueue<'c, C, N> {
         Self(Queue::new())
     }
 
-    /// The end for the producer, which is source `id`, and the one for the renderer.
+    /// The end for the producer, which is source `id`, and the one for the scene.
     pub fn split(&mut self, id: u8) -> (Source<'_, 'c, C>, Stream<'_, 'c, C>) {
         let (producer, consumer) = self.0.split();
         (Source { id, producer }, Stream { id, consumer })
@@ -75,7 +71,7 @@ impl<'c, C: Coordinate> Source<'_, 'c, C> {
         !self.producer.ready()
     }
 
-    /// EMPTY: whether the renderer has taken everything.
+    /// EMPTY: whether everything was taken.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.producer.is_empty()
@@ -90,7 +86,7 @@ impl<'c, C: Coordinate> Source<'_, 'c, C> {
     }
 }
 
-/// The renderer's end of an [`InputQueue`].
+/// The scene's end of an [`InputQueue`].
 pub struct Stream<'q, 'c, C: Coordinate = i16> {
     id: u8,
     consumer: Consumer<'q, Command<'c, C>>,
@@ -104,19 +100,33 @@ impl<C: Coordinate> Stream<'_, '_, C> {
     }
 }
 
-/// A command that could not be drawn, and whose it was. It has been taken from its queue.
+/// What a scene refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum Refused {
+    /// To be begun.
+    Begin(BeginError),
+    /// A draw call, or some of it.
+    Draw(DrawError),
+}
+
+/// A command that could not be executed, and whose it was. It has been taken from its queue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct InputError {
     /// The source.
     pub source: u8,
-    /// What was wrong with the mesh, or how much of it found no room.
-    pub error: DrawError,
+    /// Why.
+    pub error: Refused,
 }
 
 impl core::fmt::Display for InputError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        write!(f, "source {}: {}", self.source, self.error)
+        write!(f, "source {}: ", self.source)?;
+        match self.error {
+            Refused::Begin(error) => error.fmt(f),
+            Refused::Draw(error) => error.fmt(f),
+        }
     }
 }
 
@@ -142,35 +152,37 @@ impl<'q, 'c, C: Coordinate, const S: usize> Input<'q, 'c, C, S> {
         self.streams.iter().all(Stream::is_empty)
     }
 
-    /// Draws at most `budget` of the commands that wait into `scene`; `Ready` when every source
+    /// Executes at most `budget` of the commands that wait in `scene`; `Ready` when every source
     /// has ended the frame, and the next call begins with the next frame's commands.
     ///
     /// # Errors
-    /// When a mesh cannot be drawn, or not whole; calling again goes on with the next command.
-    pub fn drain<P: Pipeline>(
+    /// When the scene cannot be begun, or a call cannot be drawn, or not whole; calling again goes on with the next
+    /// command.
+    pub fn drain<L: Look>(
         &mut self,
-        scene: &mut Scene<'_, P>,
+        scene: &mut Scene<'_, 'c, L>,
         budget: u32,
     ) -> Poll<Result<(), InputError>> {
         for _ in 0..budget {
             let Some(stream) = self.streams.get_mut(self.at) else {
                 break;
             };
-            match stream.consumer.dequeue() {
-                Some(Command::Draw { mesh, instance }) => {
-                    if let Err(error) = scene.draw(mesh, &instance) {
-                        let source = stream.id;
-                        return Poll::Ready(Err(InputError { source, error }));
-                    }
-                }
+            let done = match stream.consumer.dequeue() {
+                Some(Command::Begin(camera)) => scene.begin(&camera).map_err(Refused::Begin),
+                Some(Command::Draw(draw)) => scene.draw(&draw).map_err(Refused::Draw),
                 Some(Command::EndOfFrame) => {
                     self.at += 1;
                     if self.at == S {
                         self.at = 0;
                         return Poll::Ready(Ok(()));
                     }
+                    Ok(())
                 }
                 None => return Poll::Pending,
+            };
+            if let Err(error) = done {
+                let source = stream.id;
+                return Poll::Ready(Err(InputError { source, error }));
             }
         }
         if S == 0 {
