@@ -35,7 +35,7 @@ fn call<'c>(mesh: &Mesh<'c>, i: u8, lighting: &'c Lighting<'c>) -> Draw<'c, 'c> 
     Draw {
         model: Affine::placed(0.3, [x, 0.0, -x]).unwrap(),
         colour: [i, 255 - i, 9],
-        lights: (i % 3 == 0).then_some(lighting),
+        lights: i.is_multiple_of(3).then_some(lighting),
         blend: (i % 4 == 1).then(|| Blend::filter(100)),
         scissor: (i % 5 == 2).then(|| Scissor::outside(20..30, 10..40)),
         ..Draw::new(Mesh {

@@ -81,6 +81,10 @@ impl<'c, C: Coordinate> Source<'_, 'c, C> {
     ///
     /// # Errors
     /// When the queue is full: the command comes back, to be sent again later.
+    #[expect(
+        clippy::result_large_err,
+        reason = "the command comes back whole, and there is no heap to keep it in"
+    )]
     pub fn send(&mut self, command: Command<'c, C>) -> Result<(), Stalled<'c, C>> {
         self.producer.enqueue(command).map_err(Stalled)
     }
