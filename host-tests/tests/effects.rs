@@ -87,9 +87,28 @@ fn usual(model: &Model, view: &View, effects: Effects) -> Called {
     drawn(model, view, PixelFormatArg::Rgb888, crew, effects)
 }
 
+/// Also across the border of two tiles, each of which has a camera of its own.
+///
+/// Kills: lamps of the first tile on all.
 #[test]
 fn highlights_at_each_pixel_are_those_of_the_formula() {
+    for (width, height, least) in [(320, 240, 30_000), (1_100, 160, 10_000)] {
+        for (specular, by_material) in [(None, (0.55, 25.0)), (Some((0.4, 9)), (0.9, 2.0))] {
+            let count = are_the_formula((width, height), specular, by_material);
+            assert!(count > least, "{count}");
+        }
+    }
+}
+
+/// How many channels of a shiny ball were compared.
+fn are_the_formula(
+    (width, height): (u32, u32),
+    specular: Option<(f64, u16)>,
+    by_material: (f64, f64),
+) -> u32 {
     let view = View {
+        width,
+        height,
         eye: [0.5, 0.4, 2.6],
         light: [0.5, 0.9, 0.7],
         ambient: 0.15,
@@ -105,56 +124,112 @@ fn highlights_at_each_pixel_are_those_of_the_formula() {
         right[2] * ahead[0] - right[0] * ahead[2],
         right[0] * ahead[1] - right[1] * ahead[0],
     ];
-    let focal = 120.0 / 30f64.to_radians().tan();
-    for (specular, by_material) in [(None, (0.55, 25.0)), (Some((0.4, 9)), (0.9, 2.0))] {
-        let mut model = Model::default();
-        model
-            .materials
-            .push(material(by_material.0, by_material.1, 1.0));
-        sphere(&mut model, [0.0; 3], 1.0, 90, (base, 0));
-        let (level, power) = specular.unwrap_or((by_material.0, by_material.1 as u16));
-        let effects = Effects {
-            specular,
-            shadows: false,
-            phong: true,
-        };
-        assert!(effects.are_seen(&model, &view));
-        let picture = usual(&model, &view, effects);
-        let (mut worst, mut count) = (0.0f64, 0);
-        for y in 0..240 {
-            for x in 0..320 {
-                let (dx, dy) = (f64::from(x) + 0.5 - 160.0, 120.0 - f64::from(y) - 0.5);
-                let way = unit([0, 1, 2].map(|i| ahead[i] * focal + right[i] * dx + up[i] * dy));
-                let b = dot(view.eye, way);
-                let root = b * b - (dot(view.eye, view.eye) - 1.0);
-                if root <= 0.0 {
-                    continue;
-                }
-                let n = [0, 1, 2].map(|i| view.eye[i] + way[i] * (-b - root.sqrt()));
-                if -dot(n, way) < 0.2 {
-                    // The rim, where the polygon is not the sphere.
-                    continue;
-                }
-                let cosine = dot(n, l).max(0.0);
-                let r = [0, 1, 2].map(|i| 2.0 * cosine * n[i] - l[i]);
-                let shine = if cosine > 0.0 {
-                    level * (-dot(r, way)).max(0.0).powi(power.into())
-                } else {
-                    0.0
-                };
-                let pixel = picture.frame.pixel(x, y).unwrap();
-                for i in 0..3 {
-                    let matt = base[i] * (view.ambient + (1.0 - view.ambient) * cosine);
-                    let want = 255.0 * (matt + shine).min(1.0);
-                    // The tool rounds colours to 8 bits first.
-                    worst = worst.max((f64::from(pixel[i]) - want).abs());
-                    count += 1;
-                }
-            }
+    let middle = [width, height].map(|side| f64::from(side) / 2.0);
+    let focal = middle[1] / 30f64.to_radians().tan();
+    let mut model = Model::default();
+    model
+        .materials
+        .push(material(by_material.0, by_material.1, 1.0));
+    sphere(&mut model, [0.0; 3], 1.0, 90, (base, 0));
+    let (level, power) = specular.unwrap_or((by_material.0, by_material.1 as u16));
+    let effects = Effects {
+        specular,
+        shadows: false,
+        phong: true,
+    };
+    assert!(effects.are_seen(&model, &view));
+    let picture = usual(&model, &view, effects);
+    let (mut worst, mut count) = (0.0f64, 0);
+    for (x, y) in (0..height).flat_map(|y| (0..width).map(move |x| (x, y))) {
+        let (dx, dy) = (
+            f64::from(x) + 0.5 - middle[0],
+            middle[1] - f64::from(y) - 0.5,
+        );
+        let way = unit([0, 1, 2].map(|i| ahead[i] * focal + right[i] * dx + up[i] * dy));
+        let b = dot(view.eye, way);
+        let root = b * b - (dot(view.eye, view.eye) - 1.0);
+        if root <= 0.0 {
+            continue;
         }
-        println!("{count} channels, at most {worst:.3} levels off");
-        assert!(count > 30_000 && worst <= 2.0, "{count} {worst}");
+        let n = [0, 1, 2].map(|i| view.eye[i] + way[i] * (-b - root.sqrt()));
+        if -dot(n, way) < 0.2 {
+            // The rim, where the polygon is not the sphere.
+            continue;
+        }
+        let cosine = dot(n, l).max(0.0);
+        let r = [0, 1, 2].map(|i| 2.0 * cosine * n[i] - l[i]);
+        let shine = if cosine > 0.0 {
+            level * (-dot(r, way)).max(0.0).powi(power.into())
+        } else {
+            0.0
+        };
+        let pixel = picture.frame.pixel(x, y).unwrap();
+        for i in 0..3 {
+            let matt = base[i] * (view.ambient + (1.0 - view.ambient) * cosine);
+            let want = 255.0 * (matt + shine).min(1.0);
+            // The tool rounds colours to 8 bits first.
+            worst = worst.max((f64::from(pixel[i]) - want).abs());
+            count += 1;
+        }
     }
+    println!("{count} channels, at most {worst:.3} levels off");
+    assert!(worst <= 2.0, "{worst}");
+    count
+}
+
+/// Light at pixels falls on one colour a triangle: each has its own, and several are refused.
+#[test]
+fn light_at_pixels_has_one_colour_a_triangle() {
+    let mut model = Model {
+        materials: vec![material(0.0, 1.0, 1.0)],
+        ..Model::default()
+    };
+    let at = |x: f64| {
+        [
+            [x, -2.0, 0.0],
+            [x + 2.0, -2.0, 0.0],
+            [x + 2.0, 2.0, 0.0],
+            [x, 2.0, 0.0],
+        ]
+    };
+    let towards = [0.0, 0.0, 1.0];
+    quad(&mut model, at(-2.0), towards, ([0.8, 0.4, 0.2], 0));
+    quad(&mut model, at(0.0), towards, ([0.1, 0.6, 0.9], 0));
+    let view = View {
+        light: towards,
+        ambient: 0.5,
+        shade: Shade::Gouraud,
+        ..View::default()
+    };
+    let effects = Effects {
+        phong: true,
+        ..Effects::default()
+    };
+    let picture = usual(&model, &view, effects).frame;
+    for (x, want) in [(100, [204, 102, 51]), (220, [26, 153, 230])] {
+        let pixel = picture.pixel(x, 120).unwrap();
+        assert!(
+            (0..3).all(|i| pixel[i].abs_diff(want[i]) <= 1),
+            "{pixel:?} {want:?}"
+        );
+    }
+    model.vertices[5].colour = [0.1, 0.6, 0.8];
+    let set = TextureSet::default();
+    let skins = Skins {
+        set: &set,
+        filter: FilterArg::Nearest,
+        quality: Quality::Balanced,
+    };
+    let format = PixelFormatArg::Rgb888;
+    let drawn = draw_effects(
+        &model,
+        skins,
+        (&view, format),
+        CrewSettings::default(),
+        effects,
+    );
+    let error = drawn.unwrap_err().to_string();
+    assert!(error.contains("triangle 2"), "{error}");
 }
 
 #[test]

@@ -82,7 +82,7 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
     }
     page.paragraph(
         "Such frames of draw calls: light at pixels, texels that are lit so, a palette for each line, a look of \
-         one's own, texels with holes, dither, blends by depth and by priority, shadows, sprites, and what a \
+         one's own, texels with holes, dither, blends by depth and by priority, shadows, points, sprites, and what a \
          second frame changed.",
     );
     for (name, frame) in values_pictures()? {

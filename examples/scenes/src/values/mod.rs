@@ -15,12 +15,14 @@
 //! | `values_master` | the scene of blends with all switched off that can be |
 //! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
 //! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
+//! | `values_points` | points of three sizes and corners on the screen, textured, by a camera that looks aside |
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
 mod dusk;
+mod points;
 mod sampled;
 mod scenes;
 mod shadows;
@@ -28,6 +30,7 @@ mod shadows;
 use crate::contours::LeanContours;
 use crate::lean::{LeanError, LeanLook, LeanTextured};
 use dusk::{Dusk, dusk};
+use points::points;
 use sampled::{levels, sampled, textures};
 use scanbeam::frame::{
     FastMemory, FrameError, Memory as LineMemory, Renderer, draw_frame, draw_frame_changed,
@@ -95,6 +98,8 @@ pub enum Values {
     Sampled,
     /// Volumes of two lights, and what they light.
     Shadows,
+    /// Points, and triangles that are set up beforehand.
+    Points,
     /// Below sprites.
     Overlay,
     /// A frame, and the changed lines of another.
@@ -106,7 +111,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 16] = [
+pub const VALUES: [(&str, Values); 17] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -119,6 +124,7 @@ pub const VALUES: [(&str, Values); 16] = [
     ("values_master", Values::Master),
     ("values_sampled", Values::Sampled),
     ("values_shadows", Values::Shadows),
+    ("values_points", Values::Points),
     ("values_overlay", Values::Overlay),
     ("values_lines", Values::Lines),
     ("values_runs", Values::Runs),
@@ -229,6 +235,7 @@ impl Values {
             Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
             Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
+            Self::Points => rest.send(self, lent.textured, pump, |scene, _| points(scene)),
             Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
             Self::Blends | Self::Ranked | Self::Master => {
                 let is_ranked = self == Self::Ranked;
