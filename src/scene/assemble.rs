@@ -85,12 +85,15 @@ impl<'t, L> Scene<'_, 't, L> {
             return Ok(());
         }
         let master = self.master.with_shadow(draw.shadow);
-        let state = DrawState::new(self.objects.len() as u16, draw, master);
+        let mut state = DrawState::new(self.objects.len() as u16, draw, master);
+        let is_replaced = master.applied(draw) == Some(Application::Replace);
+        if word_of.is_some() && is_replaced {
+            state.replace_light();
+        }
         if self.draws.push(state).is_none() {
             return Err(DrawError::no_draws(submitted));
         }
         self.generation = self.generation.wrapping_add(1);
-        let is_replaced = master.applied(draw) == Some(Application::Replace);
         let is_plain = self.is_plain(draw);
         let colour = if is_replaced { [255; 3] } else { draw.colour };
         let tint = Tint::new(colour, &self.scale);

@@ -227,8 +227,6 @@ impl<'t> DrawState<'t> {
         let blend = draw.blend.filter(|_| master.has_blend());
         let role = Role::of(draw.shadow, master);
         let depth = role.depth(draw.depth);
-        let is_replaced = master.applied(draw) == Some(Application::Replace);
-        let is_lit = master.has_shading() && !is_replaced;
         Self {
             first,
             texture,
@@ -243,11 +241,17 @@ impl<'t> DrawState<'t> {
             dithers: draw.dither && master.has_dither(),
             priority: draw.priority,
             late: Late::of(role, blend),
-            colour: if is_replaced { [255; 3] } else { draw.colour },
-            lamps: draw.lamps.filter(|_| is_lit),
+            colour: draw.colour,
+            lamps: draw.lamps.filter(|_| master.has_shading()),
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
             square: texture.and_then(Texture::plain_square),
         }
+    }
+
+    /// Says that texels are seen as they are, where light falls on pixels.
+    #[inline(always)]
+    pub(super) fn replace_light(&mut self) {
+        (self.colour, self.lamps) = ([255; 3], None);
     }
 
     /// The state of an object: that of the last call that began at it or before.
