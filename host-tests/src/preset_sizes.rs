@@ -319,4 +319,16 @@ mod tests {
         assert_eq!(between(&new, MARKERS, &written).unwrap(), new);
         assert_eq!(thousands(1_002_003), "1,002,003");
     }
+
+    /// Kills: a row of a preset that went.
+    #[test]
+    fn the_table_has_the_presets_that_there_are() {
+        let table = include_str!("../figures/tables.md");
+        let rows = table.lines();
+        let rows = rows.filter_map(|line| line.strip_prefix("| `")?.split_once('`'));
+        let rows: Vec<&str> = rows.map(|(name, _)| name).collect();
+        let presets = presets().unwrap();
+        let names: Vec<&str> = presets.iter().map(|preset| preset.name).collect();
+        assert_eq!(rows, names);
+    }
 }

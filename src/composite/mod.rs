@@ -7,6 +7,7 @@
 //! | `ramp.rs` | packed channels in one or two registers |
 //! | `lirp.rs` | LIRP between a span's ends |
 //! | `words.rs` | colours straight into words of depth and colour |
+//! | `texel.rs` | a texel as pixels take it |
 //! | `texels.rs` | texels times the shaded colour |
 //! | `detailed.rs` | texels in levels of detail |
 //! | `listed.rs` | overlays of an instruction list |
