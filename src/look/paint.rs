@@ -61,12 +61,15 @@ pub trait Paint: Sized {
     );
 
     /// [`fill`](Paint::fill) of [`Fill::Plain`].
+    #[inline(always)]
     fn fill_plain(
         planes: &Self::Planes,
         at: Place,
         draws: &[DrawState<'_>],
         run: &mut [WordOf<Self>],
-    );
+    ) {
+        Self::fill(Fill::Plain, planes, at, draws, run);
+    }
 
     /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels; a bit for each pixel that
     /// is not a hole, the first the top one.
@@ -87,14 +90,18 @@ pub trait Paint: Sized {
         None
     }
 
-    /// [`fill`](Paint::fill), dithered where pixels have 16 bits.
+    /// [`fill`](Paint::fill), dithered where pixels have 16 bits; that of a look that sees to it itself, or does not
+    /// dither.
+    #[inline(always)]
     fn fill_dithered(
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
         draws: &[DrawState<'_>],
         run: &mut [WordOf<Self>],
-    );
+    ) {
+        Self::fill(fill, planes, at, draws, run);
+    }
 
     /// Whether a triangle was to have a texture, and has none.
     #[inline(always)]

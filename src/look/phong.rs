@@ -127,25 +127,11 @@ impl<F: Pixel> Paint for Phong<F> {
         thin_shades(span, &mut planes.normal);
     }
 
-    fn fill_plain(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
-        Self::fill(Fill::Wide, planes, place, draws, run);
-    }
-
     #[inline(never)]
     fn fill(_: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
         if let Some(state) = DrawState::of(planes.object, draws) {
             let colour = steps_of::<F>(state).map(|steps| steps as i32 + (1 << 15));
             light::<F>(state, &planes.normal, place, run, || colour);
         }
-    }
-
-    fn fill_dithered(
-        fill: Fill,
-        planes: &Planes,
-        place: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [F::Word],
-    ) {
-        Self::fill(fill, planes, place, draws, run);
     }
 }

@@ -100,15 +100,6 @@ impl<S: Shader> Paint for Shaded<S> {
         thin_shades(span, planes);
     }
 
-    fn fill_plain(
-        planes: &Planes,
-        place: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [<S::Pixel as PixelFormat>::Word],
-    ) {
-        Self::fill(Fill::Wide, planes, place, draws, run);
-    }
-
     #[inline(never)]
     fn fill(
         _: Fill,
@@ -126,15 +117,5 @@ impl<S: Shader> Paint for Shaded<S> {
                 *value = value.wrapping_add(planes[3 * i + 1]);
             }
         }
-    }
-
-    fn fill_dithered(
-        fill: Fill,
-        planes: &Planes,
-        place: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [<S::Pixel as PixelFormat>::Word],
-    ) {
-        Self::fill(fill, planes, place, draws, run);
     }
 }

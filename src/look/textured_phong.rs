@@ -146,26 +146,7 @@ macro_rules! lit {
                 Textured::<$texel>::set_up_thin(span, object, draws, planes);
             }
 
-            fn fill_plain(
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
-            ) {
-                fill::<$format, $texel>(planes, place, draws, run);
-            }
-
             fn fill(
-                _: Fill,
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
-            ) {
-                fill::<$format, $texel>(planes, place, draws, run);
-            }
-
-            fn fill_dithered(
                 _: Fill,
                 planes: &Planes,
                 place: Place,

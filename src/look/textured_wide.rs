@@ -136,28 +136,7 @@ macro_rules! wide {
             }
 
             #[inline(always)]
-            fn fill_plain(
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
-            ) {
-                fill::<$format>(planes, place, draws, run);
-            }
-
-            #[inline(always)]
             fn fill(
-                _: Fill,
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
-            ) {
-                fill::<$format>(planes, place, draws, run);
-            }
-
-            #[inline(always)]
-            fn fill_dithered(
                 _: Fill,
                 planes: &Planes,
                 place: Place,

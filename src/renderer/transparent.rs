@@ -137,15 +137,15 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         spare: &mut DrawableOf<P>,
     ) {
         self.begin_together();
-        let found = if P::Depth::TESTS {
-            self.walk(list, spare, Part::Opaque, Found::default())
-        } else {
-            self.walk(list, spare, Part::Painted, Found::default())
+        let first = match P::Depth::TESTS {
+            true => Part::Opaque,
+            false => Part::Painted,
         };
+        let found = self.walk(list, spare, first);
         if found.sorted {
             self.draw_sorted(list, spare);
         } else if found.unsorted {
-            self.walk(list, spare, Part::Unsorted, found);
+            self.walk(list, spare, Part::Unsorted);
         }
         if list.has_spilled() {
             list.visit_all(next, spare, &mut Leave(self));
@@ -158,13 +158,12 @@ impl<P: Pipeline> LinePass<'_, '_, P> {
         list: &mut ActiveList<'_, DrawableOf<P>>,
         spare: &mut DrawableOf<P>,
         part: Part,
-        found: Found,
     ) -> Found {
         let line = self.line;
         let mut walk = Walk {
             pass: self,
             part,
-            found,
+            found: Found::default(),
             pile: None,
         };
         list.visit_all(line, spare, &mut walk);

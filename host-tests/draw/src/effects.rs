@@ -4,7 +4,7 @@
 //! First comes what is opaque; with shadows, then its shadow volume and the same surfaces again as they are
 //! without the light (K9); last what is transparent, which throws no shadow and gets none.
 
-use super::parts::{Job, Tile, draw_parts, tiles};
+use super::parts::{Job, MOST_OBJECTS, MOST_VERTICES, Tile, draw_parts, room_for, tiles};
 use super::prepared::{Chunk, Prepared, ShadowMesh, colour8};
 use super::scenes::most_slots;
 use super::textured::Texels16;
@@ -12,7 +12,6 @@ use super::{Called, CrewSettings, DrawFailure, Setting, Skins};
 use crate::choice::PixelFormatArg;
 use host_support::model::{Material, Model};
 use host_support::reference::{Shade, View};
-use host_support::rooms::Room;
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::mesh::U1F15;
@@ -20,7 +19,8 @@ use scanbeam::pixel::{Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888};
 use scanbeam::scene::{
     Blend, DrawError, LARGEST, Lights, Shading, Shadow, ShadowLight, Skin, Texture,
 };
-use scanbeam::{Draw, Link, Mesh, Scene};
+use scanbeam::{Draw, Mesh, Scene};
+use std::collections::HashMap;
 
 /// What is asked for beside what materials say.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -48,7 +48,7 @@ impl Effects {
 }
 
 /// What a material does beside its colour.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 struct Looks {
     specular: [U1F15; 3],
     shininess: u16,
@@ -108,6 +108,7 @@ fn colour_of(model: &Model, triangle: usize) -> Option<[u8; 3]> {
 /// A model's looks by number, and which of them its triangles have. Where light falls on pixels, a look has one colour.
 fn looks(model: &Model, effects: Effects) -> Result<(Vec<Looks>, Vec<u16>), DrawFailure> {
     let mut all: Vec<Looks> = Vec::new();
+    let mut numbers = HashMap::new();
     let mut of_triangle = Vec::new();
     for (triangle, material) in model.triangle_materials.iter().enumerate() {
         let looks = match material {
@@ -123,9 +124,7 @@ fn looks(model: &Model, effects: Effects) -> Result<(Vec<Looks>, Vec<u16>), Draw
             false => [255; 3],
         };
         let looks = Looks { colour, ..looks };
-        // Neighbours look alike, as a rule.
-        let known = all.iter().rposition(|known| *known == looks);
-        let number = known.unwrap_or_else(|| {
+        let number = *numbers.entry(looks).or_insert_with(|| {
             all.push(looks);
             all.len() - 1
         });
@@ -373,22 +372,17 @@ impl Task<'_> {
     }
 
     fn job(&self, steps: usize) -> Job {
-        let chunks = &self.prepared.chunks;
-        let faces: usize = chunks.iter().map(|chunk| chunk.faces.len()).sum();
-        let vertices: usize = chunks.iter().map(|chunk| chunk.positions.len()).sum();
-        // Those of clipped triangles, and where faces are flat three more for each.
-        let more = if self.view.shade == Shade::Flat {
-            20
-        } else {
-            8
-        };
-        let (mut vertices, mut objects) = (vertices + more * faces + 64, 4 * faces + 64);
+        let textured = !self.skins.set.is_empty();
+        let is_flat = self.view.shade == Shade::Flat;
+        let mut room = room_for(self.prepared.chunks.iter(), textured, is_flat);
         let casts = !self.shadows.is_empty();
         if casts {
             // Each opaque part twice, and volumes of unknown size.
-            (vertices, objects) = (usize::MAX, usize::MAX);
+            (room.vertices, room.objects) = (MOST_VERTICES, MOST_OBJECTS);
+            room.places = if textured { MOST_VERTICES } else { 0 };
         }
-        let vertices = vertices.min(1 << 16);
+        // A volume has two states, and two more where the near plane cuts it.
+        room.draws = steps + 3 * self.shadows.len();
         Job {
             size: [self.view.width, self.view.height],
             most: LARGEST,
@@ -397,17 +391,7 @@ impl Task<'_> {
             renderers: self.renderers,
             slots: self.slots,
             shadows: casts,
-            room: Room {
-                vertices,
-                places: if self.skins.set.is_empty() {
-                    0
-                } else {
-                    vertices
-                },
-                objects: objects.min(usize::from(Link::CACHED)),
-                // A volume has two states, and two more where the near plane cuts it.
-                draws: steps + 3 * self.shadows.len(),
-            },
+            room,
         }
     }
 

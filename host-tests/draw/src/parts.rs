@@ -1,6 +1,7 @@
 //! A picture by draw calls in as many scenes as it takes: tiles where it is larger than a scene can be, and bands of
 //! lines where more is seen than the memory of a scene holds.
 
+use crate::prepared::Chunk;
 use crate::values::{Called, MOST_SLOTS, draw_shared};
 use crate::{DrawFailure, Overfull, display};
 use host_support::image_out::Frame;
@@ -31,6 +32,30 @@ pub(crate) struct Job {
     /// Memory of a scene.
     pub(crate) room: Room,
 }
+
+/// Room for a scene of these parts of models, with textures or without, and with faces of one colour each where it is
+/// `flat`; what needs more is drawn in several bands of lines.
+pub(crate) fn room_for<'c>(
+    chunks: impl Iterator<Item = &'c Chunk> + Clone,
+    textured: bool,
+    flat: bool,
+) -> Room {
+    let faces: usize = chunks.clone().map(|chunk| chunk.faces.len()).sum();
+    let vertices: usize = chunks.clone().map(|chunk| chunk.positions.len()).sum();
+    // Those of clipped triangles, and where faces are flat three more for each.
+    let more = if flat { 20 } else { 8 };
+    let vertices = (vertices + more * faces + 64).min(MOST_VERTICES);
+    Room {
+        vertices,
+        places: if textured { vertices } else { 0 },
+        objects: (4 * faces + 64).min(MOST_OBJECTS),
+        draws: chunks.count(),
+    }
+}
+
+/// Most vertices and triangles of a scene.
+pub(crate) const MOST_VERTICES: usize = 1 << 16;
+pub(crate) const MOST_OBJECTS: usize = Link::CACHED as usize;
 
 /// A rectangle of the picture.
 #[derive(Clone, Copy, Debug)]

@@ -2,7 +2,7 @@
 //! several lights or in palettes a line.
 
 use crate::choice::PixelFormatArg;
-use crate::parts::{Job, Tile, draw_parts};
+use crate::parts::{Job, Tile, draw_parts, room_for};
 use crate::scene_file::{BlendKind, DepthKind, Item, Loaded, SceneFile};
 use crate::textured::Texels16;
 use crate::{
@@ -10,7 +10,6 @@ use crate::{
 };
 use host_support::image_out::Frame;
 use host_support::reference::{Cull, View};
-use host_support::rooms::Room;
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::mesh::{Material, U1F15};
@@ -20,7 +19,7 @@ use scanbeam::scene::{
     Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, LARGEST, Lights, Scissor, Skin,
     Texture,
 };
-use scanbeam::{Affine, Camera, Draw, Link, Scene};
+use scanbeam::{Affine, Camera, Draw, Scene};
 
 /// A scene in the crate's number formats.
 pub struct SceneParts<'a> {
@@ -77,20 +76,6 @@ impl<'a> SceneParts<'a> {
             (0..part.prepared.chunks.len()).map(move |chunk| (number, chunk))
         };
         self.parts.iter().enumerate().flat_map(of).collect()
-    }
-
-    /// Room for all of it; what needs more is drawn in several bands of lines.
-    fn room(&self) -> Room {
-        let chunks = || self.parts.iter().flat_map(|part| &part.prepared.chunks);
-        let faces: usize = chunks().map(|chunk| chunk.faces.len()).sum();
-        let vertices: usize = chunks().map(|chunk| chunk.positions.len()).sum();
-        let vertices = (vertices + 8 * faces + 64).min(1 << 16);
-        Room {
-            vertices,
-            places: if self.are_textured() { vertices } else { 0 },
-            objects: (4 * faces + 64).min(usize::from(Link::CACHED)),
-            draws: chunks().count(),
-        }
     }
 }
 
@@ -223,7 +208,11 @@ fn job(parts: &SceneParts<'_>, view: &View, crew: CrewSettings) -> Result<Job, D
         renderers: crew.renderers.max(1),
         slots: most_slots(crew)?,
         shadows: false,
-        room: parts.room(),
+        room: room_for(
+            parts.parts.iter().flat_map(|part| &part.prepared.chunks),
+            parts.are_textured(),
+            false,
+        ),
     })
 }
 

@@ -93,12 +93,6 @@ impl TextureSet {
         Self { levels, ..self }
     }
 
-    /// Whether they are.
-    #[must_use]
-    pub fn has_levels(&self) -> bool {
-        self.levels
-    }
-
     /// Whether nothing is textured.
     #[must_use]
     pub fn is_empty(&self) -> bool {
@@ -265,7 +259,7 @@ pub fn draw_textured(
 }
 
 /// The textures of a set, read through a filter.
-pub(super) fn textures(
+fn textures(
     set: &TextureSet,
     filter: FilterArg,
 ) -> Result<Vec<Levels<HostTexture<'_>>>, DrawFailure> {

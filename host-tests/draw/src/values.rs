@@ -2,19 +2,18 @@
 
 use crate::choice::PixelFormatArg;
 use crate::formats::mono;
-use crate::parts::{Figures, Job, WORDS, add_cache, draw_parts};
+use crate::parts::{Figures, Job, WORDS, add_cache, draw_parts, room_for};
 use crate::textured::{Skins, Texels16};
 use crate::{DrawFailure, Overfull, Prepared, Setting};
 use host_support::image_out::Frame;
 use host_support::mock::{MockError, MockFrameBuffer};
 use host_support::reference::{Shade, View};
-use host_support::rooms::Room;
 use scanbeam::frame::{FrameError, FrameUse, LineError};
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::{Grey8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
 use scanbeam::scan_out::{Pump, Window};
 use scanbeam::scene::{Budget, LARGEST, Shading, Skin, Texture};
-use scanbeam::{Draw, Link, Renderer, Scene};
+use scanbeam::{Draw, Renderer, Scene};
 use serde_json::json;
 use std::sync::mpsc::sync_channel;
 use std::thread;
@@ -176,7 +175,11 @@ where
         renderers: asked.renderers,
         slots: asked.slots,
         shadows: false,
-        room: room(asked, !textures.is_empty()),
+        room: room_for(
+            prepared.chunks.iter(),
+            !textures.is_empty(),
+            view.shade == Shade::Flat,
+        ),
     };
     draw_parts::<L, F>(&job, prepared.chunks.len(), |scene, _, number| {
         let chunk = &prepared.chunks[number];
@@ -201,26 +204,6 @@ where
         })
     })
     .map(Some)
-}
-
-/// Room for a model; what needs more is drawn in several bands of lines.
-fn room(asked: &Asked<'_>, textured: bool) -> Room {
-    let prepared = asked.prepared;
-    let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
-    let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
-    // Those of clipped triangles, and where faces are flat three more for each.
-    let more = if asked.view.shade == Shade::Flat {
-        20
-    } else {
-        8
-    };
-    let vertices = (vertices + more * faces + 64).min(1 << 16);
-    Room {
-        vertices,
-        places: if textured { vertices } else { 0 },
-        objects: (4 * faces + 64).min(usize::from(Link::CACHED)),
-        draws: prepared.chunks.len(),
-    }
 }
 
 /// Draws a frame by a thread for each renderer, which share the lines in turns; this one sends them.
