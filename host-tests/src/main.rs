@@ -112,7 +112,7 @@ impl Picture {
         use PixelFormatArg::{Dithered565, Rgb565};
         Self {
             figures: called.to_json(),
-            untextured: called.used.cache.untextured,
+            untextured: called.used.assembled.untextured,
             frame: called.frame,
             overfull: called.overfull,
             is_rounded: textured && !matches!(format, Rgb565 | Dithered565),
@@ -129,7 +129,7 @@ impl Picture {
         }
         if self.untextured > 0 {
             tell!(
-                "note: {} triangles are drawn untextured, as they stretch over more than 4096 texels",
+                "note: triangles, or pieces of them, that stretch over more than 4096 texels, drawn without their texture: {}",
                 self.untextured
             );
         }

@@ -16,8 +16,8 @@ use crate::hot::{
 };
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
-use scanbeam::scene::{Scene, Scissor};
-use scanbeam::{Cull, Screen};
+use scanbeam::scene::{Draw, Scene, Scissor};
+use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
 
 type L = Gouraud<Rgb888>;
 /// Depth where w is 1.
@@ -314,6 +314,95 @@ fn layers_hide_what_is_behind_them() {
             }
         });
     }
+}
+
+/// The red of the pixel in the middle of surfaces that face the eye, at these distances and drawn in this order, each
+/// with its number, from 1 on, as its red.
+fn faced(camera: &Camera, distances: [f64; 2], slots: u16) -> u8 {
+    let screen = Screen::new(1, 1).unwrap();
+    let mut rooms = SceneRooms::new(18, 9, 1, 2);
+    let mut scene = rooms.scene::<L>(screen);
+    scene.begin(camera).unwrap();
+    for (number, distance) in (1..).zip(distances) {
+        // In 2^-14 of the distance, so that the mesh rounds nothing.
+        let positions = [
+            [-8192i16, -8192, -16_384],
+            [8192, -8192, -16_384],
+            [0, 8192, -16_384],
+        ];
+        let call = Draw {
+            model: Affine::placed(distance as f32, [0.0; 3]).unwrap(),
+            colour: [number, 0, 0],
+            ..Draw::new(Mesh {
+                positions: &positions,
+                normals: &[],
+                colours: &[],
+                faces: Faces::Triangles(&[[0, 1, 2]]),
+            })
+        };
+        scene.draw(&call).unwrap();
+    }
+    frame(&scene, slots, true, [0; 3])[0][0][0]
+}
+
+/// Whatever near and far a camera accepts, of two surfaces a thousandth of their distance apart the nearer one is seen,
+/// in either order.
+#[test]
+fn a_thousandth_apart_the_nearer_is_seen_at_any_distance() {
+    let mut rng = Rng::new(301);
+    for round in 0..4_000 {
+        let near = rng.between(-50.0, 60.0).exp2() as f32;
+        let ratio = rng.between(0.1, 16.0).exp2() as f32;
+        let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+        let camera = Camera::look_at([0.0; 3], ahead, up, 20.0, near, near * ratio).unwrap();
+        let (near, far) = (f64::from(near), f64::from(near * ratio) / 1.002);
+        let away = near * (far / near).powf(rng.pick(&[0.0, 1.0, rng.clone().unit()])) * 1.0005;
+        let slots = [0, 1, 64][round % 3];
+        for (distances, want) in [([away, away * 1.001], 1), ([away * 1.001, away], 2)] {
+            let seen = faced(&camera, distances, slots);
+            assert_eq!(seen, want, "{near} {ratio} {distances:?}");
+        }
+    }
+}
+
+/// The same of surfaces that lean, up to 8 times as far at one corner as at another, within 4,096 times near: farther away
+/// planes of 1/w, which err by half a unit a pixel, no longer tell a thousandth apart in each pixel.
+#[test]
+fn a_thousandth_apart_the_nearer_that_leans_is_seen_within_4096_times_near() {
+    let mut rng = Rng::new(302);
+    let screen = Screen::new(40, 30).unwrap();
+    let mut pixels = 0;
+    for round in 0..6_000 {
+        let steep = [1.2f64, 2.0, 8.0][round % 3];
+        let farthest = (12.0 * rng.unit()).exp2();
+        let corners = [(); 3].map(|()| {
+            let at = (rng.within(-60, 380), rng.within(-60, 300));
+            (at, (farthest * steep.powf(-rng.unit())).max(1.0))
+        });
+        let of = |red: u8, by: f64| {
+            let colour = [red, 0, 0];
+            corners.map(|(at, w)| Corner {
+                at,
+                w: w * by,
+                colour,
+            })
+        };
+        let [near, far] = [of(100, 1.0), of(200, 1.001)];
+        let pair = if round % 2 == 0 {
+            [near, far]
+        } else {
+            [far, near]
+        };
+        with_scene::<L, _>(screen, &pair, |scene| {
+            let shown = frame(scene, [0, 1, 64][round / 3 % 3], true, [0; 3]);
+            let shown = shown.into_iter().flatten().filter(|p| p[0] != 0);
+            for pixel in shown {
+                assert_eq!(pixel[0], 100, "{pair:?}");
+                pixels += 1;
+            }
+        });
+    }
+    assert!(pixels > 500_000, "{pixels}");
 }
 
 /// Of equals the last is seen, and without depth the last of all.

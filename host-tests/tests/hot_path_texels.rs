@@ -216,6 +216,11 @@ fn compared(got: &[u16], far: f64) -> Off {
     all
 }
 
+/// A pixel whose place lies by an edge between two texels may show either, as it may where pictures of other renderers are
+/// compared: by 1/16 texel at `EXACT`. How many do is bounded too: corners lie on 1/64 pixel, so they are off by 1/256
+/// pixel on average, up to 2 texels a pixel make that 1/128 texel, and with two axes it takes the place over an edge in
+/// 1 of 64 pixels.
+///
 /// Kills: places taken at 1/8 pixel (`fine` of 0 in `TexturePlace::new`), another budget's stride, a base that is off.
 #[test]
 fn texels_of_a_field_of_cubes_are_those_of_f64() {
@@ -228,6 +233,9 @@ fn texels_of_a_field_of_cubes_are_those_of_f64() {
         let off = compared(&picture(budget, 64, None, &down()), far);
         println!("{budget:?}: {off:?}");
         assert!(off.wrong <= 15, "{budget:?}: {off:?}");
+        if budget == Budget::EXACT {
+            assert!(off.other <= off.pixels / 64, "{off:?}");
+        }
     }
 }
 

@@ -56,6 +56,7 @@ mod hot_path_shared;
 mod hot_path_texels;
 mod hot_path_values;
 mod hot_path_volumes;
+mod hot_path_wide;
 mod input;
 mod lines_alone;
 mod list_bake;

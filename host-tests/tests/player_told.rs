@@ -1,14 +1,16 @@
 //! What a player tells of what it drew, and what of its settings stays in force beside what a list says (H11, H14).
 
 use crate::listing::PLENTY;
-use crate::played::{Kept, drawn, played};
+use crate::played::{Kept, drawn, lists, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use host_tests::rooms::{Room, picture};
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::{PlayerSettings, RunCounts};
 use scanbeam::light::{DirectionalLight, Lighting};
-use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, Material, State};
-use scanbeam::look::Gouraud;
+use scanbeam::list::{
+    FieldForm, Flow, Halt, Header, Id, Material, State, TexelForm, Texture as TextureBlock,
+};
+use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::U1F15;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Blend, BlendMode, Draw, Scene};
@@ -228,4 +230,39 @@ fn lights_of_the_settings_do_not_fall_on_what_is_unlit() {
     };
     assert!(picture_of(lit, unlit, 255) == picture_of(dark, unlit, 255));
     assert!(picture_of(lit, WHITE, 255) != picture_of(lit, unlit, 255));
+}
+
+/// The corners of a triangle lie up to 4.4 sides of its texture apart: 2,250 texels, or 4,500, which is too many.
+/// Kills: no event, one of a block before, and sums of all blocks.
+#[test]
+fn what_stretches_over_too_many_texels_is_told_of_its_block() {
+    let mut memory = vec![0; 2048];
+    let mut writer = ListWriter::new(&mut memory);
+    let mut at = Vec::new();
+    for log_width in [9, 10, 10] {
+        let block = lists::texture(TexelForm::Rgb565, 1);
+        let block = TextureBlock {
+            log_width,
+            log_height: 0,
+            ..block
+        };
+        writer
+            .bulk(&State::Texture(block), &vec![0; 1 << (log_width - 1)])
+            .unwrap();
+        at.push(4 * lists::draw_textured(&mut writer));
+    }
+    writer.flow(Flow::End).unwrap();
+    let list = writer.words();
+    let mut notices: Vec<Notice> = Vec::new();
+    let mut kept = Kept::new(64, 96);
+    drawn::<Textured<Rgb565Be>>(|scene| {
+        let mut player = kept.player::<Textured<Rgb565Be>>(PlayerSettings::default());
+        player.start(0);
+        let mut budget = PLENTY;
+        let tell = &mut |n: Notice| notices.push(n);
+        assert_eq!(player.run(list, scene, &mut budget, tell), Ok(Halt::End));
+    });
+    let told = notices.iter().filter(|n| n.event == Event::Untextured);
+    let told: Vec<_> = told.map(|n| (n.offset, n.value)).collect();
+    assert_eq!(told, [(at[1], 1), (at[2], 1)]);
 }

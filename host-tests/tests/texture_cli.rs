@@ -194,16 +194,22 @@ fn other_sizes_are_resized_with_a_note() {
 fn wide_triangles_are_told() {
     let desk = Desk::new();
     write_image(&desk.path("t.png"), &picture(64, 64)).unwrap();
-    let line = "render m.obj -o o.png --texture t.png --size 24x24";
-    for (repeats, wide) in [(47.0, false), (63.9, false), (64.1, true), (90.0, true)] {
-        for from in [0.0, 0.3, -7.9] {
+    for (repeats, wide) in [
+        (47.0, false),
+        (64.0, false),
+        (64.0 + 0.5 / 64.0, true),
+        (90.0, true),
+    ] {
+        for (from, slots) in [(0.0, 96), (0.0, 0), (0.25, 96), (-7.5, 1)] {
+            let line =
+                format!("render m.obj -o o.png --texture t.png --size 24x24 --cache {slots}");
             let to = from + repeats;
             let square = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\n";
             let places = format!("vt {from} 0\nvt {to} 0\nvt {to} 1\nvt {from} 1\n");
             desk.write("m.obj", format!("{square}{places}{FACE}"));
-            let (frame, text) = desk.drawn(line);
+            let (frame, text) = desk.drawn(&line);
             assert_eq!(
-                text.contains("2 triangles are drawn untextured"),
+                text.contains("drawn without their texture: 2"),
                 wide,
                 "{text}"
             );

@@ -93,8 +93,6 @@ pub struct CacheUse {
     pub set_ups: u32,
     /// The most slots in use at a time.
     pub peak: u32,
-    /// Triangles that stretch over 4,096 texels or more, and are drawn without their texture.
-    pub untextured: u32,
 }
 
 impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {

@@ -167,8 +167,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let flags = Flags::new(fill, entry.way());
         kept.object = number;
         kept.flags = flags.0;
-        let lacks = L::lacks_texture(planes, view.draws);
-        self.counts.untextured += u32::from(lacks);
         let change = Change {
             line: entry.change(),
             turns: entry.turns(),

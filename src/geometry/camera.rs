@@ -140,9 +140,10 @@ impl core::error::Error for CameraError {}
 impl Camera {
     /// How many times the near plane's distance the far plane's may be.
     ///
-    /// Depth is 1/w in 31 bits with the near plane at 1. At this ratio the far plane is at 2^15, so
-    /// of surfaces that face the eye, a thousandth of their distance apart, the nearer one is still 32
-    /// units ahead. Those that lean are planes, which err by up to half a unit a pixel.
+    /// Depth is 1/w in 31 bits with the near plane at 2^30 or more. At this ratio the far plane is at 2^14, so
+    /// of surfaces that face the eye, a thousandth of their distance apart, the nearer one is still 16
+    /// units ahead. Those that lean are planes, which err by up to half a unit a pixel: a thousandth apart they are told
+    /// apart in each pixel within 4,096 times near.
     pub const MOST_FAR: f32 = 65_536.0;
 
     /// World to camera.

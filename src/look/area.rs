@@ -160,7 +160,7 @@ impl Large {
     /// nearest corner's has.
     #[inline(never)]
     fn plane(&mut self, value: [i32; 3], picture: Option<Frame>) -> Option<[u32; 3]> {
-        // Less than 4,096 texels, and less than the greatest 1/w.
+        // Below 4,096 texels, and less than the greatest 1/w.
         let (e1, e2) = (
             value[1].wrapping_sub(value[0]),
             value[2].wrapping_sub(value[0]),

@@ -14,7 +14,7 @@
 //! | `Perspective` within 64 pixels | 701 | 1,726 |
 //! | `Wide`, larger | 858 | 2,300 |
 //!
-//! A triangle may be 4,096 texels wide, wherever on the texture it lies: places count from a base
+//! A triangle may stretch over 4,096 texels, wherever on the texture it lies: places count from a base
 //! near its middle, in whole repeats where the texture repeats.
 
 use super::Place;
@@ -26,9 +26,7 @@ use super::stride::{Range, Reach, Stride, reach};
 use super::word_plane::Near;
 use crate::num::{leading_zeros, mul_high, mul_high_unsigned};
 pub(crate) use crate::scene::Method;
-#[cfg(test)]
-use crate::scene::TexturePlace;
-use crate::scene::{Budget, SampledSpan, Sampling, Square, Texture};
+use crate::scene::{Budget, SampledSpan, Sampling, Square, Texture, TexturePlace};
 use crate::span::Frame;
 
 /// A corner of a triangle; corners go clockwise.
@@ -85,9 +83,6 @@ pub struct Values {
     pub places: [[i32; 2]; 2],
 }
 
-/// Widest triangle, in texels with 14 fraction bits.
-const WIDEST: u32 = 4096 << 14;
-
 /// Least and most of three numbers.
 #[inline(always)]
 fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
@@ -100,7 +95,15 @@ fn ways(corners: &[Corner; 3], axis: usize) -> [i32; 3] {
     corners.map(|c| c.texel[axis].wrapping_sub(corners[0].texel[axis]))
 }
 
-/// The longer of a triangle's sides on the texture; `None` where it is not below [`WIDEST`].
+/// The same, where the farthest corner lies 4,096 texels from the first: nearer by 2^-14 texel, so that 32 bits hold how
+/// far planes rise.
+#[cold]
+#[inline(never)]
+fn nearer(ways: [i32; 3], low: i32) -> [i32; 3] {
+    ways.map(|way| way.min(low + (TexturePlace::WIDEST - 1) as i32))
+}
+
+/// The longer of a triangle's sides on the texture; `None` where it is above [`TexturePlace::WIDEST`].
 #[inline(always)]
 fn width(corners: &[Corner; 3]) -> Option<u32> {
     let of = |axis| {
@@ -108,7 +111,7 @@ fn width(corners: &[Corner; 3]) -> Option<u32> {
         high.wrapping_sub(low) as u32
     };
     let width = of(0).max(of(1));
-    (width < WIDEST).then_some(width)
+    (width <= TexturePlace::WIDEST).then_some(width)
 }
 
 /// Whether u and v may be taken as linear on the screen: `width (max - min) <= 4 budget min`, of
@@ -125,7 +128,7 @@ pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
 }
 
 impl Values {
-    /// The values of a triangle; `None` where it is 4,096 texels wide or more, or a depth is not in
+    /// The values of a triangle; `None` where it is wider than 4,096 texels, or a depth is not in
     /// 1 ..< 2^31.
     #[inline(never)]
     #[must_use]
@@ -141,8 +144,11 @@ impl Values {
             .into_iter()
             .enumerate()
         {
-            let ways = ways(corners, axis);
+            let mut ways = ways(corners, axis);
             let [low, high] = range(ways);
+            if width == TexturePlace::WIDEST {
+                ways = nearer(ways, low);
+            }
             let middle = corners[0].texel[axis].wrapping_add((low + high) >> 1) >> 14;
             let grain = 1 << log.min(8);
             base[axis] = middle.wrapping_add(grain >> 1) & -grain;

@@ -102,13 +102,6 @@ pub trait Paint: Sized {
     ) {
         Self::fill(fill, planes, at, draws, run);
     }
-
-    /// Whether a triangle was to have a texture, and has none.
-    #[inline(always)]
-    fn lacks_texture(planes: &Self::Planes, draws: &[DrawState<'_>]) -> bool {
-        let _ = (planes, draws);
-        false
-    }
 }
 
 /// A pixel of a line buffer.

@@ -454,10 +454,4 @@ impl<F: Texel> Paint for Textured<F> {
         shade(run);
         opaque
     }
-
-    #[inline(always)]
-    fn lacks_texture(planes: &Planes, draws: &[DrawState<'_>]) -> bool {
-        let state = draws.get(usize::from(planes.draw));
-        !planes.mapped && state.and_then(DrawState::texture).is_some()
-    }
 }

@@ -165,11 +165,6 @@ macro_rules! lit {
             ) -> u32 {
                 fill_holed::<$format, $texel>(planes, place, draws, run)
             }
-
-            #[inline(always)]
-            fn lacks_texture(planes: &Planes, draws: &[DrawState<'_>]) -> bool {
-                Textured::<$texel>::lacks_texture(planes, draws)
-            }
         }
     )+};
 }

@@ -156,11 +156,6 @@ macro_rules! wide {
             ) -> u32 {
                 fill_holed::<$format>(planes, place, draws, run)
             }
-
-            #[inline(always)]
-            fn lacks_texture(planes: &Planes, draws: &[DrawState<'_>]) -> bool {
-                Texels::lacks_texture(planes, draws)
-            }
         }
     )+};
 }

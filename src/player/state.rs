@@ -251,6 +251,10 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         if after.clipped > before.clipped {
             self.tell(Event::Clipped, block, after.clipped - before.clipped);
         }
+        if after.untextured > before.untextured {
+            let count = after.untextured - before.untextured;
+            self.tell(Event::Untextured, block, count);
+        }
     }
 
     /// The sides of the texture, as logarithms.

@@ -91,8 +91,8 @@ pub struct Skin<'a, 't> {
     /// bits, -2^17 to 2^17 texels; beyond, modulo 2^18 texels, which is the same where the
     /// texture repeats. As many as there are positions.
     ///
-    /// A triangle may stretch over less than 4,096 texels; one that stretches farther is drawn without the texture,
-    /// and counted.
+    /// A triangle may stretch over 4,096 texels; one that stretches farther is drawn without the texture, and counted as
+    /// [`untextured`](super::Assembled::untextured). From 2^18 - 4,096 texels on it is not told from a narrow one.
     pub places: &'a [[i32; 2]],
     /// How far a pixel's texel may be from its place.
     pub budget: Budget,

@@ -69,6 +69,7 @@ pub(crate) use texture::{Form, Square, half};
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
 use crate::arena::Arena;
+use crate::event::{Event, EventSet};
 use crate::geometry::{Camera, Scale, Screen};
 use crate::link::Link;
 use core::marker::PhantomData;
@@ -103,6 +104,23 @@ pub struct Assembled {
     pub clipped: u32,
     /// Triangles that found no room.
     pub dropped: u32,
+    /// Pieces of triangles that stretch over more than 4,096 texels, and are drawn without their texture.
+    pub untextured: u32,
+}
+
+impl Assembled {
+    /// The events of pass one (H14).
+    #[must_use]
+    pub fn events(&self) -> EventSet {
+        [
+            (Event::Clipped, self.clipped),
+            (Event::Full, self.dropped),
+            (Event::Untextured, self.untextured),
+        ]
+        .into_iter()
+        .filter(|(_, count)| *count > 0)
+        .fold(EventSet::NONE, |set, (event, _)| set.with(event))
+    }
 }
 
 /// As many objects as links can lead to.

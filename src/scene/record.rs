@@ -71,6 +71,9 @@ impl TexturePlace {
     /// What fresh memory is filled with.
     pub const EMPTY: Self = Self([0; 2]);
 
+    /// How far a triangle may stretch on an axis, in texels with 14 fraction bits.
+    pub(crate) const WIDEST: u32 = 4096 << 14;
+
     /// Fraction bits of texels beyond the 8 of meshes: corners that are cut are not rounded to those.
     pub(crate) const FINER: u32 = 6;
 
@@ -90,6 +93,17 @@ impl TexturePlace {
     #[inline(always)]
     pub(crate) fn texel(self) -> [i32; 2] {
         self.0.map(|w| (w & !7) as i32)
+    }
+
+    /// Whether a triangle stretches farther on an axis than [`WIDEST`](Self::WIDEST).
+    #[inline(always)]
+    pub(crate) fn are_apart(places: [Self; 3]) -> bool {
+        let [a, b, c] = places.map(Self::texel);
+        [0, 1].into_iter().any(|axis| {
+            let ways = [b, c].map(|other| other[axis].wrapping_sub(a[axis]));
+            let [low, high] = [ways[0].min(ways[1]).min(0), ways[0].max(ways[1]).max(0)];
+            high.wrapping_sub(low) as u32 > Self::WIDEST
+        })
     }
 
     /// Units of 1/64 pixel beyond the vertex's place: across and down.

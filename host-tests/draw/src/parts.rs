@@ -270,6 +270,7 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.assembled.culled += one.assembled.culled;
     all.assembled.clipped += one.assembled.clipped;
     all.assembled.dropped += one.assembled.dropped;
+    all.assembled.untextured += one.assembled.untextured;
     add_cache(&mut all.cache, &one.cache);
     all.lines_skipped += one.lines_skipped;
     all.scan_out.bytes_sent += one.scan_out.bytes_sent;
@@ -287,8 +288,6 @@ pub(crate) fn add_cache(all: &mut CacheUse, one: &CacheUse) {
     all.misses += one.misses;
     all.set_ups += one.set_ups;
     all.peak = all.peak.max(one.peak);
-    // One that is on lines of several is one.
-    all.untextured = all.untextured.max(one.untextured);
 }
 
 /// Memory that a picture takes: that of the part with the most of each.

@@ -129,8 +129,14 @@ fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
         ]
     };
     let values = |c: &[Corner; 3]| Values::new(c, &texture, Budget::FAST);
-    assert!(values(&of((4096 << 14) - 1)).is_some());
-    assert!(values(&of(4096 << 14)).is_none() && values(&of(-(4096 << 14))).is_none());
+    let most = 4096 << 14;
+    for way in [most - 1, most, -most] {
+        let [a, b, _] = values(&of(way)).unwrap().of[0];
+        let rise = (i64::from(b) - i64::from(a)) >> 5;
+        // At the limit brought nearer, so that a rise has 32 bits.
+        assert_eq!(rise, i64::from(way.clamp(1 - most, most - 1)));
+    }
+    assert!(values(&of(most + 1)).is_none() && values(&of(-1 - most)).is_none());
     let mut none = of(1 << 14);
     none[1].depth = 0;
     assert!(values(&none).is_none());
