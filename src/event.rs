@@ -70,6 +70,12 @@ impl EventSet {
     /// Every kind.
     pub const ALL: Self = Self((1 << Event::ALL.len()) - 1);
 
+    /// Those kinds that are told.
+    pub(crate) fn of<const N: usize>(told: [(Event, bool); N]) -> Self {
+        let told = told.into_iter().filter(|(_, is_told)| *is_told);
+        told.fold(Self::NONE, |set, (event, _)| set.with(event))
+    }
+
     /// The set with `event`.
     #[must_use]
     pub const fn with(self, event: Event) -> Self {

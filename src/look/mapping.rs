@@ -26,7 +26,9 @@ use super::stride::{Range, Reach, Stride, reach};
 use super::word_plane::Near;
 use crate::num::{leading_zeros, mul_high, mul_high_unsigned};
 pub(crate) use crate::scene::Method;
-use crate::scene::{Budget, SampledSpan, Sampling, Square, Texture, TexturePlace};
+#[cfg(test)]
+use crate::scene::TexturePlace;
+use crate::scene::{Budget, SampledSpan, Sampling, Square, Stretch, Texture};
 use crate::span::Frame;
 
 /// A corner of a triangle; corners go clockwise.
@@ -89,31 +91,6 @@ fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Places of three corners on one axis of the texture, as ways from the first one's.
-#[inline(always)]
-fn ways(corners: &[Corner; 3], axis: usize) -> [i32; 3] {
-    corners.map(|c| c.texel[axis].wrapping_sub(corners[0].texel[axis]))
-}
-
-/// The same, where the farthest corner lies 4,096 texels from the first: nearer by 2^-14 texel, so that 32 bits hold how
-/// far planes rise.
-#[cold]
-#[inline(never)]
-fn nearer(ways: [i32; 3], low: i32) -> [i32; 3] {
-    ways.map(|way| way.min(low + (TexturePlace::WIDEST - 1) as i32))
-}
-
-/// The longer of a triangle's sides on the texture; `None` where it is above [`TexturePlace::WIDEST`].
-#[inline(always)]
-fn width(corners: &[Corner; 3]) -> Option<u32> {
-    let of = |axis| {
-        let [low, high] = range(ways(corners, axis));
-        high.wrapping_sub(low) as u32
-    };
-    let width = of(0).max(of(1));
-    (width <= TexturePlace::WIDEST).then_some(width)
-}
-
 /// Whether u and v may be taken as linear on the screen: `width (max - min) <= 4 budget min`, of
 /// the depths, for a triangle of `width` on the texture, with 14 fraction bits. See [`perspective`](super::perspective).
 #[inline]
@@ -133,7 +110,7 @@ impl Values {
     #[inline(never)]
     #[must_use]
     pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
-        let width = width(corners)?;
+        let Stretch { ways, width } = Stretch::of(&corners.map(|c| c.texel))?;
         let depth = corners.map(|c| c.depth);
         let [least, most] = range(depth);
         if least == 0 || most >> 31 != 0 {
@@ -144,18 +121,18 @@ impl Values {
             .into_iter()
             .enumerate()
         {
-            let mut ways = ways(corners, axis);
-            let [low, high] = range(ways);
-            if width == TexturePlace::WIDEST {
-                ways = nearer(ways, low);
-            }
-            let middle = corners[0].texel[axis].wrapping_add((low + high) >> 1) >> 14;
+            let [low, high] = ways[axis];
+            let first = corners[0].texel[axis];
+            let middle = first.wrapping_add((low + high) >> 1) >> 14;
             let grain = 1 << log.min(8);
             base[axis] = middle.wrapping_add(grain >> 1) & -grain;
-            let first = corners[0].texel[axis].wrapping_sub(base[axis] << 14);
-            // Below 2,177 texels, 19 fraction bits.
-            of[axis] = ways.map(|e| first.wrapping_add(e) << 5);
-            places[axis] = [low, high].map(|e| first.wrapping_add(e) << 5);
+            let least = first.wrapping_add(low).wrapping_sub(base[axis] << 14);
+            // Below 2,177 texels, 19 fraction bits. 32 bits do not hold a rise of 4,096, so that it is 2^-14 less.
+            for (value, corner) in of[axis].iter_mut().zip(corners) {
+                let rise = corner.texel[axis].wrapping_sub(first.wrapping_add(low));
+                *value = (least + rise - (rise >> 26)) << 5;
+            }
+            places[axis] = [least, least + (high - low)].map(|e| e << 5);
         }
         let method = if is_affine(width, depth, budget) {
             Method::Wide

@@ -248,12 +248,13 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             // Lengths and indices were checked when they were gathered.
             Err(_) => self.tell(Event::Malformed, block, 0),
         }
-        if after.clipped > before.clipped {
-            self.tell(Event::Clipped, block, after.clipped - before.clipped);
-        }
-        if after.untextured > before.untextured {
-            let count = after.untextured - before.untextured;
-            self.tell(Event::Untextured, block, count);
+        for (event, count) in [
+            (Event::Clipped, after.clipped - before.clipped),
+            (Event::Untextured, after.untextured - before.untextured),
+        ] {
+            if count > 0 {
+                self.tell(event, block, count);
+            }
         }
     }
 

@@ -221,21 +221,14 @@ impl FrameStats {
     #[must_use]
     pub fn events(&self) -> EventSet {
         let spans = &self.spans;
-        let seen = [
-            (Event::PixelRendered, spans.pixels_shaded > 0),
+        let is_drawn = spans.pixels_shaded > 0;
+        EventSet::of([
+            (Event::PixelRendered, is_drawn),
             (Event::Clipped, self.pass_one.clipped > 0),
-            (
-                Event::DepthPassed,
-                spans.depth_tests > 0 && spans.pixels_shaded > 0,
-            ),
+            (Event::DepthPassed, spans.depth_tests > 0 && is_drawn),
             (Event::DepthFailed, spans.pixels_hidden > 0),
             (Event::Full, self.pass_one.dropped > 0),
             (Event::Untextured, self.pass_one.untextured > 0),
-        ];
-        let mut set = EventSet::NONE;
-        for (event, _) in seen.into_iter().filter(|(_, seen)| *seen) {
-            set = set.with(event);
-        }
-        set
+        ])
     }
 }

@@ -131,24 +131,11 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         file(self, &mut pass)?;
         if state.texture().is_some() {
-            self.count_apart(usize::from(state.first));
+            self.count_untextured(state.first.into());
         }
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)
-    }
-
-    /// Counts the triangles from an object on whose corners lie too far apart for their texture.
-    #[inline(never)]
-    fn count_apart(&mut self, first: usize) {
-        let objects = self.objects.as_slice().get(first..).unwrap_or_default();
-        for object in objects {
-            let place = |i: u16| self.places.get(usize::from(i)).copied();
-            let [a, b, c] = object.corner.map(place);
-            if let (Some(a), Some(b), Some(c)) = (a, b, c) {
-                self.assembled.untextured += u32::from(TexturePlace::are_apart([a, b, c]));
-            }
-        }
     }
 
     /// Counts the triangles of a draw call; an error where some found no room.

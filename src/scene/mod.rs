@@ -57,7 +57,7 @@ pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;
 pub(crate) use pass::WordOfNormal;
-pub(crate) use record::{NONE, ORIGIN, first_line};
+pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
 pub(crate) use sampling::{Method, SampledSpan};
@@ -112,14 +112,11 @@ impl Assembled {
     /// The events of pass one (H14).
     #[must_use]
     pub fn events(&self) -> EventSet {
-        [
-            (Event::Clipped, self.clipped),
-            (Event::Full, self.dropped),
-            (Event::Untextured, self.untextured),
-        ]
-        .into_iter()
-        .filter(|(_, count)| *count > 0)
-        .fold(EventSet::NONE, |set, (event, _)| set.with(event))
+        EventSet::of([
+            (Event::Clipped, self.clipped > 0),
+            (Event::Full, self.dropped > 0),
+            (Event::Untextured, self.untextured > 0),
+        ])
     }
 }
 
@@ -287,6 +284,20 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             .map_or(0, first_line);
         let end = lowest - ORIGIN;
         end.clamp(self.lines.start.into(), self.lines.end.into()) as u16
+    }
+
+    /// Counts the triangles from an object on that stretch too far over their texture.
+    #[inline(never)]
+    fn count_untextured(&mut self, first: usize) {
+        let places = &*self.places;
+        let texel = |i: u16| {
+            places
+                .get(usize::from(i))
+                .map_or([0; 2], |place| place.texel())
+        };
+        let stretches = |object: &&Object| Stretch::of(&object.corner.map(texel)).is_none();
+        let objects = self.objects.as_slice().get(first..).unwrap_or_default();
+        self.assembled.untextured += objects.iter().filter(stretches).count() as u32;
     }
 
     /// How many triangles are in memory.

@@ -71,9 +71,6 @@ impl TexturePlace {
     /// What fresh memory is filled with.
     pub const EMPTY: Self = Self([0; 2]);
 
-    /// How far a triangle may stretch on an axis, in texels with 14 fraction bits.
-    pub(crate) const WIDEST: u32 = 4096 << 14;
-
     /// Fraction bits of texels beyond the 8 of meshes: corners that are cut are not rounded to those.
     pub(crate) const FINER: u32 = 6;
 
@@ -95,21 +92,34 @@ impl TexturePlace {
         self.0.map(|w| (w & !7) as i32)
     }
 
-    /// Whether a triangle stretches farther on an axis than [`WIDEST`](Self::WIDEST).
-    #[inline(always)]
-    pub(crate) fn are_apart(places: [Self; 3]) -> bool {
-        let [a, b, c] = places.map(Self::texel);
-        [0, 1].into_iter().any(|axis| {
-            let ways = [b, c].map(|other| other[axis].wrapping_sub(a[axis]));
-            let [low, high] = [ways[0].min(ways[1]).min(0), ways[0].max(ways[1]).max(0)];
-            high.wrapping_sub(low) as u32 > Self::WIDEST
-        })
-    }
-
     /// Units of 1/64 pixel beyond the vertex's place: across and down.
     #[inline(always)]
     pub(crate) fn fine(self) -> [i32; 2] {
         self.0.map(|w| (w << 29) as i32 >> 29)
+    }
+}
+
+/// How far a triangle stretches on its texture, in texels with 14 fraction bits.
+pub(crate) struct Stretch {
+    /// On each axis, the least and the most of the ways from the first corner.
+    pub(crate) ways: [[i32; 2]; 2],
+    /// The longer of both sides.
+    pub(crate) width: u32,
+}
+
+impl Stretch {
+    /// Of the places at the corners; `None` where it is above 4,096 texels.
+    #[inline(never)]
+    pub(crate) fn of(texels: &[[i32; 2]; 3]) -> Option<Self> {
+        let [a, b, c] = texels;
+        let (mut ways, mut width) = ([[0; 2]; 2], 0);
+        for axis in 0..2 {
+            let [b, c] = [b, c].map(|other| other[axis].wrapping_sub(a[axis]));
+            let [low, high] = [b.min(c).min(0), b.max(c).max(0)];
+            ways[axis] = [low, high];
+            width = width.max(high.wrapping_sub(low) as u32);
+        }
+        (width <= 4096 << 14).then_some(Self { ways, width })
     }
 }
 
