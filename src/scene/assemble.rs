@@ -130,7 +130,7 @@ impl<'t, L> Scene<'_, 't, L> {
             lost: Lost::default(),
         };
         file(self, &mut pass)?;
-        if state.texture().is_some() {
+        if state.texture().is_some() && pass.may_stretch() {
             self.count_untextured(state.first.into());
         }
         self.has_values |= state.has_values();

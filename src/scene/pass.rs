@@ -173,6 +173,14 @@ impl Pass<'_> {
         texel.map(|t| t << TexturePlace::FINER)
     }
 
+    /// Whether a triangle may stretch over more than 4,096 texels: none does where all places lie within as many.
+    #[inline(never)]
+    pub(super) fn may_stretch(&self) -> bool {
+        let places = self.texels.unwrap_or_default();
+        let all = places.iter().fold(0, |all, [u, v]| all | u | v);
+        self.generated.is_none() && (places.is_empty() || all as u32 >= 4096 << 8)
+    }
+
     /// The order of corners from the topmost on, and their places in it; `None` where the face is not seen.
     pub(super) fn order(&self, places: [u32; 3]) -> Option<([u16; 3], [u32; 3])> {
         top_first(self.cull == Cull::Back, [0, 1, 2], places)
