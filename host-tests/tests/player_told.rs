@@ -233,7 +233,6 @@ fn lights_of_the_settings_do_not_fall_on_what_is_unlit() {
 }
 
 /// The corners of a triangle lie up to 4.4 sides of its texture apart: 2,250 texels, or 4,500, which is too many.
-/// Kills: no event, one of a block before, and sums of all blocks.
 #[test]
 fn what_stretches_over_too_many_texels_is_told_of_its_block() {
     let mut memory = vec![0; 2048];
