@@ -31,8 +31,20 @@ const NONE: Mesh<'static> = Mesh {
     faces: Faces::Triangles(&[]),
 };
 
-/// The upper left half of the picture, u from one place to another from left to right, in texels with 8 fraction bits;
-/// or v downwards, with the texture's sides exchanged.
+/// A call of the texture, of either side.
+fn textured<'a>(mesh: Mesh<'a>, places: &'a [[i32; 2]], budget: Budget) -> Draw<'a, 'static> {
+    Draw {
+        texture: Some(Skin {
+            texture: texture(),
+            places,
+            budget,
+        }),
+        cull: Cull::None,
+        ..Draw::new(mesh)
+    }
+}
+
+/// The upper left half of the picture, u from one place to another from left to right, in texels with 8 fraction bits.
 fn corners(from: i32, to: i32, depths: [u32; 3]) -> [ScreenCorner; 3] {
     let places = [(0, 0, from), (SIDE, 0, to), (0, SIDE, from)];
     [0, 1, 2].map(|i| {
@@ -49,21 +61,13 @@ fn corners(from: i32, to: i32, depths: [u32; 3]) -> [ScreenCorner; 3] {
     })
 }
 
-/// The picture by so many slots, of what was counted.
+/// The picture by so many slots, and what was counted.
 fn picture(triangles: &[[ScreenCorner; 3]], budget: Budget, slots: u16) -> (Vec<u16>, Assembled) {
     let screen = Screen::new(SIDE, SIDE).unwrap();
     let mut rooms = SceneRooms::of_triangles(triangles.len(), screen);
     let mut scene = rooms.scene::<Textured<Rgb565>>(screen);
     scene.begin(&camera()).unwrap();
-    let call = Draw {
-        texture: Some(Skin {
-            texture: texture(),
-            places: &[],
-            budget,
-        }),
-        cull: Cull::None,
-        ..Draw::new(NONE)
-    };
+    let call = textured(NONE, &[], budget);
     scene.draw_screen(&call, triangles).unwrap();
     let mut rooms = LineRooms::fitting(&scene, slots, true);
     let mut renderer = rooms.renderer();
@@ -156,15 +160,7 @@ fn wide_triangles_are_counted_once() {
     let mut rooms = SceneRooms::of_triangles(2 * triangles.len(), screen);
     let mut scene = rooms.scene::<Textured<Rgb565>>(screen);
     scene.begin(&camera()).unwrap();
-    let mut call = Draw {
-        texture: Some(Skin {
-            texture: texture(),
-            places: &[],
-            budget: Budget::FAST,
-        }),
-        cull: Cull::None,
-        ..Draw::new(NONE)
-    };
+    let mut call = textured(NONE, &[], Budget::FAST);
     for half in triangles.chunks(45) {
         scene.draw_screen(&call, half).unwrap();
     }
@@ -195,20 +191,13 @@ fn cut<L: Smooth>(normals: &[[i16; 3]]) -> u32 {
     ];
     let faces = [[0, 1, 2]];
     let places = [[0, 0], [9000 * 256, 0], [0, 0]];
-    let call = Draw {
-        cull: Cull::None,
-        texture: Some(Skin {
-            texture: texture(),
-            places: &places,
-            budget: Budget::FAST,
-        }),
-        ..Draw::new(Mesh {
-            positions: &positions,
-            normals,
-            colours: &[],
-            faces: Faces::Triangles(&faces),
-        })
+    let mesh = Mesh {
+        positions: &positions,
+        normals,
+        colours: &[],
+        faces: Faces::Triangles(&faces),
     };
+    let call = textured(mesh, &places, Budget::FAST);
     scene.draw(&call).unwrap();
     let counts = scene.assembled();
     assert_eq!(counts.clipped, 1);
@@ -220,7 +209,7 @@ fn cut<L: Smooth>(normals: &[[i16; 3]]) -> u32 {
     counts.untextured
 }
 
-/// Kills: counts of calls without a texture alone.
+/// Kills: counts where a call has no texture in place of where it has one.
 #[test]
 fn pieces_of_what_is_cut_are_counted() {
     assert_eq!(cut::<Textured<Rgb565>>(&[]), 2);

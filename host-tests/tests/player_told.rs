@@ -29,6 +29,12 @@ const WHITE: Material = Material {
     texture: None,
 };
 
+/// The notices of an event: the place of the block, and the value.
+fn of(event: Event, notices: &[Notice]) -> Vec<(u32, u32)> {
+    let of = notices.iter().filter(|n| n.event == event);
+    of.map(|n| (n.offset, n.value)).collect()
+}
+
 /// A triangle with normals, of so bright a grey, of which one corner is so near, in 2^-14.
 fn draw_triangle(writer: &mut ListWriter<'_>, grey: u8, near: i32) {
     let header = Header {
@@ -98,24 +104,20 @@ fn a_player_counts_what_each_block_drew_and_lost() {
             (counts.draws, counts.triangles, counts.dropped),
             (4, 4, dropped)
         );
-        let told = |event| {
-            let of = notices.iter().filter(move |n| n.event == event);
-            of.map(|n| (n.offset, n.value)).collect::<Vec<_>>()
-        };
-        assert_eq!(told(Event::Clipped), [(places[1], 1)], "{objects}");
+        assert_eq!(of(Event::Clipped, &notices), [(places[1], 1)], "{objects}");
         // One triangle a block.
         let lost: Vec<_> = places[4 - dropped as usize..]
             .iter()
             .map(|at| (*at, 1))
             .collect();
-        assert_eq!(told(Event::Full), lost, "{objects}");
+        assert_eq!(of(Event::Full, &notices), lost, "{objects}");
     }
 }
 
 /// Places of the blocks of which a triangle was cut.
 fn clipped(notices: &[Notice]) -> Vec<u32> {
-    let clipped = notices.iter().filter(|n| n.event == Event::Clipped);
-    clipped.map(|n| n.offset).collect()
+    let clipped = of(Event::Clipped, notices).into_iter();
+    clipped.map(|(block, _)| block).collect()
 }
 
 /// Blocks without a state between them are drawn together, as far as there is memory; a table has no faces of its own.
@@ -261,7 +263,6 @@ fn what_stretches_over_too_many_texels_is_told_of_its_block() {
         let tell = &mut |n: Notice| notices.push(n);
         assert_eq!(player.run(list, scene, &mut budget, tell), Ok(Halt::End));
     });
-    let told = notices.iter().filter(|n| n.event == Event::Untextured);
-    let told: Vec<_> = told.map(|n| (n.offset, n.value)).collect();
+    let told = of(Event::Untextured, &notices);
     assert_eq!(told, [(at[1], 1), (at[2], 1)]);
 }
