@@ -2,7 +2,7 @@
 
 use crate::colours::Colours;
 use crate::format::Format;
-use scanbeam::pipeline::BlockFix16;
+use scanbeam_model::BlockFix16;
 use scanbeam::pixel::Rgb565;
 
 /// A way to keep 1/w.

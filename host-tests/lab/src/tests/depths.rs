@@ -8,7 +8,7 @@ use crate::depth::{
 };
 use crate::method::Method;
 use crate::paint::paint;
-use scanbeam::pipeline::BlockFix16;
+use scanbeam_model::BlockFix16;
 use scanbeam::pixel::Rgb565;
 use std::vec::Vec;
 
