@@ -64,7 +64,7 @@ pub use layout::{CHARTS, CONTROL, Chart, Field, TOKEN_BITS, TokenBits};
 pub use lirp::{EDGE_BITS, SPAN_BITS, lirp, lirp_by_selectors};
 pub use priority::{Decision, Wins, priority_contest, priority_stage};
 pub use render::{
-    CornerColours, ModelFrameError, ModelRenderer, SCENE_VERTEX, SEGMENT, draw_model_frame,
+    ModelError, ModelFrameError, ModelRenderer, SCENE_VERTEX, SEGMENT, draw_model_frame,
 };
 pub use stage::{CompositingUnit, ZUnit};
 pub use token::{
