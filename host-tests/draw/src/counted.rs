@@ -38,12 +38,7 @@ struct Mark {
 pub(crate) fn count_triangles<'t, L: Look>(
     job: &Job,
     counted: &[Option<&Chunk>],
-    step: &mut impl FnMut(
-        &mut Scene<'_, 't, L>,
-        &Tile,
-        usize,
-        Option<&Chunk>,
-    ) -> Result<(), DrawError>,
+    step: &mut impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
 ) -> Result<Triangles, DrawFailure> {
     let mut all = Triangles::default();
     let alone = tiles(job).count() > 1;

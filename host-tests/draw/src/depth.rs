@@ -6,8 +6,7 @@ use crate::choice::{DepthArg, PixelFormatArg};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{
-    BlockFixDepth, Counted, DepthAndColour, FlatDepth, GouraudDepth, LineDepth,
-    WithDepth,
+    BlockFixDepth, Counted, DepthAndColour, FlatDepth, GouraudDepth, LineDepth, WithDepth,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 
@@ -23,7 +22,9 @@ pub fn draw_by_depth(
     depth: DepthArg,
 ) -> Result<Drawn, DrawFailure> {
     match depth {
-        DepthArg::Auto | DepthArg::Z32 | DepthArg::Id | DepthArg::Priority => super::draw(model, view, format, crew),
+        DepthArg::Auto | DepthArg::Z32 | DepthArg::Id | DepthArg::Priority => {
+            super::draw(model, view, format, crew)
+        }
         DepthArg::BlockFix => seen_by::<BlockFixDepth>(model, view, format, crew),
         DepthArg::Word => seen_by::<DepthAndColour>(model, view, format, crew),
     }

@@ -4,9 +4,7 @@ use super::{DrawFailure, Drawn};
 use crate::choice::PixelFormatArg;
 use host_support::image_out::Frame;
 use scanbeam::look::{Look, Textured, TexturedPhong};
-use scanbeam::pixel::{
-    Grey8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888, mono_row,
-};
+use scanbeam::pixel::{Grey8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888, mono_row};
 
 /// What is drawn in any format.
 pub(super) trait Picture {

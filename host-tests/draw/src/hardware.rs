@@ -8,7 +8,7 @@ use host_support::reference::{Shade, View};
 use scanbeam::Draw;
 use scanbeam::frame::FrameUse;
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{Pixel, PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::pixel::{Pixel, Rgb565Be, Rgb888};
 use scanbeam::stats::SpanCounts;
 use scanbeam_model::{ModelRenderer, PipeMemory, SEGMENT, draw_model_frame};
 

@@ -6,8 +6,8 @@ use crate::choice::{InterpArg, PixelFormatArg};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{
-    Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12,
-    Lirp16, LirpPacked, Packed8, Packed16, QuarterRate,
+    Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12, Lirp16,
+    LirpPacked, Packed8, Packed16, QuarterRate,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
 

@@ -155,21 +155,13 @@ impl Drawn {
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let (done, cache, sent) = (&self.used.assembled, &self.used.cache, &self.used.scan_out);
-        let (figures, s) = (&self.figures, &self.spans);
-        json!({
+        let figures = &self.figures;
+        let mut all = json!({
             "objects_in": done.triangles,
             "objects_culled": done.culled,
             "objects_clipped": done.clipped,
             "objects_kept": figures.objects,
             "vertices_kept": figures.vertices,
-            "spans": s.spans,
-            "spans_hidden": s.spans_hidden,
-            "spans_untested": s.spans_untested,
-            "spans_flat": s.spans_flat,
-            "pixels_shaded": s.pixels_shaded,
-            "pixels_hidden": s.pixels_hidden,
-            "depth_tests": s.depth_tests,
-            "texture_fetches": s.texture_fetches,
             "scanlines_skipped": self.used.lines_skipped,
             "bytes_sent": sent.bytes_sent,
             "lines_unsent": sent.lines_unsent,
@@ -189,8 +181,29 @@ impl Drawn {
                 "fast_bytes": figures.fast_bytes,
                 "line_bytes": figures.line_bytes,
             },
-        })
+        });
+        if let Some(spans) = &self.spans {
+            all["spans"] = json!(spans.spans);
+            all["spans_hidden"] = json!(spans.spans_hidden);
+            all["spans_untested"] = json!(spans.spans_untested);
+            all["spans_flat"] = json!(spans.spans_flat);
+            all["pixels_shaded"] = json!(spans.pixels_shaded);
+            all["pixels_hidden"] = json!(spans.pixels_hidden);
+            all["depth_tests"] = json!(spans.depth_tests);
+            all["texture_fetches"] = json!(spans.texture_fetches);
+        }
+        all
     }
 }
 
-
+/// A mocked display and its pump, and the lines of a transfer.
+fn display<W: Copy + Default + 'static>(
+    width: u16,
+    height: u16,
+) -> (Pump<MockFrameBuffer<W>>, u16) {
+    let lines = LINES_PER_TRANSFER.min(height);
+    let words = usize::from(width) * usize::from(lines);
+    let sink = MockFrameBuffer::new(width, height).late_by(LATE);
+    let pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    (pump, lines)
+}

@@ -78,11 +78,7 @@ impl Prepared {
     }
 
     /// The same, and the triangles of a part have one look.
-    pub(super) fn split(
-        model: &Model,
-        set: &TextureSet,
-        look: impl Fn(usize) -> u16,
-    ) -> Self {
+    pub(super) fn split(model: &Model, set: &TextureSet, look: impl Fn(usize) -> u16) -> Self {
         let (low, high) = model.bounds().unwrap_or(([-1.0; 3], [1.0; 3]));
         let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
         let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));

@@ -9,7 +9,8 @@ use scanbeam::frame::FrameUse;
 use scanbeam::pipeline::parallel::{Crew, Interleave, LineSource};
 use scanbeam::pipeline::send::send_frame;
 use scanbeam::pipeline::{
-    DrawError, FrameError, FrameStats, Instance, LineRenderer, Pipeline, RendererError, Scene, WordOf,
+    DrawError, FrameError, FrameStats, Instance, LineRenderer, Pipeline, RendererError, Scene,
+    WordOf,
 };
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
@@ -20,7 +21,7 @@ use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 const AHEAD: usize = 4;
 
 /// The words of a line on its way to the sender.
-type Drawn<W> = Result<Vec<W>, RendererError>;
+type DrawnLine<W> = Result<Vec<W>, RendererError>;
 
 /// A renderer in each of the rooms, which share the lines of the picture.
 pub fn renderers<P: Pipeline>(
@@ -93,7 +94,7 @@ fn draw_lines<P: Pipeline>(
     scene: &Scene<'_, P>,
     renderer: &mut LineRenderer<'_, P>,
     background: WordOf<P>,
-    sender: &SyncSender<Drawn<WordOf<P>>>,
+    sender: &SyncSender<DrawnLine<WordOf<P>>>,
 ) -> u32 {
     let width = usize::from(scene.screen().width());
     renderer.restart();
@@ -122,7 +123,7 @@ fn draw_lines<P: Pipeline>(
 }
 
 /// The lines of threads, in order.
-struct Threads<W>(Vec<(Interleave, Receiver<Drawn<W>>)>);
+struct Threads<W>(Vec<(Interleave, Receiver<DrawnLine<W>>)>);
 
 impl<P: Pipeline> LineSource<P> for Threads<WordOf<P>> {
     fn line(&mut self, line: u16, pixels: &mut [WordOf<P>]) -> Result<(), RendererError> {
@@ -172,7 +173,9 @@ pub fn draw_as<P: Pipeline<Textures: Sync>>(
     let mut scene = rooms.scene(screen);
     scene.begin(&setting.camera).map_err(|error| bad(&error))?;
     for chunk in &prepared.chunks {
-        chunk.draw_by_preset(&mut scene, &instance).map_err(|error| bad(&error))?;
+        chunk
+            .draw_by_preset(&mut scene, &instance)
+            .map_err(|error| bad(&error))?;
     }
     let background = P::Pixel::from_rgb8(view.background);
     let stats = draw_frame(&scene, &mut renderers, &mut pump, background, lines)
@@ -185,7 +188,8 @@ pub fn draw_as<P: Pipeline<Textures: Sync>>(
     };
     (used.assembled.triangles, used.assembled.culled) = (done.triangles, done.culled);
     used.assembled.clipped = done.clipped;
-    (used.cache.misses, used.cache.spilled, used.cache.peak) = (cache.misses, cache.spills, cache.peak_slots);
+    (used.cache.misses, used.cache.spilled, used.cache.peak) =
+        (cache.misses, cache.spills, cache.peak_slots);
     used.cache.set_ups = cache.records_read();
     let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
     let rgb = pixels.into_iter().flat_map(P::Pixel::to_rgb8).collect();
@@ -212,5 +216,9 @@ fn rooms_for<P: Pipeline>(prepared: &Prepared, height: u16) -> SceneRooms<P> {
     let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
     let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
     let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
-    SceneRooms::new((vertices + 8 * faces + 64).min(1 << 16), objects, height.into())
+    SceneRooms::new(
+        (vertices + 8 * faces + 64).min(1 << 16),
+        objects,
+        height.into(),
+    )
 }

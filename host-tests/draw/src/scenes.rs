@@ -14,7 +14,7 @@ use host_support::reference::{Cull, View};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Look, Textured, TexturedPhong};
 use scanbeam::mesh::{Material, U1F15};
-use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888};
+use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
     Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, LARGEST, Lights, Scissor, Skin,
     Texture,
@@ -350,8 +350,7 @@ fn by_palettes<F: PixelFormat>(parts: &SceneParts<'_>, job: &Job) -> Result<Draw
     let word = size_of::<F::Word>();
     // The line that is drawn has a byte a pixel; what is sent of it, a word.
     drawn.used.scan_out.bytes_sent *= word as u64;
-    drawn.figures.line_bytes =
-        drawn.figures.line_bytes * word + width.min(LARGEST.into()) as usize;
+    drawn.figures.line_bytes = drawn.figures.line_bytes * word + width.min(LARGEST.into()) as usize;
     Ok(drawn)
 }
 
