@@ -15,6 +15,8 @@
 //! | `screen` | triangles and points that are made on the screen |
 //! | `texgen` | texture places from normals |
 //! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
+//! | `form`, `computed` | texels that lie in memory, and those that somebody is asked for |
+//! | `block`, `block_cache` | texels in blocks of slow memory, and a small cache of them |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
 //! | `late` | what is not drawn among what is opaque |
@@ -25,13 +27,17 @@
 
 mod assemble;
 mod blend;
+mod block;
+mod block_cache;
 mod budget;
 mod check;
+mod computed;
 mod cut;
 mod depth;
 mod draw;
 mod error;
 mod flat;
+mod form;
 mod late;
 mod lights;
 mod master;
@@ -50,11 +56,15 @@ mod texture;
 
 pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use blend::{Blend, BlendMode, Factor};
+pub use block::Blocked;
+pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
+pub use computed::{Checker, Gradient, TexelWay, Texels};
 pub use depth::DepthTest;
 pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
+pub(crate) use form::{Form, Square};
 pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;
@@ -68,7 +78,7 @@ pub use scissor::Scissor;
 pub use screen::ScreenCorner;
 pub use shadow::Shadow;
 pub use texgen::TexGen;
-pub(crate) use texture::{Form, Square, half};
+pub(crate) use texture::half;
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
 use crate::arena::Arena;

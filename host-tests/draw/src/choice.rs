@@ -1,7 +1,6 @@
 //! What a picture is drawn as and by which methods, by the names that the command line has for it.
 
 use clap::ValueEnum;
-use scanbeam::pipeline::DepthUse;
 use std::fmt;
 
 /// Longest side of a picture that is drawn, in pixels, inclusive.
@@ -77,15 +76,6 @@ impl DepthArg {
     #[must_use]
     pub fn is_a_pipeline(self) -> bool {
         !matches!(self, Self::Auto | Self::Z32)
-    }
-
-    /// What a renderer is told.
-    #[must_use]
-    pub fn depth_use(self) -> DepthUse {
-        match self {
-            Self::Z32 => DepthUse::Always,
-            _ => DepthUse::WhereNeeded,
-        }
     }
 }
 
