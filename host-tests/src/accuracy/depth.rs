@@ -114,7 +114,7 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
                 large,
             ),
             ("16-bit 1/w and colour, one word", "word_565", word),
-            ("16-bit block-fix 1/w", "depth_block_fix", fix),
+            ("16-bit block-fix 1/w", "block_fix_565", fix),
             ("hardware model, 32-bit z, 10-bit W", "model_565", model),
         ] {
             let name = ("depth", case, method, "% wrong order", Some(kernel));
@@ -167,9 +167,10 @@ fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 4], Box<dyn Error>>
                 let Some((others, far)) = behind(&mut rng, (places, near), apart, sizes) else {
                     continue;
                 };
-                let filed = [(places, near, FRONT), (others, far, BEHIND)].map(|(at, w, colour)| {
-                    [0, 1, 2].map(|i| corner(at[i], depth_of(w[i], NEAR), colour))
-                });
+                let filed =
+                    [(places, near, FRONT), (others, far, BEHIND)].map(|(at, w, colour)| {
+                        [0, 1, 2].map(|i| corner(at[i], depth_of(w[i], NEAR), colour))
+                    });
                 let [fast, by_model, fix] = stage.show(
                     |scene| Ok(scene.draw_screen(&call(), &filed)?),
                     |scene, renderer| drawn(scene, renderer, model),
