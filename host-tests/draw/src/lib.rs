@@ -10,6 +10,7 @@ mod hardware;
 mod interp;
 mod models;
 mod parts;
+pub mod places;
 mod prepared;
 pub mod presets;
 pub mod scene_file;
