@@ -199,6 +199,7 @@ pub fn draw_as<P: Pipeline<Textures: Sync>>(
             .ok_or_else(|| bad(&"the picture has another size"))?,
         used,
         spans: Some(stats.spans),
+        slow_bytes: None,
         figures: Figures {
             parts: 1,
             objects: done.objects as usize,
