@@ -10,15 +10,17 @@ mod hardware;
 mod interp;
 mod models;
 mod parts;
+pub mod places;
 mod prepared;
 pub mod scene_file;
 mod scenes;
 mod setting;
 mod textured;
+pub mod traffic;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
-pub use hardware::{ModelLines, draw_model};
+pub use hardware::{ModelLines, draw_model, trace_model_line};
 pub use interp::{draw_by, draw_by_methods};
 pub use models::{draw, draw_prepared, draw_textured};
 pub use prepared::Prepared;
@@ -26,7 +28,7 @@ pub use scenes::{SceneParts, draw_scene_file};
 pub use setting::Setting;
 pub use textured::{FilterArg, Skins, TextureSet, TextureSetError};
 
-use crate::choice::DEFAULT_SLOTS;
+use crate::choice::{DEFAULT_SLOTS, DepthArg};
 use host_support::image_out::Frame;
 use host_support::mock::{HostLine, MockError, MockFrameBuffer};
 use scanbeam::frame::{FrameError, FrameUse};
@@ -48,6 +50,8 @@ pub struct CrewSettings {
     pub prefetch: u32,
     /// Whether spans and pixels are counted, for which lines take longer.
     pub counts: bool,
+    /// How what is seen is found.
+    pub depth: DepthArg,
 }
 
 impl Default for CrewSettings {
@@ -57,6 +61,7 @@ impl Default for CrewSettings {
             slots: DEFAULT_SLOTS,
             prefetch: 0,
             counts: false,
+            depth: DepthArg::Auto,
         }
     }
 }
@@ -138,6 +143,8 @@ pub struct Drawn {
     pub used: FrameUse,
     /// Spans and pixels, likewise together, where they were counted.
     pub spans: Option<SpanCounts>,
+    /// Bytes that pass two read from slow memory, and wrote there, reckoned where spans were counted.
+    pub slow_bytes: Option<[u64; 2]>,
     /// Memory.
     pub figures: Figures,
     /// What is left out.
@@ -190,6 +197,14 @@ impl Drawn {
             all["pixels_hidden"] = json!(spans.pixels_hidden);
             all["depth_tests"] = json!(spans.depth_tests);
             all["texture_fetches"] = json!(spans.texture_fetches);
+            let hits = spans.spans.saturating_sub(cache.misses);
+            let share = 1000 * u64::from(hits) / u64::from(spans.spans.max(1));
+            all["cache"]["hits"] = json!(hits);
+            all["cache"]["hits_per_mille"] = json!(share);
+        }
+        if let Some([read, written]) = self.slow_bytes {
+            all["cache"]["slow_read_bytes"] = json!(read);
+            all["cache"]["slow_write_bytes"] = json!(written);
         }
         all
     }
