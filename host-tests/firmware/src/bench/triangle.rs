@@ -21,7 +21,7 @@ use scanbeam::frame::FastMemory;
 use scanbeam::look::{Gouraud, Look};
 use scanbeam::pixel::{PixelFormat, Rgb888};
 use scanbeam::scene::{Blend, Budget, Shading, Skin};
-use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Screen};
+use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Scene, Screen};
 use scenes::{LeanLook, LeanTextured, PLACES_F, Suite};
 
 /// A triangle as wide and as tall as said, in pixels.
@@ -141,6 +141,25 @@ fn drawn<L: Look<Pixel: PixelFormat<Word: Default + PartialEq>>>(
         spans,
         pixels: shown,
     }
+}
+
+/// Hands a scene of one smooth triangle that is as wide as said to `with`.
+pub(super) fn with_smooth<L: Look, R>(
+    width: i32,
+    scene: &mut SceneRooms,
+    with: impl FnOnce(&Scene<'_, 'static, L>) -> R,
+) -> R {
+    let size = Size {
+        width,
+        tall: LINES + 1,
+    };
+    let screen = Screen::new(WIDTH, size.tall).expect("the size is legal");
+    let mut scene = scene.sized::<L>(screen);
+    scene.begin(&camera()).expect("a bin for each line");
+    let triangle = Triangle::new(Way::Smooth, size);
+    let call = triangle.call(Way::Smooth);
+    scene.draw(&call).expect("the rooms suffice");
+    with(&scene)
 }
 
 /// Looks along -z: at distance 1 a focal length of 4096 pixels makes 2^-15 of a coordinate an
