@@ -66,6 +66,7 @@ pub(crate) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
         blend::<12>(width as u16, counter).print("model_lirp_12", console);
         blend::<16>(width as u16, counter).print("model_lirp_16", console);
     }
+    triangle::run_beside_methods(counter, console, rooms);
     methods::run(counter, console, rooms);
     units::run(counter, console, rooms);
     lines::run(counter, console, rooms);
