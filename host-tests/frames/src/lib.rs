@@ -39,6 +39,8 @@ const ROOM: Room = Room {
 pub struct FrameCounts {
     /// Pass one.
     pub pass_one: Assembled,
+    /// Triangles that were filed.
+    pub objects: usize,
     /// Along spans.
     pub spans: SpanCounts,
 }
@@ -221,6 +223,7 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
     }
     let counts = FrameCounts {
         pass_one: scene.assembled(),
+        objects: scene.objects(),
         spans: renderer.spans(),
     };
     Ok(Drawn { words, counts })

@@ -79,11 +79,8 @@ fn shots(page: &mut Page) -> Result<(), Box<dyn Error>> {
     for (name, drawn) in shots.chain(textured).chain(suite) {
         let (frame, stats) = drawn?;
         let caption = format!(
-            "{name}: {} triangles, {} objects kept, {} spans, {} pixels written",
-            stats.pass_one.triangles,
-            stats.pass_one.objects,
-            stats.spans.spans,
-            stats.spans.pixels_shaded
+            "{name}: {} triangles, {} filed, {} spans, {} pixels written",
+            stats.pass_one.triangles, stats.objects, stats.spans.spans, stats.spans.pixels_shaded
         );
         page.pictures(&[&frame], &caption)?;
     }
@@ -294,7 +291,11 @@ fn peers(page: &mut Page) -> Result<(), Box<dyn Error>> {
 
 /// Bytes of the records of a look, and of fast RAM for a line of the shots with 64 slots.
 fn sizes<L: Look>(name: &str) -> Vec<String> {
-    let place = if L::TEXTURED { size_of::<TexturePlace>() } else { 0 };
+    let place = if L::TEXTURED {
+        size_of::<TexturePlace>()
+    } else {
+        0
+    };
     let cell = size_of::<u32>();
     let bytes = [
         size_of::<Vertex>() + place,
