@@ -5,7 +5,9 @@ use crate::{TEXELS_F_PANEL, TEXELS_PANEL};
 use scanbeam::CameraError;
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::scene::{BeginError, Budget, Draw, DrawError, Scene, Skin, Texture, TextureError};
+use scanbeam::scene::{
+    BeginError, Budget, CacheError, Draw, DrawError, Scene, Skin, Texture, TextureError,
+};
 
 /// What they are drawn with: smooth colours, as an SPI panel takes them.
 pub type LeanLook = Gouraud<Rgb565Be>;
@@ -49,8 +51,10 @@ pub enum LeanError {
     Begin(BeginError),
     /// A part was not drawn.
     Draw(DrawError),
-    /// A level of detail was not made.
+    /// A texture, or a level of detail, was not made.
     Texture(TextureError),
+    /// A cache of a texture was not made.
+    Cache(CacheError),
     /// Sprites are not in order.
     Sprites,
 }
