@@ -20,6 +20,7 @@
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
 //! | `late` | what is not drawn among what is opaque |
+//! | `read` | what was filed, for other readers than pass two |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
@@ -42,6 +43,7 @@ mod lights;
 mod master;
 mod pass;
 mod project;
+mod read;
 mod record;
 mod sampling;
 mod scissor;
@@ -67,6 +69,7 @@ pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;
 pub(crate) use pass::WordOfNormal;
+pub use read::{FiledCorner, FiledTriangle};
 pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;

@@ -1,9 +1,8 @@
 //! Random triangles at the ends of what numbers hold, drawn on the host and on every target (M3,
 //! X1).
 
-use crate::{Shot, ShotError};
-use scanbeam::pipeline::{Instance, Pipeline, Scene};
-use scanbeam::{Affine, Camera, Cull, Faces, Mesh};
+use crate::{Canvas, Shot, ShotError};
+use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh};
 
 /// The shots of this file.
 pub const STRESS: [Shot; 3] = [Shot::Slivers, Shot::Giants, Shot::Crossings];
@@ -36,7 +35,7 @@ const ONE: i32 = 1 << 30;
 ///
 /// The camera is at the origin and looks along -z: 160 pixels of focal length, so the picture is
 /// 2 by 1.5 at distance 1.
-pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
+pub(crate) fn build(shot: Shot, scene: &mut impl Canvas) -> Result<(), ShotError> {
     let (near, far) = if shot == Shot::Crossings {
         (0.03, 64.0)
     } else {
@@ -98,8 +97,8 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
 }
 
 /// One triangle in random colours, its model scaled.
-fn triangle<P: Pipeline>(
-    scene: &mut Scene<'_, P>,
+fn triangle(
+    scene: &mut impl Canvas,
     random: &mut Random,
     positions: [[i32; 3]; 3],
     scale: f32,
@@ -110,11 +109,9 @@ fn triangle<P: Pipeline>(
         colours: &[random.colour(), random.colour(), random.colour()],
         faces: Faces::Triangles(&[[0, 1, 2]]),
     };
-    let instance = Instance {
+    scene.draw(&Draw {
         model: Affine::placed(scale, [0.0; 3]).unwrap_or(Affine::IDENTITY),
         cull: Cull::None,
-        ..Instance::default()
-    };
-    scene.draw(&mesh, &instance)?;
-    Ok(())
+        ..Draw::new(mesh)
+    })
 }

@@ -1,12 +1,12 @@
 //! The pipeline of each way to find what is seen.
 
-use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as, formats};
+use super::presets::draw_as;
+use super::{CrewSettings, DrawFailure, Drawn, Prepared, formats};
 use crate::choice::{DepthArg, PixelFormatArg};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{
-    BlockFixDepth, Counted, DepthAndColour, DepthAndId, FlatDepth, GouraudDepth, LineDepth,
-    WithDepth,
+    BlockFixDepth, Counted, DepthAndColour, FlatDepth, GouraudDepth, LineDepth, WithDepth,
 };
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 
@@ -21,16 +21,12 @@ pub fn draw_by_depth(
     crew: CrewSettings,
     depth: DepthArg,
 ) -> Result<Drawn, DrawFailure> {
-    let crew = CrewSettings {
-        depth_use: depth.depth_use(),
-        ..crew
-    };
     match depth {
-        DepthArg::Auto | DepthArg::Z32 => super::draw(model, view, format, crew),
+        DepthArg::Auto | DepthArg::Z32 | DepthArg::Id | DepthArg::Priority => {
+            super::draw(model, view, format, crew)
+        }
         DepthArg::BlockFix => seen_by::<BlockFixDepth>(model, view, format, crew),
         DepthArg::Word => seen_by::<DepthAndColour>(model, view, format, crew),
-        DepthArg::Id => seen_by::<DepthAndId>(model, view, format, crew),
-        DepthArg::Priority => seen_by::<()>(model, view, format, crew),
     }
 }
 

@@ -1,12 +1,13 @@
 //! The pipeline of each interpolation method.
 
-use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw, draw_as, draw_model};
+use super::presets::draw_as;
+use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw, draw_model};
 use crate::choice::{InterpArg, PixelFormatArg};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::pipeline::{
-    Auto, Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12,
-    Lirp16, LirpPacked, Packed16, QuarterRate,
+    Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12, Lirp16,
+    LirpPacked, Packed8, Packed16, QuarterRate,
 };
 use scanbeam::pixel::{Rgb565Be, Rgb888};
 
@@ -23,7 +24,7 @@ pub fn draw_by(
 ) -> Result<Drawn, DrawFailure> {
     let by = match interp {
         InterpArg::Model => return draw_model(model, view, format),
-        InterpArg::Packed8 => return draw(model, view, format, crew),
+        InterpArg::Auto => return draw(model, view, format, crew),
         _ if view.shade == Shade::Flat => return draw(model, view, format, crew),
         InterpArg::Plane => smooth::<Forward>,
         InterpArg::Packed16 => smooth::<Packed16>,
@@ -33,28 +34,9 @@ pub fn draw_by(
         InterpArg::Lirp12 => smooth::<Lirp12>,
         InterpArg::Lirp16 => smooth::<Lirp16>,
         InterpArg::LirpPacked => smooth::<LirpPacked>,
-        InterpArg::Auto => smooth::<Auto>,
+        InterpArg::Packed8 => smooth::<Packed8>,
     };
     by(&Prepared::new(model), view, format, crew)
-}
-
-/// Draws what [`Prepared::new`] has made, for each span by the cheapest method within the budget:
-/// for many frames of one model.
-///
-/// # Errors
-/// See [`DrawFailure`].
-pub fn draw_prepared(
-    prepared: &Prepared,
-    view: &View,
-    format: PixelFormatArg,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    match (view.shade, format) {
-        (Shade::None | Shade::Gouraud, PixelFormatArg::Rgb888 | PixelFormatArg::Rgb565) => {
-            smooth::<Auto>(prepared, view, format, crew)
-        }
-        _ => super::formats::draw_in(prepared, view, format, crew),
-    }
 }
 
 fn smooth<I: Interpolation>(

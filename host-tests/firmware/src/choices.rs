@@ -59,7 +59,8 @@ pub(crate) fn draw_b<P, D>(
 {
     let (mut scene, mut renderer) = rooms.lend::<P>(Shot::screen(), SLOTS);
     scene.set_textures(textures);
-    how.build(&mut scene).expect("the rooms are large enough");
+    how.build_preset(&mut scene)
+        .expect("the rooms are large enough");
     let background = Rgb565Be::from_rgb8(Shot::Sphere.background());
     draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
         .expect("the sink cannot fail and the rooms are large enough");

@@ -11,10 +11,10 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ScanoutDma};
 use scanbeam::scene::{DrawState, Memory, Object, Scene, TexturePlace, Vertex};
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, HEIGHT, LEAN_DRAWS, LIST_INDICES, LIST_TABLE, LeanContours,
-    LeanIndexed, LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS,
-    PLAYED_TEXTURES, Played, SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, VALUES_SHOWN,
-    Values, ValuesMemory,
+    CRATE_INDICES, CRATE_TABLE, HEIGHT, LIST_INDICES, LIST_TABLE, LeanContours, LeanIndexed,
+    LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS,
+    PLAYED_TEXTURES, Played, SUITE_DRAWS, SUITE_LINES, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite,
+    VALUES_SHOWN, Values, ValuesMemory,
 };
 
 /// What a scene is lent, in external RAM, and the object cache, in tightly coupled RAM. Links and depth are those
@@ -53,7 +53,7 @@ impl LeanRooms {
             places: lend!(".slow", TexturePlace, SUITE_VERTICES, TexturePlace::EMPTY),
             objects: lend!(".slow", Object, SUITE_OBJECTS, Object::EMPTY),
             bins: lend!(".slow", u16, HEIGHT as usize, 0),
-            draws: lend!(".slow", DrawState<'static>, LEAN_DRAWS, DrawState::EMPTY),
+            draws: lend!(".slow", DrawState<'static>, SUITE_DRAWS, DrawState::EMPTY),
             cache: lend!(".fast", FastMemory<LeanLook>, 1, EMPTY),
             textured: lend!(".fast", FastMemory<LeanTextured>, 1, TEXTURED),
             lit: lend!(".slow", FastMemory<LeanPhong>, 1, LIT),
@@ -132,12 +132,12 @@ where
     match (parts.textured, parts.cache) {
         ([cache], _) if suite.texels().is_some() => {
             let mut scene = Scene::<LeanTextured>::new(Shot::screen(), parts.memory);
-            suite.build_lean(&mut scene).expect(LARGE);
+            suite.build(&mut scene).expect(LARGE);
             send(&scene, lines(cache, links, depth), background, pump);
         }
         (_, [cache]) => {
             let mut scene = Scene::<LeanLook>::new(Shot::screen(), parts.memory);
-            suite.build_lean(&mut scene).expect(LARGE);
+            suite.build(&mut scene).expect(LARGE);
             send(&scene, lines(cache, links, depth), background, pump);
         }
         _ => {}

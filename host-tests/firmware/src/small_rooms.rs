@@ -52,7 +52,7 @@ fn main() -> ! {
         depth: lend!(".fast", u32, WIDTH as usize, 0),
     });
     let background = Rgb565Be::from_rgb8(suite.background());
-    let built = suite.build_lean(&mut scene);
+    let built = suite.build(&mut scene);
     let drawn = draw_frame(&scene, &mut renderer, &mut display, background, 1);
     if built.is_err() || drawn.is_err() {
         exit(false);

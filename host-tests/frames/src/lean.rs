@@ -7,7 +7,7 @@ use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::Scene;
 use scenes::{
-    LEAN_DRAWS, LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played,
+    LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, SUITE_DRAWS,
     SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite,
 };
 use std::error::Error;
@@ -67,7 +67,7 @@ fn played_frame_as<L: Look<Pixel = Rgb565Be>>(played: Played) -> Result<Vec<u8>,
 fn lean_frame_as<L: Look<Pixel = Rgb565Be>>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
     let build = |scene: &mut Scene<'_, '_, L>| {
         suite
-            .build_lean(scene)
+            .build(scene)
             .map_err(|error| format!("{}: {error:?}", suite.name()))
     };
     drawn::<L>(build, suite.background())
@@ -82,7 +82,7 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
         vertices: SUITE_VERTICES,
         places: SUITE_VERTICES,
         objects: SUITE_OBJECTS,
-        draws: LEAN_DRAWS,
+        draws: SUITE_DRAWS,
     };
     let background = Rgb565Be::from_rgb8(background);
     let words = picture(Shot::screen(), room, background, |scene| Ok(build(scene)?))?;

@@ -279,7 +279,7 @@ where
 {
     let build = |scene: &mut Scene<'_, P>| {
         scene.set_textures(textures);
-        how.build(scene)
+        how.build_preset(scene)
             .map_err(|error| format!("{}: {error:?}", how.name))?;
         Ok(())
     };

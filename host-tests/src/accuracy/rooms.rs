@@ -31,7 +31,7 @@ fn teapot() -> (Model, View) {
     for vertex in &mut model.vertices {
         vertex.position = turned(vertex.position);
         vertex.normal = turned(vertex.normal);
-        vertex.colour = part.instance.colour.map(|level| f64::from(level) / 255.0);
+        vertex.colour = part.colour.map(|level| f64::from(level) / 255.0);
     }
     let looking = Suite::Teapot.view();
     let view = View {

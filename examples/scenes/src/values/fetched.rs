@@ -3,7 +3,8 @@
 
 use super::sampled::{FLOOR, FLOOR_PLACES};
 use super::scenes::{PANEL, at, camera, light, uncoloured};
-use crate::lean::{LeanError, LeanTextured};
+use crate::ShotError;
+use crate::lean::LeanTextured;
 use crate::{CUBE, PLACES_F, TEXELS_F_PANEL};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{
@@ -56,13 +57,13 @@ impl Slow {
     };
 
     /// Lays the texels in blocks, and makes the cache.
-    pub(super) fn cache(&mut self) -> Result<BlockCache<'_>, LeanError> {
+    pub(super) fn cache(&mut self) -> Result<BlockCache<'_>, ShotError> {
         let layout = Blocked::of_page(32, 16);
         layout
             .arrange(SIDES, &TEXELS_F_PANEL, &mut self.texels)
-            .map_err(LeanError::Texture)?;
-        let slow = Texture::words(&self.texels, SIDES[0], SIDES[1]).map_err(LeanError::Texture)?;
-        BlockCache::new(slow, layout, &mut self.fast).map_err(LeanError::Cache)
+            .map_err(ShotError::Texture)?;
+        let slow = Texture::words(&self.texels, SIDES[0], SIDES[1]).map_err(ShotError::Texture)?;
+        BlockCache::new(slow, layout, &mut self.fast).map_err(ShotError::Cache)
     }
 }
 
@@ -95,15 +96,15 @@ fn cube<'t>(texture: &'t Texture<'t>, angle: f32, place: [f32; 3]) -> Draw<'stat
 fn draw_all<'t>(
     scene: &mut Scene<'_, 't, LeanTextured>,
     calls: &[Draw<'_, 't>],
-) -> Result<(), LeanError> {
-    scene.begin(&camera()?).map_err(LeanError::Begin)?;
+) -> Result<(), ShotError> {
+    scene.begin(&camera()?).map_err(ShotError::Begin)?;
     calls
         .iter()
-        .try_for_each(|call| scene.draw(call).map_err(LeanError::Draw))
+        .try_for_each(|call| scene.draw(call).map_err(ShotError::Draw))
 }
 
 /// Makes the scene of computed texels.
-pub(super) fn computed(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), LeanError> {
+pub(super) fn computed(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
     let calls = [
         floor(&SQUARES, -6.0),
         floor(&MIXED, 6.0),
@@ -118,7 +119,7 @@ pub(super) fn computed(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(
 pub(super) fn blocks<'t>(
     scene: &mut Scene<'_, 't, LeanTextured>,
     cached: &'t Texture<'t>,
-) -> Result<(), LeanError> {
+) -> Result<(), ShotError> {
     let calls = [
         floor(cached, -6.0),
         floor(&PANEL, 6.0),

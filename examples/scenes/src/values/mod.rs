@@ -30,8 +30,9 @@ mod sampled;
 mod scenes;
 mod shadows;
 
+use crate::ShotError;
 use crate::contours::LeanContours;
-use crate::lean::{LeanError, LeanLook, LeanTextured};
+use crate::lean::{LeanLook, LeanTextured};
 use dusk::{Dusk, dusk};
 use fetched::{Slow, blocks, computed};
 use points::points;
@@ -176,13 +177,13 @@ pub struct ValuesMemory<'m> {
 #[derive(Debug)]
 pub enum ValuesError<E> {
     /// The scene was not made.
-    Scene(LeanError),
+    Scene(ShotError),
     /// The frame was not sent.
     Frame(FrameError<E>),
 }
 
-impl<E> From<LeanError> for ValuesError<E> {
-    fn from(error: LeanError) -> Self {
+impl<E> From<ShotError> for ValuesError<E> {
+    fn from(error: ShotError) -> Self {
         Self::Scene(error)
     }
 }
@@ -375,7 +376,7 @@ impl<'m> Rest<'m> {
         values: Values,
         cache: &mut FastMemory<L>,
         pump: &mut Pump<D>,
-        build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), LeanError>,
+        build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), ShotError>,
     ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
     where
         L: Look<Pixel = Rgb565Be>,
@@ -394,7 +395,7 @@ impl<'m> Rest<'m> {
         if values == Values::Overlay {
             let sprites = sprites();
             let overlay = Overlay::<Rgb565Be>::new(&sprites);
-            let overlay = overlay.map_err(|_| LeanError::Sprites)?;
+            let overlay = overlay.map_err(|_| ShotError::Sprites)?;
             draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, overlay)?;
             return Ok(());
         }
