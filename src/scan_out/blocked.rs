@@ -5,7 +5,7 @@
 //! picture is near in memory. Lines that come several at a time are filled in block by block, so that a page is
 //! opened once for all of them: with as many lines a transfer as a block has, once a picture.
 //!
-//! Who only reads the picture line by line gains nothing from blocks: see the table of the guide's page on memory.
+//! Who only reads the picture line by line gains nothing from blocks: [`own_memory`](crate::guide::own_memory) has figures.
 
 use core::fmt::{self, Display};
 
@@ -135,6 +135,15 @@ impl<'f, W: Copy> BlockFrame<'f, W> {
         let is_inside = column < self.width && line < self.height;
         let (_, at) = self.place(column.into(), line.into());
         self.words.get(at).copied().filter(|_| is_inside)
+    }
+
+    /// Sets the word at a column and a line of the picture, for what is not drawn in lines; whether there is one.
+    pub fn set_word(&mut self, column: u16, line: u16, word: W) -> bool {
+        let is_inside = column < self.width && line < self.height;
+        if is_inside {
+            self.write_run(column.into(), line.into(), &[word]);
+        }
+        is_inside
     }
 
     /// How often another block was written than the one before, since the picture was made: pages that a DRAM had to
@@ -319,6 +328,11 @@ mod tests {
             height: 2,
         };
         assert_eq!(frame.write(few, &[1; 7]), Err(BlockFrameError::Window));
+        assert!(!frame.set_word(4, 0, 1) && !frame.set_word(0, 8, 1));
+        let changes = frame.page_changes();
+        assert!(frame.set_word(1, 7, 9));
+        assert_eq!((frame.words()[45], frame.word(1, 7)), (9, Some(9)));
+        assert_eq!(frame.page_changes(), changes + 1);
     }
 
     /// A picture in blocks is the texture in blocks that its rows would be arranged to.
