@@ -17,7 +17,7 @@ use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::mesh::U1F15;
 use scanbeam::pixel::{Pixel, PixelFormat, Rgb565};
-use scanbeam::scene::{Blend, DrawError, Lights, Shadow, ShadowLight, Skin, Texture};
+use scanbeam::scene::{Blend, DepthTest, DrawError, Lights, Shadow, ShadowLight, Skin, Texture};
 use scanbeam::{Draw, Mesh, Scene};
 use std::collections::HashMap;
 
@@ -366,6 +366,11 @@ impl Task<'_> {
                 budget: self.skins.budget,
             }),
             blend: (!looks.is_opaque()).then(|| Blend::filter(looks.alpha)),
+            depth: if in_shadow {
+                DepthTest::HIDES
+            } else {
+                self.crew.depth.test()
+            },
             shadow: in_shadow.then_some(Shadow::Shadowed(LIGHT)),
             dither: self.dither,
             ..Draw::new(mesh)

@@ -10,6 +10,7 @@ mod hardware;
 mod interp;
 mod models;
 mod parts;
+pub mod places;
 mod prepared;
 pub mod presets;
 pub mod scene_file;
@@ -27,7 +28,7 @@ pub use scenes::{SceneParts, draw_scene_file};
 pub use setting::Setting;
 pub use textured::{FilterArg, Skins, TextureSet, TextureSetError};
 
-use crate::choice::DEFAULT_SLOTS;
+use crate::choice::{DEFAULT_SLOTS, DepthArg};
 use host_support::image_out::Frame;
 use host_support::mock::{HostLine, MockError, MockFrameBuffer};
 use scanbeam::frame::{FrameError, FrameUse};
@@ -49,6 +50,8 @@ pub struct CrewSettings {
     pub prefetch: u32,
     /// Whether spans and pixels are counted, for which lines take longer.
     pub counts: bool,
+    /// How what is seen is found.
+    pub depth: DepthArg,
 }
 
 impl Default for CrewSettings {
@@ -58,6 +61,7 @@ impl Default for CrewSettings {
             slots: DEFAULT_SLOTS,
             prefetch: 0,
             counts: false,
+            depth: DepthArg::Auto,
         }
     }
 }

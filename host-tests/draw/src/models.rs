@@ -131,6 +131,7 @@ impl Task<'_> {
                     places: &chunk.places,
                     budget,
                 }),
+                depth: self.crew.depth.test(),
                 dither: self.dither,
                 ..Draw::new(chunk.mesh())
             })

@@ -1,6 +1,7 @@
 //! A picture by draw calls in as many scenes as it takes: tiles where it is larger than a scene can be, and bands of
 //! lines where more is seen than the memory of a scene holds.
 
+use crate::choice::DepthArg;
 use crate::counted::count_triangles;
 use crate::prepared::Chunk;
 use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
@@ -219,21 +220,37 @@ where
     let width = scene.screen().width();
     let slots = job.crew.slots.min(MOST_SLOTS);
     let count = job.crew.renderers.max(1);
+    let has_depth = job.crew.depth != DepthArg::Priority;
     let mut rooms: Vec<LineRooms<L, WORDS>> = (0..count)
         .map(|_| LineRooms::new(scene.objects(), width).with_limit(slots))
-        .map(|rooms| match job.shadows {
-            true => rooms.with_counts(),
-            false => rooms,
+        .map(|rooms| match (job.shadows, has_depth) {
+            (true, _) => rooms.with_counts(),
+            (false, true) => rooms,
+            (false, false) => rooms.without_depth(),
         })
         .collect();
-    let mut renderers: Vec<_> = rooms.iter_mut().map(LineRooms::renderer).collect();
+    let mut renderers: Vec<_> = rooms
+        .iter_mut()
+        .map(|rooms| match job.crew.counts {
+            true => rooms.renderer().counting(),
+            false => rooms.renderer(),
+        })
+        .collect();
     let background = F::from_rgb8(job.background);
     let used = crew::draw_frame(scene, &mut renderers, pump, background, lines);
-    let cells = usize::from(width) * (size_of::<u32>() + usize::from(job.shadows));
+    let cell = if has_depth { size_of::<u32>() } else { 0 };
+    let cells = usize::from(width) * (cell + usize::from(job.shadows));
     let fast = usize::from(slots) * FastMemory::<L, WORDS>::SLOT_BYTES + cells;
+    let spans = job.crew.counts.then(|| {
+        let mut all = SpanCounts::default();
+        renderers
+            .iter()
+            .for_each(|renderer| all += renderer.spans());
+        all
+    });
     Ok(Took {
         used: used.map_err(DrawFailure::Display)?,
-        spans: None,
+        spans,
         fast_bytes: usize::from(count) * fast,
     })
 }
@@ -393,25 +410,5 @@ impl Figures {
         self.slow_bytes = self.slow_bytes.max(slow);
         self.fast_bytes = self.fast_bytes.max(fast);
         self.line_bytes = self.line_bytes.max(2 * line * word);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_are_all_of_it_and_none_is_too_large() {
-        for (length, most) in [(1, 1016), (1016, 1016), (1017, 1016), (4096, 1016), (9, 4)] {
-            let parts: Vec<_> = split(length, most).collect();
-            let mut next = 0;
-            for &(first, count) in &parts {
-                assert_eq!(first % 4, 0, "{parts:?}");
-                assert!(first == next && (1..=most).contains(&count), "{parts:?}");
-                next += u32::from(count);
-            }
-            assert_eq!(next, length, "{parts:?}");
-            assert_eq!(parts.len() as u32, length.div_ceil(most.into()));
-        }
     }
 }
