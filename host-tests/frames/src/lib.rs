@@ -20,8 +20,8 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{Assembled, Shading};
 use scanbeam::stats::SpanCounts;
 use scenes::{
-    DRAWS, Frame, HEIGHT, LeanLook, LeanTextured, OBJECTS, SceneB, Shot, ShotError, Suite,
-    VERTICES, WIDTH, frames,
+    DRAWS, Frame, HEIGHT, LeanLook, LeanPhong, LeanTextured, OBJECTS, SceneB, Shot, ShotError,
+    Suite, VERTICES, WIDTH, frames, lamplit_teapot, teapot_lamps,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -159,6 +159,17 @@ pub fn scene_b_frame(how: SceneB) -> Result<Drawn, Box<dyn Error>> {
     })
 }
 
+/// The teapot with light at each pixel.
+///
+/// # Errors
+/// When it does not fit the memory that it asks for.
+pub fn lamplit_frame() -> Result<Drawn, Box<dyn Error>> {
+    let lamps = teapot_lamps().map_err(|error| format!("{error:?}"))?;
+    drawn::<LeanPhong>(Shot::Teapot.background(), |scene| {
+        said("teapot_lamplit", lamplit_teapot(&lamps, scene))
+    })
+}
+
 /// A shot as a picture, and what its frame had.
 ///
 /// # Errors
@@ -201,7 +212,7 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
     let mut scene = memory.scene(screen);
     build(&mut scene)?;
     let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, screen.width());
-    let mut renderer = lines.renderer();
+    let mut renderer = lines.renderer().counting();
     let background = Rgb565Be::from_rgb8(background);
     let (mut words, mut line) = (Vec::new(), vec![background; screen.width().into()]);
     for y in scene.lines() {
@@ -210,7 +221,7 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
     }
     let counts = FrameCounts {
         pass_one: scene.assembled(),
-        spans: SpanCounts::default(),
+        spans: renderer.spans(),
     };
     Ok(Drawn { words, counts })
 }
