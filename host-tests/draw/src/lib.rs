@@ -12,16 +12,16 @@ mod models;
 mod parts;
 pub mod places;
 mod prepared;
-pub mod presets;
 pub mod scene_file;
 mod scenes;
 mod setting;
 mod textured;
+pub mod traffic;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
 pub use hardware::{ModelLines, draw_model, trace_model_line};
-pub use interp::draw_by;
+pub use interp::{draw_by, draw_by_methods};
 pub use models::{draw, draw_prepared, draw_textured};
 pub use prepared::Prepared;
 pub use scenes::{SceneParts, draw_scene_file};
@@ -143,6 +143,8 @@ pub struct Drawn {
     pub used: FrameUse,
     /// Spans and pixels, likewise together, where they were counted.
     pub spans: Option<SpanCounts>,
+    /// Bytes that pass two read from slow memory, and wrote there, reckoned where spans were counted.
+    pub slow_bytes: Option<[u64; 2]>,
     /// Memory.
     pub figures: Figures,
     /// What is left out.
@@ -195,6 +197,14 @@ impl Drawn {
             all["pixels_hidden"] = json!(spans.pixels_hidden);
             all["depth_tests"] = json!(spans.depth_tests);
             all["texture_fetches"] = json!(spans.texture_fetches);
+            let hits = spans.spans.saturating_sub(cache.misses);
+            let share = 1000 * u64::from(hits) / u64::from(spans.spans.max(1));
+            all["cache"]["hits"] = json!(hits);
+            all["cache"]["hits_per_mille"] = json!(share);
+        }
+        if let Some([read, written]) = self.slow_bytes {
+            all["cache"]["slow_read_bytes"] = json!(read);
+            all["cache"]["slow_write_bytes"] = json!(written);
         }
         all
     }

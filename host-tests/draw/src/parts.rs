@@ -4,6 +4,7 @@
 use crate::choice::DepthArg;
 use crate::counted::count_triangles;
 use crate::prepared::Chunk;
+use crate::traffic::{Traffic, turns};
 use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
 use host_support::image_out::Frame;
 use host_support::mock::MockFrameBuffer;
@@ -181,6 +182,7 @@ where
         rgb: vec![0; 3 * width as usize * height as usize],
         used: FrameUse::default(),
         spans: None,
+        traffic: None,
         figures: Figures::default(),
         overfull: None,
         steps: counted.len(),
@@ -201,6 +203,9 @@ where
             .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
         used: parts.used,
         spans: parts.spans,
+        slow_bytes: parts.traffic.map(|traffic| {
+            [traffic.read_bytes(L::TEXTURED), traffic.written_bytes()]
+        }),
         figures: parts.figures,
         overfull: parts.overfull,
     })
@@ -255,11 +260,19 @@ where
     })
 }
 
+/// What the renderers of a crew have read and written for a scene.
+fn traffic_of<L: Look>(job: &Job, scene: &Scene<'_, '_, L>, used: &FrameUse) -> Traffic {
+    let turning = scene.triangles().filter(turns).count();
+    let (lines, renderers) = (scene.lines().len() as u64, job.crew.renderers.max(1).into());
+    Traffic::of(&used.cache, lines, renderers, [turning, scene.objects()])
+}
+
 /// A picture as its parts become ready.
 struct Parts<S, B> {
     rgb: Vec<u8>,
     used: FrameUse,
     spans: Option<SpanCounts>,
+    traffic: Option<Traffic>,
     figures: Figures,
     overfull: Option<Overfull>,
     steps: usize,
@@ -306,6 +319,10 @@ impl<S, B> Parts<S, B> {
                 *self.spans.get_or_insert_default() += spans;
             }
             self.figures.add(job, &scene, lines, took.fast_bytes);
+            if job.crew.counts {
+                let traffic = traffic_of(job, &scene, &took.used);
+                self.traffic.get_or_insert_default().add(&traffic);
+            }
             start += count;
         }
         let words = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
