@@ -232,8 +232,8 @@ mod tests {
         }
     }
 
-    /// Dies where calls are numbered by their objects, where lines are off by one, and where a call that has more than
-    /// colours is taken for one that has not.
+    /// Dies where calls are numbered by their objects, and where a call that has more than colours is taken for one that
+    /// has not.
     #[test]
     fn triangles_are_those_of_their_calls_and_lines() {
         let plain = Draw::new(mesh());
@@ -258,6 +258,30 @@ mod tests {
                 let middle = 8 * line + 4;
                 let is_between = top < middle && middle <= bottom;
                 assert_eq!(triangle.lines().contains(&line), is_between, "{triangle:?}");
+            }
+        }
+    }
+
+    /// Dies where a corner on a line's middle is taken for one above it at the top, or for one below it at the bottom.
+    #[test]
+    fn a_line_belongs_to_what_ends_on_its_middle() {
+        for (a, b) in (-20..40_i16).flat_map(|a| (a..40).map(move |b| (a, b))) {
+            let corner = |y| FiledCorner {
+                y,
+                ..FiledCorner::default()
+            };
+            let triangle = FiledTriangle {
+                corners: [corner(a), corner(b), corner(a)],
+                call: 0,
+            };
+            for line in -5..6 {
+                let middle = 8 * line + 4;
+                let is_between = i32::from(a) < middle && middle <= i32::from(b);
+                assert_eq!(
+                    triangle.lines().contains(&line),
+                    is_between,
+                    "{a} {b} {line}"
+                );
             }
         }
     }

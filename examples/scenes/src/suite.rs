@@ -449,11 +449,10 @@ impl Suite {
     }
 
     /// The same with colours of faces from there.
-    pub(crate) fn build_shaded(
-        self,
-        shading: Shading,
-        scene: &mut impl Canvas,
-    ) -> Result<(), ShotError> {
+    ///
+    /// # Errors
+    /// As [`build`](Suite::build); faces of one colour take three vertices each, which have to have room too.
+    pub fn build_shaded(self, shading: Shading, scene: &mut impl Canvas) -> Result<(), ShotError> {
         scene.begin(&self.view().camera()?)?;
         let texture = self.texture();
         for index in 0..self.parts() {

@@ -2,7 +2,7 @@
 //!
 //! | file | there |
 //! |---|---|
-//! | `methods.rs` | the methods of the laboratory, and the hardware model |
+//! | `methods.rs` | the methods of the laboratory |
 //! | `triangle.rs` | one triangle in the ways that draw calls have, and its spans |
 //! | `lines.rs` | each line of a scene (X8), and pass one |
 //! | `units.rs` | an active line, a span's entry, a triangle's set-up, a vertex |
@@ -67,7 +67,7 @@ pub(crate) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
         blend::<16>(width as u16, counter).print("model_lirp_16", console);
     }
     triangle::run_beside_methods(counter, console, rooms);
-    methods::run(counter, console, rooms);
+    methods::run(counter, console);
     units::run(counter, console, rooms);
     lines::run(counter, console, rooms);
     growth::run(counter, console, rooms);

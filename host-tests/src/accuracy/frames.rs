@@ -109,13 +109,13 @@ fn named(Drawer { method, errors }: Drawer) -> Vec<Row> {
     let mut rows = Vec::new();
     for (i, errors) in errors.into_iter().enumerate() {
         let of_565 = |kernel| (i == 0).then_some(kernel);
+        let frame = |name, kernel| ("frame", CASE, name, "levels", of_565(kernel));
         let Some(method) = method else {
-            rows.push(errors.row(("frame", CASE, MODEL[i], "levels", None)));
+            rows.push(errors.row(frame(MODEL[i], "teapot_model")));
             continue;
         };
         if method.name == RENDERER {
-            let name = ("frame", CASE, PLANES[i], "levels", of_565("teapot"));
-            rows.push(errors.clone().row(name));
+            rows.push(errors.clone().row(frame(PLANES[i], "teapot")));
         }
         let kernel = of_565(method.with_depth());
         rows.push(errors.row(("interpolation", SCENES[i], method.name, "levels", kernel)));

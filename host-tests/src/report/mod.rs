@@ -79,11 +79,8 @@ fn shots(page: &mut Page) -> Result<(), Box<dyn Error>> {
     for (name, drawn) in shots.chain(textured).chain(suite) {
         let (frame, stats) = drawn?;
         let caption = format!(
-            "{name}: {} triangles, {} objects kept, {} spans, {} pixels written",
-            stats.pass_one.triangles,
-            stats.pass_one.objects,
-            stats.spans.spans,
-            stats.spans.pixels_shaded
+            "{name}: {} triangles, {} filed, {} spans, {} pixels written",
+            stats.pass_one.triangles, stats.objects, stats.spans.spans, stats.spans.pixels_shaded
         );
         page.pictures(&[&frame], &caption)?;
     }

@@ -1,14 +1,12 @@
-//! The methods of the laboratory, each on the spans of a right triangle of [`LINES`] lines, and the hardware model on that
-//! triangle.
+//! The methods of the laboratory, each on the spans of a right triangle of [`LINES`] lines.
 //!
 //! Names: method, pixel format, `_large` for spans of up to 320 pixels in place of 63, `_depth` where each span is drawn
 //! before another one that it hides: a pixel is one of both. Both widths are large, one twice the other: what differs is
 //! pixels alone, and what a method takes to begin and to end counts for the span.
 
-use super::{LINES, Run, SHORT, WIDEST, WIDTH};
+use super::{LINES, Run, WIDEST, WIDTH};
 use crate::console::Console;
 use crate::count::Counter;
-use crate::rooms::Rooms;
 use core::hint::black_box;
 use core::slice::IterMut;
 use scanbeam::pixel::{Rgb565, Rgb888};
@@ -16,8 +14,7 @@ use scanbeam_lab::bits::{BITS, bits};
 use scanbeam_lab::depth::{Depths, resolve, words};
 use scanbeam_lab::format::FRACTION;
 use scanbeam_lab::{Colours, Format, Method, paint};
-use scanbeam_model::{BlockFix16, ModelRenderer, PipeMemory};
-use scenes::LeanLook;
+use scanbeam_model::BlockFix16;
 
 const METHODS: [(&str, Method); 12] = [
     ("forward", Method::Plane),
@@ -44,7 +41,7 @@ struct Lines<F: Format> {
 }
 
 /// Times all methods and prints them, and whether they draw what they draw elsewhere.
-pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+pub(super) fn run(counter: &Counter, console: &mut Console) {
     let counted = bits();
     console.line(format_args!(
         "count name=methods expected={BITS} counted={counted} ok={}",
@@ -66,9 +63,6 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
             block_fixed(&of_565, counter).print(format_args!("block_fix_565{size}"), console);
             worded(&of_565, counter).print(format_args!("word_565{size}"), console);
         }
-    }
-    for width in [WIDEST[1], SHORT] {
-        model(width, counter, rooms).print(format_args!("model_565"), console);
     }
 }
 
@@ -186,36 +180,5 @@ fn worded(spans: &[(Colours, usize); SPANS], counter: &Counter) -> Run {
             words(&mut lines.cells[..pixels], depths, colours);
         }
         resolve(&mut lines.cells[..pixels], &mut lines.pixels[..pixels]);
-    })
-}
-
-/// The triangle by the hardware model.
-#[inline(never)]
-fn model(width: i32, counter: &Counter, rooms: &mut Rooms) -> Run {
-    super::triangle::with_smooth::<LeanLook, _>(width, &mut rooms.scene, |scene| {
-        let mut memory = [[0; WIDTH as usize]; 4];
-        let [z0, z1, c0, c1] = &mut memory;
-        let mut model = ModelRenderer::new(PipeMemory {
-            z: [z0, z1],
-            rgb: [c0, c1],
-        });
-        let mut line = [0; WIDTH as usize];
-        let (mut spans, mut pixels) = (0, 0);
-        for number in 1..LINES {
-            let done = model.draw_line(scene, number, 0, &mut line);
-            done.expect("the memory suffices");
-            let seen = line.iter().filter(|pixel| **pixel != 0).count() as u32;
-            spans += u32::from(seen > 0);
-            pixels += seen;
-        }
-        let instructions = counter.lines_finely(0..LINES, |number| {
-            let done = model.draw_line(scene, number, 0, black_box(&mut line));
-            done.expect("the memory suffices");
-        });
-        Run {
-            instructions,
-            spans,
-            pixels,
-        }
     })
 }
