@@ -6,6 +6,8 @@
 //! Texture memory follows, for people: what a texture in blocks saves against one in rows (B5).
 
 use crate::args::CacheArgs;
+use crate::draw::MOST_SLOTS;
+use crate::draw::traffic::{Traffic, turns};
 use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::memory_model::{
     Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
@@ -15,8 +17,6 @@ use crate::plot::{Chart, Marks, Series};
 use crate::rooms::{LineRooms, Room, SceneRooms};
 use crate::texture_report::texture_table;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use crate::draw::MOST_SLOTS;
-use crate::draw::traffic::{Traffic, turns};
 use scanbeam::draw_frame;
 use scanbeam::frame::{CacheUse, FastMemory};
 use scanbeam::look::Gouraud;
@@ -34,9 +34,7 @@ const WORDS: usize = MOST_SLOTS as usize / 32;
 /// The scenes.
 const SHOTS: [Shot; 3] = [Shot::Teapot, Shot::Sphere, Shot::Crowd];
 /// Sizes of the cache.
-const SLOTS: [u16; 14] = [
-    0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, MOST_SLOTS,
-];
+const SLOTS: [u16; 14] = [0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, MOST_SLOTS];
 /// The size whose figures are the goal's.
 const GOAL_SLOTS: u16 = 64;
 /// Bytes a line that are fetched ahead where anything is.

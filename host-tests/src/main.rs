@@ -1,7 +1,7 @@
 //! The command line tool: see `scanbeam --help`.
 
-use host_tests::args::{self, Command, EXIT_BAD_INPUT, Method, PixelFormatArg, RenderArgs, Stop};
 use host_tests::args::InterpArg;
+use host_tests::args::{self, Command, EXIT_BAD_INPUT, Method, PixelFormatArg, RenderArgs, Stop};
 use host_tests::draw::{Drawn, TextureSet};
 use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};

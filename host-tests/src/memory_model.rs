@@ -231,9 +231,8 @@ impl Counted {
             + fast.time_ns(tested + u64::from(s.pixels_shaded), 4)
             + fast.time_ns(u64::from(s.pixels_shaded), 2)
             + fast.time_ns(lines, width * 6);
-        let instructions = t.records as f64 * SET_UP
-            + f64::from(s.spans) * OBJECT_LINE
-            + tested as f64 * PIXEL;
+        let instructions =
+            t.records as f64 * SET_UP + f64::from(s.spans) * OBJECT_LINE + tested as f64 * PIXEL;
         FrameTime {
             slow_ms: slow_ns / 1e6,
             fast_ms: fast_ns / 1e6,

@@ -203,9 +203,9 @@ where
             .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
         used: parts.used,
         spans: parts.spans,
-        slow_bytes: parts.traffic.map(|traffic| {
-            [traffic.read_bytes(L::TEXTURED), traffic.written_bytes()]
-        }),
+        slow_bytes: parts
+            .traffic
+            .map(|traffic| [traffic.read_bytes(L::TEXTURED), traffic.written_bytes()]),
         figures: parts.figures,
         overfull: parts.overfull,
     })

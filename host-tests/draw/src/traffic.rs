@@ -29,7 +29,9 @@ pub struct Traffic {
 /// Whether one side of a triangle gives way to the third below its first line.
 #[must_use]
 pub fn turns(triangle: &FiledTriangle) -> bool {
-    let mut y = triangle.corners.map(|corner| (i32::from(corner.y) + 4) >> 3);
+    let mut y = triangle
+        .corners
+        .map(|corner| (i32::from(corner.y) + 4) >> 3);
     y.sort_unstable();
     y[0] < y[1] && y[1] < y[2]
 }
@@ -66,7 +68,11 @@ impl Traffic {
     /// Bytes read, with places on a texture or without.
     #[must_use]
     pub fn read_bytes(&self, textured: bool) -> u64 {
-        let places = if textured { 3 * size_of::<TexturePlace>() } else { 0 };
+        let places = if textured {
+            3 * size_of::<TexturePlace>()
+        } else {
+            0
+        };
         self.records * (Self::RECORD_BYTES + places) as u64
             + self.turns * Self::TURN_BYTES as u64
             + self.links_read * size_of::<Link>() as u64

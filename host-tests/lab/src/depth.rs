@@ -2,8 +2,8 @@
 
 use crate::colours::Colours;
 use crate::format::Format;
-use scanbeam_model::BlockFix16;
 use scanbeam::pixel::Rgb565;
+use scanbeam_model::BlockFix16;
 
 /// A way to keep 1/w.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -47,7 +47,13 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
         }
     }
     let names: [Name; 4] = [
-        ("coverage", SNAPPED, "exact edges", UNIT, Some("renderer_flat_565")),
+        (
+            "coverage",
+            SNAPPED,
+            "exact edges",
+            UNIT,
+            Some("renderer_flat_565"),
+        ),
         (
             "coverage",
             SNAPPED,
@@ -55,7 +61,13 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             UNIT,
             Some("model_565"),
         ),
-        ("coverage", FREE, "exact edges", UNIT, Some("renderer_flat_565")),
+        (
+            "coverage",
+            FREE,
+            "exact edges",
+            UNIT,
+            Some("renderer_flat_565"),
+        ),
         ("coverage", FREE, "hardware model", UNIT, Some("model_565")),
     ];
     Ok(names
@@ -126,10 +138,7 @@ fn build(scene: &mut Scene<'_, '_, L>, positions: &[[i32; 3]; 3]) -> Done {
 }
 
 /// The pixels that a scene has by the renderer and by the model.
-fn pictures(
-    scene: &Scene<'_, '_, L>,
-    renderer: &mut Renderer<'_, L>,
-) -> Done<[Vec<bool>; 2]> {
+fn pictures(scene: &Scene<'_, '_, L>, renderer: &mut Renderer<'_, L>) -> Done<[Vec<bool>; 2]> {
     let mut pictures = [Vec::new(), Vec::new()];
     let mut row = [[0; 3]; SIDE as usize];
     with_model(SIDE, |model| {

@@ -167,9 +167,10 @@ fn orders(apart: f64, sizes: (i32, i32)) -> Result<[Batches; 4], Box<dyn Error>>
                 let Some((others, far)) = behind(&mut rng, (places, near), apart, sizes) else {
                     continue;
                 };
-                let filed = [(places, near, FRONT), (others, far, BEHIND)].map(|(at, w, colour)| {
-                    [0, 1, 2].map(|i| corner(at[i], depth_of(w[i], NEAR), colour))
-                });
+                let filed =
+                    [(places, near, FRONT), (others, far, BEHIND)].map(|(at, w, colour)| {
+                        [0, 1, 2].map(|i| corner(at[i], depth_of(w[i], NEAR), colour))
+                    });
                 let [fast, by_model, fix] = stage.show(
                     |scene| Ok(scene.draw_screen(&call(), &filed)?),
                     |scene, renderer| drawn(scene, renderer, model),

@@ -39,7 +39,9 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for long in [false, true] {
         let [five, eight] = CASES.map(|cases| cases[usize::from(long)]);
-        let both = spans::<Rgb565>(long)?.into_iter().zip(spans::<Rgb888>(long)?);
+        let both = spans::<Rgb565>(long)?
+            .into_iter()
+            .zip(spans::<Rgb888>(long)?);
         for (method, (of_565, of_888)) in METHODS.iter().zip(both) {
             let name = |case, kernel| (FAMILY, case, method.name, UNIT, Some(kernel));
             rows.push(of_565.row(name(five, method.kernel(true, long))));
@@ -114,7 +116,9 @@ impl Subject {
     /// The columns or lines of a picture that it may have pixels on.
     fn extent(&self, axis: fn(&Place) -> i32, size: u16) -> RangeInclusive<i32> {
         let all = self.places.each_ref().map(axis);
-        let (low, high) = all.iter().fold((i32::MAX, 0), |(l, h), &c| (l.min(c), h.max(c)));
+        let (low, high) = all
+            .iter()
+            .fold((i32::MAX, 0), |(l, h), &c| (l.min(c), h.max(c)));
         low / 8..=(high / 8).min(i32::from(size) - 1)
     }
 
@@ -148,7 +152,9 @@ fn spans<F: Pixel + Format>(long: bool) -> Done<Vec<Errors>> {
         let mut lines: Vec<i32> = subject.extent(|p| p.1, size.1).collect();
         if long {
             let last = lines.len() as i32 - 1;
-            lines = (0..4).map(|_| lines[rng.within(0, last) as usize]).collect();
+            lines = (0..4)
+                .map(|_| lines[rng.within(0, last) as usize])
+                .collect();
         }
         stage.show(
             |scene| Ok(scene.draw_screen(&call(), &[subject.corners()])?),

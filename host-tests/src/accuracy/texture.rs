@@ -52,11 +52,7 @@ const WAYS: [(&str, Way, &str); 9] = [
         "perspective_2",
     ),
     ("every pixel", Way::Fixed(Stride::One), "perspective_1"),
-    (
-        "fast: 1/2 texel",
-        Way::Within(Budget::FAST),
-        "texture_fast",
-    ),
+    ("fast: 1/2 texel", Way::Within(Budget::FAST), "texture_fast"),
     (
         "balanced: 1/4 texel",
         Way::Within(Budget::BALANCED),
@@ -152,9 +148,17 @@ impl Subject {
     fn random(rng: &mut Rng, pixels: i32, ratio: f64, texels: f64) -> Self {
         let x = rng.within(0, 8 * (1_008 - pixels));
         let foot = rng.within(0, 8 * pixels);
-        let places = [(x, 0), (x + 8 * pixels, 0), (x + foot, 8 * i32::from(LINES))];
+        let places = [
+            (x, 0),
+            (x + 8 * pixels, 0),
+            (x + foot, 8 * i32::from(LINES)),
+        ];
         let near = 0.5 + 0.499 * rng.unit();
-        let mut q = [near, near / ratio, near / (1.0 + (ratio - 1.0) * rng.unit())];
+        let mut q = [
+            near,
+            near / ratio,
+            near / (1.0 + (ratio - 1.0) * rng.unit()),
+        ];
         if rng.unit() < 0.5 {
             q.swap(0, 1);
         }
@@ -232,8 +236,9 @@ fn spans<'t>(
             let subject = random(&mut rng);
             let lines = [(); 2].map(|()| rng.within(0, i32::from(LINES) - 1));
             let mut line_of = |line: i32, shown: &dyn Fn(&[i32]) -> Vec<u16>| {
-                let columns: Vec<i32> =
-                    (0..1_008).filter(|&column| covers(subject.places, column, line)).collect();
+                let columns: Vec<i32> = (0..1_008)
+                    .filter(|&column| covers(subject.places, column, line))
+                    .collect();
                 if columns.is_empty() {
                     return;
                 }
@@ -315,7 +320,11 @@ fn shown<'t>(model: &Model, view: &View, budget: Budget, map: &'t Texture<'t>) -
     let units = |c: f64| (c * f64::from(256 * SIDE)).round() as i32;
     let place = |v: &ModelVertex| [units(v.uv[0]), units(1.0 - v.uv[1])];
     let places: Vec<_> = model.vertices.iter().map(place).collect();
-    let faces: Vec<_> = model.triangles.iter().map(|f| f.map(|i| i as u16)).collect();
+    let faces: Vec<_> = model
+        .triangles
+        .iter()
+        .map(|f| f.map(|i| i as u16))
+        .collect();
     let mesh = Mesh {
         positions: &positions,
         normals: &[],

@@ -200,7 +200,9 @@ impl RenderArgs {
         }
         let crew = (self.cache, self.renderers, self.prefetch);
         if crew != (DEFAULT_SLOTS, 1, 0) {
-            return Err(format!("{method} has no --cache, --renderers or --prefetch"));
+            return Err(format!(
+                "{method} has no --cache, --renderers or --prefetch"
+            ));
         }
         if self.texture.is_some() || self.has_effects() {
             return Err(format!(

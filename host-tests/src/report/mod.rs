@@ -294,7 +294,11 @@ fn peers(page: &mut Page) -> Result<(), Box<dyn Error>> {
 
 /// Bytes of the records of a look, and of fast RAM for a line of the shots with 64 slots.
 fn sizes<L: Look>(name: &str) -> Vec<String> {
-    let place = if L::TEXTURED { size_of::<TexturePlace>() } else { 0 };
+    let place = if L::TEXTURED {
+        size_of::<TexturePlace>()
+    } else {
+        0
+    };
     let cell = size_of::<u32>();
     let bytes = [
         size_of::<Vertex>() + place,

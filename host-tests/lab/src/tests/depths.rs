@@ -8,8 +8,8 @@ use crate::depth::{
 };
 use crate::method::Method;
 use crate::paint::paint;
-use scanbeam_model::BlockFix16;
 use scanbeam::pixel::Rgb565;
+use scanbeam_model::BlockFix16;
 use std::vec::Vec;
 
 const WIDTH: usize = 40;
