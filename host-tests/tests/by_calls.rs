@@ -88,7 +88,11 @@ fn grey_pictures_and_those_of_one_bit_are_near_the_reference() {
             let Drawn { frame, used, .. } = called(&prepared, &view, format);
             assert_eq!(used.scan_out.bytes_sent, bytes);
             let pixels = frame.rgb().chunks_exact(3);
-            assert!(pixels.clone().all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2]));
+            assert!(
+                pixels
+                    .clone()
+                    .all(|rgb| rgb[0] == rgb[1] && rgb[1] == rgb[2])
+            );
             pixels.map(|rgb| f64::from(rgb[0])).collect()
         };
         let grey = drawn(PixelFormatArg::Grey8, 203 * 150);
@@ -99,7 +103,10 @@ fn grey_pictures_and_those_of_one_bit_are_near_the_reference() {
                 bright += u32::from(want[i] > 100.0);
             }
         }
-        assert!(most < TOLERANCE_LEVELS && bright > 500, "{shade:?}: {most} {bright}");
+        assert!(
+            most < TOLERANCE_LEVELS && bright > 500,
+            "{shade:?}: {most} {bright}"
+        );
         // Of a tile of the dither, so many are white as its mean says.
         let bits = drawn(PixelFormatArg::Mono, 26 * 150);
         assert!(bits.iter().all(|&bit| bit == 0.0 || bit == 255.0));
@@ -138,7 +145,10 @@ fn what_is_seen_is_the_same_by_any_depth_but_priority() {
         let covered = |s: scanbeam::stats::SpanCounts| s.pixels_shaded + s.pixels_hidden;
         assert_eq!(z32.spans_untested, 0, "{shade:?}");
         assert!(z32.depth_tests >= covered(z32), "{shade:?}: {z32:?}");
-        assert!(auto_spans.depth_tests < z32.depth_tests / 2, "{shade:?}: {auto_spans:?}");
+        assert!(
+            auto_spans.depth_tests < z32.depth_tests / 2,
+            "{shade:?}: {auto_spans:?}"
+        );
         let priority = by(DepthArg::Priority);
         assert!(priority.frame != auto.frame && spans(&priority).depth_tests == 0);
         assert!(priority.figures.fast_bytes < auto.figures.fast_bytes);
@@ -188,7 +198,10 @@ fn whoever_draws_the_picture_is_the_same() {
             assert!((least..=empty).contains(&a.lines_skipped), "{what}: {a:?}");
             assert_eq!(a.scan_out.bytes_sent, b.scan_out.bytes_sent, "{what}");
             assert_eq!(again.spans, first.spans, "{what}");
-            assert!(a.cache.peak <= u32::from(slots.min(MOST_SLOTS)), "{what}: {a:?}");
+            assert!(
+                a.cache.peak <= u32::from(slots.min(MOST_SLOTS)),
+                "{what}: {a:?}"
+            );
             if slots == 0 {
                 assert_eq!(a.cache.hits, 0, "{what}");
             }

@@ -157,7 +157,12 @@ fn triangles_of_pictures_in_parts_count_once() {
             };
             let drawn = called(&prepared, &view, PixelFormatArg::Rgb888);
             let all = drawn.used.assembled;
-            (drawn.figures.parts, all.triangles, all.culled, drawn.figures.objects)
+            (
+                drawn.figures.parts,
+                all.triangles,
+                all.culled,
+                drawn.figures.objects,
+            )
         };
         let all = 2 * (cells * cells) as u32;
         // Corners of quarters of pixels are those of pixels of a quarter: the same triangles are seen.
@@ -165,9 +170,15 @@ fn triangles_of_pictures_in_parts_count_once() {
         assert_eq!((triangles, one > 1), (all, cells > 100), "{cells}");
         let (parts, triangles, again, more) = counts(2000, 1500);
         assert!(parts >= 4 && triangles == all, "{cells}");
-        assert!(culled > all / 10 && culled < all / 2, "{cells}: {culled} of {all}");
+        assert!(
+            culled > all / 10 && culled < all / 2,
+            "{cells}: {culled} of {all}"
+        );
         let close = all / 200;
-        assert!(again.abs_diff(culled) <= close, "{cells}: {again}, {culled}");
+        assert!(
+            again.abs_diff(culled) <= close,
+            "{cells}: {again}, {culled}"
+        );
         assert_eq!(objects, (all - culled) as usize, "{cells}: none is clipped");
         let shared = more - (all - again) as usize;
         assert!(shared > 0 && shared < objects / 4, "{cells}: {shared}");

@@ -72,6 +72,7 @@ mod one_way;
 mod ordered;
 mod output;
 mod pairs;
+mod places;
 mod player;
 mod player_flow;
 mod player_fuzz;

@@ -22,6 +22,8 @@
 mod canvas;
 mod contours;
 mod effects;
+mod frames;
+mod lamps;
 mod lean;
 mod listed;
 mod methods;
@@ -43,6 +45,8 @@ pub use contours::{CONTOURED, Contours, LeanContours};
 pub use effects::{
     DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Transparent, by_effect,
 };
+pub use frames::{Frame, frames};
+pub use lamps::{lamplit_teapot, teapot_lamps};
 pub use lean::{LEAN, LeanLook, LeanTextured};
 pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
 pub use methods::{

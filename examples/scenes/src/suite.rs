@@ -22,7 +22,7 @@ use scanbeam::mesh::QuadSplit;
 use scanbeam::pipeline::texture::{Quality, Skin as PresetSkin, Square64, Textured};
 use scanbeam::pipeline::{Gouraud, Instance, Pipeline, Scene, TexturedDepth};
 use scanbeam::pixel::Rgb565Be;
-use scanbeam::scene::{Budget, Skin, Texture};
+use scanbeam::scene::{Budget, Shading, Skin, Texture};
 use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Faces, Light, Mesh};
 
 /// Slots of the object cache that the suite is measured with.
@@ -445,6 +445,14 @@ impl Suite {
     /// When the memory is less than [`SUITE_VERTICES`], [`SUITE_OBJECTS`], [`SUITE_DRAWS`] and a bin a line, and when it
     /// has a texture and the look has none.
     pub fn build(self, scene: &mut impl Canvas) -> Result<(), ShotError> {
+        self.build_shaded(Shading::Smooth, scene)
+    }
+
+    /// The same with colours of faces from there.
+    ///
+    /// # Errors
+    /// As [`build`](Suite::build); faces of one colour take three vertices each, which have to have room too.
+    pub fn build_shaded(self, shading: Shading, scene: &mut impl Canvas) -> Result<(), ShotError> {
         scene.begin(&self.view().camera()?)?;
         let texture = self.texture();
         for index in 0..self.parts() {
@@ -456,6 +464,7 @@ impl Suite {
             };
             scene.draw(&Draw {
                 texture: texture.map(skin),
+                shading,
                 ..part.draw()
             })?;
         }

@@ -36,6 +36,6 @@ mod tests;
 pub use colours::Colours;
 pub use depth::DepthMethod;
 pub use format::Format;
-pub use lines::{Triangle, draw_line};
+pub use lines::{Counts, Triangle, draw_line};
 pub use method::Method;
 pub use paint::paint;

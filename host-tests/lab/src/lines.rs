@@ -120,14 +120,25 @@ impl Triangle {
     }
 }
 
-/// Draws a line of triangles over what is there. `cells` are as many as pixels, and are cleared first.
+/// Pixels of spans: those that were seen when they were drawn, and those that were not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// In front of all before.
+    pub shaded: u32,
+    /// Behind one of them.
+    pub hidden: u32,
+}
+
+/// Draws a line of triangles over what is there, and counts their pixels. `cells` are as many as pixels, and are cleared
+/// first.
 pub fn draw_line<F: Format>(
     (method, depth): (Method, DepthMethod),
     triangles: impl IntoIterator<Item = Triangle>,
     line: u16,
     pixels: &mut [F::Word],
     cells: &mut [u32],
-) {
+) -> Counts {
+    let mut counts = Counts::default();
     cells.fill(0);
     for triangle in triangles {
         let span = triangle.span(line);
@@ -152,8 +163,11 @@ pub fn draw_line<F: Format>(
                 if seen {
                     *cell = key;
                 }
+                counts.shaded += u32::from(seen);
+                counts.hidden += u32::from(!seen);
                 seen
             })
         });
     }
+    counts
 }

@@ -114,7 +114,7 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
                 large,
             ),
             ("16-bit 1/w and colour, one word", "word_565", word),
-            ("16-bit block-fix 1/w", "depth_block_fix", fix),
+            ("16-bit block-fix 1/w", "block_fix_565", fix),
             ("hardware model, 32-bit z, 10-bit W", "model_565", model),
         ] {
             let name = ("depth", case, method, "% wrong order", Some(kernel));

@@ -4,7 +4,7 @@
 use super::frames::model_of;
 use super::spans::beyond;
 use super::{Errors, Row};
-use crate::frames::{lean_picture, values_pictures};
+use crate::frames::{picture_suite, values_pictures};
 use crate::image_out::Frame;
 use crate::model::Model;
 use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
@@ -60,7 +60,11 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for (case, edges) in [(WHOLE, true), (INSIDE, false)] {
         for (frame, method, kernel) in [
-            (&lean_picture(Suite::Teapot)?, "drawn whole", "lean_teapot"),
+            (
+                &picture_suite(Suite::Teapot)?.0,
+                "drawn whole",
+                "lean_teapot",
+            ),
             (&doubled, "160 x 120 drawn, doubled", "values_doubled"),
         ] {
             let errors = off(frame, &reference, edges);

@@ -145,7 +145,7 @@ fn spans<F: Pixel + Format>(long: bool) -> Done<Vec<Errors>> {
     let mut stage = Stage::<Gouraud<F>>::new(size, ahead(100.0, 1.0, 100.0)?)?;
     let mut pixels = vec![F::Word::default(); size.0.into()];
     let mut cells = vec![0; size.0.into()];
-    for _ in 0..if long { 400 } else { 800 } {
+    for _ in 0..if long { 400 } else { 12_000 } {
         let Some(subject) = Subject::random(&mut rng, long) else {
             continue;
         };

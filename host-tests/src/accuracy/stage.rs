@@ -2,8 +2,9 @@
 
 use crate::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::look::{Gouraud, Look};
+use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::Pixel;
-use scanbeam::scene::{ScreenCorner, ScreenVertex};
+use scanbeam::scene::ScreenCorner;
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Renderer, Scene, Screen};
 use scanbeam_lab::{DepthMethod, Format, Method, Triangle, draw_line};
 use scanbeam_model::{ModelRenderer, PipeMemory};

@@ -11,8 +11,9 @@ use crate::model::{Model, ModelVertex};
 use crate::reference::{NO_OBJECT, Options, TextureMap, Textures, View, render_textured};
 use crate::rooms::{Room, picture};
 use scanbeam::look::Textured;
+use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::Rgb565;
-use scanbeam::scene::{Budget, ScreenCorner, ScreenVertex, Skin, Texture};
+use scanbeam::scene::{Budget, ScreenCorner, Skin, Texture};
 use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Screen};
 use scanbeam_lab::perspective::{FRACTION, Homogeneous, PerspectiveSpan, Stride, Uv};
 use std::error::Error;
@@ -278,7 +279,8 @@ fn spans<'t>(
     Ok((errors, batches))
 }
 
-/// Whole scenes by the renderer, corners moved to the 1/64 pixel that texture places have; each a batch.
+/// Whole scenes by the renderer, each a batch. Its corners are rounded to 1/64 pixel, which is up to 1/8 texel on the
+/// ground near its horizon.
 ///
 /// The near plane cuts none: what it makes of corners is the edges' error, which has its own bound.
 fn scenes<'t>(budget: Budget, map: &'t Texture<'t>) -> Done<Found> {
@@ -291,10 +293,7 @@ fn scenes<'t>(budget: Budget, map: &'t Texture<'t>) -> Done<Found> {
             maps: std::slice::from_ref(&blank),
             of_triangle: &of_triangle,
         };
-        let snapped = Options {
-            steps_per_pixel: Some(64.0),
-        };
-        let reference = render_textured(&model, textures, &view, snapped)?;
+        let reference = render_textured(&model, textures, &view, Options::default())?;
         let mut batch = (0, 0);
         for (i, &texel) in shown(&model, &view, budget, map)?.iter().enumerate() {
             if reference.object[i] == NO_OBJECT || reference.near_edge[i] {

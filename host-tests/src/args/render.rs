@@ -111,9 +111,9 @@ pub struct RenderArgs {
     /// Whether colours between two steps of rgb565 are mixed by an ordered 4x4 dither
     #[arg(long, value_enum, value_name = "SWITCH", default_value = "off")]
     pub dither: SwitchArg,
-    /// How far texture places may be off
-    #[arg(long, value_enum, value_name = "BUDGET", default_value = "balanced")]
-    pub quality: QualityArg,
+    /// How far texture places may be off; balanced when not said
+    #[arg(long, value_enum, value_name = "BUDGET")]
+    pub quality: Option<QualityArg>,
     /// Slots of each renderer's object cache, 0 to 4095, of which up to 224 are used
     #[arg(long, value_name = "SLOTS", default_value_t = DEFAULT_SLOTS,
         value_parser = clap::value_parser!(u16).range(0..=i64::from(MAX_SLOTS)))]
@@ -186,7 +186,7 @@ impl RenderArgs {
     /// How far texture places may be off.
     #[must_use]
     pub fn budget(&self) -> Budget {
-        self.quality.budget()
+        self.quality.map(QualityArg::budget).unwrap_or_default()
     }
 
     /// Whether the rest goes with the hardware model, or with a method of the laboratory.
@@ -198,10 +198,10 @@ impl RenderArgs {
         if matches!(method, Method::Interp(_)) && self.depth != DepthArg::Auto {
             return Err(format!("{method} has no --depth: its own is what it is"));
         }
-        let crew = (self.cache, self.renderers, self.prefetch);
-        if crew != (DEFAULT_SLOTS, 1, 0) {
+        let crew = (self.cache, self.renderers, self.prefetch, self.quality);
+        if crew != (DEFAULT_SLOTS, 1, 0, None) {
             return Err(format!(
-                "{method} has no --cache, --renderers or --prefetch"
+                "{method} has no --cache, --renderers, --prefetch or --quality"
             ));
         }
         if self.texture.is_some() || self.has_effects() {
