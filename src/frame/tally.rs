@@ -35,17 +35,11 @@ pub(super) struct Counter<L: Look, const WORDS: usize> {
 
 type PlanesOf<L> = <L as Paint>::Planes;
 
-type CountLine<L, const WORDS: usize> =
-    fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, WordOf<L>>);
+type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, WordOf<L>>);
 
 /// The depth that the span is compared with, if it is, and whether it shares no column with another.
-type CountSpan<L> = fn(
-    &mut SpanCounts,
-    Ruled<'_, PlanesOf<L>>,
-    Option<&Known<'_>>,
-    bool,
-    &Line<'_, '_, WordOf<L>>,
-);
+type CountSpan<L> =
+    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, Option<&Known<'_>>, bool, &Line<'_, '_, WordOf<L>>);
 
 type CountPanes<L, const WORDS: usize> =
     fn(&mut Renderer<'_, L, WORDS>, usize, &Line<'_, '_, WordOf<L>>);
@@ -75,7 +69,9 @@ struct Seen<'a, P> {
 impl<P> Seen<'_, P> {
     /// With its depth, or what stands for it; nothing is kept of it.
     fn rival<L: Look<Planes = P>>(&self, out: &Line<'_, '_, WordOf<L>>) -> Option<Rival> {
-        let slot = self.slot.filter(|slot| !out.deep || Flags(slot.flags).is_deep());
+        let slot = self
+            .slot
+            .filter(|slot| !out.deep || Flags(slot.flags).is_deep());
         if let Some(slot) = slot {
             return Some(rival_of::<L>(slot, self.span, out));
         }
@@ -90,11 +86,7 @@ impl<P> Seen<'_, P> {
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Calls `f` with each span of the line.
-    fn each_span(
-        &self,
-        out: &Line<'_, '_, WordOf<L>>,
-        f: &mut dyn FnMut(&Seen<'_, L::Planes>),
-    ) {
+    fn each_span(&self, out: &Line<'_, '_, WordOf<L>>, f: &mut dyn FnMut(&Seen<'_, L::Planes>)) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             while used != 0 {
@@ -133,7 +125,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let Span { start, end } = one.span;
             let is_alone = !over.meets(start, end);
             let all = end - start;
-            let seen = if is_alone { all } else { self.seen_of(one, out) };
+            let seen = if is_alone {
+                all
+            } else {
+                self.seen_of(one, out)
+            };
             let pixels = SpanPixels {
                 all,
                 seen,
@@ -158,7 +154,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut hidden = Mask::EMPTY;
         self.each_span(out, &mut |other| {
             if other.object != one.object && other.span.meets(one.span) {
-                let part = other.rival::<L>(out).and_then(|other| other.hidden_of(rival));
+                let part = other
+                    .rival::<L>(out)
+                    .and_then(|other| other.hidden_of(rival));
                 if let Some(Span { start, end }) = part {
                     hidden.cover(start, end);
                 }
@@ -243,6 +241,8 @@ fn count_span<L: Look>(
     let Ruled { drawn, span, state } = ruled;
     let depth = known.map(|known| depth_on_line::<L>(drawn, known.plane, span, out));
     let mut pixels = SpanPixels::default();
+    // A slot without values is compared by no state of its own.
+    let has_texels = has_texels::<L>(out.view.state(drawn.object));
     each_part(ruled, out, &mut |first, part| {
         let all = u32::MAX >> (32 - part);
         let is_holed = L::TEXTURED && state.holes.is_some();
@@ -255,13 +255,18 @@ fn count_span<L: Look>(
         if let (Some(known), Some([at, step])) = (known, depth) {
             let mut cells = cells_at(known, first);
             let cells = cells.get_mut(..part as usize).unwrap_or_default();
-            seen &= test(cells, at.wrapping_add(step.wrapping_mul(first)), step, state.depth);
+            seen &= test(
+                cells,
+                at.wrapping_add(step.wrapping_mul(first)),
+                step,
+                state.depth,
+            );
             pixels.tested += asked.count_ones();
         }
         pixels.all += part;
         pixels.seen += seen.count_ones();
         pixels.hidden += (asked & !seen).count_ones();
-        if has_texels::<L>(Some(state)) {
+        if has_texels {
             pixels.fetched += if is_holed { part } else { seen.count_ones() };
         }
     });
