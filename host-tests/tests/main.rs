@@ -39,6 +39,7 @@ mod fuzz;
 mod golden;
 mod hot_path_colours;
 mod hot_path_computed;
+mod hot_path_counts;
 mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_dither;
