@@ -6,6 +6,7 @@
 //! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
+//! | `own` | triangles with vertices of their own |
 //! | `check` | what is wrong with a draw call |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
 //! | `master` | what a supervisor has switched off |
@@ -17,11 +18,13 @@
 //! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
+//! | `alpha` | alpha of vertices and of texels, which a blend may ask for |
 //! | `late` | what is not drawn among what is opaque |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
+mod alpha;
 mod assemble;
 mod blend;
 mod budget;
@@ -34,6 +37,7 @@ mod flat;
 mod late;
 mod lights;
 mod master;
+mod own;
 mod pass;
 mod project;
 mod record;
@@ -47,6 +51,8 @@ mod texgen;
 mod texture;
 
 pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
+pub use alpha::MaskTexel;
+pub(crate) use alpha::{Alphas, PixelAlpha};
 pub use blend::{Blend, BlendMode, Factor};
 pub use budget::Budget;
 pub use depth::DepthTest;
@@ -60,7 +66,7 @@ pub(crate) use pass::WordOfNormal;
 pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
-pub(crate) use sampling::{Method, SampledSpan};
+pub(crate) use sampling::{Method, SampledSpan, Words};
 pub use scissor::Scissor;
 pub use screen::ScreenCorner;
 pub use shadow::Shadow;
