@@ -137,6 +137,17 @@ impl Blend {
         Self { mode, ..self }
     }
 
+    /// The same, by alpha where it only hides what is behind.
+    pub(crate) fn by_alpha(self) -> Self {
+        match self.mode {
+            BlendMode::Replace => Self {
+                mode: Self::ALPHA.mode,
+                ..self
+            },
+            _ => self,
+        }
+    }
+
     /// Whether what is behind matters.
     pub(crate) fn is_translucent(&self) -> bool {
         self.mode != BlendMode::Replace

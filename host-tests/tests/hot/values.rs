@@ -89,6 +89,9 @@ pub fn blended(mode: BlendMode, old: f64, new: f64) -> [f64; 2] {
                 Factor::Constant(value) => [part(value), 0.0],
                 Factor::Destination => [old / 255.0, 1.0 / 255.0],
                 Factor::InverseDestination => [1.0 - old / 255.0, -1.0 / 255.0],
+                // Of what has no alphas.
+                Factor::SourceAlpha | Factor::TextureAlpha => [1.0, 0.0],
+                Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => [0.0, 0.0],
             };
             let [[s, ds], [d, dd]] = [factor(source), factor(destination)];
             [new * s + old * d, (new * ds + old * dd + d).abs()]
