@@ -20,26 +20,70 @@ pub trait SpanCounter: Copy + Default + Send {
     const COUNTS: bool;
 }
 
-/// What happened along the spans of a frame. A counter stays at its maximum when it gets there.
+/// What happened along the spans of lines (M4): of a renderer that is [`counting`](crate::Renderer::counting).
+///
+/// A span is the pixels of a triangle on a line, within the scissor of its draw call. The figures hang on the scene and
+/// on which lines were drawn, and not on slots of the cache; those of several renderers of one frame add up to those of
+/// one. A counter stays at its maximum when it gets there.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpanCounts {
-    /// Spans that covered a pixel of the picture.
+    /// Spans of at least one pixel. Those of shadow volumes do not count, nor do what shadows fall on and volumes on a
+    /// line without depth, where they are not drawn.
     pub spans: u32,
-    /// Spans of which no pixel was seen.
+    /// Of these, spans of which no pixel was seen: all its pixels are hidden, or holes of its texture.
     pub spans_hidden: u32,
-    /// Spans that shared no pixel with another, as far as was asked: drawn without depth.
+    /// Of these, spans that share no column with another of their line, and whose call blends nothing and has the depth
+    /// test that all have where no other is named: nobody asked for their depth.
     pub spans_untested: u32,
-    /// Spans of one colour: no colour was taken from pixel to pixel.
+    /// Spans of one colour: no colour was taken from pixel to pixel. Of presets alone.
     pub spans_flat: u32,
-    /// Pixels that were given a colour.
+    /// Pixels that were given a colour, by each span that gave one: where nothing on a line is blended, cut or has a
+    /// depth test of its own, each covered pixel once, and elsewhere once more for each span that was laid over it. What
+    /// a line colours again, since spans were found to meet on it, is counted once.
     pub pixels_shaded: u32,
-    /// Pixels that were covered and lost against what was there.
+    /// Pixels of spans that lost against what was there, or what came after. Holes of textures do not count, where no
+    /// depth was asked for them.
     pub pixels_hidden: u32,
-    /// Depth comparisons.
+    /// Pixels whose depth was compared with the one of their column: on lines with draw calls that blend, cut, have
+    /// holes, dither, cast shadows or have a depth test, where spans meet or a call is blended or has such a test; and pixels
+    /// of shadow volumes, and of what is drawn again by them. Other lines sort spans and compare no pixels.
     pub depth_tests: u32,
-    /// Texels that were read for pixels that were seen.
+    /// Pixels that texels were read for; a filter reads four at each. A texture with holes is read for pixels that turn
+    /// out to be hidden, too.
     pub texture_fetches: u32,
+}
+
+/// What became of the pixels of a span.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct SpanPixels {
+    /// Within the scissor.
+    pub(crate) all: u32,
+    pub(crate) seen: u32,
+    pub(crate) hidden: u32,
+    pub(crate) tested: u32,
+    pub(crate) fetched: u32,
+}
+
+impl SpanCounts {
+    /// Adds a span, if it has pixels.
+    pub(crate) fn add_span(&mut self, pixels: SpanPixels, is_untested: bool) {
+        if pixels.all == 0 {
+            return;
+        }
+        raise(&mut self.spans, 1);
+        raise(&mut self.spans_hidden, u32::from(pixels.seen == 0));
+        raise(&mut self.spans_untested, u32::from(is_untested));
+        raise(&mut self.pixels_shaded, pixels.seen);
+        raise(&mut self.pixels_hidden, pixels.hidden);
+        raise(&mut self.depth_tests, pixels.tested);
+        raise(&mut self.texture_fetches, pixels.fetched);
+    }
+
+    /// Adds pixels of a shadow volume, all of which are compared.
+    pub(crate) fn add_volume(&mut self, pixels: u32) {
+        raise(&mut self.depth_tests, pixels);
+    }
 }
 
 impl SpanCounter for SpanCounts {

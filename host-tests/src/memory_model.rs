@@ -8,7 +8,8 @@
 //! The processor's own work is the same counts times instructions, of which those
 //! that the cache changes were measured on a Cortex-M4 in QEMU, at one instruction a cycle; instructions do not overlap with memory.
 
-use scanbeam::stats::{CacheCounts, SpanCounts};
+use crate::draw::traffic::Traffic;
+use scanbeam::stats::SpanCounts;
 
 /// The access time of a memory.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,6 +117,15 @@ impl Layout {
         }
     }
 
+    /// The bursts that a side's turn reads: a triangle and two places.
+    #[must_use]
+    pub const fn turn_bursts(self) -> &'static [(u64, u64)] {
+        match self {
+            Self::Indexed => &[(1, 8), (2, 4)],
+            Self::Copies => &[(2, 4)],
+        }
+    }
+
     /// Bytes that reading one record moves.
     #[must_use]
     pub fn record_bytes(self) -> u64 {
@@ -138,8 +148,10 @@ impl Layout {
 /// What was counted of a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Counted {
-    /// The cache.
-    pub cache: CacheCounts,
+    /// Slow memory.
+    pub traffic: Traffic,
+    /// Spans that were set up for their line alone.
+    pub misses: u64,
     /// Spans and pixels.
     pub spans: SpanCounts,
     /// Lines, and pixels a line.
@@ -180,31 +192,47 @@ impl FrameTime {
 }
 
 impl Counted {
+    /// Spans that were drawn from a slot.
+    #[must_use]
+    pub fn hits(&self) -> u64 {
+        u64::from(self.spans.spans).saturating_sub(self.misses)
+    }
+
+    /// Their share of all.
+    #[must_use]
+    pub fn hit_rate(&self) -> f64 {
+        self.hits() as f64 / f64::from(self.spans.spans.max(1))
+    }
+
     /// Bytes read from and written to slow memory.
     #[must_use]
     pub fn slow_bytes(&self, layout: Layout) -> u64 {
-        self.cache.slow_read_bytes(layout.record_bytes() as usize) + self.cache.slow_write_bytes()
+        let bytes = |bursts: &[(u64, u64)]| -> u64 { bursts.iter().map(|(n, b)| n * b).sum() };
+        let t = &self.traffic;
+        t.records * layout.record_bytes()
+            + t.turns * bytes(layout.turn_bursts())
+            + 2 * (t.links_read + t.links_written)
     }
 
     /// The time of the frame.
     #[must_use]
     pub fn time(&self, layout: Layout, (slow, fast): (Memory, Memory)) -> FrameTime {
-        let (c, s) = (&self.cache, &self.spans);
-        let records = u64::from(c.records_read());
-        let mut slow_ns = slow.time_ns(u64::from(c.links_read() + c.link_writes), 2);
+        let (t, s) = (&self.traffic, &self.spans);
+        let mut slow_ns = slow.time_ns(t.links_read + t.links_written, 2);
         for (count, bytes) in layout.bursts() {
-            slow_ns += slow.time_ns(records * count, *bytes);
+            slow_ns += slow.time_ns(t.records * count, *bytes);
+        }
+        for (count, bytes) in layout.turn_bursts() {
+            slow_ns += slow.time_ns(t.turns * count, *bytes);
         }
         let tested = u64::from(s.pixels_shaded + s.pixels_hidden);
         let (lines, width) = self.size;
-        let hits = u64::from(c.hits);
-        let fast_ns = fast.time_ns(hits + records, self.slot_bytes)
+        let fast_ns = fast.time_ns(self.hits() + t.records, self.slot_bytes)
             + fast.time_ns(tested + u64::from(s.pixels_shaded), 4)
             + fast.time_ns(u64::from(s.pixels_shaded), 2)
             + fast.time_ns(lines, width * 6);
-        let instructions = records as f64 * SET_UP
-            + f64::from(c.hits + c.misses) * OBJECT_LINE
-            + tested as f64 * PIXEL;
+        let instructions =
+            t.records as f64 * SET_UP + f64::from(s.spans) * OBJECT_LINE + tested as f64 * PIXEL;
         FrameTime {
             slow_ms: slow_ns / 1e6,
             fast_ms: fast_ns / 1e6,
@@ -216,8 +244,6 @@ impl Counted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use scanbeam::pipeline::{GouraudDepth, LineRenderer};
-    use scanbeam::pixel::Rgb565Be;
 
     #[test]
     fn bursts_are_whole_words() {
@@ -229,8 +255,7 @@ mod tests {
 
     #[test]
     fn the_indexed_layout_is_the_crates() {
-        let record = LineRenderer::<GouraudDepth<Rgb565Be>>::RECORD_BYTES;
-        assert_eq!(Layout::Indexed.record_bytes(), record as u64);
+        assert_eq!(Layout::Indexed.record_bytes(), Traffic::RECORD_BYTES as u64);
         assert_eq!(Layout::Copies.record_bytes(), 40);
         assert_eq!(Layout::Indexed.scene_bytes(2, 3), 52);
     }
@@ -238,21 +263,28 @@ mod tests {
     #[test]
     fn slow_accesses_cost_what_they_count() {
         let counted = Counted {
-            cache: CacheCounts {
-                misses: 10,
-                admitted: 4,
-                link_writes: 5,
-                ..CacheCounts::default()
+            traffic: Traffic {
+                records: 10,
+                turns: 3,
+                links_read: 14,
+                links_written: 5,
             },
-            spans: SpanCounts::default(),
+            misses: 4,
+            spans: SpanCounts {
+                spans: 9,
+                ..SpanCounts::default()
+            },
             size: (0, 0),
             slot_bytes: 100,
         };
-        assert_eq!(counted.slow_bytes(Layout::Indexed), 440 + 28 + 10);
+        assert_eq!(counted.hits(), 5);
+        assert_eq!(counted.slow_bytes(Layout::Indexed), 440 + 48 + 28 + 10);
+        assert_eq!(counted.slow_bytes(Layout::Copies), 400 + 24 + 28 + 10);
         let time = counted.time(Layout::Copies, (DRAM_80, SRAM_12));
-        // 19 links and 10 records of 10 words.
-        assert!((time.slow_ms * 1e6 - (19.0 + 100.0) * 80.0).abs() < 1e-6);
-        assert!((time.fast_ms * 1e6 - 10.0 * 25.0 * 12.0).abs() < 1e-6);
+        // 19 links, 10 records of 10 words, and 3 times two places.
+        assert!((time.slow_ms * 1e6 - (19.0 + 100.0 + 6.0) * 80.0).abs() < 1e-6);
+        // Slots of 5 spans and of 10 set-ups.
+        assert!((time.fast_ms * 1e6 - 15.0 * 25.0 * 12.0).abs() < 1e-6);
         assert!(time.total_ms() > time.slow_ms + time.fast_ms);
     }
 }

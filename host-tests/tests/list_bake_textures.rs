@@ -3,7 +3,7 @@
 
 use base64::Engine as _;
 use host_tests::args::PixelFormatArg;
-use host_tests::draw::{FilterArg, Prepared, Skins, TextureSet, draw_by_calls};
+use host_tests::draw::{CrewSettings, FilterArg, Skins, TextureSet, draw_textured};
 use host_tests::image_out::{Frame, encode_image, read_image, write_image};
 use host_tests::lists::bake::{BakeSettings, Baked, bake_textured};
 use host_tests::lists::sizes::Sizes;
@@ -99,15 +99,13 @@ fn a_baked_sheet_looks_like_the_model() {
     let ran = run::execute(&baked.words, &view, Budget::of(1 << 20)).unwrap();
     assert_eq!((ran.halt, ran.events), (Halt::End, vec![]));
     let set = TextureSet::load(&model, None).unwrap();
-    let (filter, quality) = (FilterArg::Nearest, Quality::Exact);
     let skins = Skins {
         set: &set,
-        filter,
-        quality,
+        filter: FilterArg::Nearest,
+        budget: scanbeam::scene::Budget::EXACT,
     };
-    let prepared = Prepared::textured(&model, &set, quality);
-    let want = draw_by_calls(&prepared, Some(skins), &view, PixelFormatArg::Rgb888, 1, 64);
-    let want = want.unwrap().unwrap();
+    let (format, crew) = (PixelFormatArg::Rgb888, CrewSettings::default());
+    let want = draw_textured(&model, skins, &view, format, crew).unwrap();
     let pairs = ran.frame.rgb().chunks(3).zip(want.frame.rgb().chunks(3));
     let (mut same, mut shown, mut off) = (0, 0, 0);
     for (got, want) in pairs {

@@ -344,8 +344,13 @@ impl<'v> Stray<'v> {
         })
     }
 
+    /// Whether the triangle has no pixels on this line and those to come.
+    pub(super) fn has_ended<W>(&self, out: &Line<'_, '_, W>) -> bool {
+        self.triangle.lines().end <= out.number as i32
+    }
+
     /// As one of those that compete for columns.
-    fn rival(&self, slope: Slope) -> Rival {
+    pub(super) fn rival(&self, slope: Slope) -> Rival {
         Rival {
             span: self.span,
             slope,
@@ -354,7 +359,7 @@ impl<'v> Stray<'v> {
     }
 
     /// Its depth, or what stands for it.
-    fn slope<L: Look>(&self, out: &Line<'_, '_, WordOf<L>>) -> Slope {
+    pub(super) fn slope<L: Look>(&self, out: &Line<'_, '_, WordOf<L>>) -> Slope {
         if !out.deep {
             return Slope::of_place(out.view, self.object);
         }

@@ -21,6 +21,7 @@
 //! | `alpha` | the alpha of vertices along it |
 //! | `shadow` | shadow volumes, and what their lights fall on |
 //! | `translucent` | spans that what is behind shines through, from far to near |
+//! | `tally` | spans and pixels, counted |
 //! | `send` | all lines of a frame, with overlays, through a pump, awaited, or to a panel with a clock of its own |
 //! | `changed` | likewise, what has changed alone |
 //! | `palette` | likewise, of pixels that are numbers of a palette |
@@ -46,6 +47,7 @@ mod send;
 mod shadow;
 mod slot;
 mod spans;
+mod tally;
 #[cfg(test)]
 mod tests;
 mod thin;

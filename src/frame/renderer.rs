@@ -2,11 +2,13 @@
 
 use super::slot::Active;
 use super::spans::Line;
+use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::scene::{Content, DrawState, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
+use crate::stats::SpanCounts;
 use crate::visible::Mask;
 use core::fmt;
 
@@ -193,6 +195,9 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) shadows: Option<DrawShadows<L, WORDS>>,
     /// Counts of shadow volumes on a line, for one light at a time.
     pub(super) volumes: &'m mut [u8],
+    /// Likewise of counting spans and pixels.
+    pub(super) counter: Option<Counter<L, WORDS>>,
+    pub(super) spans: SpanCounts,
 }
 
 impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
@@ -243,6 +248,20 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             values: None,
             shadows: None,
             volumes: &mut [],
+            counter: None,
+            spans: SpanCounts::default(),
+        }
+    }
+
+    /// The same, and spans and pixels are counted (M4): [`spans`](Renderer::spans) says how many. Lines take longer, some
+    /// several times as long, and are the same.
+    ///
+    /// A program that names this nowhere does not have the code.
+    #[must_use]
+    pub fn counting(self) -> Self {
+        Self {
+            counter: Some(Counter::new()),
+            ..self
         }
     }
 
@@ -250,6 +269,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     pub fn restart(&mut self) {
         self.content = None;
         self.counts = CacheUse::default();
+        self.spans = SpanCounts::default();
     }
 
     /// Begins a frame of a scene.
@@ -266,6 +286,13 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     #[must_use]
     pub fn counts(&self) -> CacheUse {
         self.counts
+    }
+
+    /// What has happened along spans since the renderer was made or restarted (M4); all 0 unless it is
+    /// [`counting`](Renderer::counting). A frame restarts it when it begins.
+    #[must_use]
+    pub fn spans(&self) -> SpanCounts {
+        self.spans
     }
 
     /// Whether the renderer can draw `scene`.

@@ -23,9 +23,9 @@ pub(super) struct Ruled<'a, P> {
 }
 
 /// What colours the runs of a span.
-struct Ink<'a, P> {
-    fill: Fill,
-    planes: &'a P,
+pub(super) struct Ink<'a, P> {
+    pub(super) fill: Fill,
+    pub(super) planes: &'a P,
     span: Span,
     blend: Option<Blend>,
     dithers: bool,
@@ -41,25 +41,8 @@ pub(super) fn draw_ruled<L: Look>(
     mut known: Option<Known<'_>>,
 ) {
     let Ruled { drawn, span, state } = ruled;
-    let (thin, finer);
-    let mut ink = Ink {
-        fill: drawn.flags.fill(),
-        planes: drawn.planes,
-        span,
-        blend: state.blend,
-        dithers: state.dithers,
-        surface: state
-            .alphas
-            .and_then(|alphas| Surface::of(alphas, drawn.object, span, out.number, out.view)),
-    };
-    if let Some((fill, planes)) = dithered_planes::<L>(&ink, drawn.object, out.view) {
-        finer = planes;
-        (ink.fill, ink.planes) = (fill, &finer);
-    }
-    if ink.fill == Fill::Thin {
-        thin = thin_planes::<L>(drawn.object, span, out.number, out.view);
-        (ink.fill, ink.planes) = (Fill::Wide, &thin);
-    }
+    let mut others = None;
+    let ink = ink_of::<L>(ruled, &mut others, out);
     let depth = match &known {
         Some(known) => depth_on_line::<L>(drawn, known.plane, span, out),
         None => [0; 2],
@@ -86,16 +69,39 @@ pub(super) fn draw_ruled<L: Look>(
     }
 }
 
+/// What colours a span; `others` keeps its planes where those of the triangle do not do.
+#[inline(always)]
+pub(super) fn ink_of<'a, L: Look>(
+    ruled: Ruled<'a, L::Planes>,
+    others: &'a mut Option<L::Planes>,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> Ink<'a, L::Planes> {
+    let Ruled { drawn, span, state } = ruled;
+    let mut fill = drawn.flags.fill();
+    if state.dithers && fill == Fill::Plain {
+        if let Some((finer, planes)) = dithered_planes::<L>(drawn.object, out.view) {
+            (fill, *others) = (finer, Some(planes));
+        }
+    }
+    if fill == Fill::Thin {
+        let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
+        (fill, *others) = (Fill::Wide, Some(planes));
+    }
+    Ink {
+        fill,
+        planes: others.as_ref().unwrap_or(drawn.planes),
+        span,
+        blend: state.blend,
+        dithers: state.dithers,
+        surface: state
+            .alphas
+            .and_then(|alphas| Surface::of(alphas, drawn.object, span, out.number, out.view)),
+    }
+}
+
 /// Planes that keep enough for a dither, where those that a triangle has do not.
 #[inline(always)]
-fn dithered_planes<L: Look>(
-    ink: &Ink<'_, L::Planes>,
-    object: u16,
-    view: &View<'_>,
-) -> Option<(Fill, L::Planes)> {
-    if !ink.dithers || ink.fill != Fill::Plain {
-        return None;
-    }
+fn dithered_planes<L: Look>(object: u16, view: &View<'_>) -> Option<(Fill, L::Planes)> {
     let mut planes = L::EMPTY;
     let fill = L::set_up_dithered(&view.triangle_of(object)?, &mut planes)?;
     Some((fill, planes))

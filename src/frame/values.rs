@@ -144,24 +144,32 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         let is_compared = self.met && self.over.meets(span.start, span.end);
+        let has_values = Flags(slot.flags).has_values();
         let state = match out.view.state(slot.object) {
-            Some(state) if Flags(slot.flags).has_values() => state,
-            _ if is_compared => &DrawState::EMPTY,
-            _ => return colour::<L>(Drawn::of(slot), span, out),
+            Some(state) if has_values => state,
+            _ => &DrawState::EMPTY,
         };
-        if is_compared && state.waits() {
-            return;
-        }
         if is_compared {
+            if state.waits() {
+                return;
+            }
             deepen::<L>(slot, out.view);
         }
         let drawn = Drawn::of(slot);
+        let ruled = Ruled { drawn, span, state };
         let known = is_compared.then_some(Known {
             plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         });
-        draw_ruled::<L>(Ruled { drawn, span, state }, span, out, known);
+        if let Some(counter) = &self.counter {
+            let is_alone = !self.over.meets(span.start, span.end);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
+        }
+        if !has_values && !is_compared {
+            return colour::<L>(drawn, span, out);
+        }
+        draw_ruled::<L>(ruled, span, out, known);
     }
 
     /// Draws a span without a slot; the next of its kind.
@@ -184,12 +192,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             [0; 3]
         };
         let drawn = alone.drawn();
+        let ruled = Ruled { drawn, span, state };
         let known = is_compared.then_some(Known {
             plane,
             cells: self.depth,
             written: &mut self.written,
         });
-        draw_ruled::<L>(Ruled { drawn, span, state }, span, out, known);
+        if let Some(counter) = &self.counter {
+            let is_alone = !self.over.meets(span.start, span.end);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
+        }
+        draw_ruled::<L>(ruled, span, out, known);
         after
     }
 }

@@ -127,7 +127,7 @@ impl<'t> Texture<'t> {
 }
 
 impl Form<'_> {
-    /// Bits of a texel in memory.
+    /// Bits of a texel in memory; none where it is computed.
     const fn bits(&self) -> u32 {
         match self {
             Self::Words(_) => 16,
@@ -135,6 +135,7 @@ impl Form<'_> {
             Self::Index4(..) => 4,
             Self::Index2(..) => 2,
             Self::Index1(..) => 1,
+            Self::Computed(..) => 0,
         }
     }
 }

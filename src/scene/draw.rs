@@ -1,9 +1,9 @@
 //! What a draw call says, and what pass two needs of it.
 
 use super::alpha::Alphas;
+use super::form::Square;
 use super::late::{Late, Role};
 use super::texgen::TexGen;
-use super::texture::Square;
 use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Shadow, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
 use core::ops::Range;

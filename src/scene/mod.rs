@@ -16,10 +16,13 @@
 //! | `screen` | triangles and points that are made on the screen |
 //! | `texgen` | texture places from normals |
 //! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
+//! | `form`, `computed` | texels that lie in memory, and those that somebody is asked for |
+//! | `block`, `block_cache` | texels in blocks of slow memory, and a small cache of them |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
 //! | `alpha` | alpha of vertices and of texels, which a blend may ask for |
 //! | `late` | what is not drawn among what is opaque |
+//! | `read` | what was filed, for other readers than pass two |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
@@ -27,19 +30,24 @@
 mod alpha;
 mod assemble;
 mod blend;
+mod block;
+mod block_cache;
 mod budget;
 mod check;
+mod computed;
 mod cut;
 mod depth;
 mod draw;
 mod error;
 mod flat;
+mod form;
 mod late;
 mod lights;
 mod master;
 mod own;
 mod pass;
 mod project;
+mod read;
 mod record;
 mod sampling;
 mod scissor;
@@ -54,15 +62,20 @@ pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, 
 pub use alpha::MaskTexel;
 pub(crate) use alpha::{Alphas, PixelAlpha};
 pub use blend::{Blend, BlendMode, Factor};
+pub use block::Blocked;
+pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
+pub use computed::{Checker, Gradient, TexelWay, Texels};
 pub use depth::DepthTest;
 pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
+pub(crate) use form::{Form, Square};
 pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;
 pub(crate) use pass::WordOfNormal;
+pub use read::{FiledCorner, FiledTriangle};
 pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
@@ -71,7 +84,7 @@ pub use scissor::Scissor;
 pub use screen::ScreenCorner;
 pub use shadow::Shadow;
 pub use texgen::TexGen;
-pub(crate) use texture::{Form, Square, half};
+pub(crate) use texture::half;
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
 use crate::arena::Arena;

@@ -14,7 +14,8 @@
 //!
 //! Texels are words of the panel, in its byte order, so that a copy is a copy.
 
-use super::Sampling;
+use super::form::{Form, Square};
+use super::{Sampling, Texels};
 use core::fmt;
 
 /// Longest side of a texture, in texels.
@@ -108,23 +109,7 @@ pub enum Wrap {
     Mirror,
 }
 
-/// How texels lie in memory: rows from the top. Slices have the exact length of the texture.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Form<'t> {
-    /// A word of the panel each.
-    Words(&'t [u16]),
-    /// An index of 8 bits each.
-    Index8(&'t [u8], &'t [u16; 256]),
-    /// An index of 4 bits each; the first of a byte in its lower bits. Texels follow each other
-    /// without gaps, whatever the width.
-    Index4(&'t [u8], &'t [u16; 16]),
-    /// An index of 2 bits each, likewise.
-    Index2(&'t [u8], &'t [u16; 4]),
-    /// An index of 1 bit each, likewise.
-    Index1(&'t [u8], &'t [u16; 2]),
-}
-
-/// A texture: texels or indices that somebody else keeps, and how they are read.
+/// A texture: texels or indices that somebody else keeps or computes, and how they are read.
 #[derive(Clone, Copy, Debug)]
 pub struct Texture<'t> {
     pub(crate) form: Form<'t>,
@@ -142,43 +127,6 @@ pub struct Texture<'t> {
     pub(super) mask: Option<&'t Texture<'t>>,
     /// Each half of the one before.
     coarser: &'t [Texture<'t>],
-}
-
-/// Rows of a square of words, whose side is known to the compiler, so that no index needs a check.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Square<'t> {
-    /// 32 texels a side.
-    Side32(&'t [[u16; 32]; 32]),
-    /// 64 texels a side.
-    Side64(&'t [[u16; 64]; 64]),
-    /// 128 texels a side.
-    Side128(&'t [[u16; 128]; 128]),
-    /// 256 texels a side.
-    Side256(&'t [[u16; 256]; 256]),
-}
-
-impl<'t> Square<'t> {
-    /// The texels, row by row.
-    #[inline(always)]
-    pub(crate) const fn texels(self) -> &'t [u16] {
-        match self {
-            Self::Side32(t) => t.as_flattened(),
-            Self::Side64(t) => t.as_flattened(),
-            Self::Side128(t) => t.as_flattened(),
-            Self::Side256(t) => t.as_flattened(),
-        }
-    }
-
-    /// The power of two that its side is.
-    #[inline(always)]
-    pub(crate) const fn log(self) -> u32 {
-        match self {
-            Self::Side32(_) => 5,
-            Self::Side64(_) => 6,
-            Self::Side128(_) => 7,
-            Self::Side256(_) => 8,
-        }
-    }
 }
 
 /// The powers of two that the sides are.
@@ -206,6 +154,11 @@ impl Sides {
     const fn texels(self) -> usize {
         1 << (self.log_width + self.log_height)
     }
+}
+
+/// Says whether sides are those of a texture.
+pub(super) fn check_sides(width: u32, height: u32) -> Result<(), TextureError> {
+    Sides::new(width, height).map(|_| ())
 }
 
 /// A constructor of textures with indices of `$bits` bits.
@@ -315,6 +268,24 @@ impl<'t> Texture<'t> {
         1,
         "The leftmost texel is in a byte's lowest bit; rows follow without gaps."
     );
+
+    /// Texels that are computed where they are shown (H17), or fetched from somewhere (B5): words of the panel, in its
+    /// byte order, for each column and row below the sides.
+    ///
+    /// Repeats; see [`wrapping`](Self::wrapping). It has what others have: wraps, a key, levels of detail, filters.
+    ///
+    /// # Errors
+    /// When a side is not a power of two up to [`MAX_SIDE`].
+    pub const fn computed(
+        texels: &'t dyn Texels,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, TextureError> {
+        match Sides::new(width, height) {
+            Ok(sides) => Ok(Self::new(Form::Computed(texels, sides.log_width), sides)),
+            Err(error) => Err(error),
+        }
+    }
 
     /// The same texture with something else beyond its sides.
     #[must_use]
@@ -470,29 +441,11 @@ impl<'t> Texture<'t> {
     /// The rows, if it is one of the squares that have loops of their own.
     #[inline(always)]
     pub(crate) fn square(&self) -> Option<Square<'t>> {
-        let Form::Words(texels) = self.form else {
-            return None;
-        };
-        match self.square {
-            5 => rows(texels).map(Square::Side32),
-            6 => rows(texels).map(Square::Side64),
-            7 => rows(texels).map(Square::Side128),
-            8 => rows(texels).map(Square::Side256),
-            _ => None,
-        }
+        self.form.square(self.square.into())
     }
 }
 
 /// Half of a side, which has one texel at least.
 pub(crate) const fn half(side: u32) -> u32 {
     if side > 1 { side / 2 } else { 1 }
-}
-
-/// Words as `N` rows of `N`.
-#[inline(always)]
-fn rows<const N: usize>(texels: &[u16]) -> Option<&[[u16; N]; N]>
-where
-    [u16; N]: bytemuck::Pod,
-{
-    bytemuck::try_cast_slice(texels).ok()?.try_into().ok()
 }

@@ -228,6 +228,15 @@ impl Mask {
         lack == 0
     }
 
+    /// How many of `start .. end` the mask has.
+    pub(crate) fn count(&self, start: u32, end: u32) -> u32 {
+        let mut count = 0;
+        each_word(start, end, |word, bits| {
+            count += (bits & self.0[word]).count_ones();
+        });
+        count
+    }
+
     /// Adds what another has of `start .. end`, which ends below 1,024.
     pub(crate) fn add(&mut self, other: &Self, start: u32, end: u32) {
         each_word(start, end, |word, bits| {
@@ -343,6 +352,7 @@ mod tests {
                 assert_eq!(mask.meets(start, end), hits > 0);
                 let mut other = mask;
                 assert_eq!(mask.has_all(start, end), old.is_empty());
+                assert_eq!(mask.count(start, end) as usize, hits);
                 assert_eq!(other.cover(start, end) != 0, hits > 0);
                 assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);
                 assert_eq!(mask, other);

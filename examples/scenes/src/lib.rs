@@ -19,8 +19,11 @@
 #![no_std]
 #![forbid(unsafe_code)]
 
+mod canvas;
 mod contours;
 mod effects;
+mod frames;
+mod lamps;
 mod lean;
 mod listed;
 mod methods;
@@ -37,11 +40,14 @@ mod texels;
 mod textured;
 mod values;
 
+pub use canvas::Canvas;
 pub use contours::{CONTOURED, Contours, LeanContours};
 pub use effects::{
     DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Transparent, by_effect,
 };
-pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook, LeanTextured};
+pub use frames::{Frame, frames};
+pub use lamps::{lamplit_teapot, teapot_lamps};
+pub use lean::{LEAN, LeanLook, LeanTextured};
 pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
 pub use methods::{
     DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
@@ -53,14 +59,14 @@ pub use scene_b::{
     BLOCK_TEXELS_B, BLOCKS_B, CACHE_SLOTS_B, CachedB, CachedLookB, LookB, OBJECTS_B,
     SCENE_B_BLOCKS, SCENES_B, SceneB, TEXELS_PANEL, TEXTURES_B, VERTICES_B,
 };
-pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
+pub use sheet::{Hits, SHEET_TRIANGLES, SHEETS, Sheet, SheetError};
 pub use shots::{
-    DEPTHS, HEIGHT, KeepsDepth, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS,
-    Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
+    DEPTHS, DRAWS, HEIGHT, KeepsDepth, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS,
+    STACKS, Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
 };
 pub use stress::STRESS;
 pub use suite::{
-    CUBE_HALF, CUBE_PITCH, CUBES, LookF, Looking, PLACES_F, Part, SUITE, SUITE_LINES,
+    CUBE_HALF, CUBE_PITCH, CUBES, LookF, Looking, PLACES_F, Part, SUITE, SUITE_DRAWS, SUITE_LINES,
     SUITE_OBJECTS, SUITE_SLOTS, SUITE_VERTICES, Suite, TEXEL_SIDE_F, TEXELS_F, TEXELS_F_PANEL,
     TEXTURES_F, cube, cube_model, inside, layer, room_light, sphere_light, teapot_part, tilt,
     tilted, tilted_textured,

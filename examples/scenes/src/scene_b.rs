@@ -5,12 +5,14 @@
 //! well as exact ones.
 
 use crate::texels::{TEXEL_SIDE, TEXELS_565};
-use crate::{SPHERE, Shot, ShotError};
+use crate::{Canvas, SPHERE, Shot, ShotError, Suite};
+use scanbeam::Draw;
 use scanbeam::pipeline::texture::{
-    BlockCache, Blocked, Quality, Skin, Square128, Texture, Textured, Words, Wrap,
+    BlockCache, Blocked, Quality, Skin as PresetSkin, Square128, Texture, Textured, Words, Wrap,
 };
 use scanbeam::pipeline::{Gouraud, Instance, Pipeline, Scene, TexturedDepth};
 use scanbeam::pixel::Rgb565Be;
+use scanbeam::scene::{Budget, Skin};
 
 /// A way to draw scene B.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,19 +22,19 @@ pub struct SceneB {
     /// Whether the light of scene A falls on it; otherwise it shows its texels as they are.
     pub lit: bool,
     /// How far places on the texture may be off.
-    pub quality: Quality,
+    pub budget: Budget,
 }
 
 /// All of them.
 pub const SCENES_B: [SceneB; 4] = [
-    scene("b_upright", true, Quality::Balanced),
-    scene("b_upright_exact", true, Quality::Exact),
-    scene("b_upright_unlit", false, Quality::Balanced),
-    scene("b_upright_unlit_exact", false, Quality::Exact),
+    scene("b_upright", true, Budget::BALANCED),
+    scene("b_upright_exact", true, Budget::EXACT),
+    scene("b_upright_unlit", false, Budget::BALANCED),
+    scene("b_upright_unlit_exact", false, Budget::EXACT),
 ];
 
-const fn scene(name: &'static str, lit: bool, quality: Quality) -> SceneB {
-    SceneB { name, lit, quality }
+const fn scene(name: &'static str, lit: bool, budget: Budget) -> SceneB {
+    SceneB { name, lit, budget }
 }
 
 /// What scene B is drawn with: as an SPI panel takes it.
@@ -65,7 +67,7 @@ pub const BLOCK_TEXELS_B: usize = 16;
 pub const CACHE_SLOTS_B: usize = 32;
 
 /// How it is drawn so: without light, as `b_upright_unlit`.
-pub const SCENE_B_BLOCKS: SceneB = scene("b_blocks", false, Quality::Balanced);
+pub const SCENE_B_BLOCKS: SceneB = scene("b_blocks", false, Budget::BALANCED);
 
 /// Vertices that suffice for scene B: those of the mesh.
 pub const VERTICES_B: usize = 33 * 33;
@@ -85,12 +87,30 @@ pub(crate) static PLACES: [[i32; 2]; VERTICES_B] = {
 };
 
 impl SceneB {
-    /// Draws it into `scene`, whose screen must be [`Shot::screen`], with the scene's texture 0, of
-    /// [`TEXEL_SIDE`] texels each way.
+    /// Draws it into `scene`, whose screen must be [`Shot::screen`].
     ///
     /// # Errors
-    /// When the arenas are smaller than [`VERTICES_B`] and [`OBJECTS_B`].
-    pub fn build<P>(self, scene: &mut Scene<'_, P>) -> Result<(), ShotError>
+    /// When the memory is smaller than [`VERTICES_B`] and [`OBJECTS_B`], and when the look has no textures.
+    pub fn build(self, scene: &mut impl Canvas) -> Result<(), ShotError> {
+        let (camera, light) = Shot::sphere_camera()?;
+        scene.begin(&camera)?;
+        let skin = |texture| Skin {
+            texture,
+            places: &PLACES,
+            budget: self.budget,
+        };
+        scene.draw(&Draw {
+            light: light.filter(|_| self.lit),
+            texture: Suite::B.texture().map(skin),
+            ..Draw::new(SPHERE)
+        })
+    }
+
+    /// Draws it into the scene of a preset, with the scene's texture 0, of [`TEXEL_SIDE`] texels each way.
+    ///
+    /// # Errors
+    /// As [`build`](SceneB::build).
+    pub fn build_preset<P>(self, scene: &mut Scene<'_, P>) -> Result<(), ShotError>
     where
         P: Pipeline<Shading = Textured<Gouraud>>,
     {
@@ -100,10 +120,13 @@ impl SceneB {
             light: light.filter(|_| self.lit),
             ..Instance::default()
         };
-        let skin = Skin {
+        let skin = PresetSkin {
             places: &PLACES,
             texture: 0,
-            quality: self.quality,
+            quality: match self.budget {
+                Budget::EXACT => Quality::Exact,
+                _ => Quality::Balanced,
+            },
         };
         scene.draw_skinned(&SPHERE, skin, &instance)?;
         Ok(())

@@ -3,15 +3,13 @@
 use super::Row;
 use super::rooms::mirror_pixels;
 use crate::firmware::{FirmwareError, KernelRun, M4, Output, Profile, Toolchain, measure};
-use crate::lent::{LineRooms, SceneRooms};
-use scanbeam::pipeline::{Counted, GouraudDepth};
-use scanbeam::pixel::Rgb565Be;
-use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
+use crate::rooms::{Room, picture};
+use scenes::{LeanLook, SUITE_DRAWS, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite};
 use std::collections::BTreeMap;
 use std::error::Error;
 
 /// Frames of the teapot at 320 x 240.
-const TEAPOTS: [&str; 4] = ["teapot", "teapot_model", "lean_teapot", "values_doubled"];
+const TEAPOTS: [&str; 3] = ["teapot_model", "teapot", "values_doubled"];
 
 /// Instructions a pixel and a span, by kernel; a frame has no spans of its own.
 #[derive(Debug, Default, PartialEq)]
@@ -92,22 +90,18 @@ pub(crate) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
 
 /// Pixels that show the teapot: those that are the same over any background.
 fn teapot_pixels() -> Result<u32, Box<dyn Error>> {
-    type P = Counted<GouraudDepth<Rgb565Be>>;
-    let mut lent = SceneRooms::<P>::new(VERTICES, OBJECTS, HEIGHT.into());
-    let mut scene = lent.scene(Shot::screen());
-    let built = Shot::Teapot.build(&mut scene);
-    built.map_err(|error| format!("teapot: {error:?}"))?;
-    let mut rooms = LineRooms::<P>::new(64, OBJECTS, WIDTH.into());
-    let mut renderer = rooms.renderer();
-    let mut shown = 0;
-    let mut pixels = [0; WIDTH as usize];
-    let mut other = [0; WIDTH as usize];
-    for line in 0..HEIGHT {
-        pixels.fill(0);
-        other.fill(0xFFFF);
-        renderer.draw_line(&scene, line, &mut pixels)?;
-        renderer.draw_line(&scene, line, &mut other)?;
-        shown += pixels.iter().zip(&other).filter(|(a, b)| a == b).count() as u32;
-    }
-    Ok(shown)
+    let over = |background| {
+        let room = Room {
+            vertices: SUITE_VERTICES,
+            places: 0,
+            objects: SUITE_OBJECTS,
+            draws: SUITE_DRAWS,
+        };
+        picture::<_, LeanLook>(Shot::screen(), room, background, |scene| {
+            let built = Suite::Teapot.build(scene);
+            Ok(built.map_err(|error| format!("teapot: {error:?}"))?)
+        })
+    };
+    let (black, white) = (over(0)?, over(0xFFFF)?);
+    Ok(black.iter().zip(&white).filter(|(a, b)| a == b).count() as u32)
 }

@@ -2,12 +2,12 @@
 //!
 //! | file | there |
 //! |---|---|
-//! | `stage.rs` | triangles whose corners lie on chosen places of the screen, drawn by any pipeline |
-//! | `methods.rs` | the interpolation methods by name |
-//! | `spans.rs` | family `interpolation`: colour along spans, by every method |
+//! | `stage.rs` | triangles whose corners lie on chosen places of the screen, and who draws them |
+//! | `methods.rs` | the renderer and the laboratory's interpolation methods by name |
+//! | `spans.rs` | family `interpolation`: colour along spans, by all of them |
 //! | `coverage.rs` | family `coverage`: which pixels a triangle has |
-//! | `depth.rs` | family `depth`: which surface is in front, and how exact planes of depth are |
-//! | `texture.rs` | family `texture`: places along spans by every way of dividing, whole scenes by every quality |
+//! | `depth.rs` | family `depth`: which surface is in front |
+//! | `texture.rs` | family `texture`: places by the laboratory's divisions and the renderer's budgets |
 //! | `frames.rs` | whole scenes: family `interpolation` by every method, family `frame` beside the model |
 //! | `rooms.rs` | frames of the rooms: doubled on their way out, places from normals |
 //! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |

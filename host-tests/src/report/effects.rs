@@ -6,7 +6,7 @@ use crate::draw::{CrewSettings, Effects, FilterArg, Skins, TextureSet, draw_effe
 use crate::frames::{effect_pictures, values_pictures};
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
-use scanbeam::pipeline::texture::Quality;
+use scanbeam::scene::Budget;
 use std::error::Error;
 use std::path::Path;
 
@@ -64,7 +64,7 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         let skins = Skins {
             set: &set,
             filter: FilterArg::Nearest,
-            quality: Quality::Balanced,
+            budget: Budget::BALANCED,
         };
         let crew = CrewSettings::default();
         let drawn = draw_effects(&model, skins, (&view, format), crew, effects)?;

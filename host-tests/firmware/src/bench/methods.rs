@@ -4,7 +4,8 @@
 //! tested. Both widths are large, one twice the other: what differs is pixels alone, and what a
 //! method takes to begin and to end counts for the span.
 
-use super::{LINES, WIDEST, drawn};
+use super::presets::drawn;
+use super::{LINES, WIDEST};
 use crate::console::Console;
 use crate::count::Counter;
 use scanbeam::pipeline::{
