@@ -37,6 +37,7 @@ mod frame_events;
 mod frames;
 mod fuzz;
 mod golden;
+mod hot_path_alpha;
 mod hot_path_colours;
 mod hot_path_computed;
 mod hot_path_counts;
