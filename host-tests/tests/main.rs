@@ -14,7 +14,6 @@ mod hot;
 mod listing;
 mod played;
 mod shadow_world;
-mod stress;
 
 mod accuracy_frontier;
 mod against_reference;
