@@ -11,7 +11,7 @@
 
 use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, send};
-use crate::composite::PixelFormat;
+use crate::pixel::PixelFormat;
 use crate::look::{Look, WordOf};
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use crate::scene::Scene;

@@ -2,7 +2,7 @@
 
 use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
-use crate::composite::LineOverlay;
+use crate::overlay::LineOverlay;
 use crate::look::{Look, WordOf};
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};

@@ -1,7 +1,7 @@
 //! A picture does not depend on the cache, nor a pixel on who else is on its line.
 
 use super::{FastMemory, Memory as Lent, Renderer};
-use crate::composite::{PixelFormat, Rgb565, Rgb888};
+use crate::pixel::{PixelFormat, Rgb565, Rgb888};
 use crate::geometry::{Affine, Camera, Cull, Faces, Mesh, Screen};
 use crate::link::Link;
 use crate::look::{Gouraud, Look, Textured, WordOf};

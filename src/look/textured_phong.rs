@@ -8,7 +8,7 @@ use super::phong::{light, steps_of, word_of};
 use super::textured::{Planes, Textured};
 use super::tint::Texel;
 use super::{Fill, Paint, Place, ThinSpan};
-use crate::composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
+use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
 use crate::scene::{DrawState, WordOfNormal};

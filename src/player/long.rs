@@ -1,7 +1,7 @@
 //! Vertices that were set up beforehand: strips and fans on the screen (H11).
 
 use super::gather::texels;
-use crate::geometry::ScreenVertex;
+use crate::scene::ScreenVertex;
 use crate::list::{Run, Strip, Words};
 use crate::scene::ScreenCorner;
 use heapless::Vec;

@@ -5,7 +5,7 @@
 //! 8 bits stay where they lie, and so do texels of 16 bits where the panel has their order of bytes; palettes, and
 //! other texels, become words of the panel in memory that is lent.
 
-use crate::composite::{PixelFormat, Rgb565};
+use crate::pixel::{PixelFormat, Rgb565};
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
 use crate::scene::{Sampling, Texture, TextureError, Wrap};
 
@@ -164,11 +164,7 @@ impl<'t> Shelf<'t> {
         sampling: Option<Sampling>,
     ) -> Result<Texture<'t>, Reason> {
         let panel = Panel {
-            // Pixels of more than 16 bits are made of texels that are numbers.
-            word: |rgb| match F::HALVES {
-                true => F::to_half(F::from_rgb8(rgb)),
-                false => Rgb565::from_rgb8(rgb),
-            },
+            word: F::texel,
             dithers,
         };
         let mut key = None;

@@ -11,8 +11,9 @@ use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
 use super::project::{Point, View};
 use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene};
+use super::DepthFunction;
 use crate::geometry::{
-    Affine, Camera, Coordinate, Cull, DepthFunction, Extrusion, Faces, Mesh, ShadowLight,
+    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight,
     ShadowMemory, check, each_triangle, triangles,
 };
 
