@@ -29,11 +29,6 @@ impl<'m, T> Arena<'m, T> {
         self.len
     }
 
-    /// How many more values fit below index `limit`.
-    pub(crate) fn free_below(&self, limit: usize) -> usize {
-        self.items.len().min(limit) - self.len.min(limit).min(self.items.len())
-    }
-
     /// Appends; `None` when the arena is full.
     #[inline]
     pub(crate) fn push(&mut self, value: T) -> Option<u16> {

@@ -22,7 +22,6 @@
 
 mod bits;
 mod block;
-mod edge;
 mod inverse_root;
 mod log;
 mod plane;
@@ -36,7 +35,6 @@ mod short;
 
 pub use bits::{bit, take_first};
 pub use block::{Block, shift_round};
-pub use edge::Edge;
 pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;
 pub use log::{exp2, log2};

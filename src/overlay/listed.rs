@@ -1,8 +1,8 @@
 //! Overlays of an instruction list, painted from where they lie (K14).
 
 use super::LineOverlay;
-use crate::pixel::PixelFormat;
 use crate::list::{OverlaySlot, OverlaySlots};
+use crate::pixel::PixelFormat;
 
 /// The overlays of a list, for [`draw_frame_overlaid`](crate::frame::draw_frame_overlaid). Each pixel is
 /// expanded where it is painted.

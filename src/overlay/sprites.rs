@@ -227,8 +227,8 @@ impl<F: PixelFormat> LineOverlay<F> for Overlay<'_, F> {
 
 #[cfg(test)]
 mod tests {
-    use crate::pixel::{Grey8, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
     use super::*;
+    use crate::pixel::{Grey8, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
     use std::{vec, vec::Vec};
 
     struct Rng(u32);

@@ -143,10 +143,10 @@ pub fn expand_indices<W: Copy, const N: usize>(indices: &[u8], palette: &[W; N],
 
 #[cfg(test)]
 mod tests {
-    use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
     use super::*;
     use crate::geometry::{Colour, Scale};
     use crate::num::random::Rng;
+    use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
     use std::{vec, vec::Vec};
 
     fn all_indices<const N: usize>() {

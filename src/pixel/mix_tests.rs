@@ -1,8 +1,8 @@
 //! Blends against f64, channel by channel: ideal rounding plus one step.
 
 use super::*;
-use crate::pixel::{Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 use crate::num::random::Rng;
+use crate::pixel::{Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 use std::vec::Vec;
 
 /// Steps of the channels of a word.

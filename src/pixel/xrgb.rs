@@ -28,8 +28,8 @@ impl PixelFormat for Xrgb8888 {
 
 #[cfg(test)]
 mod tests {
-    use crate::pixel::Rgb888;
     use super::*;
+    use crate::pixel::Rgb888;
 
     #[test]
     fn words_hold_what_bytes_hold() {

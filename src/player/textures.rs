@@ -5,8 +5,8 @@
 //! 8 bits stay where they lie, and so do texels of 16 bits where the panel has their order of bytes; palettes, and
 //! other texels, become words of the panel in memory that is lent.
 
-use crate::pixel::{PixelFormat, Rgb565};
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
+use crate::pixel::PixelFormat;
 use crate::scene::{Sampling, Texture, TextureError, Wrap};
 
 /// Room for a texture that is drawn with.
