@@ -102,11 +102,15 @@ mod tests {
             Factor::Constant(100),
             Factor::Destination,
             Factor::InverseDestination,
+            Factor::SourceAlpha,
+            Factor::InverseTextureAlpha,
         ];
         let value = |factor: Factor, old: f64| match factor {
             Factor::Constant(c) => f64::from(c) / 255.0,
             Factor::Destination => old,
             Factor::InverseDestination => 1.0 - old,
+            Factor::SourceAlpha | Factor::TextureAlpha => 1.0,
+            Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => 0.0,
         };
         let steps = |word: u16| [word >> 11, word >> 5 & 63, word & 31].map(f64::from);
         let pairs = factors.iter().flat_map(|&s| factors.map(|d| (s, d)));
