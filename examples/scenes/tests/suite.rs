@@ -22,18 +22,23 @@ struct Seen {
 
 fn seen(suite: Suite) -> Seen {
     const NOTHING: u16 = 0x0841;
+    let mut vertices = vec![Vertex::EMPTY; SUITE_VERTICES];
+    let mut places = vec![TexturePlace::EMPTY; SUITE_VERTICES];
+    let mut objects = vec![Object::EMPTY; SUITE_OBJECTS];
     let memory = Memory {
-        vertices: &mut vec![Vertex::EMPTY; SUITE_VERTICES],
-        places: &mut vec![TexturePlace::EMPTY; SUITE_VERTICES],
-        objects: &mut vec![Object::EMPTY; SUITE_OBJECTS],
+        vertices: &mut vertices,
+        places: &mut places,
+        objects: &mut objects,
         bins: &mut [0; HEIGHT as usize],
         draws: &mut [const { DrawState::EMPTY }; SUITE_DRAWS],
     };
     let mut scene = Scene::<Look>::new(Shot::screen(), memory);
     suite.build(&mut scene).expect("the memory suffices");
+    let mut cache = Box::new(FastMemory::<Look>::new());
+    let mut links = vec![Link::EMPTY; SUITE_OBJECTS];
     let mut renderer = Renderer::new(LineMemory {
-        cache: &mut Box::new(FastMemory::<Look>::new()),
-        links: &mut vec![Link::EMPTY; SUITE_OBJECTS],
+        cache: &mut cache,
+        links: &mut links,
         depth: &mut [0; WIDTH as usize],
     })
     .counting();
