@@ -38,6 +38,7 @@ mod frames;
 mod fuzz;
 mod golden;
 mod hot_path_colours;
+mod hot_path_computed;
 mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_dither;

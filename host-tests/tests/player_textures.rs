@@ -93,6 +93,12 @@ fn sample(rng: &mut Rng, form: TexelForm, has_holes: bool) -> Sample {
     sample_of(rng, form, has_holes, sides)
 }
 
+/// Whether a form says which texels are seen.
+fn has_alpha(form: TexelForm) -> bool {
+    use TexelForm::{Rgb565, Rgb888, Rgbd5551};
+    !matches!(form, Rgb565 | Rgb888 | Rgbd5551)
+}
+
 /// One with sides of these logarithms.
 fn sample_of(rng: &mut Rng, form: TexelForm, has_holes: bool, sides: [u8; 2]) -> Sample {
     let [log_width, log_height] = sides;
@@ -156,6 +162,18 @@ fn sample_of(rng: &mut Rng, form: TexelForm, has_holes: bool, sides: [u8; 2]) ->
                     direct,
                 )
             }
+            TexelForm::Rgba5551 | TexelForm::Rgbd5551 => {
+                let [r, g, b, a] = direct;
+                let five = |v: u8| u32::from(v >> 3);
+                let value = five(r) << 11 | five(g) << 6 | five(b) << 1;
+                let grown = |v: u8| v >> 3 << 3 | v >> 5;
+                // One bit of alpha, or D.
+                let (last, a) = match form {
+                    TexelForm::Rgba5551 => (u32::from(a >> 7), a),
+                    _ => (n & 1, 255),
+                };
+                (value | last, [grown(r), grown(g), grown(b), a])
+            }
             // Two bits of a byte mean nothing.
             TexelForm::Index6 => (code | (n & 3) << 6, palette[code as usize]),
             _ => (code, palette[code as usize]),
@@ -199,7 +217,7 @@ fn textures_of_every_form_are_those_of_calls() {
     for form in TexelForm::ALL {
         for seed in 0..12 {
             let mut rng = Rng::new(seed);
-            let has_holes = seed % 3 == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
+            let has_holes = seed % 3 == 2 && has_alpha(form);
             let sample = sample(&mut rng, form, has_holes);
             let prsp = seed % 2 == 0;
             let list = &sample.list(prsp)[..];
@@ -253,7 +271,7 @@ fn textures_of_every_form_are_those_of_calls() {
 /// holes.
 fn levelled(form: TexelForm, seed: u64, sides: [u8; 2]) -> (Sample, Vec<Vec<u16>>, u16) {
     let mut rng = Rng::new(900 + seed);
-    let has_holes = seed == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
+    let has_holes = seed == 2 && has_alpha(form);
     let log = |level: u8| sides.map(|log: u8| log.saturating_sub(level));
     let mut all: Vec<Sample> = (0..4)
         .map(|level| sample_of(&mut rng, form, has_holes, log(level)))

@@ -3,7 +3,7 @@
 use crate::suite::{self, Suite};
 use crate::{CUBE, CUBE_QUADS, Canvas, RIBBON, SPHERE, stress};
 use scanbeam::pipeline::{DrawError as PresetDrawError, SceneError};
-use scanbeam::scene::{BeginError, DrawError, Shading, TextureError};
+use scanbeam::scene::{BeginError, CacheError, DrawError, Shading, TextureError};
 use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Light, Mesh, Screen};
 
 /// Pixels a line of every shot.
@@ -198,8 +198,10 @@ pub enum ShotError {
     Begin(BeginError),
     /// A part was not drawn.
     Draw(DrawError),
-    /// A level of detail was not made.
+    /// A texture, or a level of detail, was not made.
     Texture(TextureError),
+    /// A cache of a texture was not made.
+    Cache(CacheError),
     /// Sprites are not in order.
     Sprites,
     /// It was not begun, by a preset.
