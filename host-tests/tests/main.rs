@@ -100,11 +100,9 @@ mod stress_input;
 mod stress_near;
 mod stress_shapes;
 mod survivors;
-mod texture_cache;
 mod texture_cli;
 mod texture_levels;
 mod texture_truth;
-mod textures;
 mod told;
 mod view;
 #[cfg(target_os = "linux")]
