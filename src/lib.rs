@@ -70,7 +70,7 @@
 //! | blends, scissors, priorities, shadows, reflections, lists | [`guide::draw_calls`] |
 //! | your display, your memory, two cores | [`guide::own_display`], [`guide::own_memory`], [`guide::two_cores`] |
 //! | speed against error, and what a frame did | [`guide::quality`], [`guide::figures`] |
-//! | alpha of vertices, fetching ahead | [`guide::presets`] |
+//! | alpha of vertices | [`guide::presets`] |
 //! | which requirement is met where, and which test says so | [`guide::rows`] |
 #![no_std]
 #![forbid(unsafe_code)]
