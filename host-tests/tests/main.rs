@@ -14,7 +14,6 @@ mod hot;
 mod listing;
 mod played;
 mod shadow_world;
-mod stress;
 
 mod accuracy_frontier;
 mod against_reference;
@@ -40,6 +39,7 @@ mod golden;
 mod hot_path_alpha;
 mod hot_path_colours;
 mod hot_path_computed;
+mod hot_path_counts;
 mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_dither;
@@ -102,11 +102,9 @@ mod stress_input;
 mod stress_near;
 mod stress_shapes;
 mod survivors;
-mod texture_cache;
 mod texture_cli;
 mod texture_levels;
 mod texture_truth;
-mod textures;
 mod told;
 mod view;
 #[cfg(target_os = "linux")]

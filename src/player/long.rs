@@ -1,9 +1,9 @@
 //! Vertices that were set up beforehand: strips and fans on the screen (H11).
 
 use super::gather::texels;
-use crate::geometry::ScreenVertex;
 use crate::list::{Run, Strip, Words};
 use crate::scene::ScreenCorner;
+use crate::scene::ScreenVertex;
 use heapless::Vec;
 
 /// Triangles that are drawn together.

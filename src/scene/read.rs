@@ -148,7 +148,9 @@ mod tests {
     fn read<'t, L: crate::look::Look>(
         draws: &[Draw<'_, 't>],
     ) -> (Vec<FiledTriangle>, Vec<DrawState<'t>>) {
-        let (mut vertices, mut places) = ([Vertex::EMPTY; 32], [TexturePlace::EMPTY; 32]);
+        // Places of what was drawn before.
+        let stale = TexturePlace::new([5 << 14; 2], [1; 2]);
+        let (mut vertices, mut places) = ([Vertex::EMPTY; 32], [stale; 32]);
         let (mut objects, mut bins) = ([Object::EMPTY; 16], [NONE; 120]);
         let mut states = [DrawState::EMPTY; 4];
         let memory = Memory {
@@ -181,8 +183,8 @@ mod tests {
         (0..4).find(is).unwrap()
     }
 
-    /// Dies of another origin, a depth in other units or of the wrong corner, colours in steps of the pixel format, and
-    /// of texture places in other units: all within what rounding leaves of f64.
+    /// Dies of another origin, a depth in other units or of the wrong corner, colours in steps of the pixel format,
+    /// texture places in other units, and of those of another call: all within what rounding leaves of f64.
     #[test]
     fn corners_are_where_f64_sees_them() {
         static TEXELS: [u16; 64] = [0; 64];
@@ -197,7 +199,10 @@ mod tests {
             ..plain
         };
         let of_colours = read::<Gouraud<Rgb888>>(&[plain]).0;
-        let of_texels = read::<Textured<Rgb565>>(&[textured]).0;
+        let mut of_texels = read::<Textured<Rgb565>>(&[textured, plain]).0;
+        for corner in of_texels.split_off(2).iter().flat_map(|t| t.corners) {
+            assert_eq!((corner.texel, corner.fine), ([0; 2], [0; 2]));
+        }
         for (triangles, has_texture) in [(of_colours, false), (of_texels, true)] {
             assert_eq!(triangles.len(), 2);
             for (triangle, face) in triangles.iter().zip(FACES) {

@@ -1,14 +1,8 @@
 //! The frames of the firmware as this machine draws them: their checksums, what they have, and pictures of them.
 
-mod effects;
-mod methods;
-mod old;
 mod played;
 mod values;
 
-pub use effects::{effect_frames, effect_pictures};
-pub use methods::{MethodFrame, method_frames};
-pub use old::{draw, draw_keeping, drawn_b, textured_b};
 pub use played::played_frame;
 pub use values::{Sent, values_pictures, values_sent};
 

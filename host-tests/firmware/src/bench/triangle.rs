@@ -103,6 +103,25 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     }
 }
 
+/// Times smooth triangles as wide as those that the laboratory's methods are timed on, one twice as wide as the other,
+/// and prints them under the names that those have.
+pub(super) fn run_beside_methods(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    for (large, tall, widest) in [("", LINES, WIDEST[0]), ("_large", LINES + 1, WIDEST[1])] {
+        for width in [widest, widest / 2] {
+            let size = Size { width, tall };
+            let (scene, lines) = (&mut rooms.scene, &mut rooms.lines);
+            for (way, depth) in [(Way::Smooth, ""), (Way::Over, "_depth")] {
+                let cache = &mut *rooms.caches.smooth;
+                drawn::<LeanLook>(way, size, counter, scene, lines, cache)
+                    .print(format_args!("renderer_565{large}{depth}"), console);
+            }
+            let mut cache = FastMemory::<Gouraud<Rgb888>>::new();
+            drawn(Way::Smooth, size, counter, scene, lines, &mut cache)
+                .print(format_args!("renderer_888{large}"), console);
+        }
+    }
+}
+
 /// Draws a triangle, and counts all lines but the first.
 #[inline(never)]
 fn drawn<L: Look<Pixel: PixelFormat<Word: Default + PartialEq>>>(
