@@ -1,6 +1,8 @@
 //! What was done along spans, and what was skipped (M4). Pass one counts in [`scene::Assembled`](crate::scene::Assembled),
 //! the object cache in [`frame::CacheUse`](crate::frame::CacheUse).
 
+use crate::event::{Event, EventSet};
+
 /// What happened along the spans of lines (M4): of a renderer that is [`counting`](crate::Renderer::counting).
 ///
 /// A span is the pixels of a triangle on a line, within the scissor of its draw call. The figures hang on the scene and
@@ -45,6 +47,19 @@ pub(crate) struct SpanPixels {
 }
 
 impl SpanCounts {
+    /// The events that these figures tell (H14): pixels were given a colour; a span whose depth was asked for is seen; a
+    /// pixel of a span lost against another. With those of pass one
+    /// ([`Assembled::events`](crate::scene::Assembled::events)) they are all that a frame has.
+    #[must_use]
+    pub fn events(&self) -> EventSet {
+        let asked = self.spans.saturating_sub(self.spans_untested);
+        EventSet::of([
+            (Event::PixelRendered, self.pixels_shaded > 0),
+            (Event::DepthPassed, asked > self.spans_hidden),
+            (Event::DepthFailed, self.pixels_hidden > 0),
+        ])
+    }
+
     /// Adds a span, if it has pixels.
     pub(crate) fn add_span(&mut self, pixels: SpanPixels, is_untested: bool) {
         if pixels.all == 0 {

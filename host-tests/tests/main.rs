@@ -44,6 +44,7 @@ mod hot_path_cover;
 mod hot_path_depth;
 mod hot_path_dither;
 mod hot_path_errors;
+mod hot_path_fetching;
 mod hot_path_frames;
 mod hot_path_ground;
 mod hot_path_master;
