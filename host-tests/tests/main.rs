@@ -19,12 +19,10 @@ mod stress;
 mod accuracy_frontier;
 mod against_reference;
 mod arenas;
-mod block_fix_depth;
 mod by_calls;
 mod by_calls_parts;
 mod cache;
 mod command_line;
-mod composite;
 mod defmt_log;
 mod demo;
 mod depth_methods;
@@ -110,4 +108,3 @@ mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;
 mod watertight;
-mod worded;
