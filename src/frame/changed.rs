@@ -45,6 +45,7 @@ where
             } else {
                 pump.line_left_out()?;
             }
+            renderer.fetch_known(scene);
         }
         pump.finish()?;
         Ok(pump.stats())
@@ -90,6 +91,7 @@ where
         let drawn = lines.draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
         frame.line_done()?;
+        renderer.fetch_known(scene);
     }
     frame.finish()?;
     Ok(FrameUse::told(scene, renderer, skipped, pump.stats()))

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `renderer` | what draws lines: its memory, its errors |
 //! | `advance` | from line to line: which triangles begin, turn and end |
+//! | `ahead` | triangles set up before their line comes |
 //! | `alone` | a triangle without a slot |
 //! | `line` | one line: who is seen, and its pixels |
 //! | `scene` | a scene made for a look |
@@ -27,6 +28,7 @@
 //! | `relay` | a frame of two cores |
 
 mod advance;
+mod ahead;
 mod alone;
 mod changed;
 mod guests;

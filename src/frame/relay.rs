@@ -160,6 +160,9 @@ impl<B: LineBuf> Worker<'_, B> {
                     // There is room for every buffer.
                     let _ = self.to_desk.enqueue(Drawn { line, result, buf });
                     (peer.wake)();
+                    if result.is_ok() {
+                        renderer.fetch_known(scene);
+                    }
                 }
             } else if order == OVER {
                 self.say(AWAY, peer);

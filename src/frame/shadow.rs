@@ -165,8 +165,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (slots, lights) = self.list_shadows(out);
         let mut lit = lights.with_lit | lights.with_shadowed & lights.with_volumes;
         if self.counter.is_some() {
-            // What nobody sees is counted too.
-            lit |= lights.with_shadowed;
+            // What nobody sees is counted too, but not what it takes.
+            let (mut in_vain, counts) = (lights.with_shadowed & !lit, self.counts);
+            while in_vain != 0 {
+                self.volumes.fill(0);
+                self.take_step(2 * take_first(&mut in_vain) + 1, slots, out);
+            }
+            self.counts = counts;
         }
         while lit != 0 {
             let light = take_first(&mut lit);
