@@ -73,6 +73,11 @@ impl<'m, T> Arena<'m, T> {
         self.items.get(..self.len).unwrap_or(&[])
     }
 
+    /// The value that was added last, to be changed.
+    pub(crate) fn last_mut(&mut self) -> Option<&mut T> {
+        self.items.get_mut(self.len.checked_sub(1)?)
+    }
+
     /// The values so far, to be changed.
     #[inline]
     pub(crate) fn as_mut_slice(&mut self) -> &mut [T] {

@@ -131,7 +131,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         if !self.is_contested(rival.span, far, after.slots) && self.guest_key(after.guests) < far {
             return colour_guest::<L>(rival, None, drawing, out);
         }
-        let mut taken = *drawing.mask;
+        let mut taken = drawing.mask.part(start, end);
         self.hide(rival, far, after, out, &mut taken);
         if !taken.has_all(start, end) {
             colour_guest::<L>(rival, Some(&mut taken), drawing, out);

@@ -19,6 +19,7 @@
 //! | `values` | lines with draw calls that have values few have |
 //! | `rank` | the order of their spans |
 //! | `ruled` | pixels of such a span |
+//! | `alpha` | the alpha of vertices along it |
 //! | `shadow` | shadow volumes, and what their lights fall on |
 //! | `translucent` | spans that what is behind shines through, from far to near |
 //! | `tally` | spans and pixels, counted |
@@ -30,6 +31,7 @@
 mod advance;
 mod ahead;
 mod alone;
+mod alpha;
 mod changed;
 mod guests;
 mod line;

@@ -152,9 +152,19 @@ macro_rules! wide {
                 planes: &Planes,
                 place: Place,
                 draws: &[DrawState<'_>],
+                _: bool,
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
                 fill_holed::<$format>(planes, place, draws, run)
+            }
+
+            fn fill_mask(
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [u16],
+            ) {
+                Texels::fill_mask(planes, place, draws, run);
             }
         }
     )+};

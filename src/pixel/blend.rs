@@ -2,7 +2,7 @@
 
 use super::Pixel;
 use crate::composite::{Mix, mix_pair_565};
-use crate::scene::{Blend, BlendMode, Factor};
+use crate::scene::{Blend, BlendMode, Factor, PixelAlpha};
 
 /// The way that formats have for a mode, if there is one.
 fn mix_of(mode: BlendMode) -> Option<Mix> {
@@ -44,6 +44,25 @@ pub(crate) fn blend<F: Pixel>(old: &mut [F::Word], new: &[F::Word], blend: Blend
     }
 }
 
+/// The same by alphas of pixels.
+#[inline(never)]
+pub(crate) fn blend_each<F: Pixel>(
+    old: &mut [F::Word],
+    new: &[F::Word],
+    how: Blend,
+    alphas: &[PixelAlpha],
+) {
+    let (mut rest, mut from) = (old, 0);
+    for alike in alphas.chunk_by(PartialEq::eq) {
+        let Some((old, more)) = rest.split_at_mut_checked(alike.len()) else {
+            return;
+        };
+        let new = new.get(from..).unwrap_or_default();
+        blend::<F>(old, new, how.by(alike[0]));
+        (rest, from) = (more, from + alike.len());
+    }
+}
+
 /// One pixel over another, by their levels; channels that are not written keep theirs.
 fn single<F: Pixel>(old: F::Word, new: F::Word, blend: Blend, mix: Option<Mix>) -> F::Word {
     let mut word = [new];
@@ -78,6 +97,9 @@ fn factor(factor: Factor, old: u8) -> u8 {
         Factor::Constant(value) => value,
         Factor::Destination => old,
         Factor::InverseDestination => 255 - old,
+        // Where no pixel has an alpha of its own, all are opaque.
+        Factor::SourceAlpha | Factor::TextureAlpha => 255,
+        Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => 0,
     }
 }
 

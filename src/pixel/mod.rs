@@ -6,7 +6,7 @@
 
 mod blend;
 
-pub(crate) use blend::blend;
+pub(crate) use blend::{blend, blend_each};
 
 pub use crate::composite::{
     Cut, CutOff, Dithered, Grey8, Index4, Index8, Indexed, LinePalettes, Mix, OneWord, Ordered,

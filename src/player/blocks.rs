@@ -149,8 +149,7 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
             dithers: self.state.draw.dither,
             sampling: self.settings.sampling,
         };
-        let texture = self.shelf.texture::<L::Pixel>(words, asked)?;
-        self.state.texture = Some(texture);
+        self.state.texture = Some(self.shelf.texture::<L::Pixel>(words, asked)?);
         Ok(())
     }
 

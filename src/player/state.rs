@@ -3,13 +3,14 @@
 use super::gather::{Gathered, ListCoordinate, Out, Places};
 use super::lights;
 use super::play::Stage;
+use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
 use crate::list::{Lent, Material, Reason};
 use crate::look::Look;
 use crate::scene::{
-    Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin, Texture,
+    Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
 };
 
 /// What is drawn with next.
@@ -26,7 +27,7 @@ pub(super) struct State<'m, 't> {
     /// Pixels each way that a point has.
     pub(super) point_size: u8,
     /// The texture that the material names, once something is drawn with it.
-    pub(super) texture: Option<&'t Texture<'t>>,
+    pub(super) texture: Option<Listed<'t>>,
     /// The texture is to be found anew.
     pub(super) is_stale: bool,
 }
@@ -79,6 +80,16 @@ impl<'m, 't> State<'m, 't> {
             opacity => Some(Blend::filter(opacity)),
         };
         self.shine();
+    }
+
+    /// The blend of what has the texture, or has none.
+    fn blend_with(&self, textured: bool) -> Option<Blend> {
+        match self.texture {
+            Some(listed) if textured && listed.is_translucent => {
+                Some(self.draw.blend.map_or(Blend::ALPHA, Blend::by_alpha))
+            }
+            _ => self.draw.blend,
+        }
     }
 
     /// Whether several lights of the settings fall on what is drawn.
@@ -173,8 +184,9 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             return;
         };
         let skin = self.state.texture.zip(places);
-        let texture = skin.map(|(texture, places)| Skin {
-            texture,
+        let blend = self.state.blend_with(skin.is_some());
+        let texture = skin.map(|(listed, places)| Skin {
+            texture: listed.texture,
             places,
             budget: match gathered.prsp {
                 true => self.budget,
@@ -187,6 +199,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             let begin = &self.state.draw;
             let draw = Draw {
                 texture,
+                blend,
                 lights: lights.or(begin.lights),
                 ..begin.with_mesh(gathered.mesh)
             };
@@ -212,8 +225,9 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         };
         let texture = self.state.texture.filter(|_| textured);
         let draw = Draw {
-            texture: texture.map(|texture| Skin {
-                texture,
+            blend: self.state.blend_with(textured),
+            texture: texture.map(|listed| Skin {
+                texture: listed.texture,
                 places: &[],
                 budget: if prsp { self.budget } else { Budget::FAST },
             }),
@@ -260,8 +274,8 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
 
     /// The sides of the texture, as logarithms.
     pub(super) fn sides(&self) -> Option<[u8; 2]> {
-        let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
-        self.state.texture.map(sides)
+        let texture = self.state.texture?.texture;
+        Some([texture.log_width() as u8, texture.log_height() as u8])
     }
 
     #[cold]

@@ -38,7 +38,8 @@ pub(super) fn cut_all(corners: [Corner; 3], view: &View, beyond: u32) -> Polygon
     ] {
         // A cut at the near plane may reach beyond the guard band where no corner does.
         let is_guard = plane > beyond::FAR;
-        if beyond & plane != 0 || is_guard {
+        let is_within = |corner: &Corner| view.within(plane, corner.point) >= 0;
+        if beyond & plane != 0 || is_guard && !polygon.iter().all(is_within) {
             polygon = cut(&polygon, view, plane);
         }
     }

@@ -3,6 +3,7 @@
 //! Each triangle has vertices of its own. A point of one pixel is one triangle: corners 12 units of 1/8 pixel apart hold
 //! the centre of that pixel and no other.
 
+use super::check::check_alphas;
 use super::pass::{Own, Pass, colour_of};
 use super::project::{OnScreen, Point};
 use super::{
@@ -52,6 +53,7 @@ impl<'t, L> Scene<'_, 't, L> {
         textured: bool,
     ) -> Result<(), DrawError> {
         bounds_nothing(draw.shadow)?;
+        check_alphas(draw.alphas, 3 * faces.len())?;
         let is_flat = draw.shading == Shading::Flat;
         let draw = Draw {
             mesh: EMPTY,
@@ -69,6 +71,7 @@ impl<'t, L> Scene<'_, 't, L> {
             let near = pass.view.near_depth();
             let plain = pass.one.filter(|_| is_plain);
             for (number, corners) in (0..).zip(faces) {
+                let mut number_of_corner = 3 * number as usize..;
                 let own = corners.map(|ScreenCorner { vertex, texel }| {
                     let from = if is_flat { corners[0].vertex } else { vertex };
                     let at = |v: i16, axis: usize| {
@@ -88,6 +91,7 @@ impl<'t, L> Scene<'_, 't, L> {
                             }),
                         },
                         place: TexturePlace::new(texel, [0; 2]),
+                        alpha: pass.alpha(number_of_corner.next().unwrap_or_default()),
                     }
                 });
                 scene.file_on_screen(number, own, pass);
@@ -108,6 +112,7 @@ impl<'t, L> Scene<'_, 't, L> {
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
         bounds_nothing(draw.shadow)?;
+        check_alphas(draw.alphas, draw.mesh.positions.len())?;
         let mesh = Mesh {
             faces: Faces::Triangles(&[]),
             ..draw.mesh
@@ -145,6 +150,7 @@ impl<'t, L> Scene<'_, 't, L> {
                             colour,
                         },
                         place: texel,
+                        alpha: pass.alpha(i),
                     });
                     scene.file_on_screen(i as u32, own, pass);
                 }

@@ -182,7 +182,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let polygon = cut_all(points.map(corner), &pass.view, 0);
         for i in 2..polygon.len() {
             let piece = [polygon[0], polygon[i - 1], polygon[i]];
-            if let Err(memory) = self.file_piece(piece, pass) {
+            if let Err(memory) = self.file_piece(piece, [0; 3], pass) {
                 return pass.lost.lose(memory, number);
             }
         }

@@ -9,6 +9,7 @@ use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
+use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     Frame, LeanLook, LeanTextured, Played, SUITE_LINES, Shot, ShotError, Values, ValuesMemory,
     Variant, WIDTH,
@@ -64,6 +65,7 @@ pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Rec
         Frame::Shot(how) => sent.shot(how, rooms),
         Frame::Values(values) => sent.values(values, rooms),
         Frame::Played(played) => sent.played(played, rooms),
+        Frame::Model(shot) => sent.model(shot, rooms),
     }
     if let (_, [Some(a), Some(b)]) = pump.release() {
         rooms.buffers = Some([a, b]);
@@ -137,6 +139,21 @@ impl Sent<'_, '_> {
             self.pump.sink_mut().to.transfer(bytes);
         }
         rooms.caches.smooth.set_limit(SLOTS);
+    }
+
+    /// A shot by the hardware model.
+    #[inline(never)]
+    fn model(&mut self, shot: Shot, rooms: &mut Rooms) {
+        let mut scene: Scene<'_, '_, LeanLook> = rooms.scene.scene();
+        shot.build(&mut scene).expect(LARGE);
+        let [z0, z1, c0, c1] = &mut rooms.model;
+        let mut renderer = ModelRenderer::new(PipeMemory {
+            z: [z0, z1],
+            rgb: [c0, c1],
+        });
+        let background = Rgb565Be::from_rgb8(shot.background());
+        let sent = draw_model_frame(&scene, &mut renderer, self.pump, background, self.lines);
+        assert!(sent.is_ok(), "{LARGE}");
     }
 
     /// Draws all lines of a scene.

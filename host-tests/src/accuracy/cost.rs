@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use std::error::Error;
 
 /// Frames of the teapot at 320 x 240.
-const TEAPOTS: [&str; 3] = ["teapot_model", "lean_teapot", "values_doubled"];
+const TEAPOTS: [&str; 3] = ["teapot_model", "teapot", "values_doubled"];
 
 /// Instructions a pixel and a span, by kernel; a frame has no spans of its own.
 #[derive(Debug, Default, PartialEq)]

@@ -65,7 +65,7 @@ fn two_equations_tell_pixels_from_spans() {
     let mut output = Output {
         kernels: vec![long, short],
         frames: vec![FrameResult {
-            scene: "lean_teapot".into(),
+            scene: "teapot".into(),
             crc: 0,
             instructions: 1000,
         }],
@@ -77,7 +77,7 @@ fn two_equations_tell_pixels_from_spans() {
         let mut rows = [Row::rate(name, 1.0, 1.0)];
         costs.fill(&mut rows).map(|()| rows[0].per_pixel)
     };
-    assert_eq!(with("lean_teapot").unwrap(), Some(100.0));
+    assert_eq!(with("teapot").unwrap(), Some(100.0));
     assert!((with("k").unwrap().unwrap() - 7.0).abs() < 1e-9);
     assert!(with("other").is_err());
     // Nothing measured is nothing claimed.

@@ -14,6 +14,8 @@
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
 //! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
+//! | `values_computed` | a floor and cubes of computed texels, nearest, mixed and with holes |
+//! | `values_blocks` | a floor and a cube whose texels lie in blocks behind a small cache |
 //! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_points` | points of three sizes and corners on the screen, textured, by a camera that looks aside |
 //! | `values_overlay` | a ball below sprites |
@@ -22,6 +24,7 @@
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
 mod dusk;
+mod fetched;
 mod points;
 mod sampled;
 mod scenes;
@@ -31,6 +34,7 @@ use crate::ShotError;
 use crate::contours::LeanContours;
 use crate::lean::{LeanLook, LeanTextured};
 use dusk::{Dusk, dusk};
+use fetched::{Slow, blocks, computed};
 use points::points;
 use sampled::{levels, sampled, textures};
 use scanbeam::frame::{
@@ -97,6 +101,10 @@ pub enum Values {
     Master,
     /// Levels of detail, and means of texels.
     Sampled,
+    /// Texels that are computed.
+    Computed,
+    /// Texels in blocks of slow memory, through a cache.
+    Blocks,
     /// Volumes of two lights, and what they light.
     Shadows,
     /// Points, and triangles that are set up beforehand.
@@ -112,7 +120,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 17] = [
+pub const VALUES: [(&str, Values); 19] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -124,6 +132,8 @@ pub const VALUES: [(&str, Values); 17] = [
     ("values_ranked", Values::Ranked),
     ("values_master", Values::Master),
     ("values_sampled", Values::Sampled),
+    ("values_computed", Values::Computed),
+    ("values_blocks", Values::Blocks),
     ("values_shadows", Values::Shadows),
     ("values_points", Values::Points),
     ("values_overlay", Values::Overlay),
@@ -243,6 +253,8 @@ impl Values {
                 rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
             }
             Self::Sampled => rest.send_sampled(lent.textured, pump),
+            Self::Computed => rest.send(self, lent.textured, pump, |scene, _| computed(scene)),
+            Self::Blocks => rest.send_blocks(lent.textured, pump),
             Self::Shadows => rest.send_shadows(lent.smooth, pump),
             Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
@@ -336,6 +348,24 @@ impl<'m> Rest<'m> {
         let textures = textures(&levels)?;
         self.send(Values::Sampled, cache, pump, |scene, _| {
             sampled(scene, &textures)
+        })
+    }
+
+    /// Lays texels in blocks, and sends the scene that reads them through a cache.
+    #[inline(never)]
+    fn send_blocks<D>(
+        self,
+        cache: &mut FastMemory<LeanTextured>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut slow = Slow::EMPTY;
+        let texels = slow.cache()?;
+        let cached = texels.texture();
+        self.send(Values::Blocks, cache, pump, |scene, _| {
+            blocks(scene, &cached)
         })
     }
 

@@ -12,7 +12,7 @@ use scanbeam::{Cull, Faces, Mesh, mesh::QuadSplit};
 
 const ONE: i16 = 1 << 14;
 
-const FLOOR: Mesh<'static> = Mesh {
+pub(super) const FLOOR: Mesh<'static> = Mesh {
     positions: &[
         [-ONE, 0, -ONE],
         [ONE, 0, -ONE],
@@ -26,7 +26,7 @@ const FLOOR: Mesh<'static> = Mesh {
 
 /// The texture twelve times each way, in texels with 8 fraction bits.
 const FAR: i32 = 12 * 64 * 256;
-const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
+pub(super) const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
 
 /// Words of four levels below 64 x 64 texels.
 pub(super) type Words = ([u16; 1024], [u16; 256], [u16; 64], [u16; 16]);

@@ -1,9 +1,8 @@
 //! Which pixels triangles cover, from the words of the fill rule alone: whole numbers, pixel by pixel.
 
+use super::Place;
+use super::exact::doubled_area;
 use scanbeam::{Cull, Screen};
-
-/// Units of 1/8 pixel from the left and the top of the picture; negative and beyond are legal.
-pub type Place = (i32, i32);
 
 /// Whether a triangle covers the pixel: an edge counts on the lines `Ytop < Y <= Ybottom`, and
 /// of the two that count one must be left of the centre and the other not (`min < x <= max`).
@@ -22,12 +21,6 @@ fn covers(triangle: [Place; 3], column: i32, line: i32) -> bool {
         }
     }
     left
-}
-
-/// Positive for a triangle that is clockwise to the eye (y goes down).
-pub fn doubled_area([a, b, c]: [Place; 3]) -> i64 {
-    let d = |p: i32, q: i32| i64::from(q) - i64::from(p);
-    d(a.0, b.0) * d(a.1, c.1) - d(a.0, c.0) * d(a.1, b.1)
 }
 
 /// How often each pixel of the picture is hit, and the triangle that hits it last (from 1).
