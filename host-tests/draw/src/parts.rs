@@ -4,19 +4,18 @@
 use crate::choice::DepthArg;
 use crate::counted::count_triangles;
 use crate::prepared::Chunk;
-use crate::traffic::{Traffic, turns};
 use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
 use host_support::image_out::Frame;
 use host_support::mock::MockFrameBuffer;
 use host_support::reference::View;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::frame::{CacheUse, FastMemory, FrameUse};
+use scanbeam::frame::{FastMemory, FrameUse};
 use scanbeam::look::Look;
 use scanbeam::pixel::{Pixel, PixelFormat};
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::{DrawError, DrawState, LARGEST, Object, TexturePlace, Vertex};
 use scanbeam::stats::SpanCounts;
-use scanbeam::{Camera, Link, Scene, Screen};
+use scanbeam::{Camera, Link, Renderer, Scene, Screen};
 
 /// Words of 32 slots that the cache of a renderer has.
 const WORDS: usize = MOST_SLOTS as usize / 32;
@@ -182,7 +181,6 @@ where
         rgb: vec![0; 3 * width as usize * height as usize],
         used: FrameUse::default(),
         spans: None,
-        traffic: None,
         figures: Figures::default(),
         overfull: None,
         steps: counted.len(),
@@ -203,9 +201,6 @@ where
             .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
         used: parts.used,
         spans: parts.spans,
-        slow_bytes: parts
-            .traffic
-            .map(|traffic| [traffic.read_bytes(L::TEXTURED), traffic.written_bytes()]),
         figures: parts.figures,
         overfull: parts.overfull,
     })
@@ -236,9 +231,15 @@ where
         .collect();
     let mut renderers: Vec<_> = rooms
         .iter_mut()
-        .map(|rooms| match job.crew.counts {
-            true => rooms.renderer().counting(),
-            false => rooms.renderer(),
+        .map(|rooms| {
+            let renderer = match job.crew.counts {
+                true => rooms.renderer().counting(),
+                false => rooms.renderer(),
+            };
+            match job.crew.prefetch {
+                0 => renderer,
+                bytes => renderer.fetching(bytes),
+            }
         })
         .collect();
     let background = F::from_rgb8(job.background);
@@ -260,19 +261,11 @@ where
     })
 }
 
-/// What the renderers of a crew have read and written for a scene.
-fn traffic_of<L: Look>(job: &Job, scene: &Scene<'_, '_, L>, used: &FrameUse) -> Traffic {
-    let turning = scene.triangles().filter(turns).count();
-    let (lines, renderers) = (scene.lines().len() as u64, job.crew.renderers.max(1).into());
-    Traffic::of(&used.cache, lines, renderers, [turning, scene.objects()])
-}
-
 /// A picture as its parts become ready.
 struct Parts<S, B> {
     rgb: Vec<u8>,
     used: FrameUse,
     spans: Option<SpanCounts>,
-    traffic: Option<Traffic>,
     figures: Figures,
     overfull: Option<Overfull>,
     steps: usize,
@@ -319,10 +312,6 @@ impl<S, B> Parts<S, B> {
                 *self.spans.get_or_insert_default() += spans;
             }
             self.figures.add(job, &scene, lines, took.fast_bytes);
-            if job.crew.counts {
-                let traffic = traffic_of(job, &scene, &took.used);
-                self.traffic.get_or_insert_default().add(&traffic);
-            }
             start += count;
         }
         let words = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
@@ -388,23 +377,13 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.assembled.clipped += one.assembled.clipped;
     all.assembled.dropped += one.assembled.dropped;
     all.assembled.untextured += one.assembled.untextured;
-    add_cache(&mut all.cache, &one.cache);
+    all.cache += one.cache;
     all.lines_skipped += one.lines_skipped;
     all.scan_out.bytes_sent += one.scan_out.bytes_sent;
     all.scan_out.transfers += one.scan_out.transfers;
     all.scan_out.stall_polls += one.scan_out.stall_polls;
     all.scan_out.lines_unsent += one.scan_out.lines_unsent;
     all.scan_out.bytes_unsent += one.scan_out.bytes_unsent;
-}
-
-/// Adds what another cache has done.
-pub(crate) fn add_cache(all: &mut CacheUse, one: &CacheUse) {
-    all.hits += one.hits;
-    all.spilled += one.spilled;
-    all.moved_in += one.moved_in;
-    all.misses += one.misses;
-    all.set_ups += one.set_ups;
-    all.peak = all.peak.max(one.peak);
 }
 
 impl Figures {
@@ -422,6 +401,7 @@ impl Figures {
         let word = size_of::<<L::Pixel as PixelFormat>::Word>();
         let line = usize::from(scene.screen().width()) * usize::from(lines);
         self.parts += 1;
+        self.record_bytes = Renderer::<L, WORDS>::RECORD_BYTES;
         self.objects = self.objects.max(scene.objects());
         self.vertices = self.vertices.max(scene.vertices());
         self.slow_bytes = self.slow_bytes.max(slow);
