@@ -2,7 +2,7 @@
 //! lines where more is seen than the memory of a scene holds.
 
 use crate::choice::DepthArg;
-use crate::counted::count_triangles;
+use crate::counted::{count_triangles, lines_of_faces};
 use crate::prepared::Chunk;
 use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
 use host_support::image_out::Frame;
@@ -16,6 +16,7 @@ use scanbeam::scan_out::Pump;
 use scanbeam::scene::{DrawError, DrawState, LARGEST, Object, TexturePlace, Vertex};
 use scanbeam::stats::SpanCounts;
 use scanbeam::{Camera, Link, Renderer, Scene, Screen};
+use std::ops::Range;
 
 /// Words of 32 slots that the cache of a renderer has.
 const WORDS: usize = MOST_SLOTS as usize / 32;
@@ -32,6 +33,8 @@ pub(crate) struct Job {
     pub(crate) crew: CrewSettings,
     /// Whether there are shadow volumes, and triangles are drawn more than once.
     pub(crate) shadows: bool,
+    /// Whether all is so far ahead that a tile which no camera sees shows none of it.
+    pub(crate) is_ahead: bool,
     /// Memory of a scene.
     pub(crate) room: Room,
 }
@@ -46,6 +49,7 @@ impl Job {
             background: view.background,
             crew,
             shadows: false,
+            is_ahead: false,
             room,
         }
     }
@@ -183,7 +187,7 @@ where
         spans: None,
         figures: Figures::default(),
         overfull: None,
-        steps: counted.len(),
+        counted,
         step,
         by,
     };
@@ -262,18 +266,18 @@ where
 }
 
 /// A picture as its parts become ready.
-struct Parts<S, B> {
+struct Parts<'c, S, B> {
     rgb: Vec<u8>,
     used: FrameUse,
     spans: Option<SpanCounts>,
     figures: Figures,
     overfull: Option<Overfull>,
-    steps: usize,
+    counted: &'c [Option<&'c Chunk>],
     step: S,
     by: B,
 }
 
-impl<S, B> Parts<S, B> {
+impl<S, B> Parts<'_, S, B> {
     /// Draws a tile, in as many bands of lines as it takes.
     fn tile<'t, L, F>(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure>
     where
@@ -284,27 +288,42 @@ impl<S, B> Parts<S, B> {
     {
         let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
         let [width, height] = tile.size;
-        let camera = tile.camera(job)?;
+        // Where nothing is seen, from anywhere.
+        let camera = match tile.camera(job) {
+            Err(_) if job.is_ahead => None,
+            camera => Some(camera?),
+        };
+        let mut own_lines = None;
         let mut memory = SceneRooms::new(job.room, height);
         let mut scene = memory.scene::<L>(tile.screen()?);
         let (mut pump, lines) = display::<F::Word>(width, height);
         let (mut start, mut count) = (0, height);
         while start < height {
             count = count.min(height - start);
-            let begun = scene.begin_lines(&camera, start..start + count);
+            let lines_of_band = start..start + count;
+            let begun = scene.begin_lines(camera.as_ref().unwrap_or(&job.camera), lines_of_band);
             begun.map_err(|e| bad(&e))?;
-            let full = self.build(&mut scene, &tile, count > 1)?;
-            match full {
+            let full = match &camera {
+                Some(_) => self.build(&mut scene, &tile, count > 1, own_lines.as_deref())?,
+                None => None,
+            };
+            match (full, &camera) {
+                // Without vertices of triangles elsewhere.
+                (Some(_), Some(camera)) if own_lines.is_none() => {
+                    let lines = lines_of_faces(camera, &tile, self.counted, &mut self.step)?;
+                    own_lines = Some(lines);
+                    continue;
+                }
                 // Fewer lines have fewer triangles.
-                Some(_) if count > 1 => {
+                (Some(_), _) if count > 1 => {
                     count = count.div_ceil(2);
                     continue;
                 }
-                Some(first) => {
+                (Some(first), _) => {
                     let line = tile.first[1] as u16 + start;
                     self.is_overfull(line, first, scene.assembled().dropped);
                 }
-                None => {}
+                (None, _) => {}
             }
             let took = (self.by)(&scene, &mut pump, lines)?;
             add(&mut self.used, &took.used);
@@ -319,19 +338,27 @@ impl<S, B> Parts<S, B> {
         Ok(())
     }
 
-    /// Draws all that a scene has room for; what found none first. Where that is asked for, it stops there.
+    /// Draws all that a scene has room for, of parts of the model what may be on its lines, where that is known; what
+    /// found none first. Where that is asked for, it stops there.
     fn build<'t, L>(
         &mut self,
         scene: &mut Scene<'_, 't, L>,
         tile: &Tile,
         stops: bool,
+        own_lines: Option<&[Vec<Range<i32>>]>,
     ) -> Result<Option<DrawError>, DrawFailure>
     where
         S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
     {
         let mut full = None;
-        for step in 0..self.steps {
-            match (self.step)(scene, tile, step, None) {
+        let band = scene.lines();
+        let band = i32::from(band.start)..i32::from(band.end);
+        for (step, chunk) in self.counted.iter().enumerate() {
+            let part = chunk.zip(own_lines).map(|(chunk, lines)| {
+                let on_band = |lines: &Range<i32>| lines.start < band.end && band.start < lines.end;
+                chunk.only(|face| on_band(&lines[step][face]))
+            });
+            match (self.step)(scene, tile, step, part.as_ref()) {
                 Ok(()) => {}
                 Err(error @ DrawError::Full { .. }) => {
                     full.get_or_insert(error);
