@@ -96,7 +96,7 @@ fn every_pixel_of_scene_a_has_a_texel() {
 /// The exact way shows another texel than `f64` on at most 0.3 % of pixels, and no way shows one
 /// that is farther away than its budget. Places are those of corners on 1/64 pixel.
 ///
-/// Kills: another budget's stride, places of corners on 1/8 pixel.
+/// Kills: places of corners on 1/8 pixel (`fine` of 0 in `TexturePlace::of_mesh`).
 #[test]
 fn texels_are_those_of_real_numbers() {
     let reference = reference(Shade::None, 64.0);
