@@ -295,7 +295,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let is_first = columns == out.pixels.len() as u32;
         let mut walk = Walk::of(self.cache.spilled);
         while let Some(stray) = self.next_stray(&mut walk, out) {
-            self.counts.misses += u32::from(is_first);
+            self.counts.misses += u32::from(is_first && self.crowded);
             let span = stray.span;
             if !span.meets(part) {
                 continue;
@@ -315,6 +315,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
                 count = 0;
             } else if count == room {
+                if is_first && self.crowded {
+                    while self.next_stray(&mut walk, out).is_some() {
+                        self.counts.misses += 1;
+                    }
+                }
                 return None;
             }
             Guest::of_rival(rival).insert(cells, count);

@@ -107,8 +107,12 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
         word.extend(word_large);
         fix.extend(fix_large);
         for (method, kernel, batches) in [
-            ("32-bit 1/w, small planes", "over_565", small),
-            ("32-bit 1/w, large planes", "over_565_large", large),
+            ("32-bit 1/w, small planes", "renderer_565_depth", small),
+            (
+                "32-bit 1/w, large planes",
+                "renderer_565_large_depth",
+                large,
+            ),
             ("16-bit 1/w and colour, one word", "word_565", word),
             ("16-bit block-fix 1/w", "block_fix_565", fix),
             ("hardware model, 32-bit z, 10-bit W", "model_565", model),

@@ -246,7 +246,7 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
     costs.fill(&mut rows).unwrap();
     mark_frontier(&mut rows);
     for (family, case, method, most) in [
-        ("interpolation", "RGB565, spans of 1 to 63", RENDERER, 6.8),
+        ("interpolation", "RGB565, spans of 1 to 63", RENDERER, 7.0),
         ("interpolation", "RGB565, spans of 1 to 1016", RENDERER, 9.0),
         ("interpolation", "RGB565, scenes", RENDERER, 14.0),
         ("interpolation", "RGB888, spans of 1 to 63", RENDERER, 9.0),
@@ -274,6 +274,12 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
             );
         }
         assert!(some, "{family}: {method}");
+    }
+    // Of 24 bits a pixel the laboratory's loop takes two instructions less, with more code.
+    let of_24 = |row: &&Row| row.method == RENDERER && row.case.starts_with("RGB888, spans");
+    assert_eq!(rows.iter().filter(of_24).count(), 2);
+    for row in rows.iter().filter(of_24) {
+        assert!(row.per_pixel.is_some_and(|cost| cost < 9.0), "{row:?}");
     }
     a_cheaper_quality_is_not_dearer(&rows);
     for row in &rows {

@@ -21,7 +21,7 @@ use crate::rooms::{LineRooms, Rooms, SceneRooms};
 use core::hint::black_box;
 use scanbeam::frame::FastMemory;
 use scanbeam::look::{Gouraud, Look};
-use scanbeam::pixel::{PixelFormat, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::{Blend, Budget, Shading, Skin};
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Screen};
 use scanbeam_model::{ModelRenderer, PipeMemory};
@@ -111,8 +111,8 @@ pub(super) fn run_beside_methods(counter: &Counter, console: &mut Console, rooms
             let size = Size { width, tall };
             let (scene, lines) = (&mut rooms.scene, &mut rooms.lines);
             for (way, depth) in [(Way::Smooth, ""), (Way::Over, "_depth")] {
-                let cache = &mut *rooms.caches.smooth;
-                drawn::<LeanLook>(way, size, counter, scene, lines, cache)
+                let mut cache = FastMemory::<Gouraud<Rgb565>>::new();
+                drawn(way, size, counter, scene, lines, &mut cache)
                     .print(format_args!("renderer_565{large}{depth}"), console);
             }
             let mut cache = FastMemory::<Gouraud<Rgb888>>::new();
