@@ -29,8 +29,8 @@ fn texel(place: [f64; 2]) -> u16 {
     TEXELS_565[y * TEXEL_SIDE as usize + x]
 }
 
-/// The scene in real numbers: the mesh as it is stored, corners on the grid of the screen.
-fn reference(shade: Shade) -> Reference {
+/// The scene in real numbers: the mesh as it is stored, corners on a grid of so many `steps` a pixel.
+fn reference(shade: Shade, steps: f64) -> Reference {
     let unit = |v: [i16; 3]| v.map(|c| f64::from(c) / 16_384.0);
     let vertices = (0..)
         .zip(SPHERE.positions)
@@ -67,7 +67,7 @@ fn reference(shade: Shade) -> Reference {
         ..View::default()
     };
     let snapped = Options {
-        steps_per_pixel: Some(8.0),
+        steps_per_pixel: Some(steps),
     };
     render_textured(&model, textures, &view, snapped).unwrap()
 }
@@ -94,10 +94,12 @@ fn every_pixel_of_scene_a_has_a_texel() {
 }
 
 /// The exact way shows another texel than `f64` on at most 0.3 % of pixels, and no way shows one
-/// that is farther away than its budget.
+/// that is farther away than its budget. Places are those of corners on 1/64 pixel.
+///
+/// Kills: places of corners on 1/8 pixel (`fine` of 0 in `TexturePlace::of_mesh`).
 #[test]
 fn texels_are_those_of_real_numbers() {
-    let reference = reference(Shade::None);
+    let reference = reference(Shade::None, 64.0);
     for (name, budget, most) in [
         ("b_upright_unlit_exact", 0.02, 0.003),
         ("b_upright_unlit", 0.27, 0.25),
@@ -127,10 +129,14 @@ fn texels_are_those_of_real_numbers() {
     }
 }
 
-/// Lit, a pixel is its texel times the light of scene A, within one step of the display.
+/// Lit, a pixel is its texel times the light of scene A, within one step of the display. Light is that of corners on
+/// 1/8 pixel.
 #[test]
 fn light_multiplies_texels() {
-    let (lit, unlit) = (reference(Shade::Gouraud), words("b_upright_unlit_exact"));
+    let (lit, unlit) = (
+        reference(Shade::Gouraud, 8.0),
+        words("b_upright_unlit_exact"),
+    );
     let shown = words("b_upright_exact");
     let (mut worst, mut darker) = ([0.0f64; 3], 0);
     for i in seen(&lit) {

@@ -45,20 +45,19 @@ pub use methods::{METHOD_HEIGHT, METHOD_WIDTH, build_method, method_screen};
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};
 pub use played::{PLAYED, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, PlayedError};
-pub use scene_b::{OBJECTS_B, SCENES_B, SceneB, TEXELS_PANEL, VERTICES_B};
+pub use scene_b::{SCENES_B, SceneB, TEXELS_PANEL};
 pub use sheet::{Hits, SHEET_TRIANGLES, SHEETS, Sheet, SheetError};
 pub use shots::{
     DRAWS, HEIGHT, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS, Shot,
-    ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
+    ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours,
 };
 pub use stress::STRESS;
 pub use suite::{
     CUBE_HALF, CUBE_PITCH, CUBES, Looking, PLACES_F, Part, SUITE, SUITE_DRAWS, SUITE_LINES,
-    SUITE_OBJECTS, SUITE_SLOTS, SUITE_VERTICES, Suite, TEXEL_SIDE_F, TEXELS_F, TEXELS_F_PANEL,
-    cube, cube_model, inside, layer, room_light, sphere_light, teapot_part, tilt, tilted,
-    tilted_textured,
+    SUITE_OBJECTS, SUITE_VERTICES, Suite, TEXEL_SIDE_F, TEXELS_F, TEXELS_F_PANEL, cube, cube_model,
+    inside, layer, room_light, sphere_light, teapot_part, tilt, tilted, tilted_textured,
 };
-pub use texels::{TEXEL_SIDE, TEXELS_8, TEXELS_565};
+pub use texels::{TEXEL_SIDE, TEXELS_565};
 pub use values::{
     LeanIndexed, LeanPhong, LeanPhongTextured, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN,
     VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,

@@ -44,11 +44,8 @@ pub static TEXELS_PANEL: [u16; TEXELS_565.len()] = {
     texels
 };
 
-/// Vertices that suffice for scene B: those of the mesh.
-pub const VERTICES_B: usize = 33 * 33;
-/// Objects that suffice for it: half of the mesh's triangles, and some more.
-pub const OBJECTS_B: usize = 1024 + 64;
-
+/// Vertices of the mesh.
+const VERTICES_B: usize = 33 * 33;
 /// Where the vertices of [`SPHERE`] lie on the texture, once around it and once from pole to pole.
 pub(crate) static PLACES: [[i32; 2]; VERTICES_B] = {
     const STEP: i32 = TEXEL_SIDE as i32 * 256 / 32;
@@ -65,7 +62,7 @@ impl SceneB {
     /// Draws it into `scene`, whose screen must be [`Shot::screen`].
     ///
     /// # Errors
-    /// When the memory is smaller than [`VERTICES_B`] and [`OBJECTS_B`], and when the look has no textures.
+    /// When the memory is smaller than [`VERTICES`](crate::VERTICES) and [`OBJECTS`](crate::OBJECTS), and when the look has no textures.
     pub fn build<L: Look>(self, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
         let (camera, light) = Shot::sphere_camera()?;
         scene.begin(&camera)?;

@@ -142,7 +142,6 @@ pub const VARIANTS: [Variant; 10] = [
     },
     Variant {
         renderers: 2,
-        ahead: 500,
         ..Variant::with("sphere_two", Shot::Sphere, 43)
     },
     Variant::with("crowd_cache0", Shot::Crowd, 0),
@@ -331,16 +330,5 @@ fn crowd<L: Look>(shading: Shading, scene: &mut Scene<'_, '_, L>) -> Result<(), 
         let place = Affine::placed(0.07, at).unwrap_or(Affine::IDENTITY);
         scene.draw(&open(CUBE, turn.then(&place), shading))?;
     }
-    Ok(())
-}
-
-/// Draws the shot of the teapot into `scene`: for a firmware that has no other, since the code of
-/// [`Shot::build`] is that of all shots.
-///
-/// # Errors
-/// As [`Shot::build`].
-pub fn teapot<L: Look>(scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
-    scene.begin(&Suite::Teapot.view().camera()?)?;
-    scene.draw(&suite::teapot_part().draw())?;
     Ok(())
 }

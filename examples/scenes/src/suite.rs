@@ -23,8 +23,6 @@ use scanbeam::mesh::QuadSplit;
 use scanbeam::scene::{Budget, Shading, Skin, Texture};
 use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Faces, Light, Mesh, Scene};
 
-/// Slots of the object cache that the suite is measured with.
-pub const SUITE_SLOTS: usize = 64;
 /// Lines of a transfer that the suite is measured with.
 pub const SUITE_LINES: u16 = 1;
 /// Vertices that suffice for every scene of the suite.

@@ -1,12 +1,10 @@
-//! Textures as numbers.
+//! The texture of scene B.
 
-/// Texels a side of [`TEXELS_565`] and [`TEXELS_8`].
+/// Texels a side of [`TEXELS_565`].
 pub const TEXEL_SIDE: u32 = 128;
 const COUNT: usize = (TEXEL_SIDE * TEXEL_SIDE) as usize;
 /// A texture of rings and squares, 5, 6 and 5 bits.
 pub static TEXELS_565: [u16; COUNT] = texels_565();
-/// A texture of 8-bit indices.
-pub static TEXELS_8: [u8; COUNT] = texels_8();
 
 const fn texels_565() -> [u16; COUNT] {
     let mut texels = [0; COUNT];
@@ -17,17 +15,6 @@ const fn texels_565() -> [u16; COUNT] {
         let ring = (dx * dx + dy * dy) >> 7 & 31;
         let square = if (x ^ y) & 16 == 0 { 40 } else { 9 };
         texels[i] = (ring << 11 | square << 5 | (x >> 2)) as u16;
-        i += 1;
-    }
-    texels
-}
-
-const fn texels_8() -> [u8; COUNT] {
-    let mut texels = [0; COUNT];
-    let mut i = 0;
-    while i < COUNT {
-        let (x, y) = (i as u32 % TEXEL_SIDE, i as u32 / TEXEL_SIDE);
-        texels[i] = ((x * 3) ^ (y * 5)) as u8;
         i += 1;
     }
     texels

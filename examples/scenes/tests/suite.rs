@@ -35,11 +35,12 @@ fn seen(suite: Suite) -> Seen {
     let mut scene = Scene::<Look>::new(Shot::screen(), memory);
     suite.build(&mut scene).expect("the memory suffices");
     let mut cache = Box::new(FastMemory::<Look>::new());
+    let mut depth = [0; WIDTH as usize];
     let mut links = vec![Link::EMPTY; SUITE_OBJECTS];
     let mut renderer = Renderer::new(LineMemory {
         cache: &mut cache,
         links: &mut links,
-        depth: &mut [0; WIDTH as usize],
+        depth: &mut depth,
     })
     .counting();
     let mut covered = 0;

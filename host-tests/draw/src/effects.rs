@@ -391,6 +391,8 @@ impl Task<'_> {
         room.draws = steps + 3 * self.shadows.len();
         Job {
             shadows: casts,
+            // What throws a shadow throws it anywhere.
+            is_ahead: !casts && self.setting.is_ahead,
             ..Job::new(self.view, self.setting.camera, self.crew, room)
         }
     }

@@ -114,7 +114,10 @@ impl Task<'_> {
         let (chunks, setting) = (&self.prepared.chunks, &self.setting);
         let is_flat = self.view.shade == Shade::Flat;
         let room = room_for(chunks.iter(), !textures.is_empty(), is_flat);
-        let job = Job::new(self.view, setting.camera, self.crew, room);
+        let job = Job {
+            is_ahead: setting.is_ahead,
+            ..Job::new(self.view, setting.camera, self.crew, room)
+        };
         let counted: Vec<_> = chunks.iter().map(Some).collect();
         draw_parts::<L, F>(&job, &counted, |scene, _, number, instead| {
             let chunk: &Chunk = instead.unwrap_or(&chunks[number]);

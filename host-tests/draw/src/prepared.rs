@@ -219,6 +219,30 @@ impl Chunk {
         }
     }
 
+    /// One with those faces that `has`, and their vertices alone.
+    pub(super) fn only(&self, has: impl Fn(usize) -> bool) -> Self {
+        let mut part = Self::new(self.texture, self.look);
+        let mut new_index = vec![u16::MAX; self.positions.len()];
+        for (number, face) in self.faces.iter().enumerate() {
+            if !has(number) {
+                continue;
+            }
+            let face = face.map(|index| {
+                let old = usize::from(index);
+                if new_index[old] == u16::MAX {
+                    new_index[old] = part.positions.len() as u16;
+                    part.positions.push(self.positions[old]);
+                    part.normals.push(self.normals[old]);
+                    part.colours.push(self.colours[old]);
+                    part.places.extend(self.places.get(old));
+                }
+                new_index[old]
+            });
+            part.faces.push(face);
+        }
+        part
+    }
+
     /// One with a face alone.
     pub(super) fn alone(&self, face: usize) -> Self {
         let corners = self.faces[face].map(usize::from);

@@ -83,7 +83,7 @@ struct Sent<'p, 'e> {
 type Build<'b, L> = &'b dyn Fn(&mut Scene<'_, 'static, L>) -> Result<(), ShotError>;
 
 impl Sent<'_, '_> {
-    /// A scene of smooth colours, with 64 slots.
+    /// A scene of smooth colours.
     #[inline(never)]
     fn smooth(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, LeanLook>) {
         let mut scene = rooms.scene.scene();
@@ -113,6 +113,12 @@ impl Sent<'_, '_> {
             build(&mut scene).expect(LARGE);
             let mut renderer = rooms.lines.renderer(rooms.caches.wide);
             return self.send(&scene, &mut renderer, background);
+        }
+        if how.ahead > 0 {
+            let mut scene = rooms.scene.scene();
+            build(&mut scene).expect(LARGE);
+            let renderer = rooms.lines.renderer(rooms.caches.smooth);
+            return self.send(&scene, &mut renderer.fetching(how.ahead), background);
         }
         rooms.caches.smooth.set_limit(how.slots);
         self.smooth(rooms, background, build);
