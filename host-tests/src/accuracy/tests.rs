@@ -258,7 +258,7 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
             10.0,
         ),
         ("coverage", "", "exact edges", 4.0),
-        ("depth", "order", "32-bit 1/w, small", 14.0),
+        ("depth", "order", "32-bit 1/w, large", 14.0),
         ("frame", "", "planes, RGB565", 320.0),
         ("texture", "triangles", texture::DEFAULT, 20.0),
         ("texture", "sphere", texture::DEFAULT, 20.0),
