@@ -140,15 +140,15 @@ const BOUNDS: [(&str, &str, &str, f64); 65] = [
         1.5 + 0.6,
     ),
     ("interpolation", "", "auto, balanced", 1.5),
-    ("interpolation", "RGB565, scenes", "packed8", 0.95 + 0.6),
-    ("interpolation", "RGB565, scenes", "packed16", 1.8 + 0.6),
+    ("interpolation", "RGB565, scenes", "packed8", 1.16 + 0.6),
+    ("interpolation", "RGB565, scenes", "packed16", 2.19 + 0.6),
     ("interpolation", "RGB565, scenes", "", 0.6),
     ("interpolation", "RGB888, scenes", "", 0.6),
     // A unit of 2^-20 step each 2 pixels.
     ("interpolation", "", "plane", 0.01),
     ("interpolation", "", "auto, exact", 0.01),
-    ("interpolation", "RGB565", "packed8", 0.95),
-    ("interpolation", "RGB565", "packed16", 1.8),
+    ("interpolation", "RGB565", "packed8", 1.16),
+    ("interpolation", "RGB565", "packed16", 2.19),
     ("interpolation", "RGB888", "packed", 0.05),
     // A unit of W in the middle.
     ("interpolation", "", "LIRP, 10 bits", 0.25),
@@ -250,15 +250,8 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
         ("interpolation", "RGB565, spans of 1 to 63", RENDERER, 7.0),
         ("interpolation", "RGB565, spans of 1 to 1016", RENDERER, 9.0),
         ("interpolation", "RGB565, scenes", RENDERER, 14.0),
-        ("interpolation", "RGB888, spans of 1 to 63", RENDERER, 9.0),
-        (
-            "interpolation",
-            "RGB888, spans of 1 to 1016",
-            RENDERER,
-            10.0,
-        ),
         ("coverage", "", "exact edges", 4.0),
-        ("depth", "order", "32-bit 1/w, small", 14.0),
+        ("depth", "order", "32-bit 1/w, large", 14.0),
         ("frame", "", "planes, RGB565", 320.0),
         ("texture", "triangles", texture::DEFAULT, 20.0),
         ("texture", "sphere", texture::DEFAULT, 20.0),
@@ -276,7 +269,7 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
         }
         assert!(some, "{family}: {method}");
     }
-    // Of 24 bits a pixel the laboratory's loop takes two instructions less, with more code.
+    // Of 24 bits a pixel the renderer is not on it: a packed loop of the laboratory takes less, by more code.
     let of_24 = |row: &&Row| row.method == RENDERER && row.case.starts_with("RGB888, spans");
     assert_eq!(rows.iter().filter(of_24).count(), 2);
     for row in rows.iter().filter(of_24) {

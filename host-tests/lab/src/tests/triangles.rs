@@ -6,7 +6,7 @@ use crate::depth::DepthMethod;
 use crate::format::Format;
 use crate::lines::{Triangle, draw_line};
 use crate::method::Method;
-use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use scanbeam::pixel::{Rgb565, Rgb888};
 use std::vec::Vec;
 
 const WIDTH: i32 = 48;
