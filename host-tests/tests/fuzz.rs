@@ -5,7 +5,7 @@
 mod files;
 #[path = "../fuzz/src/formats.rs"]
 mod formats;
-#[path = "../fuzz/src/frames.rs"]
+#[path = "../fuzz/src/frames/mod.rs"]
 mod frames;
 #[path = "../fuzz/src/list.rs"]
 pub mod list;

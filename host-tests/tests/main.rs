@@ -77,6 +77,7 @@ mod output;
 mod pairs;
 mod places;
 mod player;
+mod player_alpha;
 mod player_flow;
 mod player_fuzz;
 mod player_lights;

@@ -86,8 +86,7 @@ fn shown(cluster: Cluster) -> impl Iterator<Item = (u16, u16)> {
     pixels.filter(is_shown).map(|(x, y)| (x as u16, y as u16))
 }
 
-/// Dies of a pixel that the traversal misses or has too many, of an order of triangles that is not that of submission, and
-/// of a block that is written in another's place.
+/// Painted in order of submission, pixel by pixel into blocks, by one renderer and by several.
 #[test]
 fn clusters_paint_the_pictures_of_the_fast_path() {
     let [across, down] = BLOCK.map(u32::ilog2);
@@ -176,7 +175,7 @@ fn cost(scene: &Scene<'_, '_, L>) -> Cost {
     cost
 }
 
-/// The figures of the guide; dies of a pixel that is visited twice. A side of a span is one product and a sum; a cluster that is looked at takes three functions
+/// The figures of the guide. A side of a span is one product and a sum; a cluster that is looked at takes three functions
 /// at its corner, and one that has a pixel three at each of its eight pixels.
 #[test]
 fn edge_functions_take_more_than_sides_of_spans() {

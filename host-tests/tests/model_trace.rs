@@ -74,8 +74,7 @@ fn what_is_traced_draws_the_line() {
     }
 }
 
-/// What is wider than a scene can be is traced in parts, from left to right. Dies of a part that is left out, or seen by the
-/// camera of another.
+/// What is wider than a scene can be is traced in parts, from left to right.
 #[test]
 fn a_wide_line_is_traced_in_parts() {
     let (_folder, file) = square();

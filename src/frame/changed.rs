@@ -5,8 +5,8 @@
 
 use super::renderer::Renderer;
 use super::send::{FrameError, FrameUse, Lines, window};
-use crate::composite::LineOverlay;
 use crate::look::{Look, WordOf};
+use crate::overlay::LineOverlay;
 use crate::scan_out::{ErrorType, LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
 use crate::scene::Scene;
 

@@ -56,7 +56,7 @@ mod thin;
 mod translucent;
 mod values;
 
-pub use crate::active::CacheUse;
+pub use crate::active::{CacheUse, Interleave};
 pub use changed::{draw_frame_changed, draw_frame_changed_runs};
 pub use palette::draw_frame_indexed;
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};

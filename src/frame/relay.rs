@@ -11,8 +11,8 @@
 
 use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, send};
-use crate::composite::PixelFormat;
 use crate::look::{Look, WordOf};
+use crate::pixel::PixelFormat;
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use crate::scene::Scene;
 use core::fmt;

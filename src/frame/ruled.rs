@@ -208,7 +208,7 @@ fn lay_by_pixel<L: Look>(
         let has_alphas = state.has_alphas();
         if has_alphas {
             find_alphas::<L>(ink, at, state, out.view, alphas);
-            if ink.dithers {
+            if L::TEXTURED && ink.dithers {
                 undither::<L>(ink, at, out.view, alphas, new);
             }
         }

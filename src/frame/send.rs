@@ -2,8 +2,8 @@
 
 use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
-use crate::composite::LineOverlay;
 use crate::look::{Look, WordOf};
+use crate::overlay::LineOverlay;
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};
 use crate::scan_out::{

@@ -115,7 +115,7 @@ pub trait Paint: Sized {
 }
 
 /// A pixel of a line buffer.
-pub type WordOf<L> = <<L as Paint>::Pixel as crate::composite::PixelFormat>::Word;
+pub type WordOf<L> = <<L as Paint>::Pixel as crate::pixel::PixelFormat>::Word;
 
 /// Where a run of pixels begins: the columns of its span, its own first one, and the line.
 ///

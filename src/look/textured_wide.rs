@@ -7,8 +7,8 @@
 use super::textured::{Planes, Textured};
 use super::tint::Shade;
 use super::{Fill, Paint, Place, ThinSpan};
-use crate::composite::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::geometry::Scale;
+use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::scene::DrawState;
 use crate::span::{Size, Triangle};
 

@@ -36,6 +36,9 @@ pub struct PlayerMemory<'m, 't, C = i16> {
     pub indices: &'m mut [u16],
     /// Texture places, 8 bytes each, as many as positions; none where nothing is textured.
     pub places: &'m mut [[i32; 2]],
+    /// Alphas of vertices whose colours are 4x8U, one byte each, as many as positions; none, and alphas of vertices are
+    /// passed over.
+    pub alphas: &'m mut [u8],
     /// One for each number of a texture and of a palette; none where nothing is textured.
     pub names: &'m [TextureSlot],
     /// One for each pair of a texture and a palette that is drawn with; two where texels are neither opaque nor
@@ -107,6 +110,7 @@ impl Default for PlayerSettings<'_, '_> {
 /// | LIGHT 0 to 7, highlights, where memory has a [`LightRoom`](super::LightRoom) | `lights` |
 /// | MATERIAL | `colour`, `cull`, `blend` of its opacity; not lit: no light |
 /// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
+/// | alphas of vertices, where memory has [room](PlayerMemory::alphas) for them | `alphas`; where one is below 255, a `blend` by them |
 /// | texels of other alphas, and of the D bit | a [mask](crate::scene::Texture::masked); with alphas, a `blend` by them |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |
 /// | WINDOW | `scissor` |
@@ -149,6 +153,8 @@ pub struct Player<'m, 't, L, C = i16> {
     pub(super) settings: PlayerSettings<'m, 't>,
     pub(super) walker: Walker,
     pub(super) gather: Gather<'m, C>,
+    /// Whether alphas of vertices count.
+    pub(super) has_alphas: bool,
     pub(super) long: LongStrip,
     pub(super) names: TextureSlots<'m>,
     pub(super) overlays: OverlaySlots<'m>,
@@ -177,12 +183,14 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
     pub fn new(memory: PlayerMemory<'m, 't, C>, settings: PlayerSettings<'m, 't>) -> Self {
         Self {
             walker: Walker::new(),
+            has_alphas: !memory.alphas.is_empty(),
             gather: Gather::new(Unpacked {
                 positions: memory.positions,
                 normals: memory.normals,
                 colours: memory.colours,
                 indices: memory.indices,
                 places: memory.places,
+                alphas: memory.alphas,
             }),
             long: LongStrip::default(),
             names: TextureSlots(memory.names),

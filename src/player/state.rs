@@ -7,7 +7,7 @@ use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
-use crate::list::{Lent, Material, Reason};
+use crate::list::{Header, Lent, Material, Reason};
 use crate::look::Look;
 use crate::scene::{
     Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
@@ -82,13 +82,12 @@ impl<'m, 't> State<'m, 't> {
         self.shine();
     }
 
-    /// The blend of what has the texture, or has none.
-    fn blend_with(&self, textured: bool) -> Option<Blend> {
-        match self.texture {
-            Some(listed) if textured && listed.is_translucent => {
-                Some(self.draw.blend.map_or(Blend::ALPHA, Blend::by_alpha))
-            }
-            _ => self.draw.blend,
+    /// The blend of what has the texture or has none, and has alphas or none.
+    fn blend_with(&self, textured: bool, has_alphas: bool) -> Option<Blend> {
+        let texture = self.texture.filter(|_| textured);
+        match has_alphas || texture.is_some_and(|listed| listed.is_translucent) {
+            true => Some(self.draw.blend.map_or(Blend::ALPHA, Blend::by_alpha)),
+            false => self.draw.blend,
         }
     }
 
@@ -108,6 +107,14 @@ impl<'m, 't> State<'m, 't> {
             .window
             .map(|w| Scissor::inside(w.left..w.right, w.top..w.bottom));
         self.draw.scissor = scissor.or(granted).or(settings.draw.scissor);
+    }
+}
+
+/// Alphas, if one of them is not 255.
+fn seen(alphas: &[u8]) -> &[u8] {
+    match alphas.iter().all(|alpha| *alpha == 255) {
+        true => &[],
+        false => alphas,
     }
 }
 
@@ -184,7 +191,8 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             return;
         };
         let skin = self.state.texture.zip(places);
-        let blend = self.state.blend_with(skin.is_some());
+        let alphas = seen(gathered.alphas);
+        let blend = self.state.blend_with(skin.is_some(), !alphas.is_empty());
         let texture = skin.map(|(listed, places)| Skin {
             texture: listed.texture,
             places,
@@ -199,6 +207,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             let begin = &self.state.draw;
             let draw = Draw {
                 texture,
+                alphas,
                 blend,
                 lights: lights.or(begin.lights),
                 ..begin.with_mesh(gathered.mesh)
@@ -217,19 +226,25 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     pub(super) fn draw_long(
         &mut self,
         triangles: &[[ScreenCorner; 3]],
-        textured: bool,
-        prsp: bool,
+        alphas: &[u8],
+        header: Header,
     ) {
         let Some(scene) = &mut self.scene else {
             return;
         };
-        let texture = self.state.texture.filter(|_| textured);
+        let texture = self.state.texture.filter(|_| header.text);
+        let alphas = seen(alphas);
         let draw = Draw {
-            blend: self.state.blend_with(textured),
+            alphas,
+            blend: self.state.blend_with(header.text, !alphas.is_empty()),
             texture: texture.map(|listed| Skin {
                 texture: listed.texture,
                 places: &[],
-                budget: if prsp { self.budget } else { Budget::FAST },
+                budget: if header.prsp {
+                    self.budget
+                } else {
+                    Budget::FAST
+                },
             }),
             ..self.state.draw
         };

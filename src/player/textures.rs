@@ -6,8 +6,8 @@
 //! other texels, become words of the panel in memory that is lent. Where all are opaque or transparent, a word stands
 //! for those that are transparent; else there is a mask, in a room of its own, which says also which are not dithered.
 
-use crate::composite::{PixelFormat, Rgb565};
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
+use crate::pixel::PixelFormat;
 use crate::scene::{MaskTexel, Sampling, Texture, TextureError, Wrap};
 
 /// Room for a texture that is drawn with.
@@ -210,11 +210,7 @@ impl<'t> Shelf<'t> {
         sampling: Option<Sampling>,
     ) -> Result<(Texture<'t>, bool), Reason> {
         let panel = Panel {
-            // Pixels of more than 16 bits are made of texels that are numbers.
-            word: |rgb| match F::HALVES {
-                true => F::to_half(F::from_rgb8(rgb)),
-                false => Rgb565::from_rgb8(rgb),
-            },
+            word: F::texel,
             dithers,
         };
         let form = source.pair.form;

@@ -331,7 +331,7 @@ mod tests {
         assert!(!frame.set_word(4, 0, 1) && !frame.set_word(0, 8, 1));
         let changes = frame.page_changes();
         assert!(frame.set_word(1, 7, 9));
-        assert_eq!((frame.words()[45], frame.word(1, 7)), (9, Some(9)));
+        assert_eq!((frame.words()[29], frame.word(1, 7)), (9, Some(9)));
         assert_eq!(frame.page_changes(), changes + 1);
     }
 

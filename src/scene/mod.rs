@@ -58,7 +58,7 @@ mod tests;
 mod texgen;
 mod texture;
 
-pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
+pub use crate::geometry::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use alpha::MaskTexel;
 pub(crate) use alpha::{Alphas, PixelAlpha};
 pub use blend::{Blend, BlendMode, Factor};
@@ -66,7 +66,7 @@ pub use block::Blocked;
 pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
 pub use computed::{Checker, Gradient, TexelWay, Texels};
-pub use depth::DepthTest;
+pub use depth::{DepthFunction, DepthTest};
 pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
@@ -81,7 +81,7 @@ pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
 pub(crate) use sampling::{Method, SampledSpan, Words};
 pub use scissor::Scissor;
-pub use screen::ScreenCorner;
+pub use screen::{ScreenCorner, ScreenVertex};
 pub use shadow::Shadow;
 pub use texgen::TexGen;
 pub(crate) use texture::half;
@@ -125,6 +125,12 @@ pub struct Assembled {
     pub dropped: u32,
     /// Pieces of triangles that stretch over more than 4,096 texels, and are drawn without their texture.
     pub untextured: u32,
+    /// Meshes that [`draw_within`](Scene::draw_within) has not looked at. Their triangles are among the culled.
+    pub meshes_skipped: u32,
+    /// Triangles of these meshes.
+    pub triangles_skipped: u32,
+    /// Vertices of these meshes: neither transformed nor lit.
+    pub vertices_skipped: u32,
 }
 
 impl Assembled {

@@ -183,8 +183,8 @@ mod tests {
         (0..4).find(is).unwrap()
     }
 
-    /// Dies of another origin, a depth in other units or of the wrong corner, colours in steps of the pixel format,
-    /// texture places in other units, and of those of another call: all within what rounding leaves of f64.
+    /// Dies of another origin, texture places in other units, and of those of another call: all within what rounding leaves
+    /// of f64.
     #[test]
     fn corners_are_where_f64_sees_them() {
         static TEXELS: [u16; 64] = [0; 64];
@@ -267,7 +267,7 @@ mod tests {
         }
     }
 
-    /// Dies where a corner on a line's middle is taken for one above it at the top, or for one below it at the bottom.
+    /// A corner on a line's middle is not above it at the top, and not below it at the bottom.
     #[test]
     fn a_line_belongs_to_what_ends_on_its_middle() {
         for (a, b) in (-20..40_i16).flat_map(|a| (a..40).map(move |b| (a, b))) {

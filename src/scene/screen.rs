@@ -9,11 +9,25 @@ use super::project::{OnScreen, Point};
 use super::{
     Draw, DrawError, ORIGIN, Scene, Shading, Shadow, Skin, TexturePlace, Vertex, WordOfNormal,
 };
-use crate::geometry::{Coordinate, Cull, Faces, Mesh, ScreenVertex, Tint};
+use crate::geometry::{Coordinate, Cull, Faces, Mesh, Tint};
 use crate::num::mul_high_unsigned;
 
 /// How far places may lie from the picture's middle, in 13.3: what the guard band has.
 const REACH: i32 = 8 * 2047;
+
+/// A vertex that was set up beforehand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct ScreenVertex {
+    /// Column in 13.3 from the picture's left rim. What lies farther out than guard space, 4,080
+    /// pixels from the picture's middle, is moved to its rim.
+    pub x: i16,
+    /// Line in 13.3 from the picture's top, likewise.
+    pub y: i16,
+    /// 1/w, the near plane at 2^31; 2^15 at least and 2^31 - 2^15 at most are kept.
+    pub depth: u32,
+    /// Colour, 0 to 255 a channel, red first.
+    pub colour: [u8; 3],
+}
 
 /// A corner of a triangle that was set up beforehand, for [`Scene::draw_screen`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -7,13 +7,14 @@
 //! A volume's faces are filed twice, those seen from outside and those seen from inside, with a draw state each: so
 //! which side is seen is known once a draw call, and no record of a triangle has anything for it.
 
+use super::DepthFunction;
 use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
 use super::project::{Point, View};
 use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene};
 use crate::geometry::{
-    Affine, Camera, Coordinate, Cull, DepthFunction, Extrusion, Faces, Mesh, ShadowLight,
-    ShadowMemory, check, each_triangle, triangles,
+    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
+    each_triangle, triangles,
 };
 
 /// What a draw call has to do with the shadows of a light, by the light's number, below [`Shadow::LIGHTS`].

@@ -195,7 +195,6 @@ impl Drawn {
             all["spans"] = json!(spans.spans);
             all["spans_hidden"] = json!(spans.spans_hidden);
             all["spans_untested"] = json!(spans.spans_untested);
-            all["spans_flat"] = json!(spans.spans_flat);
             all["pixels_shaded"] = json!(spans.pixels_shaded);
             all["pixels_hidden"] = json!(spans.pixels_hidden);
             all["depth_tests"] = json!(spans.depth_tests);
