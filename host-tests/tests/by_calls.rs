@@ -181,11 +181,8 @@ fn whoever_draws_the_picture_is_the_same() {
                 (&first.frame, first.spans),
                 "{what}"
             );
-            assert_eq!(
-                (cache.fetched > 0, cache.fetched_bytes > 0),
-                (slots > 0, slots > 0),
-                "{what}"
-            );
+            assert_eq!(cache.fetched > 0, slots > 0, "{what}");
+            assert!(cache.fetched_bytes > 0, "{what}");
         }
         assert_eq!(first.used.cache.fetched, 0);
         let begun = |called: &Drawn| called.used.cache.hits + called.used.cache.spilled;

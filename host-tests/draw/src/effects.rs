@@ -348,7 +348,7 @@ impl Task<'_> {
             ..chunk.mesh()
         };
         let dark = self.looks.len();
-        scene.draw(&Draw {
+        let draw = Draw {
             model: self.setting.model,
             cull: self.setting.cull,
             colour: looks.colour,
@@ -374,7 +374,8 @@ impl Task<'_> {
             shadow: in_shadow.then_some(Shadow::Shadowed(LIGHT)),
             dither: self.dither,
             ..Draw::new(mesh)
-        })
+        };
+        scene.draw_within(&draw, &chunk.sphere).map(drop)
     }
 
     fn job(&self, steps: usize) -> Job {

@@ -156,7 +156,7 @@ impl Drawn {
     /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them are on no line of the
     /// picture or show their back. `objects_kept` are the records made of the others, more where clipping cuts, and in
     /// a picture of more than 1016 columns or lines more where parts of it share a triangle; `vertices_kept` are
-    /// theirs. Of the cache, `hits` are spans drawn from a slot, and `misses` those that were set up for their line.
+    /// theirs. What was `skipped`, since its part of the model is out of sight, counts in each part of the picture. Of the cache, `hits` are spans drawn from a slot, and `misses` those that were set up for their line.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let (done, cache, sent) = (&self.used.assembled, &self.used.cache, &self.used.scan_out);
@@ -167,6 +167,9 @@ impl Drawn {
             "objects_clipped": done.clipped,
             "objects_kept": figures.objects,
             "vertices_kept": figures.vertices,
+            "objects_skipped": done.triangles_skipped,
+            "meshes_skipped": done.meshes_skipped,
+            "vertices_skipped": done.vertices_skipped,
             "scanlines_skipped": self.used.lines_skipped,
             "bytes_sent": sent.bytes_sent,
             "lines_unsent": sent.lines_unsent,

@@ -124,7 +124,7 @@ impl Task<'_> {
             let texture = chunk
                 .texture
                 .and_then(|number| textures.get(usize::from(number)));
-            scene.draw(&Draw {
+            let draw = Draw {
                 model: setting.model,
                 cull: setting.cull,
                 light: setting.light,
@@ -137,7 +137,8 @@ impl Task<'_> {
                 depth: self.crew.depth.test(),
                 dither: self.dither,
                 ..Draw::new(chunk.mesh())
-            })
+            };
+            scene.draw_within(&draw, &chunk.sphere).map(drop)
         })
     }
 }

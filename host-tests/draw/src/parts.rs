@@ -404,6 +404,9 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.assembled.clipped += one.assembled.clipped;
     all.assembled.dropped += one.assembled.dropped;
     all.assembled.untextured += one.assembled.untextured;
+    all.assembled.meshes_skipped += one.assembled.meshes_skipped;
+    all.assembled.triangles_skipped += one.assembled.triangles_skipped;
+    all.assembled.vertices_skipped += one.assembled.vertices_skipped;
     all.cache += one.cache;
     all.lines_skipped += one.lines_skipped;
     all.scan_out.bytes_sent += one.scan_out.bytes_sent;

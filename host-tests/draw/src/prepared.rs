@@ -2,6 +2,7 @@
 
 use super::TextureSet;
 use host_support::model::Model;
+use scanbeam::mesh::Sphere;
 use scanbeam::scene::{ShadowEdge, ShadowLight, ShadowMemory};
 use scanbeam::{Affine, Faces, Mesh};
 use std::collections::HashMap;
@@ -57,6 +58,8 @@ pub(super) struct Chunk {
     normals: Vec<[i16; 3]>,
     colours: Vec<[u8; 3]>,
     pub(super) faces: Vec<[u16; 3]>,
+    /// Around all positions.
+    pub(super) sphere: Sphere,
     /// Texture places, where there is a texture.
     pub(super) places: Vec<[i32; 2]>,
     pub(super) texture: Option<u16>,
@@ -134,6 +137,9 @@ impl Prepared {
             chunk.faces.push(face);
         }
         prepared.chunks.push(chunk);
+        for chunk in &mut prepared.chunks {
+            chunk.sphere = Sphere::around(&chunk.positions);
+        }
         prepared
     }
 
@@ -192,6 +198,7 @@ impl Chunk {
             normals: Vec::new(),
             colours: Vec::new(),
             faces: Vec::new(),
+            sphere: Sphere::around::<i32>(&[]),
             places: Vec::new(),
             texture,
             look,
@@ -240,6 +247,7 @@ impl Chunk {
             });
             part.faces.push(face);
         }
+        part.sphere = self.sphere;
         part
     }
 
