@@ -245,7 +245,7 @@ mod tests {
     #[test]
     fn the_indexed_layout_is_the_crates() {
         let record = Renderer::<Gouraud<Rgb565Be>>::RECORD_BYTES;
-        assert_eq!(Layout::Indexed.record_bytes(), record.into());
+        assert_eq!(Layout::Indexed.record_bytes(), u64::from(record));
         assert_eq!(Layout::Copies.record_bytes(), 40);
         assert_eq!(Layout::Indexed.scene_bytes(2, 3), 52);
     }
