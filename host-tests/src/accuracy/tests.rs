@@ -205,7 +205,8 @@ fn a_cheaper_quality_is_not_dearer(rows: &[Row]) {
             let cost = |method: &str| {
                 let alike = |r: &&Row| (r.case, r.method) == (first.case, method);
                 let row = rows.iter().find(alike).expect(method);
-                row.per_pixel.zip(row.per_span)
+                row.per_pixel
+                    .map(|pixel| (pixel, row.per_span.unwrap_or(0.0)))
             };
             for pair in order.windows(2) {
                 let (Some(cheap), Some(dear)) = (cost(pair[0]), cost(pair[1])) else {
