@@ -5,8 +5,8 @@ use embedded_graphics::mono_font::ascii::FONT_6X10;
 use embedded_graphics::pixelcolor::Rgb888 as Colour;
 use embedded_graphics::prelude::*;
 use embedded_graphics::text::Text;
-use scanbeam::overlay::{Canvas, DrawnLines, Ink, LineOverlay, Overlay, Sprite};
-use scanbeam::pixel::{Pixels, Rgb565};
+use scanbeam::overlay::{Canvas, DrawnLines, Ink, LineOverlay, Overlay, Pixels, Sprite};
+use scanbeam::pixel::Rgb565;
 
 const WIDTH: usize = 64;
 const HEIGHT: usize = 48;

@@ -214,7 +214,7 @@ impl<'t, L> Scene<'_, 't, L> {
             return Ok(());
         }
         self.draws.truncate(kept.saturating_sub(1));
-        Err(DrawError::no_draws(triangles))
+        Err(self.lose_call(triangles))
     }
 
     /// Files the faces of a volume: those seen from outside, then those from inside.
