@@ -553,8 +553,8 @@ where
     })
 }
 
-/// A span that is hidden counts as seen where only the last of its rivals is asked; pixels that are cut or holes count
-/// as hidden where the whole span does; what is compared counts twice where a pane is counted by its stretches.
+/// Fails where only rivals submitted later hide a span, pixels beside a scissor or holes of a texture are compared, cells
+/// that nobody has written keep their depth, or what is drawn again where no volume is goes uncounted.
 #[test]
 fn counts_are_those_of_pixels_one_by_one() {
     let mut rng = Rng::new(0xC0_0147);
@@ -652,8 +652,8 @@ where
     });
 }
 
-/// A line counts as one with values where only a triangle without pixels has any, if slots alone are asked; volumes
-/// of a light that reaches nothing count where what has no slot is listed without its pixels.
+/// Fails where a triangle without pixels on a line gives it values or a light, as only one without a slot is asked for
+/// none, or where what is counted of shadows counts as set-ups.
 #[test]
 fn counts_hang_on_no_slots_and_renderers_and_change_nothing() {
     let mut rng = Rng::new(0x510_75);

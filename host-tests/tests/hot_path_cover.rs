@@ -9,7 +9,8 @@ use crate::common::Rng;
 use crate::hot::count::Count;
 use crate::hot::cover::{Bench, GUARD, L, corners, id};
 use crate::hot::exact::{columns, doubled_area};
-use crate::hot::{Corner, LineRooms, Place, SceneRooms, Smooth, WordOf, camera, draw, frame, line};
+use crate::hot::ways::Lines;
+use crate::hot::{Corner, Place, SceneRooms, Smooth, WordOf, camera, draw, frame};
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::scene::Scene;
@@ -195,7 +196,7 @@ fn mixed(rng: &mut Rng, screen: Screen, count: usize) -> Vec<[Corner; 3]> {
 fn with_mixed<M: Smooth>(
     rng: &mut Rng,
     screen: Screen,
-    see: impl FnOnce(&mut Rng, &Scene<'_, '_, M>),
+    see: impl FnOnce(&mut Rng, &Scene<'_, 'static, M>),
 ) {
     let count = rng.pick(&[3, 20, 90, 300]);
     let triangles = mixed(rng, screen, count);
@@ -211,36 +212,18 @@ where
     WordOf<M>: std::fmt::Debug,
 {
     let mut rng = Rng::new(seed);
-    for round in 0..90 {
+    for round in 0..30 {
         let screen = screens()[round % 6];
         with_mixed::<M>(&mut rng, screen, |rng, scene| {
             for depth in [true, false] {
-                let want = frame(scene, 128, depth, background);
-                for slots in [0, 1, 4, 31, 33, 64] {
-                    let got = frame(scene, slots, depth, background);
-                    assert!(got == want, "{slots} slots, depth {depth}, round {round}");
-                }
-                // Alone, in any order, some lines again and again.
-                let slots = rng.pick(&[0, 3, 64, 128]);
-                let mut rooms = LineRooms::fitting(scene, slots, depth);
-                let mut renderer = rooms.renderer();
-                let mut lines: Vec<u16> =
-                    scene.lines().chain(0..scene.lines().end.min(9)).collect();
-                rng.shuffle(&mut lines);
-                lines.truncate(60);
-                for y in lines {
-                    let got = line(&mut renderer, scene, y, background);
-                    assert_eq!(got, want[usize::from(y)], "line {y} alone, {slots} slots");
-                }
-                // By two renderers with unlike caches, every third line for the other.
-                let mut one = LineRooms::fitting(scene, 5, depth);
-                let mut other = LineRooms::fitting(scene, 64, depth);
-                let (mut one, mut other) = (one.renderer(), other.renderer());
-                for y in scene.lines() {
-                    let who = if y % 3 == 1 { &mut other } else { &mut one };
-                    let got = line(who, scene, y, background);
-                    assert_eq!(got, want[usize::from(y)], "line {y} by two");
-                }
+                let lines = Lines {
+                    scene,
+                    depth,
+                    background,
+                };
+                let name = format!("round {round}");
+                let want = lines.whole(&name);
+                lines.every_way(&want, rng, &name);
             }
         });
     }

@@ -56,9 +56,8 @@ fn without_fetched(counts: CacheUse) -> CacheUse {
     }
 }
 
-/// Every line once, from the top: pictures and what the cache does are those of a renderer that fetches nothing, whatever
-/// is fetched and in how many steps. Fails where what is fetched is active at once, is forgotten when its line comes, or
-/// waits for changes of another line.
+/// Lines from the top: pictures and what the cache does are those of a renderer that fetches nothing, whatever is fetched
+/// and in how many steps.
 #[test]
 fn any_bytes_and_slots_give_the_same_picture_and_the_same_hits() {
     let mut rng = Rng::new(0xFE7C);

@@ -18,12 +18,10 @@ mod shadow_world;
 mod accuracy_frontier;
 mod against_reference;
 mod arenas;
-mod block_fix_depth;
 mod by_calls;
 mod by_calls_parts;
 mod cache;
 mod command_line;
-mod composite;
 mod defmt_log;
 mod demo;
 mod depth_methods;
@@ -111,4 +109,3 @@ mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;
 mod watertight;
-mod worded;

@@ -501,9 +501,8 @@ fn make_translucent(rng: &mut Rng, sample: &mut Sample, has_alpha: bool) -> Vec<
     of.collect()
 }
 
-/// Texels of any alpha are those of a call whose texture has a mask, and texels with the D bit are not dithered, with levels
-/// of detail or without. Kills: alphas of another colour, 7 bits that are not 8, D that is asked where nothing is
-/// dithered, a call that hides what is behind, D alone that does not.
+/// Texels of any alpha are those of a call whose texture has a mask, and texels with the D bit are not dithered where the
+/// rest is. Kills: alphas of another colour, D that is not asked, a call that hides what is behind it.
 #[test]
 fn texels_with_alpha_are_those_of_calls() {
     let forms = [
@@ -563,7 +562,7 @@ fn texels_with_alpha_are_those_of_calls() {
         let kind = usize::from(!has_alpha);
         differ[kind] += got.iter().zip(&opaque).filter(|(a, b)| a != b).count();
     }
-    assert!(differ[0] > 10_000 && differ[1] > 300, "{differ:?}");
+    assert!(differ[0] > 10_000 && differ[1] > 100, "{differ:?}");
 }
 
 /// The settings say how texels of lists are taken: as those of a call that is sampled so. Kills: settings that nobody

@@ -1,4 +1,4 @@
-//! Set-up of texture coordinates: how a triangle's are found, and its planes.
+//! Set-up of texture coordinates: how a triangle's are found, and its planes (H1, H3, K18).
 //!
 //! | [`Method`] | where | off by at most |
 //! |---|---|---|

@@ -5,8 +5,6 @@
 //! triangle with vertices of its own has a record of its own behind them. So no record of a vertex or of a triangle has
 //! anything for it, and no look knows of it. A mask is a texture of the same places.
 
-use super::cut::{Corner, Polygon, cut_all};
-use super::project::View;
 use super::{Form, Object, Texture, TextureError, Vertex};
 
 /// What a mask says of the texel at its place: how opaque it is, whether it is dithered, whether it is added.
@@ -138,26 +136,6 @@ impl Form<'_> {
             Self::Computed(..) => 0,
         }
     }
-}
-
-/// What a triangle that is cut leaves, with alphas in place of colours, which follow the same edges.
-#[inline(never)]
-pub(super) fn cut_alphas(
-    corners: [Corner; 3],
-    alphas: [u16; 3],
-    view: &View,
-    beyond: u32,
-) -> Polygon {
-    let of = |i: usize| Corner {
-        colour: u32::from(alphas[i]) >> 5 << 21,
-        ..corners[i]
-    };
-    cut_all([of(0), of(1), of(2)], view, beyond)
-}
-
-/// The alpha that stands in the place of a colour, with 8 fraction bits, of which 3 are kept.
-pub(super) fn alpha_of(colour: u32) -> u16 {
-    (colour >> 21 << 5) as u16
 }
 
 /// Alphas that a record has.

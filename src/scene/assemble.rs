@@ -89,7 +89,7 @@ impl<'t, L> Scene<'_, 't, L> {
             state.replace_light();
         }
         if self.draws.push(state).is_none() {
-            return Err(DrawError::no_draws(submitted));
+            return Err(self.lose_call(submitted));
         }
         self.generation = self.generation.wrapping_add(1);
         let is_plain = self.is_plain(draw);
@@ -142,6 +142,15 @@ impl<'t, L> Scene<'_, 't, L> {
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)
+    }
+
+    /// Counts the triangles of a draw call whose state found no room.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn lose_call(&mut self, triangles: u32) -> DrawError {
+        self.assembled.triangles += triangles;
+        self.assembled.dropped += triangles;
+        DrawError::no_draws(triangles)
     }
 
     /// Counts the triangles of a draw call; an error where some found no room.

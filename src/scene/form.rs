@@ -1,4 +1,4 @@
-//! How texels lie in memory, or who is asked for them.
+//! How texels lie in memory, or who is asked for them (H7, H17).
 
 use super::Texels;
 

@@ -125,6 +125,12 @@ pub struct Assembled {
     pub dropped: u32,
     /// Pieces of triangles that stretch over more than 4,096 texels, and are drawn without their texture.
     pub untextured: u32,
+    /// Meshes that [`draw_within`](Scene::draw_within) has not looked at. Their triangles are among the culled.
+    pub meshes_skipped: u32,
+    /// Triangles of these meshes.
+    pub triangles_skipped: u32,
+    /// Vertices of these meshes: neither transformed nor lit.
+    pub vertices_skipped: u32,
 }
 
 impl Assembled {

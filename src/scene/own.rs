@@ -19,7 +19,6 @@ impl<L> Scene<'_, '_, L> {
         colour: Option<u32>,
         pass: &mut Pass<'_>,
     ) {
-        let alphas = corners.map(|i| pass.alpha(i.into()));
         let corners = corners.map(|i| corner_of(mesh, i.into(), colour, pass, &self.scale));
         let beyond = corners.map(|c| pass.view.beyond(c.point));
         let any = beyond[0] | beyond[1] | beyond[2];
@@ -27,20 +26,13 @@ impl<L> Scene<'_, '_, L> {
         let mut lost = None;
         if beyond[0] & beyond[1] & beyond[2] == 0 {
             if any == 0 {
-                lost = self.file_piece(corners, alphas, pass).err();
+                lost = self.file_piece(corners, pass).err();
             } else {
                 pass.clipped += 1;
-                let polygon = cut_all(corners, &pass.view, any);
-                let cut = (!pass.alphas.is_empty())
-                    .then(|| alpha::cut_alphas(corners, alphas, &pass.view, any));
-                for i in 2..polygon.len() {
-                    let of = [0, i - 1, i];
-                    let alphas = cut
-                        .as_ref()
-                        .map_or(alphas, |cut| of.map(|i| alpha::alpha_of(cut[i].colour)));
-                    let piece = of.map(|i| polygon[i]);
-                    lost = lost.or(self.file_piece(piece, alphas, pass).err());
-                }
+                let (view, pass) = (pass.view, &*pass);
+                cut_all(corners, &view, any, &mut |piece| {
+                    lost = lost.or(self.file_piece(piece, pass).err());
+                });
             }
         }
         if let Some(memory) = lost {
@@ -51,14 +43,8 @@ impl<L> Scene<'_, '_, L> {
     }
 
     /// A triangle within all planes; an error names the memory that is full.
-    pub(super) fn file_piece(
-        &mut self,
-        corners: [Corner; 3],
-        alphas: [u16; 3],
-        pass: &Pass<'_>,
-    ) -> Result<(), Full> {
-        let own = [0, 1, 2].map(|i| own_of(corners[i], alphas[i], pass));
-        self.file_own(own, pass)
+    pub(super) fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
+        self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
     }
 
     /// A triangle with vertices of its own; an error names the memory that is full.
@@ -117,12 +103,13 @@ fn corner_of<C: Coordinate>(
         point: pass.view.point(mesh.positions[i]),
         colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
         texel: pass.texel(i),
+        alpha: pass.alpha(i),
     }
 }
 
 /// A corner within all planes as a vertex; out of line, since a triangle has three.
 #[inline(never)]
-fn own_of(corner: Corner, alpha: u16, pass: &Pass<'_>) -> Own {
+fn own_of(corner: Corner, pass: &Pass<'_>) -> Own {
     let on = pass.view.project(corner.point);
     Own {
         vertex: Vertex {
@@ -131,6 +118,6 @@ fn own_of(corner: Corner, alpha: u16, pass: &Pass<'_>) -> Own {
             colour: corner.colour,
         },
         place: TexturePlace::new(corner.texel, on.fine),
-        alpha,
+        alpha: corner.alpha,
     }
 }

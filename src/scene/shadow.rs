@@ -179,13 +179,14 @@ impl<'t, L> Scene<'_, 't, L> {
             point,
             colour: pass.one.unwrap_or_default(),
             texel: [0; 2],
+            alpha: 0,
         };
-        let polygon = cut_all(points.map(corner), &pass.view, 0);
-        for i in 2..polygon.len() {
-            let piece = [polygon[0], polygon[i - 1], polygon[i]];
-            if let Err(memory) = self.file_piece(piece, [0; 3], pass) {
-                return pass.lost.lose(memory, number);
-            }
+        let (view, mut lost) = (pass.view, None);
+        cut_all(points.map(corner), &view, 0, &mut |piece| {
+            lost = lost.or(self.file_piece(piece, pass).err());
+        });
+        if let Some(memory) = lost {
+            pass.lost.lose(memory, number);
         }
     }
 
@@ -213,7 +214,7 @@ impl<'t, L> Scene<'_, 't, L> {
             return Ok(());
         }
         self.draws.truncate(kept.saturating_sub(1));
-        Err(DrawError::no_draws(triangles))
+        Err(self.lose_call(triangles))
     }
 
     /// Files the faces of a volume: those seen from outside, then those from inside.

@@ -1,4 +1,4 @@
-//! Textures as values: form, sides, palette and what lies beyond the sides, all known at run time.
+//! Textures as values: form, sides, palette and what lies beyond the sides, all known at run time (H7).
 //!
 //! Textures of all forms and sizes serve one scene: a span looks once which loop reads its texels
 //! (room `look`). All constructors are `const`, so that a texture can be a static:

@@ -9,7 +9,7 @@ use crate::perspective::{Homogeneous, PerspectiveSpan, Stride};
 use scanbeam::pixel::{Rgb565, Rgb888};
 
 /// What [`bits`] must be.
-pub const BITS: u32 = 0xFA5F_E54C;
+pub const BITS: u32 = 0x3A21_1B8E;
 
 /// Pixels of a line.
 const WIDTH: usize = 61;

@@ -7,6 +7,7 @@ pub mod exact;
 pub mod layers;
 pub mod shine;
 pub mod values;
+pub mod ways;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
