@@ -90,7 +90,8 @@ fn wanted(from: i32, to: i32, of: impl Fn(i64) -> u16) -> Vec<u16> {
 
 /// Wherever a triangle lies, within 2^17 texels, what lies beyond the sides of a texture is what its wrap says.
 ///
-/// Kills: a base that is no multiple of the side or of its mirror image, a clamp before places are whole.
+/// Kills: columns for rows on the way of a computed texture, squares with the other colour first, a gradient that begins anew
+/// in place of going back.
 #[test]
 fn what_lies_beyond_the_sides_is_shown_wherever_it_lies() {
     let starts = [
@@ -279,7 +280,7 @@ const BUDGETS: [(Budget, f64); 3] = [
 /// How far budgets reach: to corners of 1:300, a texel more at 1:12,000, and eight at the farthest that a camera sees;
 /// where a pixel has many texels, 1/250 of them more.
 ///
-/// Kills: a reach of twice as many steps, 1/w of fewer bits at the corner that is nearest.
+/// Kills: a reach of twice as many steps, 1/w of ten bits fewer, a base that is no multiple of the side.
 #[test]
 fn places_keep_their_budget() {
     for (budget, most) in BUDGETS {

@@ -191,8 +191,7 @@ where
     textured
 }
 
-/// Kills: a texel by row and column in each other's place, an index with the height's power of two, a filter, a level or a
-/// lone place that has nobody to ask and is black.
+/// Kills: a texel by row and column in each other's place, rows of lone places by another power of two than the width's.
 #[test]
 fn computed_texels_are_drawn_as_those_of_memory() {
     let drawn = [
@@ -207,7 +206,7 @@ fn computed_texels_are_drawn_as_those_of_memory() {
 
 /// Texels that are there from the crate: a picture whose pixels are one texel each shows what their words say.
 ///
-/// Kills: squares of another size, the other colour first, a gradient the other way round or down the rows.
+/// Kills: the other colour first, a gradient that begins anew in place of going back.
 #[test]
 fn checkers_and_gradients_are_what_they_say() {
     let checker = leaked(Checker {
@@ -335,8 +334,8 @@ impl Slow {
     }
 }
 
-/// Kills: a cache that takes a block for another with the same slot, one that copies a block in the order of rows, counts
-/// of one texel a run, blocks larger than the texture.
+/// Kills: a cache that takes a block for another with the same slot, page changes of the last run alone, blocks larger than
+/// the texture.
 #[test]
 fn any_cache_gives_the_same_picture_and_counts_what_it_does() {
     let mut rng = Rng::new(5);
@@ -381,8 +380,6 @@ fn any_cache_gives_the_same_picture_and_counts_what_it_does() {
 }
 
 /// Threads draw one scene through one cache: the lines are those of one alone.
-///
-/// Kills: a tag for each block in place of one for each texel.
 #[test]
 fn threads_share_a_cache() {
     type L = Textured<Rgb565Be>;

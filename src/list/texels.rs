@@ -336,9 +336,8 @@ mod tests {
 
     /// Each field is within a step of what it stands for, and no two words are the same texel (H7).
     ///
-    /// Kills: a field that is a bit further up or down, zeros or a wrong number of bits below those that grow, another
-    /// order of fields, the wrong half of a word, alpha of 5551 that is not full, D of the wrong end, three bytes from the
-    /// wrong word.
+    /// Kills: a field that is a bit further down, zeros below those that grow, the wrong half of a word, alpha of 5551 that is
+    /// not full, D of the wrong end, three bytes from the wrong word.
     #[test]
     fn every_word_survives_expansion() {
         let turned = |i: u32| i.wrapping_mul(0x9E37_79B9).rotate_left(i & 31);
@@ -389,7 +388,7 @@ mod tests {
         }
     }
 
-    /// Kills: bits from the top of a byte on, an index of another texel, 6 bits without gaps.
+    /// Kills: an index of the texel beside.
     #[test]
     fn every_index_names_its_colour() {
         for (form, bits, each) in [

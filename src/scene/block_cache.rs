@@ -335,9 +335,39 @@ mod tests {
         assert_eq!(twice.err(), Some(CacheError::Computed));
     }
 
-    /// Two cores at once: each has its texels, whoever copied them.
+    /// A slot as two cores leave it that copy two blocks there at once: each word is of either block.
     ///
     /// Kills: a tag for each block in place of one for each word.
+    #[test]
+    fn words_of_two_blocks_in_one_slot_are_told_apart() {
+        let layout = Blocked::new(2, 2).unwrap();
+        let [rows, blocks] = texels(layout);
+        let slow = Texture::words(&blocks, 64, 32).unwrap();
+        // One slot: blocks 0 and 1 are both kept there.
+        for mixed in 0..1u32 << 16 {
+            if mixed.count_ones() != 1 && mixed % 97 != 0 {
+                continue;
+            }
+            let mut fast = words(16);
+            let cache = BlockCache::new(slow, layout, &mut fast).unwrap();
+            let words_after = |column: u16| {
+                let _ = cache.texel(column, 0);
+                let words = cache.words.iter().map(|word| word.0.load(Relaxed));
+                words.collect::<Vec<_>>()
+            };
+            let [first, second] = [words_after(0), words_after(4)];
+            for column in [0, 1, 5, 4] {
+                for (i, word) in cache.words.iter().enumerate() {
+                    let of = [&first, &second][(mixed >> i & 1) as usize];
+                    word.0.store(of[i], Relaxed);
+                }
+                let want = rows[usize::from(column)];
+                assert_eq!(cache.texel(column, 0), want, "{mixed:x}");
+            }
+        }
+    }
+
+    /// Two cores at once: each has its texels, whoever copied them.
     #[test]
     fn two_cores_read_through_one_cache() {
         let layout = Blocked::new(2, 2).unwrap();

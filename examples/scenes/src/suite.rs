@@ -432,6 +432,8 @@ impl Suite {
     ///
     /// # Errors
     /// As [`build`](Suite::build); faces of one colour take three vertices each, which have to have room too.
+    // So that a program that draws smooth faces alone has no code for others.
+    #[inline(always)]
     pub fn build_shaded<L: Look>(
         self,
         shading: Shading,

@@ -44,6 +44,7 @@ pub(crate) const fn lines_of(frame: Frame) -> u16 {
 
 /// Draws a frame, so many lines a transfer where it does not say that itself, and hands what is sent, in order, to `to`.
 /// Drawing twice gives the same bytes.
+#[inline(never)]
 pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Receives) {
     let buffers = rooms.buffers.take().expect("the last frame gave them back");
     let mut pump = Pump::new(Emit { to, sent: None }, buffers);

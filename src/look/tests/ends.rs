@@ -27,7 +27,7 @@ const STRIDES: [Stride; 5] = [
 
 /// Ends, and every pixel of a stride, have the places of exact perspective; what is between two exact ones is their mean.
 ///
-/// Kills: a last piece that ends a pixel early or late, a piece that begins at the pixel behind the exact one, odd pixels
+/// Kills: a last piece that ends a pixel early, a piece that begins at the pixel behind the exact one, odd pixels
 /// with the place of the one before.
 #[test]
 fn ends_and_strides_are_exact_and_what_is_between_is_the_mean() {

@@ -182,6 +182,11 @@ fn corners_share_an_exponent() {
         let q = values.of[2];
         let most = q.iter().max().unwrap();
         assert!((1 << 29..1 << 30).contains(most), "{q:?}");
+        let nearest = corners.map(|c| c.depth).into_iter().max().unwrap();
+        for (q, corner) in q.into_iter().zip(&corners) {
+            let want = f64::from(corner.depth) / f64::from(nearest) * f64::from(*most);
+            assert!((f64::from(q) - want).abs() <= 1.0, "one unit for all");
+        }
         for (corner, i) in corners.iter().zip(0..) {
             let [s, t] = [0, 1].map(|axis| values.of[axis][i]);
             let place = super::Homogeneous {
