@@ -31,24 +31,24 @@ fn main() -> ! {
         exit(false)
     };
     let teapot = Suite::Teapot;
-    let mut room = room!(LeanLook, VERTICES, 0);
+    let mut room = room!(LeanLook, VERTICES);
     show(&mut room, counts, teapot, &mut display, |scene| {
         teapot.build(scene)
     });
     say("teapot", &mut display);
-    let mut room = room!(LeanTextured, VERTICES, VERTICES);
+    let mut room = room!(LeanTextured, VERTICES, textured);
     show(&mut room, counts, Suite::B, &mut display, |scene| {
         Suite::B.build(scene)
     });
     say("b", &mut display);
     lit::<LeanPhong>(
-        &mut room!(LeanPhong, VERTICES, 0),
+        &mut room!(LeanPhong, VERTICES),
         counts,
         &lamps,
         &mut display,
     );
     lit::<LeanPhongTextured>(
-        &mut room!(LeanPhongTextured, VERTICES, 0),
+        &mut room!(LeanPhongTextured, VERTICES),
         counts,
         &lamps,
         &mut display,

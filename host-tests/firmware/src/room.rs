@@ -22,19 +22,28 @@ pub(crate) struct Room<L: Look + 'static> {
     pub(crate) depth: &'static mut [u32],
 }
 
-/// Lends a [`Room`] for a look, with so many vertices and places of them on a texture.
+/// Lends a [`Room`] for a look, with so many vertices; with `textured` also places of them on a texture.
 macro_rules! room {
-    ($look:ty, $vertices:expr, $places:expr) => {{
+    ($look:ty, $vertices:expr) => {
+        room!($look, $vertices, places: &mut [])
+    };
+    ($look:ty, $vertices:expr, textured) => {
+        room!($look, $vertices, places: {
+            use scanbeam::scene::TexturePlace;
+            crate::lend::lend!(".slow", TexturePlace, $vertices, TexturePlace::EMPTY)
+        })
+    };
+    ($look:ty, $vertices:expr, places: $places:expr) => {{
         use crate::lend::lend;
         use crate::room::{OBJECTS, Room};
         use scanbeam::Link;
         use scanbeam::frame::FastMemory;
-        use scanbeam::scene::{Object, TexturePlace, Vertex};
+        use scanbeam::scene::{Object, Vertex};
         use scenes::{HEIGHT, WIDTH};
         const EMPTY: FastMemory<$look> = FastMemory::new();
         Room::<$look> {
             vertices: lend!(".slow", Vertex, $vertices, Vertex::EMPTY),
-            places: lend!(".slow", TexturePlace, $places, TexturePlace::EMPTY),
+            places: $places,
             objects: lend!(".slow", Object, OBJECTS, Object::EMPTY),
             bins: lend!(".slow", u16, HEIGHT as usize, 0),
             links: lend!(".slow", Link, OBJECTS, Link::EMPTY),

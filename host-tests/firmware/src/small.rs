@@ -25,15 +25,15 @@ type Look = scenes::LeanTextured;
 #[cfg(feature = "phong")]
 type Look = scenes::LeanPhong;
 
-/// What the picture is called, the scene of the suite, and places of vertices on its texture.
+/// What the picture is called, and the scene of the suite.
 #[cfg(not(any(feature = "flat", feature = "textured", feature = "phong")))]
-const SHOWN: (&str, Suite, usize) = ("teapot", Suite::Teapot, 0);
+const SHOWN: (&str, Suite) = ("teapot", Suite::Teapot);
 #[cfg(feature = "flat")]
-const SHOWN: (&str, Suite, usize) = ("teapot_flat", Suite::Teapot, 0);
+const SHOWN: (&str, Suite) = ("teapot_flat", Suite::Teapot);
 #[cfg(feature = "textured")]
-const SHOWN: (&str, Suite, usize) = ("b", Suite::B, VERTICES);
+const SHOWN: (&str, Suite) = ("b", Suite::B);
 #[cfg(feature = "phong")]
-const SHOWN: (&str, Suite, usize) = ("teapot_lamplit", Suite::Teapot, 0);
+const SHOWN: (&str, Suite) = ("teapot_lamplit", Suite::Teapot);
 
 /// A face of one colour takes three vertices.
 const MORE: usize = if cfg!(feature = "flat") {
@@ -44,10 +44,12 @@ const MORE: usize = if cfg!(feature = "flat") {
 
 #[entry]
 fn main() -> ! {
-    const PLACES: usize = SHOWN.2;
-    let (name, suite, _) = SHOWN;
+    let (name, suite) = SHOWN;
     let mut display = display(buffers!());
-    let mut room = room!(Look, VERTICES + MORE, PLACES);
+    #[cfg(not(feature = "textured"))]
+    let mut room = room!(Look, VERTICES + MORE);
+    #[cfg(feature = "textured")]
+    let mut room = room!(Look, VERTICES + MORE, textured);
     #[cfg(feature = "phong")]
     let Ok(lamps) = scenes::teapot_lamps() else {
         exit(false)

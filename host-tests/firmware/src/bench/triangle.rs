@@ -241,8 +241,8 @@ impl Triangle {
         };
         let mut positions = [vertex(0, 0), vertex(width, 0), vertex(0, tall)];
         if matches!(way, Way::Leaning(_)) {
-            for at in 1..3 {
-                positions[at] = positions[at].map(|c| c / 2 * 3);
+            for position in positions.iter_mut().skip(1) {
+                *position = position.map(|c| c / 2 * 3);
             }
         }
         // The slope of colours and texels is that of the widest triangle: narrow ones would be too steep to be set up
