@@ -7,7 +7,6 @@
 
 use crate::args::CacheArgs;
 use crate::draw::MOST_SLOTS;
-use crate::draw::traffic::{Traffic, turns};
 use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::memory_model::{
     Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
@@ -17,18 +16,20 @@ use crate::plot::{Chart, Marks, Series};
 use crate::rooms::{LineRooms, Room, SceneRooms};
 use crate::texture_report::texture_table;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use scanbeam::draw_frame;
-use scanbeam::frame::{CacheUse, FastMemory};
+use scanbeam::frame::FastMemory;
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::Assembled;
+use scanbeam::{Renderer, draw_frame};
 use scenes::{DRAWS, HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
 use serde_json::{Value, json};
 use std::error::Error;
 
 type Look = Gouraud<Rgb565Be>;
 
+/// Bytes of a triangle and its corners.
+const RECORD_BYTES: u32 = Renderer::<Look, WORDS>::RECORD_BYTES;
 /// Words of 32 slots of the largest cache.
 const WORDS: usize = MOST_SLOTS as usize / 32;
 /// The scenes.
@@ -46,7 +47,6 @@ const LINES: u16 = 4;
 struct Row {
     slots: u16,
     prefetch: u32,
-    cache: CacheUse,
     model: Model,
 }
 
@@ -116,14 +116,13 @@ fn measure(shot: Shot) -> Result<Measured, Box<dyn Error>> {
     let mut scene = lent.scene::<Look>(Shot::screen());
     shot.build(&mut scene)
         .map_err(|error| format!("{}: {error:?}", shot.name()))?;
-    let turning = scene.triangles().filter(turns).count();
     let mut rows = Vec::new();
     let mut first = None;
     let settings = SLOTS.into_iter().map(|slots| (slots, 0));
     for (slots, prefetch) in settings.chain([(GOAL_SLOTS, AHEAD)]) {
         let rooms: LineRooms<Look, WORDS> = LineRooms::new(OBJECTS, WIDTH);
         let mut rooms = rooms.with_limit(slots);
-        let mut renderer = rooms.renderer().counting();
+        let mut renderer = rooms.renderer().counting().fetching(prefetch);
         let words = usize::from(WIDTH) * usize::from(LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
         let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
@@ -138,10 +137,8 @@ fn measure(shot: Shot) -> Result<Measured, Box<dyn Error>> {
         rows.push(Row {
             slots,
             prefetch,
-            cache: used.cache,
             model: Model {
-                traffic: Traffic::of(&used.cache, lines, 1, [turning, scene.objects()]),
-                misses: used.cache.misses.into(),
+                cache: used.cache,
                 spans,
                 size: (lines, u64::from(WIDTH)),
                 slot_bytes: FastMemory::<Look, WORDS>::SLOT_BYTES as u64,
@@ -190,7 +187,7 @@ fn print(shot: Shot, measured: &Measured) {
         let mut cells = vec![
             format!("{}{ahead}", row.slots),
             format!("{:.1}", 100.0 * row.model.hit_rate()),
-            row.cache.misses.to_string(),
+            row.model.cache.misses.to_string(),
             row.model.slow_bytes(Layout::Indexed).to_string(),
             format!("{:.1}", saving(row, without)),
         ];
@@ -258,7 +255,8 @@ fn to_json(shot: Shot, measured: &Measured) -> Value {
                     })
                 })
                 .collect();
-            let (cache, model) = (&row.cache, &row.model);
+            let model = &row.model;
+            let cache = &model.cache;
             json!({
                 "slots": row.slots,
                 "prefetch_budget": row.prefetch,
@@ -266,10 +264,12 @@ fn to_json(shot: Shot, measured: &Measured) -> Value {
                 "misses": cache.misses,
                 "hit_rate": model.hit_rate(),
                 "spills": cache.spilled,
-                "records_read": model.traffic.records,
+                "records_read": cache.records_read(),
+                "prefetched": cache.fetched,
+                "prefetch_bytes": cache.fetched_bytes,
                 "peak_slots": cache.peak,
-                "slow_read_bytes": model.traffic.read_bytes(false),
-                "slow_write_bytes": model.traffic.written_bytes(),
+                "slow_read_bytes": cache.slow_read_bytes(RECORD_BYTES),
+                "slow_write_bytes": cache.slow_write_bytes(),
                 "times_fewer_slow_bytes": saving(row, without),
                 "layouts": layouts,
             })
@@ -323,10 +323,10 @@ mod tests {
         }
         let goal = rows.iter().find(|row| row.slots == GOAL_SLOTS).unwrap();
         assert!(saving(goal, &rows[0]) >= 5.0, "{}", saving(goal, &rows[0]));
-        // Fetched ahead it is no more that is read, and hardly anything is missed.
+        // Fetched ahead it is no more that is read, and hardly anything is left for when its line comes.
         let ahead = rows.last().unwrap();
-        let read = |row: &Row| row.model.traffic.read_bytes(false);
-        assert!(ahead.cache.misses * 5 < goal.cache.misses);
+        let read = |row: &Row| row.model.cache.slow_read_bytes(RECORD_BYTES);
+        assert!(ahead.model.cache.fetched * 5 > 4 * ahead.model.cache.hits);
         assert!(read(ahead) <= read(goal));
     }
 

@@ -105,17 +105,13 @@ fn compared(
         &[COMPARER]
     };
     firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &[])?;
-    if bench {
-        let programs = &[COMPARER];
-        firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &["bench"])?;
-    }
+    let words = if bench { &["bench"][..] } else { &[] };
     for board in &BOARDS {
-        let measured = firmware::measure(toolchain, board, Profile::Release, &[])?;
+        let measured = firmware::measure(toolchain, board, Profile::Release, words)?;
         let mut compared = Compared::new(measured, host)?;
         if bench {
-            let measured = firmware::measure(toolchain, board, Profile::Release, &["bench"])?;
             let sizes = small_programs(toolchain, board)?;
-            compared.bench = Some(Bench::new(&measured.output, &spans, sizes)?);
+            compared.bench = Some(Bench::new(&compared.measured.output, &spans, sizes)?);
         }
         boards.push(compared);
     }

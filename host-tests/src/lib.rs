@@ -6,9 +6,7 @@ extern crate host_support;
 
 pub use host_draw::{self as draw, choice, crew, places};
 pub use host_frames as frames;
-pub use host_support::{
-    image_out, lent, mock, model, reference, rooms, say, stdio, tell, texture_file,
-};
+pub use host_support::{image_out, mock, model, reference, rooms, say, stdio, tell, texture_file};
 
 pub mod accuracy;
 pub mod args;

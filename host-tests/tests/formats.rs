@@ -13,8 +13,8 @@ const LOGGED: [&str; 9] = [
     "Stats",
     "Counts",
     "Fed",
-    "PassOne",
-    "Dropped",
+    "Use",
+    "Assembled",
 ];
 
 fn sources(folder: &Path, found: &mut Vec<PathBuf>) {

@@ -1,5 +1,6 @@
 //! What draws lines of a scene, and what it has to be lent.
 
+use super::ahead::Fetcher;
 use super::slot::Active;
 use super::spans::Line;
 use super::tally::Counter;
@@ -198,6 +199,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     /// Likewise of counting spans and pixels.
     pub(super) counter: Option<Counter<L, WORDS>>,
     pub(super) spans: SpanCounts,
+    /// Likewise of fetching ahead.
+    pub(super) fetcher: Option<Fetcher<L, WORDS>>,
 }
 
 impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
@@ -250,6 +253,20 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             volumes: &mut [],
             counter: None,
             spans: SpanCounts::default(),
+            fetcher: None,
+        }
+    }
+
+    /// The same, and what begins on the next line is set up ahead, up to so many bytes of slow memory a line (C4): by the
+    /// frame calls after each line that they have handed on, and by [`fetch_ahead`](Renderer::fetch_ahead). That takes
+    /// the time in which the display is waited for. Pictures are the same for any number.
+    ///
+    /// A program that names this nowhere does not have the code.
+    #[must_use]
+    pub fn fetching(self, bytes_a_line: u32) -> Self {
+        Self {
+            fetcher: Some(Fetcher::new(bytes_a_line)),
+            ..self
         }
     }
 
@@ -320,6 +337,26 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Sets up what begins on the line after the last that was drawn, before the first of a scene that line, where slots
+    /// are free; the bytes of slow memory that were read (C4). A call after it goes on where it stopped. A renderer that
+    /// is not [`fetching`](Renderer::fetching) does nothing.
+    ///
+    /// # Errors
+    /// Those of [`check`](Renderer::check).
+    pub fn fetch_ahead(&mut self, scene: &Scene<'_, '_, L>) -> Result<u32, LineError> {
+        self.check(scene)?;
+        Ok(self.fetch_known(scene))
+    }
+
+    /// The same of a scene that the renderer can draw.
+    #[inline(always)]
+    pub(super) fn fetch_known(&mut self, scene: &Scene<'_, '_, L>) -> u32 {
+        match &self.fetcher {
+            Some(fetcher) => (fetcher.fetch)(self, scene),
+            None => 0,
+        }
+    }
+
     /// Whether shadows can be counted on a line so wide.
     #[inline(never)]
     fn check_shadows(&self, width: u16) -> Result<(), LineError> {

@@ -1,9 +1,9 @@
 //! A scene of a look: what its pixels are is what its vertices' colours are steps of.
 
-use crate::geometry::{Coordinate, Screen};
+use crate::geometry::{Coordinate, Screen, Sphere, triangles};
 use crate::look::Look;
 use crate::pixel::{MadeOf, Pixel};
-use crate::scene::{Draw, DrawError, FiledTriangle, Memory, Scene, ScreenCorner};
+use crate::scene::{Draw, DrawError, FiledTriangle, Memory, Scene, ScreenCorner, Shadow};
 
 impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// A scene for pictures of this size. Nothing is drawn before it is [begun](Scene::begin).
@@ -22,6 +22,35 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
             return Err(DrawError::Indices);
         }
         self.assemble(draw, L::TEXTURED, L::LIT_AT_PIXELS)
+    }
+
+    /// Draws a mesh all of whose vertices lie in `sphere`, as [`draw`](Scene::draw) does, and does not look at it where
+    /// the sphere is wholly outside the lines of the picture, or nearer or farther than what is seen: some 1,500
+    /// instructions on a Cortex-M4, whatever the mesh. Whether it was looked at; the picture is the same.
+    /// [`Assembled`](crate::scene::Assembled) counts what is skipped, among the culled too. What bounds a shadow is always drawn.
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw); a mesh that is skipped is not checked.
+    pub fn draw_within<C: Coordinate>(
+        &mut self,
+        draw: &Draw<'_, 't, C>,
+        sphere: &Sphere,
+    ) -> Result<bool, DrawError> {
+        let Some(camera) = self.camera else {
+            return Err(DrawError::NotBegun);
+        };
+        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
+        if is_volume || !sphere.is_outside(&camera, self.screen, &self.lines, &draw.model) {
+            return self.draw(draw).map(|()| true);
+        }
+        let skipped = triangles(draw.mesh.faces);
+        let done = &mut self.assembled;
+        done.triangles += skipped;
+        done.culled += skipped;
+        done.meshes_skipped += 1;
+        done.triangles_skipped += skipped;
+        done.vertices_skipped += draw.mesh.positions.len() as u32;
+        Ok(false)
     }
 
     /// Draws triangles that were set up beforehand, each with vertices of its own: no camera, no light, and nothing to

@@ -12,9 +12,9 @@ use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
 use super::spans::{Drawn, Known, Line, Span};
 use super::tally::{cells_at, each_part, has_texels, opaque_of};
 use crate::active::next;
-use crate::geometry::DepthFunction;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
+use crate::scene::DepthFunction;
 use crate::scene::{DrawState, Role};
 use crate::stats::{SpanCounts, SpanPixels};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
@@ -165,8 +165,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (slots, lights) = self.list_shadows(out);
         let mut lit = lights.with_lit | lights.with_shadowed & lights.with_volumes;
         if self.counter.is_some() {
-            // What nobody sees is counted too.
-            lit |= lights.with_shadowed;
+            // What nobody sees is counted too, but not what it takes.
+            let (mut in_vain, counts) = (lights.with_shadowed & !lit, self.counts);
+            while in_vain != 0 {
+                self.volumes.fill(0);
+                self.take_step(2 * take_first(&mut in_vain) + 1, slots, out);
+            }
+            self.counts = counts;
         }
         while lit != 0 {
             let light = take_first(&mut lit);

@@ -241,6 +241,8 @@ fn count_span<L: Look>(
     let Ruled { drawn, span, state } = ruled;
     let depth = known.map(|known| depth_on_line::<L>(drawn, known.plane, span, out));
     let mut pixels = SpanPixels::default();
+    // A slot without values is compared by no state of its own.
+    let has_texels = has_texels::<L>(out.view.state(drawn.object));
     each_part(ruled, out, &mut |first, part| {
         let all = u32::MAX >> (32 - part);
         let is_holed = L::TEXTURED && state.holes.is_some();
@@ -264,7 +266,7 @@ fn count_span<L: Look>(
         pixels.all += part;
         pixels.seen += seen.count_ones();
         pixels.hidden += (asked & !seen).count_ones();
-        if has_texels::<L>(Some(state)) {
+        if has_texels {
             pixels.fetched += if is_holed { part } else { seen.count_ones() };
         }
     });
@@ -305,7 +307,7 @@ pub(super) fn opaque_of<L: Look>(
     };
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let colours = colours.get_mut(..pixels as usize).unwrap_or_default();
-    L::fill_holed(ink.fill, ink.planes, at, out.view.draws, colours).reverse_bits()
+    L::fill_holed(ink.fill, ink.planes, at, out.view.draws, false, colours).reverse_bits()
 }
 
 /// A copy of the depths that are there from a column on; what nobody has written is farthest away.

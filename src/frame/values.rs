@@ -5,12 +5,13 @@
 //! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
+use super::guests::Stray;
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
-use super::spans::{Drawn, Known, Line, Span, colour};
+use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
 use crate::active::next;
 use crate::link::Link;
 use crate::look::{Look, WordOf};
@@ -28,7 +29,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.changed {
             self.mark_values(out.view);
         }
-        if !self.has_values(out.view) {
+        if !self.has_values(out) {
             return false;
         }
         fill_line::<L>(out.pixels, background);
@@ -87,21 +88,27 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         None
     }
 
-    /// Whether a draw call on this line has values.
-    fn has_values(&self, view: &View<'_>) -> bool {
+    /// Whether a draw call with pixels on this line has values.
+    fn has_values(&self, out: &Line<'_, '_, WordOf<L>>) -> bool {
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
-                let i = take_first(&mut others) as usize & 31;
-                if Flags(self.cache.slots[word][i].flags).has_values() {
-                    return true;
+                let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
+                if Flags(slot.flags).has_values() {
+                    let Span { start, end } = columns_of::<L>(slot, out);
+                    if start < end {
+                        return true;
+                    }
                 }
             }
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            if view.has_values(at.object()) {
-                return true;
+            if out.view.has_values(at.object()) {
+                let stray = Stray::of(at.object(), out);
+                if stray.is_some_and(|stray| !stray.has_ended(out)) {
+                    return true;
+                }
             }
             at = next(self.links, at);
         }

@@ -136,10 +136,10 @@ impl<F: Pixel> Gouraud<F> {
             green: planes[4] << 4,
         };
         let step = planes[6];
-        each_part(run, off, |part, off| {
+        each_packed::<F>(run, off, |off| {
             let word = at.word().wrapping_add(step.wrapping_mul(off));
-            ramp::fill::<F>(part, Packed { word, step });
             at = at.plus(sixteen);
+            Packed { word, step }
         });
     }
 
@@ -160,13 +160,17 @@ impl<F: Pixel> Gouraud<F> {
         if course.is_even() {
             return ramp::fill_even::<F>(run, course.even::<F>());
         }
+        if F::MADE_OF.is_one_word() {
+            let step = course.step.map(|step| (step as u32) << 4);
+            return each_packed::<F>(run, off, |off| {
+                let packed = course.packed(off);
+                course.advance(step);
+                packed
+            });
+        }
         each_part(run, off, |part, off| {
-            if F::MADE_OF.is_one_word() {
-                ramp::fill::<F>(part, course.packed(off));
-            } else {
-                let [at, step] = course.pair(off);
-                ramp::fill_pair::<F>(part, at, step);
-            }
+            let [at, step] = course.pair(off);
+            ramp::fill_pair::<F>(part, at, step);
             course.skip(16);
         });
     }
@@ -199,6 +203,26 @@ fn each_part<W>(run: &mut [W], mut off: u32, mut f: impl FnMut(&mut [W], u32)) {
         let (part, after) = rest.split_at_mut(pixels);
         f(part, off);
         (rest, off) = (after, 0);
+    }
+}
+
+/// [`each_part`] by colours in one word: `next` is asked for each anchor's, so many pixels on.
+#[inline(always)]
+fn each_packed<F: Pixel>(run: &mut [F::Word], off: u32, mut next: impl FnMut(u32) -> Packed) {
+    let pixels = if off == 0 { 0 } else { 16 - off as usize };
+    let (first, rest) = run.split_at_mut(pixels.min(run.len()));
+    if !first.is_empty() {
+        ramp::fill::<F>(first, next(off));
+    }
+    let mut parts = rest.chunks_exact_mut(16);
+    for part in parts.by_ref() {
+        if let Ok(part) = <&mut [F::Word; 16]>::try_from(part) {
+            ramp::fill_sixteen::<F>(part, next(0));
+        }
+    }
+    let last = parts.into_remainder();
+    if !last.is_empty() {
+        ramp::fill::<F>(last, next(0));
     }
 }
 
@@ -252,6 +276,14 @@ impl Course {
     pub(super) fn skip(&mut self, pixels: u32) {
         for (value, step) in self.value.iter_mut().zip(self.step) {
             *value = value.wrapping_add((step as u32).wrapping_mul(pixels));
+        }
+    }
+
+    /// On by such a step.
+    #[inline(always)]
+    fn advance(&mut self, step: [u32; 3]) {
+        for (value, step) in self.value.iter_mut().zip(step) {
+            *value = value.wrapping_add(step);
         }
     }
 

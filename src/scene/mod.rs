@@ -6,6 +6,7 @@
 //! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
+//! | `own` | triangles with vertices of their own |
 //! | `check` | what is wrong with a draw call |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
 //! | `master` | what a supervisor has switched off |
@@ -19,12 +20,14 @@
 //! | `block`, `block_cache` | texels in blocks of slow memory, and a small cache of them |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
+//! | `alpha` | alpha of vertices and of texels, which a blend may ask for |
 //! | `late` | what is not drawn among what is opaque |
 //! | `read` | what was filed, for other readers than pass two |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
+mod alpha;
 mod assemble;
 mod blend;
 mod block;
@@ -41,6 +44,7 @@ mod form;
 mod late;
 mod lights;
 mod master;
+mod own;
 mod pass;
 mod project;
 mod read;
@@ -54,13 +58,15 @@ mod tests;
 mod texgen;
 mod texture;
 
-pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
+pub use crate::geometry::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
+pub use alpha::MaskTexel;
+pub(crate) use alpha::{Alphas, PixelAlpha};
 pub use blend::{Blend, BlendMode, Factor};
 pub use block::Blocked;
 pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
 pub use computed::{Checker, Gradient, TexelWay, Texels};
-pub use depth::DepthTest;
+pub use depth::{DepthFunction, DepthTest};
 pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
@@ -73,9 +79,9 @@ pub use read::{FiledCorner, FiledTriangle};
 pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
-pub(crate) use sampling::{Method, SampledSpan};
+pub(crate) use sampling::{Method, SampledSpan, Words};
 pub use scissor::Scissor;
-pub use screen::ScreenCorner;
+pub use screen::{ScreenCorner, ScreenVertex};
 pub use shadow::Shadow;
 pub use texgen::TexGen;
 pub(crate) use texture::half;
@@ -119,6 +125,12 @@ pub struct Assembled {
     pub dropped: u32,
     /// Pieces of triangles that stretch over more than 4,096 texels, and are drawn without their texture.
     pub untextured: u32,
+    /// Meshes that [`draw_within`](Scene::draw_within) has not looked at. Their triangles are among the culled.
+    pub meshes_skipped: u32,
+    /// Triangles of these meshes.
+    pub triangles_skipped: u32,
+    /// Vertices of these meshes: neither transformed nor lit.
+    pub vertices_skipped: u32,
 }
 
 impl Assembled {

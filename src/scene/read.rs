@@ -148,7 +148,9 @@ mod tests {
     fn read<'t, L: crate::look::Look>(
         draws: &[Draw<'_, 't>],
     ) -> (Vec<FiledTriangle>, Vec<DrawState<'t>>) {
-        let (mut vertices, mut places) = ([Vertex::EMPTY; 32], [TexturePlace::EMPTY; 32]);
+        // Places of what was drawn before.
+        let stale = TexturePlace::new([5 << 14; 2], [1; 2]);
+        let (mut vertices, mut places) = ([Vertex::EMPTY; 32], [stale; 32]);
         let (mut objects, mut bins) = ([Object::EMPTY; 16], [NONE; 120]);
         let mut states = [DrawState::EMPTY; 4];
         let memory = Memory {
@@ -181,8 +183,8 @@ mod tests {
         (0..4).find(is).unwrap()
     }
 
-    /// Dies of another origin, a depth in other units or of the wrong corner, colours in steps of the pixel format, and
-    /// of texture places in other units: all within what rounding leaves of f64.
+    /// Dies of another origin, texture places in other units, and of those of another call: all within what rounding leaves
+    /// of f64.
     #[test]
     fn corners_are_where_f64_sees_them() {
         static TEXELS: [u16; 64] = [0; 64];
@@ -197,7 +199,10 @@ mod tests {
             ..plain
         };
         let of_colours = read::<Gouraud<Rgb888>>(&[plain]).0;
-        let of_texels = read::<Textured<Rgb565>>(&[textured]).0;
+        let mut of_texels = read::<Textured<Rgb565>>(&[textured, plain]).0;
+        for corner in of_texels.split_off(2).iter().flat_map(|t| t.corners) {
+            assert_eq!((corner.texel, corner.fine), ([0; 2], [0; 2]));
+        }
         for (triangles, has_texture) in [(of_colours, false), (of_texels, true)] {
             assert_eq!(triangles.len(), 2);
             for (triangle, face) in triangles.iter().zip(FACES) {
@@ -232,8 +237,8 @@ mod tests {
         }
     }
 
-    /// Dies where calls are numbered by their objects, where lines are off by one, and where a call that has more than
-    /// colours is taken for one that has not.
+    /// Dies where calls are numbered by their objects, and where a call that has more than colours is taken for one that
+    /// has not.
     #[test]
     fn triangles_are_those_of_their_calls_and_lines() {
         let plain = Draw::new(mesh());
@@ -258,6 +263,30 @@ mod tests {
                 let middle = 8 * line + 4;
                 let is_between = top < middle && middle <= bottom;
                 assert_eq!(triangle.lines().contains(&line), is_between, "{triangle:?}");
+            }
+        }
+    }
+
+    /// A corner on a line's middle is not above it at the top, and not below it at the bottom.
+    #[test]
+    fn a_line_belongs_to_what_ends_on_its_middle() {
+        for (a, b) in (-20..40_i16).flat_map(|a| (a..40).map(move |b| (a, b))) {
+            let corner = |y| FiledCorner {
+                y,
+                ..FiledCorner::default()
+            };
+            let triangle = FiledTriangle {
+                corners: [corner(a), corner(b), corner(a)],
+                call: 0,
+            };
+            for line in -5..6 {
+                let middle = 8 * line + 4;
+                let is_between = i32::from(a) < middle && middle <= i32::from(b);
+                assert_eq!(
+                    triangle.lines().contains(&line),
+                    is_between,
+                    "{a} {b} {line}"
+                );
             }
         }
     }

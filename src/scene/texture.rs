@@ -56,6 +56,8 @@ pub enum TextureError {
         /// Its height.
         height: u32,
     },
+    /// A mask has other sides, another form or another number of levels than its texture.
+    Mask,
     /// Fewer colours than an index can name.
     Palette {
         /// Colours that an index can name.
@@ -84,6 +86,7 @@ impl fmt::Display for TextureError {
                     "texture: level {level} has {width}x{height} texels, not half the sides of the one before"
                 );
             }
+            Self::Mask => return f.write_str("texture: its mask is not of the same form"),
             Self::Words { needed, have } => (needed, have, "words"),
             Self::Bytes { needed, have } => (needed, have, "bytes"),
             Self::Palette { needed, have } => (needed, have, "colours of the palette"),
@@ -116,10 +119,12 @@ pub struct Texture<'t> {
     square: u8,
     /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
     /// sampled.
-    spare: u8,
-    wrap: Wrap,
-    key: Option<u16>,
-    sampling: Option<Sampling>,
+    pub(super) spare: u8,
+    pub(super) wrap: Wrap,
+    pub(super) key: Option<u16>,
+    pub(super) sampling: Option<Sampling>,
+    /// What its texels say of themselves beside their colour: of the same form, sides and levels.
+    pub(super) mask: Option<&'t Texture<'t>>,
     /// Each half of the one before.
     coarser: &'t [Texture<'t>],
 }
@@ -220,6 +225,7 @@ impl<'t> Texture<'t> {
             wrap: Wrap::Repeat,
             key: None,
             sampling: None,
+            mask: None,
             coarser: &[],
         }
     }
@@ -307,7 +313,7 @@ impl<'t> Texture<'t> {
     /// their key are those of the texture.
     ///
     /// # Errors
-    /// A level of other sides.
+    /// A level of other sides; a [mask](Texture::masked) with another number of levels.
     pub const fn sampled(
         self,
         sampling: Sampling,
@@ -327,6 +333,9 @@ impl<'t> Texture<'t> {
                 });
             }
             i += 1;
+        }
+        if self.has_mask_of_other_levels(coarser.len()) {
+            return Err(TextureError::Mask);
         }
         let sampling = Some(sampling);
         Ok(Self {

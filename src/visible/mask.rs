@@ -117,6 +117,18 @@ impl Mask {
         any != 0
     }
 
+    /// Those of `start .. end` that the mask has, and no others: half of what a copy of the mask takes.
+    #[inline(never)]
+    pub(crate) fn part(&self, start: u32, end: u32) -> Self {
+        let mut part = Self::EMPTY;
+        let zero = black_box(0);
+        for words in part.0.chunks_exact_mut(8) {
+            words.copy_from_slice(&[zero; 8]);
+        }
+        each_word(start, end, |word, bits| part.0[word] = self.0[word] & bits);
+        part
+    }
+
     /// Whether the mask has any of `start .. end`.
     #[inline(always)]
     pub(crate) fn meets(&self, start: u32, end: u32) -> bool {

@@ -18,10 +18,12 @@ pub enum Frame {
     Shot(Variant),
     /// Scene B on the upright sphere.
     B(SceneB),
+    /// A shot by the hardware model.
+    Model(Shot),
 }
 
 /// Every frame, in the order in which they are drawn: the suite, what few draw calls have, lists, all other shots,
-/// those of stress too, then what the cache and its renderers must not change, and faces of one colour, and scene B.
+/// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, and one by the hardware model.
 pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
     let suite = SUITE.map(|suite| (suite.name(), Frame::Suite(suite)));
     let values = VALUES.map(|(name, values)| (name, Frame::Values(values)));
@@ -35,4 +37,5 @@ pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
         .chain(played)
         .chain(shots.map(|how| (how.name, Frame::Shot(how))))
         .chain(SCENES_B.map(|scene| (scene.name, Frame::B(scene))))
+        .chain([("teapot_model", Frame::Model(Shot::Teapot))])
 }

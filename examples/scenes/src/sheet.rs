@@ -1,7 +1,7 @@
 //! A random sheet of triangles over the whole picture, for the proof that no pixel is missed and
 //! none is hit twice (K4).
 
-use crate::{Canvas, HEIGHT, LeanLook, Shot, ShotError, WIDTH};
+use crate::{HEIGHT, LeanLook, Shot, ShotError, WIDTH};
 use scanbeam::frame::LineError;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::Blend;
@@ -131,7 +131,8 @@ impl Sheet {
         mut look: impl FnMut(u16),
     ) -> Result<(), SheetError> {
         let camera = Camera::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 160.0, 0.1, 9.0);
-        Canvas::begin(scene, &camera.map_err(ShotError::Camera)?)?;
+        let camera = camera.map_err(ShotError::Camera)?;
+        scene.begin(&camera).map_err(ShotError::Begin)?;
         let mesh = Mesh {
             positions: &self.positions,
             normals: &[],
@@ -144,7 +145,7 @@ impl Sheet {
             blend,
             ..Draw::new(mesh)
         };
-        Canvas::draw(scene, &call)?;
+        scene.draw(&call).map_err(ShotError::Draw)?;
         renderer.restart();
         let mut pixels = [0; WIDTH as usize];
         for line in 0..HEIGHT {

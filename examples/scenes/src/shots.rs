@@ -1,10 +1,10 @@
 //! The frames that are drawn on the host and on every target, and compared bit for bit.
 
 use crate::suite::{self, Suite};
-use crate::{CUBE, CUBE_QUADS, Canvas, RIBBON, SPHERE, stress};
-use scanbeam::pipeline::{DrawError as PresetDrawError, SceneError};
+use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, stress};
+use scanbeam::look::Look;
 use scanbeam::scene::{BeginError, CacheError, DrawError, Shading, TextureError};
-use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Light, Mesh, Screen};
+use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Light, Mesh, Scene, Screen};
 
 /// Pixels a line of every shot.
 pub const WIDTH: u16 = 320;
@@ -142,7 +142,6 @@ pub const VARIANTS: [Variant; 10] = [
     },
     Variant {
         renderers: 2,
-        ahead: 500,
         ..Variant::with("sphere_two", Shot::Sphere, 43)
     },
     Variant::with("crowd_cache0", Shot::Crowd, 0),
@@ -167,28 +166,6 @@ pub const SHOTS: [Shot; 5] = [
     Shot::Inside,
 ];
 
-/// How depth is kept where it is not 32 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeepsDepth {
-    /// In 16 bits of block-fix (H2).
-    BlockFix,
-    /// In 16 bits, in one word with the pixel (K8).
-    Word,
-    /// With the name of the object, whose pixels are shaded when all are known (X3).
-    Deferred,
-}
-
-/// Shots that are drawn with other depths, on every line, by the name that reports use.
-pub const DEPTHS: [(&str, Shot, KeepsDepth); 6] = [
-    ("quads_block_fix", Shot::Quads, KeepsDepth::BlockFix),
-    // Its layers lie in two ranges.
-    ("c_block_fix", Shot::FarToNear, KeepsDepth::BlockFix),
-    ("teapot_deferred", Shot::Teapot, KeepsDepth::Deferred),
-    ("c_deferred", Shot::FarToNear, KeepsDepth::Deferred),
-    ("quads_word", Shot::Quads, KeepsDepth::Word),
-    ("c_word", Shot::FarToNear, KeepsDepth::Word),
-];
-
 /// Why a shot could not be built; none of them fails where the memory is as large as said here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShotError {
@@ -204,10 +181,6 @@ pub enum ShotError {
     Cache(CacheError),
     /// Sprites are not in order.
     Sprites,
-    /// It was not begun, by a preset.
-    PresetScene(SceneError),
-    /// A part was not drawn, by a preset.
-    Preset(PresetDrawError),
 }
 
 impl From<CameraError> for ShotError {
@@ -216,15 +189,15 @@ impl From<CameraError> for ShotError {
     }
 }
 
-impl From<SceneError> for ShotError {
-    fn from(error: SceneError) -> Self {
-        Self::PresetScene(error)
+impl From<BeginError> for ShotError {
+    fn from(error: BeginError) -> Self {
+        Self::Begin(error)
     }
 }
 
-impl From<PresetDrawError> for ShotError {
-    fn from(error: PresetDrawError) -> Self {
-        Self::Preset(error)
+impl From<DrawError> for ShotError {
+    fn from(error: DrawError) -> Self {
+        Self::Draw(error)
     }
 }
 
@@ -275,7 +248,7 @@ impl Shot {
     ///
     /// # Errors
     /// When the scene's memory is smaller than [`VERTICES`], [`OBJECTS`] and [`DRAWS`].
-    pub fn build(self, scene: &mut impl Canvas) -> Result<(), ShotError> {
+    pub fn build<L: Look>(self, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
         self.build_shaded(Shading::Smooth, scene)
     }
 
@@ -283,16 +256,20 @@ impl Shot {
     ///
     /// # Errors
     /// As [`build`](Shot::build); faces of one colour take three vertices each, which have to have room too.
-    pub fn build_shaded(self, shading: Shading, scene: &mut impl Canvas) -> Result<(), ShotError> {
+    pub fn build_shaded<L: Look>(
+        self,
+        shading: Shading,
+        scene: &mut Scene<'_, '_, L>,
+    ) -> Result<(), ShotError> {
         let lit = |mesh, model| lit(mesh, model, shading);
         let open = |mesh, model| open(mesh, model, shading);
         let looking =
             |eye, focal, near| Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], focal, near, 100.0);
         match self {
-            Self::Teapot => Suite::Teapot.build_shaded(shading, scene),
+            Self::Teapot => Suite::Teapot.build_shaded(shading, scene)?,
             Self::Cube => {
                 scene.begin(&looking([1.5, 2.0, 4.0], 260.0, 0.1)?)?;
-                scene.draw(&lit(CUBE, Affine::rotation_y(0.3)))
+                scene.draw(&lit(CUBE, Affine::rotation_y(0.3)))?;
             }
             Self::Sphere => {
                 let (camera, light) = Self::sphere_camera()?;
@@ -301,23 +278,24 @@ impl Shot {
                     light,
                     shading,
                     ..Draw::new(SPHERE)
-                })
+                })?;
             }
             Self::Quads => {
                 scene.begin(&looking([0.8, 1.4, 3.6], 240.0, 0.1)?)?;
                 scene.draw(&open(RIBBON, Affine::rotation_y(0.4)))?;
                 let small = Affine::placed(0.45, [0.1, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
-                scene.draw(&open(CUBE_QUADS, Affine::rotation_x(0.5).then(&small)))
+                scene.draw(&open(CUBE_QUADS, Affine::rotation_x(0.5).then(&small)))?;
             }
-            Self::Inside => Suite::Inside.build_shaded(shading, scene),
-            Self::FarToNear => Suite::FarToNear.build_shaded(shading, scene),
-            Self::NearToFar => Suite::NearToFar.build_shaded(shading, scene),
+            Self::Inside => Suite::Inside.build_shaded(shading, scene)?,
+            Self::FarToNear => Suite::FarToNear.build_shaded(shading, scene)?,
+            Self::NearToFar => Suite::NearToFar.build_shaded(shading, scene)?,
             Self::Crowd => {
                 scene.begin(&looking([0.0, 0.4, 5.0], 300.0, 0.1)?)?;
-                crowd(shading, scene)
+                crowd(shading, scene)?;
             }
-            Self::Slivers | Self::Giants | Self::Crossings => stress::build(self, shading, scene),
+            Self::Slivers | Self::Giants | Self::Crossings => stress::build(self, shading, scene)?,
         }
+        Ok(())
     }
 }
 
@@ -340,7 +318,7 @@ fn open(mesh: Mesh<'static>, model: Affine, shading: Shading) -> Draw<'static, '
 }
 
 /// [`DRAWS`] small cubes at random places.
-fn crowd(shading: Shading, scene: &mut impl Canvas) -> Result<(), ShotError> {
+fn crowd<L: Look>(shading: Shading, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
     let mut seed = 1u32;
     let mut next = |reach: f32| {
         seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -353,14 +331,4 @@ fn crowd(shading: Shading, scene: &mut impl Canvas) -> Result<(), ShotError> {
         scene.draw(&open(CUBE, turn.then(&place), shading))?;
     }
     Ok(())
-}
-
-/// Draws the shot of the teapot into `scene`: for a firmware that has no other, since the code of
-/// [`Shot::build`] is that of all shots.
-///
-/// # Errors
-/// As [`Shot::build`].
-pub fn teapot(scene: &mut impl Canvas) -> Result<(), ShotError> {
-    scene.begin(&Suite::Teapot.view().camera()?)?;
-    scene.draw(&suite::teapot_part().draw())
 }

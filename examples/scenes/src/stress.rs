@@ -1,9 +1,10 @@
 //! Random triangles at the ends of what numbers hold, drawn on the host and on every target (M3,
 //! X1).
 
-use crate::{Canvas, Shot, ShotError};
+use crate::{Shot, ShotError};
+use scanbeam::look::Look;
 use scanbeam::scene::Shading;
-use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh};
+use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Scene};
 
 /// The shots of this file.
 pub const STRESS: [Shot; 3] = [Shot::Slivers, Shot::Giants, Shot::Crossings];
@@ -36,10 +37,10 @@ const ONE: i32 = 1 << 30;
 ///
 /// The camera is at the origin and looks along -z: 160 pixels of focal length, so the picture is
 /// 2 by 1.5 at distance 1.
-pub(crate) fn build(
+pub(crate) fn build<L: Look>(
     shot: Shot,
     shading: Shading,
-    scene: &mut impl Canvas,
+    scene: &mut Scene<'_, '_, L>,
 ) -> Result<(), ShotError> {
     let (near, far) = if shot == Shot::Crossings {
         (0.03, 64.0)
@@ -102,9 +103,9 @@ pub(crate) fn build(
 }
 
 /// One triangle in random colours, its model scaled.
-fn triangle(
+fn triangle<L: Look>(
     shading: Shading,
-    scene: &mut impl Canvas,
+    scene: &mut Scene<'_, '_, L>,
     random: &mut Random,
     positions: [[i32; 3]; 3],
     scale: f32,
@@ -120,5 +121,6 @@ fn triangle(
         cull: Cull::None,
         shading,
         ..Draw::new(mesh)
-    })
+    })?;
+    Ok(())
 }

@@ -17,16 +17,12 @@
 use crate::scene_b::{PLACES, TEXELS_PANEL};
 use crate::shots::{LAYER, LAYER_COLOURS, LAYERS, NEAREST_LAYER};
 use crate::texels::TEXEL_SIDE;
-use crate::{CUBE, Canvas, FINE_SPHERE, SPHERE, ShotError, TEAPOT};
+use crate::{CUBE, FINE_SPHERE, SPHERE, ShotError, TEAPOT};
+use scanbeam::look::Look;
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::texture::{Quality, Skin as PresetSkin, Square64, Textured};
-use scanbeam::pipeline::{Gouraud, Instance, Pipeline, Scene, TexturedDepth};
-use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Budget, Shading, Skin, Texture};
-use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Faces, Light, Mesh};
+use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Faces, Light, Mesh, Scene};
 
-/// Slots of the object cache that the suite is measured with.
-pub const SUITE_SLOTS: usize = 64;
 /// Lines of a transfer that the suite is measured with.
 pub const SUITE_LINES: u16 = 1;
 /// Vertices that suffice for every scene of the suite.
@@ -50,12 +46,6 @@ pub static TEXELS_F_PANEL: [u16; 4096] = {
     }
     texels
 };
-
-/// What scene F is drawn with: as an SPI panel takes it.
-pub type LookF = TexturedDepth<'static, Rgb565Be, Square64<'static, u16>>;
-
-/// The texture of scene F for a scene.
-pub static TEXTURES_F: [Square64<'static, u16>; 1] = [Square64::new(&TEXELS_F_PANEL)];
 
 const fn texels_f() -> [u16; 4096] {
     let mut texels = [0; 4096];
@@ -172,16 +162,6 @@ impl Part {
             light: self.light,
             colour: self.colour,
             ..Draw::new(self.mesh)
-        }
-    }
-
-    /// As an instance of a preset.
-    fn instance(&self) -> Instance {
-        Instance {
-            model: self.model,
-            cull: self.cull,
-            light: self.light,
-            colour: self.colour,
         }
     }
 }
@@ -444,7 +424,7 @@ impl Suite {
     /// # Errors
     /// When the memory is less than [`SUITE_VERTICES`], [`SUITE_OBJECTS`], [`SUITE_DRAWS`] and a bin a line, and when it
     /// has a texture and the look has none.
-    pub fn build(self, scene: &mut impl Canvas) -> Result<(), ShotError> {
+    pub fn build<L: Look>(self, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
         self.build_shaded(Shading::Smooth, scene)
     }
 
@@ -452,7 +432,13 @@ impl Suite {
     ///
     /// # Errors
     /// As [`build`](Suite::build); faces of one colour take three vertices each, which have to have room too.
-    pub fn build_shaded(self, shading: Shading, scene: &mut impl Canvas) -> Result<(), ShotError> {
+    // So that a program that draws smooth faces alone has no code for others.
+    #[inline(always)]
+    pub fn build_shaded<L: Look>(
+        self,
+        shading: Shading,
+        scene: &mut Scene<'_, '_, L>,
+    ) -> Result<(), ShotError> {
         scene.begin(&self.view().camera()?)?;
         let texture = self.texture();
         for index in 0..self.parts() {
@@ -467,32 +453,6 @@ impl Suite {
                 shading,
                 ..part.draw()
             })?;
-        }
-        Ok(())
-    }
-
-    /// Draws it into the scene of a preset, with the scene's texture 0, which must be that of
-    /// [`texels`](Suite::texels).
-    ///
-    /// # Errors
-    /// As [`build`](Suite::build).
-    pub fn build_textured<P>(
-        self,
-        quality: Quality,
-        scene: &mut Scene<'_, P>,
-    ) -> Result<(), ShotError>
-    where
-        P: Pipeline<Shading = Textured<Gouraud>>,
-    {
-        scene.begin(&self.view().camera()?)?;
-        for index in 0..self.parts() {
-            let part = self.part(index);
-            let skin = PresetSkin {
-                places: part.places,
-                texture: 0,
-                quality,
-            };
-            scene.draw_skinned(&part.mesh, skin, &part.instance())?;
         }
         Ok(())
     }

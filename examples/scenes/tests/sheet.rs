@@ -5,7 +5,7 @@ use scanbeam::scene::{DrawState, Memory, Object, Vertex};
 use scanbeam::{Link, Renderer, Scene};
 use scenes::{Hits, LeanLook, SHEET_TRIANGLES, SHEETS, Sheet, Shot};
 
-/// Kills: an edge that takes the pixel whose middle it goes through from both sides, or from neither.
+/// Kills: a side that turns a line late (`turn` in `span/triangle.rs`).
 #[test]
 fn every_pixel_of_a_sheet_is_hit_once() {
     let mut vertices = vec![Vertex::EMPTY; SHEET_TRIANGLES];

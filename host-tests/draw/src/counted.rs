@@ -4,9 +4,10 @@ use crate::DrawFailure;
 use crate::parts::{Job, MOST_OBJECTS, MOST_VERTICES, Tile, tiles};
 use crate::prepared::Chunk;
 use host_support::rooms::{Room, SceneRooms};
-use scanbeam::Scene;
 use scanbeam::look::Look;
 use scanbeam::scene::DrawError;
+use scanbeam::{Camera, Scene};
+use std::ops::Range;
 
 /// Triangles that are drawn at a time: with the vertices of a part, and 20 more for each that is flat and clipped, they
 /// are below 65,536.
@@ -54,7 +55,10 @@ pub(crate) fn count_triangles<'t, L: Look>(
         .map(|chunk| vec![Mark::default(); faces(chunk)])
         .collect();
     for tile in tiles(job) {
-        let camera = tile.camera(job)?;
+        let camera = match tile.camera(job) {
+            Err(_) if job.is_ahead => continue,
+            camera => camera?,
+        };
         let mut memory = SceneRooms::new(room, tile.size[1]);
         let mut scene = memory.scene::<L>(tile.screen()?);
         for (number, (chunk, marks)) in counted.iter().zip(&mut found).enumerate() {
@@ -85,6 +89,42 @@ pub(crate) fn count_triangles<'t, L: Look>(
     }
     Ok(all)
 }
+
+/// The lines of a tile that each triangle of each part of the model may be on, each drawn alone.
+pub(crate) fn lines_of_faces<'t, L: Look>(
+    camera: &Camera,
+    tile: &Tile,
+    counted: &[Option<&Chunk>],
+    step: &mut impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+) -> Result<Vec<Vec<Range<i32>>>, DrawFailure> {
+    let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
+    let room = Room {
+        vertices: ONE,
+        places: if L::TEXTURED { ONE } else { 0 },
+        objects: ONE,
+        draws: 1,
+    };
+    let mut memory = SceneRooms::new(room, tile.size[1]);
+    let mut scene = memory.scene::<L>(tile.screen()?);
+    let mut all = Vec::new();
+    for (number, chunk) in counted.iter().enumerate() {
+        let mut of_chunk = Vec::new();
+        for face in 0..chunk.map_or(0, |chunk| chunk.faces.len()) {
+            let part = chunk.map(|chunk| chunk.alone(face));
+            scene.begin(camera).map_err(|error| bad(&error))?;
+            let drawn = step(&mut scene, tile, number, part.as_ref());
+            drawn.map_err(|error| bad(&error))?;
+            let lines = scene.triangles().map(|triangle| triangle.lines());
+            let both = |a: Range<i32>, b: Range<i32>| a.start.min(b.start)..a.end.max(b.end);
+            of_chunk.push(lines.reduce(both).unwrap_or_default());
+        }
+        all.push(of_chunk);
+    }
+    Ok(all)
+}
+
+/// Room for a triangle, flat and clipped.
+const ONE: usize = 64;
 
 impl Triangles {
     /// Adds what a tile has of a part of the model. Where there are marks, its triangles are marked and not counted.

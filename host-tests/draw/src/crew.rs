@@ -3,7 +3,6 @@
 //! Threads share the scene by reference and nothing else; what each draws comes back through a
 //! channel, and this thread sends it in order.
 
-use crate::parts::add_cache;
 use scanbeam::frame::{self, FrameError, FrameUse, LineError};
 use scanbeam::look::Look;
 use scanbeam::pixel::Pixel;
@@ -69,13 +68,14 @@ where
         Ok::<_, FrameError<<D as ErrorType>::Error>>(())
     })?;
     for renderer in renderers {
-        add_cache(&mut used.cache, &renderer.counts());
+        used.cache += renderer.counts();
     }
     used.scan_out = pump.stats();
     Ok(used)
 }
 
-/// Draws a renderer's own lines of a scene, until nobody takes them: those of a frame that has failed.
+/// Draws a renderer's own lines of a scene, and fetches ahead after each, until nobody takes them: those of a frame that
+/// has failed.
 fn draw_lines<L, F, const WORDS: usize>(
     scene: &Scene<'_, '_, L>,
     renderer: &mut Renderer<'_, L, WORDS>,
@@ -90,7 +90,8 @@ fn draw_lines<L, F, const WORDS: usize>(
     for line in own {
         let mut pixels = vec![background; scene.screen().width().into()];
         let is_active = renderer.draw_line(scene, line, &mut pixels, background);
-        if sender.send(is_active.map(|is| (pixels, is))).is_err() {
+        let sent = sender.send(is_active.map(|is| (pixels, is)));
+        if sent.is_err() || renderer.fetch_ahead(scene).is_err() {
             break;
         }
     }

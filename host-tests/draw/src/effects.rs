@@ -348,7 +348,7 @@ impl Task<'_> {
             ..chunk.mesh()
         };
         let dark = self.looks.len();
-        scene.draw(&Draw {
+        let draw = Draw {
             model: self.setting.model,
             cull: self.setting.cull,
             colour: looks.colour,
@@ -374,7 +374,8 @@ impl Task<'_> {
             shadow: in_shadow.then_some(Shadow::Shadowed(LIGHT)),
             dither: self.dither,
             ..Draw::new(mesh)
-        })
+        };
+        scene.draw_within(&draw, &chunk.sphere).map(drop)
     }
 
     fn job(&self, steps: usize) -> Job {
@@ -391,6 +392,8 @@ impl Task<'_> {
         room.draws = steps + 3 * self.shadows.len();
         Job {
             shadows: casts,
+            // What throws a shadow throws it anywhere.
+            is_ahead: !casts && self.setting.is_ahead,
             ..Job::new(self.view, self.setting.camera, self.crew, room)
         }
     }

@@ -16,7 +16,6 @@ pub mod scene_file;
 mod scenes;
 mod setting;
 mod textured;
-pub mod traffic;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
@@ -125,6 +124,8 @@ pub struct Figures {
     pub objects: usize,
     /// Vertices of the whole picture, likewise.
     pub vertices: usize,
+    /// Bytes that a renderer reads of a triangle with its corners.
+    pub record_bytes: u32,
     /// Most bytes of slow memory in use: the scene, and a column of links for each renderer.
     pub slow_bytes: usize,
     /// Bytes of fast memory: slots of the caches and depth of a line, for each renderer.
@@ -143,8 +144,6 @@ pub struct Drawn {
     pub used: FrameUse,
     /// Spans and pixels, likewise together, where they were counted.
     pub spans: Option<SpanCounts>,
-    /// Bytes that pass two read from slow memory, and wrote there, reckoned where spans were counted.
-    pub slow_bytes: Option<[u64; 2]>,
     /// Memory.
     pub figures: Figures,
     /// What is left out.
@@ -157,7 +156,7 @@ impl Drawn {
     /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them are on no line of the
     /// picture or show their back. `objects_kept` are the records made of the others, more where clipping cuts, and in
     /// a picture of more than 1016 columns or lines more where parts of it share a triangle; `vertices_kept` are
-    /// theirs. Of the cache, `hits` are spans drawn from a slot, and `misses` those that were set up for their line.
+    /// theirs. What was `skipped`, since its part of the model is out of sight, counts in each part of the picture. Of the cache, `hits` are spans drawn from a slot, and `misses` those that were set up for their line.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
         let (done, cache, sent) = (&self.used.assembled, &self.used.cache, &self.used.scan_out);
@@ -168,6 +167,9 @@ impl Drawn {
             "objects_clipped": done.clipped,
             "objects_kept": figures.objects,
             "vertices_kept": figures.vertices,
+            "objects_skipped": done.triangles_skipped,
+            "meshes_skipped": done.meshes_skipped,
+            "vertices_skipped": done.vertices_skipped,
             "scanlines_skipped": self.used.lines_skipped,
             "bytes_sent": sent.bytes_sent,
             "lines_unsent": sent.lines_unsent,
@@ -180,6 +182,10 @@ impl Drawn {
                 "spills": cache.spilled,
                 "moved_in": cache.moved_in,
                 "set_ups": cache.set_ups,
+                "prefetched": cache.fetched,
+                "prefetch_bytes": cache.fetched_bytes,
+                "slow_read_bytes": cache.slow_read_bytes(figures.record_bytes),
+                "slow_write_bytes": cache.slow_write_bytes(),
                 "peak_slots": cache.peak,
             },
             "ram": {
@@ -192,7 +198,6 @@ impl Drawn {
             all["spans"] = json!(spans.spans);
             all["spans_hidden"] = json!(spans.spans_hidden);
             all["spans_untested"] = json!(spans.spans_untested);
-            all["spans_flat"] = json!(spans.spans_flat);
             all["pixels_shaded"] = json!(spans.pixels_shaded);
             all["pixels_hidden"] = json!(spans.pixels_hidden);
             all["depth_tests"] = json!(spans.depth_tests);
@@ -201,10 +206,6 @@ impl Drawn {
             let share = 1000 * u64::from(hits) / u64::from(spans.spans.max(1));
             all["cache"]["hits"] = json!(hits);
             all["cache"]["hits_per_mille"] = json!(share);
-        }
-        if let Some([read, written]) = self.slow_bytes {
-            all["cache"]["slow_read_bytes"] = json!(read);
-            all["cache"]["slow_write_bytes"] = json!(written);
         }
         all
     }

@@ -114,14 +114,17 @@ impl Task<'_> {
         let (chunks, setting) = (&self.prepared.chunks, &self.setting);
         let is_flat = self.view.shade == Shade::Flat;
         let room = room_for(chunks.iter(), !textures.is_empty(), is_flat);
-        let job = Job::new(self.view, setting.camera, self.crew, room);
+        let job = Job {
+            is_ahead: setting.is_ahead,
+            ..Job::new(self.view, setting.camera, self.crew, room)
+        };
         let counted: Vec<_> = chunks.iter().map(Some).collect();
         draw_parts::<L, F>(&job, &counted, |scene, _, number, instead| {
             let chunk: &Chunk = instead.unwrap_or(&chunks[number]);
             let texture = chunk
                 .texture
                 .and_then(|number| textures.get(usize::from(number)));
-            scene.draw(&Draw {
+            let draw = Draw {
                 model: setting.model,
                 cull: setting.cull,
                 light: setting.light,
@@ -134,7 +137,8 @@ impl Task<'_> {
                 depth: self.crew.depth.test(),
                 dither: self.dither,
                 ..Draw::new(chunk.mesh())
-            })
+            };
+            scene.draw_within(&draw, &chunk.sphere).map(drop)
         })
     }
 }

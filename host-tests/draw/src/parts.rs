@@ -2,21 +2,21 @@
 //! lines where more is seen than the memory of a scene holds.
 
 use crate::choice::DepthArg;
-use crate::counted::count_triangles;
+use crate::counted::{count_triangles, lines_of_faces};
 use crate::prepared::Chunk;
-use crate::traffic::{Traffic, turns};
 use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
 use host_support::image_out::Frame;
 use host_support::mock::MockFrameBuffer;
 use host_support::reference::View;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::frame::{CacheUse, FastMemory, FrameUse};
+use scanbeam::frame::{FastMemory, FrameUse};
 use scanbeam::look::Look;
 use scanbeam::pixel::{Pixel, PixelFormat};
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::{DrawError, DrawState, LARGEST, Object, TexturePlace, Vertex};
 use scanbeam::stats::SpanCounts;
-use scanbeam::{Camera, Link, Scene, Screen};
+use scanbeam::{Camera, Link, Renderer, Scene, Screen};
+use std::ops::Range;
 
 /// Words of 32 slots that the cache of a renderer has.
 const WORDS: usize = MOST_SLOTS as usize / 32;
@@ -33,6 +33,8 @@ pub(crate) struct Job {
     pub(crate) crew: CrewSettings,
     /// Whether there are shadow volumes, and triangles are drawn more than once.
     pub(crate) shadows: bool,
+    /// Whether all is so far ahead that a tile which no camera sees shows none of it.
+    pub(crate) is_ahead: bool,
     /// Memory of a scene.
     pub(crate) room: Room,
 }
@@ -47,6 +49,7 @@ impl Job {
             background: view.background,
             crew,
             shadows: false,
+            is_ahead: false,
             room,
         }
     }
@@ -182,10 +185,9 @@ where
         rgb: vec![0; 3 * width as usize * height as usize],
         used: FrameUse::default(),
         spans: None,
-        traffic: None,
         figures: Figures::default(),
         overfull: None,
-        steps: counted.len(),
+        counted,
         step,
         by,
     };
@@ -203,9 +205,6 @@ where
             .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
         used: parts.used,
         spans: parts.spans,
-        slow_bytes: parts
-            .traffic
-            .map(|traffic| [traffic.read_bytes(L::TEXTURED), traffic.written_bytes()]),
         figures: parts.figures,
         overfull: parts.overfull,
     })
@@ -236,9 +235,15 @@ where
         .collect();
     let mut renderers: Vec<_> = rooms
         .iter_mut()
-        .map(|rooms| match job.crew.counts {
-            true => rooms.renderer().counting(),
-            false => rooms.renderer(),
+        .map(|rooms| {
+            let renderer = match job.crew.counts {
+                true => rooms.renderer().counting(),
+                false => rooms.renderer(),
+            };
+            match job.crew.prefetch {
+                0 => renderer,
+                bytes => renderer.fetching(bytes),
+            }
         })
         .collect();
     let background = F::from_rgb8(job.background);
@@ -260,27 +265,19 @@ where
     })
 }
 
-/// What the renderers of a crew have read and written for a scene.
-fn traffic_of<L: Look>(job: &Job, scene: &Scene<'_, '_, L>, used: &FrameUse) -> Traffic {
-    let turning = scene.triangles().filter(turns).count();
-    let (lines, renderers) = (scene.lines().len() as u64, job.crew.renderers.max(1).into());
-    Traffic::of(&used.cache, lines, renderers, [turning, scene.objects()])
-}
-
 /// A picture as its parts become ready.
-struct Parts<S, B> {
+struct Parts<'c, S, B> {
     rgb: Vec<u8>,
     used: FrameUse,
     spans: Option<SpanCounts>,
-    traffic: Option<Traffic>,
     figures: Figures,
     overfull: Option<Overfull>,
-    steps: usize,
+    counted: &'c [Option<&'c Chunk>],
     step: S,
     by: B,
 }
 
-impl<S, B> Parts<S, B> {
+impl<S, B> Parts<'_, S, B> {
     /// Draws a tile, in as many bands of lines as it takes.
     fn tile<'t, L, F>(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure>
     where
@@ -291,27 +288,42 @@ impl<S, B> Parts<S, B> {
     {
         let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
         let [width, height] = tile.size;
-        let camera = tile.camera(job)?;
+        // Where nothing is seen, from anywhere.
+        let camera = match tile.camera(job) {
+            Err(_) if job.is_ahead => None,
+            camera => Some(camera?),
+        };
+        let mut own_lines = None;
         let mut memory = SceneRooms::new(job.room, height);
         let mut scene = memory.scene::<L>(tile.screen()?);
         let (mut pump, lines) = display::<F::Word>(width, height);
         let (mut start, mut count) = (0, height);
         while start < height {
             count = count.min(height - start);
-            let begun = scene.begin_lines(&camera, start..start + count);
+            let lines_of_band = start..start + count;
+            let begun = scene.begin_lines(camera.as_ref().unwrap_or(&job.camera), lines_of_band);
             begun.map_err(|e| bad(&e))?;
-            let full = self.build(&mut scene, &tile, count > 1)?;
-            match full {
+            let full = match &camera {
+                Some(_) => self.build(&mut scene, &tile, count > 1, own_lines.as_deref())?,
+                None => None,
+            };
+            match (full, &camera) {
+                // Without vertices of triangles elsewhere.
+                (Some(_), Some(camera)) if own_lines.is_none() => {
+                    let lines = lines_of_faces(camera, &tile, self.counted, &mut self.step)?;
+                    own_lines = Some(lines);
+                    continue;
+                }
                 // Fewer lines have fewer triangles.
-                Some(_) if count > 1 => {
+                (Some(_), _) if count > 1 => {
                     count = count.div_ceil(2);
                     continue;
                 }
-                Some(first) => {
+                (Some(first), _) => {
                     let line = tile.first[1] as u16 + start;
                     self.is_overfull(line, first, scene.assembled().dropped);
                 }
-                None => {}
+                (None, _) => {}
             }
             let took = (self.by)(&scene, &mut pump, lines)?;
             add(&mut self.used, &took.used);
@@ -319,10 +331,6 @@ impl<S, B> Parts<S, B> {
                 *self.spans.get_or_insert_default() += spans;
             }
             self.figures.add(job, &scene, lines, took.fast_bytes);
-            if job.crew.counts {
-                let traffic = traffic_of(job, &scene, &took.used);
-                self.traffic.get_or_insert_default().add(&traffic);
-            }
             start += count;
         }
         let words = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
@@ -330,19 +338,27 @@ impl<S, B> Parts<S, B> {
         Ok(())
     }
 
-    /// Draws all that a scene has room for; what found none first. Where that is asked for, it stops there.
+    /// Draws all that a scene has room for, of parts of the model what may be on its lines, where that is known; what
+    /// found none first. Where that is asked for, it stops there.
     fn build<'t, L>(
         &mut self,
         scene: &mut Scene<'_, 't, L>,
         tile: &Tile,
         stops: bool,
+        own_lines: Option<&[Vec<Range<i32>>]>,
     ) -> Result<Option<DrawError>, DrawFailure>
     where
         S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
     {
         let mut full = None;
-        for step in 0..self.steps {
-            match (self.step)(scene, tile, step, None) {
+        let band = scene.lines();
+        let band = i32::from(band.start)..i32::from(band.end);
+        for (step, chunk) in self.counted.iter().enumerate() {
+            let part = chunk.zip(own_lines).map(|(chunk, lines)| {
+                let on_band = |lines: &Range<i32>| lines.start < band.end && band.start < lines.end;
+                chunk.only(|face| on_band(&lines[step][face]))
+            });
+            match (self.step)(scene, tile, step, part.as_ref()) {
                 Ok(()) => {}
                 Err(error @ DrawError::Full { .. }) => {
                     full.get_or_insert(error);
@@ -388,23 +404,16 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.assembled.clipped += one.assembled.clipped;
     all.assembled.dropped += one.assembled.dropped;
     all.assembled.untextured += one.assembled.untextured;
-    add_cache(&mut all.cache, &one.cache);
+    all.assembled.meshes_skipped += one.assembled.meshes_skipped;
+    all.assembled.triangles_skipped += one.assembled.triangles_skipped;
+    all.assembled.vertices_skipped += one.assembled.vertices_skipped;
+    all.cache += one.cache;
     all.lines_skipped += one.lines_skipped;
     all.scan_out.bytes_sent += one.scan_out.bytes_sent;
     all.scan_out.transfers += one.scan_out.transfers;
     all.scan_out.stall_polls += one.scan_out.stall_polls;
     all.scan_out.lines_unsent += one.scan_out.lines_unsent;
     all.scan_out.bytes_unsent += one.scan_out.bytes_unsent;
-}
-
-/// Adds what another cache has done.
-pub(crate) fn add_cache(all: &mut CacheUse, one: &CacheUse) {
-    all.hits += one.hits;
-    all.spilled += one.spilled;
-    all.moved_in += one.moved_in;
-    all.misses += one.misses;
-    all.set_ups += one.set_ups;
-    all.peak = all.peak.max(one.peak);
 }
 
 impl Figures {
@@ -422,6 +431,7 @@ impl Figures {
         let word = size_of::<<L::Pixel as PixelFormat>::Word>();
         let line = usize::from(scene.screen().width()) * usize::from(lines);
         self.parts += 1;
+        self.record_bytes = Renderer::<L, WORDS>::RECORD_BYTES;
         self.objects = self.objects.max(scene.objects());
         self.vertices = self.vertices.max(scene.vertices());
         self.slow_bytes = self.slow_bytes.max(slow);

@@ -2,6 +2,7 @@
 
 use super::TextureSet;
 use host_support::model::Model;
+use scanbeam::mesh::Sphere;
 use scanbeam::scene::{ShadowEdge, ShadowLight, ShadowMemory};
 use scanbeam::{Affine, Faces, Mesh};
 use std::collections::HashMap;
@@ -57,6 +58,8 @@ pub(super) struct Chunk {
     normals: Vec<[i16; 3]>,
     colours: Vec<[u8; 3]>,
     pub(super) faces: Vec<[u16; 3]>,
+    /// Around all positions.
+    pub(super) sphere: Sphere,
     /// Texture places, where there is a texture.
     pub(super) places: Vec<[i32; 2]>,
     pub(super) texture: Option<u16>,
@@ -134,6 +137,9 @@ impl Prepared {
             chunk.faces.push(face);
         }
         prepared.chunks.push(chunk);
+        for chunk in &mut prepared.chunks {
+            chunk.sphere = Sphere::around(&chunk.positions);
+        }
         prepared
     }
 
@@ -192,6 +198,7 @@ impl Chunk {
             normals: Vec::new(),
             colours: Vec::new(),
             faces: Vec::new(),
+            sphere: Sphere::around::<i32>(&[]),
             places: Vec::new(),
             texture,
             look,
@@ -217,6 +224,31 @@ impl Chunk {
             places: self.places.clone(),
             ..*self
         }
+    }
+
+    /// One with those faces that `has`, and their vertices alone.
+    pub(super) fn only(&self, has: impl Fn(usize) -> bool) -> Self {
+        let mut part = Self::new(self.texture, self.look);
+        let mut new_index = vec![u16::MAX; self.positions.len()];
+        for (number, face) in self.faces.iter().enumerate() {
+            if !has(number) {
+                continue;
+            }
+            let face = face.map(|index| {
+                let old = usize::from(index);
+                if new_index[old] == u16::MAX {
+                    new_index[old] = part.positions.len() as u16;
+                    part.positions.push(self.positions[old]);
+                    part.normals.push(self.normals[old]);
+                    part.colours.push(self.colours[old]);
+                    part.places.extend(self.places.get(old));
+                }
+                new_index[old]
+            });
+            part.faces.push(face);
+        }
+        part.sphere = self.sphere;
+        part
     }
 
     /// One with a face alone.

@@ -12,6 +12,8 @@ pub struct Setting {
     pub(crate) cull: scanbeam::Cull,
     pub(crate) light: Option<Light>,
     pub(crate) shading: Shading,
+    /// Whether the whole model lies within 60 focal lengths from where the camera looks, each way.
+    pub(crate) is_ahead: bool,
 }
 
 impl Setting {
@@ -52,12 +54,32 @@ impl Setting {
                 Cull::None => scanbeam::Cull::None,
             },
             light: light.filter(|_| view.shade != Shade::None),
+            is_ahead: is_ahead(prepared, view),
             shading: match view.shade {
                 Shade::Flat => Shading::Flat,
                 Shade::None | Shade::Gouraud => Shading::Smooth,
             },
         })
     }
+}
+
+/// Whether all corners, and so all triangles, are at most 60 times as far aside of the way that the eye looks as along
+/// it.
+fn is_ahead(prepared: &Prepared, view: &View) -> bool {
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let way: [f64; 3] = [0, 1, 2].map(|i| view.at[i] - view.eye[i]);
+    let length = dot(way, way).sqrt();
+    let mut corners = prepared.chunks.iter().flat_map(|chunk| &chunk.positions);
+    corners.all(|corner| {
+        let unit = f64::from(1 << 30);
+        let at = [0, 1, 2].map(|i| {
+            let place = f64::from(corner[i]) / unit * prepared.scale + prepared.centre[i];
+            place - view.eye[i]
+        });
+        let along = dot(at, way) / length;
+        let aside = (dot(at, at) - along * along).max(0.0).sqrt();
+        along > 0.0 && aside <= 60.0 * along
+    })
 }
 
 /// The focal length of a view in pixels.

@@ -2,6 +2,7 @@
 //!
 //! | file | there |
 //! |---|---|
+//! | `methods.rs` | the methods of the laboratory |
 //! | `triangle.rs` | one triangle in the ways that draw calls have, and its spans |
 //! | `lines.rs` | each line of a scene (X8), and pass one |
 //! | `units.rs` | an active line, a span's entry, a triangle's set-up, a vertex |
@@ -17,13 +18,13 @@
 mod growth;
 mod lines;
 mod methods;
-mod presets;
 mod triangle;
 mod units;
 
 use crate::console::Console;
 use crate::count::Counter;
 use crate::rooms::Rooms;
+use core::fmt::Display;
 use core::hint::black_box;
 use scanbeam_model::{SPAN_BITS, SpanWeight, divided_weight, lirp, round_to_8, widen};
 
@@ -45,7 +46,7 @@ struct Run {
 }
 
 impl Run {
-    fn print(self, name: &str, console: &mut Console) {
+    fn print(self, name: impl Display, console: &mut Console) {
         let Self {
             instructions,
             spans,
@@ -65,6 +66,7 @@ pub(crate) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
         blend::<12>(width as u16, counter).print("model_lirp_12", console);
         blend::<16>(width as u16, counter).print("model_lirp_16", console);
     }
+    triangle::run_beside_methods(counter, console, rooms);
     methods::run(counter, console);
     units::run(counter, console, rooms);
     lines::run(counter, console, rooms);

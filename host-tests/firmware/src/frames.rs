@@ -9,6 +9,7 @@ use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
+use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
     Frame, LeanLook, LeanTextured, Played, SUITE_LINES, Shot, ShotError, Values, ValuesMemory,
     Variant, WIDTH,
@@ -43,6 +44,7 @@ pub(crate) const fn lines_of(frame: Frame) -> u16 {
 
 /// Draws a frame, so many lines a transfer where it does not say that itself, and hands what is sent, in order, to `to`.
 /// Drawing twice gives the same bytes.
+#[inline(never)]
 pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Receives) {
     let buffers = rooms.buffers.take().expect("the last frame gave them back");
     let mut pump = Pump::new(Emit { to, sent: None }, buffers);
@@ -64,6 +66,7 @@ pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Rec
         Frame::Shot(how) => sent.shot(how, rooms),
         Frame::Values(values) => sent.values(values, rooms),
         Frame::Played(played) => sent.played(played, rooms),
+        Frame::Model(shot) => sent.model(shot, rooms),
     }
     if let (_, [Some(a), Some(b)]) = pump.release() {
         rooms.buffers = Some([a, b]);
@@ -81,7 +84,7 @@ struct Sent<'p, 'e> {
 type Build<'b, L> = &'b dyn Fn(&mut Scene<'_, 'static, L>) -> Result<(), ShotError>;
 
 impl Sent<'_, '_> {
-    /// A scene of smooth colours, with 64 slots.
+    /// A scene of smooth colours.
     #[inline(never)]
     fn smooth(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, LeanLook>) {
         let mut scene = rooms.scene.scene();
@@ -112,6 +115,12 @@ impl Sent<'_, '_> {
             let mut renderer = rooms.lines.renderer(rooms.caches.wide);
             return self.send(&scene, &mut renderer, background);
         }
+        if how.ahead > 0 {
+            let mut scene = rooms.scene.scene();
+            build(&mut scene).expect(LARGE);
+            let renderer = rooms.lines.renderer(rooms.caches.smooth);
+            return self.send(&scene, &mut renderer.fetching(how.ahead), background);
+        }
         rooms.caches.smooth.set_limit(how.slots);
         self.smooth(rooms, background, build);
         rooms.caches.smooth.set_limit(SLOTS);
@@ -137,6 +146,21 @@ impl Sent<'_, '_> {
             self.pump.sink_mut().to.transfer(bytes);
         }
         rooms.caches.smooth.set_limit(SLOTS);
+    }
+
+    /// A shot by the hardware model.
+    #[inline(never)]
+    fn model(&mut self, shot: Shot, rooms: &mut Rooms) {
+        let mut scene: Scene<'_, '_, LeanLook> = rooms.scene.scene();
+        shot.build(&mut scene).expect(LARGE);
+        let [z0, z1, c0, c1] = &mut rooms.model;
+        let mut renderer = ModelRenderer::new(PipeMemory {
+            z: [z0, z1],
+            rgb: [c0, c1],
+        });
+        let background = Rgb565Be::from_rgb8(shot.background());
+        let sent = draw_model_frame(&scene, &mut renderer, self.pump, background, self.lines);
+        assert!(sent.is_ok(), "{LARGE}");
     }
 
     /// Draws all lines of a scene.

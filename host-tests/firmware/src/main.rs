@@ -15,16 +15,13 @@
 //! A `sheet` is a random mesh over the whole picture whose every pixel has to be hit exactly once.
 //! The checksum is the CRC-32 of PNG and zip over the bytes of a frame in scan-out order. A frame is
 //! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
-//! give the same number of bytes. Kernels, units, lines and growth are there with the feature `bench`;
+//! give the same number of bytes. Kernels, units, lines and growth are there where the host says `bench`;
 //! `costs` are those of lines one after the other, from the `first` of this row on. Exit code 0 only if everything held.
 #![no_std]
 #![no_main]
 
-#[cfg(feature = "bench")]
 mod bench;
-#[cfg(feature = "bench")]
 mod bench_depth;
-#[cfg(feature = "bench")]
 mod bench_texture;
 mod console;
 mod count;
@@ -106,8 +103,7 @@ fn main() -> ! {
     // What frames take; kernels lend memory from the stack.
     let stack = rooms::stack_peak();
 
-    #[cfg(feature = "bench")]
-    {
+    if profile::asks_bench() {
         bench::run(&counter, &mut console, &mut rooms);
         bench_texture::run(&counter, &mut console);
         bench_depth::run(&counter, &mut console);

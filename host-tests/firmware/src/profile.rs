@@ -54,6 +54,12 @@ pub(crate) fn asked(console: &mut Console) -> Option<bool> {
     Some(true)
 }
 
+/// Whether the host asks for kernels, units, lines and growth too: `qemu-firmware bench`.
+pub(crate) fn asks_bench() -> bool {
+    let mut line = [0; WORDS];
+    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("bench"))
+}
+
 /// The words that the host hands over; `None` where there are none, or too many.
 fn words(line: &mut [u8; WORDS]) -> Option<&str> {
     let mut block = [line.as_mut_ptr() as usize, line.len()];

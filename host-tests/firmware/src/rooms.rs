@@ -99,6 +99,8 @@ pub(crate) struct Rooms {
     /// Of a second renderer: external RAM.
     pub(crate) second: LineRooms,
     pub(crate) caches: Caches,
+    /// Depth and colour of two lines each, for the hardware model: external RAM.
+    pub(crate) model: [&'static mut [u64]; 4],
     /// What a display shows.
     pub(crate) shown: &'static mut [u32],
     pub(crate) teapot: Player<'static, 'static, LeanLook>,
@@ -150,6 +152,12 @@ impl Rooms {
                 indexed: slots!(".slow", LeanIndexed),
                 banded: slots!(".slow", LeanContours),
             },
+            model: [
+                lend!(".slow", u64, WIDTH as usize, 0),
+                lend!(".slow", u64, WIDTH as usize, 0),
+                lend!(".slow", u64, WIDTH as usize, 0),
+                lend!(".slow", u64, WIDTH as usize, 0),
+            ],
             shown: lend!(".slow", u32, VALUES_SHOWN, 0),
             teapot: Player::new(teapot_memory(), Played::settings()),
             wood: Player::new(crate_memory(), Played::settings()),

@@ -1,17 +1,12 @@
 //! The frames of the firmware as this machine draws them: their checksums, what they have, and pictures of them.
 
-mod effects;
-mod methods;
-mod old;
 mod played;
 mod values;
 
-pub use effects::{effect_frames, effect_pictures};
-pub use methods::{MethodFrame, method_frames};
-pub use old::{draw, draw_keeping, drawn_b, textured_b};
 pub use played::played_frame;
 pub use values::{Sent, values_pictures, values_sent};
 
+use host_draw::ModelLines;
 use host_support::image_out::Frame as Picture;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::Scene;
@@ -39,6 +34,8 @@ const ROOM: Room = Room {
 pub struct FrameCounts {
     /// Pass one.
     pub pass_one: Assembled,
+    /// Triangles that were filed.
+    pub objects: usize,
     /// Along spans.
     pub spans: SpanCounts,
 }
@@ -84,6 +81,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
             Frame::Values(values) => crc(&values_sent(values, 64)?.words),
             Frame::Played(played) => played_frame(played)?.crc(),
             Frame::B(scene) => scene_b_frame(scene)?.crc(),
+            Frame::Model(shot) => crc(&model_words(shot)?),
             Frame::Shot(how) => {
                 let (shot, shading) = (how.shot, how.shading);
                 let before = known.iter().find(|one| (one.0, one.1) == (shot, shading));
@@ -159,6 +157,22 @@ pub fn scene_b_frame(how: SceneB) -> Result<Drawn, Box<dyn Error>> {
     })
 }
 
+/// The words of a shot as the hardware model draws it.
+fn model_words(shot: Shot) -> Result<Vec<u16>, Box<dyn Error>> {
+    let mut memory = SceneRooms::new(ROOM, HEIGHT);
+    let mut scene: Scene<'_, '_, LeanLook> = memory.scene(Shot::screen());
+    said(shot.name(), shot.build(&mut scene))?;
+    let mut lines = ModelLines::new(WIDTH);
+    let mut renderer = lines.renderer();
+    let background = Rgb565Be::from_rgb8(shot.background());
+    let (mut words, mut line) = (Vec::new(), vec![background; WIDTH.into()]);
+    for y in scene.lines() {
+        renderer.draw_line(&scene, y, background, &mut line)?;
+        words.extend_from_slice(&line);
+    }
+    Ok(words)
+}
+
 /// The teapot with light at each pixel.
 ///
 /// # Errors
@@ -221,6 +235,7 @@ fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
     }
     let counts = FrameCounts {
         pass_one: scene.assembled(),
+        objects: scene.objects(),
         spans: renderer.spans(),
     };
     Ok(Drawn { words, counts })

@@ -48,7 +48,7 @@ impl DepthMethod {
     pub fn key(self, depth: u32, range: u32) -> u32 {
         match self {
             Self::Bits16 | Self::Word => depth >> 15,
-            Self::Bits22 => depth >> 10,
+            Self::Bits22 => depth >> 9,
             Self::BlockFix => BlockFix16::new(depth, range).key(),
             Self::Bits32 => depth,
             Self::Linear => linear(depth),
@@ -87,7 +87,7 @@ pub fn bits_16(line: &mut [u16], depths: Depths) {
 #[inline(never)]
 pub fn bits_22(line: &mut [u32], depths: Depths, object: u32) {
     each(line, depths, |at, kept| {
-        let word = at << 1 | 2047;
+        let word = at << 1 | 1023;
         (word >= kept).then_some(word & !1023 | object)
     });
 }

@@ -13,6 +13,7 @@
 //! | `depth.rs` | what is kept of 1/w, and lines of it | H2, K8 |
 //! | `reciprocal.rs`, `perspective.rs` | texture places along spans | H4, H5, K18 |
 //! | `lines.rs` | lines of triangles by any of these methods | K4, K5 |
+//! | `bits.rs` | all of it as one number, for other targets | X1 |
 //!
 //! All of it is fixed point, the same bits on every target.
 #![no_std]
@@ -21,6 +22,7 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod bits;
 pub mod colours;
 pub mod depth;
 pub mod format;

@@ -51,8 +51,7 @@ impl Method {
     /// - a packed ramp, `k` steps after its anchor, lies from `u + k d` below to `k d` above;
     /// - half and quarter rate step by the group, and are anchored every 4 groups, so they are off by both.
     ///
-    /// Where none fits, planes are stepped as they are. On a Cortex-M4 one colour for 2 pixels is the cheaper where a
-    /// ramp is two words, and the dearer where it is one.
+    /// Where none fits, planes are stepped as they are. On a Cortex-M4 one colour for 2 pixels is dearer than packing.
     #[inline(always)]
     #[must_use]
     pub fn of_span(self, pixels: u32, slope: impl FnOnce() -> u32, packing: Precision) -> Self {
@@ -73,7 +72,7 @@ impl Method {
                 if even(3 * slope) + after(3) <= budget {
                     return Self::Quarter;
                 }
-                let packs = unit > 1 && after(7) <= budget;
+                let packs = after(7) <= budget;
                 if !packs && even(slope) + after(3) <= budget {
                     return Self::Half;
                 }

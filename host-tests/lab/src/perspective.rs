@@ -82,7 +82,7 @@ impl Homogeneous {
 /// `floor(a b / 2^32)`.
 #[inline(always)]
 fn high(a: i32, b: i32) -> i32 {
-    (i64::from(a) * i64::from(b) >> 32) as i32
+    ((i64::from(a) * i64::from(b)) >> 32) as i32
 }
 
 /// How many pixels one division serves.

@@ -52,7 +52,7 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             SNAPPED,
             "exact edges",
             UNIT,
-            Some("renderer_flat_565"),
+            Some("flat_565_large"),
         ),
         (
             "coverage",
@@ -66,7 +66,7 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             FREE,
             "exact edges",
             UNIT,
-            Some("renderer_flat_565"),
+            Some("flat_565_large"),
         ),
         ("coverage", FREE, "hardware model", UNIT, Some("model_565")),
     ];

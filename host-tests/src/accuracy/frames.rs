@@ -115,7 +115,7 @@ fn named(Drawer { method, errors }: Drawer) -> Vec<Row> {
             continue;
         };
         if method.name == RENDERER {
-            rows.push(errors.clone().row(frame(PLANES[i], "lean_teapot")));
+            rows.push(errors.clone().row(frame(PLANES[i], "teapot")));
         }
         let kernel = of_565(method.with_depth());
         rows.push(errors.row(("interpolation", SCENES[i], method.name, "levels", kernel)));

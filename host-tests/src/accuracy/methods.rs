@@ -11,24 +11,18 @@ pub(super) struct Method {
     kernels: [&'static str; 5],
 }
 
-macro_rules! kernels {
-    ($kernel:literal) => {
-        [
-            concat!($kernel, "_565"),
-            concat!($kernel, "_565_large"),
-            concat!($kernel, "_888"),
-            concat!($kernel, "_888_large"),
-            concat!($kernel, "_565_depth"),
-        ]
-    };
-}
-
 macro_rules! method {
     ($name:literal, $way:expr, $kernel:literal) => {
         Method {
             name: $name,
             way: $way,
-            kernels: kernels!($kernel),
+            kernels: [
+                concat!($kernel, "_565"),
+                concat!($kernel, "_565_large"),
+                concat!($kernel, "_888"),
+                concat!($kernel, "_888_large"),
+                concat!($kernel, "_565_depth"),
+            ],
         }
     };
 }
@@ -38,7 +32,17 @@ pub(super) const RENDERER: &str = "renderer";
 
 /// All of them.
 pub(super) const METHODS: [Method; 13] = [
-    method!("renderer", None, "renderer"),
+    Method {
+        name: RENDERER,
+        way: None,
+        kernels: [
+            "renderer_565",
+            "renderer_565_large",
+            "renderer_888",
+            "renderer_888_large",
+            "renderer_565_depth",
+        ],
+    },
     method!("plane, forward steps", Some(Way::Plane), "forward"),
     method!("packed8", Some(Way::Packed8), "packed8"),
     method!("packed16", Some(Way::Packed16), "packed16"),

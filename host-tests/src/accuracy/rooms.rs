@@ -4,7 +4,7 @@
 use super::frames::model_of;
 use super::spans::beyond;
 use super::{Errors, Row};
-use crate::frames::{picture_suite, values_pictures};
+use crate::frames::{suite_frame, values_pictures};
 use crate::image_out::Frame;
 use crate::model::Model;
 use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
@@ -61,9 +61,9 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     for (case, edges) in [(WHOLE, true), (INSIDE, false)] {
         for (frame, method, kernel) in [
             (
-                &picture_suite(Suite::Teapot)?.0,
+                &suite_frame(Suite::Teapot)?.picture()?,
                 "drawn whole",
-                "lean_teapot",
+                "teapot",
             ),
             (&doubled, "160 x 120 drawn, doubled", "values_doubled"),
         ] {

@@ -65,7 +65,7 @@ fn two_equations_tell_pixels_from_spans() {
     let mut output = Output {
         kernels: vec![long, short],
         frames: vec![FrameResult {
-            scene: "lean_teapot".into(),
+            scene: "teapot".into(),
             crc: 0,
             instructions: 1000,
         }],
@@ -77,7 +77,7 @@ fn two_equations_tell_pixels_from_spans() {
         let mut rows = [Row::rate(name, 1.0, 1.0)];
         costs.fill(&mut rows).map(|()| rows[0].per_pixel)
     };
-    assert_eq!(with("lean_teapot").unwrap(), Some(100.0));
+    assert_eq!(with("teapot").unwrap(), Some(100.0));
     assert!((with("k").unwrap().unwrap() - 7.0).abs() < 1e-9);
     assert!(with("other").is_err());
     // Nothing measured is nothing claimed.
@@ -93,7 +93,8 @@ fn two_equations_tell_pixels_from_spans() {
 /// bound. Levels are beyond the rounding of the method's own format.
 ///
 /// Of interpolation methods that is their own bound (see `scanbeam_lab::Method`); in scenes, whose corners are read back
-/// in 8 bits, half a level more, and what light errs. The renderer anchors packed colours every 16 pixels.
+/// in 8 bits, half a level more, and what light errs. The renderer anchors packed colours every 16
+/// pixels; of 24 bits its corners are rounded to 1/8 level, and planes err as much at most.
 ///
 /// Block-fix cannot tell two surfaces apart in `1 - d s` of the cases, where they are `d` apart and the
 /// significand is `s` of its 2^14 steps: 2^11 and more at a triangle's nearest corner, less at others.
@@ -118,10 +119,10 @@ const BOUNDS: [(&str, &str, &str, f64); 65] = [
     ("interpolation", "", "circuit: LIRP, 10-bit", 0.6),
     ("interpolation", "", "circuit: LIRP, 12-bit", 0.4),
     ("interpolation", "", "circuit: LIRP, 16-bit", 0.3),
-    ("interpolation", "RGB565, scenes", "renderer", 2.2),
-    ("interpolation", "RGB565", "renderer", 2.1),
+    ("interpolation", "RGB565, scenes", "renderer", 2.19),
+    ("interpolation", "RGB565", "renderer", 2.19),
     ("interpolation", "RGB888, scenes", "renderer", 0.5),
-    ("interpolation", "RGB888", "renderer", 0.1),
+    ("interpolation", "RGB888", "renderer", 0.2),
     // Steps of a span are anything up to its whole range.
     ("interpolation", "RGB565, scenes", "half", 9.0),
     ("interpolation", "RGB888, scenes", "half", 9.0),
@@ -139,15 +140,15 @@ const BOUNDS: [(&str, &str, &str, f64); 65] = [
         1.5 + 0.6,
     ),
     ("interpolation", "", "auto, balanced", 1.5),
-    ("interpolation", "RGB565, scenes", "packed8", 0.95 + 0.6),
-    ("interpolation", "RGB565, scenes", "packed16", 1.8 + 0.6),
+    ("interpolation", "RGB565, scenes", "packed8", 1.16 + 0.6),
+    ("interpolation", "RGB565, scenes", "packed16", 2.19 + 0.6),
     ("interpolation", "RGB565, scenes", "", 0.6),
     ("interpolation", "RGB888, scenes", "", 0.6),
     // A unit of 2^-20 step each 2 pixels.
     ("interpolation", "", "plane", 0.01),
     ("interpolation", "", "auto, exact", 0.01),
-    ("interpolation", "RGB565", "packed8", 0.95),
-    ("interpolation", "RGB565", "packed16", 1.8),
+    ("interpolation", "RGB565", "packed8", 1.16),
+    ("interpolation", "RGB565", "packed16", 2.19),
     ("interpolation", "RGB888", "packed", 0.05),
     // A unit of W in the middle.
     ("interpolation", "", "LIRP, 10 bits", 0.25),
@@ -204,7 +205,8 @@ fn a_cheaper_quality_is_not_dearer(rows: &[Row]) {
             let cost = |method: &str| {
                 let alike = |r: &&Row| (r.case, r.method) == (first.case, method);
                 let row = rows.iter().find(alike).expect(method);
-                row.per_pixel.zip(row.per_span)
+                row.per_pixel
+                    .map(|pixel| (pixel, row.per_span.unwrap_or(0.0)))
             };
             for pair in order.windows(2) {
                 let (Some(cheap), Some(dear)) = (cost(pair[0]), cost(pair[1])) else {
@@ -246,18 +248,11 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
     costs.fill(&mut rows).unwrap();
     mark_frontier(&mut rows);
     for (family, case, method, most) in [
-        ("interpolation", "RGB565, spans of 1 to 63", RENDERER, 6.8),
+        ("interpolation", "RGB565, spans of 1 to 63", RENDERER, 7.0),
         ("interpolation", "RGB565, spans of 1 to 1016", RENDERER, 9.0),
         ("interpolation", "RGB565, scenes", RENDERER, 14.0),
-        ("interpolation", "RGB888, spans of 1 to 63", RENDERER, 9.0),
-        (
-            "interpolation",
-            "RGB888, spans of 1 to 1016",
-            RENDERER,
-            10.0,
-        ),
         ("coverage", "", "exact edges", 4.0),
-        ("depth", "order", "32-bit 1/w, small", 14.0),
+        ("depth", "order", "32-bit 1/w, large", 14.0),
         ("frame", "", "planes, RGB565", 320.0),
         ("texture", "triangles", texture::DEFAULT, 20.0),
         ("texture", "sphere", texture::DEFAULT, 20.0),
@@ -274,6 +269,12 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
             );
         }
         assert!(some, "{family}: {method}");
+    }
+    // Of 24 bits a pixel the renderer is not on it: a packed loop of the laboratory takes less, by more code.
+    let of_24 = |row: &&Row| row.method == RENDERER && row.case.starts_with("RGB888, spans");
+    assert_eq!(rows.iter().filter(of_24).count(), 2);
+    for row in rows.iter().filter(of_24) {
+        assert!(row.per_pixel.is_some_and(|cost| cost < 9.0), "{row:?}");
     }
     a_cheaper_quality_is_not_dearer(&rows);
     for row in &rows {

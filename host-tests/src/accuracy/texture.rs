@@ -53,16 +53,20 @@ const WAYS: [(&str, Way, &str); 9] = [
         "perspective_2",
     ),
     ("every pixel", Way::Fixed(Stride::One), "perspective_1"),
-    ("fast: 1/2 texel", Way::Within(Budget::FAST), "texture_fast"),
+    (
+        "fast: 1/2 texel",
+        Way::Within(Budget::FAST),
+        "leaning_fast_565_large",
+    ),
     (
         "balanced: 1/4 texel",
         Way::Within(Budget::BALANCED),
-        "texture_balanced",
+        "leaning_balanced_565_large",
     ),
     (
         "exact: 1/100 texel",
         Way::Within(Budget::EXACT),
-        "texture_exact",
+        "leaning_exact_565_large",
     ),
 ];
 

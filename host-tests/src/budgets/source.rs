@@ -153,10 +153,10 @@ fn is_module(root: &Path, file: &Path, name: &str) -> bool {
 /// Counts what stands in a file.
 fn items(words: &[Word<'_>], counts: &mut Counts) {
     for (at, word) in words.iter().enumerate() {
-        let next = words.get(at + 1).filter(|next| next.kind == Kind::Name);
-        let Some(next) = next.filter(|_| word.kind == Kind::Name) else {
+        let is_name = |word: &Word<'_>| word.kind == Kind::Name;
+        if !is_name(word) || !words.get(at + 1).is_some_and(is_name) {
             continue;
-        };
+        }
         match word.text {
             "trait" => {
                 counts.traits += 1;

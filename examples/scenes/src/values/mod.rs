@@ -10,6 +10,7 @@
 //! | `values_mirror` | a teapot that reflects its surroundings |
 //! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
 //! | `values_dither` | smooth and textured surfaces, dithered |
+//! | `values_alpha` | a fading ribbon, cubes of rings that are clear, added or not dithered, cut and flat ones |
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
@@ -23,6 +24,7 @@
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
+mod alpha;
 mod dusk;
 mod fetched;
 mod points;
@@ -33,6 +35,7 @@ mod shadows;
 use crate::ShotError;
 use crate::contours::LeanContours;
 use crate::lean::{LeanLook, LeanTextured};
+use alpha::alpha;
 use dusk::{Dusk, dusk};
 use fetched::{Slow, blocks, computed};
 use points::points;
@@ -93,6 +96,8 @@ pub enum Values {
     Holes,
     /// Dithered colours and texels.
     Dither,
+    /// Alphas of vertices and texels.
+    Alpha,
     /// Blends, scissors, depth tests, lights.
     Blends,
     /// The same by priority.
@@ -120,7 +125,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 19] = [
+pub const VALUES: [(&str, Values); 20] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -128,6 +133,7 @@ pub const VALUES: [(&str, Values); 19] = [
     ("values_mirror", Values::Mirror),
     ("values_holes", Values::Holes),
     ("values_dither", Values::Dither),
+    ("values_alpha", Values::Alpha),
     ("values_blends", Values::Blends),
     ("values_ranked", Values::Ranked),
     ("values_master", Values::Master),
@@ -246,6 +252,7 @@ impl Values {
             Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
             Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
+            Self::Alpha => rest.send(self, lent.textured, pump, |scene, _| alpha(scene)),
             Self::Points => rest.send(self, lent.textured, pump, |scene, _| points(scene)),
             Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
             Self::Blends | Self::Ranked | Self::Master => {

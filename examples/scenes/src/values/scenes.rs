@@ -9,8 +9,8 @@ use crate::{CUBE, PLACES_F, RIBBON, SPHERE, SURROUNDINGS, TEAPOT, TEXELS_F_PANEL
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::Look;
 use scanbeam::mesh::{Material, U1F15};
+use scanbeam::overlay::Pixels;
 use scanbeam::overlay::{Ink, Sprite};
-use scanbeam::pixel::Pixels;
 use scanbeam::scene::{
     Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Factor, Scene, Scissor,
     Shading, Skin, TexGen, Texture,

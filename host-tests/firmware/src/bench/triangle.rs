@@ -10,6 +10,8 @@
 //! | `texel_lit`, `texel_tinted` | the same times grey, and times colours |
 //! | `leaning_fast`, `_balanced`, `_exact` | the texture on a triangle that leans back, within 1/2, 1/4 and 1/100 texel |
 //!
+//! | `model` | smooth, by the hardware model |
+//!
 //! With `_large` the triangle is of more lines and columns than what is set up as small.
 
 use super::{LINES, Run, SHORT, WIDEST, WIDTH};
@@ -19,9 +21,10 @@ use crate::rooms::{LineRooms, Rooms, SceneRooms};
 use core::hint::black_box;
 use scanbeam::frame::FastMemory;
 use scanbeam::look::{Gouraud, Look};
-use scanbeam::pixel::{PixelFormat, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::{Blend, Budget, Shading, Skin};
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Screen};
+use scanbeam_model::{ModelRenderer, PipeMemory};
 use scenes::{LeanLook, LeanTextured, PLACES_F, Suite};
 
 /// A triangle as wide and as tall as said, in pixels.
@@ -93,6 +96,28 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
             let mut cache = FastMemory::<Gouraud<Rgb888>>::new();
             drawn(Way::Smooth, size, counter, scene, lines, &mut cache)
                 .print(name("smooth_888", "smooth_888_large"), console);
+            if !is_small {
+                model(size, counter, scene).print("model_565", console);
+            }
+        }
+    }
+}
+
+/// Times smooth triangles as wide as those that the laboratory's methods are timed on, one twice as wide as the other,
+/// and prints them under the names that those have.
+pub(super) fn run_beside_methods(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    for (large, tall, widest) in [("", LINES, WIDEST[0]), ("_large", LINES + 1, WIDEST[1])] {
+        for width in [widest, widest / 2] {
+            let size = Size { width, tall };
+            let (scene, lines) = (&mut rooms.scene, &mut rooms.lines);
+            for (way, depth) in [(Way::Smooth, ""), (Way::Over, "_depth")] {
+                let mut cache = FastMemory::<Gouraud<Rgb565>>::new();
+                drawn(way, size, counter, scene, lines, &mut cache)
+                    .print(format_args!("renderer_565{large}{depth}"), console);
+            }
+            let mut cache = FastMemory::<Gouraud<Rgb888>>::new();
+            drawn(Way::Smooth, size, counter, scene, lines, &mut cache)
+                .print(format_args!("renderer_888{large}"), console);
         }
     }
 }
@@ -122,24 +147,70 @@ fn drawn<L: Look<Pixel: PixelFormat<Word: Default + PartialEq>>>(
     let mut renderer = lines.renderer(cache);
     let nothing = Default::default();
     let mut pixels = [nothing; WIDTH as usize];
-    let (mut spans, mut shown) = (0, 0);
+    let mut shown = Shown::default();
     for line in 0..LINES {
         let done = renderer.draw_line(&scene, line, &mut pixels, nothing);
         done.expect("the rooms suffice");
-        let seen = pixels.iter().filter(|pixel| **pixel != nothing).count() as u32;
-        if line > 0 {
-            spans += u32::from(seen > 0);
-            shown += seen;
-        }
+        shown.line(line, &pixels, nothing);
     }
     let instructions = counter.lines_finely(0..LINES, |line| {
         let done = renderer.draw_line(&scene, line, black_box(&mut pixels), nothing);
         done.expect("the rooms suffice");
     });
-    Run {
-        instructions,
-        spans,
-        pixels: shown,
+    shown.run(instructions)
+}
+
+/// The hardware model on the same triangle.
+#[inline(never)]
+fn model(size: Size, counter: &Counter, scene: &mut SceneRooms) -> Run {
+    let screen = Screen::new(WIDTH, size.tall).expect("the size is legal");
+    let mut scene = scene.sized::<LeanLook>(screen);
+    scene.begin(&camera()).expect("a bin for each line");
+    let triangle = Triangle::new(Way::Smooth, size);
+    let done = scene.draw(&triangle.call(Way::Smooth));
+    done.expect("the rooms suffice");
+    let mut memory = [[0; WIDTH as usize]; 4];
+    let [z0, z1, c0, c1] = &mut memory;
+    let mut renderer = ModelRenderer::new(PipeMemory {
+        z: [z0, z1],
+        rgb: [c0, c1],
+    });
+    let mut pixels = [0; WIDTH as usize];
+    let mut shown = Shown::default();
+    for line in 0..LINES {
+        let done = renderer.draw_line(&scene, line, 0, &mut pixels);
+        done.expect("the rooms suffice");
+        shown.line(line, &pixels, 0);
+    }
+    let instructions = counter.lines_finely(0..LINES, |line| {
+        let done = renderer.draw_line(&scene, line, 0, black_box(&mut pixels));
+        done.expect("the rooms suffice");
+    });
+    shown.run(instructions)
+}
+
+/// What lines but the first show.
+#[derive(Default)]
+struct Shown {
+    spans: u32,
+    pixels: u32,
+}
+
+impl Shown {
+    fn line<W: PartialEq>(&mut self, line: u16, pixels: &[W], nothing: W) {
+        let seen = pixels.iter().filter(|pixel| **pixel != nothing).count() as u32;
+        if line > 0 {
+            self.spans += u32::from(seen > 0);
+            self.pixels += seen;
+        }
+    }
+
+    fn run(self, instructions: u64) -> Run {
+        Run {
+            instructions,
+            spans: self.spans,
+            pixels: self.pixels,
+        }
     }
 }
 

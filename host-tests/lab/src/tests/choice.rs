@@ -28,24 +28,14 @@ fn what_is_chosen_keeps_its_budget() {
     assert!(loose > 100_000);
 }
 
-/// From cheap to dear, by what they cost a pixel: where a ramp is one word, and where it is two.
-const RANKS: [[Method; 6]; 2] = [
-    [
-        Method::Whole,
-        Method::Quarter,
-        Method::Packed16,
-        Method::Packed8,
-        Method::Half,
-        Method::Plane,
-    ],
-    [
-        Method::Whole,
-        Method::Quarter,
-        Method::Half,
-        Method::Packed16,
-        Method::Packed8,
-        Method::Plane,
-    ],
+/// From cheap to dear, by what they cost a pixel.
+const RANKS: [Method; 6] = [
+    Method::Whole,
+    Method::Quarter,
+    Method::Packed16,
+    Method::Packed8,
+    Method::Half,
+    Method::Plane,
 ];
 
 #[test]
@@ -53,16 +43,15 @@ fn a_looser_budget_never_takes_a_dearer_method() {
     let mut taken = [0; 6];
     for (unit, drift) in [(0, 0), (1, 1), (64, 32)] {
         let packing = Precision { unit, drift };
-        let ranks = RANKS[usize::from(unit <= 1)];
         for pixels in [1, 2, 3, 7, 8, 9, 15, 16, 17, 64, 319, 8192] {
             for slope in [0, 1, 5, 30, 60, 150, 200, 248, 400, 2000, 30_000u32] {
                 if pixels > 2 && u64::from(slope) * u64::from(pixels - 1) > 1 << 16 {
                     continue;
                 }
-                let mut last = ranks.len();
+                let mut last = RANKS.len();
                 for levels in 0..2048 {
                     let method = Method::Within(levels).of_span(pixels, || slope, packing);
-                    let now = ranks.iter().position(|rank| *rank == method).unwrap();
+                    let now = RANKS.iter().position(|rank| *rank == method).unwrap();
                     assert!(now <= last, "{levels} {pixels} {slope} {packing:?}");
                     last = now;
                     taken[now] += 1;
@@ -70,7 +59,7 @@ fn a_looser_budget_never_takes_a_dearer_method() {
             }
         }
     }
-    assert!(taken.iter().all(|&count| count > 500), "{taken:?}");
+    assert!(taken.iter().all(|&count| count > 100), "{taken:?}");
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::colours::Colours;
 use crate::format::{FRACTION, Format};
 use crate::method::Method;
 use crate::paint::paint;
-use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use scanbeam::pixel::{Rgb565, Rgb888};
 use std::vec::Vec;
 use std::{println, vec};
 

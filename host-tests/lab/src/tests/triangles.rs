@@ -6,7 +6,7 @@ use crate::depth::DepthMethod;
 use crate::format::Format;
 use crate::lines::{Triangle, draw_line};
 use crate::method::Method;
-use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use scanbeam::pixel::{Rgb565, Rgb888};
 use std::vec::Vec;
 
 const WIDTH: i32 = 48;
@@ -54,7 +54,7 @@ fn plane(place: [[i32; 2]; 3], values: [f64; 3], column: i32, line: u16) -> f64 
     values[0] + (values[1] - values[0]) * w1 + (values[2] - values[0]) * w2
 }
 
-/// Dies where `<` of either edge is `<=`, and where a column left of the picture wraps.
+/// Dies where an edge counts from its top line on and not to its bottom line, and of spans a pixel off.
 #[test]
 fn spans_are_those_of_the_fill_rule() {
     let mut rng = Rng(31);
@@ -88,8 +88,8 @@ fn drawn<F: Format>(how: (Method, DepthMethod), triangles: &[Triangle]) -> Vec<F
     picture
 }
 
-/// Colours of planes are those of f64, of the nearest triangle by f64; the last of equals. Dies of any other order, of
-/// weights of the wrong corner, and of values at a pixel's corner in place of its centre.
+/// Colours of planes are those of f64, of the nearest triangle by f64. Dies of values at a pixel's
+/// corner in place of its centre, and of spans a pixel off.
 #[test]
 fn pictures_are_those_of_f64() {
     let mut rng = Rng(32);
@@ -129,7 +129,7 @@ fn pictures_are_those_of_f64() {
 }
 
 /// Depth methods show the picture of 32 bits where no two surfaces are within their steps, whatever draws the colours. Dies
-/// where a triangle's range is that of its farthest corner.
+/// where block-fix bits are compared as a number.
 #[test]
 fn layers_apart_show_the_same_by_every_depth() {
     let mut rng = Rng(33);
@@ -159,7 +159,8 @@ fn layers_apart_show_the_same_by_every_depth() {
 }
 
 /// Level layers at random distances: what one code tells apart is told apart, what lies within it is not and the last is
-/// seen, in every range, against codes by f64 (H2).
+/// seen, in every range, against codes by f64 (H2). Dies where the first of equals is seen, and of values that are rounded
+/// otherwise where corners go round the other way.
 #[test]
 fn what_is_within_a_block_fix_code_is_not_told_apart() {
     let mut told = [[0; 2]; 4];
