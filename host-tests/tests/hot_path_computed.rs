@@ -45,7 +45,7 @@ impl Rule {
     }
 
     fn index(&self, column: u32, row: u32) -> u8 {
-        (column * self.by[0] ^ row * self.by[1] ^ (column * row) >> 2) as u8
+        ((column * self.by[0]) ^ (row * self.by[1]) ^ ((column * row) >> 2)) as u8
     }
 
     /// The texels in memory.
