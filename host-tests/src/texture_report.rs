@@ -154,7 +154,7 @@ fn count(view: View, pages: Option<Blocked>, lines: Blocked) -> Access {
     let words = vec![0; rows.len()];
     let slow = Texture::words(&words, SIDE, SIDE).expect("it has its texels");
     let per_line = LINE / TEXEL;
-    let mut fast: Vec<_> = (0..LINES * per_line).map(|_| CacheWord::EMPTY).collect();
+    let mut fast: Vec<_> = (0..LINES * per_line).map(|_| CacheWord::new()).collect();
     let cache = BlockCache::new(slow, lines, &mut fast).expect("it is as large as it says");
     let (mut changes, mut page, mut touched) = (0, usize::MAX, BTreeSet::new());
     let texels = view.texels();

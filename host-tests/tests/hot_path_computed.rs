@@ -45,7 +45,7 @@ impl Rule {
     }
 
     fn index(&self, column: u32, row: u32) -> u8 {
-        (column * self.by[0] ^ row * self.by[1] ^ (column * row) >> 2) as u8
+        ((column * self.by[0]) ^ (row * self.by[1]) ^ ((column * row) >> 2)) as u8
     }
 
     /// The texels in memory.
@@ -299,7 +299,7 @@ impl Slow {
 
     /// A cache of so many words.
     fn cache(&self, count: usize) -> &'static BlockCache<'static> {
-        let fast: Vec<_> = (0..count).map(|_| CacheWord::EMPTY).collect();
+        let fast: Vec<_> = (0..count).map(|_| CacheWord::new()).collect();
         let [width, height] = self.logs.map(|log| 1 << log);
         let slow = Texture::words(self.blocks, width, height).expect("powers of two");
         leaked(BlockCache::new(slow, self.layout, fast.leak()).expect("large enough"))

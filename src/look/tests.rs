@@ -60,7 +60,7 @@ impl Texels {
 
 /// A word for a column and row.
 fn name(column: u32, row: u32) -> u16 {
-    (column * 641 ^ row * 5003) as u16
+    ((column * 641) ^ (row * 5003)) as u16
 }
 
 /// A computed texture, whose texels are those words.

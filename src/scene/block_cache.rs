@@ -11,7 +11,7 @@
 //! // 64 x 64 texels in slow memory, in blocks of 32 bytes; 8 of them fit the cache.
 //! let layout = Blocked::of_page(32, 16);
 //! let slow = [0; 64 * 64];
-//! let mut fast = [CacheWord::EMPTY; 8 * 16];
+//! let mut fast = [const { CacheWord::new() }; 8 * 16];
 //! let cache = BlockCache::new(Texture::words(&slow, 64, 64)?, layout, &mut fast)?;
 //! let texture = cache.texture().keyed(0xF81F);
 //! // For `Skin::texture`; then `cache.reads()` tells what was read.
@@ -73,15 +73,18 @@ pub struct CacheReads {
 }
 
 /// A texel in fast memory: 4 bytes.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub struct CacheWord(
     /// The texel, and above it the upper part of its index and 1; 0 for none.
     AtomicU32,
 );
 
 impl CacheWord {
-    /// What fresh memory is filled with: zeros, so that a static takes no flash.
-    pub const EMPTY: Self = Self(AtomicU32::new(0));
+    /// Empty: zeros, so that a static takes no flash.
+    #[must_use]
+    pub const fn new() -> Self {
+        Self(AtomicU32::new(0))
+    }
 }
 
 /// Blocks of a texture in fast memory.
@@ -134,7 +137,7 @@ impl<'m> BlockCache<'m> {
         if !have.is_power_of_two() {
             return Err(CacheError::NotPowerOfTwo { have });
         }
-        words.fill_with(|| CacheWord::EMPTY);
+        words.fill_with(CacheWord::new);
         Ok(Self {
             slow,
             block,
@@ -251,7 +254,7 @@ mod tests {
     }
 
     fn words(count: usize) -> Vec<CacheWord> {
-        (0..count).map(|_| CacheWord::EMPTY).collect()
+        (0..count).map(|_| CacheWord::new()).collect()
     }
 
     /// Against a model that follows every read.
@@ -299,7 +302,7 @@ mod tests {
     #[test]
     fn any_form_and_size_is_read() {
         let bytes: Vec<u8> = (0..1 << 20).map(|i| (i * 7 % 251) as u8).collect();
-        let palette: Vec<u16> = (0..256).map(|i| 0x8000 | i * 3).collect();
+        let palette: Vec<u16> = (0..256).map(|i| 0x8000 | (i * 3)).collect();
         let slow = Texture::index8(&bytes, &palette, 1024, 1024).unwrap();
         let layout = Blocked::new(4, 0).unwrap();
         let mut fast = words(32);

@@ -51,10 +51,12 @@ pub(super) struct Slow {
 }
 
 impl Slow {
-    pub(super) const EMPTY: Self = Self {
-        texels: [0; (SIDES[0] * SIDES[1]) as usize],
-        fast: [const { CacheWord::EMPTY }; 8 * 16],
-    };
+    pub(super) const fn new() -> Self {
+        Self {
+            texels: [0; (SIDES[0] * SIDES[1]) as usize],
+            fast: [const { CacheWord::new() }; 8 * 16],
+        }
+    }
 
     /// Lays the texels in blocks, and makes the cache.
     pub(super) fn cache(&mut self) -> Result<BlockCache<'_>, ShotError> {

@@ -368,7 +368,7 @@ impl<'m> Rest<'m> {
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
-        let mut slow = Slow::EMPTY;
+        let mut slow = Slow::new();
         let texels = slow.cache()?;
         let cached = texels.texture();
         self.send(Values::Blocks, cache, pump, |scene, _| {
