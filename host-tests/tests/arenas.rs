@@ -67,12 +67,12 @@ fn no_memory_at_all() {
     let drawn = lines.renderer().draw_line(&scene, 0, &mut [], [0; 3]);
     assert!(drawn.is_err());
     // Bins alone, and one thing more at a time, as one would have for an empty picture.
-    for (vertices, draws, full) in [
-        (0, 0, Full::Draws),
-        (0, 1, Full::Vertices),
-        (24, 1, Full::Objects),
+    for (vertices, objects, draws, full) in [
+        (0, 0, 0, Full::Draws),
+        (0, 24, 1, Full::Vertices),
+        (24, 0, 1, Full::Objects),
     ] {
-        let mut rooms = SceneRooms::new(vertices, 0, 32, draws);
+        let mut rooms = SceneRooms::new(vertices, objects, 32, draws);
         let mut scene = rooms.scene::<L>(screen());
         scene.begin(&camera()).unwrap();
         let Err(DrawError::Full {
@@ -81,7 +81,7 @@ fn no_memory_at_all() {
             first_face,
         }) = scene.draw(&open(CUBE))
         else {
-            panic!("{vertices} vertices, {draws} draws");
+            panic!("{vertices} vertices, {objects} objects, {draws} draws");
         };
         assert_eq!((memory, triangles, first_face), (full, 12, 0));
         assert_eq!(scene.assembled().dropped, 12);
