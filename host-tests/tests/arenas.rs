@@ -70,7 +70,7 @@ fn no_memory_at_all() {
     for (vertices, objects, draws, full) in [
         (0, 0, 0, Full::Draws),
         (0, 24, 1, Full::Vertices),
-        (24, 0, 1, Full::Objects),
+        (99, 0, 1, Full::Objects),
     ] {
         let mut rooms = SceneRooms::new(vertices, objects, 32, draws);
         let mut scene = rooms.scene::<L>(screen());

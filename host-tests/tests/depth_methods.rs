@@ -51,7 +51,7 @@ fn drawn(folder: &TempDir, flags: &str) -> (Frame, impl Fn(&str) -> u64 + use<>)
 #[test]
 fn whole_depths_show_the_same_however_they_are_kept() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("m.obj"), soup(60)).unwrap();
+    std::fs::write(folder.path().join("m.obj"), soup(400)).unwrap();
     for flags in ["", "--shade flat --format rgb565"] {
         let (auto, chosen) = drawn(&folder, flags);
         for more in ["", "--cache 7 --renderers 3"] {

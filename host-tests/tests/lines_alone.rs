@@ -188,10 +188,10 @@ fn cache_counts_add_up() {
     for pair in counts.windows(2) {
         assert!(pair[1].hits >= pair[0].hits, "{pair:?}");
         assert!(pair[1].misses <= pair[0].misses, "{pair:?}");
-        assert!(pair[1].set_ups <= pair[0].set_ups, "{pair:?}");
     }
     let [none, .., all] = counts;
-    assert!(none.misses > 5_000 && all.misses == 0, "{none:?} {all:?}");
+    assert!(none.misses > 500 && all.misses == 0, "{none:?} {all:?}");
+    assert!(none.set_ups > all.set_ups, "{none:?} {all:?}");
 }
 
 /// Links and cells beyond what is needed, a cache of the most slots, and whatever is in them, change nothing.

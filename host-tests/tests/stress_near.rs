@@ -231,7 +231,8 @@ impl Stage {
         Frame { words, hits, depth }
     }
 
-    fn polygon(&self, corners: &[Corner]) -> Vec<Seen> {
+    /// What the near and the far plane leave: its fan of triangles has the planes of colour.
+    fn parted(&self, corners: &[Corner]) -> Vec<Seen> {
         let between = |a: &Corner, b: &Corner, t: f64| Corner {
             place: mix(a.place, b.place, t),
             colour: mix(a.colour, b.colour, t),
@@ -239,8 +240,12 @@ impl Stage {
         let cut = clip(corners, |c| c.place[2] - self.near, between);
         let cut = clip(&cut, |c| self.far - c.place[2], between);
         let unit = self.near.log2().floor().exp2();
-        let seen = cut.iter().map(|c| project(c, self.focal, unit));
-        let mut seen: Vec<_> = seen.collect();
+        cut.iter().map(|c| project(c, self.focal, unit)).collect()
+    }
+
+    /// The same within the guard band.
+    fn polygon(&self, corners: &[Corner]) -> Vec<Seen> {
+        let mut seen = self.parted(corners);
         // Right, left, bottom and top of the guard band, where all is linear on the screen.
         let middle = [WIDTH, HEIGHT].map(|side| f64::from(side) / 2.0);
         for (axis, side) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
@@ -289,6 +294,7 @@ fn triangles_through_the_near_plane_are_cut_where_they_should() {
         let slack = stage.slack();
         let frame = stage.draw(corners);
         let polygon = stage.polygon(&corners);
+        let parted = stage.parted(&corners);
         for (i, x, y) in pixels() {
             let deep = inside(&polygon, x, y);
             let drawn = frame.hits[i] != 0;
@@ -316,8 +322,8 @@ fn triangles_through_the_near_plane_are_cut_where_they_should() {
             // Pieces of what is thin may fold over by their rounding; others meet at edges that they share.
             assert_eq!(frame.hits[i], 1, "drawn twice, {}", context());
             compared += 1;
-            let fan: Vec<_> = (2..polygon.len())
-                .map(|k| plane([&polygon[0], &polygon[k - 1], &polygon[k]], x, y))
+            let fan: Vec<_> = (2..parted.len())
+                .map(|k| plane([&parted[0], &parted[k - 1], &parted[k]], x, y))
                 .collect();
             let at = fan.iter().max_by(|a, b| a.2.total_cmp(&b.2)).unwrap();
             let slope = |k: usize| fan.iter().fold(0.0, |m: f64, f| m.max(f.1[k]));
