@@ -403,7 +403,7 @@ impl Row<'_> {
     ) -> Option<()> {
         let of = |i: usize, shadow: Shadow| self.calls[i].shadow == Some(shadow);
         let receives = |&i: &usize| of(i, Shadow::Lit(light)) || of(i, Shadow::Shadowed(light));
-        if !all.iter().any(|i| receives(i)) {
+        if !all.iter().any(receives) {
             return Some(());
         }
         let mut inside = vec![0; cells.len()];
@@ -511,7 +511,6 @@ fn less(a: SpanCounts, b: SpanCounts) -> SpanCounts {
         pixels_hidden: a.pixels_hidden - b.pixels_hidden,
         depth_tests: a.depth_tests - b.depth_tests,
         texture_fetches: a.texture_fetches - b.texture_fetches,
-        ..SpanCounts::default()
     }
 }
 

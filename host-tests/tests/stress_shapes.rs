@@ -67,11 +67,11 @@ fn spans<F: Smooth>(seed: u64, bound: f64) {
             for x in within(places, 0, screen.width()) {
                 let (part, _) = weights(places, x as i32, 0);
                 let levels = F::Format::to_rgb8(words[x]);
-                for i in 0..3 {
+                for (i, level) in levels.into_iter().enumerate() {
                     let steps = f64::from(F::Format::STEPS[i]) / 255.0;
-                    let level = (0..3).map(|k| part[k] * f64::from(triangle[k].colour[i]));
-                    let got = (f64::from(levels[i]) * steps).round();
-                    let off = (got - level.sum::<f64>() * steps).abs();
+                    let want = (0..3).map(|k| part[k] * f64::from(triangle[k].colour[i]));
+                    let got = (f64::from(level) * steps).round();
+                    let off = (got - want.sum::<f64>() * steps).abs();
                     assert!(
                         off <= bound + 1e-9,
                         "{off} steps of channel {i}, {slots} slots, {x}: {triangle:?}"

@@ -54,10 +54,13 @@ fn said(form: usize, u: i32, v: i32) -> (u8, bool) {
     ((r * 7 + g * 3 + b * 5) as u8, r & 2 == 2)
 }
 
+/// Those of one form and wrap: by mask, order of bytes and key.
+type Forms = [[[Texture<'static>; 3]; 2]; 3];
+
 /// All textures by form and wrap, as they are and filtered, each without a mask, with one of alphas, and with one that says
 /// also what is added and not dithered; in the byte order of this machine or the other; without a key, and with.
 pub struct Textures {
-    pub of: [[Vec<[[[Texture<'static>; 3]; 2]; 3]>; 2]; 2],
+    pub of: [[Vec<Forms>; 2]; 2],
     pub texels: Vec<Texels>,
 }
 

@@ -240,7 +240,7 @@ impl Call {
         if !is_plain {
             call.shading = values.shading;
             call.application = values.application;
-            call.scissor = values.scissor.clone();
+            call.scissor = values.scissor;
             call.depth = values.depth;
             call.blend = values.blend;
             call.alphas = if values.has_alphas { &self.alphas } else { &[] };
