@@ -35,11 +35,8 @@ pub(super) fn cut_all(
     beyond: u32,
     f: &mut dyn FnMut([Corner; 3]),
 ) {
-    let depth = cut_by(
-        corners,
-        view,
-        [beyond::NEAR, beyond::FAR].map(|plane| plane & beyond),
-    );
+    let depth = [beyond::NEAR, beyond::FAR].map(|plane| plane & beyond);
+    let depth = cut_by(&corners, view, &depth);
     each_triangle(&depth, &mut |piece| {
         // A cut at the near plane may reach beyond the guard band where no corner does.
         let is_within = |corner: &Corner| view.beyond(corner.point) == 0;
@@ -47,7 +44,7 @@ pub(super) fn cut_all(
             return f(piece);
         }
         let sides = [beyond::RIGHT, beyond::LEFT, beyond::BOTTOM, beyond::TOP];
-        each_triangle(&cut_by(piece, view, sides), f);
+        each_triangle(&cut_by(&piece, view, &sides), f);
     });
 }
 
@@ -62,11 +59,11 @@ fn each_triangle(polygon: &[Corner], f: &mut dyn FnMut([Corner; 3])) {
 
 /// What lies within some planes, as a convex polygon in the order of the corners.
 #[inline(never)]
-fn cut_by<const N: usize>(corners: [Corner; 3], view: &View, planes: [u32; N]) -> Polygon {
+fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32]) -> Polygon {
     let mut polygon = Polygon::new();
     // Three of seven places: it cannot be full.
-    let _ = polygon.extend_from_slice(&corners);
-    for plane in planes {
+    let _ = polygon.extend_from_slice(corners);
+    for &plane in planes {
         let is_within = |corner: &Corner| view.within(plane, corner.point) >= 0;
         if plane != 0 && !polygon.iter().all(is_within) {
             polygon = cut(&polygon, view, plane);
@@ -104,6 +101,7 @@ pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
 
 /// Keeps what lies within one plane. The result begins with the first corner within, or the new one
 /// before it.
+#[inline(never)]
 fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
     let mut kept = Polygon::new();
     for (i, this) in polygon.iter().enumerate() {
