@@ -29,11 +29,6 @@ impl<'m, T> Arena<'m, T> {
         self.len
     }
 
-    /// How many more values fit below index `limit`.
-    pub(crate) fn free_below(&self, limit: usize) -> usize {
-        self.items.len().min(limit) - self.len.min(limit).min(self.items.len())
-    }
-
     /// Appends; `None` when the arena is full.
     #[inline]
     pub(crate) fn push(&mut self, value: T) -> Option<u16> {
@@ -73,6 +68,11 @@ impl<'m, T> Arena<'m, T> {
         self.items.get(..self.len).unwrap_or(&[])
     }
 
+    /// The value that was added last, to be changed.
+    pub(crate) fn last_mut(&mut self) -> Option<&mut T> {
+        self.items.get_mut(self.len.checked_sub(1)?)
+    }
+
     /// The values so far, to be changed.
     #[inline]
     pub(crate) fn as_mut_slice(&mut self) -> &mut [T] {
@@ -88,9 +88,7 @@ mod tests {
     fn fills_and_refuses() {
         let mut memory = [0; 2];
         let mut arena = Arena::new(&mut memory);
-        assert_eq!(arena.free_below(9), 2);
         assert_eq!(arena.push(5), Some(0));
-        assert_eq!(arena.free_below(1), 0);
         assert_eq!(arena.push(6), Some(1));
         assert_eq!(arena.push(7), None);
         assert_eq!(arena.as_slice(), [5, 6]);

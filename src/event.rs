@@ -88,6 +88,12 @@ impl EventSet {
         Self(self.0 & !(1 << event as u32))
     }
 
+    /// The kinds of both.
+    #[must_use]
+    pub const fn union(self, other: Self) -> Self {
+        Self(self.0 | other.0)
+    }
+
     /// Whether `event` is in it.
     #[must_use]
     pub const fn has(self, event: Event) -> bool {

@@ -59,7 +59,6 @@
 //! | [`frame`] | pass two: lines, frames, two cores |
 //! | [`overlay`], [`scan_out`] | what is painted over lines, and how they get to displays |
 //! | [`stats`], [`event`] | what happened |
-//! | [`pipeline`] | another way to all of it, by types: what the modules above do not have yet |
 //!
 //! # Where to go on
 //!
@@ -70,7 +69,6 @@
 //! | blends, scissors, priorities, shadows, reflections, lists | [`guide::draw_calls`] |
 //! | your display, your memory, two cores | [`guide::own_display`], [`guide::own_memory`], [`guide::two_cores`] |
 //! | speed against error, and what a frame did | [`guide::quality`], [`guide::figures`] |
-//! | alpha of vertices, fetching ahead | [`guide::presets`] |
 //! | which requirement is met where, and which test says so | [`guide::rows`] |
 #![no_std]
 #![forbid(unsafe_code)]
@@ -85,7 +83,6 @@ struct Readme;
 
 mod active;
 mod arena;
-mod composite;
 pub mod event;
 pub mod frame;
 mod geometry;
@@ -98,13 +95,10 @@ pub mod look;
 pub mod mesh;
 mod num;
 pub mod overlay;
-pub mod pipeline;
 pub mod pixel;
 mod player;
-mod renderer;
 pub mod scan_out;
 pub mod scene;
-mod shade;
 mod span;
 pub mod stats;
 mod visible;

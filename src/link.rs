@@ -33,18 +33,6 @@ impl Link {
         Self(Self::CACHED + index as u16)
     }
 
-    /// The hit test: whether the link leads to the cache.
-    #[inline(always)]
-    pub(crate) const fn is_cached(self) -> bool {
-        self.0 >= Self::CACHED
-    }
-
-    /// The slot of a cached link; of any other, also [`NONE`](Link::NONE), one that no cache has.
-    #[inline(always)]
-    pub(crate) const fn slot(self) -> usize {
-        (self.0 as usize).wrapping_sub(Self::CACHED as usize)
-    }
-
     /// The object of a slow link.
     #[inline(always)]
     pub(crate) const fn object(self) -> u16 {

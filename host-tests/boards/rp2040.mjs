@@ -21,6 +21,8 @@ const SPI_BUSY = 1 << 4;
 const DREQ_SPI0_TX = 16;
 const DC_PIN = 4;
 const FIFO_DEPTH = 8;
+// Of SIO: a division begins as one of these is written.
+const [DIVISOR, SIGNED_DIVISOR] = [0x64, 0x6c];
 // A read of the DMA's state that follows the one before within so many cycles is a wait.
 const POLL = 200;
 
@@ -47,6 +49,7 @@ export class Board {
     this.event = false;
     this.held = true;
     this.slept = [0, 0];
+    this.divided = [0, 0]; // divisions of each core
     this.polled = 0; // cycles in which core 0 polls the DMA
     this.busCycles = 0;
     const mcu = (this.mcu = new parts.RP2040());
@@ -108,6 +111,7 @@ export class Board {
     };
     sio.writeUint32 = (offset, value) => {
       const me = this.selected;
+      if (offset === DIVISOR || offset === SIGNED_DIVISOR) this.divided[me] += 1;
       if (offset === 0x050) this.letterErrors[me] = 0;
       else if (offset === 0x054) this.post(me, value >>> 0);
       else this.keepLevel(() => write(offset, value));

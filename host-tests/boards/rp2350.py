@@ -12,7 +12,9 @@ CLOCKS = 0x40010000
 RESETS, RESET_DONE, ALL_RESET = 0x40020000, 0x40020008, 0x1FFFFFFF
 XOSC_STATUS = 0x40048004
 PLLS = 0x40050000, 0x40058000
-SPI_CR1, SPI_DR, SPI_SR, SPI_DMACR = 0x40080004, 0x40080008, 0x4008000C, 0x40080024
+SPI_CR0, SPI_CR1, SPI_DR, SPI_SR = 0x40080000, 0x40080004, 0x40080008, 0x4008000C
+SPI_CPSR, SPI_DMACR = 0x40080010, 0x40080024
+CRYSTAL = 12_000_000
 DMA, DMA_RESET, SPI0_TX = 0x50000000, 1 << 2, 24
 SIO = 0xD0000000
 DC = 1 << 4  # GP4
@@ -86,6 +88,17 @@ class Chip(CortexM):
                 self.bus.set_level(int(bool(self.get(out) & DC)))
 
             self.writes[SIO + offset] = write
+
+    def report(self):
+        super().report()
+        print("bus", self.bus_hertz())
+
+    def bus_hertz(self):
+        """SPI0 divides the system's clock, which a PLL makes of the crystal's."""
+        state, feedback, posts = (self.get(PLLS[0] + offset) for offset in (0, 8, 12))
+        divider = (state & 63) * (posts >> 16 & 7) * (posts >> 12 & 7)
+        divider *= (self.get(SPI_CPSR) & 0xFF) * (1 + (self.get(SPI_CR0) >> 8 & 0xFF))
+        return CRYSTAL * feedback // max(1, divider)
 
     def send(self, value):
         self.check(self.get(SPI_CR1) & 2, "a byte is written to an SPI that is off")

@@ -4,6 +4,9 @@
 //   data DC HEX            bytes that arrived with this level of the data/command pin
 //   picture WIDTH HEIGHT HEX   what a memory-mapped panel shows from now on, as on a wire
 //   clock HERTZ            of the processor, which the cycles are of
+//   bus HERTZ              of the bus to the panel
+//   stack BYTES            the most that core 0's stack had
+//   divisions NUMBER       of all cores, by the chip's divider
 //   figures CYCLES BUS WAIT MISSES   so far, when the pixels of a frame are about to come
 //   use ADDRESS MISSES RETURNS   of what was read there since the first figures: see xip.mjs
 //   fault TEXT             something that a chip or a panel would not forgive

@@ -14,7 +14,7 @@ mod view;
 pub use crate::choice::{DEFAULT_SLOTS, DepthArg, InterpArg, MAX_SIDE, PixelFormatArg};
 pub use bench::{BenchArgs, BoardsArgs, BudgetsArgs, FirmwareArgs};
 pub use picture::{PictureArgs, ShadeArg, Size};
-pub use render::{QualityArg, RenderArgs, SwitchArg};
+pub use render::{Method, QualityArg, RenderArgs, SwitchArg};
 pub use view::ViewArgs;
 
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};

@@ -6,30 +6,38 @@
 //! Texture memory follows, for people: what a texture in blocks saves against one in rows (B5).
 
 use crate::args::CacheArgs;
+use crate::draw::MOST_SLOTS;
 use crate::image_out::{make_folder, write_atomically, write_image};
-use crate::lent::{LineRooms, SceneRooms};
 use crate::memory_model::{
     Counted as Model, DRAM_80, DTCM, Layout, QSPI_PSRAM, SDRAM, SRAM_12, SYSTEMS,
 };
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::plot::{Chart, Marks, Series};
+use crate::rooms::{LineRooms, Room, SceneRooms};
 use crate::texture_report::texture_table;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use scanbeam::pipeline::{Counted, FrameStats, GouraudDepth, SlotOf, draw_frame};
+use scanbeam::frame::FastMemory;
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
-use scenes::{HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
+use scanbeam::scene::Assembled;
+use scanbeam::{Renderer, draw_frame};
+use scenes::{DRAWS, HEIGHT, OBJECTS, Shot, VERTICES, WIDTH};
 use serde_json::{Value, json};
 use std::error::Error;
 
-type Drawn = Counted<GouraudDepth<Rgb565Be>>;
+type Look = Gouraud<Rgb565Be>;
 
+/// Bytes of a triangle and its corners.
+const RECORD_BYTES: u32 = Renderer::<Look, WORDS>::RECORD_BYTES;
+/// Words of 32 slots of the largest cache.
+const WORDS: usize = MOST_SLOTS as usize / 32;
 /// The scenes.
 const SHOTS: [Shot; 3] = [Shot::Teapot, Shot::Sphere, Shot::Crowd];
 /// Sizes of the cache.
-const SLOTS: [usize; 15] = [0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, 256, 512];
+const SLOTS: [u16; 14] = [0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, MOST_SLOTS];
 /// The size whose figures are the goal's.
-const GOAL_SLOTS: usize = 64;
+const GOAL_SLOTS: u16 = 64;
 /// Bytes a line that are fetched ahead where anything is.
 const AHEAD: u32 = 4_000;
 /// Lines of a transfer.
@@ -37,10 +45,17 @@ const LINES: u16 = 4;
 
 /// A scene drawn with one size of cache.
 struct Row {
-    slots: usize,
+    slots: u16,
     prefetch: u32,
-    stats: FrameStats,
     model: Model,
+}
+
+/// A scene, and what it was drawn with.
+struct Measured {
+    pass: Assembled,
+    objects: usize,
+    vertices: usize,
+    rows: Vec<Row>,
 }
 
 /// Draws, prints and writes.
@@ -51,12 +66,12 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
     let mut reports = Vec::new();
     let mut charts = Vec::new();
     for shot in SHOTS {
-        let rows = measure(shot)?;
+        let measured = measure(shot)?;
         if !args.json {
-            print(shot, &rows);
+            print(shot, &measured);
         }
-        reports.push(to_json(shot, &rows));
-        charts.push((shot.name(), chart(shot, &rows)));
+        reports.push(to_json(shot, &measured));
+        charts.push((shot.name(), chart(shot, &measured.rows)));
     }
     if args.json {
         say!("{}", serde_json::to_string_pretty(&Value::from(reports))?);
@@ -85,46 +100,57 @@ pub fn run(args: &CacheArgs) -> Result<(), Box<dyn Error>> {
 pub fn charts() -> Result<Vec<Chart>, Box<dyn Error>> {
     SHOTS
         .into_iter()
-        .map(|shot| Ok(chart(shot, &measure(shot)?)))
+        .map(|shot| Ok(chart(shot, &measure(shot)?.rows)))
         .collect()
 }
 
 /// Draws a scene with every size of cache, and once with fetching ahead.
-fn measure(shot: Shot) -> Result<Vec<Row>, Box<dyn Error>> {
-    let mut lent = SceneRooms::<Drawn>::new(VERTICES, OBJECTS, HEIGHT.into());
-    let mut scene = lent.scene(Shot::screen());
+fn measure(shot: Shot) -> Result<Measured, Box<dyn Error>> {
+    let room = Room {
+        vertices: VERTICES,
+        places: 0,
+        objects: OBJECTS,
+        draws: DRAWS,
+    };
+    let mut lent = SceneRooms::new(room, HEIGHT);
+    let mut scene = lent.scene::<Look>(Shot::screen());
     shot.build(&mut scene)
         .map_err(|error| format!("{}: {error:?}", shot.name()))?;
     let mut rows = Vec::new();
     let mut first = None;
     let settings = SLOTS.into_iter().map(|slots| (slots, 0));
     for (slots, prefetch) in settings.chain([(GOAL_SLOTS, AHEAD)]) {
-        let mut rooms = LineRooms::<Drawn>::new(slots, OBJECTS, WIDTH.into());
-        let mut renderer = rooms.renderer();
-        renderer.set_prefetch(prefetch);
+        let rooms: LineRooms<Look, WORDS> = LineRooms::new(OBJECTS, WIDTH);
+        let mut rooms = rooms.with_limit(slots);
+        let mut renderer = rooms.renderer().counting().fetching(prefetch);
         let words = usize::from(WIDTH) * usize::from(LINES);
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(1);
         let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
         let background = Rgb565Be::from_rgb8(shot.background());
-        let stats = draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
+        let used = draw_frame(&scene, &mut renderer, &mut pump, background, LINES)?;
         let frame = pump.sink().frame()?;
         if first.get_or_insert_with(|| frame.clone()) != &frame {
             return Err(format!("{}: {slots} slots change the picture", shot.name()).into());
         }
-        let model = Model {
-            cache: stats.cache,
-            spans: stats.spans,
-            size: (u64::from(HEIGHT), u64::from(WIDTH)),
-            slot_bytes: size_of::<SlotOf<Drawn>>() as u64,
-        };
+        let spans = renderer.spans();
+        let lines = u64::from(HEIGHT);
         rows.push(Row {
             slots,
             prefetch,
-            stats,
-            model,
+            model: Model {
+                cache: used.cache,
+                spans,
+                size: (lines, u64::from(WIDTH)),
+                slot_bytes: FastMemory::<Look, WORDS>::SLOT_BYTES as u64,
+            },
         });
     }
-    Ok(rows)
+    Ok(Measured {
+        pass: scene.assembled(),
+        objects: scene.objects(),
+        vertices: scene.vertices(),
+        rows,
+    })
 }
 
 /// How many times fewer slow bytes than `without`.
@@ -133,15 +159,20 @@ fn saving(row: &Row, without: &Row) -> f64 {
     bytes(without) / bytes(row).max(1.0)
 }
 
-fn print(shot: Shot, rows: &[Row]) {
-    let [without, ..] = rows else { return };
-    let pass = without.stats.pass_one;
+fn print(shot: Shot, measured: &Measured) {
+    let Measured {
+        pass,
+        objects,
+        vertices,
+        rows,
+    } = measured;
+    let [without, ..] = &rows[..] else { return };
     say!(
         "{}: {} triangles in, {} objects, {} vertices kept; a slot is {} bytes",
         shot.name(),
         pass.triangles,
-        pass.objects,
-        pass.vertices,
+        objects,
+        vertices,
         without.model.slot_bytes
     );
     let mut table = Table::new();
@@ -155,8 +186,8 @@ fn print(shot: Shot, rows: &[Row]) {
         let ahead = if row.prefetch > 0 { " ahead" } else { "" };
         let mut cells = vec![
             format!("{}{ahead}", row.slots),
-            format!("{:.1}", f64::from(row.stats.cache.hits_per_mille()) / 10.0),
-            row.stats.cache.misses.to_string(),
+            format!("{:.1}", 100.0 * row.model.hit_rate()),
+            row.model.cache.misses.to_string(),
             row.model.slow_bytes(Layout::Indexed).to_string(),
             format!("{:.1}", saving(row, without)),
         ];
@@ -171,7 +202,7 @@ fn print(shot: Shot, rows: &[Row]) {
     }
     say!("{table}");
     for layout in Layout::ALL {
-        let scene = layout.scene_bytes(pass.objects.into(), pass.vertices.into());
+        let scene = layout.scene_bytes(*objects as u64, *vertices as u64);
         let mut line = format!("  {}: scene {scene} bytes;", layout.name());
         for row in rows.iter().filter(|r| matches!(r.slots, 0 | GOAL_SLOTS)) {
             let bytes = row.model.slow_bytes(layout);
@@ -187,9 +218,14 @@ fn print(shot: Shot, rows: &[Row]) {
     }
 }
 
-fn to_json(shot: Shot, rows: &[Row]) -> Value {
+fn to_json(shot: Shot, measured: &Measured) -> Value {
+    let Measured {
+        objects,
+        vertices,
+        rows,
+        ..
+    } = measured;
     let without = &rows[0];
-    let pass = without.stats.pass_one;
     let figures: Vec<Value> = rows
         .iter()
         .map(|row| {
@@ -213,26 +249,27 @@ fn to_json(shot: Shot, rows: &[Row]) -> Value {
                     json!({
                         "layout": layout.name(),
                         "record_bytes": layout.record_bytes(),
-                        "scene_bytes": layout.scene_bytes(pass.objects.into(), pass.vertices.into()),
+                        "scene_bytes": layout.scene_bytes(*objects as u64, *vertices as u64),
                         "slow_bytes": row.model.slow_bytes(*layout),
                         "times": systems,
                     })
                 })
                 .collect();
-            let cache = &row.stats.cache;
+            let model = &row.model;
+            let cache = &model.cache;
             json!({
                 "slots": row.slots,
                 "prefetch_budget": row.prefetch,
-                "hits": cache.hits,
+                "hits": model.hits(),
                 "misses": cache.misses,
-                "hit_rate": f64::from(cache.hits) / f64::from((cache.hits + cache.misses).max(1)),
-                "spills": cache.spills,
+                "hit_rate": model.hit_rate(),
+                "spills": cache.spilled,
                 "records_read": cache.records_read(),
-                "prefetch_hits": cache.fetched_hits,
-                "prefetch_bytes": row.stats.prefetch_bytes,
-                "peak_slots": cache.peak_slots,
-                "slow_read_bytes": row.stats.slow_read_bytes,
-                "slow_write_bytes": row.stats.slow_write_bytes,
+                "prefetched": cache.fetched,
+                "prefetch_bytes": cache.fetched_bytes,
+                "peak_slots": cache.peak,
+                "slow_read_bytes": cache.slow_read_bytes(RECORD_BYTES),
+                "slow_write_bytes": cache.slow_write_bytes(),
                 "times_fewer_slow_bytes": saving(row, without),
                 "layouts": layouts,
             })
@@ -240,8 +277,8 @@ fn to_json(shot: Shot, rows: &[Row]) -> Value {
         .collect();
     json!({
         "scene": shot.name(),
-        "objects": pass.objects,
-        "vertices": pass.vertices,
+        "objects": objects,
+        "vertices": vertices,
         "slot_bytes": without.model.slot_bytes,
         "caches": figures,
     })
@@ -271,7 +308,7 @@ mod tests {
 
     #[test]
     fn more_slots_are_fewer_slow_bytes_and_less_time() {
-        let rows = measure(Shot::Sphere).unwrap();
+        let rows = measure(Shot::Sphere).unwrap().rows;
         for pair in rows[..SLOTS.len()].windows(2) {
             let bytes = |row: &Row| row.model.slow_bytes(Layout::Indexed);
             assert!(
@@ -286,10 +323,11 @@ mod tests {
         }
         let goal = rows.iter().find(|row| row.slots == GOAL_SLOTS).unwrap();
         assert!(saving(goal, &rows[0]) >= 5.0, "{}", saving(goal, &rows[0]));
-        // Fetched ahead it is no more that is read, and hardly anything is missed.
+        // Fetched ahead it is no more that is read, and hardly anything is left for when its line comes.
         let ahead = rows.last().unwrap();
-        assert!(ahead.stats.cache.misses * 5 < goal.stats.cache.misses);
-        assert!(ahead.stats.slow_read_bytes <= goal.stats.slow_read_bytes);
+        let read = |row: &Row| row.model.cache.slow_read_bytes(RECORD_BYTES);
+        assert!(ahead.model.cache.fetched * 5 > 4 * ahead.model.cache.hits);
+        assert!(read(ahead) <= read(goal));
     }
 
     #[test]

@@ -467,7 +467,8 @@ pub struct Measured {
     pub output: Output,
 }
 
-/// Builds [`COMPARER`] for a board, runs it and reads what it printed.
+/// Builds [`COMPARER`] for a board, runs it and reads what it printed: frames, and with `bench` among the words that it
+/// is handed also kernels, units, lines and growth.
 ///
 /// # Errors
 ///
@@ -476,12 +477,17 @@ pub fn measure(
     toolchain: &Toolchain,
     board: &Board,
     profile: Profile,
-    features: &[&str],
+    words: &[&str],
 ) -> Result<Measured, FirmwareError> {
-    let elf = build(toolchain, board, profile, COMPARER, features)?;
+    let elf = build(toolchain, board, profile, COMPARER, &[])?;
+    let words: Vec<&str> = [COMPARER]
+        .into_iter()
+        .chain(words.iter().copied())
+        .collect();
+    let said = run_words(board, &elf, DEFAULT_TIMEOUT, &words, Path::new("."))?;
     Ok(Measured {
         board: *board,
         sections: Sections::read(&elf)?,
-        output: Output::parse(&run(board, &elf, DEFAULT_TIMEOUT)?)?,
+        output: Output::parse(&said)?,
     })
 }

@@ -6,12 +6,9 @@ use crate::figures::{Bench, Figure, Size, growth, suite};
 use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
-use crate::frames::{draw, host_counts, host_frames};
+use crate::frames::{FrameCounts, host_counts, host_frames};
 use crate::image_out::{make_folder, write_atomically, write_image};
-use crate::{preset_sizes, profile_report};
-use scanbeam::pipeline::{FlatPainter, FrameStats, GouraudPainter};
-use scanbeam::pixel::Rgb565Be;
-use scenes::Shot;
+use crate::{profile_report, sizes};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -24,7 +21,7 @@ use std::path::Path;
 /// When the firmware cannot be built or run, or did not say what it should.
 pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
     if args.sizes {
-        return preset_sizes::run(args).map(|()| true);
+        return sizes::run(args).map(|()| true);
     }
     if let Some(frame) = &args.profile {
         return profile_report::run(frame, args).map(|()| true);
@@ -108,17 +105,13 @@ fn compared(
         &[COMPARER]
     };
     firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &[])?;
-    if bench {
-        let programs = &[COMPARER];
-        firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &["bench"])?;
-    }
+    let words = if bench { &["bench"][..] } else { &[] };
     for board in &BOARDS {
-        let measured = firmware::measure(toolchain, board, Profile::Release, &[])?;
+        let measured = firmware::measure(toolchain, board, Profile::Release, words)?;
         let mut compared = Compared::new(measured, host)?;
         if bench {
-            let measured = firmware::measure(toolchain, board, Profile::Release, &["bench"])?;
-            let sizes = sizes(toolchain, board, host)?;
-            compared.bench = Some(Bench::new(&measured.output, &spans, sizes)?);
+            let sizes = small_programs(toolchain, board)?;
+            compared.bench = Some(Bench::new(&compared.measured.output, &spans, sizes)?);
         }
         boards.push(compared);
     }
@@ -126,31 +119,18 @@ fn compared(
 }
 
 /// The small programs.
-const SIZES: [&str; 2] = ["preset", "presets"];
+const SIZES: [&str; 2] = ["small", "looks"];
 
 /// Builds the small programs, and runs them, so that what is measured also draws.
-fn sizes(
-    toolchain: &Toolchain,
-    board: &Board,
-    host: &BTreeMap<&str, u32>,
-) -> Result<Vec<Size>, Box<dyn Error>> {
-    let mut known = host.clone();
-    let painter = draw::<GouraudPainter<Rgb565Be>>(Shot::Teapot)?;
-    known.insert("teapot_painter", crc32fast::hash(&painter));
-    let painter = draw::<FlatPainter<Rgb565Be>>(Shot::Teapot)?;
-    known.insert("teapot_flat_painter", crc32fast::hash(&painter));
+fn small_programs(toolchain: &Toolchain, board: &Board) -> Result<Vec<Size>, Box<dyn Error>> {
+    let known = sizes::pictures()?;
     let mut sizes = Vec::new();
     for program in SIZES {
         let elf = firmware::build(toolchain, board, Profile::Release, program, &[])?;
-        let pictures = firmware::run(board, &elf, DEFAULT_TIMEOUT)?;
-        let drawn = |line: &String| {
-            let mut words = line.split(' ').skip(1);
-            let crc = known.get(words.next()?)?;
-            (words.next()? == format!("{crc:08x}")).then_some(())
-        };
-        if pictures.is_empty() || !pictures.iter().all(|line| drawn(line).is_some()) {
+        let said = firmware::run(board, &elf, DEFAULT_TIMEOUT)?;
+        if !sizes::draws(&known, &said) {
             let name = board.name;
-            return Err(format!("{name}: {program} draws something else: {pictures:?}").into());
+            return Err(format!("{name}: {program} draws something else: {said:?}").into());
         }
         sizes.push(Size {
             program,
@@ -195,7 +175,7 @@ struct Compared {
     /// Name, host's checksum, target's checksum, instructions.
     frames: Vec<(String, u32, u32, u64)>,
     /// What the frames of the shots have.
-    counts: BTreeMap<&'static str, FrameStats>,
+    counts: BTreeMap<&'static str, FrameCounts>,
     /// What `--bench` measures.
     bench: Option<Bench>,
 }
@@ -234,7 +214,7 @@ impl Compared {
             .iter()
             .map(|(scene, host, target, instructions)| {
                 let stats = self.counts.get(scene.as_str());
-                let each = |of: fn(&FrameStats) -> u32| {
+                let each = |of: fn(&FrameCounts) -> u32| {
                     stats.map(|stats| *instructions as f64 / f64::from(of(stats).max(1)))
                 };
                 json!({

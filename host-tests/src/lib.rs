@@ -4,11 +4,9 @@
 #[macro_use]
 extern crate host_support;
 
-pub use host_draw::{self as draw, choice, crew};
+pub use host_draw::{self as draw, choice, crew, places};
 pub use host_frames as frames;
-pub use host_support::{
-    image_out, lent, mock, model, reference, rooms, say, stdio, tell, texture_file,
-};
+pub use host_support::{image_out, mock, model, reference, rooms, say, stdio, tell, texture_file};
 
 pub mod accuracy;
 pub mod args;
@@ -23,12 +21,11 @@ pub mod firmware_report;
 pub mod golden;
 pub mod lists;
 pub mod memory_model;
-pub mod places;
 pub mod plot;
-pub mod preset_sizes;
 pub mod profile_report;
 pub mod report;
 pub mod scene_file;
+pub mod sizes;
 pub mod texture_report;
 pub mod trace;
 pub mod view;

@@ -1,11 +1,9 @@
 //! The command line tool: see `scanbeam --help`.
 
-use host_tests::args::{
-    self, Command, DepthArg, EXIT_BAD_INPUT, InterpArg, PixelFormatArg, QualityArg, RenderArgs,
-    Stop,
-};
-use host_tests::draw::TextureSet;
-use host_tests::image_out::{Frame, Staged, encode_image};
+use host_tests::args::InterpArg;
+use host_tests::args::{self, Command, EXIT_BAD_INPUT, Method, PixelFormatArg, RenderArgs, Stop};
+use host_tests::draw::{Drawn, TextureSet};
+use host_tests::image_out::{Staged, encode_image};
 use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::scene_file::Loaded;
@@ -73,92 +71,43 @@ fn ended(done: Result<ExitCode, Box<dyn Error>>) -> ExitCode {
     })
 }
 
-/// Who draws.
-fn crew(args: &RenderArgs) -> draw::CrewSettings {
-    draw::CrewSettings {
-        renderers: args.renderers,
-        slots: usize::from(args.cache),
-        prefetch: args.prefetch,
-        quality: args.quality.map(QualityArg::quality).unwrap_or_default(),
-        depth_use: args.depth.depth_use(),
-    }
-}
-
-/// What is written and told of a picture.
+/// A picture, and whether its texels have fewer levels than its pixels.
 struct Picture {
-    frame: Frame,
-    figures: serde_json::Value,
-    overfull: Option<draw::Overfull>,
-    untextured: u32,
-    /// Whether texels have fewer levels than pixels.
+    drawn: Drawn,
     is_rounded: bool,
 }
 
-impl From<draw::Drawn> for Picture {
-    fn from(drawn: draw::Drawn) -> Self {
-        Self {
-            figures: drawn.to_json(),
-            frame: drawn.frame,
-            overfull: drawn.overfull,
-            untextured: drawn.stats.pass_one.untextured,
-            is_rounded: false,
-        }
-    }
-}
-
 impl Picture {
-    /// A picture by draw calls, with textures or without.
-    fn called(called: draw::Called, textured: bool, format: PixelFormatArg) -> Self {
+    /// With textures or without.
+    fn new(drawn: Drawn, textured: bool, format: PixelFormatArg) -> Self {
         use PixelFormatArg::{Dithered565, Rgb565};
         Self {
-            figures: called.to_json(),
-            untextured: called.used.assembled.untextured,
-            frame: called.frame,
-            overfull: called.overfull,
+            drawn,
             is_rounded: textured && !matches!(format, Rgb565 | Dithered565),
         }
     }
 
     /// Tells what is not as it was asked for.
-    fn tell(&self, file: &std::path::Display<'_>) {
-        if let Some(overfull) = &self.overfull {
-            tell!("warning: {file}: {overfull}");
+    fn tell(&self, args: &RenderArgs) {
+        if let Some(overfull) = &self.drawn.overfull {
+            tell!("warning: {}: {overfull}", args.model.display());
         }
         if self.is_rounded {
             tell!("note: texels of textures are rounded to 5, 6 and 5 bits");
         }
-        if self.untextured > 0 {
+        let untextured = self.drawn.used.assembled.untextured;
+        if untextured > 0 {
             tell!(
-                "note: triangles, or pieces of them, that stretch over more than 4096 texels, drawn without their texture: {}",
-                self.untextured
+                "note: triangles, or pieces of them, that stretch over more than 4096 texels, drawn without their texture: {untextured}"
+            );
+        }
+        if args.cache > draw::MOST_SLOTS {
+            tell!(
+                "note: a renderer's cache has at most {} slots: the picture is the same with any number",
+                draw::MOST_SLOTS
             );
         }
     }
-}
-
-/// Draws a model with textures or dither by draw calls, where those have what is asked.
-fn render_by_calls(
-    args: &RenderArgs,
-    model: &Model,
-    textures: &TextureSet,
-) -> Result<Option<Picture>, draw::DrawFailure> {
-    let (view, format) = (args.view(), args.format());
-    let is_dithered = format == PixelFormatArg::Dithered565;
-    let is_usual = args.interp.is_none() && args.depth == DepthArg::Auto && args.prefetch == 0;
-    if textures.is_empty() && !is_dithered || !is_usual {
-        return Ok(None);
-    }
-    let skins = skins(args, textures);
-    let prepared = draw::Prepared::textured(model, textures, skins.quality);
-    let called = draw::draw_by_calls(
-        &prepared,
-        Some(skins),
-        &view,
-        format,
-        args.renderers,
-        args.cache,
-    )?;
-    Ok(called.map(|called| Picture::called(called, !textures.is_empty(), format)))
 }
 
 /// Textures as the flags ask for them.
@@ -166,15 +115,15 @@ fn skins<'s>(args: &RenderArgs, set: &'s TextureSet) -> draw::Skins<'s> {
     draw::Skins {
         set,
         filter: args.filter,
-        quality: args.texture_quality(),
+        budget: args.budget(),
     }
 }
 
 /// Writes a picture and, where they are asked for, its figures: both files, or none.
-fn write(args: &RenderArgs, drawn: &Picture) -> Result<(), Box<dyn Error>> {
+fn write(args: &RenderArgs, drawn: &Drawn) -> Result<(), Box<dyn Error>> {
     let picture = Staged::new(&args.output, &encode_image(&args.output, &drawn.frame)?)?;
     if let Some(path) = &args.stats {
-        let mut text = serde_json::to_string_pretty(&drawn.figures)?;
+        let mut text = serde_json::to_string_pretty(&drawn.to_json())?;
         text.push('\n');
         Staged::new(path, text.as_bytes())?.commit()?;
     }
@@ -187,15 +136,15 @@ fn render_scene(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
     let file = args.model.display();
     let (view, format) = (loaded.scene.view(), loaded.scene.pixel_format());
     let drawn = draw::SceneParts::new(&loaded).and_then(|parts| {
-        let called = draw::draw_scene_file(&parts, &view, format, crew(args))?;
-        Ok(Picture::called(called, parts.are_textured(), format))
+        let drawn = draw::draw_scene_file(&parts, &view, format, args.crew())?;
+        Ok(Picture::new(drawn, parts.are_textured(), format))
     });
-    let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
-    write(args, &drawn)?;
+    let picture = drawn.map_err(|error| format!("{file}: {error}"))?;
+    write(args, &picture.drawn)?;
     for note in loaded.notes() {
         tell!("note: {note}");
     }
-    drawn.tell(&file);
+    picture.tell(args);
     Ok(())
 }
 
@@ -205,59 +154,40 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         return render_scene(args);
     }
     let model = Model::load(&args.model)?;
-    let crew = crew(args);
-    let (view, format) = (args.view(), args.format());
     let textures = match args.method() {
         // The hardware model has none.
-        InterpArg::Model => TextureSet::default(),
+        Method::Interp(InterpArg::Model) => TextureSet::default(),
         _ => TextureSet::load(&model, args.texture.as_deref())?.with_levels(args.levels.is_on()),
     };
+    let (view, format, crew) = (args.view(), args.format(), args.crew());
     let effects = args.effects();
-    let seen = effects.are_seen(&model, &view);
-    let is_dithered = format == PixelFormatArg::Dithered565;
-    let common = [PixelFormatArg::Rgb565, PixelFormatArg::Rgb888];
-    let is_plain = args.interp.is_some() || !is_dithered && !common.contains(&format);
-    if args.depth != DepthArg::Auto && seen && !is_plain {
-        return Err(format!(
-            "--depth {} draws no materials that shine or are transparent",
-            args.depth
-        )
-        .into());
-    }
-    if args.depth.is_a_pipeline() && !textures.is_empty() {
-        return Err(format!("--depth {} draws no textures", args.depth).into());
-    }
-    let file = args.model.display();
-    let by_calls = if seen && !is_plain {
-        let skins = skins(args, &textures);
-        draw::draw_effects(&model, skins, (&view, format), crew, effects)
-            .map(|called| Some(Picture::called(called, !textures.is_empty(), format)))
-    } else {
-        render_by_calls(args, &model, &textures)
+    let are_seen = effects.are_seen(&model, &view);
+    let drawn = match args.method() {
+        Method::DrawCalls if are_seen => {
+            let skins = skins(args, &textures);
+            draw::draw_effects(&model, skins, (&view, format), crew, effects)
+        }
+        Method::DrawCalls => {
+            draw::draw_textured(&model, skins(args, &textures), &view, format, crew)
+        }
+        method if !textures.is_empty() => return Err(format!("{method} draws no textures").into()),
+        Method::Interp(interp) => draw::draw_by(&model, &view, format, crew, interp),
+        Method::Depth(depth) => draw::draw_by_depth(&model, &view, format, crew, depth),
     };
-    let by_calls = by_calls.map_err(|error| format!("{file}: {error}"))?;
-    let drawn = if let Some(picture) = by_calls {
-        Ok(picture)
-    } else if args.depth.is_a_pipeline() {
-        draw::draw_by_depth(&model, &view, format, crew, args.depth).map(Picture::from)
-    } else if textures.is_empty() {
-        draw::draw_by(&model, &view, format, crew, args.method()).map(Picture::from)
-    } else {
-        let how = (args.filter, args.texture_quality());
-        draw::draw_textured(&model, &textures, how, &view, format, crew).map(Picture::from)
-    };
-    let drawn = drawn.map_err(|error| format!("{file}: {error}"))?;
-    write(args, &drawn)?;
+    let drawn = drawn.map_err(|error| format!("{}: {error}", args.model.display()))?;
+    let picture = Picture::new(drawn, !textures.is_empty(), format);
+    write(args, &picture.drawn)?;
     // Last, so that a refusal is one line alone.
     model.print_warnings();
-    if seen && is_plain {
+    if are_seen && args.method() != Method::DrawCalls {
         tell!(
-            "note: with --interp, and with formats other than rgb888 and rgb565, highlights and transparency of materials are left out"
+            "note: with {}, highlights and transparency of materials are left out",
+            args.method()
         );
     }
     for note in textures.notes() {
         tell!("note: {note}");
     }
-    drawn.tell(&file);
+    picture.tell(args);
     Ok(())
 }

@@ -12,12 +12,8 @@
 use crate::image_out::{ImageError, write_atomically, write_image};
 use crate::plot::{Chart, Marks, Series};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
-use scanbeam::pipeline::BlockFix16;
-use scanbeam::pipeline::texture::{
-    BlockCache, Blocked, CacheReads, Homogeneous, Layout, Linear, PerspectiveSpan, Size, Stride,
-    Texels, Texture, Uv, Words, Wrap,
-};
-use scanbeam_model::{Cluster, Grid, Traversal};
+use scanbeam::scene::{BlockCache, Blocked, CacheWord, Texels, Texture};
+use scanbeam_model::{BlockFix16, Cluster, Grid, Traversal};
 use std::collections::BTreeSet;
 use std::path::Path;
 
@@ -58,8 +54,8 @@ pub const VIEWS: [(&str, View); 5] = [
 ];
 
 impl View {
-    /// The texel places of all pixels in order, each line from the left.
-    fn places(self) -> Vec<Uv> {
+    /// The columns and rows of the texels of all pixels in order, each line from the left.
+    fn texels(self) -> Vec<[u16; 2]> {
         match self {
             Self::Sphere => sphere(),
             Self::Ground => (0..HEIGHT / 2).flat_map(ground).collect(),
@@ -70,28 +66,13 @@ impl View {
     }
 }
 
-/// A texture whose texel is its place.
-struct Places;
-
-impl Texels for Places {
-    type Texel = Uv;
-
-    fn at(&self, place: Uv) -> Uv {
-        place
-    }
+/// The texel that holds a place, of a texture that repeats.
+fn texel(u: f64, v: f64) -> [u16; 2] {
+    [u, v].map(|place| place.floor().rem_euclid(f64::from(SIDE)) as u16)
 }
 
-/// A place from texels.
-fn uv(u: f64, v: f64) -> Uv {
-    let fix = |x: f64| ((x * f64::from(1 << scanbeam::pipeline::texture::FRACTION)) as i64) as i32;
-    Uv {
-        u: fix(u),
-        v: fix(v),
-    }
-}
-
-fn sphere() -> Vec<Uv> {
-    let mut places = Vec::new();
+fn sphere() -> Vec<[u16; 2]> {
+    let mut texels = Vec::new();
     let radius = HEIGHT as f64 / 2.0;
     for line in 0..HEIGHT {
         for column in 0..WIDTH {
@@ -104,44 +85,32 @@ fn sphere() -> Vec<Uv> {
                 let latitude = y.asin() / turn;
                 // Tilted, so that neither runs along the lines.
                 let (u, v) = (longitude + 0.4 * latitude, latitude - 0.4 * longitude);
-                places.push(uv(u * f64::from(SIDE), v * f64::from(SIDE)));
+                texels.push(texel(u * f64::from(SIDE), v * f64::from(SIDE)));
             }
         }
     }
-    places
+    texels
 }
 
 /// A line of a plane, from the horizon down, turned by some 30 degrees against the picture.
-fn ground(line: usize) -> Vec<Uv> {
+fn ground(line: usize) -> Vec<[u16; 2]> {
     let q = (line as f64 + 1.0) / (HEIGHT as f64 / 2.0);
-    let over = |texel: f64| (texel * q * 2f64.powi(30) / 1024.0) as i32;
     // Far away a line shows 1024 texels at most.
     let wide = (150.0 / q).min(1000.0);
-    let (u, v) = (wide * 0.87, wide * 0.5);
-    let (depth_u, depth_v) = (0.5 * 300.0 / (q + 0.3), 0.87 * 300.0 / (q + 0.3));
-    let span = PerspectiveSpan {
-        at: Homogeneous {
-            q: (q * 2f64.powi(30)) as i32,
-            s: over(depth_u),
-            t: over(depth_v),
-        },
-        step: Homogeneous {
-            q: 0,
-            s: over(u / WIDTH as f64),
-            t: over(v / WIDTH as f64),
-        },
-    };
-    let mut places = vec![Uv::default(); WIDTH];
-    span.draw(Stride::One, &Places, &mut places, |pixel, place| {
-        *pixel = place;
-    });
-    places
+    let step = [wide * 0.87, wide * 0.5].map(|way| way / WIDTH as f64);
+    let first = [0.5, 0.87].map(|part| part * 300.0 / (q + 0.3));
+    (0..WIDTH)
+        .map(|column| {
+            let [u, v] = [0, 1].map(|axis| first[axis] + column as f64 * step[axis]);
+            texel(u, v)
+        })
+        .collect()
 }
 
 /// A square of the texture's size about the middle of the picture, turned by so many degrees.
-fn quad(degrees: f64) -> Vec<Uv> {
+fn quad(degrees: f64) -> Vec<[u16; 2]> {
     let (sin, cos) = degrees.to_radians().sin_cos();
-    let mut places = Vec::new();
+    let mut texels = Vec::new();
     for line in 0..HEIGHT {
         for column in 0..WIDTH {
             let x = column as f64 + 0.5 - WIDTH as f64 / 2.0;
@@ -149,11 +118,11 @@ fn quad(degrees: f64) -> Vec<Uv> {
             let half = f64::from(SIDE) / 2.0;
             let (u, v) = (x * cos - y * sin + half, x * sin + y * cos + half);
             if (0.0..2.0 * half).contains(&u) && (0.0..2.0 * half).contains(&v) {
-                places.push(uv(u, v));
+                texels.push(texel(u, v));
             }
         }
     }
-    places
+    texels
 }
 
 /// What a layout costs in a view.
@@ -169,48 +138,54 @@ pub struct Access {
     pub re_reads: usize,
 }
 
-/// Counts a view's accesses in a layout: pages and lines of the cache lie as the layout says.
-fn count<L: Layout>(view: View, pages: L, lines: L) -> Access {
-    let size = Size::new(SIDE, SIDE).expect("the side is legal");
-    let words: Vec<u16> = vec![0; size.texels()];
-    let texture = Texture::<_, Wrap, L>::arranged(Words(&words), size, pages);
-    let texture = texture.expect("it has its texels");
-    let mut access = Access {
-        fetches: 0,
-        page_changes: 0,
-        fills: 0,
-        re_reads: 0,
-    };
-    let mut page = usize::MAX;
-    let per_line = LINE / TEXEL;
-    let (mut tags, mut texels) = (vec![0; LINES], vec![0; LINES * per_line]);
-    let mut reads = CacheReads::default();
-    let cache = BlockCache::new(Words(&words), per_line, &mut tags, &mut texels, &mut reads)
-        .expect("it is as large as it says");
-    let cached = Texture::<_, Wrap, L>::arranged(cache, size, lines).expect("it has its texels");
-    let mut touched = BTreeSet::new();
-    for place in view.places() {
-        let index = texture.index(place.texel());
-        let now = index * TEXEL / PAGE;
-        access.page_changes += usize::from(now != page);
-        page = now;
-        access.fetches += 1;
-        touched.insert(cached.index(place.texel()) / per_line);
-        let _: u16 = cached.at(place);
+/// Counts a view's accesses: pages and lines of the cache lie as layouts say; the pages of rows are what rows are.
+fn count(view: View, pages: Option<Blocked>, lines: Blocked) -> Access {
+    let rows: Vec<u32> = (0..SIDE * SIDE).collect();
+    // Where each texel of the rows lies.
+    let mut page_of = rows.clone();
+    if let Some(pages) = pages {
+        let mut blocks = rows.clone();
+        let arranged = pages.arrange([SIDE, SIDE], &rows, &mut blocks);
+        arranged.expect("it has its texels");
+        for (at, texel) in (0..).zip(blocks) {
+            page_of[texel as usize] = at;
+        }
     }
-    access.fills = cache.reads().misses as usize;
-    access.re_reads = (access.fills - touched.len()) * per_line;
-    access
+    let words = vec![0; rows.len()];
+    let slow = Texture::words(&words, SIDE, SIDE).expect("it has its texels");
+    let per_line = LINE / TEXEL;
+    let mut fast: Vec<_> = (0..LINES * per_line).map(|_| CacheWord::new()).collect();
+    let cache = BlockCache::new(slow, lines, &mut fast).expect("it is as large as it says");
+    let (mut changes, mut page, mut touched) = (0, usize::MAX, BTreeSet::new());
+    let texels = view.texels();
+    for &[column, row] in &texels {
+        let at = page_of[usize::from(row) * SIDE as usize + usize::from(column)];
+        let now = at as usize * TEXEL / PAGE;
+        changes += usize::from(now != page);
+        page = now;
+        let of = |at: u16, side: u32| u32::from(at) / side;
+        touched.insert([of(column, lines.width()), of(row, lines.height())]);
+        let _: u16 = cache.texel(column, row);
+    }
+    let fills = cache.reads().misses as usize;
+    Access {
+        fetches: texels.len(),
+        page_changes: changes,
+        fills,
+        re_reads: (fills - touched.len()) * per_line,
+    }
 }
 
 /// A view in rows and in blocks.
 #[must_use]
 pub fn compare(view: View) -> [Access; 2] {
+    // A line of the cache is a part of a row.
+    let part = Blocked::new((LINE / TEXEL).ilog2(), 0).expect("it is short");
     [
-        count(view, Linear, Linear),
+        count(view, None, part),
         count(
             view,
-            Blocked::of_page(PAGE, 8 * TEXEL),
+            Some(Blocked::of_page(PAGE, 8 * TEXEL)),
             Blocked::of_page(LINE, 8 * TEXEL),
         ),
     ]

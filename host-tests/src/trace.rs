@@ -4,13 +4,11 @@
 //! is on the wires, not what the program meant.
 
 use crate::args::TraceArgs;
-use crate::draw::{ModelLines, Overfull, Prepared, Setting, rooms_for};
+use crate::draw::{Overfull, Prepared, trace_model_line};
 use crate::model::Model;
-use crate::reference::{Shade, View};
+use crate::reference::View;
 use crate::stdio;
-use scanbeam::pipeline::{FlatDepth, GouraudDepth, Pipeline};
-use scanbeam::pixel::{PixelFormat, Rgb888};
-use scanbeam_model::{Chart, CornerColours, PipeCounts, Token, TokenBits};
+use scanbeam_model::{Chart, PipeCounts, Token, TokenBits};
 use std::error::Error;
 use std::io::{self, Write};
 
@@ -50,43 +48,16 @@ pub struct Traced {
 /// # Errors
 /// When the view cannot be had in the crate's ranges.
 pub fn trace(model: &Model, view: &View, line: u16) -> Result<Traced, Box<dyn Error>> {
-    let prepared = Prepared::new(model);
-    match view.shade {
-        Shade::Flat => trace_as::<FlatDepth<Rgb888>>(&prepared, view, line),
-        _ => trace_as::<GouraudDepth<Rgb888>>(&prepared, view, line),
-    }
-}
-
-fn trace_as<P>(prepared: &Prepared, view: &View, line: u16) -> Result<Traced, Box<dyn Error>>
-where
-    P: Pipeline<Shading: CornerColours>,
-{
-    let width = view.width as u16;
-    let setting = Setting::new(prepared, view)?;
-    let mut rooms = rooms_for::<P>(prepared, 1);
-    let mut lines = ModelLines::new(width);
-    let mut renderer = lines.renderer();
-    let background = P::Pixel::from_rgb8(view.background);
-    let mut pixels = vec![background; usize::from(width)];
     let mut tokens = Vec::new();
-    let mut failure = None;
-    let bands = setting.bands(prepared, &mut rooms, line..line + 1, |scene| {
-        let mut keep = |token: &Token| tokens.push(token.encode());
-        failure = renderer
-            .trace_line(scene, line, background, &mut pixels, &mut keep)
-            .err();
-        Ok(())
-    })?;
-    match failure {
-        Some(error) => Err(error.into()),
-        None => Ok(Traced {
-            line,
-            width,
-            tokens,
-            counts: renderer.counts(),
-            overfull: bands.overfull,
-        }),
-    }
+    let keep = |token: &Token| tokens.push(token.encode());
+    let (counts, overfull) = trace_model_line(&Prepared::new(model), view, line, keep)?;
+    Ok(Traced {
+        line,
+        width: view.width as u16,
+        tokens,
+        counts,
+        overfull,
+    })
 }
 
 impl Traced {

@@ -1,364 +1,239 @@
 //! S3, C5: an arena that is too small is a located error, what fits is drawn, and no length of
-//! any slice makes a panic.
+//! any slice makes a panic. What fits, mesh by mesh, is held by `hot_path_errors.rs`.
 
-use crate::common::{LineRooms, Rng, SceneRooms, frame};
-use scanbeam::mesh::Room;
-use scanbeam::pipeline::{
-    DrawError, FlatPainter, GouraudDepth, Instance, Pipeline, RendererError, Scene, SceneError,
-    WordOf,
-};
+use crate::common::Rng;
+use crate::hot::cover::L;
+use crate::hot::{LineRooms, SceneRooms, frame};
+use scanbeam::frame::{FastMemory, LineError, Memory as LineMemory, Renderer};
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::Rgb888;
-use scanbeam::{Affine, Camera, Cull, Faces, Mesh, MeshError, Screen};
+use scanbeam::scene::{
+    BeginError, Draw, DrawError, DrawState, Full, Memory, Object, Scene, TexturePlace, Vertex,
+};
+use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 use scenes::{CUBE, TEAPOT};
-
-type P = FlatPainter<Rgb888>;
-
-const WIDTH: u16 = 64;
-const HEIGHT: u16 = 32;
+use std::sync::Mutex;
 
 fn screen() -> Screen {
-    Screen::new(WIDTH, HEIGHT).unwrap()
+    Screen::new(64, 32).unwrap()
 }
 
 fn camera() -> Camera {
     Camera::look_at([0.0, 0.0, 2.0], [0.0; 3], [0.0, 1.0, 0.0], 30.0, 0.1, 10.0).unwrap()
 }
 
-fn open() -> Instance {
-    Instance {
+fn open<C>(mesh: Mesh<'_, C>) -> Draw<'_, 'static, C> {
+    Draw {
         cull: Cull::None,
-        ..Instance::default()
-    }
-}
-
-/// Triangles side by side, `count` of them, the first on the left, each with vertices of its own.
-struct Row {
-    positions: Vec<[i16; 3]>,
-    colours: Vec<[u8; 3]>,
-    faces: Vec<[u16; 3]>,
-}
-
-impl Row {
-    fn new(count: u16) -> Self {
-        let mut row = Self {
-            positions: Vec::new(),
-            colours: Vec::new(),
-            faces: Vec::new(),
-        };
-        let step = 32_000 / i32::from(count);
-        for i in 0..count {
-            let left = (i32::from(i) * step - 16_000) as i16;
-            let right = left + (step - step / 8) as i16;
-            row.positions
-                .extend([[left, -9000, 0], [right, -9000, 0], [left, 9000, 0]]);
-            row.colours.extend([[i as u8 + 1, 200, 9]; 3]);
-            row.faces.push([3 * i, 3 * i + 1, 3 * i + 2]);
-        }
-        row
-    }
-
-    /// The first `count` triangles.
-    fn first(&self, count: usize) -> Mesh<'_> {
-        Mesh {
-            positions: &self.positions,
-            normals: &[],
-            colours: &self.colours,
-            faces: Faces::Triangles(&self.faces[..count]),
-        }
-    }
-}
-
-/// The frame of the first `count` triangles in memory that suffices.
-fn want(row: &Row, count: usize) -> Vec<Vec<[u8; 3]>> {
-    let mut rooms = SceneRooms::<P>::new(1000, 1000, 100);
-    let mut scene = rooms.scene(screen());
-    scene.begin(&camera()).unwrap();
-    scene.draw(&row.first(count), &open()).unwrap();
-    assert_eq!(scene.pass_one().objects as usize, count);
-    frame(&scene, 4)
-}
-
-#[test]
-fn too_few_objects_keep_the_first_faces() {
-    let row = Row::new(8);
-    for have in 0..10 {
-        let mut rooms = SceneRooms::<P>::new(100, have, 32);
-        let mut scene = rooms.scene(screen());
-        scene.begin(&camera()).unwrap();
-        let drawn = scene.draw(&row.first(8), &open());
-        if have >= 8 {
-            assert_eq!(drawn.unwrap().kept, 8);
-        } else {
-            let Err(DrawError::Full(dropped)) = drawn else {
-                panic!("{have}: {drawn:?}");
-            };
-            assert_eq!(dropped.room, Room::Objects);
-            assert_eq!(dropped.first_face as usize, have);
-            assert_eq!(dropped.triangles as usize, 8 - have);
-            let text = drawn.unwrap_err().to_string();
-            assert!(
-                text.contains("object") && text.contains(&format!("face {have}")),
-                "{text}"
-            );
-        }
-        let kept = have.min(8);
-        let done = scene.pass_one();
-        assert_eq!((done.triangles, done.culled), (8, 0));
-        assert_eq!((done.objects, done.dropped), (kept as u32, 8 - kept as u32));
-        assert_eq!(frame(&scene, 2), want(&row, kept), "{have} objects");
-    }
-}
-
-#[test]
-fn too_few_vertices_keep_the_first_faces() {
-    let row = Row::new(8);
-    for have in 0..30 {
-        let mut rooms = SceneRooms::<P>::new(have, 100, 32);
-        let mut scene = rooms.scene(screen());
-        scene.begin(&camera()).unwrap();
-        let drawn = scene.draw(&row.first(8), &open());
-        let kept = (have / 3).min(8);
-        if kept == 8 {
-            assert_eq!(drawn.unwrap().kept, 8);
-        } else {
-            let Err(DrawError::Full(dropped)) = drawn else {
-                panic!("{have}: {drawn:?}");
-            };
-            assert_eq!(dropped.room, Room::Vertices);
-            assert_eq!(dropped.first_face as usize, kept);
-            assert_eq!(dropped.triangles as usize, 8 - kept);
-        }
-        assert_eq!(frame(&scene, 2), want(&row, kept), "{have} vertices");
+        ..Draw::new(mesh)
     }
 }
 
 /// After a mesh that did not fit, a smaller one may still fit, and the next frame is whole.
 #[test]
 fn a_full_arena_is_empty_again_for_the_next_frame() {
-    let row = Row::new(8);
-    let mut rooms = SceneRooms::<P>::new(24, 8, 32);
-    let mut scene = rooms.scene(screen());
+    let picture = |scene: &mut Scene<'_, 'static, L>| {
+        scene.begin(&camera()).unwrap();
+        assert_eq!(scene.assembled().dropped, 0);
+        scene.draw(&open(CUBE)).unwrap();
+        frame(scene, 2, true, [0; 3])
+    };
+    let mut enough = SceneRooms::new(1_000, 1_000, 32, 4);
+    let want = picture(&mut enough.scene(screen()));
+    assert!(want.concat().iter().any(|p| *p != [0; 3]));
+    let mut rooms = SceneRooms::new(24, 12, 32, 4);
+    let mut scene = rooms.scene::<L>(screen());
     for _ in 0..3 {
         scene.begin(&camera()).unwrap();
-        assert!(scene.draw(&TEAPOT, &open()).is_err());
-        assert!(scene.pass_one().dropped > 500);
-        assert!(scene.pass_one().vertices <= 24 && scene.pass_one().objects <= 8);
-        frame(&scene, 2);
-        scene.begin(&camera()).unwrap();
-        assert_eq!(scene.pass_one().dropped, 0);
-        scene.draw(&row.first(8), &open()).unwrap();
-        assert_eq!(frame(&scene, 2), want(&row, 8));
+        assert!(scene.draw(&open(TEAPOT)).is_err());
+        assert!(scene.assembled().dropped > 500);
+        assert!(scene.vertices() <= 24 && scene.objects() <= 12);
+        frame(&scene, 2, true, [0; 3]);
+        assert_eq!(picture(&mut scene), want);
     }
-}
-
-#[test]
-fn too_few_buckets_refuse_the_frame() {
-    let row = Row::new(8);
-    for have in 0..32 {
-        let mut rooms = SceneRooms::<P>::new(100, 100, have);
-        let mut scene = rooms.scene(screen());
-        let error = scene.begin(&camera()).unwrap_err();
-        assert_eq!(error, SceneError::Buckets { needed: 32, have });
-        assert!(error.to_string().contains(&have.to_string()), "{error}");
-        // Nothing was begun: nothing is kept.
-        assert_eq!(scene.draw(&row.first(8), &open()).unwrap().kept, 0);
-        // A band of as many lines as there are buckets fits.
-        if have > 0 {
-            let lines = 32 - have as u16..32;
-            scene.begin_band(&camera(), lines.clone()).unwrap();
-            scene.draw(&row.first(8), &open()).unwrap();
-            assert_eq!(
-                frame(&scene, 2),
-                want(&row, 8)[usize::from(lines.start)..],
-                "{have}"
-            );
-        }
-    }
-}
-
-#[test]
-fn bands_outside_the_picture_are_refused() {
-    let mut rooms = SceneRooms::<P>::new(100, 100, 100);
-    let mut scene = rooms.scene(screen());
-    #[expect(clippy::reversed_empty_ranges, reason = "what is refused")]
-    for lines in [0..33, 5..5, 9..3, 32..33, 65_535..0, 0..65_535] {
-        let error = scene.begin_band(&camera(), lines).unwrap_err();
-        assert!(matches!(error, SceneError::Lines { height: 32, .. }));
-        assert!(!error.to_string().is_empty());
-    }
-}
-
-#[test]
-fn a_renderer_with_too_little_memory_says_so() {
-    type Q = GouraudDepth<Rgb888>;
-    let row = Row::new(8);
-    let mut rooms = SceneRooms::<Q>::new(100, 100, 32);
-    let mut scene = rooms.scene(screen());
-    scene.begin(&camera()).unwrap();
-    scene.draw(&row.first(8), &open()).unwrap();
-    let draw = |links: usize, depth: usize, pixels: usize, line: u16| {
-        let mut rooms = LineRooms::<Q>::new(3, links, depth);
-        let mut pixels = vec![[7; 3]; pixels];
-        let done = rooms.renderer().draw_line(&scene, line, &mut pixels);
-        assert!(
-            done.is_ok() || pixels.iter().all(|p| *p == [7; 3]),
-            "half drawn"
-        );
-        if let Err(error) = done {
-            assert!(error.to_string().starts_with("renderer: "), "{error}");
-        }
-        done
-    };
-    let links = |have| Err(RendererError::Links { needed: 8, have });
-    let depth = |have| Err(RendererError::Depth { needed: 64, have });
-    let pixels = |have| Err(RendererError::Pixels { needed: 64, have });
-    assert_eq!(draw(8, 64, 64, 16), Ok(true));
-    assert_eq!(draw(8, 64, 64, 0), Ok(false));
-    assert_eq!(draw(7, 64, 64, 16), links(7));
-    assert_eq!(draw(0, 64, 64, 16), links(0));
-    assert_eq!(draw(8, 63, 64, 16), depth(63));
-    assert_eq!(draw(8, 0, 64, 16), depth(0));
-    assert_eq!(draw(8, 64, 63, 16), pixels(63));
-    assert_eq!(draw(8, 64, 65, 16), pixels(65));
-    assert_eq!(draw(8, 64, 0, 16), pixels(0));
-    for line in [32, 33, 8191, u16::MAX] {
-        assert_eq!(draw(8, 64, 64, line), Err(RendererError::Line { line }));
-    }
-    let fresh = LineRooms::<Q>::new(3, 7, 64).renderer().check(&scene);
-    assert_eq!(fresh, Err(RendererError::Links { needed: 8, have: 7 }));
 }
 
 #[test]
 fn no_memory_at_all() {
-    type Q = GouraudDepth<Rgb888>;
-    let mut rooms = SceneRooms::<Q>::new(0, 0, 0);
-    let mut scene = rooms.scene(screen());
-    let have = 0;
-    assert_eq!(
-        scene.begin(&camera()),
-        Err(SceneError::Buckets { needed: 32, have })
-    );
+    let mut rooms = SceneRooms::new(0, 0, 0, 0);
+    let mut scene = rooms.scene::<L>(screen());
+    let bins = Err(BeginError::Bins {
+        needed: 32,
+        have: 0,
+    });
+    assert_eq!(scene.begin(&camera()), bins);
     assert_eq!(scene.lines(), 0..0);
-    assert_eq!(scene.bytes(), 0);
-    let mut rooms = LineRooms::<Q>::new(0, 0, 0);
-    let mut renderer = rooms.renderer();
-    assert!(renderer.check(&scene).is_err());
-    assert!(renderer.draw_line(&scene, 0, &mut []).is_err());
-    // Buckets alone, as one would have for an empty picture.
-    let mut rooms = SceneRooms::<Q>::new(0, 0, 32);
-    let mut scene = rooms.scene(screen());
-    scene.begin(&camera()).unwrap();
-    assert!(matches!(
-        scene.draw(&CUBE, &open()),
-        Err(DrawError::Full(dropped)) if dropped.room == Room::Vertices && dropped.first_face == 0
-    ));
-    let empty = frame(&scene, 0);
-    assert!(empty.iter().flatten().all(|p| *p == [0; 3]));
+    let mut lines = LineRooms::fitting(&scene, 0, false);
+    let drawn = lines.renderer().draw_line(&scene, 0, &mut [], [0; 3]);
+    assert!(drawn.is_err());
+    // Bins alone, and one thing more at a time, as one would have for an empty picture.
+    for (vertices, objects, draws, full) in [
+        (0, 0, 0, Full::Draws),
+        (0, 24, 1, Full::Vertices),
+        (99, 0, 1, Full::Objects),
+    ] {
+        let mut rooms = SceneRooms::new(vertices, objects, 32, draws);
+        let mut scene = rooms.scene::<L>(screen());
+        scene.begin(&camera()).unwrap();
+        let Err(DrawError::Full {
+            memory,
+            triangles,
+            first_face,
+        }) = scene.draw(&open(CUBE))
+        else {
+            panic!("{vertices} vertices, {objects} objects, {draws} draws");
+        };
+        assert_eq!((memory, triangles, first_face), (full, 12, 0));
+        assert_eq!(scene.assembled().dropped, 12);
+        let empty = frame(&scene, 0, true, [7; 3]);
+        assert!(empty.iter().flatten().all(|p| *p == [7; 3]));
+    }
 }
 
-#[test]
-fn meshes_that_contradict_themselves_leave_the_scene_as_it_was() {
-    let row = Row::new(8);
-    let mut rooms = SceneRooms::<P>::new(100, 100, 32);
-    let mut scene = rooms.scene(screen());
-    scene.begin(&camera()).unwrap();
-    scene.draw(&row.first(8), &open()).unwrap();
-    let before = (scene.pass_one(), frame(&scene, 2));
-    let mesh = row.first(8);
-    let bad = [
-        Mesh {
-            normals: &[[0, 0, 16_384]],
-            ..mesh
-        },
-        Mesh {
-            colours: &row.colours[1..],
-            ..mesh
-        },
-        Mesh {
-            faces: Faces::Triangles(&[[0, 1, 2], [0, 1, 24]]),
-            ..mesh
-        },
-        Mesh {
-            faces: Faces::Quads(&[[0, 1, 2, u16::MAX]], Default::default()),
-            ..mesh
-        },
-        Mesh {
-            faces: Faces::QuadStrip(&[0, 1, 2], Default::default()),
-            ..mesh
-        },
-        Mesh {
-            faces: Faces::QuadStrip(&[0, 1], Default::default()),
-            ..mesh
-        },
-        Mesh {
-            positions: &[],
-            colours: &[],
-            ..mesh
-        },
-    ];
-    for mesh in bad {
-        let error = scene.draw(&mesh, &open()).unwrap_err();
-        assert!(matches!(error, DrawError::Mesh(_)), "{error}");
-        assert!(error.to_string().starts_with("mesh: "), "{error}");
+/// A frame, or an error after which nothing was written.
+fn drawn_or_not(
+    scene: &Scene<'_, 'static, L>,
+    renderer: &mut Renderer<'_, L, 4>,
+) -> Result<Vec<Vec<[u8; 3]>>, LineError> {
+    let mut lines = Vec::new();
+    for y in scene.lines() {
+        let mut pixels = vec![[99; 3]; 64];
+        match renderer.draw_line(scene, y, &mut pixels, [0; 3]) {
+            Ok(_) => lines.push(pixels),
+            Err(error) => {
+                assert!(pixels.iter().all(|p| *p == [99; 3]), "half drawn");
+                assert!(lines.is_empty(), "{error}");
+                assert!(error.to_string().starts_with("renderer: "), "{error}");
+                return Err(error);
+            }
+        }
     }
-    let error = scene.draw(&bad[2], &open()).unwrap_err();
-    assert_eq!(error, DrawError::Mesh(MeshError::Index { face: 1 }));
-    assert_eq!((scene.pass_one(), frame(&scene, 2)), before);
-    // Nothing at all is a mesh.
-    let nothing = Mesh::<i16> {
-        positions: &[],
-        normals: &[],
-        colours: &[],
-        faces: Faces::QuadStrip(&[], Default::default()),
-    };
-    assert_eq!(scene.draw(&nothing, &open()).unwrap().kept, 0);
-    assert_eq!((scene.pass_one(), frame(&scene, 2)), before);
+    Ok(lines)
 }
 
 /// What is kept of clipped meshes, at any length of the arenas, is part of the whole picture's
 /// triangles, and nothing panics.
 #[test]
 fn any_length_of_any_arena_draws_something_or_says_no() {
-    type Q = GouraudDepth<Rgb888>;
     let mut rng = Rng::new(31);
-    let mut enough = SceneRooms::<Q>::new(30_000, 30_000, 32);
+    let mut enough = SceneRooms::new(30_000, 30_000, 32, 3);
+    let (mut full, mut refused, mut whole) = (0, 0, 0);
     for _ in 0..400 {
         let (vertices, objects) = (rng.below(1500) as usize, rng.below(2500) as usize);
-        let mut rooms = SceneRooms::<Q>::new(vertices, objects, rng.below(40) as usize);
-        let mut scene: Scene<'_, Q> = rooms.scene(screen());
+        let (bins, draws) = (rng.below(40) as usize, rng.below(5) as usize);
+        let mut rooms = SceneRooms::new(vertices, objects, bins, draws);
+        let mut scene = rooms.scene::<L>(screen());
         // The eye inside, so that many triangles are cut.
         let eye = [(); 3].map(|()| 0.4 * rng.signed() as f32);
         let camera =
             Camera::look_at(eye, [1.0, 0.1, 0.3], [0.0, 1.0, 0.0], 20.0, 0.01, 3.0).unwrap();
         let first = rng.below(32) as u16;
-        if scene.begin_band(&camera, first..32).is_err() {
+        let needed = 32 - first;
+        if let Err(error) = scene.begin_lines(&camera, first..32) {
+            assert_eq!(error, BeginError::Bins { needed, have: bins });
             continue;
         }
-        let mut enough = enough.scene(screen());
-        enough.begin_band(&camera, first..32).unwrap();
+        assert!(bins >= usize::from(needed));
+        let mut enough = enough.scene::<L>(screen());
+        enough.begin_lines(&camera, first..32).unwrap();
         for _ in 0..3 {
-            let model = Affine::rotation_y(rng.signed() as f32);
-            let instance = Instance { model, ..open() };
-            enough.draw(&TEAPOT, &instance).unwrap();
-            match scene.draw(&TEAPOT, &instance) {
-                Ok(done) => assert_eq!(done.dropped, None),
-                Err(DrawError::Full(dropped)) => assert!(dropped.triangles > 0),
+            let call = Draw {
+                model: Affine::rotation_y(rng.signed() as f32),
+                ..open(TEAPOT)
+            };
+            enough.draw(&call).unwrap();
+            let before = scene.assembled().dropped;
+            match scene.draw(&call) {
+                Ok(()) => assert_eq!(scene.assembled().dropped, before),
+                Err(DrawError::Full { triangles, .. }) => {
+                    assert!(triangles > 0);
+                    assert_eq!(scene.assembled().dropped, before + triangles);
+                    full += 1;
+                }
                 Err(error) => panic!("{error}"),
             }
         }
-        let done = scene.pass_one();
-        // What cannot be seen does not depend on what there is room for.
-        assert_eq!(done.culled, enough.pass_one().culled);
+        let done = scene.assembled();
         assert!(done.dropped <= done.triangles - done.culled);
-        assert!(done.vertices as usize <= vertices && done.objects as usize <= objects);
+        assert!(scene.vertices() <= vertices && scene.objects() <= objects);
         assert_eq!(done.triangles, 3 * 2256);
-        assert!(lines_are_whole(&scene));
+        if done.dropped == 0 {
+            assert_eq!(done, enough.assembled());
+        }
+        // Lines of a renderer that may have too little, too.
+        let mut lines = LineRooms::fitting(&scene, 33, true);
+        lines.links.truncate(rng.below(3_000) as usize);
+        lines.depth.truncate(rng.below(100) as usize);
+        let want = frame(&scene, 1, !lines.depth.is_empty(), [0; 3]);
+        match drawn_or_not(&scene, &mut lines.renderer()) {
+            Ok(got) => {
+                assert!(got == want);
+                whole += 1;
+            }
+            Err(LineError::Links { needed, have }) => assert!(have < needed),
+            Err(LineError::Depth { needed, have }) => assert!(have > 0 && have < needed),
+            Err(error) => panic!("{error}"),
+        }
+        refused += 1;
     }
+    refused -= whole;
+    assert!(
+        full > 300 && refused > 50 && whole > 50,
+        "{full} {refused} {whole}"
+    );
 }
 
-fn lines_are_whole<P: Pipeline>(scene: &Scene<'_, P>) -> bool
-where
-    WordOf<P>: PartialEq,
-{
-    frame(scene, 1) == frame(scene, 33)
+/// Arenas, cache and line memory of a look as statics, as firmware puts them into sections.
+struct Arenas {
+    vertices: [Vertex; 8],
+    places: [TexturePlace; 8],
+    objects: [Object; 8],
+    bins: [u16; 8],
+    draws: [DrawState<'static>; 2],
+    cache: FastMemory<L, 1>,
+    links: [Link; 8],
+    depth: [u32; 8],
+}
+
+/// Records are made at compile time.
+#[test]
+fn arenas_can_be_statics() {
+    static ARENAS: Mutex<Arenas> = Mutex::new(Arenas {
+        vertices: [Vertex::EMPTY; 8],
+        places: [TexturePlace::EMPTY; 8],
+        objects: [Object::EMPTY; 8],
+        bins: [0; 8],
+        draws: [DrawState::EMPTY; 2],
+        cache: FastMemory::<Gouraud<Rgb888>, 1>::new(),
+        links: [Link::EMPTY; 8],
+        depth: [0; 8],
+    });
+    let mut arenas = ARENAS.lock().unwrap();
+    let arenas = &mut *arenas;
+    let mut scene = Scene::<L>::new(
+        Screen::new(8, 8).unwrap(),
+        Memory {
+            vertices: &mut arenas.vertices,
+            places: &mut arenas.places,
+            objects: &mut arenas.objects,
+            bins: &mut arenas.bins,
+            draws: &mut arenas.draws,
+        },
+    );
+    scene.begin(&camera()).unwrap();
+    let triangle = Mesh {
+        positions: &[[-2048i16, -2048, 0], [2048, -2048, 0], [0, 2048, 0]],
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&[[0, 1, 2]]),
+    };
+    scene.draw(&Draw::new(triangle)).unwrap();
+    let mut renderer = Renderer::new(LineMemory {
+        cache: &mut arenas.cache,
+        links: &mut arenas.links,
+        depth: &mut arenas.depth,
+    });
+    let mut line = [[0; 3]; 8];
+    renderer.draw_line(&scene, 4, &mut line, [1; 3]).unwrap();
+    assert_eq!((line[4], line[0]), ([255; 3], [1; 3]));
 }

@@ -4,14 +4,18 @@
 use crate::by_calls::{called, teapot, view};
 use host_tests::args::{self, Command, PixelFormatArg};
 use host_tests::draw::{
-    CrewSettings, FilterArg, Prepared, Skins, TextureSet, draw_by_calls, draw_textured,
+    CrewSettings, FilterArg, Prepared, Skins, TextureSet, draw_prepared, draw_textured,
 };
 use host_tests::image_out::Frame;
 use host_tests::model::Model;
-use host_tests::reference::{self, Shade, TOLERANCE_LEVELS, View, compare};
+use host_tests::reference::{
+    self, NO_OBJECT, Options, Shade, TOLERANCE_LEVELS, TextureMap, Textures, View, compare,
+    render_textured,
+};
 use host_tests::texture_file::TextureImage;
-use host_tests::view::{Did, Scenery, State};
-use scanbeam::pipeline::texture::Quality;
+use host_tests::view::{Scenery, State};
+use scanbeam::pixel::{PixelFormat, Rgb565};
+use scanbeam::scene::Budget;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -31,13 +35,6 @@ fn grid(cells: usize) -> Model {
     Model::from_obj_text(&text, Path::new("grid.obj")).expect("an OBJ")
 }
 
-/// Pixels of which `a` and `b` differ by more than so many levels.
-fn differ(a: &Frame, b: &Frame, levels: u8) -> usize {
-    let pixels = a.rgb().chunks_exact(3).zip(b.rgb().chunks_exact(3));
-    let off = |(a, b): (&[u8], &[u8])| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > levels);
-    pixels.filter(|&pixels| off(pixels)).count()
-}
-
 #[test]
 fn pictures_of_several_tiles_are_whole() {
     let model = teapot();
@@ -50,7 +47,7 @@ fn pictures_of_several_tiles_are_whole() {
     ] {
         let view = view(width, height, Shade::Gouraud);
         let exact = reference::render(&model, &view).expect("a view");
-        let called = called(&prepared, &view, PixelFormatArg::Rgb888).expect("a picture");
+        let called = called(&prepared, &view, PixelFormatArg::Rgb888);
         assert_eq!(called.figures.parts, parts, "{width} x {height}");
         assert_eq!(
             called.used.scan_out.bytes_sent,
@@ -64,13 +61,17 @@ fn pictures_of_several_tiles_are_whole() {
     }
 }
 
+/// The texel of each pixel is that which holds the place of `f64`.
+///
+/// Kills: a tile's camera that is half a pixel off, textures of the first tile on all.
 #[test]
 fn textures_of_several_tiles_are_whole() {
     let mut model = grid(9);
     for vertex in &mut model.vertices {
         vertex.uv = [0, 1].map(|k| 2.0 * vertex.position[k]);
     }
-    let rgb = (0..64 * 64u32).flat_map(|i| [(i % 64 * 4) as u8, (i / 64 * 4) as u8, 96]);
+    // A texel's pixel says its column and row.
+    let rgb = (0..64 * 64u16).flat_map(Rgb565::to_rgb8);
     let image = TextureImage::new(&Frame::new(64, 64, rgb.collect()).expect("64 x 64"));
     let set = TextureSet::whole(&model, image.expect("a texture"));
     let view = View {
@@ -81,22 +82,107 @@ fn textures_of_several_tiles_are_whole() {
             ..View::default()
         }
     };
-    let (filter, quality) = (FilterArg::Nearest, Quality::Exact);
     let skins = Skins {
         set: &set,
-        filter,
-        quality,
+        filter: FilterArg::Nearest,
+        budget: Budget::EXACT,
     };
-    let prepared = Prepared::textured(&model, &set, quality);
-    let format = PixelFormatArg::Rgb888;
-    let called = draw_by_calls(&prepared, Some(skins), &view, format, 2, 64).expect("a view");
-    let called = called.expect("a picture");
-    assert_eq!(called.figures.parts, 2);
-    let crew = CrewSettings::default();
-    let drawn = draw_textured(&model, &set, (filter, quality), &view, format, crew);
-    // Texels of 4 levels are rounded to 5 bits: a neighbour is 12 off.
-    let differ = differ(&called.frame, &drawn.expect("a view").frame, 12);
-    assert!(differ < 400, "{differ} pixels");
+    let crew = CrewSettings {
+        renderers: 2,
+        ..CrewSettings::default()
+    };
+    let drawn = draw_textured(&model, skins, &view, PixelFormatArg::Rgb888, crew);
+    let drawn = drawn.expect("a view");
+    assert_eq!(drawn.figures.parts, 2);
+    let map = TextureMap::made(64, 64, |_, _| [255.0; 3]);
+    let of_triangle = vec![Some(0); model.triangles.len()];
+    let textures = Textures {
+        maps: std::slice::from_ref(&map),
+        of_triangle: &of_triangle,
+    };
+    let exact = render_textured(&model, textures, &view, Options::default()).expect("a view");
+    let (mut pixels, mut wrong) = (0, 0);
+    for (i, rgb) in drawn.frame.rgb().chunks_exact(3).enumerate() {
+        if exact.near_edge[i] || exact.object[i] == NO_OBJECT {
+            continue;
+        }
+        let word = Rgb565::from_rgb8([rgb[0], rgb[1], rgb[2]]);
+        let texel = [word % 64, word / 64].map(f64::from);
+        let off = [0, 1].map(|k| {
+            let off = texel[k] + 0.5 - exact.place[i][k];
+            (off - 64.0 * (off / 64.0).round()).abs() - 0.5
+        });
+        pixels += 1;
+        wrong += u32::from(off[0].max(off[1]) > 1.0 / 16.0);
+    }
+    assert!(pixels > 50_000 && wrong == 0, "{wrong} of {pixels}");
+}
+
+/// Kills: tiles that begin where the dither does not.
+#[test]
+fn a_dither_goes_on_from_tile_to_tile() {
+    let text = "v -9 -9 0 .3 .6 .2\nv 9 -9 0 .3 .6 .2\nv 0 9 0 .3 .6 .2\nf 1 2 3\n";
+    let model = Model::from_obj_text(text, Path::new("m.obj")).expect("an OBJ");
+    let view = View {
+        width: 1023,
+        height: 1050,
+        ..View::default()
+    };
+    let frame = called(&Prepared::new(&model), &view, PixelFormatArg::Dithered565).frame;
+    let mut colours = std::collections::BTreeSet::new();
+    for (x, y) in (0..1050).flat_map(|y| (0..1023).map(move |x| (x, y))) {
+        assert_eq!(frame.pixel(x, y), frame.pixel(x % 4, y % 4), "{x} {y}");
+        colours.insert(frame.pixel(x, y));
+    }
+    assert!(colours.len() > 2, "{colours:?}");
+}
+
+/// Triangles that are on several tiles or bands count once.
+///
+/// Kills: sums over parts, marks of one tile alone, triangles that are counted by their records.
+#[test]
+fn triangles_of_pictures_in_parts_count_once() {
+    for (cells, shade) in [(40, Shade::Gouraud), (180, Shade::None), (110, Shade::Flat)] {
+        let model = grid(cells);
+        let prepared = Prepared::new(&model);
+        let counts = |width, height| {
+            // The picture's sides cut the grid.
+            let view = View {
+                shade,
+                eye: [0.2, 0.1, 0.7],
+                at: [0.2, 0.1, 0.0],
+                width,
+                height,
+                ..View::default()
+            };
+            let drawn = called(&prepared, &view, PixelFormatArg::Rgb888);
+            let all = drawn.used.assembled;
+            (
+                drawn.figures.parts,
+                all.triangles,
+                all.culled,
+                drawn.figures.objects,
+            )
+        };
+        let all = 2 * (cells * cells) as u32;
+        // Corners of quarters of pixels are those of pixels of a quarter: the same triangles are seen.
+        let (_, triangles, culled, objects) = counts(500, 375);
+        assert_eq!(triangles, all, "{cells}");
+        let (parts, triangles, again, more) = counts(2000, 1500);
+        assert!(parts >= 4 && triangles == all, "{cells}");
+        assert!(
+            culled > all / 10 && culled < all / 2,
+            "{cells}: {culled} of {all}"
+        );
+        let close = all / 200;
+        assert!(
+            again.abs_diff(culled) <= close,
+            "{cells}: {again}, {culled}"
+        );
+        assert_eq!(objects, (all - culled) as usize, "{cells}: none is clipped");
+        let shared = more - (all - again) as usize;
+        assert!(shared > 0 && shared < objects / 4, "{cells}: {shared}");
+    }
 }
 
 #[test]
@@ -116,9 +202,12 @@ fn models_that_are_more_than_a_scene_holds_are_drawn_in_bands() {
             ..View::default()
         };
         let prepared = Prepared::new(&model);
-        let format = PixelFormatArg::Rgb888;
-        let called = draw_by_calls(&prepared, None, &view, format, 3, 64);
-        let called = called.expect("a view").expect("a picture");
+        let crew = CrewSettings {
+            renderers: 3,
+            ..CrewSettings::default()
+        };
+        let called = draw_prepared(&prepared, None, &view, PixelFormatArg::Rgb888, crew);
+        let called = called.expect("a view");
         assert!(
             parts.contains(&called.figures.parts),
             "{name}: {:?}",
@@ -138,7 +227,6 @@ fn models_that_are_more_than_a_scene_holds_are_drawn_in_bands() {
         let shown = scenery
             .frame(&State::new(&flags), 640, 480)
             .expect("a view");
-        assert!(matches!(shown.did, Did::Calls(_)), "{cells} {name}");
         let of = format!("of {} tri", 2 * cells * cells);
         assert!(shown.figures().contains(&of), "{}", shown.figures());
     }
@@ -159,7 +247,7 @@ fn a_line_with_too_many_triangles_is_told() {
         height: 48,
         ..View::default()
     };
-    let called = called(&Prepared::new(&model), &view, PixelFormatArg::Rgb888).expect("a picture");
+    let called = called(&Prepared::new(&model), &view, PixelFormatArg::Rgb888);
     let overfull = called.overfull.expect("more than a scene holds");
     assert!(
         overfull.lines > 0 && overfull.triangles > 1000,

@@ -1,23 +1,14 @@
-//! The picture never changes: any cache size, any number of renderers, any interleave, anything
-//! fetched ahead or not, on one thread or on several (C4, C5, K16, X6).
+//! The picture never changes: any cache size, any number of renderers, any interleave, on one thread or on several
+//! (C5, C6, K16, X6).
 
-use crate::common::{self, LineRooms, Rng, SceneRooms};
-use host_tests::crew;
-use host_tests::mock::{HostLine, MockFrameBuffer};
-use scanbeam::pipeline::parallel::{Crew, Interleave, LineSource};
-use scanbeam::pipeline::{
-    Counted, FlatPainter, FrameStats, GouraudDepth, Instance, LineRenderer, Pipeline,
-    RendererError, Scene, WordOf, draw_frame,
-};
-use scanbeam::pixel::{Rgb565Be, Rgb888};
-use scanbeam::scan_out::Pump;
-use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
-
-type Depth = Counted<GouraudDepth<Rgb888>>;
-type Painter = FlatPainter<Rgb565Be>;
-
-const CACHES: [usize; 7] = [0, 1, 2, 3, 7, 16, 64];
-const BUDGETS: [u32; 4] = [0, 60, 300, u32::MAX];
+use crate::common::Rng;
+use crate::hot::cover::L;
+use crate::hot::ways::{Lines, SLOTS};
+use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf, frame, line};
+use scanbeam::look::{Gouraud, Look};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scene::{Draw, Scene};
+use scanbeam::{Camera, Cull, Faces, Mesh, Renderer, Screen};
 
 /// Triangles of a mesh, by what lines they are on.
 #[derive(Clone, Copy, Debug)]
@@ -73,279 +64,101 @@ impl Soup {
         soup
     }
 
-    fn build<P: Pipeline>(&self, scene: &mut Scene<'_, P>) {
+    fn scene<'m, L: Look>(
+        &self,
+        rooms: &'m mut SceneRooms,
+        screen: Screen,
+    ) -> Scene<'m, 'static, L> {
+        let mut scene = rooms.scene(screen);
         let camera = Camera::look_at([0.0, 0.0, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 40.0, 0.5, 50.0);
         scene.begin(&camera.unwrap()).unwrap();
-        let mesh = Mesh {
-            positions: &self.positions,
-            normals: &[],
-            colours: &self.colours,
-            faces: Faces::Triangles(&self.faces),
-        };
-        let instance = Instance {
+        let call = Draw {
             cull: Cull::None,
-            ..Instance::default()
+            ..Draw::new(Mesh {
+                positions: &self.positions,
+                normals: &[],
+                colours: &self.colours,
+                faces: Faces::Triangles(&self.faces),
+            })
         };
-        scene.draw(&mesh, &instance).unwrap();
+        scene.draw(&call).unwrap();
+        scene
     }
 
-    fn rooms<P: Pipeline>(&self, screen: Screen) -> SceneRooms<P> {
+    fn rooms(&self, screen: Screen) -> SceneRooms {
         let count = self.faces.len();
-        SceneRooms::new(9 * count + 9, 4 * count + 4, usize::from(screen.height()))
+        SceneRooms::new(9 * count + 9, 4 * count + 4, screen.height().into(), 1)
     }
 }
 
-/// The frame as one renderer draws it that never misses a slot.
-fn reference<P: Pipeline>(scene: &Scene<'_, P>) -> Vec<Vec<WordOf<P>>> {
-    common::frame(scene, 4095)
-}
-
-/// The frame as several renderers on one thread draw it.
-fn by<P: Pipeline>(
-    scene: &Scene<'_, P>,
-    renderers: &mut [LineRenderer<'_, P>],
-    budget: u32,
-    rng: &mut Rng,
-) -> Vec<Vec<WordOf<P>>> {
-    for renderer in renderers.iter_mut() {
-        renderer.restart();
-    }
-    let mut frame = Vec::new();
-    for y in scene.lines() {
-        for renderer in renderers.iter_mut() {
-            // Anyone may fetch at any time, in steps.
-            let next = renderer.interleave().at_or_after(u32::from(y));
-            if budget > 0 && next < u32::from(scene.lines().end) && rng.below(3) > 0 {
-                for _ in 0..=rng.below(2) {
-                    let step = renderer.prefetch(scene, next as u16, budget).unwrap();
-                    assert!(step.bytes <= budget);
-                    if step.done {
-                        break;
-                    }
-                }
-            }
-        }
-        let own = renderers.iter_mut().find(|r| r.interleave().owns(y));
-        frame.push(common::line(own.unwrap(), scene, y));
-    }
-    frame
-}
-
-fn all_ways<P: Pipeline>(soup: &Soup, screen: Screen, rng: &mut Rng)
+fn all_ways<L: Smooth>(soup: &Soup, screen: Screen, rng: &mut Rng)
 where
-    WordOf<P>: PartialEq + core::fmt::Debug,
+    WordOf<L>: std::fmt::Debug,
 {
-    let mut rooms = soup.rooms::<P>(screen);
-    let mut scene = rooms.scene(screen);
-    soup.build(&mut scene);
-    let expected = reference(&scene);
-    for slots in CACHES {
-        for count in 1..=4u16 {
-            let mut line_rooms: Vec<_> = (0..count)
-                .map(|_| LineRooms::<P>::fitting(slots, &scene))
-                .collect();
-            let mut renderers: Vec<_> = line_rooms.iter_mut().map(LineRooms::renderer).collect();
-            for (budget, band) in BUDGETS.into_iter().zip([1, 1, 3, 5]) {
-                for (offset, renderer) in renderers.iter_mut().enumerate() {
-                    let lines = Interleave::bands(count, offset as u16, band);
-                    renderer.set_interleave(lines.unwrap());
-                }
-                let frame = by(&scene, &mut renderers, budget, rng);
-                assert!(
-                    frame == expected,
-                    "{slots} slots, {count} renderers, {budget} bytes ahead, bands of {band}"
-                );
-                for renderer in &renderers {
-                    let counts = renderer.cache_counts();
-                    assert!(counts.peak_slots as usize <= slots);
-                    assert!(slots > 0 || counts.hits + counts.fetched == 0);
-                    assert!(budget > 0 || counts.fetched == 0);
-                }
+    let mut rooms = soup.rooms(screen);
+    let scene = soup.scene::<L>(&mut rooms, screen);
+    for depth in [true, false] {
+        let lines = Lines {
+            scene: &scene,
+            depth,
+            background: L::Format::from_rgb8([1, 2, 3]),
+        };
+        let want = lines.whole("whole");
+        for count in 1..=4 {
+            for band in [1, 3, 5] {
+                lines.by_several(&want, count, band, rng, "soup");
             }
         }
+        lines.every_way(&want, rng, "soup");
     }
 }
 
 #[test]
-fn any_cache_any_renderers_any_prefetch_give_the_same_picture() {
+fn any_cache_any_renderers_give_the_same_picture() {
     let screen = Screen::new(61, 47).unwrap();
     for seed in 0..24 {
         let mut rng = Rng::new(seed);
         let kind = rng.pick(&[Kind::Mixed, Kind::Small, Kind::Tall, Kind::OneLine]);
         let count = rng.pick(&[0, 1, 9, 60, 150]);
         let soup = Soup::new(&mut rng, kind, count);
-        all_ways::<Depth>(&soup, screen, &mut rng);
-        all_ways::<Painter>(&soup, screen, &mut rng);
+        all_ways::<L>(&soup, screen, &mut rng);
+        all_ways::<Gouraud<Rgb565Be>>(&soup, screen, &mut rng);
     }
 }
 
-#[test]
-fn lines_in_any_order_with_fetches_between() {
-    let screen = Screen::new(40, 32).unwrap();
-    for seed in 0..40 {
-        let mut rng = Rng::new(500 + seed);
-        let soup = Soup::new(&mut rng, Kind::Mixed, 50);
-        let mut rooms = soup.rooms::<Depth>(screen);
-        let mut scene = rooms.scene(screen);
-        soup.build(&mut scene);
-        let expected = reference(&scene);
-        let mut line_rooms = LineRooms::<Depth>::fitting(rng.pick(&CACHES), &scene);
-        let mut renderer = line_rooms.renderer();
-        for _ in 0..200 {
-            let y = rng.below(32) as u16;
-            match rng.below(4) {
-                0 => {
-                    let lines = Interleave::bands(3, rng.below(3) as u16, 1 + rng.below(3) as u16);
-                    renderer.set_interleave(lines.unwrap());
-                }
-                1 => {
-                    let budget = rng.below(400);
-                    let step = renderer.prefetch(&scene, y, budget).unwrap();
-                    assert!(step.bytes <= budget);
-                }
-                _ => {
-                    let drawn = common::line(&mut renderer, &scene, y);
-                    assert!(drawn == expected[usize::from(y)], "seed {seed}, line {y}");
-                }
-            }
-        }
-    }
-}
-
+/// Far more triangles on one line than any cache has slots.
 #[test]
 fn hosts_of_objects() {
     let screen = Screen::new(64, 40).unwrap();
     for kind in [Kind::OneLine, Kind::Tall, Kind::Small] {
         let mut rng = Rng::new(77);
         let soup = Soup::new(&mut rng, kind, 10_000);
-        let mut rooms = soup.rooms::<Depth>(screen);
-        let mut scene = rooms.scene(screen);
-        soup.build(&mut scene);
-        let expected = reference(&scene);
-        for (slots, count, budget) in [(4, 1, 0), (4, 1, 5_000), (4, 3, 500), (0, 2, 0)] {
-            let mut line_rooms: Vec<_> = (0..count)
-                .map(|_| LineRooms::fitting(slots, &scene))
-                .collect();
-            let mut renderers: Vec<_> = line_rooms.iter_mut().map(LineRooms::renderer).collect();
-            for (offset, renderer) in renderers.iter_mut().enumerate() {
-                renderer.set_interleave(Interleave::lines(count, offset as u16).unwrap());
-            }
-            let frame = by(&scene, &mut renderers, budget, &mut rng);
-            assert!(frame == expected, "{kind:?}, {slots} slots, {count}");
+        let mut rooms = soup.rooms(screen);
+        let scene = soup.scene::<L>(&mut rooms, screen);
+        let want = frame(&scene, 128, true, [0; 3]);
+        for slots in [0, 4] {
+            assert!(frame(&scene, slots, true, [0; 3]) == want, "{kind:?}");
         }
+        let lines = Lines {
+            scene: &scene,
+            depth: true,
+            background: [0; 3],
+        };
+        lines.by_several(&want, 3, 1, &mut rng, "host");
     }
 }
 
-#[test]
-fn prefetch_is_bounded_goes_on_and_is_counted() {
-    let screen = Screen::new(64, 40).unwrap();
-    let soup = Soup::new(&mut Rng::new(5), Kind::Tall, 20);
-    let mut rooms = soup.rooms::<Depth>(screen);
-    let mut scene = rooms.scene(screen);
-    soup.build(&mut scene);
-    let record = LineRenderer::<Depth>::RECORD_BYTES as u32;
-    let mut line_rooms = LineRooms::<Depth>::fitting(64, &scene);
-    let mut renderer = line_rooms.renderer();
-    // The head of the bucket is 2 bytes; what is left is not a record.
-    let step = renderer.prefetch(&scene, 0, record + 1).unwrap();
-    assert_eq!((step.bytes, step.done), (2, false));
-    let mut steps = 0;
-    while !renderer.prefetch(&scene, 0, 2 * record).unwrap().done {
-        steps += 1;
-        assert!(steps < 100);
-    }
-    let objects = scene.pass_one().objects;
-    assert_eq!(renderer.cache_counts().fetched, objects);
-    let drawn = common::line(&mut renderer, &scene, 0);
-    assert!(drawn == reference(&scene)[0]);
-    let counts = renderer.cache_counts();
-    assert_eq!(counts.fetched_hits, objects);
-    assert_eq!((counts.misses, counts.hits), (0, objects));
-    // A line above what was drawn or fetched: nothing is done, and nothing breaks.
-    let step = renderer.prefetch(&scene, 0, u32::MAX).unwrap();
-    assert_eq!((step.bytes, step.done), (0, true));
-    assert_eq!(
-        renderer.prefetch(&scene, 40, 9),
-        Err(RendererError::Line { line: 40 })
-    );
-    let mut short = LineRooms::<Depth>::new(4, 1, 64);
-    let error = short.renderer().prefetch(&scene, 0, 9);
-    assert!(
-        matches!(error, Err(RendererError::Links { .. })),
-        "{error:?}"
-    );
-}
-
-fn pump<W: Copy + Default + 'static>(screen: Screen, lines: u16) -> Pump<MockFrameBuffer<W>> {
-    let (width, height) = (screen.width(), screen.height());
-    let line = || HostLine::new(usize::from(width) * usize::from(lines));
-    Pump::new(
-        MockFrameBuffer::new(width, height).late_by(2),
-        [line(), line()],
-    )
-}
-
-#[test]
-fn the_conductor_fetches_between_lines() {
-    let screen = Screen::new(61, 47).unwrap();
-    let soup = Soup::new(&mut Rng::new(9), Kind::Mixed, 60);
-    let mut rooms = soup.rooms::<Depth>(screen);
-    let mut scene = rooms.scene(screen);
-    soup.build(&mut scene);
-    let expected: Vec<_> = reference(&scene).concat();
-    let mut last: Option<FrameStats> = None;
-    for budget in BUDGETS {
-        let mut line_rooms = LineRooms::<Depth>::fitting(32, &scene);
-        let mut renderer = line_rooms.renderer();
-        renderer.set_prefetch(budget);
-        let mut pump = pump(screen, 4);
-        let stats = draw_frame(&scene, &mut renderer, &mut pump, [0; 3], 4).unwrap();
-        assert!(pump.sink().frame().unwrap() == expected, "{budget}");
-        assert_eq!(stats.cache.fetched > 0, budget > 0);
-        assert_eq!(stats.prefetch_bytes > 0, budget > 0);
-        if let Some(last) = last {
-            // The more is fetched ahead, the less is missed.
-            assert!(stats.cache.misses <= last.cache.misses, "{budget}");
-            let all = |s: &FrameStats| s.cache.hits + s.cache.misses;
-            assert_eq!(all(&stats), all(&last));
-            assert!(budget < 300 || stats.cache.misses < last.cache.hits / 2);
-        }
-        last = Some(stats);
-    }
-}
-
-#[test]
-fn renderers_and_scenes_may_cross_threads() {
-    fn send<T: Send>() {}
-    fn sync<T: Sync>() {}
-    send::<LineRenderer<'static, Depth>>();
-    send::<Scene<'static, Depth>>();
-    sync::<Scene<'static, Depth>>();
-    send::<scanbeam::input::Source<'static, 'static>>();
-    send::<scanbeam::input::Stream<'static, 'static>>();
-}
-
-/// A frame by `count` renderers, each on a thread of its own.
-fn threaded<P: Pipeline<Textures: Sync>>(
-    scene: &Scene<'_, P>,
-    count: u16,
-    (slots, budget, band): (usize, u32, u16),
-) -> Vec<WordOf<P>>
-where
-    WordOf<P>: Send,
-{
-    let mut line_rooms: Vec<_> = (0..count)
-        .map(|_| LineRooms::<P>::fitting(slots, scene))
-        .collect();
-    let mut renderers: Vec<_> = line_rooms.iter_mut().map(LineRooms::renderer).collect();
-    for (offset, renderer) in renderers.iter_mut().enumerate() {
-        renderer.set_interleave(Interleave::bands(count, offset as u16, band).unwrap());
-        renderer.set_prefetch(budget);
-    }
-    let mut pump = pump(scene.screen(), 3);
-    let background = Default::default();
-    crew::draw_frame(scene, &mut renderers, &mut pump, background, 3).unwrap();
-    pump.sink().frame().unwrap()
+/// The lines that one of several threads has, in bands that go around.
+fn share(
+    scene: &Scene<'_, 'static, L>,
+    slots: u16,
+    is_own: impl Fn(u16) -> bool,
+) -> Vec<(u16, Vec<[u8; 3]>)> {
+    let mut rooms = LineRooms::fitting(scene, slots, true);
+    let mut renderer = rooms.renderer();
+    let own = scene.lines().filter(|&y| is_own(y));
+    own.map(|y| (y, line(&mut renderer, scene, y, [0; 3])))
+        .collect()
 }
 
 #[test]
@@ -354,40 +167,34 @@ fn threads_draw_one_scene() {
     for seed in 0..6 {
         let mut rng = Rng::new(900 + seed);
         let soup = Soup::new(&mut rng, Kind::Mixed, 80);
-        let mut rooms = soup.rooms::<Depth>(screen);
-        let mut scene = rooms.scene(screen);
-        soup.build(&mut scene);
-        let expected = reference(&scene).concat();
+        let mut rooms = soup.rooms(screen);
+        let scene = &soup.scene::<L>(&mut rooms, screen);
+        let want = frame(scene, 128, true, [0; 3]);
         for count in 1..=4 {
-            let band = 1 + rng.below(4) as u16;
-            let settings = (rng.pick(&CACHES), rng.pick(&BUDGETS), band);
-            let frame = threaded(&scene, count, settings);
-            assert!(frame == expected, "seed {seed}, {count}, {settings:?}");
+            let (slots, band) = (rng.pick(&SLOTS), 1 + rng.below(4) as u16);
+            let mut shares: Vec<_> = std::thread::scope(|threads| {
+                let started: Vec<_> = (0..count)
+                    .map(|who| {
+                        threads.spawn(move || share(scene, slots, |y| y / band % count == who))
+                    })
+                    .collect();
+                let joined = started.into_iter().map(|thread| thread.join().unwrap());
+                joined.flatten().collect()
+            });
+            shares.sort_by_key(|(y, _)| *y);
+            let got: Vec<_> = shares.into_iter().map(|(_, line)| line).collect();
+            assert!(got == want, "seed {seed}, {count} threads, {slots} slots");
         }
     }
 }
 
 #[test]
-fn a_crew_says_who_is_missing() {
-    let screen = Screen::new(8, 8).unwrap();
-    let soup = Soup::new(&mut Rng::new(1), Kind::Mixed, 5);
-    let mut rooms = soup.rooms::<Depth>(screen);
-    let mut scene = rooms.scene(screen);
-    soup.build(&mut scene);
-    let mut line_rooms = LineRooms::<Depth>::fitting(4, &scene);
-    let mut renderer = line_rooms.renderer();
-    renderer.set_interleave(Interleave::lines(4, 1).unwrap());
-    let mut crew = Crew {
-        scene: &scene,
-        here: &mut [renderer],
-        background: [0; 3],
-        skipped: 0,
-    };
-    let mut pixels = [[0; 3]; 8];
-    let unowned = |line| Err(RendererError::Unowned { line });
-    assert_eq!(crew.line(0, &mut pixels), unowned(0));
-    assert_eq!(crew.line(1, &mut pixels), Ok(()));
-    assert_eq!(crew.line(2, &mut pixels), unowned(2));
-    let short = RendererError::Pixels { needed: 8, have: 7 };
-    assert_eq!(crew.line(5, &mut pixels[..7]), Err(short));
+fn renderers_and_scenes_may_cross_threads() {
+    fn send<T: Send>() {}
+    fn sync<T: Sync>() {}
+    send::<Renderer<'static, L, 4>>();
+    send::<Scene<'static, 'static, L>>();
+    sync::<Scene<'static, 'static, L>>();
+    send::<scanbeam::input::Source<'static, 'static>>();
+    send::<scanbeam::input::Stream<'static, 'static>>();
 }

@@ -46,46 +46,44 @@ fn drawn(folder: &TempDir, flags: &str) -> (Frame, impl Fn(&str) -> u64 + use<>)
     (picture, move |key: &str| figures[key].as_u64().unwrap())
 }
 
+/// Dies where a depth of the command line is drawn as another, and where a triangle's block-fix range is that of its
+/// farthest corner.
 #[test]
 fn whole_depths_show_the_same_however_they_are_kept() {
     let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("m.obj"), soup(60)).unwrap();
-    for flags in [
-        "",
-        "--shade flat --format rgb565",
-        "--cache 7 --renderers 3",
-    ] {
-        let (z32, always) = drawn(&folder, &format!("{flags} --depth z32"));
+    std::fs::write(folder.path().join("m.obj"), soup(400)).unwrap();
+    for flags in ["", "--shade flat --format rgb565"] {
         let (auto, chosen) = drawn(&folder, flags);
-        let (id, once) = drawn(&folder, &format!("{flags} --depth id"));
-        assert!(auto == z32 && id == z32, "{flags}");
-        assert!(chosen("depth_tests") <= always("depth_tests"), "{flags}");
-        let all = always("pixels_shaded") + always("pixels_hidden");
-        assert_eq!(always("depth_tests"), all, "{flags}");
-        assert_eq!(
-            once("pixels_shaded") + once("pixels_hidden"),
-            all,
-            "{flags}"
-        );
-        let fewer = once("pixels_shaded") < always("pixels_shaded");
-        // Objects without a slot are drawn as by z32.
-        assert!(fewer || flags.contains("--cache 7"), "{flags}");
-        // Without depth what comes last is seen, and nothing is tested.
-        let (last, none) = drawn(&folder, &format!("{flags} --depth priority"));
-        assert!(last != z32, "{flags}");
-        assert_eq!(
-            (none("depth_tests"), none("pixels_hidden")),
-            (0, 0),
-            "{flags}"
-        );
+        for more in ["", "--cache 7 --renderers 3"] {
+            for depth in ["z32", "id"] {
+                let (same, _) = drawn(&folder, &format!("{flags} {more} --depth {depth}"));
+                assert!(auto == same, "{flags} {more} --depth {depth}");
+            }
+        }
+        // Without depth what comes last is seen.
+        let (last, _) = drawn(&folder, &format!("{flags} --depth priority"));
+        assert!(last != auto, "{flags}");
         // 16 bits tell nearly all of them apart.
-        let (fixed, _) = drawn(&folder, &format!("{flags} --depth block-fix"));
-        let differ = (0..150)
-            .flat_map(|y| (0..200).map(move |x| (x, y)))
-            .filter(|&(x, y)| fixed.pixel(x, y) != z32.pixel(x, y))
-            .count();
-        println!("{flags}: {differ} of 30000 pixels differ with block-fix depth");
-        assert!(differ < 300, "{flags}: {differ}");
+        for depth in ["block-fix", "word"] {
+            let (kept, all) = drawn(&folder, &format!("{flags} --depth {depth}"));
+            let places = (0..150).flat_map(|y| (0..200).map(move |x| (x, y)));
+            let differ = places.filter(|&(x, y)| differ(kept.pixel(x, y), auto.pixel(x, y)));
+            let differ = differ.count();
+            println!("{flags}: {differ} of 30000 pixels differ with {depth} depth");
+            assert!(differ > 0 && differ < 300, "{flags} {depth}: {differ}");
+            // Every pixel is compared, and many more than are seen.
+            let compared = all("pixels_shaded") + all("pixels_hidden");
+            assert_eq!(all("depth_tests"), compared, "{flags}");
+            assert!(chosen("pixels_shaded") < compared, "{flags}");
+        }
+    }
+}
+
+/// Whether another triangle is seen: colours of the laboratory's lines are another rounding.
+fn differ(one: Option<[u8; 3]>, other: Option<[u8; 3]>) -> bool {
+    match (one, other) {
+        (Some(one), Some(other)) => (0..3).any(|i| one[i].abs_diff(other[i]) > 12),
+        _ => true,
     }
 }
 
@@ -95,9 +93,10 @@ fn what_does_not_go_together_is_refused() {
     std::fs::write(folder.path().join("m.obj"), soup(1)).unwrap();
     for flags in [
         "--depth z16",
-        "--depth id --interp half",
-        "--depth block-fix --quality fast",
-        "--depth priority --texture t.png",
+        "--depth block-fix --interp half",
+        "--depth word --cache 3",
+        "--depth block-fix --texture t.png",
+        "--depth word --format grey8",
         "--depth z32 --interp model",
     ] {
         let output = run(&folder, flags);

@@ -5,11 +5,11 @@ use crate::common::Rng;
 use crate::common::solid::{V, dot, unit};
 use host_tests::args::PixelFormatArg;
 use host_tests::draw::{
-    Called, CrewSettings, Effects, FilterArg, Skins, TextureSet, draw, draw_effects,
+    CrewSettings, Drawn, Effects, FilterArg, Skins, TextureSet, draw, draw_effects,
 };
 use host_tests::model::{Material, Model, ModelVertex};
 use host_tests::reference::{Cull, Shade, View};
-use scanbeam::pipeline::texture::Quality;
+use scanbeam::scene::Budget;
 
 fn material(ks: f64, ns: f64, d: f64) -> Material {
     Material {
@@ -72,17 +72,17 @@ fn drawn(
     format: PixelFormatArg,
     crew: CrewSettings,
     effects: Effects,
-) -> Called {
+) -> Drawn {
     let set = TextureSet::load(model, None).unwrap().with_levels(true);
     let skins = Skins {
         set: &set,
         filter: FilterArg::Nearest,
-        quality: Quality::Balanced,
+        budget: Budget::BALANCED,
     };
     draw_effects(model, skins, (view, format), crew, effects).unwrap()
 }
 
-fn usual(model: &Model, view: &View, effects: Effects) -> Called {
+fn usual(model: &Model, view: &View, effects: Effects) -> Drawn {
     let crew = CrewSettings::default();
     drawn(model, view, PixelFormatArg::Rgb888, crew, effects)
 }
@@ -218,7 +218,7 @@ fn light_at_pixels_has_one_colour_a_triangle() {
     let skins = Skins {
         set: &set,
         filter: FilterArg::Nearest,
-        quality: Quality::Balanced,
+        budget: Budget::BALANCED,
     };
     let format = PixelFormatArg::Rgb888;
     let drawn = draw_effects(
@@ -407,7 +407,7 @@ fn without_effects_it_is_the_usual_picture() {
             assert!(a.abs_diff(*b) <= 2, "{a} {b}");
         }
         assert_eq!(
-            plain.stats.pass_one.triangles,
+            plain.used.assembled.triangles,
             other.used.assembled.triangles
         );
     }

@@ -1,67 +1,85 @@
 //! Status events of whole frames (H14).
 
-use crate::common::{LineRooms, SceneRooms};
+use crate::hot::{LineRooms, SceneRooms, camera};
 use host_tests::mock::{HostLine, MockFrameBuffer};
 use scanbeam::event::Event;
+use scanbeam::look::Gouraud;
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::pipeline::{Counted, DepthUse, FlatDepth, draw_frame};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
-use scanbeam::{Camera, Cull, Screen};
+use scanbeam::scene::{DepthFunction, DepthTest, ScreenCorner};
+use scanbeam::{Cull, Draw, Faces, Mesh, Screen, draw_frame};
 
-type Look = Counted<FlatDepth<Rgb565Be>>;
+type Look = Gouraud<Rgb565Be>;
 
 const WIDTH: u16 = 24;
 const HEIGHT: u16 = 17;
+const EMPTY: Mesh = Mesh {
+    positions: &[],
+    normals: &[],
+    colours: &[],
+    faces: Faces::Triangles(&[]),
+};
 
-fn background() -> u16 {
-    Rgb565Be::from_rgb8([1, 2, 3])
-}
-
-/// H14: events of frames that are drawn, each with what makes it happen and without.
-#[test]
-fn frames_that_are_drawn_tell_their_events() {
-    let near = |x: i16, depth| {
-        let at = |dx, y| ScreenVertex {
+/// A triangle at a column, so near.
+fn near(x: i16, depth: u32) -> [ScreenCorner; 3] {
+    let at = |dx, y| ScreenCorner {
+        vertex: ScreenVertex {
             x: x + dx,
             y,
             depth,
             colour: [200; 3],
-        };
-        [at(0, 0), at(0, 120), at(80, 0)]
+        },
+        texel: [0; 2],
     };
-    let events_by = |depth_use, triangles: &[[ScreenVertex; 3]], objects| {
-        let mut memory = SceneRooms::<Look>::new(32, objects, usize::from(HEIGHT));
-        let mut scene = memory.scene(Screen::new(WIDTH, HEIGHT).unwrap());
-        let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
-        let camera = Camera::look_at([0.0; 3], ahead, up, 20.0, 0.1, 99.0).unwrap();
-        scene.begin(&camera).unwrap();
-        for triangle in triangles {
-            // The arena that is full is one of the events.
-            let _ = scene.draw_screen(triangle, &[[0, 1, 2]], (), Cull::None);
-        }
-        let mut lent = LineRooms::fitting(8, &scene);
-        let mut renderer = lent.renderer();
-        renderer.set_depth_use(depth_use);
-        let sink = MockFrameBuffer::new(WIDTH, HEIGHT);
-        let words = usize::from(WIDTH);
-        let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
-        let stats = draw_frame(&scene, &mut renderer, &mut pump, background(), 1).unwrap();
-        stats.events().iter().collect::<Vec<_>>()
+    [at(0, 0), at(0, 120), at(80, 0)]
+}
+
+/// The events of a frame of these triangles, each a call of its own, for so many of which there is room.
+fn events(triangles: &[[ScreenCorner; 3]], depth: DepthTest, room: usize) -> Vec<Event> {
+    let screen = Screen::new(WIDTH, HEIGHT).unwrap();
+    let mut memory = SceneRooms::new(32, room, HEIGHT.into(), 4);
+    let mut scene = memory.scene::<Look>(screen);
+    scene.begin(&camera()).unwrap();
+    let call = Draw {
+        cull: Cull::None,
+        depth,
+        ..Draw::new(EMPTY)
     };
+    for triangle in triangles {
+        // That memory is full is one of the events.
+        let _ = scene.draw_screen(&call, &[*triangle]);
+    }
+    let mut lent = LineRooms::fitting(&scene, 32, true);
+    let mut renderer = lent.renderer().counting();
+    let words = usize::from(WIDTH);
+    let sink = MockFrameBuffer::new(WIDTH, HEIGHT);
+    let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
+    let background = Rgb565Be::from_rgb8([1, 2, 3]);
+    let used = draw_frame(&scene, &mut renderer, &mut pump, background, 1).unwrap();
+    let events = used.assembled.events().union(renderer.spans().events());
+    events.iter().collect()
+}
+
+/// H14: events of frames that are drawn, each with what makes it happen and without.
+///
+/// Kills: a condition that is turned round, an event in the place of another, a union that keeps one set alone.
+#[test]
+fn frames_that_are_drawn_tell_their_events() {
     use Event::{DepthFailed, DepthPassed, Full, PixelRendered};
-    let events = |triangles: &[_]| events_by(DepthUse::WhereNeeded, triangles, 4);
-    let compared = |triangles: &[_]| events_by(DepthUse::Always, triangles, 4);
+    let usual = |triangles: &[_]| events(triangles, DepthTest::default(), 4);
+    let never = DepthTest {
+        colour_if: DepthFunction::NEVER,
+        ..DepthTest::default()
+    };
     let apart = [near(0, 1 << 20), near(96, 1 << 20)];
-    assert_eq!(events(&[]), []);
-    assert_eq!(events(&apart[..1]), [PixelRendered]);
-    assert_eq!(events(&apart), [PixelRendered]);
-    assert_eq!(compared(&[]), []);
-    assert_eq!(compared(&apart), [PixelRendered, DepthPassed]);
+    assert_eq!(usual(&[]), []);
+    assert_eq!(usual(&apart[..1]), [PixelRendered]);
+    assert_eq!(usual(&apart), [PixelRendered]);
+    // The same columns: one hides a part of the other.
     let over = [near(0, 1 << 20), near(8, 1 << 29)];
-    assert_eq!(compared(&over), [PixelRendered, DepthPassed]);
-    let behind = [near(0, 1 << 29), near(8, 1 << 20)];
-    assert_eq!(compared(&behind), [PixelRendered, DepthPassed, DepthFailed]);
-    let full = events_by(DepthUse::WhereNeeded, &apart, 1);
+    assert_eq!(usual(&over), [PixelRendered, DepthPassed, DepthFailed]);
+    assert_eq!(events(&apart, never, 4), [DepthFailed]);
+    let full = events(&apart, DepthTest::default(), 1);
     assert_eq!(full, [PixelRendered, Full]);
 }

@@ -5,7 +5,7 @@
 mod files;
 #[path = "../fuzz/src/formats.rs"]
 mod formats;
-#[path = "../fuzz/src/frames.rs"]
+#[path = "../fuzz/src/frames/mod.rs"]
 mod frames;
 #[path = "../fuzz/src/list.rs"]
 pub mod list;
@@ -31,7 +31,7 @@ fn bytes(rng: &mut Rng, most: u32) -> Vec<u8> {
 #[test]
 fn random_bytes_are_frames() {
     let mut rng = Rng::new(71);
-    let covered: usize = (0..8_000)
+    let covered: usize = (0..10_000)
         .map(|_| frames::run(&bytes(&mut rng, 1200)))
         .sum();
     assert!(covered > 100_000, "{covered}");

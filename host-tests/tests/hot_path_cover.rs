@@ -2,101 +2,19 @@
 //! lines or the number of renderers is.
 //!
 //! Triangles whose corners lie on chosen 1/8 pixels have a colour each. At every pixel the one that was
-//! drawn last has to be seen, by the words of the fill rule in whole numbers.
+//! drawn last has to be seen, and each has to be hit as often as triangles cover it, by the words of the fill rule in
+//! whole numbers. What meshes have together is in `watertight.rs`.
 
 use crate::common::Rng;
-use crate::hot::exact::{columns, doubled_area, within};
-use crate::hot::{Corner, LineRooms, Place, SceneRooms, Smooth, WordOf, camera, draw, frame, line};
-use crate::watertight::count::Count;
+use crate::hot::count::Count;
+use crate::hot::cover::{Bench, GUARD, L, corners, id};
+use crate::hot::exact::{columns, doubled_area};
+use crate::hot::ways::Lines;
+use crate::hot::{Corner, Place, SceneRooms, Smooth, WordOf, camera, draw, frame};
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{Rgb565Be, Rgb888};
 use scanbeam::scene::Scene;
 use scanbeam::{Cull, Screen};
-
-type L = Gouraud<Rgb888>;
-/// As far from the picture's middle as a corner can be without being cut off, in units of 1/8 pixel.
-const GUARD: i32 = (1 << 14) - 3;
-
-/// A triangle's colour, by number from 1; far enough apart to be read back from any pixel.
-fn colour(id: usize) -> [u8; 3] {
-    [0, 4, 8].map(|shift| ((id >> shift & 15) * 17) as u8)
-}
-
-fn id(pixel: [u8; 3]) -> usize {
-    (0..3).fold(0, |id, i| {
-        id | ((usize::from(pixel[i]) + 8) / 17) << (4 * i)
-    })
-}
-
-/// A picture by the fill rule alone: the number of the last triangle at each pixel.
-fn wanted(screen: Screen, triangles: &[[Place; 3]], cull: Cull) -> Vec<Vec<usize>> {
-    let mut lines = vec![vec![0; screen.width().into()]; screen.height().into()];
-    for (id, &triangle) in (1..).zip(triangles) {
-        if cull == Cull::Back && doubled_area(triangle) > 0 {
-            continue;
-        }
-        for (y, line) in (0..).zip(&mut lines) {
-            line[within(triangle, y, screen.width())].fill(id);
-        }
-    }
-    lines
-}
-
-fn corners(triangles: &[[Place; 3]]) -> Vec<[Corner; 3]> {
-    let of = |(id, places): (usize, &[Place; 3])| {
-        places.map(|at| Corner {
-            at,
-            w: 1.0,
-            colour: colour(id),
-        })
-    };
-    (1..).zip(triangles).map(of).collect()
-}
-
-/// Keeps its memory from scene to scene.
-struct Bench {
-    rooms: SceneRooms,
-    triangles: usize,
-}
-
-impl Bench {
-    fn new() -> Self {
-        Self {
-            rooms: SceneRooms::new(16_384, 8_192, 1_016, 8),
-            triangles: 0,
-        }
-    }
-
-    /// Holds a picture against the rule, with depth and without, with so many slots; all triangles are
-    /// equally far, so the last is seen in either case.
-    fn check(&mut self, screen: Screen, triangles: &[[Place; 3]], cull: Cull, slots: &[u16]) {
-        let mut scene = self.rooms.scene::<L>(screen);
-        scene.begin(&camera()).unwrap();
-        draw(&mut scene, &corners(triangles), cull).unwrap();
-        let use_of = scene.assembled();
-        assert_eq!(use_of.clipped, 0, "places lie within the guard band");
-        assert_eq!(use_of.triangles as usize, triangles.len());
-        assert_eq!(
-            use_of.culled as usize + scene.objects(),
-            triangles.len(),
-            "each is culled or kept"
-        );
-        let want = wanted(screen, triangles, cull);
-        for (&slots, depth) in slots.iter().zip([false, true].into_iter().cycle()) {
-            let got = frame(&scene, slots, depth, [0; 3]);
-            for (y, (got, want)) in got.iter().zip(&want).enumerate() {
-                for (x, (&pixel, &want)) in got.iter().zip(want).enumerate() {
-                    assert_eq!(
-                        id(pixel),
-                        want,
-                        "{x}, {y} of {screen:?} {cull:?}, {slots} slots, depth {depth}: {triangles:?}"
-                    );
-                }
-            }
-        }
-        self.triangles += triangles.len();
-    }
-}
 
 fn screens() -> [Screen; 6] {
     [(1, 1), (32, 24), (33, 25), (320, 240), (1016, 3), (3, 1016)]
@@ -261,52 +179,6 @@ fn triangles_cut_at_the_guard_band_cover_what_they_did() {
     assert!(cut > 1_000 && decided > 1_000_000, "{cut} {decided}");
 }
 
-/// Grids that reach over all borders cover every pixel, once: no edge is wider or narrower than its
-/// neighbour's.
-#[test]
-fn closed_meshes_have_no_holes() {
-    let mut rng = Rng::new(305);
-    let mut bench = Bench::new();
-    for round in 0..600 {
-        let screen = screens()[round % 6];
-        let (snap, offset) = [(1, 0), (8, 4), (8, 0), (4, 0)][round % 4];
-        let cell = rng.pick(&[24, 60, 200, 500, 900]);
-        let jitter = (cell - 2 * snap) / 4;
-        let size = |pixels: u16| (8 * i32::from(pixels) / cell + 5) as usize;
-        let (columns, rows) = (size(screen.width()), size(screen.height()));
-        if columns * rows > 1_000 {
-            continue;
-        }
-        let mut put = |i: usize| {
-            let exact = cell * (i as i32 - 2) + rng.within(-jitter, jitter);
-            exact.div_euclid(snap) * snap + offset
-        };
-        let grid: Vec<Vec<Place>> = (0..=rows)
-            .map(|y| (0..=columns).map(|x| (put(x), put(y))).collect())
-            .collect();
-        let mut triangles = Vec::new();
-        for y in 0..rows {
-            for x in 0..columns {
-                let (a, b) = (grid[y][x], grid[y][x + 1]);
-                let (c, d) = (grid[y + 1][x], grid[y + 1][x + 1]);
-                triangles.extend(if (x ^ y) & 1 == 0 {
-                    [[a, c, b], [b, c, d]]
-                } else {
-                    [[a, c, d], [a, d, b]]
-                });
-            }
-        }
-        assert!(triangles.iter().all(|&t| doubled_area(t) < 0), "not plain");
-        let want = wanted(screen, &triangles, Cull::Back);
-        assert!(
-            want.iter().flatten().all(|&id| id > 0),
-            "a hole in the mesh itself"
-        );
-        bench.check(screen, &triangles, Cull::Back, &[64, 128, 4, 0]);
-    }
-    assert!(bench.triangles > 20_000, "{}", bench.triangles);
-}
-
 /// A scene of triangles of many distances and colours, some through each other.
 fn mixed(rng: &mut Rng, screen: Screen, count: usize) -> Vec<[Corner; 3]> {
     let mut one = || {
@@ -324,7 +196,7 @@ fn mixed(rng: &mut Rng, screen: Screen, count: usize) -> Vec<[Corner; 3]> {
 fn with_mixed<M: Smooth>(
     rng: &mut Rng,
     screen: Screen,
-    see: impl FnOnce(&mut Rng, &Scene<'_, '_, M>),
+    see: impl FnOnce(&mut Rng, &Scene<'_, 'static, M>),
 ) {
     let count = rng.pick(&[3, 20, 90, 300]);
     let triangles = mixed(rng, screen, count);
@@ -340,36 +212,18 @@ where
     WordOf<M>: std::fmt::Debug,
 {
     let mut rng = Rng::new(seed);
-    for round in 0..90 {
+    for round in 0..30 {
         let screen = screens()[round % 6];
         with_mixed::<M>(&mut rng, screen, |rng, scene| {
             for depth in [true, false] {
-                let want = frame(scene, 128, depth, background);
-                for slots in [0, 1, 4, 31, 33, 64] {
-                    let got = frame(scene, slots, depth, background);
-                    assert!(got == want, "{slots} slots, depth {depth}, round {round}");
-                }
-                // Alone, in any order, some lines again and again.
-                let slots = rng.pick(&[0, 3, 64, 128]);
-                let mut rooms = LineRooms::fitting(scene, slots, depth);
-                let mut renderer = rooms.renderer();
-                let mut lines: Vec<u16> =
-                    scene.lines().chain(0..scene.lines().end.min(9)).collect();
-                rng.shuffle(&mut lines);
-                lines.truncate(60);
-                for y in lines {
-                    let got = line(&mut renderer, scene, y, background);
-                    assert_eq!(got, want[usize::from(y)], "line {y} alone, {slots} slots");
-                }
-                // By two renderers with unlike caches, every third line for the other.
-                let mut one = LineRooms::fitting(scene, 5, depth);
-                let mut other = LineRooms::fitting(scene, 64, depth);
-                let (mut one, mut other) = (one.renderer(), other.renderer());
-                for y in scene.lines() {
-                    let who = if y % 3 == 1 { &mut other } else { &mut one };
-                    let got = line(who, scene, y, background);
-                    assert_eq!(got, want[usize::from(y)], "line {y} by two");
-                }
+                let lines = Lines {
+                    scene,
+                    depth,
+                    background,
+                };
+                let name = format!("round {round}");
+                let want = lines.whole(&name);
+                lines.every_way(&want, rng, &name);
             }
         });
     }

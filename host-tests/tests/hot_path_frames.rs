@@ -11,8 +11,9 @@ use scanbeam::frame::{
     FrameError, draw_frame, draw_frame_changed, draw_frame_changed_runs, draw_frame_overlaid,
 };
 use scanbeam::look::Gouraud;
+use scanbeam::overlay::Pixels;
 use scanbeam::overlay::{Ink, Overlay, Sprite};
-use scanbeam::pixel::{Pixels, Rgb565Be};
+use scanbeam::pixel::Rgb565Be;
 use scanbeam::scan_out::{Pump, ScanError, ShownLines, ShownRuns};
 use scanbeam::scene::Scene;
 

@@ -4,14 +4,13 @@
 //! The reference knows the vertices unsnapped, so what snapping moves is counted with the rest (X13, H4, X2).
 
 use host_tests::args::PixelFormatArg;
-use host_tests::draw::{FilterArg, Prepared, Skins, TextureSet, draw_by_calls};
+use host_tests::draw::{CrewSettings, FilterArg, Prepared, Skins, TextureSet, draw_prepared};
 use host_tests::image_out::Frame;
 use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::View;
 use host_tests::texture_file::TextureImage;
 use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::look::Textured;
-use scanbeam::pipeline::texture::Quality;
 use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scene::{
     Budget, Draw, DrawState, Memory, Object, Scene, Skin, Texture, TexturePlace, Vertex,
@@ -280,17 +279,17 @@ fn the_tool_shows_the_texels_of_f64() {
         ..View::default()
     };
     let mut others = Vec::new();
-    for (quality, far) in [
-        (Quality::Exact, 1.0 / 16.0),
-        (Quality::Balanced, 5.0 / 16.0),
-        (Quality::Fast, 9.0 / 16.0),
+    let prepared = Prepared::textured(&model, &set);
+    for (budget, far) in [
+        (Budget::EXACT, 1.0 / 16.0),
+        (Budget::BALANCED, 5.0 / 16.0),
+        (Budget::FAST, 9.0 / 16.0),
     ] {
-        let prepared = Prepared::textured(&model, &set, quality);
         let filter = FilterArg::Nearest;
         let skins = Skins {
             set: &set,
             filter,
-            quality,
+            budget,
         };
         let mut pictures = [
             (PixelFormatArg::Rgb888, 1, 64),
@@ -298,19 +297,23 @@ fn the_tool_shows_the_texels_of_f64() {
             (PixelFormatArg::Xrgb8888, 3, 5),
         ]
         .map(|(format, renderers, slots)| {
-            let skins = Some(skins);
-            let drawn = draw_by_calls(&prepared, skins, &view, format, renderers, slots);
-            let drawn = drawn.expect("a view").expect("it fits").frame;
+            let crew = CrewSettings {
+                renderers,
+                slots,
+                ..CrewSettings::default()
+            };
+            let drawn = draw_prepared(&prepared, Some(skins), &view, format, crew);
+            let drawn = drawn.expect("a view").frame;
             let pixels = drawn.rgb().chunks_exact(3);
             let word = |pixel: &[u8]| Rgb565::from_rgb8([pixel[0], pixel[1], pixel[2]]);
             pixels.map(word).collect::<Vec<u16>>()
         })
         .into_iter();
         let first = pictures.next().unwrap();
-        assert!(pictures.all(|other| other == first), "{quality:?}");
+        assert!(pictures.all(|other| other == first), "{budget:?}");
         let off = compared(&first, far);
-        println!("{quality:?}: {off:?}");
-        assert!(off.wrong <= 15, "{quality:?}: {off:?}");
+        println!("{budget:?}: {off:?}");
+        assert!(off.wrong <= 15, "{budget:?}: {off:?}");
         others.push(off.other);
     }
     // No budget is drawn as another.

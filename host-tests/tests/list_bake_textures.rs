@@ -3,7 +3,7 @@
 
 use base64::Engine as _;
 use host_tests::args::PixelFormatArg;
-use host_tests::draw::{FilterArg, Prepared, Skins, TextureSet, draw_by_calls};
+use host_tests::draw::{CrewSettings, FilterArg, Skins, TextureSet, draw_textured};
 use host_tests::image_out::{Frame, encode_image, read_image, write_image};
 use host_tests::lists::bake::{BakeSettings, Baked, bake_textured};
 use host_tests::lists::sizes::Sizes;
@@ -13,7 +13,6 @@ use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::View;
 use host_tests::texture_file::of_materials;
 use scanbeam::list::{Budget, Halt, TexelForm};
-use scanbeam::pipeline::texture::{Quality, Rgba8871, TexelFormat};
 use std::path::Path;
 
 const SIDE: u32 = 16;
@@ -99,15 +98,13 @@ fn a_baked_sheet_looks_like_the_model() {
     let ran = run::execute(&baked.words, &view, Budget::of(1 << 20)).unwrap();
     assert_eq!((ran.halt, ran.events), (Halt::End, vec![]));
     let set = TextureSet::load(&model, None).unwrap();
-    let (filter, quality) = (FilterArg::Nearest, Quality::Exact);
     let skins = Skins {
         set: &set,
-        filter,
-        quality,
+        filter: FilterArg::Nearest,
+        budget: scanbeam::scene::Budget::EXACT,
     };
-    let prepared = Prepared::textured(&model, &set, quality);
-    let want = draw_by_calls(&prepared, Some(skins), &view, PixelFormatArg::Rgb888, 1, 64);
-    let want = want.unwrap().unwrap();
+    let (format, crew) = (PixelFormatArg::Rgb888, CrewSettings::default());
+    let want = draw_textured(&model, skins, &view, format, crew).unwrap();
     let pairs = ran.frame.rgb().chunks(3).zip(want.frame.rgb().chunks(3));
     let (mut same, mut shown, mut off) = (0, 0, 0);
     for (got, want) in pairs {
@@ -295,8 +292,8 @@ fn pictures_of_gltf_are_found_wherever_they_are() {
     let picture = beside.pictures[0].as_ref().unwrap();
     assert!(!picture.clamped && beside.model.warnings.is_empty());
     for (y, x) in (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| (y, x))) {
-        let texel = Rgba8871::expand(picture.image.levels[0][(y * SIDE + x) as usize]);
-        assert_eq!(Some(texel.rgb), frame().pixel(x, y));
+        let texel = picture.image.levels[0][(y * SIDE + x) as usize];
+        assert_eq!(Some(texel), frame().pixel(x, y));
     }
     // Its places go downwards, those of the model upwards.
     let uv = |n: usize| beside.model.vertices[n].uv;
@@ -321,8 +318,8 @@ fn pictures_of_gltf_are_found_wherever_they_are() {
     let jpeg = format!(r#"{{"uri":"data:image/jpeg;base64,{JPEG}"}}"#);
     let halves = load(&jpeg, "{}").unwrap();
     let image = &halves.pictures[0].as_ref().unwrap().image;
-    assert_eq!((image.size.width(), image.size.height()), (16, 8));
-    let texel = |x: usize, y: usize| Rgba8871::expand(image.levels[0][16 * y + x]).rgb;
+    assert_eq!((image.width, image.height), (16, 8));
+    let texel = |x: usize, y: usize| image.levels[0][16 * y + x];
     let near = |a: [u8; 3], b: [u8; 3]| (0..3).all(|i| a[i].abs_diff(b[i]) < 40);
     assert!(near(texel(1, 2), [255, 0, 0]) && near(texel(13, 6), [0, 0, 255]));
     // The same as a file.

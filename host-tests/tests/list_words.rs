@@ -62,7 +62,7 @@ fn random_item(r: &mut Random, format: &mut VertexFormat, kept: &mut Option<Head
     let byte = |r: &mut Random| r.below(256) as u8;
     let bytes = |r: &mut Random| [byte(r), byte(r), byte(r)];
     let words = |r: &mut Random, n: u32| (0..n).map(|_| r.next()).collect::<Vec<_>>();
-    let form = |r: &mut Random| TexelForm::ALL[r.below(8) as usize];
+    let form = |r: &mut Random| TexelForm::ALL[r.below(10) as usize];
     match r.below(20) {
         0 => Item::Flow(match r.below(3) {
             0 => Flow::Pause,

@@ -74,6 +74,40 @@ fn what_is_traced_draws_the_line() {
     }
 }
 
+/// What is wider than a scene can be is traced in parts, from left to right.
+#[test]
+fn a_wide_line_is_traced_in_parts() {
+    let (_folder, file) = square();
+    let model = Model::load(&file).unwrap();
+    let view = View {
+        width: 2500,
+        ..view()
+    };
+    let picture = draw_model(&model, &view, PixelFormatArg::Rgb888).unwrap();
+    let mut memory = [(); 4].map(|()| [0; 1016]);
+    let [z0, z1, c0, c1] = &mut memory;
+    let mut pipe = Pipe::new(PipeMemory {
+        z: [z0, z1],
+        rgb: [c0, c1],
+    });
+    let mut pixels = Vec::new();
+    for bits in trace(&model, &view, 20).unwrap().tokens {
+        let mut keep = |output| match output {
+            Output::Pixel { argb, .. } => pixels.push(argb),
+            Output::Data(data) => panic!("{data:x}"),
+        };
+        pipe.bits(bits, &mut keep).unwrap();
+    }
+    assert_eq!(pixels.len(), 2500);
+    let drawn = pixels
+        .iter()
+        .filter(|[_, rgb @ ..]| *rgb != view.background);
+    assert!(drawn.count() > 10);
+    for (x, [_, rgb @ ..]) in (0..).zip(pixels) {
+        assert_eq!(picture.frame.pixel(x, 20), Some(rgb), "{x}");
+    }
+}
+
 #[test]
 fn tokens_are_told_with_their_fields() {
     let swap = Token::Swap(Target::BOTH).encode();

@@ -46,16 +46,20 @@ enum Axis {
     Application,
     Dither,
     Filter,
+    Mask,
+    Alphas,
 }
 
 /// How many choices each has.
-const CHOICES: [usize; 19] = [10, 10, 3, 3, 8, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3, 2, 2];
+const CHOICES: [usize; 21] = [
+    10, 10, 3, 3, 9, 2, 8, 8, 3, 2, 2, 3, 3, 4, 2, 2, 3, 2, 2, 3, 2,
+];
 
 /// The first look that has textures.
 const TEXTURED: usize = 5;
 
 /// A choice on each axis.
-type Choices = [usize; 19];
+type Choices = [usize; 21];
 
 /// A direction that 14 bits hold.
 fn some_normal(rng: &mut Rng) -> V3 {
@@ -101,9 +105,13 @@ fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
             source: Factor::Destination,
             destination: Factor::Constant(alpha),
         }),
-        _ => Some(BlendMode::Factors {
+        7 => Some(BlendMode::Factors {
             source: Factor::InverseDestination,
             destination: Factor::ONE,
+        }),
+        _ => Some(BlendMode::Factors {
+            source: rng.pick(&[Factor::SourceAlpha, Factor::TextureAlpha]),
+            destination: rng.pick(&[Factor::InverseSourceAlpha, Factor::InverseTextureAlpha]),
         }),
     };
     let rgb = match of(Axis::Channels) {
@@ -117,6 +125,7 @@ fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
         budget: BUDGETS[of(Axis::Budget)],
         is_keyed: of(Axis::Key) == 1,
         is_filtered: of(Axis::Filter) == 1,
+        mask: of(Axis::Mask),
         application: APPLICATIONS[of(Axis::Application)],
     });
     let cut = (of(Axis::Scissor) > 0).then(|| {
@@ -134,6 +143,7 @@ fn call(rng: &mut Rng, screen: Screen, choices: &Choices) -> Call {
         cut,
         test: [FUNCTIONS[of(Axis::ColourIf)], FUNCTIONS[of(Axis::DepthIf)]],
         blend: mode.map(|mode| (mode, rgb)),
+        alphas: (of(Axis::Alphas) == 1).then(|| [(); 3].map(|()| rng.below(256) as u8)),
         dithers: of(Axis::Dither) == 1,
         priority: of(Axis::Priority) as u8 * (1 + rng.below(3) as u8),
     }
@@ -209,9 +219,9 @@ impl Case {
 
     /// Draws all calls, and hands the scene to `see`; whether a call was refused instead.
     fn draw<L: Smooth>(&self, see: impl FnOnce(&Scene<'_, '_, L>)) -> bool {
-        // A flat face has vertices of its own, beside those of its mesh.
+        // A flat face has vertices of its own, beside those of its mesh; both may have alphas.
         let count = self.calls.len();
-        let mut rooms = SceneRooms::new(6 * count, count, self.screen.height().into(), count);
+        let mut rooms = SceneRooms::new(8 * count, count, self.screen.height().into(), count);
         let mut scene = rooms.scene::<L>(self.screen);
         scene.begin(&camera()).expect("the rooms are large enough");
         // Of looks with textures, the one whose bytes are in the order that this machine's are not in.
@@ -370,7 +380,7 @@ fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
         let texture = &forms[skin.form][wrap.expect("one of them")];
         let places: &'static [_] = skin.places.to_vec().leak();
         Skin {
-            texture: &texture[usize::from(skin.is_filtered)],
+            texture: &texture[usize::from(skin.is_filtered)][skin.mask],
             places,
             budget: skin.budget.0,
         }
@@ -393,6 +403,7 @@ fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
     };
     draw.blend = call.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
     draw.dither = call.dithers;
+    draw.alphas = call.alphas.map_or(&[], |alphas| alphas.to_vec().leak());
     draw.priority = call.priority;
 }
 

@@ -49,6 +49,11 @@ impl Sheet {
                 let alpha = if v >> 24 & 0x7F == 0 { 0 } else { 1 };
                 [v as u8, (v >> 8) as u8, (v >> 16) as u8, alpha]
             }
+            TexelForm::Rgba5551 | TexelForm::Rgbd5551 => {
+                let five = |down: u32| grown(v >> down & 31, 5);
+                let is_seen = self.block.form == TexelForm::Rgbd5551 || v & 1 != 0;
+                [five(11), five(6), five(1), u8::from(is_seen)]
+            }
             TexelForm::Index6 => self.colour(v & 63),
             _ => self.colour(v),
         }

@@ -165,11 +165,6 @@ fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
         })
     };
     let (opaque, half) = (0xFF20_4060, 0x8020_4060);
-    let (words, at) = list(TexelForm::Index4, half, true);
-    refused::<Skinned>(&words, at, Id::Short, Reason::Missing(Missing::Alpha));
-    // 7 bits of alpha, and one that says not to dither.
-    let (words, at) = list(TexelForm::Rgba, 0x3020_4060, false);
-    refused::<Skinned>(&words, at, Id::Short, Reason::Missing(Missing::Alpha));
     let (words, at) = list(TexelForm::Index4, opaque, false);
     refused::<Skinned>(&words, at, Id::Short, Reason::NoPalette(1));
     let (words, at) = after_a_triangle(draw_textured);
@@ -191,10 +186,6 @@ fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
     let full = reason(Reason::Lent(Lent::Texels));
     assert_eq!(said::<Skinned>(words, settings, 64, 1, 255), full);
 
-    // D counts where what it belongs to is dithered.
-    let (words, at) = list(TexelForm::Rgba, 0xFF20_4060, false);
-    let words: &[u32] = Vec::leak(words);
-    assert_eq!(said::<Skinned>(words, settings, 64, 1, 16), Ok(Halt::End));
     let dithered = PlayerSettings {
         draw: Draw {
             dither: true,
@@ -202,12 +193,29 @@ fn textures_that_cannot_be_drawn_are_refused_where_they_are_drawn_with() {
         },
         ..settings
     };
-    let error = ListError {
-        offset: at,
-        block: Some(Id::Short),
-        reason: Reason::Missing(Missing::Undithered),
-    };
-    assert_eq!(said::<Skinned>(words, dithered, 64, 1, 16), Err(error));
+    // Alphas, and D where the rest is dithered, take a second texture, with as many words.
+    for (form, colour, settings) in [
+        (TexelForm::Index4, half, settings),
+        (TexelForm::Rgba, 0x3020_4060, settings),
+        (TexelForm::Rgba, 0xFF20_4060, dithered),
+    ] {
+        let (words, at) = list(form, colour, form.is_indexed());
+        let words: &[u32] = Vec::leak(words);
+        assert_eq!(said::<Skinned>(words, settings, 64, 2, 32), Ok(Halt::End));
+        for (textures, texels, lent) in [(1, 32, Lent::Textures), (2, 31, Lent::Texels)] {
+            let error = ListError {
+                offset: at,
+                block: Some(Id::Short),
+                reason: Reason::Lent(lent),
+            };
+            let done = said::<Skinned>(words, settings, 64, textures, texels);
+            assert_eq!(done, Err(error), "{form:?}");
+        }
+    }
+    // D counts where what it belongs to is dithered.
+    let (words, _) = list(TexelForm::Rgba, 0xFF20_4060, false);
+    let words: &[u32] = Vec::leak(words);
+    assert_eq!(said::<Skinned>(words, settings, 64, 1, 16), Ok(Halt::End));
 }
 
 #[test]

@@ -11,8 +11,8 @@ use scanbeam::list::{
 };
 use scanbeam::look::Textured;
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Xrgb8888};
-use scanbeam::scene::{Budget, Draw, Sampling, Skin, Texture, Wrap};
-use scanbeam::{Cull, Faces, Mesh};
+use scanbeam::scene::{Blend, Budget, Draw, MaskTexel, Sampling, Shading, Skin, Texture, Wrap};
+use scanbeam::{Cull, Faces, Light, Mesh};
 
 type Skinned = Textured<Rgb565Be>;
 
@@ -58,11 +58,20 @@ fn draw_quad_again(writer: &mut ListWriter<'_>, prsp: bool) {
 
 /// The same by a call, with texels that are words of the panel.
 fn call_quad(texture: &Texture<'_>, budget: Budget) -> Vec<u16> {
+    call_quad_as(texture, budget, |_| {})
+}
+
+/// The same by a call that `dress` changes.
+fn call_quad_as(
+    texture: &Texture<'_>,
+    budget: Budget,
+    dress: impl Fn(&mut Draw<'_, '_>),
+) -> Vec<u16> {
     let positions = CORNERS.map(|[x, y]| [x as i16, y as i16, 0]);
     let (width, height) = (texture.width() as i32, texture.height() as i32);
     let places = SIDES.map(|[u, v]| [(u * width) >> 4, (v * height) >> 4]);
     drawn::<Skinned>(|scene| {
-        let call = Draw {
+        let mut call = Draw {
             cull: Cull::None,
             texture: Some(Skin {
                 texture,
@@ -76,6 +85,7 @@ fn call_quad(texture: &Texture<'_>, budget: Budget) -> Vec<u16> {
                 faces: Faces::Triangles(&[[0, 1, 2], [0, 2, 3]]),
             })
         };
+        dress(&mut call);
         scene.draw(&call).unwrap();
     })
 }
@@ -91,6 +101,12 @@ struct Sample {
 fn sample(rng: &mut Rng, form: TexelForm, has_holes: bool) -> Sample {
     let sides = [3 + rng.below(3) as u8, 3 + rng.below(2) as u8];
     sample_of(rng, form, has_holes, sides)
+}
+
+/// Whether a form says which texels are seen.
+fn has_alpha(form: TexelForm) -> bool {
+    use TexelForm::{Rgb565, Rgb888, Rgbd5551};
+    !matches!(form, Rgb565 | Rgb888 | Rgbd5551)
 }
 
 /// One with sides of these logarithms.
@@ -156,6 +172,18 @@ fn sample_of(rng: &mut Rng, form: TexelForm, has_holes: bool, sides: [u8; 2]) ->
                     direct,
                 )
             }
+            TexelForm::Rgba5551 | TexelForm::Rgbd5551 => {
+                let [r, g, b, a] = direct;
+                let five = |v: u8| u32::from(v >> 3);
+                let value = five(r) << 11 | five(g) << 6 | five(b) << 1;
+                let grown = |v: u8| v >> 3 << 3 | v >> 5;
+                // One bit of alpha, or D.
+                let (last, a) = match form {
+                    TexelForm::Rgba5551 => (u32::from(a >> 7), a),
+                    _ => (n & 1, 255),
+                };
+                (value | last, [grown(r), grown(g), grown(b), a])
+            }
             // Two bits of a byte mean nothing.
             TexelForm::Index6 => (code | (n & 3) << 6, palette[code as usize]),
             _ => (code, palette[code as usize]),
@@ -199,7 +227,7 @@ fn textures_of_every_form_are_those_of_calls() {
     for form in TexelForm::ALL {
         for seed in 0..12 {
             let mut rng = Rng::new(seed);
-            let has_holes = seed % 3 == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
+            let has_holes = seed % 3 == 2 && has_alpha(form);
             let sample = sample(&mut rng, form, has_holes);
             let prsp = seed % 2 == 0;
             let list = &sample.list(prsp)[..];
@@ -253,7 +281,7 @@ fn textures_of_every_form_are_those_of_calls() {
 /// holes.
 fn levelled(form: TexelForm, seed: u64, sides: [u8; 2]) -> (Sample, Vec<Vec<u16>>, u16) {
     let mut rng = Rng::new(900 + seed);
-    let has_holes = seed == 2 && !matches!(form, TexelForm::Rgb565 | TexelForm::Rgb888);
+    let has_holes = seed == 2 && has_alpha(form);
     let log = |level: u8| sides.map(|log: u8| log.saturating_sub(level));
     let mut all: Vec<Sample> = (0..4)
         .map(|level| sample_of(&mut rng, form, has_holes, log(level)))
@@ -438,6 +466,103 @@ fn pixels_of_more_bits_are_made_of_the_same_texels() {
         }
     }
     assert!(seen > 4_000, "{seen}");
+}
+
+/// Gives texels of a form any alpha, or D bits alone, and returns the words of a mask for them.
+fn make_translucent(rng: &mut Rng, sample: &mut Sample, has_alpha: bool) -> Vec<u16> {
+    let mut alpha = || match has_alpha {
+        true => rng.below(256) as u8,
+        false => 255,
+    };
+    if sample.block.form.is_indexed() {
+        let alphas: Vec<u8> = sample.colours.iter().map(|_| alpha()).collect();
+        for (colour, alpha) in sample.colours.iter_mut().zip(&alphas) {
+            *colour = *colour & 0xFF_FFFF | u32::from(*alpha) << 24;
+        }
+        let codes = sample.colours.len();
+        let texels = sample.texels.iter_mut().enumerate();
+        let of = texels.map(|(n, texel)| {
+            texel[3] = alphas[n * 7 % codes];
+            MaskTexel::alpha(texel[3]).word()
+        });
+        return of.collect();
+    }
+    let texels = sample.texels.iter_mut().zip(&mut sample.words);
+    let of = texels.enumerate().map(|(n, (texel, word))| {
+        let (seven, is_undithered) = (u32::from(alpha() >> 1), n % 3 == 0);
+        *word = *word & 0xFF_FFFF | seven << 24 | u32::from(is_undithered) << 31;
+        texel[3] = (seven << 1 | seven >> 6) as u8;
+        let mask = MaskTexel::alpha(texel[3]);
+        match is_undithered {
+            true => mask.undithered().word(),
+            false => mask.word(),
+        }
+    });
+    of.collect()
+}
+
+/// Texels of any alpha are those of a call whose texture has a mask, and texels with the D bit are not dithered where the
+/// rest is. Kills: alphas of another colour, D that is not asked, a call that hides what is behind it.
+#[test]
+fn texels_with_alpha_are_those_of_calls() {
+    let forms = [
+        TexelForm::Index1,
+        TexelForm::Index4,
+        TexelForm::Index6,
+        TexelForm::Index8,
+        TexelForm::Rgba,
+    ];
+    let mut differ = [0; 2];
+    for (form, seed) in forms
+        .into_iter()
+        .flat_map(|form| [0, 1, 2, 3].map(|s| (form, s)))
+    {
+        let mut rng = Rng::new(40 + seed);
+        let (has_alpha, dithers) = (seed != 3, seed >= 2);
+        let mut sample = sample(&mut rng, form, false);
+        let masks = make_translucent(&mut rng, &mut sample, has_alpha);
+        let list = &sample.list(true)[..];
+        let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
+        let words: Vec<u16> = sample.texels.iter().map(|texel| word(*texel)).collect();
+        let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
+        let wrap = match sample.block.clamped {
+            true => Wrap::Clamp,
+            false => Wrap::Repeat,
+        };
+        let plain = Texture::words(&words, width, height)
+            .unwrap()
+            .wrapping(wrap);
+        let mask = Texture::words(&masks, width, height).unwrap();
+        let masked = plain.masked(&mask).unwrap();
+        // Shaded, so that there is something to dither.
+        let light = Light::new([0.8, 0.0, 0.6], 0.3);
+        let settings = PlayerSettings {
+            draw: Draw {
+                light,
+                shading: Shading::Flat,
+                dither: dithers,
+                ..PlayerSettings::default().draw
+            },
+            ..PlayerSettings::default()
+        };
+        let want = |texture: &Texture<'_>| {
+            call_quad_as(texture, Budget::BALANCED, |draw| {
+                (draw.dither, draw.light, draw.shading) = (dithers, light, Shading::Flat);
+                draw.blend = has_alpha.then_some(Blend::ALPHA);
+            })
+        };
+        let mut kept = Kept::new(64, 96);
+        let mut player = kept.player::<Skinned>(settings);
+        let got = drawn::<Skinned>(|scene| {
+            player.start(0);
+            assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+        });
+        assert!(got == want(&masked), "{form:?}, seed {seed}");
+        let opaque = want(&plain);
+        let kind = usize::from(!has_alpha);
+        differ[kind] += got.iter().zip(&opaque).filter(|(a, b)| a != b).count();
+    }
+    assert!(differ[0] > 10_000 && differ[1] > 100, "{differ:?}");
 }
 
 /// The settings say how texels of lists are taken: as those of a call that is sampled so. Kills: settings that nobody

@@ -94,7 +94,7 @@ fn what_is_wrong_in_a_table_is_found() {
         faults(&table.replacen(from, to, 1), &root())
     };
     assert_eq!(damaged("| K5 |", "| K4 |").len(), 2);
-    assert_eq!(damaged("`num/edge.rs`", "`num/edges.rs`").len(), 1);
+    assert_eq!(damaged("`span/edge.rs`", "`span/edges.rs`").len(), 1);
     assert_eq!(
         damaged(": lines_become_percentiles", ": lines_become").len(),
         1

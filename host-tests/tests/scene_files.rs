@@ -280,10 +280,6 @@ fn what_cannot_be_read_or_does_nothing_is_refused() {
             .contains("`writes_depth` cannot be true")
     );
     write(&scene(json!([{ "model": "red.obj" }])));
-    for flags in ["--cache 225", "--prefetch 4"] {
-        let line = desk.refused(&format!("render s.json -o p.png {flags}"));
-        assert!(line.contains("drawn by draw calls"), "{line}");
-    }
     for flag in [
         "--size 4x4",
         "--fov 50",

@@ -1,27 +1,29 @@
 //! What is not done because nobody would see it, and that nobody does (M4, X3).
 
-use crate::common::{Rng, SceneRooms, frame};
+use crate::common::Rng;
+use crate::hot::{SceneRooms, WordOf, frame};
+use scanbeam::look::Gouraud;
 use scanbeam::mesh::Sphere;
-use scanbeam::pipeline::{GouraudDepth, Instance, Scene, WordOf};
 use scanbeam::pixel::Rgb888;
-use scanbeam::stats::PassOne;
-use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
+use scanbeam::scene::{Assembled, Scene, Shadow};
+use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Screen};
 
-type Look = GouraudDepth<Rgb888>;
+type Look = Gouraud<Rgb888>;
 
 /// The room of any scene here.
 const VERTICES: usize = 4096;
 const OBJECTS: usize = 4096;
 
-/// Builds a scene and draws it; what pass one did, and the picture.
+/// Builds a scene and draws it; what pass one did, how many objects and vertices are kept, and the picture.
 fn drawn(
     screen: Screen,
-    build: impl FnOnce(&mut Scene<'_, Look>),
-) -> (PassOne, Vec<Vec<WordOf<Look>>>) {
-    let mut rooms = SceneRooms::<Look>::new(VERTICES, OBJECTS, usize::from(screen.height()));
-    let mut scene = rooms.scene(screen);
+    build: impl FnOnce(&mut Scene<'_, 'static, Look>),
+) -> (Assembled, [usize; 2], Vec<Vec<WordOf<Look>>>) {
+    let mut rooms = SceneRooms::new(VERTICES, OBJECTS, screen.height().into(), 16);
+    let mut scene = rooms.scene::<Look>(screen);
     build(&mut scene);
-    (scene.pass_one(), frame(&scene, 16))
+    let kept = [scene.objects(), scene.vertices()];
+    (scene.assembled(), kept, frame(&scene, 32, true, [9, 8, 7]))
 }
 
 /// Random clouds of triangles around, beside and across every plane of random cameras, those with
@@ -50,11 +52,7 @@ fn a_mesh_that_its_sphere_gives_up_would_not_have_been_seen() {
         let rows = [0, 1, 2].map(|i| {
             [0, 1, 2].map(|k| size * (f32::from(u8::from(i == k)) + rng.signed() as f32 / 2.0))
         });
-        let instance = Instance {
-            model: Affine::from_rows(rows, offset).unwrap(),
-            cull: Cull::None,
-            ..Instance::default()
-        };
+        let model = Affine::from_rows(rows, offset).unwrap();
         let spread = rng.pick(&[100, 4_000, 32_767]);
         let mut point = || [0, 1, 2].map(|_| rng.within(-spread, spread) as i16);
         let positions: [[i16; 3]; 24] = core::array::from_fn(|_| point());
@@ -66,6 +64,11 @@ fn a_mesh_that_its_sphere_gives_up_would_not_have_been_seen() {
             colours: &colours,
             faces: Faces::Triangles(&faces),
         };
+        let call = Draw {
+            model,
+            cull: Cull::None,
+            ..Draw::new(mesh)
+        };
         let sphere = Sphere::around(&positions);
         let height = screen.height();
         let band = if case % 3 == 0 {
@@ -74,23 +77,24 @@ fn a_mesh_that_its_sphere_gives_up_would_not_have_been_seen() {
         } else {
             0..height
         };
-        let (whole, want) = drawn(screen, |scene| {
-            scene.begin_band(&camera, band.clone()).unwrap();
-            scene.draw(&mesh, &instance).unwrap();
+        let (whole, all, want) = drawn(screen, |scene| {
+            scene.begin_lines(&camera, band.clone()).unwrap();
+            scene.draw(&call).unwrap();
         });
-        let (within, got) = drawn(screen, |scene| {
-            scene.begin_band(&camera, band.clone()).unwrap();
-            scene.draw_within(&mesh, &instance, &sphere).unwrap();
+        let mut looked = true;
+        let (within, kept_here, got) = drawn(screen, |scene| {
+            scene.begin_lines(&camera, band.clone()).unwrap();
+            looked = scene.draw_within(&call, &sphere).unwrap();
         });
         assert!(want == got, "case {case}");
-        assert_eq!(whole.objects, within.objects, "case {case}");
+        assert_eq!(all[0], kept_here[0], "case {case}");
         assert_eq!(whole.culled, within.culled, "case {case}");
-        assert_eq!(within.triangles, 8);
+        assert_eq!((within.triangles, looked), (8, within.meshes_skipped == 0));
         if within.meshes_skipped == 1 {
             assert_eq!((within.triangles_skipped, within.vertices_skipped), (8, 24));
-            assert_eq!((within.vertices, within.clipped), (0, 0));
+            assert_eq!((kept_here[1], within.clipped), (0, 0));
             skipped += 1;
-        } else if whole.objects > 0 {
+        } else if all[0] > 0 {
             kept += 1;
         } else {
             bare += 1;
@@ -118,18 +122,16 @@ fn a_ring_around_the_eye_counts_what_is_not_looked_at() {
     .unwrap();
     let sphere = Sphere::around(scenes::CUBE.positions);
     let triangles = 12;
-    let (done, _) = drawn(screen, |scene| {
+    let (done, _, _) = drawn(screen, |scene| {
         scene.begin(&camera).unwrap();
         // 45 degrees to each side are seen: of 16 cubes, those at 0, 1 and 2 steps to either side.
         for step in 0..16 {
             let angle = core::f32::consts::TAU * step as f32 / 16.0;
-            let instance = Instance {
+            let call = Draw {
                 model: Affine::placed(0.1, [8.0 * angle.sin(), 0.0, -8.0 * angle.cos()]).unwrap(),
-                ..Instance::default()
+                ..Draw::new(scenes::CUBE)
             };
-            scene
-                .draw_within(&scenes::CUBE, &instance, &sphere)
-                .unwrap();
+            scene.draw_within(&call, &sphere).unwrap();
         }
     });
     assert_eq!(done.triangles, 16 * triangles);
@@ -165,23 +167,50 @@ fn specks_at_the_rim_of_the_view_are_drawn() {
             colours: &[[200, 100, 50]; 3],
             faces: Faces::Triangles(&[[0, 1, 2]]),
         };
-        let instance = Instance {
+        let call = Draw {
             cull: Cull::None,
-            ..Instance::default()
+            ..Draw::new(mesh)
         };
         let sphere = Sphere::around(&positions);
-        let (whole, want) = drawn(screen, |scene| {
+        let (whole, all, want) = drawn(screen, |scene| {
             scene.begin(&camera).unwrap();
-            scene.draw(&mesh, &instance).unwrap();
+            scene.draw(&call).unwrap();
         });
-        let (within, got) = drawn(screen, |scene| {
+        let mut looked = true;
+        let (within, kept_here, got) = drawn(screen, |scene| {
             scene.begin(&camera).unwrap();
-            scene.draw_within(&mesh, &instance, &sphere).unwrap();
+            looked = scene.draw_within(&call, &sphere).unwrap();
         });
         assert!(want == got, "case {case}: {positions:?}");
-        assert_eq!(whole.objects, within.objects, "case {case}");
-        seen += u32::from(whole.objects > 0);
+        assert_eq!(all[0], kept_here[0], "case {case}");
+        assert_eq!((whole.triangles, looked), (1, within.meshes_skipped == 0));
+        seen += u32::from(all[0] > 0);
         unseen += within.meshes_skipped;
     }
     assert!(seen > 500 && unseen > 200, "{seen} seen, {unseen} given up");
+}
+
+/// What bounds a shadow is not left out: what it falls on may be seen where it is not. Before a scene is begun nothing is
+/// drawn.
+#[test]
+fn volumes_are_always_drawn_and_scenes_have_to_be_begun() {
+    let screen = Screen::new(8, 8).unwrap();
+    let mut rooms = SceneRooms::new(VERTICES, OBJECTS, 8, 2);
+    let mut scene = rooms.scene::<Look>(screen);
+    let sphere = Sphere::around(scenes::CUBE.positions);
+    let behind = Draw {
+        model: Affine::placed(1.0, [0.0, 0.0, 50.0]).unwrap(),
+        ..Draw::new(scenes::CUBE)
+    };
+    let early = scene.draw_within(&behind, &sphere);
+    assert_eq!(early, Err(scanbeam::scene::DrawError::NotBegun));
+    let (ahead, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+    let camera = Camera::look_at([0.0; 3], ahead, up, 8.0, 0.1, 100.0).unwrap();
+    scene.begin(&camera).unwrap();
+    assert_eq!(scene.draw_within(&behind, &sphere), Ok(false));
+    let volume = Draw {
+        shadow: Some(Shadow::Volume(0)),
+        ..behind
+    };
+    assert_eq!(scene.draw_within(&volume, &sphere), Ok(true));
 }

@@ -2,9 +2,12 @@
 //! in model files and on the command line: refused in one line, or drawn without a panic, a wrap
 //! or an overflow. The bounds are in the table of `stress_shapes.rs`.
 
-use crate::common::{LineRooms, Rng, SceneRooms, frame, line};
-use scanbeam::pipeline::{FlatPainter, GouraudDepth, Instance, Scene};
-use scanbeam::pixel::{Rgb565Be, Rgb888};
+use crate::common::Rng;
+use crate::hot::cover::L;
+use crate::hot::{LineRooms, SceneRooms, frame, line};
+use scanbeam::look::Gouraud;
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::scene::{BeginError, Draw, LARGEST};
 use scanbeam::{Affine, Camera, CameraError, Cull, Light, Screen};
 use scenes::{CUBE, TEAPOT};
 use std::fs;
@@ -41,9 +44,8 @@ fn vector(rng: &mut Rng) -> [f32; 3] {
 /// What is not finite is refused, with the error that names it; what is made can be drawn with.
 #[test]
 fn floats_of_any_bits_are_refused_or_drawn() {
-    type P = GouraudDepth<Rgb565Be>;
     let mut rng = Rng::new(81);
-    let mut rooms = SceneRooms::<P>::new(64, 64, 16);
+    let mut rooms = SceneRooms::new(64, 64, 16, 1);
     let (mut made, mut refused, mut pixels) = (0u32, [0u32; 5], 0u64);
     for round in 0..150_000 {
         let plain = round % 2 == 0;
@@ -92,18 +94,19 @@ fn floats_of_any_bits_are_refused_or_drawn() {
         )
         .filter(|_| rng.below(2) == 0)
         .unwrap_or(Affine::IDENTITY);
-        let instance = Instance {
+        let call = Draw {
             model: model.then(&Affine::rotation_x(float(&mut rng))),
             cull: rng.pick(&[Cull::Back, Cull::None]),
             light: Light::new(vector(&mut rng), float(&mut rng)),
             colour: [200, 100, 50],
+            ..Draw::new(CUBE)
         };
         let screen = Screen::new(16, 16).unwrap();
-        let mut scene = rooms.scene(screen);
+        let mut scene = rooms.scene::<Gouraud<Rgb565Be>>(screen);
         scene.begin(&camera).unwrap();
         // 24 vertices and 12 triangles; clipping may need more than there is room for.
-        let _ = scene.draw(&CUBE, &instance);
-        pixels += frame(&scene, 4)
+        let _ = scene.draw(&call);
+        pixels += frame(&scene, 4, true, 0)
             .iter()
             .flatten()
             .filter(|p| **p != 0)
@@ -147,7 +150,8 @@ fn lights_of_any_bits_are_within_their_range() {
     assert!(made > 100_000, "{made}");
 }
 
-/// Every size from 1x1 to 8192x8192 is a screen, no other is, and the extremes are drawn.
+/// Every size from 1x1 to 8192x8192 is a screen, no other is; the extremes of what a scene can be are drawn, and what is
+/// larger is refused whole and drawn in parts.
 #[test]
 fn screens_of_any_size_are_refused_or_drawn() {
     for side in 0..=u16::MAX {
@@ -155,22 +159,32 @@ fn screens_of_any_size_are_refused_or_drawn() {
         assert_eq!(Screen::new(side, 1).is_ok(), good);
         assert_eq!(Screen::new(8192, side).is_ok(), good);
     }
-    type P = FlatPainter<Rgb888>;
     for (width, height) in [(1, 1), (8192, 1), (1, 8192), (8192, 8192), (8191, 3)] {
-        let screen = Screen::new(width, height).unwrap();
-        let mut rooms = SceneRooms::<P>::new(64, 64, usize::from(height));
-        let mut scene: Scene<'_, P> = rooms.scene(screen);
+        let whole = Screen::new(width, height).unwrap();
+        let mut rooms = SceneRooms::new(64, 64, LARGEST.into(), 1);
         let (eye, up) = ([0.2, 0.1, 3.0], [0.0, 1.0, 0.0]);
         let focal = 2.0 * f32::from(width.max(height));
         let camera = Camera::look_at(eye, [0.0; 3], up, focal, 0.1, 10.0).unwrap();
-        scene.begin(&camera).unwrap();
-        scene.draw(&CUBE, &Instance::default()).unwrap();
-        let mut lines = LineRooms::<P>::fitting(4, &scene);
-        let mut renderer = lines.renderer();
-        for y in (0..height).step_by(usize::from(height / 8).max(1)) {
-            // The cube is larger than the picture.
-            let drawn = line(&mut renderer, &scene, y);
-            assert!(drawn.iter().all(|p| *p != [0; 3]), "{width}x{height}, {y}");
+        let begun = rooms.scene::<L>(whole).begin(&camera);
+        let fits = width.max(height) <= LARGEST;
+        let refused = Err(BeginError::Size { width, height });
+        assert_eq!(begun, if fits { Ok(()) } else { refused });
+        let [right, down] = [width, height].map(|side| side - side.min(LARGEST));
+        let part = Screen::new(width - right, height - down).unwrap();
+        // The parts at the corners of the whole.
+        for [left, top] in [[0, 0], [right, 0], [0, down], [right, down]] {
+            let shift = [[left, right], [top, down]]
+                .map(|[from, last]| f32::from(from) - f32::from(last) / 2.0);
+            let mut scene = rooms.scene::<L>(part);
+            scene.begin(&camera.shifted(shift).unwrap()).unwrap();
+            scene.draw(&Draw::new(CUBE)).unwrap();
+            let mut lines = LineRooms::fitting(&scene, 4, true);
+            let mut renderer = lines.renderer();
+            for y in (0..part.height()).step_by(usize::from(part.height() / 8).max(1)) {
+                // The cube is larger than the picture.
+                let drawn = line(&mut renderer, &scene, y, [0; 3]);
+                assert!(drawn.iter().all(|p| *p != [0; 3]), "{width}x{height}, {y}");
+            }
         }
     }
 }
@@ -179,11 +193,10 @@ fn screens_of_any_size_are_refused_or_drawn() {
 /// for bit, from 2^-50 to 2^80: numbers are mantissas that never see the exponent.
 #[test]
 fn a_world_of_any_size_is_the_same_picture() {
-    type P = GouraudDepth<Rgb888>;
-    let mut rooms = SceneRooms::<P>::new(8192, 4096, 48);
+    let mut rooms = SceneRooms::new(8192, 4096, 48, 2);
     let mut picture = |power: i32| {
         let scale = f64::from(power).exp2() as f32;
-        let mut scene = rooms.scene(Screen::new(64, 48).unwrap());
+        let mut scene = rooms.scene::<L>(Screen::new(64, 48).unwrap());
         let eye = [0.3f32, 1.1, 2.2].map(|v| v * scale);
         let up = [0.0, 1.0, 0.0];
         let (near, far) = (0.7 * scale, 40.0 * scale);
@@ -191,19 +204,19 @@ fn a_world_of_any_size_is_the_same_picture() {
         scene.begin(&camera).unwrap();
         let place =
             |size: f32, at: [f32; 3]| Affine::placed(size * scale, at.map(|v| v * scale)).unwrap();
-        let instance = |model| Instance {
+        let call = |mesh, model| Draw {
             model,
             cull: Cull::None,
             light: Light::new([1.0, 2.0, 3.0], 0.1),
-            ..Instance::default()
+            ..Draw::new(mesh)
         };
         // The floor goes through the near plane.
         let floor = Affine::rotation_y(0.4).then(&place(5.0, [0.0, -6.0, 0.0]));
-        scene.draw(&CUBE, &instance(floor)).unwrap();
+        scene.draw(&call(CUBE, floor)).unwrap();
         let pot = Affine::rotation_y(2.0).then(&place(0.9, [0.1, 0.2, -0.3]));
-        scene.draw(&TEAPOT, &instance(pot)).unwrap();
-        assert!(scene.pass_one().clipped > 0);
-        frame(&scene, 16)
+        scene.draw(&call(TEAPOT, pot)).unwrap();
+        assert!(scene.assembled().clipped > 0);
+        frame(&scene, 16, true, [0; 3])
     };
     let want = picture(0);
     assert!(want.iter().flatten().filter(|p| **p != [0; 3]).count() > 1500);

@@ -219,3 +219,21 @@ fn wide_triangles_are_told() {
         }
     }
 }
+
+/// One command prints what blocks save.
+#[test]
+fn the_cache_command_prints_blocks_beside_rows() {
+    let output = Command::new(env!("CARGO_BIN_EXE_scanbeam"))
+        .arg("cache")
+        .output();
+    let printed = String::from_utf8(output.unwrap().stdout).unwrap();
+    for name in [
+        "sphere",
+        "ground plane",
+        "quad, 30 degrees",
+        "page changes",
+        "texels re-read",
+    ] {
+        assert!(printed.contains(name), "{name}:\n{printed}");
+    }
+}

@@ -1,28 +1,23 @@
-//! Texture places of the pipeline, bit by bit, against `f64` (H1, H3, K18, X2): shared edges, the
-//! near plane, a ground plane that rolls, 1/w of 1:10 and 1:100 over long spans; bilinear levels.
+//! Texture places of draw calls, in parts of texels, against `f64` (H1, H3, K18, X2): shared edges, the near plane, and a
+//! ground plane that rolls.
 //!
 //! Corners of the first and the fourth lie on the grid of the screen, so what they cover is known
 //! exactly, and no pixel has to be left out.
 
 use crate::common::Rng;
-use host_tests::args::PixelFormatArg;
-use host_tests::draw::{CrewSettings, FilterArg, TextureSet, draw_textured};
-use host_tests::image_out::Frame;
 use host_tests::model::{Model, ModelVertex};
 use host_tests::places::{Shown, places};
 use host_tests::reference::{
-    Filter, NO_OBJECT, Options, Reference, TextureMap, Textures, View, render_textured,
+    NO_OBJECT, Options, Reference, TextureMap, Textures, View, render_textured,
 };
-use host_tests::texture_file::TextureImage;
-use scanbeam::pipeline::texture::Quality;
-use scenes::textured;
+use scanbeam::scene::Budget;
 
 /// Texels a side.
 const SIDE: u32 = 128;
-const QUALITIES: [(Quality, f64); 3] = [
-    (Quality::Exact, 1.0),
-    (Quality::Balanced, 0.25),
-    (Quality::Fast, 0.5),
+const BUDGETS: [(Budget, f64); 3] = [
+    (Budget::EXACT, 1.0),
+    (Budget::BALANCED, 0.25),
+    (Budget::FAST, 0.5),
 ];
 
 /// The eye at (0, 0, 0) looks along -z; a focal length of half the height.
@@ -144,14 +139,14 @@ fn crumpled(rng: &mut Rng, n: usize, view: &View) -> Model {
 #[test]
 fn meshes_have_no_crack_and_no_seam() {
     let view = view(128, 128);
-    for (quality, most) in QUALITIES {
+    for (budget, most) in BUDGETS {
         let mut rng = Rng::new(11);
         let (mut pixels, mut beside, mut wrong, mut worst) = (0, 0, 0, [0.0f64; 2]);
         for n in [3, 6, 12, 24] {
             for _ in 0..3 {
                 let model = crumpled(&mut rng, n, &view);
                 let reference = truth(&model, &white(), &view, true);
-                let drawn = places(&model, SIDE, quality, &view).unwrap();
+                let drawn = places(&model, SIDE, budget, &view).unwrap();
                 for (at, shown) in drawn.iter().enumerate() {
                     // The mesh fills the picture.
                     assert_ne!(reference.object[at], NO_OBJECT);
@@ -171,21 +166,21 @@ fn meshes_have_no_crack_and_no_seam() {
         }
         let share = 100.0 * f64::from(wrong) / f64::from(pixels);
         println!(
-            "{quality:?}: {pixels} pixels, {beside} at shared edges, {share:.3} % another texel, \
+            "{budget:?}: {pixels} pixels, {beside} at shared edges, {share:.3} % another texel, \
              off by {:.4} texels inside and {:.4} at edges",
             worst[0], worst[1]
         );
         assert!(beside > 10_000, "{beside}");
-        assert!(worst[0].max(worst[1]) <= most, "{quality:?}: {worst:?}");
-        assert!(quality != Quality::Exact || share <= 0.3, "{share} %");
+        assert!(worst[0].max(worst[1]) <= most, "{budget:?}: {worst:?}");
+        assert!(budget != Budget::EXACT || share <= 0.3, "{share} %");
     }
 }
 
 /// How far the places of pixels are off, in texels, and how many texels lie between them and the
 /// next ones; of those of which an edge is far.
-fn inside(model: &Model, quality: Quality, view: &View, snapped: bool) -> Vec<([f64; 2], f64)> {
+fn inside(model: &Model, budget: Budget, view: &View, snapped: bool) -> Vec<([f64; 2], f64)> {
     let reference = truth(model, &white(), view, snapped);
-    let drawn = places(model, SIDE, quality, view).unwrap();
+    let drawn = places(model, SIDE, budget, view).unwrap();
     let pixel = |(at, shown): (usize, &Shown)| {
         let edge = reference.near_edge[at] || reference.object[at] == NO_OBJECT;
         let slope = (!edge).then(|| texels_a_pixel(&reference, at))??;
@@ -203,7 +198,7 @@ fn what_the_near_plane_cuts_keeps_its_places() {
         near: 0.5,
         ..view(128, 128)
     };
-    for (quality, most) in QUALITIES {
+    for (budget, most) in BUDGETS {
         let mut rng = Rng::new(12);
         let (mut pixels, mut worst) = (0, 0.0f64);
         for _ in 0..150 {
@@ -219,19 +214,17 @@ fn what_the_near_plane_cuts_keeps_its_places() {
                 continue;
             }
             let model = model(vertices, vec![[0, 1, 2]]);
-            for (off, slope) in inside(&model, quality, &view, true) {
+            for (off, slope) in inside(&model, budget, &view, true) {
                 pixels += 1;
                 let beyond = farther(off) - STEP * slope;
                 worst = worst.max(beyond);
                 assert!(
                     beyond <= most,
-                    "{quality:?}: {off:?}, {slope} texels a pixel: {model:?}"
+                    "{budget:?}: {off:?}, {slope} texels a pixel: {model:?}"
                 );
             }
         }
-        println!(
-            "{quality:?}: {pixels} pixels, off by {worst:.4} texels beyond a step of the grid"
-        );
+        println!("{budget:?}: {pixels} pixels, off by {worst:.4} texels beyond a step of the grid");
         assert!(pixels > 100_000, "{pixels}");
     }
 }
@@ -239,17 +232,18 @@ fn what_the_near_plane_cuts_keeps_its_places() {
 #[test]
 fn a_ground_plane_does_not_swim_when_the_camera_rolls() {
     // From behind the eye to far away; the horizon is in the picture.
-    let corner = |x: f64, z: f64| vertex([x, -1.0, z], [(x + 40.0) / 10.0, (2.0 - z) / 10.0]);
-    let ground = model(
-        vec![
-            corner(-40.0, 2.0),
-            corner(40.0, 2.0),
-            corner(40.0, -88.0),
-            corner(-40.0, -88.0),
-        ],
-        vec![[0, 1, 2], [0, 2, 3]],
-    );
-    for (quality, most) in QUALITIES {
+    // In 4 x 4 parts: a triangle may stretch over 4,096 texels, and places are those of 1,024 a side.
+    let corner = |i: u32| {
+        let (x, z) = (
+            -40.0 + 20.0 * f64::from(i % 5),
+            2.0 - 22.5 * f64::from(i / 5),
+        );
+        vertex([x, -1.0, z], [(x + 40.0) / 10.0, (2.0 - z) / 10.0])
+    };
+    let parts = (0..4).flat_map(|row| (0..4).map(move |column| 5 * row + column));
+    let two = |at: u32| [[at, at + 1, at + 6], [at, at + 6, at + 5]];
+    let ground = model((0..25).map(corner).collect(), parts.flat_map(two).collect());
+    for (budget, most) in BUDGETS {
         let mut means: Vec<[f64; 2]> = Vec::new();
         let (mut pixels, mut worst) = (0, 0.0f64);
         for step in -20..=20 {
@@ -259,13 +253,13 @@ fn a_ground_plane_does_not_swim_when_the_camera_rolls() {
                 ..view(160, 120)
             };
             let (mut sum, mut near) = ([0.0; 2], 0);
-            for (off, slope) in inside(&ground, quality, &view, false) {
+            for (off, slope) in inside(&ground, budget, &view, false) {
                 pixels += 1;
                 let beyond = farther(off) - STEP * slope;
                 worst = worst.max(beyond);
                 assert!(
                     beyond <= most,
-                    "{quality:?}, {step}: {off:?}, {slope} texels a pixel"
+                    "{budget:?}, {step}: {off:?}, {slope} texels a pixel"
                 );
                 // Where texels are as large as pixels they are seen to move.
                 if slope < 2.0 {
@@ -282,144 +276,11 @@ fn a_ground_plane_does_not_swim_when_the_camera_rolls() {
             .map(|pair| farther([0, 1].map(|i| pair[1][i] - pair[0][i])))
             .fold(0.0, f64::max);
         println!(
-            "{quality:?}: {pixels} pixels, off by {worst:.4} texels beyond a step of the grid; \
+            "{budget:?}: {pixels} pixels, off by {worst:.4} texels beyond a step of the grid; \
              the picture by {largest:.4} in the mean, {jump:.4} more or less from one to the next"
         );
         // In the mean it is off by less than snapping may move a corner, and jumps by no more.
-        assert!(largest <= STEP, "{quality:?}: {largest}");
-        assert!(jump <= STEP, "{quality:?}: {jump}");
+        assert!(largest <= STEP, "{budget:?}: {largest}");
+        assert!(jump <= STEP, "{budget:?}: {jump}");
     }
-}
-
-/// Half a line down, a triangle over all of it has 1024 pixels of 1058.
-const WIDTH: u32 = 1058;
-
-#[test]
-fn long_spans_at_any_ratio_of_depth_keep_their_texels() {
-    let view = View {
-        near: 0.5,
-        far: 200.0,
-        ..view(WIDTH, 16)
-    };
-    for ratio in [10.0, 100.0] {
-        for (quality, most) in QUALITIES {
-            let mut rng = Rng::new(13);
-            let (mut pixels, mut wrong, mut farthest, mut longest) = (0, 0, 0.0f64, 0);
-            for round in 0..60 {
-                // From the left side to the right one, or less.
-                let ends = match round % 6 {
-                    0 => [0.0, f64::from(WIDTH)],
-                    _ => [rng.between(0.0, 64.0), rng.between(100.0, 1024.0)],
-                };
-                let mut depths = [1.0, ratio];
-                if rng.unit() < 0.5 {
-                    depths.reverse();
-                }
-                let grid = |x: f64| (8.0 * x).round() / 8.0;
-                let mut place = || [rng.between(0.0, 4.0), rng.between(0.0, 4.0)];
-                let corners = vec![
-                    seen_at(&view, [grid(ends[0]), 0.0], depths[0], place()),
-                    seen_at(&view, [grid(ends[1]), 0.0], depths[1], place()),
-                    seen_at(&view, [grid(ends[0]), 16.0], depths[0], place()),
-                    seen_at(&view, [grid(ends[1]), 16.0], depths[1], place()),
-                ];
-                let model = model(corners, vec![[0, 1, 3], [0, 3, 2]]);
-                let reference = truth(&model, &white(), &view, true);
-                let drawn = places(&model, SIDE, quality, &view).unwrap();
-                for row in reference.object.chunks_exact(WIDTH as usize) {
-                    let spans = row.chunk_by(|a, b| a == b).filter(|s| s[0] != NO_OBJECT);
-                    longest = spans.map(<[_]>::len).fold(longest, usize::max);
-                }
-                for (at, shown) in drawn.iter().enumerate() {
-                    let none = reference.object[at] == NO_OBJECT;
-                    assert_eq!(none, *shown == Shown::Nothing, "pixel {at}");
-                    if none {
-                        continue;
-                    }
-                    let want = reference.place[at];
-                    pixels += 1;
-                    wrong += u32::from(!shown.is_texel_of(want));
-                    farthest = farthest.max(farther(shown.off(want).expect("it is textured")));
-                }
-            }
-            let share = 100.0 * f64::from(wrong) / f64::from(pixels);
-            println!(
-                "1:{ratio} {quality:?}: {pixels} pixels in spans to {longest}, {share:.3} % another \
-                 texel, off by {farthest:.4}"
-            );
-            assert!(longest >= 1024 && pixels > 500_000, "{longest} {pixels}");
-            assert!(farthest <= most, "1:{ratio} {quality:?}: {farthest}");
-            assert!(
-                quality != Quality::Exact || share <= 0.3,
-                "1:{ratio}: {share} %"
-            );
-        }
-    }
-}
-
-#[test]
-fn bilinear_pictures_are_those_of_the_reference() {
-    let view = view(128, 128);
-    // Neighbours differ by at most this many levels, also around the sides.
-    const RISE: f64 = 8.0;
-    let wave = |x: u32, k: u32| {
-        let x = (x * k) % 64;
-        f64::from(if x < 32 { x } else { 64 - x }) * RISE / f64::from(k)
-    };
-    let level = |x: u32, y: u32| [wave(x, 1).min(255.0), wave(y, 1).min(255.0), 200.0];
-    let map = TextureMap {
-        filter: Filter::Bilinear,
-        ..TextureMap::made(64, 64, level)
-    };
-    let rgb = map.texels.iter().flat_map(|t| t.map(|l| l.round() as u8));
-    let image = TextureImage::new(&Frame::new(64, 64, rgb.collect()).unwrap()).unwrap();
-    for (quality, off) in [(Quality::Exact, 1.0 / 16.0), (Quality::Balanced, 0.25)] {
-        let mut rng = Rng::new(14);
-        let (mut pixels, mut worst, mut sum) = (0, 0.0f64, 0.0);
-        for n in [2, 5, 9] {
-            let mut model = crumpled(&mut rng, n, &view);
-            for lit in [false, true] {
-                if lit {
-                    for vertex in &mut model.vertices {
-                        vertex.colour = [(); 3].map(|()| (rng.unit() * 255.0).round() / 255.0);
-                    }
-                }
-                let reference = truth(&model, &map, &view, true);
-                let set = TextureSet::whole(&model, image.clone());
-                let how = (FilterArg::Bilinear, quality);
-                let crew = CrewSettings::default();
-                let format = PixelFormatArg::Rgb888;
-                let drawn = draw_textured(&model, &set, how, &view, format, crew).unwrap();
-                for (shown, want) in drawn.frame.rgb().chunks_exact(3).zip(&reference.colour) {
-                    for (shown, want) in shown.iter().zip(want) {
-                        let error = (f64::from(*shown) - want).abs();
-                        worst = worst.max(error);
-                        sum += error;
-                        pixels += 1;
-                    }
-                }
-            }
-        }
-        // A place off by so much in both directions, two roundings, and planes of colour.
-        let most = RISE * off + 2.0;
-        let mean = sum / f64::from(pixels);
-        println!("{quality:?}: bilinear off by {worst:.3} levels, {mean:.4} in the mean");
-        assert!(worst <= most, "{quality:?}: {worst} levels, {most} allowed");
-        assert!(pixels > 200_000, "{pixels}");
-    }
-}
-
-/// What QEMU draws with the same bits: a frame that tells no quality apart would compare nothing.
-#[test]
-fn the_frames_of_qualities_are_textured_and_differ() {
-    let frames = QUALITIES.map(|(quality, _)| {
-        let mut frame = Vec::new();
-        let counts = textured(quality, &mut |line| frame.extend_from_slice(line));
-        let counts = counts.expect("the memory suffices");
-        println!("{quality:?}: {counts:?}");
-        assert!(counts.texture_fetches > 40_000, "{counts:?}");
-        assert_eq!(frame.len(), 320 * 240);
-        frame
-    });
-    assert!(frames[0] != frames[1] && frames[1] != frames[2] && frames[0] != frames[2]);
 }

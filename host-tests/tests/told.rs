@@ -4,6 +4,7 @@
 use crate::command_line::Desk;
 use base64::Engine as _;
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 const TRIANGLE: &str = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
@@ -20,17 +21,19 @@ fn said(desk: &Desk, line: &str) -> String {
 fn a_reader_that_goes_away_ends_the_tool_quietly() {
     let desk = Desk::new(TRIANGLE);
     assert_eq!(said(&desk, "bake m.obj -o m.list"), "");
-    for line in [
+    let helps = COMMANDS.map(|command| format!("{command} --help"));
+    for line in helps.iter().map(String::as_str).chain([
         "--help",
-        "render --help",
+        "--version",
         "trace m.obj --line 120",
+        "view m.obj --frames 20",
         "disassemble m.list",
         "run-list m.list --print",
         "bake m.obj -o other.list --json",
         "demo -o out --frames 1",
         "cache",
         "cache --json",
-    ] {
+    ]) {
         let mut child = Command::new(env!("CARGO_BIN_EXE_scanbeam"))
             .args(line.split_whitespace())
             .current_dir(desk.path(""))
@@ -49,6 +52,76 @@ fn a_reader_that_goes_away_ends_the_tool_quietly() {
     }
     // What was to be written is there all the same.
     assert!(desk.path("other.list").exists());
+}
+
+/// All words that the tool has.
+const COMMANDS: [&str; 14] = [
+    "render",
+    "view",
+    "demo",
+    "trace",
+    "cache",
+    "accuracy",
+    "firmware",
+    "boards",
+    "budgets",
+    "bench",
+    "report",
+    "bake",
+    "run-list",
+    "disassemble",
+];
+
+#[test]
+fn all_commands_are_tried() {
+    let desk = Desk::new(TRIANGLE);
+    let help = String::from_utf8(desk.run("--help").stdout).unwrap();
+    let (_, commands) = help.split_once("Commands:\n").unwrap();
+    let (commands, _) = commands.split_once("\n\n").unwrap();
+    let names = commands
+        .lines()
+        .filter(|line| line.starts_with("  ") && !line.starts_with("   "));
+    let names: Vec<&str> = names
+        .filter_map(|line| line.split_whitespace().next())
+        .collect();
+    let told = names.iter().filter(|name| **name != "help");
+    assert_eq!(
+        told.collect::<Vec<_>>(),
+        COMMANDS.iter().collect::<Vec<_>>()
+    );
+}
+
+/// Commands that take minutes are not tried above; what they print goes through the writer that all share, which a reader
+/// that goes away does not disturb: nothing else in the tool prints.
+#[test]
+fn all_that_is_printed_goes_through_one_writer() {
+    fn each(folder: &Path, look: &mut dyn FnMut(&Path, &str)) {
+        for entry in fs::read_dir(folder).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                each(&path, look);
+            } else if path.extension().is_some_and(|end| end == "rs") {
+                look(&path, &fs::read_to_string(&path).unwrap());
+            }
+        }
+    }
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut said = 0;
+    for folder in ["src", "draw/src", "frames/src", "support/src"] {
+        each(&here.join(folder), &mut |path, text| {
+            // The writer itself, and what draws on a live terminal.
+            let is_writer = path.ends_with("support/src/stdio.rs");
+            let is_live = path.ends_with("view/terminal.rs");
+            said += text.matches("say!(").count();
+            for line in text.lines().filter(|_| !is_writer && !is_live) {
+                let line = line.replace("eprint", "");
+                let is_noted = !line.contains("stdout()") || line.contains("stdio::note(");
+                let prints = line.contains("println!(") || line.contains("print!(");
+                assert!(is_noted && !prints, "{}: {line}", path.display());
+            }
+        });
+    }
+    assert!(said > 40, "{said}");
 }
 
 #[cfg(target_os = "linux")]

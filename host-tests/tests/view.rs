@@ -5,7 +5,7 @@ use host_tests::args::{self, Command, PixelFormatArg, QualityArg, ViewArgs};
 use host_tests::image_out::Frame;
 use host_tests::model::Model;
 use host_tests::reference::Shade;
-use host_tests::view::{Colours, Did, KEYS, Scenery, State, Step, half_blocks, nearest};
+use host_tests::view::{Colours, KEYS, Scenery, State, Step, half_blocks, nearest};
 use std::path::Path;
 use std::process;
 
@@ -172,10 +172,7 @@ fn the_whole_model_is_seen_from_everywhere() {
             };
             assert_eq!(state.key(key), Step::On);
             let shown = scenery.frame(&state, width, height).unwrap();
-            let Did::Calls(used) = shown.did else {
-                panic!("a small model without textures");
-            };
-            assert_eq!(used.assembled.clipped, 0);
+            assert_eq!(shown.used.assembled.clipped, 0);
             let (w, rgb) = (width as usize, shown.frame.rgb());
             let pixel = |x: usize, y: usize| &rgb[3 * (y * w + x)..][..3];
             let back = pixel(0, 0);

@@ -1,145 +1,20 @@
-//! K3, K4, M3: shared edges leave no gap and hit no pixel twice, exactly, for all inputs.
+//! K2, K3, K4, M3: shared edges leave no gap and hit no pixel twice, exactly, for all inputs.
 //!
-//! Meshes whose corners are put on chosen 1/8-pixel places are drawn through the public API by
-//! a pipeline without depth, each triangle in a colour of its own. On each line the number of
-//! pixels that were shaded, and at each pixel the triangle that is seen, must be those of a
-//! count that is made here with integers, pixel by pixel, from the fill rule's words alone.
-//! Where the mesh is a plain patch, that count must also be 1 at every pixel inside it.
+//! Meshes whose corners are put on chosen 1/8-pixel places are drawn twice: each triangle in a colour of its own, so
+//! that the last is seen, and each adding 1 to the pixels that it hits. Both must be what the fill rule's words alone say
+//! of triangles, line by line in whole numbers. Where the mesh is a plain patch, each pixel inside it must be hit once.
 
-pub mod count;
-
-use crate::common::{self, LineRooms, Rng, SceneRooms};
-use count::{Count, Place, doubled_area};
+use crate::common::Rng;
+use crate::hot::cover::{
+    Bench, L, Picture, Wanted, add_one, camera_of_part, corners, hits, id, shared,
+};
+use crate::hot::exact::doubled_area;
+use crate::hot::{Place, SceneRooms, camera, draw_of, frame, position};
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::{Counted, FlatPainter, Instance};
-use scanbeam::pixel::Rgb888;
+use scanbeam::scene::{Draw, LARGEST};
 use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
 
-type P = Counted<FlatPainter<Rgb888>>;
-
-/// A place as a vertex: all lie at distance 1, where a focal length of 4096 pixels makes 2^-15
-/// of a coordinate one unit of the screen.
-fn vertex(screen: Screen, at: Place) -> [i32; 3] {
-    // The principal point is the picture's middle.
-    let x = at.0 - 4 * i32::from(screen.width());
-    let y = at.1 - 4 * i32::from(screen.height());
-    [x << 15, -(y << 15), -1 << 30]
-}
-
-fn camera() -> Camera {
-    Camera::look_at(
-        [0.0; 3],
-        [0.0, 0.0, -1.0],
-        [0.0, 1.0, 0.0],
-        4096.0,
-        0.5,
-        2.0,
-    )
-    .unwrap()
-}
-
-/// Draws and checks; keeps its memory from mesh to mesh.
-struct Bench {
-    scene: SceneRooms<P>,
-    lines: LineRooms<P>,
-    triangles: usize,
-    pixels: u64,
-}
-
-impl Bench {
-    fn new() -> Self {
-        Self {
-            scene: SceneRooms::new(8192, 4096, 8192),
-            lines: LineRooms::new(16, 4096, 8192),
-            triangles: 0,
-            pixels: 0,
-        }
-    }
-
-    /// Draws triangles, each in its own colour, in the order given and in reverse, and holds
-    /// every pixel against [`Count`], which it hands back.
-    fn check(&mut self, screen: Screen, triangles: &[[Place; 3]], cull: Cull) -> Count {
-        let reversed: Vec<_> = triangles.iter().rev().copied().collect();
-        self.check_once(screen, &reversed, cull);
-        self.check_once(screen, triangles, cull)
-    }
-
-    fn check_once(&mut self, screen: Screen, triangles: &[[Place; 3]], cull: Cull) -> Count {
-        // Corners 1 and 2 are shared wherever they lie at the same place; corner 0 carries the
-        // triangle's colour. All three corners take their turn as corner 0.
-        let mut positions = Vec::new();
-        let mut colours = Vec::new();
-        let mut shared = std::collections::HashMap::new();
-        let mut faces = Vec::new();
-        for (id, &corners) in (1u32..).zip(triangles) {
-            let turn = id as usize % 3;
-            let own = positions.len() as u16;
-            positions.push(vertex(screen, corners[turn]));
-            let [_, r, g, b] = id.to_be_bytes();
-            colours.push([r, g, b]);
-            let mut other = |place: Place| {
-                *shared.entry(place).or_insert_with(|| {
-                    positions.push(vertex(screen, place));
-                    colours.push([0; 3]);
-                    positions.len() as u16 - 1
-                })
-            };
-            let second = other(corners[(turn + 1) % 3]);
-            faces.push([own, second, other(corners[(turn + 2) % 3])]);
-        }
-        let mesh = Mesh {
-            positions: &positions,
-            normals: &[],
-            colours: &colours,
-            faces: Faces::Triangles(&faces),
-        };
-        let count = Count::new(screen, triangles, cull);
-        self.draw(screen, &mesh, cull, |line, pixels, shaded| {
-            let range = count.line(line);
-            let hits: u32 = count.hits[range.clone()].iter().sum();
-            let context = || format!("{screen:?} {cull:?} line {line} of {triangles:?}");
-            assert_eq!(shaded, hits, "pixels shaded, {}", context());
-            for (x, (pixel, want)) in pixels.iter().zip(&count.last[range]).enumerate() {
-                let id = u32::from_be_bytes([0, pixel[0], pixel[1], pixel[2]]);
-                assert_eq!(id, *want, "column {x}, {}", context());
-            }
-        });
-        self.triangles += triangles.len();
-        count
-    }
-
-    /// Draws a mesh and hands out each line with the number of its pixels that were shaded.
-    fn draw(
-        &mut self,
-        screen: Screen,
-        mesh: &Mesh<'_, i32>,
-        cull: Cull,
-        mut check: impl FnMut(u16, &[[u8; 3]], u32),
-    ) {
-        let mut scene = self.scene.scene(screen);
-        scene.begin(&camera()).unwrap();
-        let instance = Instance {
-            cull,
-            ..Instance::default()
-        };
-        scene.draw(mesh, &instance).unwrap();
-        let mut renderer = self.lines.renderer();
-        let mut pixels = vec![[0; 3]; usize::from(screen.width())];
-        for line in 0..screen.height() {
-            pixels.fill([0; 3]);
-            renderer.draw_line(&scene, line, &mut pixels).unwrap();
-            let shaded = renderer.take_span_counts().pixels_shaded;
-            self.pixels += u64::from(shaded);
-            check(line, &pixels, shaded);
-        }
-    }
-
-    /// The summary, which also holds the test to its size.
-    fn done(&self, at_least: usize) {
-        assert!(self.triangles >= at_least, "{}", self.triangles);
-        println!("{} triangles, {} pixels", self.triangles, self.pixels);
-    }
-}
+const SLOTS: [[u16; 2]; 4] = [[128, 4], [0, 64], [3, 0], [31, 128]];
 
 /// A patch of `columns` x `rows` quads whose corners are `grid`, row by row.
 fn patch(grid: &[Place], columns: usize, rows: usize, rng: &mut Rng) -> Vec<[Place; 3]> {
@@ -158,28 +33,67 @@ fn patch(grid: &[Place], columns: usize, rows: usize, rng: &mut Rng) -> Vec<[Pla
     triangles
 }
 
-/// Corners of a patch: cells of `cell` units, each corner moved by up to `jitter`, then put on
-/// a multiple of `grid` units plus `offset`.
-fn jittered(
-    rng: &mut Rng,
-    (columns, rows): (usize, usize),
+/// What corners of a patch lie on: multiples of so many units, and so much more.
+#[derive(Clone, Copy)]
+struct Snap {
+    grid: i32,
+    offset: i32,
+}
+
+const fn snap(grid: i32, offset: i32) -> Snap {
+    Snap { grid, offset }
+}
+
+/// Corners anywhere, on pixel centres alone, on pixel borders alone, on both.
+const SNAPS: [Snap; 4] = [snap(1, 0), snap(8, 4), snap(8, 0), snap(4, 0)];
+
+/// Cells of a patch, from the left and the top on.
+#[derive(Clone, Copy)]
+struct Cells {
     start: Place,
-    cell: i32,
+    /// Units of a side.
+    side: i32,
+    /// How far a corner may be from its place.
     jitter: i32,
-    (grid, offset): (i32, i32),
-) -> Vec<Place> {
-    let mut places = Vec::new();
-    for y in 0..=rows as i32 {
-        for x in 0..=columns as i32 {
-            let mut put = |from: i32, i: i32| {
-                let exact = from + cell * i + rng.within(-jitter, jitter);
-                (exact.div_euclid(grid)) * grid + offset
-            };
-            let column = put(start.0, x);
-            places.push((column, put(start.1, y)));
+    columns: usize,
+    rows: usize,
+}
+
+impl Cells {
+    /// So many that they reach over all sides of a picture, and so even that no quad folds over.
+    fn over(screen: Screen, side: i32, snap: Snap) -> Self {
+        let need = |pixels: u16| (8 * i32::from(pixels) / side + 5) as usize;
+        Self {
+            start: (-2 * side, -2 * side),
+            side,
+            jitter: (side - 2 * snap.grid) / 4,
+            columns: need(screen.width()),
+            rows: need(screen.height()),
         }
     }
-    places
+
+    fn corners(&self, rng: &mut Rng, snap: Snap) -> Vec<Place> {
+        let mut places = Vec::new();
+        for y in 0..=self.rows as i32 {
+            for x in 0..=self.columns as i32 {
+                let mut put = |from: i32, i: i32| {
+                    let exact = from + self.side * i + rng.within(-self.jitter, self.jitter);
+                    exact.div_euclid(snap.grid) * snap.grid + snap.offset
+                };
+                places.push((put(self.start.0, x), put(self.start.1, y)));
+            }
+        }
+        places
+    }
+
+    fn patch(&self, rng: &mut Rng, snap: Snap) -> Vec<[Place; 3]> {
+        let grid = self.corners(rng, snap);
+        patch(&grid, self.columns, self.rows, rng)
+    }
+}
+
+fn is_plain(triangles: &[[Place; 3]]) -> bool {
+    triangles.iter().all(|&t| doubled_area(t) < 0)
 }
 
 /// Grids that reach over all sides of the picture: each pixel is hit once.
@@ -187,22 +101,27 @@ fn jittered(
 fn a_patch_hits_every_pixel_once() {
     let mut rng = Rng::new(1);
     let mut bench = Bench::new();
-    for round in 0..1500 {
-        let screen = Screen::new(rng.pick(&[1, 3, 16, 31, 40]), rng.pick(&[1, 5, 16, 29])).unwrap();
-        // Corners anywhere, on pixel centres alone, on pixel borders alone.
-        let snap = [(1, 0), (8, 4), (8, 0), (4, 0)][round % 4];
-        let cell = rng.within(24, 40);
-        // Below this no quad folds over, so the patch is plain.
-        let jitter = (cell - 2 * snap.0) / 4;
-        let need = |pixels: u16| (8 * i32::from(pixels) / cell + 5) as usize;
-        let size = (need(screen.width()), need(screen.height()));
-        let grid = jittered(&mut rng, size, (-2 * cell, -2 * cell), cell, jitter, snap);
-        let triangles = patch(&grid, size.0, size.1, &mut rng);
-        assert!(triangles.iter().all(|&t| doubled_area(t) < 0), "not plain");
-        let count = bench.check(screen, &triangles, Cull::Back);
-        assert!(count.hits.iter().all(|&h| h == 1), "round {round}");
+    for round in 0..1_800 {
+        let (size, sides): (_, &[i32]) = match round % 6 {
+            0 => (
+                rng.pick(&[(320, 240), (1016, 3), (3, 1016)]),
+                &[200, 500, 900],
+            ),
+            _ => (
+                (rng.pick(&[1, 3, 16, 31, 40]), rng.pick(&[1, 5, 16, 29])),
+                &[24, 31, 40, 60],
+            ),
+        };
+        let screen = Screen::new(size.0, size.1).unwrap();
+        let snap = SNAPS[round / 6 % 4];
+        let cells = Cells::over(screen, rng.pick(sides), snap);
+        let triangles = cells.patch(&mut rng, snap);
+        assert!(is_plain(&triangles), "not plain");
+        let slots = SLOTS[round % 4];
+        let want = bench.check_both_ways(screen, &triangles, Cull::Back, &slots);
+        assert!(want.hits.concat().iter().all(|&h| h == 1), "round {round}");
     }
-    bench.done(60_000);
+    bench.done(150_000);
 }
 
 /// Grids that fold over, seen from either side or both; many triangles are points or lines.
@@ -210,17 +129,22 @@ fn a_patch_hits_every_pixel_once() {
 fn folded_patches_hit_as_often_as_they_cover() {
     let mut rng = Rng::new(2);
     let mut bench = Bench::new();
-    for round in 0..1000 {
+    for round in 0..1_000 {
         let screen = Screen::new(24, 20).unwrap();
-        let snap = [(1, 0), (8, 4), (4, 0), (16, 4)][round % 4];
-        let cell = rng.within(3, 24);
-        let jitter = rng.within(cell, 4 * cell);
-        let grid = jittered(&mut rng, (10, 10), (-20, -20), cell, jitter, snap);
-        let triangles = patch(&grid, 10, 10, &mut rng);
+        let snap = [snap(1, 0), snap(8, 4), snap(4, 0), snap(16, 4)][round % 4];
+        let side = rng.within(3, 24);
+        let cells = Cells {
+            start: (-20, -20),
+            side,
+            jitter: rng.within(side, 4 * side),
+            columns: 10,
+            rows: 10,
+        };
+        let triangles = cells.patch(&mut rng, snap);
         let cull = rng.pick(&[Cull::Back, Cull::None]);
-        bench.check(screen, &triangles, cull);
+        bench.check_both_ways(screen, &triangles, cull, &SLOTS[round / 4 % 4]);
     }
-    bench.done(60_000);
+    bench.done(300_000);
 }
 
 /// Triangles around a hub: every pixel is hit once inside the ring, none outside.
@@ -249,7 +173,7 @@ fn fans_close_around_their_hub() {
             .collect();
         let next = |i: usize| ring[(i + 1) % ring.len()];
         let triangles: Vec<_> = (0..ring.len()).map(|i| [hub, ring[i], next(i)]).collect();
-        let count = bench.check(screen, &triangles, Cull::None);
+        let want = bench.check_both_ways(screen, &triangles, Cull::None, &[128, 4]);
         // Blades of no more than a unit may fold over when their ends are rounded.
         if triangles.iter().all(|&t| doubled_area(t) <= 0) {
             // The ring as one polygon, by the same words of the rule.
@@ -261,8 +185,8 @@ fn fans_close_around_their_hub() {
                         .filter(|(i, _)| crosses(ring[*i], next(*i), column, line))
                         .count()
                         % 2;
-                    let at = (line * 48 + column) as usize;
-                    assert_eq!(count.hits[at] as usize, inside, "{column},{line}: {ring:?}");
+                    let hits = want.hits[line as usize][column as usize];
+                    assert_eq!(usize::from(hits), inside, "{column},{line}: {ring:?}");
                 }
             }
         }
@@ -311,7 +235,7 @@ fn slivers_add_up_to_their_strip() {
             .windows(2)
             .flat_map(|s| [[s[0].0, s[1].0, s[0].1], [s[0].1, s[1].0, s[1].1]])
             .collect();
-        bench.check(screen, &triangles, Cull::None);
+        bench.check_both_ways(screen, &triangles, Cull::None, &[128, 4]);
     }
     bench.done(30_000);
 }
@@ -333,115 +257,168 @@ fn coincident_and_degenerate_triangles() {
                 })
             })
             .collect();
-        bench.check(screen, &triangles, Cull::None);
+        bench.check_both_ways(screen, &triangles, Cull::None, &[128, 4]);
     }
     bench.done(30_000);
 }
 
-/// As wide and as high as a picture can be, with corners up to the ends of guard space.
+fn mesh<'a>(positions: &'a [[i32; 3]], faces: Faces<'a>) -> Mesh<'a, i32> {
+    Mesh {
+        positions,
+        normals: &[],
+        colours: &[],
+        faces,
+    }
+}
+
+/// Draws each part of a picture of any size, and puts what `see` says of them together.
+fn in_parts<T: Clone + Default>(
+    whole: Screen,
+    mut see: impl FnMut(Screen, [u16; 2]) -> Picture<T>,
+) -> Picture<T> {
+    let (width, height) = (whole.width(), whole.height());
+    let mut picture = vec![vec![T::default(); width.into()]; height.into()];
+    for top in (0..height).step_by(LARGEST.into()) {
+        for left in (0..width).step_by(LARGEST.into()) {
+            let size = [width - left, height - top].map(|side| side.min(LARGEST));
+            let part = Screen::new(size[0], size[1]).unwrap();
+            for (line, seen) in picture[top.into()..].iter_mut().zip(see(part, [left, top])) {
+                line[left.into()..][..seen.len()].clone_from_slice(&seen);
+            }
+        }
+    }
+    picture
+}
+
+/// Pictures as large as they can be, of as many parts as that takes: on this grid a part is what the whole picture has
+/// there, so that what is watertight is so across parts.
 #[test]
 fn the_largest_pictures_are_watertight() {
     let mut rng = Rng::new(6);
-    let mut bench = Bench::new();
+    let mut rooms = SceneRooms::new(16_384, 8_192, LARGEST.into(), 2);
+    let (mut count, mut parts) = (0, 0);
     for (width, height) in [
         (8192, 3),
         (3, 8192),
         (8191, 2),
-        (1000, 20),
-        (1023, 9),
         (1, 8191),
+        (2033, 1017),
+        (1023, 9),
     ] {
         let screen = Screen::new(width, height).unwrap();
-        for round in 0..40 {
-            // Guard space in the picture's units; at its outmost 128th corners are clipped.
-            let end = 32_600;
-            let middle = (4 * i32::from(width), 4 * i32::from(height));
-            let place = |rng: &mut Rng, along: i32, across: i32| {
-                let (w, h) = (8 * i32::from(width), 8 * i32::from(height));
-                let scatter = |rng: &mut Rng, size: i32| match along {
-                    0 => rng.within(-40, size + 40),
-                    _ => rng.within(-2 * size, 3 * size),
-                };
-                let (x, y) = (scatter(rng, w), scatter(rng, h) * across);
-                (
-                    x.clamp(middle.0 - end, middle.0 + end),
-                    y.clamp(middle.1 - end, middle.1 + end),
-                )
-            };
-            let hub = place(&mut rng, 0, 1);
-            let mut ring: Vec<_> = (0..9).map(|_| place(&mut rng, round % 2, 1)).collect();
-            ring.sort_by(|a, b| {
-                let angle = |p: &Place| f64::from(p.1 - hub.1).atan2(f64::from(p.0 - hub.0));
-                angle(a).total_cmp(&angle(b))
+        for round in 0..4 {
+            let snap = SNAPS[round];
+            let cells = Cells::over(screen, rng.pick(&[600, 900]), snap);
+            let triangles = cells.patch(&mut rng, snap);
+            assert!(is_plain(&triangles), "not plain");
+            let want = Wanted::new(screen, &triangles, Cull::Back);
+            let slots = SLOTS[round];
+            // Numbers that are read back from colours have 12 bits.
+            assert!(triangles.len() < 4_096);
+            let seen = in_parts(screen, |part, from| {
+                parts += 1;
+                let mut scene = rooms.scene::<L>(part);
+                scene.begin(&camera_of_part(screen, part, from)).unwrap();
+                let drawn = draw_of(&mut scene, screen, &corners(&triangles), |_| ());
+                drawn.expect("there is room");
+                let lines = frame(&scene, slots[0], parts % 2 == 0, [0; 3]);
+                let ids = lines
+                    .into_iter()
+                    .map(|line| line.into_iter().map(id).collect());
+                ids.collect()
             });
-            let triangles: Vec<_> = (0..9).map(|i| [hub, ring[i], ring[(i + 1) % 9]]).collect();
-            bench.check(screen, &triangles, Cull::None);
+            assert!(seen == want.last, "{screen:?}, round {round}");
+            let hit = in_parts(screen, |part, from| {
+                let mut scene = rooms.scene::<L>(part);
+                scene.begin(&camera_of_part(screen, part, from)).unwrap();
+                let (positions, faces) = shared(screen, &triangles);
+                let mesh = mesh(&positions, Faces::Triangles(&faces));
+                add_one(&mut scene, mesh, Cull::Back);
+                hits(&scene, slots[1])
+            });
+            assert!(
+                hit.concat().iter().all(|&h| h == 1),
+                "{screen:?}, round {round}"
+            );
+            count += triangles.len();
         }
     }
-    bench.done(800);
+    println!("{count} triangles, {parts} parts");
+    assert!(count > 5_000 && parts > 100, "{count}, {parts}");
 }
 
-/// Quads and quad strips are the triangles that their splits say (K2).
+/// The triangles of a quad that is split so.
+fn halves([a, b, c, d]: [u16; 4], split: QuadSplit) -> [[u16; 3]; 2] {
+    match split {
+        QuadSplit::Corner0To2 => [[a, b, c], [a, c, d]],
+        QuadSplit::Corner1To3 => [[a, b, d], [b, c, d]],
+    }
+}
+
+/// Quads and quad strips are the triangles that their splits say, and have no pixel twice (K2).
 #[test]
 fn quads_and_strips_are_watertight() {
     let mut rng = Rng::new(7);
-    let mut bench = Bench::new();
+    let mut rooms = SceneRooms::new(8_192, 4_096, 32, 2);
     let screen = Screen::new(40, 32).unwrap();
     for round in 0..100 {
-        let (columns, rows) = (9usize, 7usize);
-        let start = (-8, -8);
-        let grid = jittered(&mut rng, (columns, rows), start, 40, 9, (1, 0));
-        let positions: Vec<_> = grid.iter().map(|&p| vertex(screen, p)).collect();
+        let cells = Cells {
+            start: (-8, -8),
+            side: 40,
+            jitter: 9,
+            columns: 9,
+            rows: 7,
+        };
+        let grid = cells.corners(&mut rng, SNAPS[0]);
+        let places = grid.iter().map(|&p| position(screen, p, 1.0, 1.0));
+        let positions: Vec<_> = places.collect();
+        let colours: Vec<_> = grid
+            .iter()
+            .map(|_| [(); 3].map(|()| rng.below(256) as u8))
+            .collect();
         let split = [QuadSplit::Corner0To2, QuadSplit::Corner1To3][round % 2];
-        let at = |x: usize, y: usize| (y * (columns + 1) + x) as u16;
-        let quads: Vec<_> = (0..columns * rows)
-            .map(|i| (i % columns, i / columns))
-            .map(|(x, y)| [at(x, y), at(x, y + 1), at(x + 1, y + 1), at(x + 1, y)])
-            .collect();
-        let strips: Vec<Vec<u16>> = (0..rows)
-            .map(|y| {
-                (0..=columns)
-                    .flat_map(|x| [at(x, y), at(x, y + 1)])
-                    .collect()
-            })
-            .collect();
-        let mut hits = vec![0u32; 40 * 32];
-        let mut sum = 0;
-        let mut count = |_: u16, pixels: &[[u8; 3]], shaded: u32| {
-            sum += shaded;
-            sum -= pixels.iter().filter(|p| **p != [0; 3]).count() as u32;
+        let at = |x: usize, y: usize| (y * 10 + x) as u16;
+        let quad = |x: usize, y: usize| [at(x, y), at(x, y + 1), at(x + 1, y + 1), at(x + 1, y)];
+        let quads: Vec<_> = (0..63).map(|i| quad(i % 9, i / 9)).collect();
+        let slots = SLOTS[round % 4];
+        // How often pixels are hit, and what is seen in the colours of corners, which differ by the split.
+        let mut drawn = |faces: Faces<'_>| {
+            let mut scene = rooms.scene::<L>(screen);
+            scene.begin(&camera()).unwrap();
+            add_one(&mut scene, mesh(&positions, faces), Cull::None);
+            let hit = hits(&scene, slots[0]).concat();
+            scene.begin(&camera()).unwrap();
+            let call = Draw {
+                cull: Cull::None,
+                ..Draw::new(Mesh {
+                    colours: &colours,
+                    ..mesh(&positions, faces)
+                })
+            };
+            scene.draw(&call).expect("there is room");
+            (hit, frame(&scene, slots[1], false, [0; 3]))
         };
-        let mesh = |faces| Mesh {
-            positions: &positions,
-            normals: &[],
-            colours: &[],
-            faces,
-        };
-        bench.draw(
-            screen,
-            &mesh(Faces::Quads(&quads, split)),
-            Cull::None,
-            &mut count,
-        );
-        assert_eq!(sum, 0, "a quad hit a pixel twice");
+        let (hit, seen) = drawn(Faces::Quads(&quads, split));
+        assert!(hit.iter().all(|&h| h == 1), "quads, round {round}");
+        let triangles: Vec<_> = quads.iter().flat_map(|&quad| halves(quad, split)).collect();
+        let same = drawn(Faces::Triangles(&triangles)).1;
+        assert!(same == seen, "halves of quads, round {round}");
         // Each strip alone, so that it is seen where one strip ends and the next begins.
-        for strip in &strips {
-            bench.draw(
-                screen,
-                &mesh(Faces::QuadStrip(strip, split)),
-                Cull::None,
-                |y, p, n| {
-                    assert_eq!(n as usize, p.iter().filter(|p| **p != [0; 3]).count());
-                    for (x, _) in p.iter().enumerate().filter(|(_, p)| **p != [0; 3]) {
-                        hits[usize::from(y) * 40 + x] += 1;
-                    }
-                },
-            );
+        let mut sum = vec![0; hit.len()];
+        for y in 0..7 {
+            let strip: Vec<_> = (0..10).flat_map(|x| [at(x, y), at(x, y + 1)]).collect();
+            let (hit, seen) = drawn(Faces::QuadStrip(&strip, split));
+            sum.iter_mut().zip(hit).for_each(|(sum, hits)| *sum += hits);
+            let splits = [split, split.other()].into_iter().cycle();
+            let triangles: Vec<_> = (0..9)
+                .zip(splits)
+                .flat_map(|(x, split)| halves(quad(x, y), split))
+                .collect();
+            let same = drawn(Faces::Triangles(&triangles)).1;
+            assert!(same == seen, "halves of a strip, round {round}");
         }
-        assert!(hits.iter().all(|&h| h == 1), "strips, round {round}");
-        bench.triangles += 4 * columns * rows;
+        assert!(sum.iter().all(|&h| h == 1), "strips, round {round}");
     }
-    bench.done(25_000);
 }
 
 /// Triangles cut at the near plane and at the guard band: neighbours get the same new corners.
@@ -449,8 +426,7 @@ fn quads_and_strips_are_watertight() {
 fn cut_edges_stay_shut() {
     const N: i32 = 6;
     let mut rng = Rng::new(8);
-    let mut rooms = SceneRooms::<P>::new(8192, 4096, 64);
-    let mut lines = LineRooms::<P>::new(16, 4096, 96);
+    let mut rooms = SceneRooms::new(8_192, 4_096, 64, 1);
     let screen = Screen::new(96, 64).unwrap();
     let (mut clipped, mut held) = (0, 0);
     for round in 0..2000 {
@@ -505,29 +481,20 @@ fn cut_edges_stay_shut() {
                 rim.push(32.0 - focal * up / z);
             }
         }
-        let mut scene = rooms.scene(screen);
+        let mut scene = rooms.scene::<L>(screen);
         scene.begin(&camera).unwrap();
-        let mesh = Mesh {
-            positions: &positions,
-            normals: &[],
-            colours: &[],
-            faces: Faces::Triangles(&faces),
-        };
-        let instance = Instance {
-            cull: Cull::None,
-            ..Instance::default()
-        };
-        clipped += scene.draw(&mesh, &instance).unwrap().clipped;
-        let mut renderer = lines.renderer();
-        for y in 0..64 {
-            let pixels = common::line(&mut renderer, &scene, y);
-            let counts = renderer.take_span_counts();
-            let covered: Vec<_> = (0..96).filter(|&x| pixels[x] != [0; 3]).collect();
-            assert_eq!(
-                counts.pixels_shaded as usize,
-                covered.len(),
+        add_one(
+            &mut scene,
+            mesh(&positions, Faces::Triangles(&faces)),
+            Cull::None,
+        );
+        clipped += scene.assembled().clipped;
+        for (y, hits) in (0..64u16).zip(hits(&scene, SLOTS[round % 4][0])) {
+            assert!(
+                hits.iter().all(|&h| h <= 1),
                 "round {round}, line {y}: hit twice"
             );
+            let covered: Vec<_> = (0..96).filter(|&x| hits[x] > 0).collect();
             let centre = f64::from(y) + 0.5;
             if rim.iter().any(|at| (at - centre).abs() < 1.5) {
                 continue;

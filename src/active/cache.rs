@@ -78,21 +78,68 @@ pub struct Changes {
 }
 
 /// What the cache has done since it was cleared (C8).
+///
+/// What several renderers of a frame have done is the sum, but for `peak`, of which the largest counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CacheUse {
-    /// Objects that found a slot when they began.
+    /// Objects that found a slot when they began, fetched ahead or not.
     pub hits: u32,
     /// Objects that found none.
     pub spilled: u32,
     /// Of these, those that found one later.
     pub moved_in: u32,
-    /// Lines of objects that were drawn from slow memory.
+    /// Lines of objects that were drawn from slow memory: each line on which one without a slot has pixels.
     pub misses: u32,
-    /// Set-ups: of slots, and of objects without one, once a line.
+    /// Set-ups: of slots, and of objects without one, once a line, on lines with values once for each time one is drawn or
+    /// asked for its depth.
     pub set_ups: u32,
+    /// Set-ups of slots of which a side turns on a line farther down: there the record is read again.
+    pub turning: u32,
     /// The most slots in use at a time.
     pub peak: u32,
+    /// Objects that were fetched ahead (C4); they are among the set-ups, and among the hits when their line comes.
+    pub fetched: u32,
+    /// Bytes of slow memory that were read ahead.
+    pub fetched_bytes: u32,
+}
+
+impl CacheUse {
+    /// Records read from slow memory: an object and its corners, for a set-up, for a side that turns, and once to find
+    /// the columns of what has no slot. What is read of corners to compare depths is not counted.
+    #[must_use]
+    pub const fn records_read(&self) -> u64 {
+        self.set_ups as u64 + self.turning as u64 + self.misses as u64
+    }
+
+    /// Bytes read from slow memory, where a record has
+    /// [`RECORD_BYTES`](crate::Renderer::RECORD_BYTES), with a link for each object without a slot on each line.
+    #[must_use]
+    pub const fn slow_read_bytes(&self, record_bytes: u32) -> u64 {
+        self.records_read() * record_bytes as u64 + self.misses as u64 * size_of::<Link>() as u64
+    }
+
+    /// Bytes written to slow memory while lines were drawn, links alone (C7): one when an object gets a slot, and two when
+    /// it finds none.
+    #[must_use]
+    pub const fn slow_write_bytes(&self) -> u64 {
+        let links = self.hits as u64 + self.moved_in as u64 + 2 * self.spilled as u64;
+        links * size_of::<Link>() as u64
+    }
+}
+
+impl core::ops::AddAssign for CacheUse {
+    fn add_assign(&mut self, other: Self) {
+        self.hits += other.hits;
+        self.spilled += other.spilled;
+        self.moved_in += other.moved_in;
+        self.misses += other.misses;
+        self.set_ups += other.set_ups;
+        self.turning += other.turning;
+        self.peak = self.peak.max(other.peak);
+        self.fetched += other.fetched;
+        self.fetched_bytes += other.fetched_bytes;
+    }
 }
 
 impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
@@ -209,6 +256,11 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     pub(crate) fn free_slots(&mut self, word: usize, slots: u32) {
         self.used[word] &= !slots;
         self.plain[word] &= !slots;
+    }
+
+    /// Says that the line to come is this one.
+    pub(crate) fn before_line(&mut self, line: u16) {
+        self.line = line.wrapping_sub(1);
     }
 
     /// Goes on to a line; whether something changes there, or a block of lines begins.

@@ -9,7 +9,7 @@ use core::ops::Range;
 /// longer on its own lines, so that fewer are set up by several.
 ///
 /// ```
-/// use scanbeam::pipeline::parallel::Interleave;
+/// use scanbeam::frame::Interleave;
 /// let odd = Interleave::lines(2, 1).unwrap();
 /// assert!(odd.of(0..8).eq([1, 3, 5, 7]));
 /// let bands = Interleave::bands(3, 1, 2).unwrap();

@@ -33,7 +33,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Forgets all lines, to begin at the first.
     #[inline(never)]
-    fn start_anew(&mut self, view: &View<'_>) {
+    pub(super) fn start_anew(&mut self, view: &View<'_>) {
+        if let Some(fetcher) = &self.fetcher {
+            (fetcher.forget)(self);
+        }
         self.cache.clear();
         self.met = false;
         self.content = Some(view.content);
@@ -117,8 +120,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// What begins, after what found no slot before; what ends before `line` is passed over.
     #[inline(never)]
-    fn begin(&mut self, view: &View<'_>, head: u16, line: u16) {
+    fn begin(&mut self, view: &View<'_>, mut head: u16, line: u16) {
         self.changed = true;
+        if let Some(fetcher) = &self.fetcher {
+            head = (fetcher.arrive)(self, head);
+        }
+        let mut made = 0;
         while self.cache.spilled.is_some() {
             let Some(slot) = self.cache.free() else {
                 break;
@@ -127,14 +134,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.cache.spilled = next(self.links, self.cache.spilled);
             self.counts.moved_in += 1;
             if let Some(object) = view.objects.get(usize::from(number)) {
-                self.take_in(view, slot, number, object, line);
+                made += self.take_in(view, slot, number, object, line);
             }
         }
         let (mut at, mut hits) = (head, 0);
         while let Some(object) = view.objects.get(usize::from(at)) {
             if let Some(slot) = self.cache.free() {
                 hits += 1;
-                self.take_in(view, slot, at, object, line);
+                made += self.take_in(view, slot, at, object, line);
             } else {
                 self.counts.spilled += 1;
                 self.cache.spill(at, self.links);
@@ -142,18 +149,34 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             at = object.next;
         }
         self.counts.hits += hits;
+        self.count_set_ups(made);
         self.counts.peak = self.counts.peak.max(self.cache.in_use());
     }
 
-    /// An object into a slot; its link leads there from now on (C3).
+    /// Counts set-ups as [`take_in`](Renderer::take_in) tells them.
+    #[inline(always)]
+    pub(super) fn count_set_ups(&mut self, made: u32) {
+        self.counts.set_ups += made & 0xFFFF;
+        self.counts.turning += made >> 16;
+    }
+
+    /// An object into a slot; its link leads there from now on (C3). 1 if there is something of it to be drawn, and 1
+    /// in the upper half if a side turns farther down.
     #[inline(never)]
-    fn take_in(&mut self, view: &View<'_>, slot: usize, number: u16, object: &Object, line: u16) {
+    pub(super) fn take_in(
+        &mut self,
+        view: &View<'_>,
+        slot: usize,
+        number: u16,
+        object: &Object,
+        line: u16,
+    ) -> u32 {
         let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot)) else {
-            return;
+            return 0;
         };
         let entry = triangle.enter(line, &mut kept.item.sides);
         if entry.change() == 0 {
-            return;
+            return 0;
         }
         let planes = &mut kept.item.planes;
         let fill = L::set_up(
@@ -172,9 +195,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             turns: entry.turns(),
         };
         self.cache.keep(slot, flags.is_plain(), change);
-        self.counts.set_ups += 1;
         if let Some(link) = self.links.get_mut(usize::from(number)) {
             *link = Link::cached(slot);
         }
+        1 | u32::from(entry.turns()) << 16
     }
 }

@@ -5,8 +5,8 @@
 
 use super::renderer::Renderer;
 use super::send::{FrameError, FrameUse, Lines, window};
-use crate::composite::LineOverlay;
 use crate::look::{Look, WordOf};
+use crate::overlay::LineOverlay;
 use crate::scan_out::{ErrorType, LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
 use crate::scene::Scene;
 
@@ -45,6 +45,7 @@ where
             } else {
                 pump.line_left_out()?;
             }
+            renderer.fetch_known(scene);
         }
         pump.finish()?;
         Ok(pump.stats())
@@ -90,6 +91,7 @@ where
         let drawn = lines.draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
         frame.line_done()?;
+        renderer.fetch_known(scene);
     }
     frame.finish()?;
     Ok(FrameUse::told(scene, renderer, skipped, pump.stats()))

@@ -131,7 +131,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         if !self.is_contested(rival.span, far, after.slots) && self.guest_key(after.guests) < far {
             return colour_guest::<L>(rival, None, drawing, out);
         }
-        let mut taken = *drawing.mask;
+        let mut taken = drawing.mask.part(start, end);
         self.hide(rival, far, after, out, &mut taken);
         if !taken.has_all(start, end) {
             colour_guest::<L>(rival, Some(&mut taken), drawing, out);
@@ -295,7 +295,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let is_first = columns == out.pixels.len() as u32;
         let mut walk = Walk::of(self.cache.spilled);
         while let Some(stray) = self.next_stray(&mut walk, out) {
-            self.counts.misses += u32::from(is_first);
+            self.counts.misses += u32::from(is_first && self.crowded);
             let span = stray.span;
             if !span.meets(part) {
                 continue;
@@ -315,6 +315,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
                 count = 0;
             } else if count == room {
+                if is_first && self.crowded {
+                    while self.next_stray(&mut walk, out).is_some() {
+                        self.counts.misses += 1;
+                    }
+                }
                 return None;
             }
             Guest::of_rival(rival).insert(cells, count);
@@ -344,8 +349,13 @@ impl<'v> Stray<'v> {
         })
     }
 
+    /// Whether the triangle has no pixels on this line and those to come.
+    pub(super) fn has_ended<W>(&self, out: &Line<'_, '_, W>) -> bool {
+        self.triangle.lines().end <= out.number as i32
+    }
+
     /// As one of those that compete for columns.
-    fn rival(&self, slope: Slope) -> Rival {
+    pub(super) fn rival(&self, slope: Slope) -> Rival {
         Rival {
             span: self.span,
             slope,
@@ -354,7 +364,7 @@ impl<'v> Stray<'v> {
     }
 
     /// Its depth, or what stands for it.
-    fn slope<L: Look>(&self, out: &Line<'_, '_, WordOf<L>>) -> Slope {
+    pub(super) fn slope<L: Look>(&self, out: &Line<'_, '_, WordOf<L>>) -> Slope {
         if !out.deep {
             return Slope::of_place(out.view, self.object);
         }

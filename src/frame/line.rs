@@ -63,6 +63,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         {
             return true;
         }
+        if let Some(counter) = &self.counter {
+            (counter.line)(self, &out);
+        }
         let has_guests = self.cache.spilled.is_some();
         self.lasting &= !self.changed && !has_guests;
         if self.lasting {

@@ -14,6 +14,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut walk = Walk::of(self.cache.spilled);
             while let Some(stray) = self.next_stray(&mut walk, out) {
                 let Span { start, end } = stray.span;
+                self.counts.misses += 1;
                 met |= self.covered.cover_over(&mut self.over, start, end);
             }
         }

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `renderer` | what draws lines: its memory, its errors |
 //! | `advance` | from line to line: which triangles begin, turn and end |
+//! | `ahead` | triangles set up before their line comes |
 //! | `alone` | a triangle without a slot |
 //! | `line` | one line: who is seen, and its pixels |
 //! | `scene` | a scene made for a look |
@@ -18,15 +19,19 @@
 //! | `values` | lines with draw calls that have values few have |
 //! | `rank` | the order of their spans |
 //! | `ruled` | pixels of such a span |
+//! | `alpha` | the alpha of vertices along it |
 //! | `shadow` | shadow volumes, and what their lights fall on |
 //! | `translucent` | spans that what is behind shines through, from far to near |
+//! | `tally` | spans and pixels, counted |
 //! | `send` | all lines of a frame, with overlays, through a pump, awaited, or to a panel with a clock of its own |
 //! | `changed` | likewise, what has changed alone |
 //! | `palette` | likewise, of pixels that are numbers of a palette |
 //! | `relay` | a frame of two cores |
 
 mod advance;
+mod ahead;
 mod alone;
+mod alpha;
 mod changed;
 mod guests;
 mod line;
@@ -44,13 +49,14 @@ mod send;
 mod shadow;
 mod slot;
 mod spans;
+mod tally;
 #[cfg(test)]
 mod tests;
 mod thin;
 mod translucent;
 mod values;
 
-pub use crate::active::CacheUse;
+pub use crate::active::{CacheUse, Interleave};
 pub use changed::{draw_frame_changed, draw_frame_changed_runs};
 pub use palette::draw_frame_indexed;
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};

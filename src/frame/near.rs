@@ -182,7 +182,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         drawing: &mut Drawing<'_>,
         out: &mut Line<'_, '_, WordOf<L>>,
     ) {
-        let mut mask = *drawing.mask;
+        let mut mask = drawing.mask.part(span.start, span.end);
         let rival = rival_of::<L>(slot, span, out);
         self.hide(rival, far, taken, out, &mut mask);
         colour_free::<L>(drawing.mask, &mut mask, Drawn::of(slot), span, out);

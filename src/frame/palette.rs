@@ -5,8 +5,8 @@
 
 use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, SentBy, send};
-use crate::composite::{Indexed, LinePalettes, expand_indices};
 use crate::look::Look;
+use crate::pixel::{Indexed, LinePalettes, expand_indices};
 use crate::scan_out::{ErrorType, Pump, ScanoutDma};
 use crate::scene::Scene;
 

@@ -11,8 +11,8 @@
 
 use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, send};
-use crate::composite::PixelFormat;
 use crate::look::{Look, WordOf};
+use crate::pixel::PixelFormat;
 use crate::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
 use crate::scene::Scene;
 use core::fmt;
@@ -160,6 +160,9 @@ impl<B: LineBuf> Worker<'_, B> {
                     // There is room for every buffer.
                     let _ = self.to_desk.enqueue(Drawn { line, result, buf });
                     (peer.wake)();
+                    if result.is_ok() {
+                        renderer.fetch_known(scene);
+                    }
                 }
             } else if order == OVER {
                 self.say(AWAY, peer);

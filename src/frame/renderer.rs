@@ -1,12 +1,15 @@
 //! What draws lines of a scene, and what it has to be lent.
 
+use super::ahead::Fetcher;
 use super::slot::Active;
 use super::spans::Line;
+use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
 use crate::look::{Look, WordOf};
 use crate::scene::{Content, DrawState, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
+use crate::stats::SpanCounts;
 use crate::visible::Mask;
 use core::fmt;
 
@@ -193,6 +196,11 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) shadows: Option<DrawShadows<L, WORDS>>,
     /// Counts of shadow volumes on a line, for one light at a time.
     pub(super) volumes: &'m mut [u8],
+    /// Likewise of counting spans and pixels.
+    pub(super) counter: Option<Counter<L, WORDS>>,
+    pub(super) spans: SpanCounts,
+    /// Likewise of fetching ahead.
+    pub(super) fetcher: Option<Fetcher<L, WORDS>>,
 }
 
 impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
@@ -243,6 +251,34 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             values: None,
             shadows: None,
             volumes: &mut [],
+            counter: None,
+            spans: SpanCounts::default(),
+            fetcher: None,
+        }
+    }
+
+    /// The same, and what begins on the next line is set up ahead, up to so many bytes of slow memory a line (C4): by the
+    /// frame calls after each line that they have handed on, and by [`fetch_ahead`](Renderer::fetch_ahead). That takes
+    /// the time in which the display is waited for. Pictures are the same for any number.
+    ///
+    /// A program that names this nowhere does not have the code.
+    #[must_use]
+    pub fn fetching(self, bytes_a_line: u32) -> Self {
+        Self {
+            fetcher: Some(Fetcher::new(bytes_a_line)),
+            ..self
+        }
+    }
+
+    /// The same, and spans and pixels are counted (M4): [`spans`](Renderer::spans) says how many. Lines take longer, some
+    /// several times as long, and are the same.
+    ///
+    /// A program that names this nowhere does not have the code.
+    #[must_use]
+    pub fn counting(self) -> Self {
+        Self {
+            counter: Some(Counter::new()),
+            ..self
         }
     }
 
@@ -250,6 +286,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     pub fn restart(&mut self) {
         self.content = None;
         self.counts = CacheUse::default();
+        self.spans = SpanCounts::default();
     }
 
     /// Begins a frame of a scene.
@@ -266,6 +303,13 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     #[must_use]
     pub fn counts(&self) -> CacheUse {
         self.counts
+    }
+
+    /// What has happened along spans since the renderer was made or restarted (M4); all 0 unless it is
+    /// [`counting`](Renderer::counting). A frame restarts it when it begins.
+    #[must_use]
+    pub fn spans(&self) -> SpanCounts {
+        self.spans
     }
 
     /// Whether the renderer can draw `scene`.
@@ -293,6 +337,26 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Sets up what begins on the line after the last that was drawn, before the first of a scene that line, where slots
+    /// are free; the bytes of slow memory that were read (C4). A call after it goes on where it stopped. A renderer that
+    /// is not [`fetching`](Renderer::fetching) does nothing.
+    ///
+    /// # Errors
+    /// Those of [`check`](Renderer::check).
+    pub fn fetch_ahead(&mut self, scene: &Scene<'_, '_, L>) -> Result<u32, LineError> {
+        self.check(scene)?;
+        Ok(self.fetch_known(scene))
+    }
+
+    /// The same of a scene that the renderer can draw.
+    #[inline(always)]
+    pub(super) fn fetch_known(&mut self, scene: &Scene<'_, '_, L>) -> u32 {
+        match &self.fetcher {
+            Some(fetcher) => (fetcher.fetch)(self, scene),
+            None => 0,
+        }
+    }
+
     /// Whether shadows can be counted on a line so wide.
     #[inline(never)]
     fn check_shadows(&self, width: u16) -> Result<(), LineError> {

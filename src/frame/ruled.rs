@@ -1,16 +1,17 @@
 //! The pixels of a span whose draw call has values that few have (H9, H15, K11).
 //!
 //! What the scissor keeps is compared 32 pixels at a time, and what is seen of that is coloured in runs, or blended over what is there. So a
-//! triangle has the same columns, depths and planes as without such values. Where the texture has holes, texels come
-//! first, 32 at a time, and what they leave is compared.
+//! triangle has the same columns, depths and planes as without such values. Where the texture has holes, or pixels have
+//! alphas of their own, colours come first, 32 at a time, and what holes leave is compared.
 
+use super::alpha::Surface;
 use super::renderer::View;
 use super::rival::Slope;
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::leading_zeros;
-use crate::pixel::blend;
-use crate::scene::{Blend, DrawState};
+use crate::pixel::{blend, blend_each};
+use crate::scene::{Blend, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, test};
 
 /// A span of a triangle, and the values of its draw call.
@@ -22,12 +23,13 @@ pub(super) struct Ruled<'a, P> {
 }
 
 /// What colours the runs of a span.
-struct Ink<'a, P> {
-    fill: Fill,
-    planes: &'a P,
+pub(super) struct Ink<'a, P> {
+    pub(super) fill: Fill,
+    pub(super) planes: &'a P,
     span: Span,
     blend: Option<Blend>,
     dithers: bool,
+    surface: Option<Surface>,
 }
 
 /// Colours those pixels between `from` and `to` that the values let through; without depth nothing is compared.
@@ -39,22 +41,8 @@ pub(super) fn draw_ruled<L: Look>(
     mut known: Option<Known<'_>>,
 ) {
     let Ruled { drawn, span, state } = ruled;
-    let (thin, finer);
-    let mut ink = Ink {
-        fill: drawn.flags.fill(),
-        planes: drawn.planes,
-        span,
-        blend: state.blend,
-        dithers: state.dithers,
-    };
-    if let Some((fill, planes)) = dithered_planes::<L>(&ink, drawn.object, out.view) {
-        finer = planes;
-        (ink.fill, ink.planes) = (fill, &finer);
-    }
-    if ink.fill == Fill::Thin {
-        thin = thin_planes::<L>(drawn.object, span, out.number, out.view);
-        (ink.fill, ink.planes) = (Fill::Wide, &thin);
-    }
+    let mut others = None;
+    let ink = ink_of::<L>(ruled, &mut others, out);
     let depth = match &known {
         Some(known) => depth_on_line::<L>(drawn, known.plane, span, out),
         None => [0; 2],
@@ -68,8 +56,8 @@ pub(super) fn draw_ruled<L: Look>(
         if run.start >= run.end {
             continue;
         }
-        if L::TEXTURED && state.holes.is_some() {
-            lay_holed::<L>(&ink, run, state, depth, out, &mut known);
+        if state.is_by_pixel() {
+            lay_by_pixel::<L>(&ink, run, state, depth, out, &mut known);
             continue;
         }
         match &mut known {
@@ -81,16 +69,39 @@ pub(super) fn draw_ruled<L: Look>(
     }
 }
 
+/// What colours a span; `others` keeps its planes where those of the triangle do not do.
+#[inline(always)]
+pub(super) fn ink_of<'a, L: Look>(
+    ruled: Ruled<'a, L::Planes>,
+    others: &'a mut Option<L::Planes>,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> Ink<'a, L::Planes> {
+    let Ruled { drawn, span, state } = ruled;
+    let mut fill = drawn.flags.fill();
+    if state.dithers && fill == Fill::Plain {
+        if let Some((finer, planes)) = dithered_planes::<L>(drawn.object, out.view) {
+            (fill, *others) = (finer, Some(planes));
+        }
+    }
+    if fill == Fill::Thin {
+        let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
+        (fill, *others) = (Fill::Wide, Some(planes));
+    }
+    Ink {
+        fill,
+        planes: others.as_ref().unwrap_or(drawn.planes),
+        span,
+        blend: state.blend,
+        dithers: state.dithers,
+        surface: state
+            .alphas
+            .and_then(|alphas| Surface::of(alphas, drawn.object, span, out.number, out.view)),
+    }
+}
+
 /// Planes that keep enough for a dither, where those that a triangle has do not.
 #[inline(always)]
-fn dithered_planes<L: Look>(
-    ink: &Ink<'_, L::Planes>,
-    object: u16,
-    view: &View<'_>,
-) -> Option<(Fill, L::Planes)> {
-    if !ink.dithers || ink.fill != Fill::Plain {
-        return None;
-    }
+fn dithered_planes<L: Look>(object: u16, view: &View<'_>) -> Option<(Fill, L::Planes)> {
     let mut planes = L::EMPTY;
     let fill = L::set_up_dithered(&view.triangle_of(object)?, &mut planes)?;
     Some((fill, planes))
@@ -164,10 +175,10 @@ pub(super) fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
     }
 }
 
-/// Colours a run, or blends it, where the texture has no holes. Texels are found before depth is asked, and once: holes
+/// Colours a run, or blends it, where pixels are not all alike. Colours are found before depth is asked, and once: holes
 /// keep none.
 #[inline(never)]
-fn lay_holed<L: Look>(
+fn lay_by_pixel<L: Look>(
     ink: &Ink<'_, L::Planes>,
     run: Span,
     state: &DrawState<'_>,
@@ -176,11 +187,15 @@ fn lay_holed<L: Look>(
     known: &mut Option<Known<'_>>,
 ) {
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
+    let mut alphas = [PixelAlpha::OPAQUE; MOST_TESTED];
     let mut start = run.start;
     while start < run.end {
         let end = run.end.min(start + MOST_TESTED as u32);
         let (from, pixels) = (start, end - start);
-        let Some(new) = colours.get_mut(..pixels as usize) else {
+        let (Some(new), Some(alphas)) = (
+            colours.get_mut(..pixels as usize),
+            alphas.get_mut(..pixels as usize),
+        ) else {
             return;
         };
         let at = Place {
@@ -189,7 +204,14 @@ fn lay_holed<L: Look>(
             column: from,
             line: out.number,
         };
-        let opaque = L::fill_holed(ink.fill, ink.planes, at, out.view.draws, new);
+        let opaque = paint::<L>(ink, at, ink.dithers, out.view, new);
+        let has_alphas = state.has_alphas();
+        if has_alphas {
+            find_alphas::<L>(ink, at, state, out.view, alphas);
+            if L::TEXTURED && ink.dithers {
+                undither::<L>(ink, at, out.view, alphas, new);
+            }
+        }
         let mut put = |seen: Span| {
             let columns = |from: u32| (seen.start - from) as usize..(seen.end - from) as usize;
             let (Some(old), Some(new)) = (out.pixels.get_mut(columns(0)), new.get(columns(from)))
@@ -198,6 +220,10 @@ fn lay_holed<L: Look>(
             };
             match ink.blend {
                 None => old.copy_from_slice(new),
+                Some(how) if has_alphas => {
+                    let alphas = alphas.get(columns(from)).unwrap_or_default();
+                    blend_each::<L::Pixel>(old, new, how, alphas);
+                }
                 Some(how) => blend::<L::Pixel>(old, new, how),
             }
         };
@@ -208,6 +234,62 @@ fn lay_holed<L: Look>(
             None => put(run),
         });
         start = end;
+    }
+}
+
+/// Colours a run of up to 32 pixels, dithered or not; a bit for each that is not a hole, the first the top one.
+#[inline(never)]
+fn paint<L: Look>(
+    ink: &Ink<'_, L::Planes>,
+    at: Place,
+    dithers: bool,
+    view: &View<'_>,
+    run: &mut [WordOf<L>],
+) -> u32 {
+    L::fill_holed(ink.fill, ink.planes, at, view.draws, dithers, run)
+}
+
+/// The alphas of a run of up to 32 pixels, and what else its texels say of themselves.
+#[inline(never)]
+fn find_alphas<L: Look>(
+    ink: &Ink<'_, L::Planes>,
+    at: Place,
+    state: &DrawState<'_>,
+    view: &View<'_>,
+    alphas: &mut [PixelAlpha],
+) {
+    let mut texels = [MaskTexel::OPAQUE.word(); MOST_TESTED];
+    let texels = &mut texels[..alphas.len()];
+    if L::TEXTURED && state.has_mask {
+        L::fill_mask(ink.planes, at, view.draws, texels);
+    }
+    for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
+        *alpha = PixelAlpha {
+            surface: ink.surface.map_or(255, |surface| surface.at(column)),
+            texel: MaskTexel::of_word(texel),
+        };
+    }
+}
+
+/// Colours those of a dithered run anew whose texels are not to be dithered.
+#[inline(never)]
+fn undither<L: Look>(
+    ink: &Ink<'_, L::Planes>,
+    at: Place,
+    view: &View<'_>,
+    alphas: &[PixelAlpha],
+    run: &mut [WordOf<L>],
+) {
+    if !alphas.iter().any(|alpha| alpha.texel.is_undithered()) {
+        return;
+    }
+    let mut plain = [WordOf::<L>::default(); MOST_TESTED];
+    let plain = &mut plain[..run.len()];
+    paint::<L>(ink, at, false, view, plain);
+    for ((pixel, &plain), alpha) in run.iter_mut().zip(&*plain).zip(alphas) {
+        if alpha.texel.is_undithered() {
+            *pixel = plain;
+        }
     }
 }
 

@@ -2,13 +2,13 @@
 
 use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
-use crate::composite::LineOverlay;
 use crate::look::{Look, WordOf};
+use crate::overlay::LineOverlay;
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};
 use crate::scan_out::{
     ContinuousPanel, ErrorType, FeedStats, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window,
-    feed_frame,
+    feed_line,
 };
 use crate::scene::{Assembled, Scene};
 use core::fmt;
@@ -160,6 +160,7 @@ where
         let drawn = draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
         pump.line_done()?;
+        renderer.fetch_known(scene);
     }
     pump.finish()?;
     Ok(FrameUse::told(scene, renderer, skipped, pump.stats()))
@@ -183,10 +184,14 @@ where
     renderer.begin_frame(scene)?;
     let mut lines = Lines::new(scene, background, ());
     let mut skipped = 0;
-    let fed = feed_frame(panel, scene.lines(), |line, pixels| {
-        skipped += u32::from(!lines.draw(renderer, line, pixels)?);
-        Ok(())
-    })?;
+    let mut fed = FeedStats::default();
+    for line in scene.lines() {
+        fed.count(feed_line(panel, line, |line, pixels| {
+            skipped += u32::from(!lines.draw(renderer, line, pixels)?);
+            Ok(())
+        })?);
+        renderer.fetch_known(scene);
+    }
     let sent = ScanStats::default();
     Ok((fed, FrameUse::told(scene, renderer, skipped, sent)))
 }
@@ -217,6 +222,8 @@ where
         let line = window.y.saturating_add(below);
         let drawn = lines.draw(renderer, line, pixels);
         skipped += u32::from(!drawn.map_err(FrameError::Line)?);
+        // The band above is on its way.
+        renderer.fetch_known(scene);
         Ok::<_, FrameError<_>>(())
     })
     .await?;

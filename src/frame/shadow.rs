@@ -4,15 +4,19 @@
 //! Light by light, its volumes are counted in any order, and what it falls on is drawn in order of submission. One
 //! line of counts serves all lights.
 
+use super::guests::Stray;
 use super::near::insert;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
 use super::spans::{Drawn, Known, Line, Span};
+use super::tally::{cells_at, each_part, has_texels, opaque_of};
 use crate::active::next;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
+use crate::scene::DepthFunction;
 use crate::scene::{DrawState, Role};
+use crate::stats::{SpanCounts, SpanPixels};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
 
 /// What is done with spans of a light, in this order: volumes are counted, then what is seen again is drawn.
@@ -48,6 +52,62 @@ impl Lights {
     }
 }
 
+/// Which pixels get a surface of this call again.
+fn receives(state: &DrawState<'_>) -> Receives {
+    Receives {
+        passes: state.depth.colour_if,
+        is_shadowed: matches!(state.role(), Role::Shadowed(_)),
+        is_once: state.blend.is_some_and(|blend| blend.is_translucent()),
+    }
+}
+
+/// Adds to the figures of a renderer that counts a span of a volume, or one that is seen again, before it is taken.
+#[inline(never)]
+pub(super) fn count_shadowed<L: Look>(
+    figures: &mut SpanCounts,
+    ruled: Ruled<'_, L::Planes>,
+    known: &Known<'_>,
+    counts: &[u8],
+    out: &Line<'_, '_, WordOf<L>>,
+) {
+    let Ruled { drawn, span, state } = ruled;
+    let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
+    let (how, mut pixels) = (receives(state), SpanPixels::default());
+    let any = Receives {
+        passes: DepthFunction::ALWAYS,
+        ..how
+    };
+    each_part(ruled, out, &mut |first, part| {
+        pixels.all += part;
+        let cells = cells_at(known, first);
+        let depth = [at.wrapping_add(step.wrapping_mul(first)), step];
+        let seen = |how: Receives| {
+            let mut copy = [0; MOST_TESTED];
+            let counts = counts.get(first as usize..(first + part) as usize);
+            let counts = counts.unwrap_or_default();
+            let copy = copy.get_mut(..counts.len()).unwrap_or_default();
+            copy.copy_from_slice(counts);
+            receive(copy, &cells, depth, how)
+        };
+        pixels.tested += seen(any).count_ones();
+        let seen = seen(how);
+        pixels.hidden += part - seen.count_ones();
+        if has_texels::<L>(Some(state)) {
+            pixels.fetched += seen.count_ones();
+        }
+        let is_holed = L::TEXTURED && state.holes.is_some();
+        pixels.seen += if is_holed && seen != 0 {
+            (seen & opaque_of::<L>(ruled, first, part, out)).count_ones()
+        } else {
+            seen.count_ones()
+        };
+    });
+    match state.role() {
+        Role::Front(_) | Role::Back(_) => figures.add_volume(pixels.all),
+        _ => figures.add_span(pixels, false),
+    }
+}
+
 /// Counts a span of a volume, or draws one that is seen again, where depth and counts say so.
 #[inline(never)]
 fn take<L: Look>(
@@ -58,12 +118,8 @@ fn take<L: Look>(
 ) {
     let Ruled { drawn, span, state } = ruled;
     let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
-    let passes = state.depth.colour_if;
-    let how = Receives {
-        passes,
-        is_shadowed: matches!(state.role(), Role::Shadowed(_)),
-        is_once: state.blend.is_some_and(|blend| blend.is_translucent()),
-    };
+    let how = receives(state);
+    let passes = how.passes;
     for run in state.cut(out.number, span.start..span.end) {
         let run = Span {
             start: run.start,
@@ -108,6 +164,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let (slots, lights) = self.list_shadows(out);
         let mut lit = lights.with_lit | lights.with_shadowed & lights.with_volumes;
+        if self.counter.is_some() {
+            // What nobody sees is counted too, but not what it takes.
+            let (mut in_vain, counts) = (lights.with_shadowed & !lit, self.counts);
+            while in_vain != 0 {
+                self.volumes.fill(0);
+                self.take_step(2 * take_first(&mut in_vain) + 1, slots, out);
+            }
+            self.counts = counts;
+        }
         while lit != 0 {
             let light = take_first(&mut lit);
             self.volumes.fill(0);
@@ -157,7 +222,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.cache.spilled;
         while at.is_some() {
             if let Some(state) = out.view.state(at.object()) {
-                lights.add(state.role());
+                let role = state.role();
+                if step_of(role).is_some() && Stray::of(at.object(), out).is_some() {
+                    lights.add(role);
+                }
             }
             at = next(self.links, at);
         }
@@ -203,7 +271,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             written: &mut self.written,
         };
         let drawn = Drawn::of(slot);
-        take::<L>(Ruled { drawn, span, state }, known, self.volumes, out);
+        let ruled = Ruled { drawn, span, state };
+        if let Some(counter) = &self.counter {
+            (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);
+        }
+        take::<L>(ruled, known, self.volumes, out);
     }
 
     fn take_alone(&mut self, object: u16, step: Step, out: &mut Line<'_, '_, WordOf<L>>) {
@@ -221,6 +293,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             written: &mut self.written,
         };
         let (drawn, span) = (alone.drawn(), alone.span);
-        take::<L>(Ruled { drawn, span, state }, known, self.volumes, out);
+        let ruled = Ruled { drawn, span, state };
+        if let Some(counter) = &self.counter {
+            (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);
+        }
+        take::<L>(ruled, known, self.volumes, out);
     }
 }

@@ -1,11 +1,11 @@
 //! A picture does not depend on the cache, nor a pixel on who else is on its line.
 
 use super::{FastMemory, Memory as Lent, Renderer};
-use crate::composite::{PixelFormat, Rgb565, Rgb888};
 use crate::geometry::{Affine, Camera, Cull, Faces, Mesh, Screen};
 use crate::link::Link;
 use crate::look::{Gouraud, Look, Textured, WordOf};
 use crate::num::random::Rng;
+use crate::pixel::{PixelFormat, Rgb565, Rgb888};
 use crate::scene::{
     Budget, Draw, DrawState, Memory, NONE, Object, Scene, Shadow, Skin, Texture, TexturePlace,
     Vertex,

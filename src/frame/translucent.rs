@@ -183,6 +183,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     pub(super) fn draw_translucent(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
         let count = self.list_translucent(out);
+        if let Some(counter) = &self.counter {
+            (counter.panes)(self, count, out);
+        }
         if count > 0 || self.cache.spilled.is_some() {
             self.draw_piles(count, out);
         }

@@ -5,12 +5,13 @@
 //! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
+use super::guests::Stray;
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
-use super::spans::{Drawn, Known, Line, Span, colour};
+use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
 use crate::active::next;
 use crate::link::Link;
 use crate::look::{Look, WordOf};
@@ -28,7 +29,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.changed {
             self.mark_values(out.view);
         }
-        if !self.has_values(out.view) {
+        if !self.has_values(out) {
             return false;
         }
         fill_line::<L>(out.pixels, background);
@@ -87,21 +88,27 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         None
     }
 
-    /// Whether a draw call on this line has values.
-    fn has_values(&self, view: &View<'_>) -> bool {
+    /// Whether a draw call with pixels on this line has values.
+    fn has_values(&self, out: &Line<'_, '_, WordOf<L>>) -> bool {
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
-                let i = take_first(&mut others) as usize & 31;
-                if Flags(self.cache.slots[word][i].flags).has_values() {
-                    return true;
+                let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
+                if Flags(slot.flags).has_values() {
+                    let Span { start, end } = columns_of::<L>(slot, out);
+                    if start < end {
+                        return true;
+                    }
                 }
             }
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            if view.has_values(at.object()) {
-                return true;
+            if out.view.has_values(at.object()) {
+                let stray = Stray::of(at.object(), out);
+                if stray.is_some_and(|stray| !stray.has_ended(out)) {
+                    return true;
+                }
             }
             at = next(self.links, at);
         }
@@ -144,24 +151,32 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         let is_compared = self.met && self.over.meets(span.start, span.end);
+        let has_values = Flags(slot.flags).has_values();
         let state = match out.view.state(slot.object) {
-            Some(state) if Flags(slot.flags).has_values() => state,
-            _ if is_compared => &DrawState::EMPTY,
-            _ => return colour::<L>(Drawn::of(slot), span, out),
+            Some(state) if has_values => state,
+            _ => &DrawState::EMPTY,
         };
-        if is_compared && state.waits() {
-            return;
-        }
         if is_compared {
+            if state.waits() {
+                return;
+            }
             deepen::<L>(slot, out.view);
         }
         let drawn = Drawn::of(slot);
+        let ruled = Ruled { drawn, span, state };
         let known = is_compared.then_some(Known {
             plane: slot.item.depth,
             cells: self.depth,
             written: &mut self.written,
         });
-        draw_ruled::<L>(Ruled { drawn, span, state }, span, out, known);
+        if let Some(counter) = &self.counter {
+            let is_alone = !self.over.meets(span.start, span.end);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
+        }
+        if !has_values && !is_compared {
+            return colour::<L>(drawn, span, out);
+        }
+        draw_ruled::<L>(ruled, span, out, known);
     }
 
     /// Draws a span without a slot; the next of its kind.
@@ -184,12 +199,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             [0; 3]
         };
         let drawn = alone.drawn();
+        let ruled = Ruled { drawn, span, state };
         let known = is_compared.then_some(Known {
             plane,
             cells: self.depth,
             written: &mut self.written,
         });
-        draw_ruled::<L>(Ruled { drawn, span, state }, span, out, known);
+        if let Some(counter) = &self.counter {
+            let is_alone = !self.over.meets(span.start, span.end);
+            (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
+        }
+        draw_ruled::<L>(ruled, span, out, known);
         after
     }
 }

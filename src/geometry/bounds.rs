@@ -6,8 +6,8 @@
 //! safe side, and the units that vertices and cuts may err are added: a sphere is only said to
 //! be outside when every triangle in it would have been culled.
 //!
-//! Asked once a mesh, and only by [`Scene::draw_within`](crate::pipeline::Scene::draw_within): who does not
-//! call it has no code for it.
+//! Asked once a mesh, and only by [`Scene::draw_within`](crate::Scene::draw_within) and players of lists: who does not
+//! call either has no code for it.
 
 use super::camera::{Camera, Screen};
 use super::mesh::Coordinate;

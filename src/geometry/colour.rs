@@ -6,15 +6,10 @@
 //! end cannot leave its field, so no colour ever wraps (P4).
 
 use super::lighting::Shine;
-use super::shading::Empty;
 
 /// Red in bits 31..21, blue in bits 20..11, green in bits 10..0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Colour(u32);
-
-impl Empty for Colour {
-    const EMPTY: Self = Self(0);
-}
 
 /// Bits of the red, green and blue fields.
 const FIELD_BITS: [u32; 3] = [11, 11, 10];

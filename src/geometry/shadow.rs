@@ -12,7 +12,7 @@
 //! of it, each with its own sign, give the same count as the cut itself. So the eye may be inside a
 //! shadow.
 
-use super::assemble::each_triangle;
+use super::faces::each_triangle;
 use super::mesh::{Coordinate, Mesh};
 use super::transform::Affine;
 use crate::num::I2F14;

@@ -10,7 +10,6 @@
 //! | [`two_cores`] | alternate lines on two cores or threads |
 //! | [`quality`] | what is paid for how exact a picture |
 //! | [`figures`] | what a frame did, and what it was spared |
-//! | [`presets`] | what draw calls do not have yet, by types |
 //! | [`scene_files`] | a scene as a file that the tool draws and shows |
 //! | [`rows`] | each requirement with its code and its test |
 //!
@@ -39,9 +38,6 @@ pub mod quality {}
 
 #[doc = include_str!("figures.md")]
 pub mod figures {}
-
-#[doc = include_str!("presets.md")]
-pub mod presets {}
 
 #[doc = include_str!("scene_files.md")]
 pub mod scene_files {}

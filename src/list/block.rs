@@ -283,11 +283,15 @@ pub enum TexelForm {
     Rgb888 = 6,
     /// 32 bits: red, green, blue, 7 bits alpha, 1 bit D.
     Rgba = 7,
+    /// 16 bits: 1 bit alpha, blue 5, green 5, red 5, alpha lowest.
+    Rgba5551 = 8,
+    /// 16 bits: 1 bit D, blue 5, green 5, red 5, D lowest.
+    Rgbd5551 = 9,
 }
 
 impl TexelForm {
     /// All, in the order of their codes.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Index1,
         Self::Index2,
         Self::Index4,
@@ -296,6 +300,8 @@ impl TexelForm {
         Self::Rgb565,
         Self::Rgb888,
         Self::Rgba,
+        Self::Rgba5551,
+        Self::Rgbd5551,
     ];
 
     /// Whether texels name colours of a palette.
@@ -312,7 +318,7 @@ impl TexelForm {
             Self::Index2 => 2,
             Self::Index4 => 4,
             Self::Index6 | Self::Index8 => 8,
-            Self::Rgb565 => 16,
+            Self::Rgb565 | Self::Rgba5551 | Self::Rgbd5551 => 16,
             Self::Rgb888 => 24,
             Self::Rgba => 32,
         }

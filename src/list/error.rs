@@ -87,10 +87,6 @@ pub enum Reason {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum Missing {
-    /// Texels or colours of a palette that are neither opaque nor transparent.
-    Alpha,
-    /// Texels that are not dithered where the rest of a draw call is.
-    Undithered,
     /// Textures, in a scene whose look has none.
     Textures,
     /// Texels that do not lie in one piece as the processor reads them.
@@ -133,8 +129,6 @@ pub enum Lent {
 impl core::fmt::Display for Missing {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         f.write_str(match self {
-            Self::Alpha => "texels that are neither opaque nor transparent",
-            Self::Undithered => "texels that are not dithered among others that are",
             Self::Textures => "textures in a scene whose look has none",
             Self::TexelsInPieces => "texels that do not lie in one piece",
             Self::FinePlaces => "places of 32 bits in memory for those of 16",

@@ -36,9 +36,10 @@ impl<'w> Texels<'w> {
             TexelForm::Index6 => (3, 63),
             TexelForm::Index8 => (3, 255),
             TexelForm::Rgb565 => {
-                let v = self.word(index >> 1) >> (16 * (index & 1));
+                let v = self.half(index);
                 return [grown(v >> 11, 5), grown(v >> 5, 6), grown(v, 5), 255];
             }
+            TexelForm::Rgba5551 | TexelForm::Rgbd5551 => return self.rgb555(index),
             TexelForm::Rgb888 => return self.rgb888(index),
             TexelForm::Rgba => {
                 let [r, g, b, a] = self.word(index).to_le_bytes();
@@ -49,6 +50,22 @@ impl<'w> Texels<'w> {
         let code = self.word(bit >> 5) >> (bit & 31) & mask;
         let colour = self.colours.get(code as usize);
         colour.map_or([0; 4], |w| u32::from_le(*w).to_le_bytes())
+    }
+
+    /// 16 bits.
+    #[inline(always)]
+    fn half(&self, index: u32) -> u32 {
+        self.word(index >> 1) >> (16 * (index & 1))
+    }
+
+    /// Three fields of 5 bits, and one that is alpha or says nothing of it.
+    fn rgb555(&self, index: u32) -> [u8; 4] {
+        let v = self.half(index);
+        let alpha = match self.form {
+            TexelForm::Rgba5551 => grown(v, 1),
+            _ => 255,
+        };
+        [grown(v >> 11, 5), grown(v >> 6, 5), grown(v >> 1, 5), alpha]
     }
 
     /// Three bytes, which may lie in two words.
@@ -62,10 +79,14 @@ impl<'w> Texels<'w> {
         [r, g, b, 255]
     }
 
-    /// Whether the texel at an index says that it is not to be dithered (H10): D of 32 bits.
+    /// Whether the texel at an index says that it is not to be dithered (H10): the bit D.
     #[must_use]
     pub fn is_undithered(&self, index: u32) -> bool {
-        self.form == TexelForm::Rgba && self.word(index) >> 31 != 0
+        match self.form {
+            TexelForm::Rgba => self.word(index) >> 31 != 0,
+            TexelForm::Rgbd5551 => self.half(index) & 1 != 0,
+            _ => false,
+        }
     }
 
     #[inline(always)]
@@ -74,11 +95,14 @@ impl<'w> Texels<'w> {
     }
 }
 
-/// A field of some bits grows to 8 by repeating its top bits.
+/// A field of some bits grows to 8 by repeating its bits, top bits first.
 #[inline(always)]
 fn grown(v: u32, bits: u32) -> u8 {
-    let v = (v & ((1 << bits) - 1)) << (8 - bits);
-    (v | v >> bits) as u8
+    let v = v & ((1 << bits) - 1);
+    match bits {
+        1 => (v * 255) as u8,
+        _ => (v << (8 - bits) | v >> (2 * bits - 8)) as u8,
+    }
 }
 
 /// Room for the name of a texture or palette.
@@ -270,4 +294,130 @@ pub(super) fn form_of_code(code: u32) -> TexelForm {
     *TexelForm::ALL
         .get(code as usize)
         .unwrap_or(&TexelForm::Rgba)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec;
+    use std::vec::Vec;
+
+    /// What a field of some bits stands for, in steps of 255, to nearest.
+    fn level(field: u32, bits: u32) -> f64 {
+        f64::from(field) * 255.0 / f64::from((1u32 << bits) - 1)
+    }
+
+    /// The field that a level is nearest to.
+    fn field(level: u8, bits: u32) -> u32 {
+        (f64::from(level) * f64::from((1u32 << bits) - 1) / 255.0).round() as u32
+    }
+
+    /// Fields of a texel from its top: how many bits each has; red, green, blue, alpha and D by number.
+    fn layout(form: TexelForm) -> &'static [(usize, u32)] {
+        match form {
+            TexelForm::Rgb565 => &[(0, 5), (1, 6), (2, 5)],
+            TexelForm::Rgb888 => &[(2, 8), (1, 8), (0, 8)],
+            TexelForm::Rgba => &[(4, 1), (3, 7), (2, 8), (1, 8), (0, 8)],
+            TexelForm::Rgba5551 => &[(0, 5), (1, 5), (2, 5), (3, 1)],
+            TexelForm::Rgbd5551 => &[(0, 5), (1, 5), (2, 5), (4, 1)],
+            _ => &[],
+        }
+    }
+
+    /// Texels of some bits one behind the other, lowest bits first.
+    fn packed(values: &[u32], bits: u32) -> Vec<u32> {
+        let mut bytes = vec![0u8; values.len() * bits as usize / 8];
+        for (bytes, value) in bytes.chunks_mut(bits as usize / 8).zip(values) {
+            bytes.copy_from_slice(&value.to_le_bytes()[..bytes.len()]);
+        }
+        let word = |b: &[u8]| u32::from_ne_bytes([0, 1, 2, 3].map(|i| *b.get(i).unwrap_or(&0)));
+        bytes.chunks(4).map(word).collect()
+    }
+
+    /// Each field is within a step of what it stands for, and no two words are the same texel (H7).
+    ///
+    /// Kills: a field that is a bit further down, zeros below those that grow, the wrong half of a word, alpha of 5551 that is
+    /// not full, D of the wrong end, three bytes from the wrong word.
+    #[test]
+    fn every_word_survives_expansion() {
+        let turned = |i: u32| i.wrapping_mul(0x9E37_79B9).rotate_left(i & 31);
+        let forms = [
+            TexelForm::Rgb565,
+            TexelForm::Rgb888,
+            TexelForm::Rgba,
+            TexelForm::Rgba5551,
+            TexelForm::Rgbd5551,
+        ];
+        for form in forms {
+            let bits = form.bits();
+            // All of 16 bits; of more, all bytes in each place beside any others.
+            let mut values: Vec<u32> = match bits {
+                16 => (0..1 << 16).collect(),
+                _ => (0..1 << 16).map(turned).collect(),
+            };
+            for byte in (0..bits).step_by(8) {
+                let swept = |v: u32| turned(v) & !(255 << byte) | v << byte;
+                values.extend((0..256).map(swept));
+            }
+            let keep = |v: &mut u32| *v &= u32::MAX >> (32 - bits);
+            values.iter_mut().for_each(keep);
+            let words = packed(&values, bits);
+            let texels = Texels::new(&words, form, &[]);
+            for (i, &value) in (0..).zip(&values) {
+                let rgba = texels.rgba(i);
+                let (mut top, mut again) = (bits, 0);
+                let mut said = [false; 5];
+                for &(which, size) in layout(form) {
+                    top -= size;
+                    let stored = value >> top & ((1 << size) - 1);
+                    said[which] = true;
+                    let read = match which {
+                        4 => u32::from(texels.is_undithered(i)),
+                        _ => {
+                            let off = f64::from(rgba[which]) - level(stored, size);
+                            assert!(off.abs() < 1.0, "{form:?} {value:x}: {rgba:?}");
+                            field(rgba[which], size)
+                        }
+                    };
+                    again |= read << top;
+                }
+                assert_eq!((again, top), (value, 0), "{form:?} {value:x}: {rgba:?}");
+                assert!(said[3] || rgba[3] == 255, "opaque");
+                assert!(said[4] || !texels.is_undithered(i), "dithered");
+            }
+        }
+    }
+
+    /// Kills: an index of the texel beside.
+    #[test]
+    fn every_index_names_its_colour() {
+        for (form, bits, each) in [
+            (TexelForm::Index1, 1, 1),
+            (TexelForm::Index2, 2, 2),
+            (TexelForm::Index4, 4, 4),
+            (TexelForm::Index6, 6, 8),
+            (TexelForm::Index8, 8, 8),
+        ] {
+            let codes: Vec<u32> = (0..512u32)
+                .map(|i| (i * 37 + i / 7) % (1 << bits))
+                .collect();
+            let mut words = vec![0; 512 * each / 32];
+            for (i, code) in codes.iter().enumerate() {
+                words[i * each / 32] |= (code << (i * each % 32)).to_le();
+            }
+            let colours: Vec<u32> = (0..1u32 << bits)
+                .map(|i| 0x0102_0304u32.wrapping_mul(i).to_le())
+                .collect();
+            let texels = Texels::new(&words, form, &colours);
+            for (i, code) in (0..).zip(codes) {
+                let want = 0x0102_0304u32.wrapping_mul(code).to_le_bytes();
+                assert_eq!(texels.rgba(i), want, "{form:?} {i}");
+                assert!(!texels.is_undithered(i));
+            }
+            // No such colour, no such texel.
+            let few = Texels::new(&words, form, &colours[..1]);
+            assert!((0..512).any(|i| few.rgba(i) == [0; 4]));
+            assert_eq!(texels.rgba(512), colours[0].to_le_bytes());
+        }
+    }
 }

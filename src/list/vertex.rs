@@ -115,6 +115,19 @@ pub struct Slot {
     pub word: u32,
 }
 
+impl Slot {
+    /// Whether a colour has an alpha.
+    pub(crate) fn has_alpha(self) -> bool {
+        self.form == FieldForm::U8x4
+    }
+
+    /// The alpha of a colour of four bytes, where a vertex begins; in a table, as many words on as there are vertices
+    /// before.
+    pub(crate) fn alpha<'w>(self, words: impl Words<'w>, at: u32) -> u8 {
+        (words.word(at.wrapping_add(self.word)) >> 24) as u8
+    }
+}
+
 /// Where the parameters lie that a mesh has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {

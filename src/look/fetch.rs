@@ -19,7 +19,7 @@
 //! | the same with a step of 2/3 texel, 128 texels clamped | 14.0 | 26.6 | 294; 494 | 704 bytes |
 //! | and 64 texels mirrored | 17.8 | 33.5 | 284; 446 | |
 
-use crate::scene::{Form, Square, Texture, Wrap};
+use crate::scene::{Form, Square, TexelWay, Texture, Wrap};
 use core::hint::black_box as unknown;
 
 /// Fraction bits of a [`Uv`].
@@ -272,6 +272,16 @@ fn copy_turns(run: &mut [u16], texture: &Texture<'_>, way: Turns) {
         Form::Index4(..) => each(run, texture, way, |i| form.get(i)),
         Form::Index2(..) => each(run, texture, way, |i| form.get(i)),
         Form::Index1(..) => each(run, texture, way, |i| form.get(i)),
+        Form::Computed(texels, _) => texels.fetch(run, way.texels(texture)),
+    }
+}
+
+impl Turns {
+    /// Columns and rows of a texture along the way.
+    #[inline(always)]
+    fn texels(self, texture: &Texture<'_>) -> TexelWay {
+        let logs = [texture.log_width(), texture.log_height()];
+        TexelWay::new(self.u, self.v, logs)
     }
 }
 
@@ -380,26 +390,6 @@ impl Texture<'_> {
         let column = side(at.u, base[0], self.log_width());
         let row = side(at.v, base[1], self.log_height());
         self.form.get(row << self.log_width() | column)
-    }
-}
-
-impl Form<'_> {
-    /// A texel by its index.
-    #[inline(always)]
-    pub(super) fn get(&self, i: usize) -> Option<u16> {
-        match *self {
-            Form::Words(texels) => texels.get(i).copied(),
-            Form::Index8(bytes, palette) => Some(palette[usize::from(*bytes.get(i)?)]),
-            Form::Index4(bytes, palette) => {
-                Some(palette[usize::from(*bytes.get(i / 2)? >> (4 * (i % 2))) % 16])
-            }
-            Form::Index2(bytes, palette) => {
-                Some(palette[usize::from(*bytes.get(i / 4)? >> (2 * (i % 4))) % 4])
-            }
-            Form::Index1(bytes, palette) => {
-                Some(palette[usize::from(*bytes.get(i / 8)? >> (i % 8)) % 2])
-            }
-        }
     }
 }
 

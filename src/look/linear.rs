@@ -5,7 +5,7 @@
 
 use super::fetch::{FRACTION, Way};
 use super::tint::Texel;
-use crate::scene::{Form, Texture, TextureError, Wrap, half};
+use crate::scene::{Form, Texture, TextureError, Words, Wrap, half};
 
 /// The fields of a pixel, with five bits between them.
 const FIELDS: u32 = 0x07E0_F81F;
@@ -74,18 +74,26 @@ impl Side {
     }
 }
 
-/// Copies the weighted means of texels into `run` along `way`, with the texture's wrap; `is_swapped` where texels have
-/// their bytes in the other order than numbers.
+/// What a mask says between four texels: their mean alpha, and all else that the nearest one says.
+fn mixed_masks(four: [u16; 4], nearest: u16, right: u32, down: u32) -> u16 {
+    let [a, b, c, d] = four.map(|word| u32::from(word & 0xFF));
+    let (upper, lower) = (a * (16 - right) + b * right, c * (16 - right) + d * right);
+    let mean = (upper * (16 - down) + lower * down + 128) >> 8;
+    nearest & 0xFF00 | mean as u16
+}
+
+/// Copies the weighted means of texels into `run` along `way`, with the texture's wrap.
 #[inline(never)]
-pub(super) fn copy_linear(run: &mut [u16], texture: &Texture<'_>, way: Way, is_swapped: bool) {
+pub(super) fn copy_linear(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
     let sides = [texture.log_width(), texture.log_height()];
-    let is_plain = texture.wrap() == Wrap::Repeat && texture.key().is_none();
+    let is_plain = texture.wrap() == Wrap::Repeat && texture.key().is_none() && of != Words::Masks;
+    let is_swapped = of == Words::Swapped;
     match texture.form {
         // A side of one texel has no bits: nothing is shifted by 32.
         Form::Words(words) if is_plain && !sides.contains(&0) => {
             copy_repeated(run, words, sides, way, is_swapped);
         }
-        _ => copy_any(run, texture, way, is_swapped),
+        _ => copy_any(run, texture, way, of),
     }
 }
 
@@ -131,12 +139,15 @@ fn copy_repeated(
 
 /// From any form and size, with any wrap, with holes or without.
 #[inline(never)]
-fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, is_swapped: bool) {
+fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
     let wrap = texture.wrap();
     let side = |base: i32, log: u32| Side { base, log, wrap };
     let columns = side(way.base[0], texture.log_width());
     let rows = side(way.base[1], texture.log_height());
-    let order = |word: u16| if is_swapped { word.swap_bytes() } else { word };
+    let order = |word: u16| match of {
+        Words::Swapped => word.swap_bytes(),
+        _ => word,
+    };
     let mut at = way.at;
     for pixel in run {
         let ([left, right], across) = columns.pair(at.u);
@@ -155,6 +166,7 @@ fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, is_swapped: bool) 
         let mean = |four: [u16; 4]| order(mixed(four.map(order), across, down));
         let nearest = four[usize::from(across >= 8) + 2 * usize::from(down >= 8)];
         *pixel = match texture.key() {
+            _ if of == Words::Masks => mixed_masks(four, nearest, across, down),
             None => mean(four),
             Some(key) => opaque(four, nearest, key, mean),
         };

@@ -1,4 +1,4 @@
-//! Set-up of texture coordinates: how a triangle's are found, and its planes.
+//! Set-up of texture coordinates: how a triangle's are found, and its planes (H1, H3, K18).
 //!
 //! | [`Method`] | where | off by at most |
 //! |---|---|---|
@@ -28,7 +28,7 @@ use crate::num::{leading_zeros, mul_high, mul_high_unsigned};
 pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
-use crate::scene::{Budget, SampledSpan, Sampling, Square, Stretch, Texture};
+use crate::scene::{Budget, SampledSpan, Sampling, Square, Stretch, Texture, Words};
 use crate::span::Frame;
 
 /// A corner of a triangle; corners go clockwise.
@@ -245,6 +245,49 @@ impl Mapping {
             .then_some(mapping)
     }
 
+    /// Copies a square's texels into `run`, which begins at `place` of the picture, if its span is drawn at one go.
+    #[inline(always)]
+    pub fn draw_short(&self, run: &mut [u16], place: Place, square: Square<'_>) -> bool {
+        match self.short(place) {
+            Short::Straight => self.draw_straight(run, place, square),
+            Short::Arc => self.draw_arc(run, place, square),
+            Short::No => return false,
+        }
+        true
+    }
+
+    /// Copies texels, or what is said of them, into `run`, which begins at `place` of the picture.
+    #[inline(never)]
+    pub fn draw_as(
+        &self,
+        run: &mut [u16],
+        place: Place,
+        texture: &Texture<'_>,
+        budget: Budget,
+        words: Words,
+    ) {
+        let square = texture.plain_square();
+        if !square.is_some_and(|square| self.draw_short(run, place, square)) {
+            self.draw_long(run, place, texture, budget, words);
+        }
+    }
+
+    /// The same of a span that is not drawn at one go.
+    #[inline(always)]
+    pub fn draw_long(
+        &self,
+        run: &mut [u16],
+        place: Place,
+        texture: &Texture<'_>,
+        budget: Budget,
+        words: Words,
+    ) {
+        match texture.sampling() {
+            None => self.draw_any(run, place, texture, budget),
+            Some(sampling) => self.draw_sampled(run, place, texture, budget, sampling, words),
+        }
+    }
+
     /// How a square that repeats is drawn in a span.
     #[inline(always)]
     pub fn short(&self, place: Place) -> Short {
@@ -311,11 +354,11 @@ impl Mapping {
                     copy_exact(run, texture, way.skip(place.within().skipped));
                 }
             }
-            Method::Perspective => self.draw_long(run, place, texture, budget),
+            Method::Perspective => self.draw_perspective(run, place, texture, budget),
         }
     }
 
-    /// The same as the texture wants them to be taken; `is_swapped` as in [`SampledSpan`].
+    /// The same as the texture wants them to be taken.
     #[inline(never)]
     pub fn draw_sampled(
         &self,
@@ -324,12 +367,12 @@ impl Mapping {
         texture: &Texture<'_>,
         budget: Budget,
         sampling: Sampling,
-        is_swapped: bool,
+        words: Words,
     ) {
         let span = SampledSpan {
             texture,
             budget,
-            is_swapped,
+            words,
             method: self.method,
             steps: self.reach.line,
             base: self.base,
@@ -342,7 +385,13 @@ impl Mapping {
     }
 
     #[inline(always)]
-    fn draw_long(&self, run: &mut [u16], place: Place, texture: &Texture<'_>, budget: Budget) {
+    fn draw_perspective(
+        &self,
+        run: &mut [u16],
+        place: Place,
+        texture: &Texture<'_>,
+        budget: Budget,
+    ) {
         let (span, within) = (self.span(place), place.within());
         let mut reach = self.reach;
         let steps = within.pixels.saturating_sub(1);

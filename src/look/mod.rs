@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `paint` | what a look does, and what it is told |
 //! | `gouraud` | colours linear between vertices |
+//! | `course` | a colour along a span |
 //! | `textured`, `textured_wide` | texels times such colours, in pixels of 16 bits and of more |
 //! | `shades` | the planes of those colours, and what they are along a span |
 //! | `phong`, `textured_phong` | normals linear between vertices, lit at each pixel; texels lit so |
@@ -23,6 +24,7 @@
 //! code is a sum of the two and not a product, and neither spills registers.
 
 mod area;
+mod course;
 mod fetch;
 mod gouraud;
 mod linear;

@@ -71,17 +71,28 @@ pub trait Paint: Sized {
         Self::fill(Fill::Plain, planes, at, draws, run);
     }
 
-    /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels; a bit for each pixel that
-    /// is not a hole, the first the top one.
+    /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels, dithered or not; a bit for
+    /// each pixel that is not a hole, the first the top one.
     fn fill_holed(
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
         draws: &[DrawState<'_>],
+        dithers: bool,
         run: &mut [WordOf<Self>],
     ) -> u32 {
-        Self::fill(fill, planes, at, draws, run);
+        if dithers {
+            Self::fill_dithered(fill, planes, at, draws, run);
+        } else {
+            Self::fill(fill, planes, at, draws, run);
+        }
         u32::MAX
+    }
+
+    /// Words of the mask of a draw call's texture, of the texels that a run of pixels shows; nothing where there is no
+    /// mask.
+    fn fill_mask(planes: &Self::Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        let _ = (planes, at, draws, run);
     }
 
     /// Planes that keep enough of a triangle's colour for a dither, where those it has do not.
@@ -90,8 +101,7 @@ pub trait Paint: Sized {
         None
     }
 
-    /// [`fill`](Paint::fill), dithered where pixels have 16 bits; that of a look that sees to it itself, or does not
-    /// dither.
+    /// [`fill`](Paint::fill), dithered where pixels have 16 bits; that of a look that does not dither.
     #[inline(always)]
     fn fill_dithered(
         fill: Fill,
@@ -105,7 +115,7 @@ pub trait Paint: Sized {
 }
 
 /// A pixel of a line buffer.
-pub type WordOf<L> = <<L as Paint>::Pixel as crate::composite::PixelFormat>::Word;
+pub type WordOf<L> = <<L as Paint>::Pixel as crate::pixel::PixelFormat>::Word;
 
 /// Where a run of pixels begins: the columns of its span, its own first one, and the line.
 ///

@@ -1,4 +1,5 @@
-//! A span in perspective: exact places every few pixels, texels fetched along straight ways or parabolas between.
+//! A span in perspective: exact places every few pixels, texels fetched along straight ways or parabolas between (H4, H5,
+//! K18).
 //!
 //! | span of | exact places | by |
 //! |---|---|---|

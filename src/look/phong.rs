@@ -67,17 +67,18 @@ pub(super) fn steps_of<F: Pixel>(state: &DrawState<'_>) -> [u32; 3] {
     [0, 1, 2].map(|i| ((steps(i) << 16) + 127) / 255)
 }
 
-/// Lights a run of pixels from a place on; `own` is the colour of each, in 16.16 steps and one half.
+/// Lights a run of pixels from a place on, dithered or not; `own` is the colour of each, in 16.16 steps and one half.
 #[inline(always)]
 pub(super) fn light<F: Pixel>(
     state: &DrawState<'_>,
     planes: &Three,
     place: Place,
+    dithers: bool,
     run: &mut [F::Word],
     mut own: impl FnMut() -> [i32; 3],
 ) {
     // What is dithered is dithered in 16 bits.
-    let dithers = state.dithers && F::MADE_OF.is_one_word();
+    let dithers = dithers && F::MADE_OF.is_one_word();
     let mut value = values(planes, place);
     for (pixel, column) in run.iter_mut().zip(place.column..) {
         let [x, y, z] = value.map(|v| v.wrapping_sub(MIDDLE) as i32);
@@ -96,6 +97,21 @@ pub(super) fn light<F: Pixel>(
         for (i, value) in value.iter_mut().enumerate() {
             *value = value.wrapping_add(planes[3 * i + 1]);
         }
+    }
+}
+
+/// Colours a run of pixels from a place on, dithered or not.
+#[inline(never)]
+fn fill<F: Pixel>(
+    planes: &Planes,
+    place: Place,
+    dithers: bool,
+    draws: &[DrawState<'_>],
+    run: &mut [F::Word],
+) {
+    if let Some(state) = DrawState::of(planes.object, draws) {
+        let colour = steps_of::<F>(state).map(|steps| steps as i32 + (1 << 15));
+        light::<F>(state, &planes.normal, place, dithers, run, || colour);
     }
 }
 
@@ -127,11 +143,17 @@ impl<F: Pixel> Paint for Phong<F> {
         thin_shades(span, &mut planes.normal);
     }
 
-    #[inline(never)]
     fn fill(_: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
-        if let Some(state) = DrawState::of(planes.object, draws) {
-            let colour = steps_of::<F>(state).map(|steps| steps as i32 + (1 << 15));
-            light::<F>(state, &planes.normal, place, run, || colour);
-        }
+        fill::<F>(planes, place, false, draws, run);
+    }
+
+    fn fill_dithered(
+        _: Fill,
+        planes: &Planes,
+        place: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [F::Word],
+    ) {
+        fill::<F>(planes, place, true, draws, run);
     }
 }

@@ -16,7 +16,7 @@ use super::mapping::{Method, word_at};
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::Stride;
 use crate::num::{exp2, log2, mul_high};
-use crate::scene::{MAX_SIDE, SampledSpan, Sampling, Texture};
+use crate::scene::{MAX_SIDE, SampledSpan, Sampling, Texture, Words};
 
 impl Sampling {
     /// The nearest texel of the level that fits.
@@ -31,9 +31,9 @@ impl Sampling {
 }
 
 /// Copies texels of a texture along a way.
-type Read = fn(&mut [u16], &Texture<'_>, Way, bool);
+type Read = fn(&mut [u16], &Texture<'_>, Way, Words);
 
-fn nearest(run: &mut [u16], texture: &Texture<'_>, way: Way, _: bool) {
+fn nearest(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
     copy_exact(run, texture, way);
 }
 
@@ -62,7 +62,7 @@ fn affine(span: &SampledSpan<'_>, run: &mut [u16], [way, down]: [Way; 2], read: 
         run,
         &span.texture.level(level),
         way.coarser(level),
-        span.is_swapped,
+        span.words,
     );
 }
 
@@ -147,7 +147,7 @@ impl SampledSpan<'_> {
                     let texture = self.texture.level(level);
                     let part = Perspective { base, at, step }.coarser(level);
                     part.ways(now, within, Stride::within(steps), |run, way| {
-                        read(run, &texture, way, self.is_swapped);
+                        read(run, &texture, way, self.words);
                     });
                     rest = more;
                     (first + count, 0)

@@ -1,7 +1,8 @@
 //! The shade of a textured triangle: its planes, and what they are along a span.
 
 use super::Place;
-use super::gouraud::{Course, Planes as Shades, at, fields};
+use super::course::Course;
+use super::gouraud::{Planes as Shades, at, fields};
 use super::tint::Shade;
 use crate::span::{Rise, Shares};
 

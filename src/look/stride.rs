@@ -1,4 +1,4 @@
-//! How far exact places of a span in perspective may be from each other (H4, X2).
+//! How far exact places of a span in perspective may be from each other (H4, H5, X2).
 
 use super::perspective::Reciprocal;
 use crate::num::{leading_zeros, mul_17, mul_high, mul_high_unsigned};

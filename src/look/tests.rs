@@ -1,5 +1,6 @@
 //! Textured looks against plain references: f64, or integers of any width.
 
+mod ends;
 mod runs;
 mod triangles;
 
@@ -35,7 +36,8 @@ impl Texels {
             1 => Texture::index8(bytes, palette, width, height),
             2 => Texture::index4(bytes, palette, width, height),
             3 => Texture::index2(bytes, palette, width, height),
-            _ => Texture::index1(bytes, palette, width, height),
+            4 => Texture::index1(bytes, palette, width, height),
+            _ => Texture::computed(&Named, width, height),
         }
         .unwrap()
     }
@@ -43,6 +45,9 @@ impl Texels {
     /// The texel at a column and row of a texture.
     fn texel(&self, form: u32, width: u32, [column, row]: [u32; 2]) -> u16 {
         let i = (row * width + column) as usize;
+        if form == 5 {
+            return name(column, row);
+        }
         let bits = [16, 8, 4, 2, 1][form as usize];
         if form == 0 {
             return self.words[i];
@@ -50,6 +55,20 @@ impl Texels {
         let byte = u32::from(self.bytes[i * bits / 8]);
         let index = byte >> (i * bits % 8) & ((1 << bits) - 1);
         self.words[index as usize]
+    }
+}
+
+/// A word for a column and row.
+fn name(column: u32, row: u32) -> u16 {
+    ((column * 641) ^ (row * 5003)) as u16
+}
+
+/// A computed texture, whose texels are those words.
+struct Named;
+
+impl crate::scene::Texels for Named {
+    fn texel(&self, column: u16, row: u16) -> u16 {
+        name(column.into(), row.into())
     }
 }
 
@@ -73,7 +92,7 @@ const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
 fn some_texture(rng: &mut Rng, most: u32) -> (u32, [u32; 2]) {
     let mut side = || 1 << rng.below(most + 1);
     let sides = [side(), side()];
-    (rng.below(5), sides)
+    (rng.below(6), sides)
 }
 
 #[test]

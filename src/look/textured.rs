@@ -11,14 +11,14 @@
 
 use super::fetch::copy_from;
 use super::gouraud::{Planes as Shades, course, thin_shades, wide_shades};
-use super::mapping::{Corner, Mapping, Method, Short, Values, word_at};
+use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::shades::{shade_at, shade_planes, small_shade};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
 use super::{Fill, Paint, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::scene::{Budget, DrawState, Holes, ORIGIN, Texture, TexturePlace, Vertex};
+use crate::scene::{Budget, DrawState, Holes, ORIGIN, Texture, TexturePlace, Vertex, Words};
 use crate::span::{Size, Triangle, across, down};
 use core::marker::PhantomData;
 use core::slice::from_mut;
@@ -189,10 +189,8 @@ impl<F: Texel> Textured<F> {
         let state = draws.get(usize::from(planes.draw));
         if let Some(square) = state.and_then(DrawState::square) {
             // Without a mapping none is short enough.
-            match planes.mapping.short(place) {
-                Short::Straight => return planes.mapping.draw_straight(run, place, square),
-                Short::Arc => return planes.mapping.draw_arc(run, place, square),
-                Short::No => {}
+            if planes.mapping.draw_short(run, place, square) {
+                return;
             }
         }
         Self::other_texels(planes, place, state, run);
@@ -202,13 +200,13 @@ impl<F: Texel> Textured<F> {
     #[inline(never)]
     fn other_texels(planes: &Planes, place: Place, state: Option<&DrawState<'_>>, run: &mut [u16]) {
         match state.and_then(DrawState::texture) {
-            Some((texture, budget)) if planes.mapped => match texture.sampling() {
-                None => planes.mapping.draw_any(run, place, texture, budget),
-                Some(sampling) => {
-                    let (mapping, is_swapped) = (&planes.mapping, F::ordered(1) != 1);
-                    mapping.draw_sampled(run, place, texture, budget, sampling, is_swapped);
-                }
-            },
+            Some((texture, budget)) if planes.mapped => {
+                let words = match F::ordered(1) {
+                    1 => Words::Numbers,
+                    _ => Words::Swapped,
+                };
+                planes.mapping.draw_long(run, place, texture, budget, words);
+            }
             _ => run.fill(0xFFFF),
         }
     }
@@ -424,15 +422,19 @@ impl<F: Texel> Paint for Textured<F> {
         planes: &Planes,
         place: Place,
         draws: &[DrawState<'_>],
+        dithers: bool,
         run: &mut [u16],
     ) -> u32 {
-        let state = draws.get(usize::from(planes.draw));
-        let (Some(state), Some(holes)) = (state, planes.holes(draws)) else {
-            Self::fill(fill, planes, place, draws, run);
+        let Some(holes) = planes.holes(draws) else {
+            if dithers {
+                Self::fill_dithered(fill, planes, place, draws, run);
+            } else {
+                Self::fill(fill, planes, place, draws, run);
+            }
             return u32::MAX;
         };
         let shade = |run: &mut [u16]| {
-            if state.dithers {
+            if dithers {
                 Self::shade_dithered(planes, place, run);
             } else {
                 Self::shade(planes, place, run);
@@ -453,5 +455,18 @@ impl<F: Texel> Paint for Textured<F> {
         let opaque = holes.opaque(run);
         shade(run);
         opaque
+    }
+
+    #[inline(never)]
+    fn fill_mask(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        let texture = planes.state(draws).and_then(DrawState::texture);
+        let (true, Some((texture, budget))) = (planes.mapped, texture) else {
+            return;
+        };
+        if let Some(mask) = texture.mask() {
+            planes
+                .mapping
+                .draw_as(run, place, &mask, budget, Words::Masks);
+        }
     }
 }

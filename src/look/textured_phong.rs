@@ -8,9 +8,9 @@ use super::phong::{light, steps_of, word_of};
 use super::textured::{Planes, Textured};
 use super::tint::Texel;
 use super::{Fill, Paint, Place, ThinSpan};
-use crate::composite::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::geometry::Scale;
 use crate::pixel::Pixel;
+use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
@@ -50,17 +50,18 @@ fn set_up<T: Texel>(
     }
 }
 
-/// Lights pixels by their texels, which are words of `T`; those without one by white.
+/// Lights pixels by their texels, which are words of `T`, dithered or not; those without one by white.
 fn lit<F: Pixel, T: Texel>(
     state: &DrawState<'_>,
     planes: &Planes,
     place: Place,
+    dithers: bool,
     texels: &[u16],
     run: &mut [F::Word],
 ) {
     let colour = steps_of::<F>(state);
     let mut texels = texels.iter();
-    light::<F>(state, planes.shades(), place, run, || {
+    light::<F>(state, planes.shades(), place, dithers, run, || {
         let texel = texels.next().map_or([255; 3], |&texel| T::to_rgb8(texel));
         times(texel, colour)
     });
@@ -70,6 +71,7 @@ fn lit<F: Pixel, T: Texel>(
 fn fill<F: Pixel, T: Texel>(
     planes: &Planes,
     place: Place,
+    dithers: bool,
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
@@ -81,7 +83,7 @@ fn fill<F: Pixel, T: Texel>(
     for run in run.chunks_mut(AT_ONCE) {
         let texels = &mut texels[..run.len()];
         Textured::<T>::texels(planes, place, draws, texels);
-        lit::<F, T>(state, planes, place, texels, run);
+        lit::<F, T>(state, planes, place, dithers, texels, run);
         place.column += run.len() as u32;
     }
 }
@@ -92,10 +94,11 @@ fn fill_holed<F: Pixel, T: Texel>(
     planes: &Planes,
     place: Place,
     draws: &[DrawState<'_>],
+    dithers: bool,
     run: &mut [F::Word],
 ) -> u32 {
     let (Some(state), Some(holes)) = (planes.state(draws), planes.holes(draws)) else {
-        fill::<F, T>(planes, place, draws, run);
+        fill::<F, T>(planes, place, dithers, draws, run);
         return u32::MAX;
     };
     let mut texels = [0; 32];
@@ -103,10 +106,10 @@ fn fill_holed<F: Pixel, T: Texel>(
     let texels = &mut texels[..count];
     Textured::<T>::texels(planes, place, draws, texels);
     if !holes.are_filled {
-        lit::<F, T>(state, planes, place, texels, run);
+        lit::<F, T>(state, planes, place, dithers, texels, run);
         return holes.opaque(texels);
     }
-    lit::<F, T>(state, planes, place, &[], run);
+    lit::<F, T>(state, planes, place, dithers, &[], run);
     for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
         if texel != holes.key {
             *pixel = F::from_rgb8(T::to_rgb8(texel));
@@ -153,7 +156,17 @@ macro_rules! lit {
                 draws: &[DrawState<'_>],
                 run: &mut [<$format as PixelFormat>::Word],
             ) {
-                fill::<$format, $texel>(planes, place, draws, run);
+                fill::<$format, $texel>(planes, place, false, draws, run);
+            }
+
+            fn fill_dithered(
+                _: Fill,
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [<$format as PixelFormat>::Word],
+            ) {
+                fill::<$format, $texel>(planes, place, true, draws, run);
             }
 
             fn fill_holed(
@@ -161,9 +174,19 @@ macro_rules! lit {
                 planes: &Planes,
                 place: Place,
                 draws: &[DrawState<'_>],
+                dithers: bool,
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
-                fill_holed::<$format, $texel>(planes, place, draws, run)
+                fill_holed::<$format, $texel>(planes, place, draws, dithers, run)
+            }
+
+            fn fill_mask(
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [u16],
+            ) {
+                Textured::<$texel>::fill_mask(planes, place, draws, run);
             }
         }
     )+};

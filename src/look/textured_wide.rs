@@ -7,8 +7,8 @@
 use super::textured::{Planes, Textured};
 use super::tint::Shade;
 use super::{Fill, Paint, Place, ThinSpan};
-use crate::composite::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::geometry::Scale;
+use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::scene::DrawState;
 use crate::span::{Size, Triangle};
 
@@ -152,9 +152,19 @@ macro_rules! wide {
                 planes: &Planes,
                 place: Place,
                 draws: &[DrawState<'_>],
+                _: bool,
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
                 fill_holed::<$format>(planes, place, draws, run)
+            }
+
+            fn fill_mask(
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [u16],
+            ) {
+                Texels::fill_mask(planes, place, draws, run);
             }
         }
     )+};

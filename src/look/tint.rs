@@ -16,9 +16,9 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
-use crate::composite::{Rgb565, Rgb565Bytes};
 use crate::pixel::Pixel;
 use crate::pixel::threshold;
+use crate::pixel::{Rgb565, Rgb565Bytes};
 use core::hint::black_box as unknown;
 
 /// Light of a pixel, or its step, in two words: 16 bits a channel, full light is 2^15.

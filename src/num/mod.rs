@@ -18,13 +18,10 @@
 //! | 13.3 unsigned | `i32` | 0 ..= 8191.875 | screen coordinates in guard space |
 //! | 16.16 signed | `i32` | modulo 2^32 | planes of colour |
 //! | 1.31 unsigned | `u32` | 0 ..= 1 | depth, 1/w with the near plane at 1 |
-//! | 2 + 14 | [`BlockFix16`] | 0 ..< 1 | depth in 16 bits |
 //! | 13.19 signed | `i32` | modulo 8192 | texels along a span |
 
 mod bits;
 mod block;
-mod block_fix;
-mod edge;
 mod inverse_root;
 mod log;
 mod plane;
@@ -34,25 +31,19 @@ mod quotient;
 pub(crate) mod random;
 mod recip;
 mod recip16;
-mod recip_table;
 mod short;
-mod small;
 
 pub use bits::{bit, take_first};
 pub use block::{Block, shift_round};
-pub use block_fix::BlockFix16;
-pub use edge::{Edge, column_exact, first_at};
 pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;
 pub use log::{exp2, log2};
 pub use plane::{InverseArea, Plane};
-pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned, turn};
+pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned};
 pub use quotient::{divide, root};
 pub use recip::recip;
-pub use recip_table::Reciprocal;
 pub use recip16::{mul_17, mul_recip_16, of_height, recip_16, slope_of};
 pub use short::SHORT;
-pub use small::SmallArea;
 
 /// The pixel column and line that lies at the middle of guard space.
 pub const GUARD_CENTRE: i32 = 4096;

@@ -18,13 +18,6 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane that is 0 everywhere.
-    pub const ZERO: Self = Self {
-        at: 0,
-        dx: 0,
-        dy: 0,
-    };
-
     /// The value at the centre of pixel (`column`, `line`) of guard space.
     #[inline(always)]
     #[must_use]
@@ -84,14 +77,6 @@ impl InverseArea {
             x0,
             y0,
         })
-    }
-
-    /// The doubled area, in units of 1/64 pixel.
-    #[inline]
-    #[must_use]
-    pub fn doubled(&self) -> u64 {
-        let product = |a: i32, b: i32| i64::from(a) * i64::from(b);
-        (product(self.dx1, self.dy2) - product(self.dx2, self.dy1)).unsigned_abs()
     }
 
     /// The plane through `value` at the three corners (in the order given to

@@ -38,13 +38,6 @@ pub const fn mul_16(a: i32, b: i16) -> i32 {
     }
 }
 
-/// `n / d` for `d` in 2^15 ..< 2^16.
-#[inline(always)]
-#[must_use]
-pub const fn divide_16(n: u32, d: u32) -> u32 {
-    if SHORT { short::divide(n, d).0 } else { n / d }
-}
-
 /// Zero bits above the topmost one, 32 for 0.
 #[inline(always)]
 #[must_use]
@@ -53,20 +46,5 @@ pub fn leading_zeros(x: u32) -> u32 {
         short::leading_zeros(x)
     } else {
         x.leading_zeros()
-    }
-}
-
-/// Twice the area of a triangle by corners in 13.3, in units of 1/64 pixel: positive where they go
-/// clockwise on a screen whose lines go down. Only its sign counts.
-#[inline(always)]
-#[must_use]
-pub fn turn(p: [(u16, u16); 3]) -> i64 {
-    let d = |a: u16, b: u16| i32::from(b) - i32::from(a);
-    let (dx1, dy1) = (d(p[0].0, p[1].0), d(p[0].1, p[1].1));
-    let (dx2, dy2) = (d(p[0].0, p[2].0), d(p[0].1, p[2].1));
-    if SHORT {
-        i64::from(short::turn((dx1, dy1), (dx2, dy2)))
-    } else {
-        i64::from(dx1) * i64::from(dy2) - i64::from(dx2) * i64::from(dy1)
     }
 }

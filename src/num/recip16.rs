@@ -1,4 +1,5 @@
-//! Reciprocals of 16 bits and the short products around them, the same bits on every target.
+//! Reciprocals of 16 bits, by one Newton step where there is no divider (H4), and the short products around them, the
+//! same bits on every target.
 //!
 //! | what | Cortex-M4 | Cortex-M0+ |
 //! |---|---|---|

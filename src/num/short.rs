@@ -42,61 +42,6 @@ pub(super) const fn high_unsigned(a: u32, b: u32) -> u32 {
     ah * bh + (first >> 16) + (second >> 16)
 }
 
-/// `floor(a b / 2^9)` modulo 2^32, for `a` of at most 512 in magnitude and `b` without a sign bit.
-#[inline(always)]
-pub(super) const fn side_times(a: i32, b: i32) -> i32 {
-    let (high, low) = halves(b);
-    ((a * high) << 7).wrapping_add((a * low) >> 9)
-}
-
-/// `floor(a b / 8)` modulo 2^32, for `b` of at most 16 in magnitude.
-#[inline(always)]
-pub(super) const fn eighth(a: i32, b: i32) -> i32 {
-    (a >> 3).wrapping_mul(b).wrapping_add(((a & 7) * b) >> 3)
-}
-
-/// `floor((a 2^32 - b c) / 2^32)` modulo 2^32.
-#[inline(always)]
-pub(super) const fn less_product(a: i32, b: i32, c: i32) -> i32 {
-    // A lower word that is taken off takes one from the upper.
-    let borrow = (b.wrapping_mul(c) != 0) as i32;
-    a.wrapping_sub(high(b, c)).wrapping_sub(borrow)
-}
-
-/// A number with the sign of `dx1 dy2 - dx2 dy1`, of differences in 17 bits.
-#[inline(always)]
-pub(super) fn turn((dx1, dy1): (i32, i32), (dx2, dy2): (i32, i32)) -> i32 {
-    let size = |d: i32| d ^ (d >> 31);
-    if (size(dx1) | size(dy1) | size(dx2) | size(dy2)) < 1 << 15 {
-        dx1 * dy2 - dx2 * dy1
-    } else {
-        let wide = |a: i32, b: i32| i64::from(a) * i64::from(b);
-        (wide(dx1, dy2) - wide(dx2, dy1)).signum() as i32
-    }
-}
-
-/// `(2^31 - 1) / d` for odd `d` below 512.
-static ODD: [u32; 256] = {
-    let mut odd = [0; 256];
-    let mut i = 0;
-    while i < 256 {
-        odd[i] = i32::MAX as u32 / (2 * i as u32 + 1);
-        i += 1;
-    }
-    odd
-};
-
-/// `(2^31 - 1) / d` for `d` in 1 ..= 512.
-#[inline(always)]
-pub(super) fn of_side(d: u32) -> u32 {
-    let (mut odd, mut down) = (d, 0);
-    while odd & 1 == 0 && down < 9 {
-        odd >>= 1;
-        down += 1;
-    }
-    ODD[(odd >> 1) as usize & 255] >> down
-}
-
 /// `2^31 / d` for the middle of each 256 of `d` in 2^15 ..< 2^16.
 static SEEDS: [u16; 128] = {
     let mut seeds = [0; 128];
@@ -199,44 +144,11 @@ mod tests {
             assert_eq!(high_unsigned(ua, ub), (unsigned >> 32) as u32, "{ua} {ub}");
             let short = i64::from(a) * i64::from(b as i16);
             assert_eq!(by_16(a, b as i16), (short >> 16) as i32, "{a} {}", b as i16);
-            let less = (i64::from(!a) << 32).wrapping_sub(wide) >> 32;
-            assert_eq!(less_product(!a, a, b), less as i32, "{a} {b}");
-            let side = a % 513;
-            let positive = b & i32::MAX;
-            let expected = (i64::from(side) * i64::from(positive)) >> 9;
-            assert_eq!(
-                side_times(side, positive),
-                expected as i32,
-                "{side} {positive}"
-            );
-            let few = b % 17;
-            let expected = (i64::from(a) * i64::from(few)) >> 3;
-            assert_eq!(eighth(a, few), expected as i32, "{a} {few}");
-        }
-    }
-
-    #[test]
-    fn turns_have_the_sign_of_the_area() {
-        let mut rng = Rng(42);
-        for i in 0..500_000 {
-            let size = [4, 300, 40_000, 65_536][i % 4];
-            let mut d = || (rng.below(2 * size) as i32 - size as i32).clamp(-0xFFFF, 0xFFFF);
-            let (one, two) = ((d(), d()), (d(), d()));
-            let wide = |a: i32, b: i32| i64::from(a) * i64::from(b);
-            let area = wide(one.0, two.1) - wide(two.0, one.1);
-            assert_eq!(
-                i64::from(turn(one, two).signum()),
-                area.signum(),
-                "{one:?} {two:?}"
-            );
         }
     }
 
     #[test]
     fn every_divisor_divides() {
-        for d in 1..=512 {
-            assert_eq!(of_side(d), i32::MAX as u32 / d, "{d}");
-        }
         let mut rng = Rng(43);
         for d in 1 << 15..1 << 16 {
             let some = [(); 24].map(|()| rng.below(u32::MAX));

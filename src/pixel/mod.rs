@@ -1,23 +1,36 @@
-//! Formats of pixels, and pixels as the new hot path makes them: of one word of colour, or of two.
+//! Formats of pixels, and how pixels are made: of one word of colour, or of two.
+//!
+//! | file | there |
+//! |---|---|
+//! | `format` | how a pixel looks in the line buffer: RGB565 in three orders of bytes, RGB888 |
+//! | `xrgb`, `grey`, `indexed` | 32-bit words; 8 bits of grey and 1 bit made of it; numbers of a palette, which may differ from line to line |
+//! | `blend`, `mix` | a new pixel and the one that is there become one: by any blend, by a mode |
+//! | `mix_565`, `mix_bytes` | two pixels of 16 bits in a register; four channels of 8 |
+//! | `between` | lines and columns doubled |
+//! | `ordered` | the order of a 4 x 4 dither |
 //!
 //! A vertex's colour is one word: red in bits 31..21, blue in 20..11, green in 10..0, steps of the output and
 //! the fraction bits that are left. Where the output has 16 bits, that word can step from pixel to pixel
 //! as it is: two logical operations, a store and an addition a pixel.
 
+mod between;
 mod blend;
-
-pub(crate) use blend::blend;
-
-pub use crate::composite::{
-    Cut, CutOff, Dithered, Grey8, Index4, Index8, Indexed, LinePalettes, Mix, OneWord, Ordered,
-    PaletteTable, PixelFormat, Pixels, Ramp, Ranks, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le,
-    Rgb888, Threshold, TwoWords, Xrgb8888, expand_indices, mono_page, mono_row,
-};
-
+mod format;
+mod grey;
+mod indexed;
 mod mix;
+mod mix_565;
+mod mix_bytes;
 mod ordered;
+mod xrgb;
 
+pub(crate) use blend::{blend, blend_each};
+pub use format::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
+pub use grey::{Grey8, mono_page, mono_row};
+pub use indexed::{Index4, Index8, Indexed, LinePalettes, PaletteTable, expand_indices};
+pub use mix::Mix;
 pub(crate) use ordered::threshold;
+pub use xrgb::Xrgb8888;
 
 /// What pixels of a format are made of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,15 +67,6 @@ pub trait Pixel: PixelFormat {
     /// The pixel of fields of 16 times its steps, to the nearest step, halves up.
     fn narrow(fields: [u32; 2]) -> Self::Word;
 
-    /// Blends `new` pixels over `old` ones, as many as both have: the same bits as
-    /// [`mix`](PixelFormat::mix), and where that has loops for each mode, in one small loop.
-    fn mix_few(old: &mut [Self::Word], new: &[Self::Word], mix: Mix)
-    where
-        Self: Sized,
-    {
-        Self::mix(old, new, mix);
-    }
-
     /// A line that is sent of a picture with half as many lines and columns: from the drawn line
     /// that it lies in and the one on its other side, for
     /// [`send_doubled`](crate::scan_out::send_doubled).
@@ -70,7 +74,7 @@ pub trait Pixel: PixelFormat {
     where
         Self: Sized,
     {
-        mix::mix::<Self>(near, far, sent);
+        between::mix::<Self>(near, far, sent);
     }
 }
 
@@ -79,17 +83,6 @@ pub trait Pixel: PixelFormat {
 fn twice_565(word: u32) -> u32 {
     let fields = word & 0xF81F_07E0;
     fields | fields.rotate_right(16)
-}
-
-/// Both halves of a word with their bytes swapped: one instruction for two pixels, where it is two for each alone.
-#[inline(always)]
-fn swapped_halves(word: u32) -> u32 {
-    word.swap_bytes().rotate_left(16)
-}
-
-#[inline(always)]
-fn halves(word: u32) -> [u16; 2] {
-    [word as u16, (word >> 16) as u16]
 }
 
 impl Pixel for Rgb565 {
@@ -102,16 +95,12 @@ impl Pixel for Rgb565 {
 
     #[inline(always)]
     fn widen(word: u16) -> [u32; 2] {
-        mix::widen_565(word)
-    }
-
-    fn mix_few(old: &mut [u16], new: &[u16], mix: Mix) {
-        blend::mix_565(old, new, |pair| pair, mix);
+        between::widen_565(word)
     }
 
     #[inline(always)]
     fn narrow(fields: [u32; 2]) -> u16 {
-        mix::narrow_565(fields)
+        between::narrow_565(fields)
     }
 }
 
@@ -128,24 +117,16 @@ impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
 
     #[inline(always)]
     fn widen(word: u16) -> [u32; 2] {
-        mix::widen_565(if BIG {
+        between::widen_565(if BIG {
             u16::from_be(word)
         } else {
             u16::from_le(word)
         })
     }
 
-    fn mix_few(old: &mut [u16], new: &[u16], mix: Mix) {
-        if BIG == cfg!(target_endian = "big") {
-            blend::mix_565(old, new, |pair| pair, mix);
-        } else {
-            blend::mix_565(old, new, swapped_halves, mix);
-        }
-    }
-
     #[inline(always)]
     fn narrow(fields: [u32; 2]) -> u16 {
-        let word = mix::narrow_565(fields);
+        let word = between::narrow_565(fields);
         if BIG { word.to_be() } else { word.to_le() }
     }
 }
@@ -232,9 +213,9 @@ mod tests {
             let pair = (red << 21 | blue << 6, green << 21);
             assert_eq!(Rgb565::of_word(word), Rgb565::pack_words(pair.0, pair.1));
             assert_eq!(Rgb888::of_word(word), Rgb888::pack_words(pair.0, pair.1));
-            let big = crate::composite::Rgb565Be::of_word(word);
+            let big = Rgb565Be::of_word(word);
             assert_eq!(big.to_ne_bytes(), Rgb565::of_word(word).to_be_bytes());
-            let little = crate::composite::Rgb565Le::of_word(word);
+            let little = Rgb565Le::of_word(word);
             assert_eq!(little.to_ne_bytes(), Rgb565::of_word(word).to_le_bytes());
         }
     }

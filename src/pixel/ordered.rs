@@ -1,12 +1,14 @@
 //! The order of a 4 x 4 dither over the picture (H10).
 
-use crate::composite::{Ordered, Ranks};
+/// The order in which pixels of a tile take the next step, line by line: each 2 x 2 block, line and diagonal has ranks
+/// from all quarters.
+const RANKS: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 7, 13, 5]];
 
 /// By how much a place of the picture raises a colour before it is cut to a step: -15 to 15 of 32 parts of a step, all
 /// of them once in 4 x 4 pixels.
 #[inline(always)]
 pub(crate) fn threshold(column: u32, line: u32) -> i32 {
-    2 * i32::from(Ordered::RANKS[line as usize & 3][column as usize & 3]) - 15
+    2 * i32::from(RANKS[line as usize & 3][column as usize & 3]) - 15
 }
 
 #[cfg(test)]

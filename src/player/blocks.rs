@@ -103,9 +103,12 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
         self.counts.vertices += u32::from(run.header.count);
         let mut drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
         let (colour, sides) = (self.state.draw.colour, drawer.sides());
-        self.long.take(words, run, colour, sides, |triangles| {
-            drawer.draw_long(triangles, run.header.text, run.header.prsp);
-        });
+        let has_alphas = self.has_alphas;
+        self.long
+            .take(words, run, colour, sides, |triangles, alphas| {
+                let alphas = if has_alphas { alphas } else { &[] };
+                drawer.draw_long(triangles, alphas, run.header);
+            });
         Ok(())
     }
 
@@ -149,8 +152,7 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
             dithers: self.state.draw.dither,
             sampling: self.settings.sampling,
         };
-        let texture = self.shelf.texture::<L::Pixel>(words, asked)?;
-        self.state.texture = Some(texture);
+        self.state.texture = Some(self.shelf.texture::<L::Pixel>(words, asked)?);
         Ok(())
     }
 

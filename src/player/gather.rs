@@ -34,6 +34,8 @@ pub(crate) struct Unpacked<'m, C> {
     pub(crate) colours: &'m mut [[u8; 3]],
     pub(crate) indices: &'m mut [u16],
     pub(crate) places: &'m mut [[i32; 2]],
+    /// None where alphas are passed over.
+    pub(crate) alphas: &'m mut [u8],
 }
 
 /// Where an attribute of the table is.
@@ -53,6 +55,8 @@ struct Table {
     normal: Column,
     colour: Column,
     texture: Option<Slot>,
+    /// Whether alphas were unpacked.
+    alphas: bool,
     prsp: bool,
     /// The sides of the texture for which places were unpacked.
     placed: Option<[u8; 2]>,
@@ -78,6 +82,7 @@ enum Kind {
 struct Attributes {
     normals: bool,
     colours: bool,
+    alphas: bool,
     /// Places on a texture.
     places: bool,
     /// They are to be exact.
@@ -119,6 +124,8 @@ pub(crate) struct Gathered<'a, C> {
     pub(crate) mesh: Mesh<'a, C>,
     /// The places of its vertices on the texture that is drawn with.
     pub(crate) places: Places<'a>,
+    /// The alphas of its vertices, if there are any.
+    pub(crate) alphas: &'a [u8],
     /// Whether they are to be exact.
     pub(crate) prsp: bool,
     /// Its vertices are points of so many pixels each way, and it has no faces.
@@ -198,6 +205,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         for (is, len) in [
             (has.normals, m.normals.len()),
             (has.colours, m.colours.len()),
+            (has.alphas, m.alphas.len()),
             (has.places, m.places.len()),
         ] {
             room = if is { room.min(len) } else { room };
@@ -233,7 +241,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         let m = &self.memory;
         let indices = m.indices.get(..self.indices).unwrap_or(&[]);
         let mut points = None;
-        let (mesh, prsp) = match self.kind {
+        let (mesh, alphas, prsp) = match self.kind {
             Kind::Nothing => return None,
             Kind::Table => {
                 let t = self.table.as_ref()?;
@@ -244,11 +252,12 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
                     colours: column(words, t, t.colour, m.colours.get(..n)),
                     faces: triangles(indices),
                 };
-                (mesh, t.prsp)
+                (mesh, m.alphas.get(..n).filter(|_| t.alphas), t.prsp)
             }
             Kind::Run { faces, has } => {
                 let normals = m.normals.get(run.clone()).filter(|_| has.normals);
                 let colours = m.colours.get(run.clone()).filter(|_| has.colours);
+                let alphas = m.alphas.get(run.clone()).filter(|_| has.alphas);
                 if let RunFaces::Points(size) = faces {
                     points = Some(size);
                 }
@@ -258,7 +267,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
                     colours: colours.unwrap_or(&[]),
                     faces: faces.of(indices),
                 };
-                (mesh, has.prsp)
+                (mesh, alphas, has.prsp)
             }
         };
         let drawn = match points {
@@ -268,6 +277,7 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         drawn.then(|| Gathered {
             mesh,
             places: placed.of(m.places),
+            alphas: alphas.unwrap_or(&[]),
             prsp,
             points,
             block: self.block,
@@ -295,6 +305,9 @@ impl<'m, C: ListCoordinate> Gather<'m, C> {
         }
         if has.colours {
             moved(self.memory.colours, self.base, from, have);
+        }
+        if has.alphas {
+            moved(self.memory.alphas, self.base, from, have);
         }
         if has.places {
             let slots = self.memory.places.get_mut(self.base..).unwrap_or(&mut []);

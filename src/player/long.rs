@@ -1,9 +1,9 @@
 //! Vertices that were set up beforehand: strips and fans on the screen (H11).
 
 use super::gather::texels;
-use crate::geometry::ScreenVertex;
 use crate::list::{Run, Strip, Words};
 use crate::scene::ScreenCorner;
+use crate::scene::ScreenVertex;
 use heapless::Vec;
 
 /// Triangles that are drawn together.
@@ -15,6 +15,7 @@ pub(super) struct LongStrip {
     strip: Strip,
     /// Its last three vertices, and room for the next.
     vertices: [ScreenCorner; 4],
+    alphas: [u8; 4],
 }
 
 impl LongStrip {
@@ -24,14 +25,15 @@ impl LongStrip {
     }
 
     /// Takes the vertices of a block; each of them has this colour, unless it has one of its own. Places on a texture with
-    /// sides of these logarithms are made texels of. Triangles go to `draw`, some at a time.
+    /// sides of these logarithms are made texels of. Triangles go to `draw`, some at a time, with the alphas of their
+    /// corners.
     pub(super) fn take<'w>(
         &mut self,
         words: impl Words<'w>,
         run: Run,
         colour: [u8; 3],
         sides: Option<[u8; 2]>,
-        mut draw: impl FnMut(&[[ScreenCorner; 3]]),
+        mut draw: impl FnMut(&[[ScreenCorner; 3]], &[u8]),
     ) {
         let header = run.header;
         if header.new {
@@ -44,6 +46,7 @@ impl LongStrip {
             word
         };
         let mut faces: Vec<[ScreenCorner; 3], AT_ONCE> = Vec::new();
+        let mut alphas: Vec<[u8; 3], AT_ONCE> = Vec::new();
         for _ in 0..header.count {
             let place = next();
             let mut corner = ScreenCorner {
@@ -55,9 +58,10 @@ impl LongStrip {
                 },
                 texel: [0; 2],
             };
+            let mut alpha = 255;
             if header.shade {
-                let [r, g, b, _] = next().to_le_bytes();
-                corner.vertex.colour = [r, g, b];
+                let [r, g, b, a] = next().to_le_bytes();
+                (corner.vertex.colour, alpha) = ([r, g, b], a);
             }
             if header.text {
                 let word = next();
@@ -68,19 +72,21 @@ impl LongStrip {
             // Of four at most three are kept.
             let free = (0..4).find(|i| !kept.contains(i)).unwrap_or_default();
             self.vertices[usize::from(free)] = corner;
+            self.alphas[usize::from(free)] = alpha;
             let Some(face) = self.strip.push(free, header.rm) else {
                 continue;
             };
-            let face = face.map(|i| self.vertices[usize::from(i) & 3]);
-            if faces.push(face).is_err() {
-                draw(&faces);
+            if faces.is_full() {
+                draw(&faces, alphas.as_flattened());
                 faces.clear();
-                // There is room now.
-                let _ = faces.push(face);
+                alphas.clear();
             }
+            // There is room.
+            let _ = faces.push(face.map(|i| self.vertices[usize::from(i) & 3]));
+            let _ = alphas.push(face.map(|i| self.alphas[usize::from(i) & 3]));
         }
         if !faces.is_empty() {
-            draw(&faces);
+            draw(&faces, alphas.as_flattened());
         }
     }
 }

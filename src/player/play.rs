@@ -36,14 +36,19 @@ pub struct PlayerMemory<'m, 't, C = i16> {
     pub indices: &'m mut [u16],
     /// Texture places, 8 bytes each, as many as positions; none where nothing is textured.
     pub places: &'m mut [[i32; 2]],
+    /// Alphas of vertices whose colours are 4x8U, one byte each, as many as positions; none, and alphas of vertices are
+    /// passed over.
+    pub alphas: &'m mut [u8],
     /// One for each number of a texture and of a palette; none where nothing is textured.
     pub names: &'m [TextureSlot],
-    /// One for each pair of a texture and a palette that is drawn with.
+    /// One for each pair of a texture and a palette that is drawn with; two where texels are neither opaque nor
+    /// transparent, or some are not dithered where the rest is.
     pub textures: &'t mut [TextureRoom<'t>],
-    /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 320 for one of 6 bits, and one a texel
-    /// of other forms, but for those of 16 bits in the panel's order of bytes.
+    /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 256 for one of 6 bits, and one a texel
+    /// of other forms, but for those of 16 bits in the panel's order of bytes. Twice as many where there are two
+    /// textures of a pair.
     pub texels: &'t mut [u16],
-    /// Levels of detail below the first: up to 3 for each texture that has several.
+    /// Levels of detail below the first: up to 3 for each texture that has several, likewise.
     pub levels: &'t mut [Texture<'t>],
     /// One for each overlay of a frame; none where there are none. The
     /// [`ListOverlays`](crate::overlay::ListOverlays) that paint them have the same ones, and the names above have those
@@ -105,6 +110,8 @@ impl Default for PlayerSettings<'_, '_> {
 /// | LIGHT 0 to 7, highlights, where memory has a [`LightRoom`](super::LightRoom) | `lights` |
 /// | MATERIAL | `colour`, `cull`, `blend` of its opacity; not lit: no light |
 /// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
+/// | alphas of vertices, where memory has [room](PlayerMemory::alphas) for them | `alphas`; where one is below 255, a `blend` by them |
+/// | texels of other alphas, and of the D bit | a [mask](crate::scene::Texture::masked); with alphas, a `blend` by them |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |
 /// | WINDOW | `scissor` |
 /// | POINTS, LONG | [`Scene::draw_points`], [`Scene::draw_screen`] |
@@ -112,8 +119,7 @@ impl Default for PlayerSettings<'_, '_> {
 /// | nothing | `shading`, `depth`, `dither`, `priority`, `application`, `lamps`: those of the settings |
 ///
 /// **What a player does not have is refused, never left out**: [`Reason::Missing`](crate::list::Reason::Missing) says
-/// what, and where. These are texels that are neither opaque nor transparent, places of 32 bits where `C` is `i16`,
-/// coloured or several lights and highlights without memory for them, and what the look of the scene cannot have. A list
+/// what, and where. These are places of 32 bits where `C` is `i16`, coloured or several lights and highlights without memory for them, and what the look of the scene cannot have. A list
 /// that is started is walked once without drawing, as far as the budget reaches, before any of it is drawn: what is malformed, missing or too large for the memory is an error then, and the scene
 /// is as it was. [`ListCommand::Restart`](crate::list::ListCommand) plays the same list again without that walk.
 ///
@@ -147,6 +153,8 @@ pub struct Player<'m, 't, L, C = i16> {
     pub(super) settings: PlayerSettings<'m, 't>,
     pub(super) walker: Walker,
     pub(super) gather: Gather<'m, C>,
+    /// Whether alphas of vertices count.
+    pub(super) has_alphas: bool,
     pub(super) long: LongStrip,
     pub(super) names: TextureSlots<'m>,
     pub(super) overlays: OverlaySlots<'m>,
@@ -175,12 +183,14 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
     pub fn new(memory: PlayerMemory<'m, 't, C>, settings: PlayerSettings<'m, 't>) -> Self {
         Self {
             walker: Walker::new(),
+            has_alphas: !memory.alphas.is_empty(),
             gather: Gather::new(Unpacked {
                 positions: memory.positions,
                 normals: memory.normals,
                 colours: memory.colours,
                 indices: memory.indices,
                 places: memory.places,
+                alphas: memory.alphas,
             }),
             long: LongStrip::default(),
             names: TextureSlots(memory.names),

@@ -3,13 +3,14 @@
 use super::gather::{Gathered, ListCoordinate, Out, Places};
 use super::lights;
 use super::play::Stage;
+use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, EventSink, Notice};
 use crate::geometry::{Affine, Cull, Light};
-use crate::list::{Lent, Material, Reason};
+use crate::list::{Header, Lent, Material, Reason};
 use crate::look::Look;
 use crate::scene::{
-    Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin, Texture,
+    Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
 };
 
 /// What is drawn with next.
@@ -26,7 +27,7 @@ pub(super) struct State<'m, 't> {
     /// Pixels each way that a point has.
     pub(super) point_size: u8,
     /// The texture that the material names, once something is drawn with it.
-    pub(super) texture: Option<&'t Texture<'t>>,
+    pub(super) texture: Option<Listed<'t>>,
     /// The texture is to be found anew.
     pub(super) is_stale: bool,
 }
@@ -81,6 +82,15 @@ impl<'m, 't> State<'m, 't> {
         self.shine();
     }
 
+    /// The blend of what has the texture or has none, and has alphas or none.
+    fn blend_with(&self, textured: bool, has_alphas: bool) -> Option<Blend> {
+        let texture = self.texture.filter(|_| textured);
+        match has_alphas || texture.is_some_and(|listed| listed.is_translucent) {
+            true => Some(self.draw.blend.map_or(Blend::ALPHA, Blend::by_alpha)),
+            false => self.draw.blend,
+        }
+    }
+
     /// Whether several lights of the settings fall on what is drawn.
     pub(super) fn has_lights(&self) -> bool {
         self.lights.is_some()
@@ -97,6 +107,14 @@ impl<'m, 't> State<'m, 't> {
             .window
             .map(|w| Scissor::inside(w.left..w.right, w.top..w.bottom));
         self.draw.scissor = scissor.or(granted).or(settings.draw.scissor);
+    }
+}
+
+/// Alphas, if one of them is not 255.
+fn seen(alphas: &[u8]) -> &[u8] {
+    match alphas.iter().all(|alpha| *alpha == 255) {
+        true => &[],
+        false => alphas,
     }
 }
 
@@ -173,8 +191,10 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             return;
         };
         let skin = self.state.texture.zip(places);
-        let texture = skin.map(|(texture, places)| Skin {
-            texture,
+        let alphas = seen(gathered.alphas);
+        let blend = self.state.blend_with(skin.is_some(), !alphas.is_empty());
+        let texture = skin.map(|(listed, places)| Skin {
+            texture: listed.texture,
             places,
             budget: match gathered.prsp {
                 true => self.budget,
@@ -187,6 +207,8 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             let begin = &self.state.draw;
             let draw = Draw {
                 texture,
+                alphas,
+                blend,
                 lights: lights.or(begin.lights),
                 ..begin.with_mesh(gathered.mesh)
             };
@@ -204,18 +226,25 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     pub(super) fn draw_long(
         &mut self,
         triangles: &[[ScreenCorner; 3]],
-        textured: bool,
-        prsp: bool,
+        alphas: &[u8],
+        header: Header,
     ) {
         let Some(scene) = &mut self.scene else {
             return;
         };
-        let texture = self.state.texture.filter(|_| textured);
+        let texture = self.state.texture.filter(|_| header.text);
+        let alphas = seen(alphas);
         let draw = Draw {
-            texture: texture.map(|texture| Skin {
-                texture,
+            alphas,
+            blend: self.state.blend_with(header.text, !alphas.is_empty()),
+            texture: texture.map(|listed| Skin {
+                texture: listed.texture,
                 places: &[],
-                budget: if prsp { self.budget } else { Budget::FAST },
+                budget: if header.prsp {
+                    self.budget
+                } else {
+                    Budget::FAST
+                },
             }),
             ..self.state.draw
         };
@@ -260,8 +289,8 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
 
     /// The sides of the texture, as logarithms.
     pub(super) fn sides(&self) -> Option<[u8; 2]> {
-        let sides = |t: &Texture<'_>| [t.log_width() as u8, t.log_height() as u8];
-        self.state.texture.map(sides)
+        let texture = self.state.texture?.texture;
+        Some([texture.log_width() as u8, texture.log_height() as u8])
     }
 
     #[cold]

@@ -3,16 +3,18 @@
 //! A texture is made when a block first draws with a number and its palette, and stays as long as the memory is lent:
 //! the same pair is found again, so a list that is played each frame makes its textures once. Indices of 1, 2, 4 and
 //! 8 bits stay where they lie, and so do texels of 16 bits where the panel has their order of bytes; palettes, and
-//! other texels, become words of the panel in memory that is lent.
+//! other texels, become words of the panel in memory that is lent. Where all are opaque or transparent, a word stands
+//! for those that are transparent; else there is a mask, in a room of its own, which says also which are not dithered.
 
-use crate::composite::{PixelFormat, Rgb565};
 use crate::list::{Lent, Missing, Pair, Reason, TexelForm, Texels, Words};
-use crate::scene::{Sampling, Texture, TextureError, Wrap};
+use crate::pixel::PixelFormat;
+use crate::scene::{MaskTexel, Sampling, Texture, TextureError, Wrap};
 
 /// Room for a texture that is drawn with.
 #[derive(Debug)]
 pub struct TextureRoom<'t> {
     made: Option<Texture<'t>>,
+    is_translucent: bool,
     key: Key,
     /// The one that was made before.
     before: Option<&'t Self>,
@@ -22,6 +24,7 @@ impl TextureRoom<'_> {
     /// Empty.
     pub const EMPTY: Self = Self {
         made: None,
+        is_translucent: false,
         key: Key {
             texels: 0,
             colours: 0,
@@ -30,9 +33,19 @@ impl TextureRoom<'_> {
             log_sides: [0; 2],
             levels: 1,
             clamped: false,
+            is_mask: false,
         },
         before: None,
     };
+}
+
+impl<'t> TextureRoom<'t> {
+    fn listed(&'t self) -> Option<Listed<'t>> {
+        Some(Listed {
+            texture: self.made.as_ref()?,
+            is_translucent: self.is_translucent,
+        })
+    }
 }
 
 /// What tells textures apart: where texels and colours lie in memory, and how they are read.
@@ -45,6 +58,15 @@ struct Key {
     log_sides: [u8; 2],
     levels: u8,
     clamped: bool,
+    is_mask: bool,
+}
+
+/// A texture that was made.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Listed<'t> {
+    pub(super) texture: &'t Texture<'t>,
+    /// Whether texels are neither opaque nor transparent.
+    pub(super) is_translucent: bool,
 }
 
 /// A texture that is to be drawn with.
@@ -78,6 +100,18 @@ struct Source<'t> {
 struct Panel {
     word: fn([u8; 3]) -> u16,
     dithers: bool,
+}
+
+/// Texels or colours of a palette.
+#[derive(Clone, Copy, Default)]
+struct Made<'t> {
+    /// As words of the panel; none where they are such words as they lie.
+    words: Option<&'t [u16]>,
+    /// The word of those that are transparent.
+    key: Option<u16>,
+    /// What else is said of them.
+    masks: Option<&'t [u16]>,
+    is_translucent: bool,
 }
 
 /// A texel, or a colour of a palette.
@@ -115,7 +149,7 @@ impl<'t> Shelf<'t> {
             dithers,
             sampling,
         }: Asked,
-    ) -> Result<&'t Texture<'t>, Reason> {
+    ) -> Result<Listed<'t>, Reason> {
         let in_place = |at, count| {
             let slice = words.slice(at, count);
             let readable = slice.filter(|_| cfg!(target_endian = "little"));
@@ -132,15 +166,25 @@ impl<'t> Shelf<'t> {
         let key = source.key();
         let mut known = self.last;
         while let Some(room) = known {
-            if let (true, Some(made)) = (room.key == key, &room.made) {
-                return Ok(made);
+            if let (true, Some(listed)) = (room.key == key, room.listed()) {
+                return Ok(listed);
             }
             known = room.before;
         }
         if self.free.is_empty() {
             return Err(Reason::Lent(Lent::Textures));
         }
-        let made = self.make::<F>(source, dithers, sampling)?;
+        let (made, is_translucent) = self.make::<F>(source, dithers, sampling)?;
+        self.keep(made, is_translucent, key)
+    }
+
+    /// Keeps a texture in a room.
+    fn keep(
+        &mut self,
+        made: Texture<'t>,
+        is_translucent: bool,
+        key: Key,
+    ) -> Result<Listed<'t>, Reason> {
         let full = Reason::Lent(Lent::Textures);
         let (room, free) = core::mem::take(&mut self.free)
             .split_first_mut()
@@ -148,36 +192,55 @@ impl<'t> Shelf<'t> {
         self.free = free;
         *room = TextureRoom {
             made: Some(made),
+            is_translucent,
             key,
             before: self.last,
         };
         let room: &'t TextureRoom<'t> = room;
         self.last = Some(room);
-        room.made.as_ref().ok_or(full)
+        room.listed().ok_or(full)
     }
 
-    /// Makes a texture, with its levels of detail.
+    /// Makes a texture, with its levels of detail and its mask, if it has one; whether texels are neither opaque nor
+    /// transparent.
     fn make<F: PixelFormat>(
         &mut self,
         source: Source<'t>,
         dithers: bool,
         sampling: Option<Sampling>,
-    ) -> Result<Texture<'t>, Reason> {
+    ) -> Result<(Texture<'t>, bool), Reason> {
         let panel = Panel {
-            // Pixels of more than 16 bits are made of texels that are numbers.
-            word: |rgb| match F::HALVES {
-                true => F::to_half(F::from_rgb8(rgb)),
-                false => Rgb565::from_rgb8(rgb),
-            },
+            word: F::texel,
             dithers,
         };
-        let mut key = None;
         let form = source.pair.form;
-        let words = match form.is_indexed() {
-            true => self.colours(source, panel, &mut key)?,
-            false if form == TexelForm::Rgb565 && panel.is_native() => None,
-            false => Some(self.converted(source, panel, &mut key)?),
+        let made = match form.is_indexed() {
+            true => self.palette(source, panel)?,
+            false if form == TexelForm::Rgb565 && panel.is_native() => Made::default(),
+            false => self.converted(source, panel)?,
         };
+        let texture = self.levelled(source, made.words, sampling)?;
+        let texture = made.key.map_or(texture, |key| texture.keyed(key));
+        let Some(masks) = made.masks else {
+            return Ok((texture, false));
+        };
+        let mask = self.levelled(source, Some(masks), sampling)?;
+        let key = Key {
+            is_mask: true,
+            ..source.key()
+        };
+        let mask = self.keep(mask, false, key)?.texture;
+        // Both are made alike.
+        Ok((texture.masked(mask).unwrap_or(texture), made.is_translucent))
+    }
+
+    /// A texture of these words, with its levels of detail.
+    fn levelled(
+        &mut self,
+        source: Source<'t>,
+        words: Option<&'t [u16]>,
+        sampling: Option<Sampling>,
+    ) -> Result<Texture<'t>, Reason> {
         let wrap = match source.pair.clamped {
             true => Wrap::Clamp,
             false => Wrap::Repeat,
@@ -189,7 +252,6 @@ impl<'t> Shelf<'t> {
                 .map_err(|_| Reason::Lent(Lent::Texels))
         };
         let made = level(0)?.wrapping(wrap);
-        let made = key.map_or(made, |key| made.keyed(key));
         let coarser = usize::from(source.pair.levels.saturating_sub(1));
         if self.levels.len() < coarser {
             return Err(Reason::Lent(Lent::Levels));
@@ -207,40 +269,28 @@ impl<'t> Shelf<'t> {
         })
     }
 
-    /// The palette of one whose texels name colours.
-    fn colours(
-        &mut self,
-        source: Source<'t>,
-        panel: Panel,
-        key: &mut Option<u16>,
-    ) -> Result<Option<&'t [u16]>, Reason> {
-        let mut palette = |count| self.palette(panel, source.colours, count, key);
-        Ok(Some(match source.pair.form {
-            TexelForm::Index1 => palette(2)?,
-            TexelForm::Index2 => palette(4)?,
-            TexelForm::Index4 => palette(16)?,
-            TexelForm::Index6 => {
-                // Two bits of a byte mean nothing.
-                let palette = palette(64)?;
-                let all = self.take(256)?;
-                for (slot, colour) in all.iter_mut().zip(palette.iter().cycle()) {
-                    *slot = *colour;
-                }
-                all
+    /// The palette of one whose texels name colours. What the list's does not have is black.
+    fn palette(&mut self, source: Source<'t>, panel: Panel) -> Result<Made<'t>, Reason> {
+        let (count, codes) = match source.pair.form {
+            TexelForm::Index1 => (2, 2),
+            TexelForm::Index2 => (4, 4),
+            TexelForm::Index4 => (16, 16),
+            // Two bits of a byte mean nothing.
+            TexelForm::Index6 => (256, 64),
+            _ => (256, 256),
+        };
+        self.write(panel, count, |n| {
+            let colour = source.colours.get((n % codes) as usize);
+            Colour {
+                rgba: colour.map_or([0, 0, 0, 255], |w| u32::from_le(*w).to_le_bytes()),
+                undithered: false,
             }
-            _ => palette(256)?,
-        }))
+        })
     }
 
     /// The texels of one whose texels are colours, level by level.
-    fn converted(
-        &mut self,
-        source: Source<'t>,
-        panel: Panel,
-        key: &mut Option<u16>,
-    ) -> Result<&'t [u16], Reason> {
+    fn converted(&mut self, source: Source<'t>, panel: Panel) -> Result<Made<'t>, Reason> {
         let pair = source.pair;
-        let words = self.take(source.texels_above(pair.levels))?;
         // The level of a texel, and its number there.
         let of = |mut n: u32| {
             let mut level = 0;
@@ -252,14 +302,69 @@ impl<'t> Shelf<'t> {
                 (n, level) = (n - width * height, level + 1);
             }
         };
-        *key = panel.write(words, |n| {
+        self.write(panel, source.texels_above(pair.levels), |n| {
             let (texels, n) = of(n);
             Colour {
                 rgba: texels.rgba(n),
                 undithered: texels.is_undithered(n),
             }
-        })?;
-        Ok(words)
+        })
+    }
+
+    /// Writes so many colours by their numbers.
+    fn write(
+        &mut self,
+        panel: Panel,
+        count: usize,
+        of: impl Fn(u32) -> Colour,
+    ) -> Result<Made<'t>, Reason> {
+        let words = self.take(count)?;
+        let (mut has_holes, mut is_translucent, mut is_dithered) = (false, false, true);
+        for (n, slot) in (0..).zip(words.iter_mut()) {
+            let colour = of(n);
+            let [r, g, b, alpha] = colour.rgba;
+            has_holes |= alpha == 0;
+            is_translucent |= !matches!(alpha, 0 | 255);
+            is_dithered &= !colour.undithered;
+            *slot = (panel.word)([r, g, b]);
+        }
+        let is_hole = |n: u32| of(n).rgba[3] == 0;
+        let key = match has_holes && !is_translucent {
+            true => unused(words, is_hole),
+            false => None,
+        };
+        is_translucent |= has_holes && key.is_none();
+        if let Some(key) = key {
+            for (n, slot) in (0..).zip(words.iter_mut()) {
+                if is_hole(n) {
+                    *slot = key;
+                }
+            }
+        }
+        let masks = match is_translucent || panel.dithers && !is_dithered {
+            true => Some(self.masks(count, of)?),
+            false => None,
+        };
+        Ok(Made {
+            words: Some(words),
+            key,
+            masks,
+            is_translucent,
+        })
+    }
+
+    /// What is said of so many colours.
+    fn masks(&mut self, count: usize, of: impl Fn(u32) -> Colour) -> Result<&'t [u16], Reason> {
+        let masks = self.take(count)?;
+        for (n, slot) in (0..).zip(masks.iter_mut()) {
+            let colour = of(n);
+            let texel = MaskTexel::alpha(colour.rgba[3]);
+            *slot = match colour.undithered {
+                true => texel.undithered().word(),
+                false => texel.word(),
+            };
+        }
+        Ok(masks)
     }
 
     /// So many words of the lent memory.
@@ -272,26 +377,6 @@ impl<'t> Shelf<'t> {
         let (taken, rest) = words.split_at_mut(count);
         self.words = rest;
         Ok(taken)
-    }
-
-    /// So many colours as words of the panel, and the word of those that are transparent. What the palette does not
-    /// have is black.
-    fn palette(
-        &mut self,
-        panel: Panel,
-        colours: &[u32],
-        count: usize,
-        key: &mut Option<u16>,
-    ) -> Result<&'t [u16], Reason> {
-        let words = self.take(count)?;
-        *key = panel.write(words, |n| {
-            let colour = colours.get(n as usize);
-            Colour {
-                rgba: colour.map_or([0, 0, 0, 255], |w| u32::from_le(*w).to_le_bytes()),
-                undithered: false,
-            }
-        })?;
-        Ok(words)
     }
 }
 
@@ -343,6 +428,7 @@ impl<'t> Source<'t> {
             log_sides: self.pair.log_sides,
             levels: self.pair.levels,
             clamped: self.pair.clamped,
+            is_mask: false,
         }
     }
 }
@@ -353,35 +439,6 @@ impl Panel {
         [([255, 0, 0], 0xF800), ([0, 255, 0], 0x07E0), ([0, 0, 8], 1)]
             .into_iter()
             .all(|(rgb, word)| (self.word)(rgb) == word)
-    }
-
-    /// Writes colours by their numbers; the word of those that are transparent.
-    fn write(self, words: &mut [u16], of: impl Fn(u32) -> Colour) -> Result<Option<u16>, Reason> {
-        let mut holes = false;
-        for (n, slot) in (0..).zip(words.iter_mut()) {
-            let colour = of(n);
-            let [r, g, b, alpha] = colour.rgba;
-            match alpha {
-                0 => holes = true,
-                255 if colour.undithered && self.dithers => {
-                    return Err(Reason::Missing(Missing::Undithered));
-                }
-                255 => {}
-                _ => return Err(Reason::Missing(Missing::Alpha)),
-            }
-            *slot = (self.word)([r, g, b]);
-        }
-        if !holes {
-            return Ok(None);
-        }
-        let is_hole = |n: u32| of(n).rgba[3] == 0;
-        let key = unused(words, is_hole).ok_or(Reason::Missing(Missing::Alpha))?;
-        for (n, slot) in (0..).zip(words.iter_mut()) {
-            if is_hole(n) {
-                *slot = key;
-            }
-        }
-        Ok(Some(key))
     }
 }
 

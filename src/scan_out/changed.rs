@@ -68,7 +68,7 @@ impl LineWord for u32 {
 /// What each line of the display shows, as far as it is known: 4 bytes a line, lent.
 ///
 /// It is right as long as everything that reaches the display goes through it. After anything else, a reset of the
-/// panel or a frame of [`draw_frame`](crate::pipeline::draw_frame) say, call [`forget`](Self::forget).
+/// panel or a frame of [`draw_frame`](crate::draw_frame) say, call [`forget`](Self::forget).
 #[derive(Debug)]
 pub struct ShownLines<'m> {
     /// Of each line from the top, 0 where nobody knows what is shown.

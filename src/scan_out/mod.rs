@@ -14,6 +14,7 @@
 //! |---|---|---|
 //! | [`SpiSink`] | SPI panels with MIPI commands, over `embedded-hal` 1.0 | |
 //! | [`FrameBufferSink`] | frames in memory that a controller scans, swapped without tearing | |
+//! | [`BlockFrameSink`] | a picture in memory in blocks, to be read as a texture or turned | |
 //! | `MipidsiSink` | panels that `mipidsi` 0.10 has set up | `mipidsi` |
 //! | `DrawTargetSink` | any `DrawTarget` of `embedded-graphics` | `embedded-graphics` |
 //! | `AsyncSpiPanel`, with an `AsyncPump` | SPI panels over `embedded-hal-async` | `async` |
@@ -26,6 +27,7 @@
 
 #[cfg(feature = "async")]
 mod async_out;
+mod blocked;
 mod changed;
 mod continuous;
 mod dma;
@@ -42,6 +44,7 @@ mod writer;
 
 #[cfg(feature = "async")]
 pub use async_out::{AsyncLineWriter, AsyncPump, AsyncSpiPanel};
+pub use blocked::{BlockFrame, BlockFrameError, BlockFrameSink};
 pub use changed::{LineWord, ShownLines};
 pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
 pub use dma::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};

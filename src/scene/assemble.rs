@@ -3,26 +3,23 @@
 //! Where a mesh's vertices find room, all are projected and lit once and shared; where they do not, each
 //! face brings its own. Triangles keep the order in which they were submitted.
 
-use super::check::check_draw;
-use super::cut::{Corner, cut_all};
+use super::alpha::{self, Alphas};
+use super::check::{check_alphas, check_draw};
 use super::lights::Lamps;
-use super::pass::{
-    Lost, Normals, Own, Pass, WordOfNormal, colour_all, colour_of, light_all, top_first,
-};
+use super::pass::{Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, light_all, top_first};
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, Full, NONE, ORIGIN, Object, Scene, Shading, Shadow,
-    TexturePlace, Vertex,
+    Application, Draw, DrawError, DrawState, NONE, ORIGIN, Object, Scene, Shading, Shadow, Vertex,
 };
 use crate::geometry::{
-    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Scale, Tint, each_triangle, triangles,
+    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Tint, each_triangle, triangles,
 };
 use core::ops::Range;
 
 /// The lines and columns of guard space that are drawn.
 #[derive(Clone)]
-struct Picture {
+pub(super) struct Picture {
     lines: Range<u32>,
     /// The column after the last, in units of 1/8 pixel.
     right: u32,
@@ -41,6 +38,7 @@ impl<'t, L> Scene<'_, 't, L> {
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
         let mesh = &draw.mesh;
+        check_alphas(draw.alphas, mesh.positions.len())?;
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
         let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
         let file = |scene: &mut Self, pass: &mut Pass<'_>| {
@@ -91,7 +89,7 @@ impl<'t, L> Scene<'_, 't, L> {
             state.replace_light();
         }
         if self.draws.push(state).is_none() {
-            return Err(DrawError::no_draws(submitted));
+            return Err(self.lose_call(submitted));
         }
         self.generation = self.generation.wrapping_add(1);
         let is_plain = self.is_plain(draw);
@@ -122,6 +120,11 @@ impl<'t, L> Scene<'_, 't, L> {
             cull: draw.cull,
             texels: draw.texture.map(|skin| skin.places),
             generated: generated.as_ref(),
+            alphas: if state.takes_alphas() {
+                draw.alphas
+            } else {
+                &[]
+            },
             base: self.vertices.len(),
             shared: 0,
             within: false,
@@ -130,12 +133,24 @@ impl<'t, L> Scene<'_, 't, L> {
             lost: Lost::default(),
         };
         file(self, &mut pass)?;
+        if let (false, Some(kept)) = (pass.alphas.is_empty(), self.draws.last_mut()) {
+            kept.alphas = Some(Alphas::new(pass.base, pass.shared));
+        }
         if state.texture().is_some() && pass.may_stretch() {
             self.count_untextured(state.first.into());
         }
         self.has_values |= state.has_values();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)
+    }
+
+    /// Counts the triangles of a draw call whose state found no room.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn lose_call(&mut self, triangles: u32) -> DrawError {
+        self.assembled.triangles += triangles;
+        self.assembled.dropped += triangles;
+        DrawError::no_draws(triangles)
     }
 
     /// Counts the triangles of a draw call; an error where some found no room.
@@ -182,9 +197,15 @@ impl<'t, L> Scene<'_, 't, L> {
         let count = mesh.positions.len();
         let end = pass.base + count;
         let has_room = pass.texels.is_none() || self.places.len() >= end;
-        let Some(vertices) = has_room.then(|| self.vertices.append(count)).flatten() else {
+        let records = alpha::records(pass.alphas.len());
+        let all = has_room.then(|| self.vertices.append(count + records));
+        let Some((vertices, records)) = all.flatten().and_then(|v| v.split_at_mut_checked(count))
+        else {
             return;
         };
+        if !pass.alphas.is_empty() {
+            alpha::keep(pass.alphas, records);
+        }
         pass.shared = count;
         let (view, positions) = (&pass.view, mesh.positions);
         let places = self.places.get_mut(pass.base..end).unwrap_or_default();
@@ -224,7 +245,7 @@ impl<'t, L> Scene<'_, 't, L> {
         }
     }
 
-    fn picture(&self) -> Picture {
+    pub(super) fn picture(&self) -> Picture {
         let line = |line: u16| u32::from(line) + ORIGIN as u32;
         Picture {
             lines: line(self.lines.start)..line(self.lines.end),
@@ -344,84 +365,6 @@ impl<'t, L> Scene<'_, 't, L> {
         done
     }
 
-    /// A face that brings its own vertices, and is cut where needed; of one colour, if it has one.
-    #[cold]
-    #[inline(never)]
-    pub(super) fn file_one<C: Coordinate>(
-        &mut self,
-        mesh: &Mesh<'_, C>,
-        face: u32,
-        corners: [u16; 3],
-        colour: Option<u32>,
-        pass: &mut Pass<'_>,
-    ) {
-        let corners = corners.map(|i| corner_of(mesh, i.into(), colour, pass, &self.scale));
-        let beyond = corners.map(|c| pass.view.beyond(c.point));
-        let any = beyond[0] | beyond[1] | beyond[2];
-        let before = self.objects.len();
-        let mut lost = None;
-        if beyond[0] & beyond[1] & beyond[2] == 0 {
-            if any == 0 {
-                lost = self.file_piece(corners, pass).err();
-            } else {
-                pass.clipped += 1;
-                let polygon = cut_all(corners, &pass.view, any);
-                for i in 2..polygon.len() {
-                    let piece = [polygon[0], polygon[i - 1], polygon[i]];
-                    lost = lost.or(self.file_piece(piece, pass).err());
-                }
-            }
-        }
-        if let Some(memory) = lost {
-            pass.lost.lose(memory, face);
-        } else if self.objects.len() == before {
-            pass.culled += 1;
-        }
-    }
-
-    /// A triangle within all planes; an error names the memory that is full.
-    pub(super) fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
-    }
-
-    /// A triangle with vertices of its own; an error names the memory that is full.
-    pub(super) fn file_own(&mut self, own: [Own; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        let places = own.map(|own| own.vertex.place);
-        let Some((order, places)) = pass.order(places) else {
-            return Ok(());
-        };
-        let Some(bin) = bin_of(places, &self.picture()) else {
-            return Ok(());
-        };
-        let own = order.map(|i| own[usize::from(i) % 3]);
-        let base = self.vertices.len();
-        let Some(vertices) = self.vertices.append(3) else {
-            return Err(Full::Vertices);
-        };
-        for (vertex, own) in vertices.iter_mut().zip(own) {
-            *vertex = own.vertex;
-        }
-        if pass.texels.is_some() {
-            let Some(places) = self.places.get_mut(base..base + 3) else {
-                self.vertices.truncate(base);
-                return Err(Full::Vertices);
-            };
-            for (place, own) in places.iter_mut().zip(own) {
-                *place = own.place;
-            }
-        }
-        let next = self.bins.get(bin).copied().unwrap_or(NONE);
-        let corner = [0, 1, 2].map(|i| base as u16 + i);
-        let Some(number) = self.objects.push(Object { corner, next }) else {
-            self.vertices.truncate(base);
-            return Err(Full::Objects);
-        };
-        if let Some(head) = self.bins.get_mut(bin) {
-            *head = number;
-        }
-        Ok(())
-    }
-
     /// Takes back a mesh that turned out to contradict itself.
     #[cold]
     fn forget_from(&mut self, objects: usize, vertices: usize) {
@@ -438,40 +381,10 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 }
 
-/// A corner of a face as the camera sees it, of a colour, or lit; out of line, since a face has three.
-#[inline(never)]
-fn corner_of<C: Coordinate>(
-    mesh: &Mesh<'_, C>,
-    i: usize,
-    colour: Option<u32>,
-    pass: &Pass<'_>,
-    scale: &Scale,
-) -> Corner {
-    Corner {
-        point: pass.view.point(mesh.positions[i]),
-        colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
-        texel: pass.texel(i),
-    }
-}
-
-/// A corner within all planes as a vertex; out of line, since a triangle has three.
-#[inline(never)]
-fn own_of(corner: Corner, pass: &Pass<'_>) -> Own {
-    let on = pass.view.project(corner.point);
-    Own {
-        vertex: Vertex {
-            place: on.place,
-            depth: on.depth,
-            colour: corner.colour,
-        },
-        place: TexturePlace::new(corner.texel, on.fine),
-    }
-}
-
 /// The bin of a triangle by its places, the topmost first; `None` where it lies between the lines, or
 /// beside the picture.
 #[inline(always)]
-fn bin_of([a, b, c]: [u32; 3], picture: &Picture) -> Option<usize> {
+pub(super) fn bin_of([a, b, c]: [u32; 3], picture: &Picture) -> Option<usize> {
     let line = |place: u32| place.wrapping_add(4 << 16) >> 19;
     let first = line(a).max(picture.lines.start);
     let end = line(b.max(c)).min(picture.lines.end);

@@ -3,6 +3,15 @@
 use super::{Draw, DrawError, Shading};
 use crate::geometry::{Coordinate, Faces, MeshError, check_mesh};
 
+/// Whether there are as many alphas as vertices, or none.
+pub(super) fn check_alphas(alphas: &[u8], vertices: usize) -> Result<(), DrawError> {
+    match alphas.len() {
+        0 => Ok(()),
+        count if count == vertices => Ok(()),
+        _ => Err(DrawError::Mesh(MeshError::AttributeLength)),
+    }
+}
+
 /// Whether a mesh is one, and whether the look has what a draw call asks for: textures, light at corners or at pixels.
 pub(super) fn check_draw<C: Coordinate>(
     draw: &Draw<'_, '_, C>,

@@ -17,28 +17,55 @@ pub(super) struct Corner {
     pub(super) colour: u32,
     /// Texels with 14 fraction bits, modulo 2^18.
     pub(super) texel: [i32; 2],
+    /// The alpha, with 8 fraction bits: it follows edges as the colour does.
+    pub(super) alpha: u16,
 }
 
 /// A convex polygon: a triangle gains at most one corner a plane.
-pub(super) type Polygon = Vec<Corner, 9, u8>;
+type Polygon = Vec<Corner, 7, u8>;
 
-/// What lies within all planes of `beyond`, as a convex polygon in the order of the corners.
+/// Calls `f` with triangles that are what lies within all planes of `beyond`.
+///
+/// What near and far leave is parted into triangles before the guard band cuts each of them: four corners have no plane
+/// of colour in common, so how they are parted is seen, and must not hang on where the guard band is.
 #[inline(never)]
-pub(super) fn cut_all(corners: [Corner; 3], view: &View, beyond: u32) -> Polygon {
-    let mut polygon = Polygon::new();
-    // Three of nine places: it cannot be full.
-    let _ = polygon.extend_from_slice(&corners);
-    for plane in [
-        beyond::NEAR,
-        beyond::FAR,
-        beyond::RIGHT,
-        beyond::LEFT,
-        beyond::BOTTOM,
-        beyond::TOP,
-    ] {
+pub(super) fn cut_all(
+    corners: [Corner; 3],
+    view: &View,
+    beyond: u32,
+    f: &mut dyn FnMut([Corner; 3]),
+) {
+    let depth = [beyond::NEAR, beyond::FAR].map(|plane| plane & beyond);
+    let depth = cut_by(&corners, view, &depth);
+    each_triangle(&depth, &mut |piece| {
         // A cut at the near plane may reach beyond the guard band where no corner does.
-        let is_guard = plane > beyond::FAR;
-        if beyond & plane != 0 || is_guard {
+        let is_within = |corner: &Corner| view.beyond(corner.point) == 0;
+        if piece.iter().all(is_within) {
+            return f(piece);
+        }
+        let sides = [beyond::RIGHT, beyond::LEFT, beyond::BOTTOM, beyond::TOP];
+        each_triangle(&cut_by(&piece, view, &sides), f);
+    });
+}
+
+/// Calls `f` with the triangles of a fan around the first corner.
+fn each_triangle(polygon: &[Corner], f: &mut dyn FnMut([Corner; 3])) {
+    if let [first, rest @ ..] = polygon {
+        for pair in rest.windows(2) {
+            f([*first, pair[0], pair[1]]);
+        }
+    }
+}
+
+/// What lies within some planes, as a convex polygon in the order of the corners.
+#[inline(never)]
+fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32]) -> Polygon {
+    let mut polygon = Polygon::new();
+    // Three of seven places: it cannot be full.
+    let _ = polygon.extend_from_slice(corners);
+    for &plane in planes {
+        let is_within = |corner: &Corner| view.within(plane, corner.point) >= 0;
+        if plane != 0 && !polygon.iter().all(is_within) {
             polygon = cut(&polygon, view, plane);
         }
     }
@@ -53,6 +80,7 @@ pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
         point: points[i],
         colour: 0,
         texel: [0; 2],
+        alpha: 0,
     };
     let (mut out, mut back) = (None, None);
     for (i, next) in [(0, 1), (1, 2), (2, 0)] {
@@ -73,6 +101,7 @@ pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
 
 /// Keeps what lies within one plane. The result begins with the first corner within, or the new one
 /// before it.
+#[inline(never)]
 fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
     let mut kept = Polygon::new();
     for (i, this) in polygon.iter().enumerate() {
@@ -129,6 +158,7 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
             let from = inner.texel[i];
             from.wrapping_add(mix(0, outer.texel[i].wrapping_sub(from), t))
         }),
+        alpha: mix(inner.alpha.into(), outer.alpha.into(), along) as u16,
     }
 }
 

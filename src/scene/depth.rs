@@ -1,6 +1,44 @@
 //! How a draw call compares its depth with the one that is there (H9).
 
-use crate::geometry::DepthFunction;
+/// Which pixels pass a comparison with the depth that is there: any set of nearer, equal and
+/// farther, which are the eight functions of H9.
+///
+/// | H9, of 1/w | here | | H9 | here |
+/// |---|---|---|---|---|
+/// | never | [`NEVER`](Self::NEVER) | | always | [`ALWAYS`](Self::ALWAYS) |
+/// | > | [`NEARER`](Self::NEARER) | | <= | [`FARTHER_OR_EQUAL`](Self::FARTHER_OR_EQUAL) |
+/// | = | [`EQUAL`](Self::EQUAL) | | != | [`DIFFERENT`](Self::DIFFERENT) |
+/// | >= | [`NEARER_OR_EQUAL`](Self::NEARER_OR_EQUAL) | | < | [`FARTHER`](Self::FARTHER) |
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DepthFunction(u8);
+
+impl DepthFunction {
+    /// None.
+    pub const NEVER: Self = Self(0);
+    /// What is farther than what is there.
+    pub const FARTHER: Self = Self(1);
+    /// What is as far.
+    pub const EQUAL: Self = Self(2);
+    /// What is as far or farther.
+    pub const FARTHER_OR_EQUAL: Self = Self(3);
+    /// What is nearer.
+    pub const NEARER: Self = Self(4);
+    /// What is nearer or farther.
+    pub const DIFFERENT: Self = Self(5);
+    /// What is nearer or as far: how surfaces hide each other.
+    pub const NEARER_OR_EQUAL: Self = Self(6);
+    /// All.
+    pub const ALWAYS: Self = Self(7);
+
+    /// Whether a pixel passes, by how its 1/w compares with the one that is there: greater is
+    /// nearer.
+    #[inline(always)]
+    #[must_use]
+    pub const fn passes(self, order: core::cmp::Ordering) -> bool {
+        // Less, equal and greater are -1, 0 and 1.
+        self.0 >> (order as i8 + 1) & 1 != 0
+    }
+}
 
 /// Where a draw call is seen, and where its depth is kept, by how it compares with what is there.
 ///

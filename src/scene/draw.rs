@@ -1,8 +1,9 @@
 //! What a draw call says, and what pass two needs of it.
 
+use super::alpha::Alphas;
+use super::form::Square;
 use super::late::{Late, Role};
 use super::texgen::TexGen;
-use super::texture::Square;
 use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Shadow, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
 use core::ops::Range;
@@ -42,6 +43,12 @@ pub struct Draw<'a, 't, C = i16> {
     pub depth: DepthTest,
     /// What becomes of the colours that are there; `None` hides them.
     pub blend: Option<Blend>,
+    /// The alpha of each vertex, 255 for 1, linear on the screen between them (K11); none, or as many as there are
+    /// positions, or corners of triangles on the screen. It multiplies that of a [`Blend`] which has one, or is a factor
+    /// of it; without a blend, or in one that asks for no alpha, it does nothing.
+    ///
+    /// In the scene's memory of vertices 8 alphas take the room of one vertex.
+    pub alphas: &'a [u8],
     /// Whether its colours are dithered to pixels of 16 bits, by a 4 x 4 order over the picture: their mean over 16 pixels
     /// is nearer to the colour than a pixel can be. Pixels of 24 and 32 bits are not, nor are texels in full light.
     pub dither: bool,
@@ -117,6 +124,7 @@ impl<'a, C> Draw<'a, '_, C> {
             scissor: None,
             depth: DepthTest::HIDES,
             blend: None,
+            alphas: &[],
             dither: false,
             shadow: None,
             priority: 0,
@@ -146,6 +154,7 @@ impl<'a, 't> Draw<'a, 't> {
             scissor: self.scissor,
             depth: self.depth,
             blend: self.blend,
+            alphas: self.alphas,
             dither: self.dither,
             shadow: self.shadow,
             priority: self.priority,
@@ -163,7 +172,11 @@ pub struct DrawState<'t> {
     pub(crate) scissor: Option<Scissor>,
     pub(crate) depth: DepthTest,
     pub(crate) blend: Option<Blend>,
+    /// Where its vertices have their alphas, if they have any that are looked at.
+    pub(crate) alphas: Option<Alphas>,
     pub(crate) dithers: bool,
+    /// Whether its texture has a mask that is looked at.
+    pub(crate) has_mask: bool,
     pub(crate) priority: u8,
     late: Late,
     /// The colour that light at pixels falls on, and that light.
@@ -211,7 +224,9 @@ impl<'t> DrawState<'t> {
         scissor: None,
         depth: DepthTest::HIDES,
         blend: None,
+        alphas: None,
         dithers: false,
+        has_mask: false,
         priority: 0,
         late: Late::NOT,
         colour: [0; 3],
@@ -227,6 +242,8 @@ impl<'t> DrawState<'t> {
         let blend = draw.blend.filter(|_| master.has_blend());
         let role = Role::of(draw.shadow, master);
         let depth = role.depth(draw.depth);
+        let dithers = draw.dither && master.has_dither();
+        let is_asked = dithers || blend.is_some_and(|blend| blend.is_translucent());
         Self {
             first,
             texture,
@@ -238,7 +255,9 @@ impl<'t> DrawState<'t> {
                 _ => depth,
             },
             blend,
-            dithers: draw.dither && master.has_dither(),
+            alphas: None,
+            dithers,
+            has_mask: is_asked && texture.is_some_and(|texture| texture.mask.is_some()),
             priority: draw.priority,
             late: Late::of(role, blend),
             colour: draw.colour,
@@ -264,6 +283,23 @@ impl<'t> DrawState<'t> {
     /// Whether its triangles are drawn in another way than most.
     pub(crate) fn has_values(&self) -> bool {
         self.scissor.is_some() || self.compares() || self.holes.is_some() || self.dithers
+    }
+
+    /// Whether the alpha of its vertices is looked at.
+    pub(super) fn takes_alphas(&self) -> bool {
+        self.blend.is_some_and(|blend| blend.is_translucent())
+    }
+
+    /// Whether pixels of a span are not all alike: there may be holes, or alphas.
+    #[inline(always)]
+    pub(crate) fn is_by_pixel(&self) -> bool {
+        self.holes.is_some() || self.has_alphas()
+    }
+
+    /// Whether pixels of a span have alphas, or texels that say anything else of themselves.
+    #[inline(always)]
+    pub(crate) fn has_alphas(&self) -> bool {
+        self.alphas.is_some() || self.has_mask
     }
 
     /// Whether its pixels do anything else than hide what is behind them.

@@ -43,6 +43,7 @@ impl<L> Scene<'_, '_, L> {
             (vertex.place != Vertex::OUTSIDE).then_some(Own {
                 vertex: *vertex,
                 place: place.unwrap_or(TexturePlace::EMPTY),
+                alpha: pass.alpha(i.into()),
             })
         };
         let [a, b, c] = corners;

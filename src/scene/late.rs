@@ -1,7 +1,7 @@
 //! Draw calls that are not drawn among what is opaque: what is translucent, and what has to do with shadows (K9, K11).
 
+use super::DepthFunction;
 use super::{Blend, DepthTest, Master, Shadow};
-use crate::geometry::DepthFunction;
 
 /// What triangles of a draw call have to do with shadows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

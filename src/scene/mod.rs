@@ -6,6 +6,7 @@
 //! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
+//! | `own` | triangles with vertices of their own |
 //! | `check` | what is wrong with a draw call |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
 //! | `master` | what a supervisor has switched off |
@@ -15,27 +16,38 @@
 //! | `screen` | triangles and points that are made on the screen |
 //! | `texgen` | texture places from normals |
 //! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
+//! | `form`, `computed` | texels that lie in memory, and those that somebody is asked for |
+//! | `block`, `block_cache` | texels in blocks of slow memory, and a small cache of them |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
 //! | `shadow` | shadow volumes, and surfaces that are drawn again |
+//! | `alpha` | alpha of vertices and of texels, which a blend may ask for |
 //! | `late` | what is not drawn among what is opaque |
+//! | `read` | what was filed, for other readers than pass two |
 //! | `error` | what can go wrong |
 //!
 //! Triangles of a draw call lie one behind the other, so a triangle's draw state is found by its number.
 
+mod alpha;
 mod assemble;
 mod blend;
+mod block;
+mod block_cache;
 mod budget;
 mod check;
+mod computed;
 mod cut;
 mod depth;
 mod draw;
 mod error;
 mod flat;
+mod form;
 mod late;
 mod lights;
 mod master;
+mod own;
 mod pass;
 mod project;
+mod read;
 mod record;
 mod sampling;
 mod scissor;
@@ -46,26 +58,33 @@ mod tests;
 mod texgen;
 mod texture;
 
-pub use crate::geometry::{DepthFunction, ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
+pub use crate::geometry::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
+pub use alpha::MaskTexel;
+pub(crate) use alpha::{Alphas, PixelAlpha};
 pub use blend::{Blend, BlendMode, Factor};
+pub use block::Blocked;
+pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
-pub use depth::DepthTest;
+pub use computed::{Checker, Gradient, TexelWay, Texels};
+pub use depth::{DepthFunction, DepthTest};
 pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
+pub(crate) use form::{Form, Square};
 pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;
 pub(crate) use pass::WordOfNormal;
+pub use read::{FiledCorner, FiledTriangle};
 pub(crate) use record::{NONE, ORIGIN, Stretch, first_line};
 pub use record::{Object, TexturePlace, Vertex};
 pub use sampling::Sampling;
-pub(crate) use sampling::{Method, SampledSpan};
+pub(crate) use sampling::{Method, SampledSpan, Words};
 pub use scissor::Scissor;
-pub use screen::ScreenCorner;
+pub use screen::{ScreenCorner, ScreenVertex};
 pub use shadow::Shadow;
 pub use texgen::TexGen;
-pub(crate) use texture::{Form, Square, half};
+pub(crate) use texture::half;
 pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
 
 use crate::arena::Arena;
@@ -106,6 +125,12 @@ pub struct Assembled {
     pub dropped: u32,
     /// Pieces of triangles that stretch over more than 4,096 texels, and are drawn without their texture.
     pub untextured: u32,
+    /// Meshes that [`draw_within`](Scene::draw_within) has not looked at. Their triangles are among the culled.
+    pub meshes_skipped: u32,
+    /// Triangles of these meshes.
+    pub triangles_skipped: u32,
+    /// Vertices of these meshes: neither transformed nor lit.
+    pub vertices_skipped: u32,
 }
 
 impl Assembled {

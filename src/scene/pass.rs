@@ -26,6 +26,8 @@ impl Lost {
 pub(super) struct Own {
     pub(super) vertex: Vertex,
     pub(super) place: TexturePlace,
+    /// With 8 fraction bits.
+    pub(super) alpha: u16,
 }
 
 /// The word of a normal, turned from its model to the camera; and of what has none.
@@ -55,6 +57,8 @@ pub(super) struct Pass<'a> {
     pub(super) texels: Option<&'a [[i32; 2]]>,
     /// Those that are made in place of them.
     pub(super) generated: Option<&'a Generated<'a>>,
+    /// Alphas of the mesh's vertices; none where they are not looked at.
+    pub(super) alphas: &'a [u8],
     /// The first of the mesh's vertices in memory.
     pub(super) base: usize,
     /// How many of them are there: all or none.
@@ -152,6 +156,7 @@ impl Pass<'_> {
             cull: Cull::Back,
             texels: None,
             generated: None,
+            alphas: &[],
             base,
             shared: 0,
             within: false,
@@ -171,6 +176,11 @@ impl Pass<'_> {
                 .unwrap_or_default(),
         };
         texel.map(|t| t << TexturePlace::FINER)
+    }
+
+    /// The alpha of a vertex, with 8 fraction bits.
+    pub(super) fn alpha(&self, i: usize) -> u16 {
+        u16::from(self.alphas.get(i).copied().unwrap_or(255)) << 8
     }
 
     /// Whether a triangle may stretch over more than 4,096 texels: none does where all places lie within as many.

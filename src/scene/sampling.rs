@@ -22,13 +22,23 @@ pub(crate) enum Method {
     Perspective,
 }
 
+/// What the words of a texture are, to what has to know.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Words {
+    /// Pixels of 5, 6 and 5 bits as numbers.
+    Numbers,
+    /// The same with their bytes in the other order.
+    Swapped,
+    /// What a mask says of texels.
+    Masks,
+}
+
 /// A span of a textured triangle, and a run of its pixels.
 #[derive(Debug)]
 pub(crate) struct SampledSpan<'a> {
     pub(crate) texture: &'a Texture<'a>,
     pub(crate) budget: Budget,
-    /// Whether texels have their bytes in the other order than numbers.
-    pub(crate) is_swapped: bool,
+    pub(crate) words: Words,
     pub(crate) method: Method,
     /// Steps from one exact place to the next, where each has its own 1/w.
     pub(crate) steps: u8,

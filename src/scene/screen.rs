@@ -3,16 +3,31 @@
 //! Each triangle has vertices of its own. A point of one pixel is one triangle: corners 12 units of 1/8 pixel apart hold
 //! the centre of that pixel and no other.
 
+use super::check::check_alphas;
 use super::pass::{Own, Pass, colour_of};
 use super::project::{OnScreen, Point};
 use super::{
     Draw, DrawError, ORIGIN, Scene, Shading, Shadow, Skin, TexturePlace, Vertex, WordOfNormal,
 };
-use crate::geometry::{Coordinate, Cull, Faces, Mesh, ScreenVertex, Tint};
+use crate::geometry::{Coordinate, Cull, Faces, Mesh, Tint};
 use crate::num::mul_high_unsigned;
 
 /// How far places may lie from the picture's middle, in 13.3: what the guard band has.
 const REACH: i32 = 8 * 2047;
+
+/// A vertex that was set up beforehand.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct ScreenVertex {
+    /// Column in 13.3 from the picture's left rim. What lies farther out than guard space, 4,080
+    /// pixels from the picture's middle, is moved to its rim.
+    pub x: i16,
+    /// Line in 13.3 from the picture's top, likewise.
+    pub y: i16,
+    /// 1/w, the near plane at 2^31; 2^15 at least and 2^31 - 2^15 at most are kept.
+    pub depth: u32,
+    /// Colour, 0 to 255 a channel, red first.
+    pub colour: [u8; 3],
+}
 
 /// A corner of a triangle that was set up beforehand, for [`Scene::draw_screen`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,6 +67,7 @@ impl<'t, L> Scene<'_, 't, L> {
         textured: bool,
     ) -> Result<(), DrawError> {
         bounds_nothing(draw.shadow)?;
+        check_alphas(draw.alphas, 3 * faces.len())?;
         let is_flat = draw.shading == Shading::Flat;
         let draw = Draw {
             mesh: EMPTY,
@@ -69,6 +85,7 @@ impl<'t, L> Scene<'_, 't, L> {
             let near = pass.view.near_depth();
             let plain = pass.one.filter(|_| is_plain);
             for (number, corners) in (0..).zip(faces) {
+                let mut number_of_corner = 3 * number as usize..;
                 let own = corners.map(|ScreenCorner { vertex, texel }| {
                     let from = if is_flat { corners[0].vertex } else { vertex };
                     let at = |v: i16, axis: usize| {
@@ -88,6 +105,7 @@ impl<'t, L> Scene<'_, 't, L> {
                             }),
                         },
                         place: TexturePlace::new(texel, [0; 2]),
+                        alpha: pass.alpha(number_of_corner.next().unwrap_or_default()),
                     }
                 });
                 scene.file_on_screen(number, own, pass);
@@ -108,6 +126,7 @@ impl<'t, L> Scene<'_, 't, L> {
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
         bounds_nothing(draw.shadow)?;
+        check_alphas(draw.alphas, draw.mesh.positions.len())?;
         let mesh = Mesh {
             faces: Faces::Triangles(&[]),
             ..draw.mesh
@@ -145,6 +164,7 @@ impl<'t, L> Scene<'_, 't, L> {
                             colour,
                         },
                         place: texel,
+                        alpha: pass.alpha(i),
                     });
                     scene.file_on_screen(i as u32, own, pass);
                 }

@@ -7,13 +7,14 @@
 //! A volume's faces are filed twice, those seen from outside and those seen from inside, with a draw state each: so
 //! which side is seen is known once a draw call, and no record of a triangle has anything for it.
 
+use super::DepthFunction;
 use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
 use super::project::{Point, View};
 use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene};
 use crate::geometry::{
-    Affine, Camera, Coordinate, Cull, DepthFunction, Extrusion, Faces, Mesh, ShadowLight,
-    ShadowMemory, check, each_triangle, triangles,
+    Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
+    each_triangle, triangles,
 };
 
 /// What a draw call has to do with the shadows of a light, by the light's number, below [`Shadow::LIGHTS`].
@@ -178,13 +179,14 @@ impl<'t, L> Scene<'_, 't, L> {
             point,
             colour: pass.one.unwrap_or_default(),
             texel: [0; 2],
+            alpha: 0,
         };
-        let polygon = cut_all(points.map(corner), &pass.view, 0);
-        for i in 2..polygon.len() {
-            let piece = [polygon[0], polygon[i - 1], polygon[i]];
-            if let Err(memory) = self.file_piece(piece, pass) {
-                return pass.lost.lose(memory, number);
-            }
+        let (view, mut lost) = (pass.view, None);
+        cut_all(points.map(corner), &view, 0, &mut |piece| {
+            lost = lost.or(self.file_piece(piece, pass).err());
+        });
+        if let Some(memory) = lost {
+            pass.lost.lose(memory, number);
         }
     }
 
@@ -212,7 +214,7 @@ impl<'t, L> Scene<'_, 't, L> {
             return Ok(());
         }
         self.draws.truncate(kept.saturating_sub(1));
-        Err(DrawError::no_draws(triangles))
+        Err(self.lose_call(triangles))
     }
 
     /// Files the faces of a volume: those seen from outside, then those from inside.

@@ -1,4 +1,4 @@
-//! Textures as values: form, sides, palette and what lies beyond the sides, all known at run time.
+//! Textures as values: form, sides, palette and what lies beyond the sides, all known at run time (H7).
 //!
 //! Textures of all forms and sizes serve one scene: a span looks once which loop reads its texels
 //! (room `look`). All constructors are `const`, so that a texture can be a static:
@@ -14,7 +14,8 @@
 //!
 //! Texels are words of the panel, in its byte order, so that a copy is a copy.
 
-use super::Sampling;
+use super::form::{Form, Square};
+use super::{Sampling, Texels};
 use core::fmt;
 
 /// Longest side of a texture, in texels.
@@ -55,6 +56,8 @@ pub enum TextureError {
         /// Its height.
         height: u32,
     },
+    /// A mask has other sides, another form or another number of levels than its texture.
+    Mask,
     /// Fewer colours than an index can name.
     Palette {
         /// Colours that an index can name.
@@ -83,6 +86,7 @@ impl fmt::Display for TextureError {
                     "texture: level {level} has {width}x{height} texels, not half the sides of the one before"
                 );
             }
+            Self::Mask => return f.write_str("texture: its mask is not of the same form"),
             Self::Words { needed, have } => (needed, have, "words"),
             Self::Bytes { needed, have } => (needed, have, "bytes"),
             Self::Palette { needed, have } => (needed, have, "colours of the palette"),
@@ -105,23 +109,7 @@ pub enum Wrap {
     Mirror,
 }
 
-/// How texels lie in memory: rows from the top. Slices have the exact length of the texture.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Form<'t> {
-    /// A word of the panel each.
-    Words(&'t [u16]),
-    /// An index of 8 bits each.
-    Index8(&'t [u8], &'t [u16; 256]),
-    /// An index of 4 bits each; the first of a byte in its lower bits. Texels follow each other
-    /// without gaps, whatever the width.
-    Index4(&'t [u8], &'t [u16; 16]),
-    /// An index of 2 bits each, likewise.
-    Index2(&'t [u8], &'t [u16; 4]),
-    /// An index of 1 bit each, likewise.
-    Index1(&'t [u8], &'t [u16; 2]),
-}
-
-/// A texture: texels or indices that somebody else keeps, and how they are read.
+/// A texture: texels or indices that somebody else keeps or computes, and how they are read.
 #[derive(Clone, Copy, Debug)]
 pub struct Texture<'t> {
     pub(crate) form: Form<'t>,
@@ -131,49 +119,14 @@ pub struct Texture<'t> {
     square: u8,
     /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
     /// sampled.
-    spare: u8,
-    wrap: Wrap,
-    key: Option<u16>,
-    sampling: Option<Sampling>,
+    pub(super) spare: u8,
+    pub(super) wrap: Wrap,
+    pub(super) key: Option<u16>,
+    pub(super) sampling: Option<Sampling>,
+    /// What its texels say of themselves beside their colour: of the same form, sides and levels.
+    pub(super) mask: Option<&'t Texture<'t>>,
     /// Each half of the one before.
     coarser: &'t [Texture<'t>],
-}
-
-/// Rows of a square of words, whose side is known to the compiler, so that no index needs a check.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Square<'t> {
-    /// 32 texels a side.
-    Side32(&'t [[u16; 32]; 32]),
-    /// 64 texels a side.
-    Side64(&'t [[u16; 64]; 64]),
-    /// 128 texels a side.
-    Side128(&'t [[u16; 128]; 128]),
-    /// 256 texels a side.
-    Side256(&'t [[u16; 256]; 256]),
-}
-
-impl<'t> Square<'t> {
-    /// The texels, row by row.
-    #[inline(always)]
-    pub(crate) const fn texels(self) -> &'t [u16] {
-        match self {
-            Self::Side32(t) => t.as_flattened(),
-            Self::Side64(t) => t.as_flattened(),
-            Self::Side128(t) => t.as_flattened(),
-            Self::Side256(t) => t.as_flattened(),
-        }
-    }
-
-    /// The power of two that its side is.
-    #[inline(always)]
-    pub(crate) const fn log(self) -> u32 {
-        match self {
-            Self::Side32(_) => 5,
-            Self::Side64(_) => 6,
-            Self::Side128(_) => 7,
-            Self::Side256(_) => 8,
-        }
-    }
 }
 
 /// The powers of two that the sides are.
@@ -201,6 +154,11 @@ impl Sides {
     const fn texels(self) -> usize {
         1 << (self.log_width + self.log_height)
     }
+}
+
+/// Says whether sides are those of a texture.
+pub(super) fn check_sides(width: u32, height: u32) -> Result<(), TextureError> {
+    Sides::new(width, height).map(|_| ())
 }
 
 /// A constructor of textures with indices of `$bits` bits.
@@ -267,6 +225,7 @@ impl<'t> Texture<'t> {
             wrap: Wrap::Repeat,
             key: None,
             sampling: None,
+            mask: None,
             coarser: &[],
         }
     }
@@ -310,6 +269,24 @@ impl<'t> Texture<'t> {
         "The leftmost texel is in a byte's lowest bit; rows follow without gaps."
     );
 
+    /// Texels that are computed where they are shown (H17), or fetched from somewhere (B5): words of the panel, in its
+    /// byte order, for each column and row below the sides.
+    ///
+    /// Repeats; see [`wrapping`](Self::wrapping). It has what others have: wraps, a key, levels of detail, filters.
+    ///
+    /// # Errors
+    /// When a side is not a power of two up to [`MAX_SIDE`].
+    pub const fn computed(
+        texels: &'t dyn Texels,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, TextureError> {
+        match Sides::new(width, height) {
+            Ok(sides) => Ok(Self::new(Form::Computed(texels, sides.log_width), sides)),
+            Err(error) => Err(error),
+        }
+    }
+
     /// The same texture with something else beyond its sides.
     #[must_use]
     pub const fn wrapping(self, wrap: Wrap) -> Self {
@@ -336,7 +313,7 @@ impl<'t> Texture<'t> {
     /// their key are those of the texture.
     ///
     /// # Errors
-    /// A level of other sides.
+    /// A level of other sides; a [mask](Texture::masked) with another number of levels.
     pub const fn sampled(
         self,
         sampling: Sampling,
@@ -356,6 +333,9 @@ impl<'t> Texture<'t> {
                 });
             }
             i += 1;
+        }
+        if self.has_mask_of_other_levels(coarser.len()) {
+            return Err(TextureError::Mask);
         }
         let sampling = Some(sampling);
         Ok(Self {
@@ -461,29 +441,11 @@ impl<'t> Texture<'t> {
     /// The rows, if it is one of the squares that have loops of their own.
     #[inline(always)]
     pub(crate) fn square(&self) -> Option<Square<'t>> {
-        let Form::Words(texels) = self.form else {
-            return None;
-        };
-        match self.square {
-            5 => rows(texels).map(Square::Side32),
-            6 => rows(texels).map(Square::Side64),
-            7 => rows(texels).map(Square::Side128),
-            8 => rows(texels).map(Square::Side256),
-            _ => None,
-        }
+        self.form.square(self.square.into())
     }
 }
 
 /// Half of a side, which has one texel at least.
 pub(crate) const fn half(side: u32) -> u32 {
     if side > 1 { side / 2 } else { 1 }
-}
-
-/// Words as `N` rows of `N`.
-#[inline(always)]
-fn rows<const N: usize>(texels: &[u16]) -> Option<&[[u16; N]; N]>
-where
-    [u16; N]: bytemuck::Pod,
-{
-    bytemuck::try_cast_slice(texels).ok()?.try_into().ok()
 }

@@ -14,7 +14,7 @@
 //! 0.63 units of 2^-22 column off; after 511 units it is 322 off, the bias is 512, and the truth a
 //! multiple of 1,024 of them.
 
-use crate::num::{self, of_height, slope_of};
+use crate::num::{of_height, slope_of};
 use crate::scene::ORIGIN;
 
 /// What the picture's place in guard space is to edges and planes: it begins at [`ORIGIN`], either way.
@@ -94,13 +94,30 @@ impl Edge {
             Kind::Divided => Self { at: a, slope: b },
             _ if dy <= 0 => Self::NONE,
             Kind::Short => Self::short(a, dx, dy, origin),
-            Kind::Tall => {
-                let (at, slope) = num::Edge::new(parts(a), (dx, dy), origin).at_and_slope();
-                Self {
-                    at: at.wrapping_add(slope.wrapping_mul(ORIGIN)) as u32,
-                    slope: slope as u32,
-                }
-            }
+            Kind::Tall => Self::tall(a, dx, dy, origin),
+        }
+    }
+
+    /// A side of at most 127 lines, or a vertical one of any height, `dy` above 0.
+    ///
+    /// Error: the slope is a floor to 2^-22 column, so after 127 lines the line lies less than 130 units of 2^-22 below
+    /// the truth; the bias is 256 and the truth a multiple of at least 512 of them.
+    fn tall(a: u32, dx: i32, dy: i32, origin: i32) -> Self {
+        let (x, y) = ((a & 0xFFFF) as i32, (a >> 16) as i32);
+        let start = ((x + 4 - 8 * origin) << 19).wrapping_add(256);
+        // dy is above 0; said so that no check for it is compiled in.
+        let height = dy.max(1);
+        let whole = dx.div_euclid(height);
+        let part = (((dx - whole * height) as u32) << 22) / height as u32;
+        let (part, first) = (part as i32, (y + 4) >> 3);
+        let slope = (whole << 22).wrapping_add(part);
+        let down = 8 * first + 4 - y;
+        let at = start
+            .wrapping_add(whole.wrapping_mul(down) << 19)
+            .wrapping_add((part * down) >> 3);
+        Self {
+            at: at.wrapping_add(slope.wrapping_mul(ORIGIN - first)) as u32,
+            slope: slope as u32,
         }
     }
 

@@ -1,6 +1,6 @@
 //! All depth functions beside what their names say, for tests (H9).
 
-use crate::geometry::DepthFunction;
+use crate::scene::DepthFunction;
 
 /// A function, and what it is of two depths, the new one first.
 pub(super) type Named = (DepthFunction, fn(u32, u32) -> bool);

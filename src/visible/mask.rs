@@ -117,6 +117,18 @@ impl Mask {
         any != 0
     }
 
+    /// Those of `start .. end` that the mask has, and no others: half of what a copy of the mask takes.
+    #[inline(never)]
+    pub(crate) fn part(&self, start: u32, end: u32) -> Self {
+        let mut part = Self::EMPTY;
+        let zero = black_box(0);
+        for words in part.0.chunks_exact_mut(8) {
+            words.copy_from_slice(&[zero; 8]);
+        }
+        each_word(start, end, |word, bits| part.0[word] = self.0[word] & bits);
+        part
+    }
+
     /// Whether the mask has any of `start .. end`.
     #[inline(always)]
     pub(crate) fn meets(&self, start: u32, end: u32) -> bool {
@@ -226,6 +238,15 @@ impl Mask {
         let mut lack = 0;
         each_word(start, end, |word, bits| lack |= bits & !self.0[word]);
         lack == 0
+    }
+
+    /// How many of `start .. end` the mask has.
+    pub(crate) fn count(&self, start: u32, end: u32) -> u32 {
+        let mut count = 0;
+        each_word(start, end, |word, bits| {
+            count += (bits & self.0[word]).count_ones();
+        });
+        count
     }
 
     /// Adds what another has of `start .. end`, which ends below 1,024.
@@ -343,6 +364,7 @@ mod tests {
                 assert_eq!(mask.meets(start, end), hits > 0);
                 let mut other = mask;
                 assert_eq!(mask.has_all(start, end), old.is_empty());
+                assert_eq!(mask.count(start, end) as usize, hits);
                 assert_eq!(other.cover(start, end) != 0, hits > 0);
                 assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);
                 assert_eq!(mask, other);

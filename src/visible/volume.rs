@@ -4,7 +4,7 @@
 //! seen from inside: where they do not balance, the pixel is in shadow. Counts are modulo 256.
 
 use super::MOST_TESTED;
-use crate::geometry::DepthFunction;
+use crate::scene::DepthFunction;
 
 /// A pixel in shadow, once counts are [`settled`](settle).
 const SHADOWED: u8 = 1;

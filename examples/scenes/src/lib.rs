@@ -20,7 +20,8 @@
 #![forbid(unsafe_code)]
 
 mod contours;
-mod effects;
+mod frames;
+mod lamps;
 mod lean;
 mod listed;
 mod methods;
@@ -30,43 +31,33 @@ mod played;
 mod scene_b;
 mod sheet;
 mod shots;
-mod sized;
 mod stress;
 mod suite;
 mod texels;
-mod textured;
 mod values;
 
 pub use contours::{CONTOURED, Contours, LeanContours};
-pub use effects::{
-    DrawsEffect, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, EFFECTS, Grainy, Transparent, by_effect,
-};
-pub use lean::{LEAN, LEAN_DRAWS, LeanError, LeanLook, LeanTextured};
+pub use frames::{Frame, frames};
+pub use lamps::{lamplit_teapot, teapot_lamps};
+pub use lean::{LeanLook, LeanTextured};
 pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
-pub use methods::{
-    DrawsMethod, METHOD_HEIGHT, METHOD_WIDTH, METHODS, build_method, by_method, method_screen,
-};
+pub use methods::{METHOD_HEIGHT, METHOD_WIDTH, build_method, method_screen};
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};
 pub use played::{PLAYED, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, PlayedError};
-pub use scene_b::{
-    BLOCK_TEXELS_B, BLOCKS_B, CACHE_SLOTS_B, CachedB, CachedLookB, LookB, OBJECTS_B,
-    SCENE_B_BLOCKS, SCENES_B, SceneB, TEXELS_PANEL, TEXTURES_B, VERTICES_B,
-};
-pub use sheet::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline};
+pub use scene_b::{SCENES_B, SceneB, TEXELS_PANEL};
+pub use sheet::{Hits, SHEET_TRIANGLES, SHEETS, Sheet, SheetError};
 pub use shots::{
-    DEPTHS, HEIGHT, KeepsDepth, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS,
-    Shot, ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours, teapot,
+    DRAWS, HEIGHT, LAYER, LAYERS, MOST_SLOTS, NEAREST_LAYER, OBJECTS, SHOTS, STACKS, Shot,
+    ShotError, VARIANTS, VERTICES, Variant, WIDTH, layer_colours,
 };
 pub use stress::STRESS;
 pub use suite::{
-    CUBE_HALF, CUBE_PITCH, CUBES, LookF, Looking, PLACES_F, Part, SUITE, SUITE_LINES,
-    SUITE_OBJECTS, SUITE_SLOTS, SUITE_VERTICES, Suite, TEXEL_SIDE_F, TEXELS_F, TEXELS_F_PANEL,
-    TEXTURES_F, cube, cube_model, inside, layer, room_light, sphere_light, teapot_part, tilt,
-    tilted, tilted_textured,
+    CUBE_HALF, CUBE_PITCH, CUBES, Looking, PLACES_F, Part, SUITE, SUITE_DRAWS, SUITE_LINES,
+    SUITE_OBJECTS, SUITE_VERTICES, Suite, TEXEL_SIDE_F, TEXELS_F, TEXELS_F_PANEL, cube, cube_model,
+    inside, layer, room_light, sphere_light, teapot_part, tilt, tilted, tilted_textured,
 };
-pub use texels::{SWATCHES, Swatch, TEXEL_SIDE, TEXELS_8, TEXELS_565};
-pub use textured::textured;
+pub use texels::{TEXEL_SIDE, TEXELS_565};
 pub use values::{
     LeanIndexed, LeanPhong, LeanPhongTextured, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN,
     VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,

@@ -1,8 +1,8 @@
 //! A sphere of as many triangles as are asked for, made where it is drawn.
 
 use crate::{Shot, ShotError};
-use scanbeam::pipeline::{Instance, Pipeline, Scene};
-use scanbeam::{Affine, Camera, Faces, Light, Mesh};
+use scanbeam::look::Look;
+use scanbeam::{Affine, Camera, Draw, Faces, Light, Mesh, Scene};
 
 /// Parts of an edge of the spheres that growth is measured on: 72 to 20,000 triangles.
 pub const OCTASPHERES: [u16; 10] = [3, 4, 5, 7, 10, 14, 20, 28, 37, 50];
@@ -92,15 +92,14 @@ impl<'m> Octasphere<'m> {
     ///
     /// # Errors
     /// When the scene's arenas are too small.
-    pub fn draw<P: Pipeline>(&self, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
+    pub fn draw<L: Look>(&self, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
         let (eye, up) = ([0.0, 0.0, 3.94], [0.0, 1.0, 0.0]);
         scene.begin(&Camera::look_at(eye, [0.0; 3], up, 320.0, 0.1, 100.0)?)?;
-        let instance = Instance {
+        scene.draw(&Draw {
             model: Affine::rotation_y(0.4).then(&Affine::rotation_x(0.3)),
             light: Light::new([0.5, 0.7, 0.8], 0.15),
-            ..Instance::default()
-        };
-        scene.draw(&self.mesh(), &instance)?;
+            ..Draw::new(self.mesh())
+        })?;
         Ok(())
     }
 

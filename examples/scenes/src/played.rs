@@ -20,8 +20,8 @@ pub enum Played {
 
 /// Their names.
 pub const PLAYED: [(&str, Played); 2] = [
-    ("lean_teapot_list", Played::Teapot),
-    ("lean_crate_list", Played::Crate),
+    ("teapot_list", Played::Teapot),
+    ("crate_list", Played::Crate),
 ];
 
 /// Numbers of the crate's two textures and their palettes.

@@ -1,10 +1,11 @@
 //! A random sheet of triangles over the whole picture, for the proof that no pixel is missed and
 //! none is hit twice (K4).
 
-use crate::{HEIGHT, Shot, WIDTH};
-use scanbeam::pipeline::{Counted, FlatPainter, Instance, LineRenderer, Scene};
+use crate::{HEIGHT, LeanLook, Shot, ShotError, WIDTH};
+use scanbeam::frame::LineError;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::{Camera, Cull, Faces, Mesh};
+use scanbeam::scene::Blend;
+use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Renderer, Scene};
 
 /// Cells across and down.
 const CELLS: [usize; 2] = [24, 18];
@@ -15,8 +16,40 @@ pub const SHEET_TRIANGLES: usize = 2 * CELLS[0] * CELLS[1];
 /// Sheets that are tried, by seed from 1 on.
 pub const SHEETS: u32 = 16;
 
-/// What a sheet is drawn with: no depth, so that every hit is drawn, and hits are counted.
-pub type SheetPipeline = Counted<FlatPainter<Rgb565Be>>;
+/// Levels of 5 bits that a triangle adds to each pixel that it hits.
+const LEVEL: u8 = 8;
+
+/// What a sheet did to the picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Hits {
+    /// How often pixels were hit, in all.
+    pub hits: u32,
+    /// Pixels that were not hit.
+    pub missed: u32,
+    /// Pixels that were not drawn where the sheet hides what is behind it.
+    pub left_out: u32,
+}
+
+/// Why hits were not counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SheetError {
+    /// The memory of the scene is too small.
+    Scene(ShotError),
+    /// That of the renderer is.
+    Line(LineError),
+}
+
+impl From<ShotError> for SheetError {
+    fn from(error: ShotError) -> Self {
+        Self::Scene(error)
+    }
+}
+
+impl From<LineError> for SheetError {
+    fn from(error: LineError) -> Self {
+        Self::Line(error)
+    }
+}
 
 /// A grid that reaches beyond the picture, its inner vertices moved at random by up to a fifth of
 /// a cell (below a quarter every cell stays convex), split along random diagonals.
@@ -66,36 +99,60 @@ impl Sheet {
         sheet
     }
 
-    /// Draws the sheet: how many pixels were drawn, hits counted, and how many were left out.
+    /// Draws the sheet twice: as a light that each triangle adds to what it hits, so that a pixel's level says how often
+    /// that was, and as a surface that hides what is behind it.
     ///
-    /// `None` when the memory of scene or renderer is too small.
+    /// # Errors
+    /// When the memory of scene or renderer is too small.
     pub fn hits(
         &self,
-        scene: &mut Scene<'_, SheetPipeline>,
-        renderer: &mut LineRenderer<'_, SheetPipeline>,
-    ) -> Option<(u32, u32)> {
+        scene: &mut Scene<'_, '_, LeanLook>,
+        renderer: &mut Renderer<'_, LeanLook>,
+    ) -> Result<Hits, SheetError> {
+        let mut hits = Hits::default();
+        self.draw(Some(Blend::add(255)), scene, renderer, |pixel| {
+            let [red, _, _] = Rgb565Be::to_rgb8(pixel);
+            let times = u32::from(red / LEVEL);
+            hits.hits += times;
+            hits.missed += u32::from(times == 0);
+        })?;
+        self.draw(None, scene, renderer, |pixel| {
+            hits.left_out += u32::from(pixel == 0);
+        })?;
+        Ok(hits)
+    }
+
+    /// Hands all pixels of the sheet, blended so, to `look`.
+    fn draw(
+        &self,
+        blend: Option<Blend>,
+        scene: &mut Scene<'_, '_, LeanLook>,
+        renderer: &mut Renderer<'_, LeanLook>,
+        mut look: impl FnMut(u16),
+    ) -> Result<(), SheetError> {
         let camera = Camera::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 160.0, 0.1, 9.0);
-        scene.begin(&camera.ok()?).ok()?;
+        let camera = camera.map_err(ShotError::Camera)?;
+        scene.begin(&camera).map_err(ShotError::Begin)?;
         let mesh = Mesh {
             positions: &self.positions,
             normals: &[],
             colours: &[],
             faces: Faces::Triangles(&self.faces),
         };
-        let instance = Instance {
+        let call = Draw {
             cull: Cull::None,
-            ..Instance::default()
+            colour: [LEVEL; 3],
+            blend,
+            ..Draw::new(mesh)
         };
-        scene.draw(&mesh, &instance).ok()?;
+        scene.draw(&call).map_err(ShotError::Draw)?;
         renderer.restart();
-        let empty = Rgb565Be::from_rgb8([0; 3]);
-        let mut missed = 0;
+        let mut pixels = [0; WIDTH as usize];
         for line in 0..HEIGHT {
-            let mut pixels = [empty; WIDTH as usize];
-            renderer.draw_line(scene, line, &mut pixels).ok()?;
-            missed += pixels.iter().filter(|p| **p == empty).count() as u32;
+            renderer.draw_line(scene, line, &mut pixels, 0)?;
+            pixels.iter().for_each(|pixel| look(*pixel));
         }
-        Some((renderer.take_span_counts().pixels_shaded, missed))
+        Ok(())
     }
 
     /// How many pixels there are to hit.

@@ -2,8 +2,9 @@
 
 use crate::suite::{self, Suite};
 use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, stress};
-use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene, SceneError};
-use scanbeam::{Affine, Camera, CameraError, Cull, Light, Screen};
+use scanbeam::look::Look;
+use scanbeam::scene::{BeginError, CacheError, DrawError, Shading, TextureError};
+use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Light, Mesh, Scene, Screen};
 
 /// Pixels a line of every shot.
 pub const WIDTH: u16 = 320;
@@ -13,6 +14,8 @@ pub const HEIGHT: u16 = 240;
 pub const VERTICES: usize = 10_240;
 /// Objects that suffice for every shot.
 pub const OBJECTS: usize = 5_120;
+/// Draw calls that suffice for every shot: as many as [`Shot::Crowd`] has cubes.
+pub const DRAWS: usize = 417;
 
 /// A frame by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,7 +30,7 @@ pub enum Shot {
     Quads,
     /// A cube around the eye and the teapot across the near plane.
     Inside,
-    /// 417 small cubes all over the picture, nothing culled: 5,004 objects, and far more on a line
+    /// [`DRAWS`] small cubes all over the picture, nothing culled: 5,004 objects, and far more on a line
     /// than a cache has slots. Not among [`SHOTS`].
     Crowd,
     /// Random triangles up to half a pixel wide. Among [`STRESS`](crate::STRESS).
@@ -87,52 +90,72 @@ pub(crate) static LAYER_COLOURS: [[[u8; 3]; 4]; LAYERS as usize] = {
     colours
 };
 
-/// A shot that is drawn again in another way, with the same bits.
+/// A way to draw a shot; its pixels are the shot's whatever the slots and renderers are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variant {
     /// The name that reports use.
     pub name: &'static str,
     /// What is drawn.
     pub shot: Shot,
+    /// Where the colours of faces come from.
+    pub shading: Shading,
     /// Slots of each renderer's cache.
-    pub slots: usize,
+    pub slots: u16,
     /// Renderers that draw lines in turn.
     pub renderers: u16,
     /// Bytes a line fetched ahead.
-    pub prefetch: u32,
+    pub ahead: u32,
 }
 
-/// Slots that suffice for any variant: more than any line of a shot has objects.
-pub const MOST_SLOTS: usize = 1024;
+impl Variant {
+    /// The shot itself: one renderer with 64 slots.
+    #[must_use]
+    pub const fn of(shot: Shot) -> Self {
+        Self::with(shot.name(), shot, SLOTS)
+    }
 
-/// Every variant. Those with [`MOST_SLOTS`] are what a scene costs that is all in fast memory.
-pub const VARIANTS: [Variant; 9] = [
-    variant("teapot_cache0", Shot::Teapot, 0, 1, 0),
-    variant("teapot_cache3", Shot::Teapot, 3, 1, 0),
-    variant("teapot_cache64", Shot::Teapot, 64, 1, 0),
-    variant("teapot_all_fast", Shot::Teapot, MOST_SLOTS, 1, 0),
-    variant("teapot_ahead", Shot::Teapot, 64, 1, 4_000),
-    variant("sphere_two", Shot::Sphere, 43, 2, 500),
-    variant("crowd_cache0", Shot::Crowd, 0, 1, 0),
-    variant("crowd_cache64", Shot::Crowd, 64, 1, 0),
-    variant("crowd_all_fast", Shot::Crowd, MOST_SLOTS, 1, 0),
-];
-
-const fn variant(
-    name: &'static str,
-    shot: Shot,
-    slots: usize,
-    renderers: u16,
-    prefetch: u32,
-) -> Variant {
-    Variant {
-        name,
-        shot,
-        slots,
-        renderers,
-        prefetch,
+    const fn with(name: &'static str, shot: Shot, slots: u16) -> Self {
+        Self {
+            name,
+            shot,
+            shading: Shading::Smooth,
+            slots,
+            renderers: 1,
+            ahead: 0,
+        }
     }
 }
+
+/// Slots of a renderer, where nothing else is said.
+const SLOTS: u16 = 64;
+/// The most slots of any variant, and of any cache.
+pub const MOST_SLOTS: u16 = 224;
+
+/// Every variant. Those with [`MOST_SLOTS`] are what a scene costs that is almost all in fast memory.
+pub const VARIANTS: [Variant; 10] = [
+    Variant::with("teapot_cache0", Shot::Teapot, 0),
+    Variant::with("teapot_cache3", Shot::Teapot, 3),
+    Variant::with("teapot_all_fast", Shot::Teapot, MOST_SLOTS),
+    Variant {
+        ahead: 4_000,
+        ..Variant::with("teapot_ahead", Shot::Teapot, SLOTS)
+    },
+    Variant {
+        renderers: 2,
+        ..Variant::with("sphere_two", Shot::Sphere, 43)
+    },
+    Variant::with("crowd_cache0", Shot::Crowd, 0),
+    Variant::with("crowd_cache64", Shot::Crowd, SLOTS),
+    Variant::with("crowd_all_fast", Shot::Crowd, MOST_SLOTS),
+    Variant {
+        shading: Shading::Flat,
+        ..Variant::with("teapot_flat", Shot::Teapot, SLOTS)
+    },
+    Variant {
+        shading: Shading::Flat,
+        ..Variant::with("crossings_flat", Shot::Crossings, SLOTS)
+    },
+];
 
 /// Every shot, in the order in which they are drawn.
 pub const SHOTS: [Shot; 5] = [
@@ -143,37 +166,21 @@ pub const SHOTS: [Shot; 5] = [
     Shot::Inside,
 ];
 
-/// How depth is kept where it is not 32 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum KeepsDepth {
-    /// In 16 bits of block-fix (H2).
-    BlockFix,
-    /// In 16 bits, in one word with the pixel (K8).
-    Word,
-    /// With the name of the object, whose pixels are shaded when all are known (X3).
-    Deferred,
-}
-
-/// Shots that are drawn with other depths, on every line, by the name that reports use.
-pub const DEPTHS: [(&str, Shot, KeepsDepth); 6] = [
-    ("quads_block_fix", Shot::Quads, KeepsDepth::BlockFix),
-    // Its layers lie in two ranges.
-    ("c_block_fix", Shot::FarToNear, KeepsDepth::BlockFix),
-    ("teapot_deferred", Shot::Teapot, KeepsDepth::Deferred),
-    ("c_deferred", Shot::FarToNear, KeepsDepth::Deferred),
-    ("quads_word", Shot::Quads, KeepsDepth::Word),
-    ("c_word", Shot::FarToNear, KeepsDepth::Word),
-];
-
-/// Why a shot could not be built; none of them fails where the arenas are as large as said here.
+/// Why a shot could not be built; none of them fails where the memory is as large as said here.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShotError {
-    /// The camera.
+    /// Its camera cannot be made.
     Camera(CameraError),
-    /// The scene.
-    Scene(SceneError),
-    /// A mesh.
+    /// It was not begun.
+    Begin(BeginError),
+    /// A part was not drawn.
     Draw(DrawError),
+    /// A texture, or a level of detail, was not made.
+    Texture(TextureError),
+    /// A cache of a texture was not made.
+    Cache(CacheError),
+    /// Sprites are not in order.
+    Sprites,
 }
 
 impl From<CameraError> for ShotError {
@@ -182,9 +189,9 @@ impl From<CameraError> for ShotError {
     }
 }
 
-impl From<SceneError> for ShotError {
-    fn from(error: SceneError) -> Self {
-        Self::Scene(error)
+impl From<BeginError> for ShotError {
+    fn from(error: BeginError) -> Self {
+        Self::Begin(error)
     }
 }
 
@@ -240,76 +247,88 @@ impl Shot {
     /// Draws the shot into `scene`, whose screen must be [`screen`](Shot::screen).
     ///
     /// # Errors
-    /// When the scene's arenas are smaller than [`VERTICES`] and [`OBJECTS`].
-    pub fn build<P: Pipeline>(self, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
-        let light = suite::room_light();
+    /// When the scene's memory is smaller than [`VERTICES`], [`OBJECTS`] and [`DRAWS`].
+    pub fn build<L: Look>(self, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
+        self.build_shaded(Shading::Smooth, scene)
+    }
+
+    /// The same with colours of faces from there.
+    ///
+    /// # Errors
+    /// As [`build`](Shot::build); faces of one colour take three vertices each, which have to have room too.
+    pub fn build_shaded<L: Look>(
+        self,
+        shading: Shading,
+        scene: &mut Scene<'_, '_, L>,
+    ) -> Result<(), ShotError> {
+        let lit = |mesh, model| lit(mesh, model, shading);
+        let open = |mesh, model| open(mesh, model, shading);
         let looking =
             |eye, focal, near| Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], focal, near, 100.0);
-        let lit = |model| Instance {
-            model,
-            light,
-            ..Instance::default()
-        };
         match self {
-            Self::Teapot => teapot(scene)?,
+            Self::Teapot => Suite::Teapot.build_shaded(shading, scene)?,
             Self::Cube => {
                 scene.begin(&looking([1.5, 2.0, 4.0], 260.0, 0.1)?)?;
-                scene.draw(&CUBE, &lit(Affine::rotation_y(0.3)))?;
+                scene.draw(&lit(CUBE, Affine::rotation_y(0.3)))?;
             }
             Self::Sphere => {
                 let (camera, light) = Self::sphere_camera()?;
                 scene.begin(&camera)?;
-                let instance = Instance {
+                scene.draw(&Draw {
                     light,
-                    ..Instance::default()
-                };
-                scene.draw(&SPHERE, &instance)?;
+                    shading,
+                    ..Draw::new(SPHERE)
+                })?;
             }
             Self::Quads => {
                 scene.begin(&looking([0.8, 1.4, 3.6], 240.0, 0.1)?)?;
-                let open = |model| Instance {
-                    cull: Cull::None,
-                    ..lit(model)
-                };
-                scene.draw(&RIBBON, &open(Affine::rotation_y(0.4)))?;
+                scene.draw(&open(RIBBON, Affine::rotation_y(0.4)))?;
                 let small = Affine::placed(0.45, [0.1, 0.0, 0.0]).unwrap_or(Affine::IDENTITY);
-                scene.draw(&CUBE_QUADS, &open(Affine::rotation_x(0.5).then(&small)))?;
+                scene.draw(&open(CUBE_QUADS, Affine::rotation_x(0.5).then(&small)))?;
             }
-            Self::Inside => Suite::Inside.build(scene)?,
-            Self::FarToNear => Suite::FarToNear.build(scene)?,
-            Self::NearToFar => Suite::NearToFar.build(scene)?,
+            Self::Inside => Suite::Inside.build_shaded(shading, scene)?,
+            Self::FarToNear => Suite::FarToNear.build_shaded(shading, scene)?,
+            Self::NearToFar => Suite::NearToFar.build_shaded(shading, scene)?,
             Self::Crowd => {
                 scene.begin(&looking([0.0, 0.4, 5.0], 300.0, 0.1)?)?;
-                let mut seed = 1u32;
-                let mut next = |reach: f32| {
-                    seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-                    ((seed >> 16) as f32 / 32_768.0 - 1.0) * reach
-                };
-                for _ in 0..417 {
-                    let turn = Affine::rotation_y(next(3.0)).then(&Affine::rotation_x(next(3.0)));
-                    let at = [next(2.2), next(1.6), next(1.5)];
-                    let place = Affine::placed(0.07, at).unwrap_or(Affine::IDENTITY);
-                    let instance = Instance {
-                        cull: Cull::None,
-                        ..lit(turn.then(&place))
-                    };
-                    scene.draw(&CUBE, &instance)?;
-                }
+                crowd(shading, scene)?;
             }
-            Self::Slivers | Self::Giants | Self::Crossings => stress::build(self, scene)?,
+            Self::Slivers | Self::Giants | Self::Crossings => stress::build(self, shading, scene)?,
         }
         Ok(())
     }
 }
 
-/// Draws the shot of the teapot into `scene`: for a firmware that has no other, since the code of
-/// [`Shot::build`] is that of all shots.
-///
-/// # Errors
-/// As [`Shot::build`].
-pub fn teapot<P: Pipeline>(scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
-    scene.begin(&Suite::Teapot.view().camera()?)?;
-    let part = suite::teapot_part();
-    scene.draw(&part.mesh, &part.instance)?;
+/// A mesh in the light of the teapot.
+fn lit(mesh: Mesh<'static>, model: Affine, shading: Shading) -> Draw<'static, 'static> {
+    Draw {
+        model,
+        shading,
+        light: suite::room_light(),
+        ..Draw::new(mesh)
+    }
+}
+
+/// The same, seen from behind too.
+fn open(mesh: Mesh<'static>, model: Affine, shading: Shading) -> Draw<'static, 'static> {
+    Draw {
+        cull: Cull::None,
+        ..lit(mesh, model, shading)
+    }
+}
+
+/// [`DRAWS`] small cubes at random places.
+fn crowd<L: Look>(shading: Shading, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
+    let mut seed = 1u32;
+    let mut next = |reach: f32| {
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        ((seed >> 16) as f32 / 32_768.0 - 1.0) * reach
+    };
+    for _ in 0..DRAWS {
+        let turn = Affine::rotation_y(next(3.0)).then(&Affine::rotation_x(next(3.0)));
+        let at = [next(2.2), next(1.6), next(1.5)];
+        let place = Affine::placed(0.07, at).unwrap_or(Affine::IDENTITY);
+        scene.draw(&open(CUBE, turn.then(&place), shading))?;
+    }
     Ok(())
 }

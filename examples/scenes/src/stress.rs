@@ -2,8 +2,9 @@
 //! X1).
 
 use crate::{Shot, ShotError};
-use scanbeam::pipeline::{Instance, Pipeline, Scene};
-use scanbeam::{Affine, Camera, Cull, Faces, Mesh};
+use scanbeam::look::Look;
+use scanbeam::scene::Shading;
+use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Scene};
 
 /// The shots of this file.
 pub const STRESS: [Shot; 3] = [Shot::Slivers, Shot::Giants, Shot::Crossings];
@@ -36,7 +37,11 @@ const ONE: i32 = 1 << 30;
 ///
 /// The camera is at the origin and looks along -z: 160 pixels of focal length, so the picture is
 /// 2 by 1.5 at distance 1.
-pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
+pub(crate) fn build<L: Look>(
+    shot: Shot,
+    shading: Shading,
+    scene: &mut Scene<'_, '_, L>,
+) -> Result<(), ShotError> {
     let (near, far) = if shot == Shot::Crossings {
         (0.03, 64.0)
     } else {
@@ -54,7 +59,7 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
                 let half_way = [0, 1, 2].map(|i| a[i] / 2 + b[i] / 2 + random.within(ONE / 320));
                 let away = -ONE - random.within(ONE / 2).abs();
                 let places = [a, b, half_way].map(|p| [p[0], p[1], away]);
-                triangle(scene, &mut random, places, 1.0)?;
+                triangle(shading, scene, &mut random, places, 1.0)?;
             }
             // 1/w from 1 to 2^-12 along one sliver.
             for _ in 0..24 {
@@ -66,7 +71,7 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
                     [x + ONE / 1_000_000, y, near],
                     [far[0], far[1], -ONE],
                 ];
-                triangle(scene, &mut random, places, 4096.0)?;
+                triangle(shading, scene, &mut random, places, 4096.0)?;
             }
         }
         // Up to 8192 pixels wide and high; most of each is beside the picture.
@@ -81,7 +86,7 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
                     // As long, and a few pixels wide.
                     c = b.map(|v| v - random.within(ONE / 64).abs());
                 }
-                triangle(scene, &mut random, [a, b, c], 32.0)?;
+                triangle(shading, scene, &mut random, [a, b, c], 32.0)?;
             }
         }
         // Through the near plane at any angle, some of them beyond the sides too.
@@ -89,7 +94,7 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
             for i in 0..96 {
                 let reach = ONE / [1, 4, 16][i % 3];
                 let places = [(); 3].map(|()| random.place([reach; 3]));
-                triangle(scene, &mut random, places, 1.0)?;
+                triangle(shading, scene, &mut random, places, 1.0)?;
             }
         }
         _ => {}
@@ -98,8 +103,9 @@ pub(crate) fn build<P: Pipeline>(shot: Shot, scene: &mut Scene<'_, P>) -> Result
 }
 
 /// One triangle in random colours, its model scaled.
-fn triangle<P: Pipeline>(
-    scene: &mut Scene<'_, P>,
+fn triangle<L: Look>(
+    shading: Shading,
+    scene: &mut Scene<'_, '_, L>,
     random: &mut Random,
     positions: [[i32; 3]; 3],
     scale: f32,
@@ -110,11 +116,11 @@ fn triangle<P: Pipeline>(
         colours: &[random.colour(), random.colour(), random.colour()],
         faces: Faces::Triangles(&[[0, 1, 2]]),
     };
-    let instance = Instance {
+    scene.draw(&Draw {
         model: Affine::placed(scale, [0.0; 3]).unwrap_or(Affine::IDENTITY),
         cull: Cull::None,
-        ..Instance::default()
-    };
-    scene.draw(&mesh, &instance)?;
+        shading,
+        ..Draw::new(mesh)
+    })?;
     Ok(())
 }

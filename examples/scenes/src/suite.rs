@@ -1,7 +1,7 @@
 //! The scenes of the benchmark, as data: meshes, where they stand, and who looks at them.
 //!
 //! Every picture is 320 x 240 at [`Suite::view`]. A scene is a few [`Part`]s, drawn in their order;
-//! [`Suite::build`] and [`Suite::build_textured`] hand them to a [`Scene`], and a renderer of
+//! [`Suite::build`] hands them to a scene, and a renderer of
 //! another kind may read the parts themselves.
 //!
 //! | name | what | triangles | texture |
@@ -18,20 +18,19 @@ use crate::scene_b::{PLACES, TEXELS_PANEL};
 use crate::shots::{LAYER, LAYER_COLOURS, LAYERS, NEAREST_LAYER};
 use crate::texels::TEXEL_SIDE;
 use crate::{CUBE, FINE_SPHERE, SPHERE, ShotError, TEAPOT};
+use scanbeam::look::Look;
 use scanbeam::mesh::QuadSplit;
-use scanbeam::pipeline::texture::{Quality, Skin, Square64, Textured};
-use scanbeam::pipeline::{Gouraud, Instance, Pipeline, Scene, TexturedDepth};
-use scanbeam::pixel::Rgb565Be;
-use scanbeam::{Affine, Camera, CameraError, Cull, Faces, Light, Mesh};
+use scanbeam::scene::{Budget, Shading, Skin, Texture};
+use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Faces, Light, Mesh, Scene};
 
-/// Slots of the object cache that the suite is measured with.
-pub const SUITE_SLOTS: usize = 64;
 /// Lines of a transfer that the suite is measured with.
 pub const SUITE_LINES: u16 = 1;
 /// Vertices that suffice for every scene of the suite.
 pub const SUITE_VERTICES: usize = 65 * 65;
 /// Objects that suffice for every scene of the suite.
 pub const SUITE_OBJECTS: usize = 4_224;
+/// Draw calls that suffice for every scene of the suite.
+pub const SUITE_DRAWS: usize = CUBES;
 
 /// Texels a side of [`TEXELS_F`].
 pub const TEXEL_SIDE_F: u32 = 64;
@@ -47,12 +46,6 @@ pub static TEXELS_F_PANEL: [u16; 4096] = {
     }
     texels
 };
-
-/// What scene F is drawn with: as an SPI panel takes it.
-pub type LookF = TexturedDepth<'static, Rgb565Be, Square64<'static, u16>>;
-
-/// The texture of scene F for a scene.
-pub static TEXTURES_F: [Square64<'static, u16>; 1] = [Square64::new(&TEXELS_F_PANEL)];
 
 const fn texels_f() -> [u16; 4096] {
     let mut texels = [0; 4096];
@@ -137,17 +130,52 @@ pub struct Part {
     pub mesh: Mesh<'static>,
     /// Where its vertices lie on the texture, in 1/256 texel; empty where it has none.
     pub places: &'static [[i32; 2]],
-    /// Model space to world space, what falls on it, its colour, and what is culled.
-    pub instance: Instance,
+    /// Model space to world space.
+    pub model: Affine,
+    /// Which faces are dropped.
+    pub cull: Cull,
+    /// The light, where it is lit.
+    pub light: Option<Light>,
+    /// Colour of vertices that have none of their own.
+    pub colour: [u8; 3],
 }
 
 impl Part {
-    const fn plain(mesh: Mesh<'static>, instance: Instance) -> Self {
+    /// Without a texture and a light, faces seen from behind dropped.
+    const fn plain(mesh: Mesh<'static>, model: Affine) -> Self {
         Self {
             mesh,
             places: &[],
-            instance,
+            model,
+            cull: Cull::Back,
+            light: None,
+            colour: [255; 3],
         }
+    }
+
+    /// Its draw call, without a texture.
+    #[must_use]
+    pub const fn draw(&self) -> Draw<'static, 'static> {
+        Draw {
+            model: self.model,
+            cull: self.cull,
+            light: self.light,
+            colour: self.colour,
+            ..Draw::new(self.mesh)
+        }
+    }
+}
+
+/// The textures of scenes B and F, as an SPI panel takes them.
+static TEXTURES: [Texture<'static>; 2] = [
+    texture(&TEXELS_PANEL, TEXEL_SIDE),
+    texture(&TEXELS_F_PANEL, TEXEL_SIDE_F),
+];
+
+const fn texture(texels: &'static [u16], side: u32) -> Texture<'static> {
+    match Texture::words(texels, side, side) {
+        Ok(texture) => texture,
+        Err(_) => panic!("as many texels as the sides need"),
     }
 }
 
@@ -222,26 +250,19 @@ pub fn cube_model(index: usize) -> Affine {
 /// A sphere of scenes A and G.
 #[must_use]
 pub fn tilted(mesh: Mesh<'static>) -> Part {
-    let instance = Instance {
-        model: tilt(),
+    Part {
         light: sphere_light(),
-        ..Instance::default()
-    };
-    Part::plain(mesh, instance)
+        ..Part::plain(mesh, tilt())
+    }
 }
 
 /// The sphere of scene B, with its light or without.
 #[must_use]
 pub fn tilted_textured(lit: bool) -> Part {
-    let instance = Instance {
-        model: tilt(),
-        light: sphere_light().filter(|_| lit),
-        ..Instance::default()
-    };
     Part {
-        mesh: SPHERE,
         places: &PLACES,
-        instance,
+        light: sphere_light().filter(|_| lit),
+        ..Part::plain(SPHERE, tilt())
     }
 }
 
@@ -255,11 +276,8 @@ pub fn layer(order: u8) -> Part {
         faces: Faces::Quads(&LAYER_FACES, QuadSplit::Corner0To2),
     };
     let depth = f32::from(NEAREST_LAYER + order);
-    let instance = Instance {
-        model: Affine::placed(depth, [0.0; 3]).unwrap_or(Affine::IDENTITY),
-        ..Instance::default()
-    };
-    Part::plain(mesh, instance)
+    let model = Affine::placed(depth, [0.0; 3]).unwrap_or(Affine::IDENTITY);
+    Part::plain(mesh, model)
 }
 
 /// A cube of scene F, below [`CUBES`].
@@ -270,27 +288,20 @@ pub fn cube(index: usize) -> Part {
         colours: &[],
         ..CUBE
     };
-    let instance = Instance {
-        model: cube_model(index),
-        ..Instance::default()
-    };
     Part {
-        mesh,
         places: &PLACES_F,
-        instance,
+        ..Part::plain(mesh, cube_model(index))
     }
 }
 
 /// The teapot of its own scene.
 #[must_use]
 pub fn teapot_part() -> Part {
-    let instance = Instance {
-        model: Affine::rotation_y(0.6),
+    Part {
         light: room_light(),
         colour: [236, 196, 112],
-        ..Instance::default()
-    };
-    Part::plain(TEAPOT, instance)
+        ..Part::plain(TEAPOT, Affine::rotation_y(0.6))
+    }
 }
 
 /// The cube around the eye, 0, and the teapot in it, 1.
@@ -301,13 +312,11 @@ pub fn inside(index: usize) -> Part {
         0 => (CUBE, Affine::rotation_y(0.2).then(&around)),
         _ => (TEAPOT, Affine::rotation_y(2.0)),
     };
-    let instance = Instance {
-        model,
+    Part {
         cull: Cull::None,
         light: room_light(),
-        ..Instance::default()
-    };
-    Part::plain(mesh, instance)
+        ..Part::plain(mesh, model)
+    }
 }
 
 impl Suite {
@@ -399,42 +408,51 @@ impl Suite {
         }
     }
 
-    /// Draws it into `scene`, whose screen must be [`Shot::screen`](crate::Shot::screen), without
-    /// its texture.
-    ///
-    /// # Errors
-    /// When the arenas are smaller than [`SUITE_VERTICES`] and [`SUITE_OBJECTS`].
-    pub fn build<P: Pipeline>(self, scene: &mut Scene<'_, P>) -> Result<(), ShotError> {
-        scene.begin(&self.view().camera()?)?;
-        for index in 0..self.parts() {
-            let part = self.part(index);
-            scene.draw(&part.mesh, &part.instance)?;
+    /// Its texture, for looks that have any.
+    #[must_use]
+    pub fn texture(self) -> Option<&'static Texture<'static>> {
+        match self {
+            Self::B | Self::BUnlit => Some(&TEXTURES[0]),
+            Self::F => Some(&TEXTURES[1]),
+            _ => None,
         }
-        Ok(())
     }
 
-    /// Draws it into `scene`, whose screen must be [`Shot::screen`](crate::Shot::screen), with the
-    /// scene's texture 0, which must be that of [`texels`](Suite::texels).
+    /// Draws it into `scene`, whose screen must be [`Shot::screen`](crate::Shot::screen), with its
+    /// texture, within 1/4 texel.
     ///
     /// # Errors
-    /// As [`build`](Suite::build).
-    pub fn build_textured<P>(
+    /// When the memory is less than [`SUITE_VERTICES`], [`SUITE_OBJECTS`], [`SUITE_DRAWS`] and a bin a line, and when it
+    /// has a texture and the look has none.
+    pub fn build<L: Look>(self, scene: &mut Scene<'_, '_, L>) -> Result<(), ShotError> {
+        self.build_shaded(Shading::Smooth, scene)
+    }
+
+    /// The same with colours of faces from there.
+    ///
+    /// # Errors
+    /// As [`build`](Suite::build); faces of one colour take three vertices each, which have to have room too.
+    // So that a program that draws smooth faces alone has no code for others.
+    #[inline(always)]
+    pub fn build_shaded<L: Look>(
         self,
-        quality: Quality,
-        scene: &mut Scene<'_, P>,
-    ) -> Result<(), ShotError>
-    where
-        P: Pipeline<Shading = Textured<Gouraud>>,
-    {
+        shading: Shading,
+        scene: &mut Scene<'_, '_, L>,
+    ) -> Result<(), ShotError> {
         scene.begin(&self.view().camera()?)?;
+        let texture = self.texture();
         for index in 0..self.parts() {
             let part = self.part(index);
-            let skin = Skin {
+            let skin = |texture| Skin {
+                texture,
                 places: part.places,
-                texture: 0,
-                quality,
+                budget: Budget::BALANCED,
             };
-            scene.draw_skinned(&part.mesh, skin, &part.instance)?;
+            scene.draw(&Draw {
+                texture: texture.map(skin),
+                shading,
+                ..part.draw()
+            })?;
         }
         Ok(())
     }

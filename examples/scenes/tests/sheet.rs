@@ -1,32 +1,42 @@
 //! Every pixel of a random sheet is hit exactly once (K4); the firmware asks the same in QEMU.
 
-use scanbeam::Link;
-use scanbeam::pipeline::{LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf};
-use scenes::{SHEET_TRIANGLES, SHEETS, Sheet, SheetPipeline, Shot};
+use scanbeam::frame::{FastMemory, Memory as LineMemory};
+use scanbeam::scene::{DrawState, Memory, Object, Vertex};
+use scanbeam::{Link, Renderer, Scene};
+use scenes::{Hits, LeanLook, SHEET_TRIANGLES, SHEETS, Sheet, Shot};
 
+/// Kills: a side that turns a line late (`turn` in `span/triangle.rs`).
 #[test]
 fn every_pixel_of_a_sheet_is_hit_once() {
-    let mut vertices = vec![VertexOf::<SheetPipeline>::empty(); SHEET_TRIANGLES];
-    let mut objects = vec![ObjectOf::<SheetPipeline>::default(); SHEET_TRIANGLES];
-    let mut buckets = vec![Link::NONE; 240];
-    let mut slots = vec![LineRenderer::<SheetPipeline>::empty_slot(); 16];
-    let mut links = vec![Link::NONE; SHEET_TRIANGLES];
-    let mut depth = [(); 320];
-    for seed in 1..=SHEETS {
-        let mut scene = Scene::new(
-            Shot::screen(),
-            SceneMemory {
+    let mut vertices = vec![Vertex::EMPTY; SHEET_TRIANGLES];
+    let mut objects = vec![Object::EMPTY; SHEET_TRIANGLES];
+    let mut bins = vec![0; 240];
+    let mut draws = [DrawState::EMPTY];
+    let mut cache = Box::new(FastMemory::<LeanLook>::new());
+    let mut links = vec![Link::EMPTY; SHEET_TRIANGLES];
+    for slots in [64, 16] {
+        cache.set_limit(slots);
+        for seed in 1..=SHEETS {
+            let memory = Memory {
                 vertices: &mut vertices,
+                places: &mut [],
                 objects: &mut objects,
-                buckets: &mut buckets,
-            },
-        );
-        let mut renderer = LineRenderer::new(LineMemory {
-            slots: &mut slots,
-            links: &mut links,
-            depth: &mut depth,
-        });
-        let hits = Sheet::new(seed).hits(&mut scene, &mut renderer);
-        assert_eq!(hits, Some((Sheet::pixels(), 0)), "seed {seed}");
+                bins: &mut bins,
+                draws: &mut draws,
+            };
+            let mut scene = Scene::new(Shot::screen(), memory);
+            let mut renderer = Renderer::new(LineMemory {
+                cache: &mut cache,
+                links: &mut links,
+                depth: &mut [],
+            });
+            let hits = Sheet::new(seed).hits(&mut scene, &mut renderer);
+            let once = Hits {
+                hits: Sheet::pixels(),
+                missed: 0,
+                left_out: 0,
+            };
+            assert_eq!(hits, Ok(once), "seed {seed}");
+        }
     }
 }

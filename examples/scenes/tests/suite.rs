@@ -1,15 +1,15 @@
 //! The scenes of the suite are those that other renderers were measured on: as many pixels are
 //! covered and as many triangles face the eye as there, but for what each of them rounds otherwise.
 
-use scanbeam::Link;
-use scanbeam::pipeline::{
-    Counted, GouraudDepth, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf,
-};
-use scanbeam::pixel::Rgb565;
-use scenes::{HEIGHT, SUITE, SUITE_OBJECTS, SUITE_SLOTS, SUITE_VERTICES, Shot, Suite, WIDTH};
+use scanbeam::frame::{FastMemory, Memory as LineMemory};
+use scanbeam::look::Textured;
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
+use scanbeam::{Link, Renderer, Scene};
+use scenes::{HEIGHT, SUITE, SUITE_DRAWS, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite, WIDTH};
 use std::collections::BTreeSet;
 
-type Look = Counted<GouraudDepth<Rgb565>>;
+type Look = Textured<Rgb565Be>;
 
 /// What a scene has in its picture.
 #[derive(Debug)]
@@ -22,38 +22,42 @@ struct Seen {
 
 fn seen(suite: Suite) -> Seen {
     const NOTHING: u16 = 0x0841;
-    let mut vertices = vec![VertexOf::<Look>::empty(); SUITE_VERTICES];
-    let mut objects = vec![ObjectOf::<Look>::default(); SUITE_OBJECTS];
-    let mut buckets = vec![Link::NONE; usize::from(HEIGHT)];
-    let memory = SceneMemory {
+    let mut vertices = vec![Vertex::EMPTY; SUITE_VERTICES];
+    let mut places = vec![TexturePlace::EMPTY; SUITE_VERTICES];
+    let mut objects = vec![Object::EMPTY; SUITE_OBJECTS];
+    let memory = Memory {
         vertices: &mut vertices,
+        places: &mut places,
         objects: &mut objects,
-        buckets: &mut buckets,
+        bins: &mut [0; HEIGHT as usize],
+        draws: &mut [const { DrawState::EMPTY }; SUITE_DRAWS],
     };
     let mut scene = Scene::<Look>::new(Shot::screen(), memory);
-    suite.build(&mut scene).expect("the arenas suffice");
-    let mut slots = vec![LineRenderer::<Look>::empty_slot(); SUITE_SLOTS];
-    let mut links = vec![Link::NONE; SUITE_OBJECTS];
-    let mut depth = vec![0; usize::from(WIDTH)];
-    let mut renderer = LineRenderer::<Look>::new(LineMemory {
-        slots: &mut slots,
+    suite.build(&mut scene).expect("the memory suffices");
+    let mut cache = Box::new(FastMemory::<Look>::new());
+    let mut depth = [0; WIDTH as usize];
+    let mut links = vec![Link::EMPTY; SUITE_OBJECTS];
+    let mut renderer = Renderer::new(LineMemory {
+        cache: &mut cache,
         links: &mut links,
         depth: &mut depth,
-    });
+    })
+    .counting();
     let mut covered = 0;
     let mut pixels = vec![0; usize::from(WIDTH)];
     for line in 0..HEIGHT {
-        pixels.fill(NOTHING);
-        renderer.draw_line(&scene, line, &mut pixels).unwrap();
+        renderer
+            .draw_line(&scene, line, &mut pixels, NOTHING)
+            .unwrap();
         covered += pixels.iter().filter(|&&pixel| pixel != NOTHING).count();
     }
-    let counts = scene.pass_one();
+    let counts = scene.assembled();
     assert_eq!(counts.dropped, 0, "{}", suite.name());
     Seen {
         triangles: counts.triangles,
         front: counts.triangles - counts.culled,
         covered,
-        spans: renderer.take_span_counts().spans,
+        spans: renderer.spans().spans,
     }
 }
 

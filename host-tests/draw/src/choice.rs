@@ -1,7 +1,7 @@
 //! What a picture is drawn as and by which methods, by the names that the command line has for it.
 
 use clap::ValueEnum;
-use scanbeam::pipeline::DepthUse;
+use scanbeam::scene::{DepthFunction, DepthTest};
 use std::fmt;
 
 /// Longest side of a picture that is drawn, in pixels, inclusive.
@@ -27,8 +27,9 @@ pub enum PixelFormatArg {
     Dithered565,
 }
 
-/// How colours are taken from pixel to pixel of a line, and with the model also depth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+/// How colours are taken from pixel to pixel of a line, and with the model also depth. All but auto and model are
+/// methods of the laboratory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum InterpArg {
     /// Planes stepped forward as they are
     Plane,
@@ -48,52 +49,69 @@ pub enum InterpArg {
     Lirp16,
     /// LIRP from end to end, two channels a multiplication
     LirpPacked,
-    /// For each span the cheapest that keeps the budget of --quality
+    /// What the renderer does: planes, by as few bits as a triangle needs
+    #[default]
     Auto,
     /// The hardware model: 12-bit weights down edges, 10-bit weights along spans
     Model,
 }
 
 /// How what is seen is found.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum DepthArg {
     /// For each line the cheapest that shows the same: none where spans do not overlap, from front
     /// to back where there is an order, else 32 bits
+    #[default]
     Auto,
-    /// 32 bits of 1/w on every line
+    /// 32 bits of 1/w, compared at every pixel: the same picture
     Z32,
     /// 16 bits of block-fix 1/w
     BlockFix,
     /// 16 bits of 1/w, in RGB565 in one word with the pixel
     Word,
-    /// First whose each pixel is, then colours: the same picture, no pixel shaded twice
+    /// First whose each pixel is, then colours: the same picture, no pixel shaded twice, as auto does it
     Id,
     /// None: what comes later in the model is in front
     Priority,
 }
 
 impl DepthArg {
-    /// Whether it is a pipeline of its own.
+    /// Whether it is a method of the laboratory, which draw calls do not have.
     #[must_use]
-    pub fn is_a_pipeline(self) -> bool {
-        !matches!(self, Self::Auto | Self::Z32)
+    pub fn is_of_laboratory(self) -> bool {
+        matches!(self, Self::BlockFix | Self::Word)
     }
 
-    /// What a renderer is told.
-    #[must_use]
-    pub fn depth_use(self) -> DepthUse {
+    /// What draw calls compare.
+    pub(crate) fn test(self) -> DepthTest {
         match self {
-            Self::Z32 => DepthUse::Always,
-            _ => DepthUse::WhereNeeded,
+            // Where depths are equal nothing has to be written, so this hides as the usual test does; as it is another
+            // one, every pixel is compared.
+            Self::Z32 => DepthTest {
+                depth_if: DepthFunction::NEARER,
+                ..DepthTest::HIDES
+            },
+            _ => DepthTest::HIDES,
         }
+    }
+}
+
+/// The name that the command line has for a choice.
+fn name_of(choice: &impl ValueEnum, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    match choice.to_possible_value() {
+        Some(value) => f.write_str(value.get_name()),
+        None => Ok(()),
+    }
+}
+
+impl fmt::Display for InterpArg {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        name_of(self, f)
     }
 }
 
 impl fmt::Display for DepthArg {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self.to_possible_value() {
-            Some(value) => f.write_str(value.get_name()),
-            None => Ok(()),
-        }
+        name_of(self, f)
     }
 }

@@ -1,16 +1,12 @@
-//! The pipeline of each way to find what is seen.
+//! Pictures by each way to find what is seen.
 
-use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as, formats};
 use crate::choice::{DepthArg, PixelFormatArg};
+use crate::{CrewSettings, DrawFailure, Drawn, draw, draw_by_methods};
 use host_support::model::Model;
-use host_support::reference::{Shade, View};
-use scanbeam::pipeline::{
-    BlockFixDepth, Counted, DepthAndColour, DepthAndId, FlatDepth, GouraudDepth, LineDepth,
-    WithDepth,
-};
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use host_support::reference::View;
+use scanbeam_lab::{DepthMethod, Method};
 
-/// Draws a model as [`draw`](super::draw) does, and finds what is seen by a method.
+/// Draws a model as [`draw`] does, and finds what is seen by a method.
 ///
 /// # Errors
 /// See [`DrawFailure`].
@@ -21,40 +17,10 @@ pub fn draw_by_depth(
     crew: CrewSettings,
     depth: DepthArg,
 ) -> Result<Drawn, DrawFailure> {
-    let crew = CrewSettings {
-        depth_use: depth.depth_use(),
-        ..crew
+    let kept = match depth {
+        DepthArg::BlockFix => DepthMethod::BlockFix,
+        DepthArg::Word => DepthMethod::Word,
+        _ => return draw(model, view, format, crew),
     };
-    match depth {
-        DepthArg::Auto | DepthArg::Z32 => super::draw(model, view, format, crew),
-        DepthArg::BlockFix => seen_by::<BlockFixDepth>(model, view, format, crew),
-        DepthArg::Word => seen_by::<DepthAndColour>(model, view, format, crew),
-        DepthArg::Id => seen_by::<DepthAndId>(model, view, format, crew),
-        DepthArg::Priority => seen_by::<()>(model, view, format, crew),
-    }
-}
-
-fn seen_by<D: LineDepth>(
-    model: &Model,
-    view: &View,
-    format: PixelFormatArg,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    let prepared = &Prepared::new(model);
-    match format {
-        PixelFormatArg::Rgb888 => shaded::<Rgb888, D>(prepared, view, crew),
-        PixelFormatArg::Rgb565 => shaded::<Rgb565Be, D>(prepared, view, crew),
-        _ => Err(formats::refused("a chosen depth draws")),
-    }
-}
-
-fn shaded<F: PixelFormat, D: LineDepth>(
-    prepared: &Prepared,
-    view: &View,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    match view.shade {
-        Shade::Flat => draw_as::<Counted<WithDepth<FlatDepth<F>, D>>>(prepared, view, crew),
-        _ => draw_as::<Counted<WithDepth<GouraudDepth<F>, D>>>(prepared, view, crew),
-    }
+    draw_by_methods(model, view, format, (Method::Packed16, kept))
 }

@@ -4,21 +4,20 @@
 //! First comes what is opaque; with shadows, then its shadow volume and the same surfaces again as they are
 //! without the light (K9); last what is transparent, which throws no shadow and gets none.
 
+use super::formats::{Picture, draw_in};
 use super::parts::{Job, MOST_OBJECTS, MOST_VERTICES, Tile, draw_parts, room_for, tiles};
 use super::prepared::{Chunk, Prepared, ShadowMesh, colour8};
-use super::scenes::most_slots;
+use super::setting::unit;
 use super::textured::Texels16;
-use super::{Called, CrewSettings, DrawFailure, Setting, Skins};
+use super::{CrewSettings, DrawFailure, Drawn, Setting, Skins};
 use crate::choice::PixelFormatArg;
 use host_support::model::{Material, Model};
 use host_support::reference::{Shade, View};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::mesh::U1F15;
-use scanbeam::pixel::{Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888};
-use scanbeam::scene::{
-    Blend, DrawError, LARGEST, Lights, Shading, Shadow, ShadowLight, Skin, Texture,
-};
+use scanbeam::pixel::{Pixel, PixelFormat, Rgb565};
+use scanbeam::scene::{Blend, DepthTest, DrawError, Lights, Shadow, ShadowLight, Skin, Texture};
 use scanbeam::{Draw, Mesh, Scene};
 use std::collections::HashMap;
 
@@ -146,10 +145,10 @@ pub fn draw_effects(
     (view, format): (&View, PixelFormatArg),
     crew: CrewSettings,
     effects: Effects,
-) -> Result<Called, DrawFailure> {
+) -> Result<Drawn, DrawFailure> {
     let (looks, of_triangle) = looks(model, effects)?;
     let look = |triangle: usize| of_triangle[triangle];
-    let prepared = Prepared::split(model, skins.set, skins.quality, look);
+    let prepared = Prepared::split(model, skins.set, look);
     let shadows = if effects.shadows {
         let is_opaque = |triangle: usize| looks[usize::from(of_triangle[triangle])].is_opaque();
         prepared.shadow_meshes(model, is_opaque)
@@ -162,29 +161,12 @@ pub fn draw_effects(
         shadows: &shadows,
         view,
         setting: Setting::new(&prepared, view)?,
-        slots: most_slots(crew)?,
-        renderers: crew.renderers.max(1),
+        crew,
         skins,
         phong: effects.phong,
         dither: format == PixelFormatArg::Dithered565,
     };
-    let mut called = match format {
-        PixelFormatArg::Rgb888 => task.by::<Rgb888, Textured<Rgb888>, Rgb565>()?,
-        PixelFormatArg::Rgb565 | PixelFormatArg::Dithered565 => {
-            task.by::<Rgb565Be, Textured<Rgb565Be>, Rgb565Be>()?
-        }
-        _ => {
-            return Err(super::formats::refused(
-                "transparency, highlights and shadows are drawn",
-            ));
-        }
-    };
-    if effects.shadows {
-        // Volumes, and what is drawn twice, are none of the model's triangles.
-        called.used.assembled.triangles = model.triangles.len() as u32;
-        called.figures.once = false;
-    }
-    Ok(called)
+    draw_in(&task, format)
 }
 
 /// The light of a picture.
@@ -223,8 +205,7 @@ struct Task<'a> {
     shadows: &'a [ShadowMesh],
     view: &'a View,
     setting: Setting,
-    slots: u16,
-    renderers: u16,
+    crew: CrewSettings,
     skins: Skins<'a>,
     phong: bool,
     dither: bool,
@@ -243,6 +224,32 @@ enum Step {
 
 /// The number of the light that throws shadows.
 const LIGHT: u8 = 0;
+
+impl Picture for Task<'_> {
+    fn is_textured(&self) -> bool {
+        !self.skins.set.is_empty()
+    }
+
+    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure> {
+        match self.phong {
+            false => self.draw::<F, Gouraud<F>, Rgb565>(),
+            true => self.draw::<F, Phong<F>, Rgb565>(),
+        }
+    }
+
+    fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
+    where
+        F: Pixel + Sync,
+        T: PixelFormat<Word = u16>,
+        Textured<F>: Look<Pixel = F, Planes: Send>,
+        TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
+    {
+        match self.phong {
+            false => self.draw::<F, Textured<F>, T>(),
+            true => self.draw::<F, TexturedPhong<F>, T>(),
+        }
+    }
+}
 
 impl Task<'_> {
     fn steps(&self) -> Vec<Step> {
@@ -263,33 +270,16 @@ impl Task<'_> {
         steps
     }
 
-    /// Draws in the format `F`, with the look `L` where light falls on corners of what is textured; texels are
-    /// pixels of the format `T`.
-    fn by<F, L, T>(&self) -> Result<Called, DrawFailure>
-    where
-        F: Pixel + Sync,
-        L: Look<Pixel = F, Planes: Send> + Sync,
-        TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
-        T: PixelFormat<Word = u16>,
-    {
-        match (self.phong, self.skins.set.is_empty()) {
-            (false, true) => self.draw::<F, Gouraud<F>, Rgb565>(),
-            (false, false) => self.draw::<F, L, T>(),
-            (true, true) => self.draw::<F, Phong<F>, Rgb565>(),
-            (true, false) => self.draw::<F, TexturedPhong<F>, T>(),
-        }
-    }
-
-    fn draw<F, L, T>(&self) -> Result<Called, DrawFailure>
+    /// Draws with the look `L`, and texels that are pixels of the format `T`.
+    fn draw<F, L, T>(&self) -> Result<Drawn, DrawFailure>
     where
         F: Pixel + Sync,
         L: Look<Pixel = F, Planes: Send> + Sync,
         T: PixelFormat<Word = u16>,
     {
-        let bad = |error| DrawFailure::View(format!("a texture: {error}"));
         let texels = Texels16::of::<T>(self.skins.set);
-        let coarser = texels.coarser().map_err(bad)?;
-        let textures = texels.textures(&coarser, self.skins).map_err(bad)?;
+        let coarser = texels.coarser()?;
+        let textures = texels.textures(&coarser, self.skins)?;
         let lamps = self.lamps()?;
         let steps = self.steps();
         let job = self.job(steps.len());
@@ -310,11 +300,26 @@ impl Task<'_> {
             // The model is within 2 of its middle, so no shadow on it is longer.
             reach: 2,
         };
-        draw_parts::<L, F>(&job, steps.len(), |scene, tile, step| match steps[step] {
-            Step::Part(part) => self.part(scene, &lit, &textures, (tile, part, false)),
-            Step::InShadow(part) => self.part(scene, &lit, &textures, (tile, part, true)),
-            Step::Volume(i) => self.shadows[i].draw(scene, &self.setting.instance.model, &shadow),
+        let counted: Vec<_> = steps.iter().map(|step| self.counted(*step)).collect();
+        draw_parts::<L, F>(&job, &counted, |scene, tile, step, instead| {
+            let (part, in_shadow) = match steps[step] {
+                Step::Part(part) => (part, false),
+                Step::InShadow(part) => (part, true),
+                Step::Volume(i) => {
+                    return self.shadows[i].draw(scene, &self.setting.model, &shadow);
+                }
+            };
+            let chunk = instead.unwrap_or(&self.prepared.chunks[part]);
+            self.part(scene, &lit, &textures, (tile, chunk, in_shadow))
         })
+    }
+
+    /// What counts of a step: volumes, and what is drawn twice, are none of the model's triangles.
+    fn counted(&self, step: Step) -> Option<&Chunk> {
+        match step {
+            Step::Part(part) => Some(&self.prepared.chunks[part]),
+            Step::InShadow(_) | Step::Volume(_) => None,
+        }
     }
 
     /// Draws a part of the model on a tile, in its light or as it is in the shadow.
@@ -323,9 +328,8 @@ impl Task<'_> {
         scene: &mut Scene<'_, 't, L>,
         lit: &Lit<'_, 't>,
         textures: &'t [Texture<'t>],
-        (tile, number, in_shadow): (&Tile, usize, bool),
+        (tile, chunk, in_shadow): (&Tile, &Chunk, bool),
     ) -> Result<(), DrawError> {
-        let chunk: &Chunk = &self.prepared.chunks[number];
         let look = usize::from(chunk.look);
         let looks = &self.looks[look];
         let texture = chunk
@@ -344,9 +348,9 @@ impl Task<'_> {
             ..chunk.mesh()
         };
         let dark = self.looks.len();
-        scene.draw(&Draw {
-            model: self.setting.instance.model,
-            cull: self.setting.instance.cull,
+        let draw = Draw {
+            model: self.setting.model,
+            cull: self.setting.cull,
             colour: looks.colour,
             lights: lights
                 .filter(|_| !self.phong)
@@ -355,20 +359,23 @@ impl Task<'_> {
                 .at_pixels
                 .get(tile.number)
                 .map(|lamps| &lamps[if in_shadow { dark } else { look }]),
-            shading: match self.view.shade {
-                Shade::Flat => Shading::Flat,
-                Shade::None | Shade::Gouraud => Shading::Smooth,
-            },
+            shading: self.setting.shading,
             texture: texture.map(|texture| Skin {
                 texture,
                 places: &chunk.places,
-                budget: self.skins.budget(),
+                budget: self.skins.budget,
             }),
             blend: (!looks.is_opaque()).then(|| Blend::filter(looks.alpha)),
+            depth: if in_shadow {
+                DepthTest::HIDES
+            } else {
+                self.crew.depth.test()
+            },
             shadow: in_shadow.then_some(Shadow::Shadowed(LIGHT)),
             dither: self.dither,
             ..Draw::new(mesh)
-        })
+        };
+        scene.draw_within(&draw, &chunk.sphere).map(drop)
     }
 
     fn job(&self, steps: usize) -> Job {
@@ -384,14 +391,10 @@ impl Task<'_> {
         // A volume has two states, and two more where the near plane cuts it.
         room.draws = steps + 3 * self.shadows.len();
         Job {
-            size: [self.view.width, self.view.height],
-            most: LARGEST,
-            camera: self.setting.camera,
-            background: self.view.background,
-            renderers: self.renderers,
-            slots: self.slots,
             shadows: casts,
-            room,
+            // What throws a shadow throws it anywhere.
+            is_ahead: !casts && self.setting.is_ahead,
+            ..Job::new(self.view, self.setting.camera, self.crew, room)
         }
     }
 
@@ -409,9 +412,7 @@ impl Task<'_> {
 
     /// The light of the view.
     fn lamps(&self) -> Result<Lamps, DrawFailure> {
-        let v = self.view.light;
-        let largest = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-        let light = DirectionalLight::new(v.map(|c| (c / largest) as f32), [1.0; 3])
+        let light = DirectionalLight::new(unit(self.view.light), [1.0; 3])
             .ok_or_else(|| DrawFailure::View("the light has no direction".into()))?;
         Ok(Lamps {
             light: [light],

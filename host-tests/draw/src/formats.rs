@@ -1,46 +1,55 @@
-//! Formats of pixels beside the two common ones: 32 bits, grey, and one bit.
+//! The formats of pixels that pictures are drawn in.
 
-use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_as};
+use super::{DrawFailure, Drawn};
 use crate::choice::PixelFormatArg;
 use host_support::image_out::Frame;
-use host_support::reference::{Shade, View};
-use scanbeam::pipeline::{Counted, FlatDepth, GouraudDepth};
-use scanbeam::pixel::{Grey8, PixelFormat, Rgb565Be, Rgb888, Xrgb8888, mono_row};
+use scanbeam::look::{Look, Textured, TexturedPhong};
+use scanbeam::pixel::{Grey8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888, mono_row};
 
-/// Draws a model with the pipeline that the view and the format ask for.
-pub(super) fn draw_in(
-    prepared: &Prepared,
-    view: &View,
-    format: PixelFormatArg,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    match format {
-        PixelFormatArg::Rgb888 => shaded::<Rgb888>(prepared, view, crew),
-        PixelFormatArg::Rgb565 => shaded::<Rgb565Be>(prepared, view, crew),
-        PixelFormatArg::Dithered565 => Err(refused("methods can be chosen")),
-        PixelFormatArg::Xrgb8888 => shaded::<Xrgb8888>(prepared, view, crew),
-        PixelFormatArg::Grey8 => shaded::<Grey8>(prepared, view, crew),
-        PixelFormatArg::Mono => {
-            let mut drawn = shaded::<Grey8>(prepared, view, crew)?;
-            drawn.stats.scan_out.bytes_sent = mono(&mut drawn.frame)?;
-            Ok(drawn)
-        }
-    }
+/// What is drawn in any format.
+pub(super) trait Picture {
+    /// Whether it has textures.
+    fn is_textured(&self) -> bool;
+
+    /// Draws it without textures.
+    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure>;
+
+    /// Draws it with textures whose texels are pixels of the format `T`.
+    fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
+    where
+        F: Pixel + Sync,
+        T: PixelFormat<Word = u16>,
+        Textured<F>: Look<Pixel = F, Planes: Send>,
+        TexturedPhong<F>: Look<Pixel = F, Planes: Send>;
 }
 
-fn shaded<F: PixelFormat>(
-    prepared: &Prepared,
-    view: &View,
-    crew: CrewSettings,
+/// Draws a picture in a format; whether it is dithered is for itself to know.
+pub(super) fn draw_in(
+    picture: &impl Picture,
+    format: PixelFormatArg,
 ) -> Result<Drawn, DrawFailure> {
-    match view.shade {
-        Shade::Flat => draw_as::<Counted<FlatDepth<F>>>(prepared, view, crew),
-        _ => draw_as::<Counted<GouraudDepth<F>>>(prepared, view, crew),
+    use PixelFormatArg as Arg;
+    match (format, picture.is_textured()) {
+        (Arg::Rgb888, false) => picture.plain::<Rgb888>(),
+        (Arg::Xrgb8888, false) => picture.plain::<Xrgb8888>(),
+        (Arg::Rgb565 | Arg::Dithered565, false) => picture.plain::<Rgb565Be>(),
+        (Arg::Grey8, false) => picture.plain::<Grey8>(),
+        (Arg::Mono, false) => {
+            let mut drawn = picture.plain::<Grey8>()?;
+            drawn.used.scan_out.bytes_sent = mono(&mut drawn.frame)?;
+            Ok(drawn)
+        }
+        (Arg::Rgb888, true) => picture.textured::<Rgb888, Rgb565>(),
+        (Arg::Xrgb8888, true) => picture.textured::<Xrgb8888, Rgb565>(),
+        (Arg::Rgb565 | Arg::Dithered565, true) => picture.textured::<Rgb565Be, Rgb565Be>(),
+        (Arg::Grey8 | Arg::Mono, true) => Err(DrawFailure::View(
+            "textures are drawn with --format rgb888, rgb565 or xrgb8888 alone".into(),
+        )),
     }
 }
 
 /// Makes of a grey picture what a display of one bit shows of it, whose lines are packed; how many bytes they are.
-pub(super) fn mono(frame: &mut Frame) -> Result<u64, DrawFailure> {
+fn mono(frame: &mut Frame) -> Result<u64, DrawFailure> {
     let (width, height) = (frame.width(), frame.height());
     let grey: Vec<u8> = frame.rgb().iter().step_by(3).copied().collect();
     let mut packed = vec![0; width.div_ceil(8) as usize];

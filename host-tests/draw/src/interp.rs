@@ -1,16 +1,19 @@
-//! The pipeline of each interpolation method.
+//! Pictures by methods of the laboratory: how colours are taken from pixel to pixel, and what is kept of depth.
 
-use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw, draw_as, draw_model};
 use crate::choice::{InterpArg, PixelFormatArg};
+use crate::parts::{Display, Job, Took, draw_parts_by, room_for};
+use crate::{CrewSettings, DrawFailure, Drawn, Prepared, Setting, draw, draw_model, formats};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
-use scanbeam::pipeline::{
-    Auto, Counted, Forward, GouraudDepth, HalfRate, Interpolated, Interpolation, Lirp10, Lirp12,
-    Lirp16, LirpPacked, Packed16, QuarterRate,
-};
-use scanbeam::pixel::{Rgb565Be, Rgb888};
+use scanbeam::frame::FrameUse;
+use scanbeam::look::Gouraud;
+use scanbeam::pixel::{Pixel, Rgb565, Rgb888};
+use scanbeam::scan_out::Window;
+use scanbeam::stats::SpanCounts;
+use scanbeam::{Draw, Scene};
+use scanbeam_lab::{DepthMethod, Format, Method, Triangle, draw_line};
 
-/// Draws a model as [`draw`] does, with colours by a method. Flat faces need none.
+/// Draws a model as [`draw`] does, with colours by a method.
 ///
 /// # Errors
 /// See [`DrawFailure`].
@@ -21,52 +24,103 @@ pub fn draw_by(
     crew: CrewSettings,
     interp: InterpArg,
 ) -> Result<Drawn, DrawFailure> {
-    let by = match interp {
+    let method = match interp {
         InterpArg::Model => return draw_model(model, view, format),
-        InterpArg::Packed8 => return draw(model, view, format, crew),
-        _ if view.shade == Shade::Flat => return draw(model, view, format, crew),
-        InterpArg::Plane => smooth::<Forward>,
-        InterpArg::Packed16 => smooth::<Packed16>,
-        InterpArg::Half => smooth::<HalfRate>,
-        InterpArg::Quarter => smooth::<QuarterRate>,
-        InterpArg::Lirp10 => smooth::<Lirp10>,
-        InterpArg::Lirp12 => smooth::<Lirp12>,
-        InterpArg::Lirp16 => smooth::<Lirp16>,
-        InterpArg::LirpPacked => smooth::<LirpPacked>,
-        InterpArg::Auto => smooth::<Auto>,
+        InterpArg::Auto => return draw(model, view, format, crew),
+        InterpArg::Plane => Method::Plane,
+        InterpArg::Packed8 => Method::Packed8,
+        InterpArg::Packed16 => Method::Packed16,
+        InterpArg::Half => Method::Half,
+        InterpArg::Quarter => Method::Quarter,
+        InterpArg::Lirp10 => Method::Lirp(10),
+        InterpArg::Lirp12 => Method::Lirp(12),
+        InterpArg::Lirp16 => Method::Lirp(16),
+        InterpArg::LirpPacked => Method::LirpPacked,
     };
-    by(&Prepared::new(model), view, format, crew)
+    draw_by_methods(model, view, format, (method, DepthMethod::Bits32))
 }
 
-/// Draws what [`Prepared::new`] has made, for each span by the cheapest method within the budget:
-/// for many frames of one model.
+/// Draws a model by methods of the laboratory, smooth or flat and without textures, on this thread and without a cache.
 ///
 /// # Errors
 /// See [`DrawFailure`].
-pub fn draw_prepared(
-    prepared: &Prepared,
+pub fn draw_by_methods(
+    model: &Model,
     view: &View,
     format: PixelFormatArg,
-    crew: CrewSettings,
+    how: (Method, DepthMethod),
 ) -> Result<Drawn, DrawFailure> {
-    match (view.shade, format) {
-        (Shade::None | Shade::Gouraud, PixelFormatArg::Rgb888 | PixelFormatArg::Rgb565) => {
-            smooth::<Auto>(prepared, view, format, crew)
-        }
-        _ => super::formats::draw_in(prepared, view, format, crew),
+    let prepared = Prepared::new(model);
+    match format {
+        PixelFormatArg::Rgb888 => draw_in::<Rgb888>(&prepared, view, how),
+        PixelFormatArg::Rgb565 => draw_in::<Rgb565>(&prepared, view, how),
+        _ => Err(formats::refused("methods can be chosen")),
     }
 }
 
-fn smooth<I: Interpolation>(
+fn draw_in<F: Pixel + Format>(
     prepared: &Prepared,
     view: &View,
-    format: PixelFormatArg,
-    crew: CrewSettings,
+    how: (Method, DepthMethod),
 ) -> Result<Drawn, DrawFailure> {
-    type By<F, I> = Counted<Interpolated<GouraudDepth<F>, I>>;
-    match format {
-        PixelFormatArg::Rgb888 => draw_as::<By<Rgb888, I>>(prepared, view, crew),
-        PixelFormatArg::Rgb565 => draw_as::<By<Rgb565Be, I>>(prepared, view, crew),
-        _ => Err(super::formats::refused("methods can be chosen")),
+    let (chunks, setting) = (&prepared.chunks, Setting::new(prepared, view)?);
+    let room = room_for(chunks.iter(), false, view.shade == Shade::Flat);
+    let job = Job::new(view, setting.camera, CrewSettings::default(), room);
+    let counted: Vec<_> = chunks.iter().map(Some).collect();
+    let background = F::from_rgb8(view.background);
+    draw_parts_by::<Gouraud<F>, F>(
+        &job,
+        &counted,
+        |scene, _, number, instead| {
+            let chunk = instead.unwrap_or(&chunks[number]);
+            scene.draw(&Draw {
+                model: setting.model,
+                cull: setting.cull,
+                light: setting.light,
+                shading: setting.shading,
+                ..Draw::new(chunk.mesh())
+            })
+        },
+        |scene, pump, lines| draw_lines(scene, pump, (background, lines), how),
+    )
+}
+
+/// Draws all lines of a scene over a background, so many a transfer.
+fn draw_lines<F: Pixel + Format>(
+    scene: &Scene<'_, '_, Gouraud<F>>,
+    pump: &mut Display<F>,
+    (background, lines_per_transfer): (F::Word, u16),
+    how: (Method, DepthMethod),
+) -> Result<Took, DrawFailure> {
+    let failed = |error| DrawFailure::Method(format!("{error:?}"));
+    let (width, lines) = (scene.screen().width(), scene.lines());
+    let triangles: Vec<Triangle> = scene.triangles().map(Triangle::from).collect();
+    let mut cells = vec![0; width.into()];
+    let window = Window {
+        x: 0,
+        y: lines.start,
+        width,
+        height: lines.len() as u16,
+    };
+    let mut spans = SpanCounts::default();
+    pump.begin(window, lines_per_transfer).map_err(failed)?;
+    for line in lines {
+        let pixels = pump.line().map_err(failed)?;
+        F::fill(pixels, background);
+        let counts = draw_line::<F>(how, triangles.iter().copied(), line, pixels, &mut cells);
+        spans.pixels_shaded += counts.shaded;
+        spans.pixels_hidden += counts.hidden;
+        spans.depth_tests += counts.shaded + counts.hidden;
+        pump.line_done().map_err(failed)?;
     }
+    pump.finish().map_err(failed)?;
+    Ok(Took {
+        used: FrameUse {
+            assembled: scene.assembled(),
+            scan_out: pump.stats(),
+            ..FrameUse::default()
+        },
+        spans: Some(spans),
+        fast_bytes: size_of_val(cells.as_slice()),
+    })
 }

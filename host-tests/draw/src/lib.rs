@@ -1,70 +1,66 @@
 //! A model through the whole pipeline into a mocked frame buffer, as firmware would draw it.
 
-mod bands;
 pub mod choice;
+mod counted;
 pub mod crew;
 mod depth;
 mod effects;
 mod formats;
+mod hardware;
 mod interp;
+mod models;
 mod parts;
+pub mod places;
 mod prepared;
 pub mod scene_file;
 mod scenes;
+mod setting;
 mod textured;
-mod values;
 
-pub use bands::{Bands, Overfull, Setting};
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
-pub use interp::{draw_by, draw_prepared};
-pub use parts::Figures;
+pub use hardware::{ModelLines, draw_model, trace_model_line};
+pub use interp::{draw_by, draw_by_methods};
+pub use models::{draw, draw_prepared, draw_textured};
 pub use prepared::Prepared;
 pub use scenes::{SceneParts, draw_scene_file};
-pub use textured::{FilterArg, HostTexture, Skins, TextureSet, TextureSetError, draw_textured};
-pub use values::{Called, MOST_SLOTS, draw_by_calls};
+pub use setting::Setting;
+pub use textured::{FilterArg, Skins, TextureSet, TextureSetError};
 
-use crate::choice::{DEFAULT_SLOTS, PixelFormatArg};
+use crate::choice::{DEFAULT_SLOTS, DepthArg};
 use host_support::image_out::Frame;
-use host_support::lent::{LineRooms, SceneRooms};
 use host_support::mock::{HostLine, MockError, MockFrameBuffer};
-use host_support::model::Model;
-use host_support::reference::{Shade, View};
-use scanbeam::Link;
-use scanbeam::pipeline::{
-    DepthUse, FlatDepth, FrameError, FrameStats, GouraudDepth, Pipeline, Quality, Scene, WordOf,
-};
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::frame::{FrameError, FrameUse};
 use scanbeam::scan_out::Pump;
-use scanbeam::stats::PassOne;
-use scanbeam_model::{
-    CornerColours, ModelFrameError, ModelRenderer, PipeMemory, SEGMENT, draw_model_frame,
-};
+use scanbeam::stats::SpanCounts;
 use serde_json::json;
+
+/// Most slots that a renderer's cache has, inclusive: more are as good as these, as far as the picture goes.
+pub const MOST_SLOTS: u16 = 224;
 
 /// Who draws a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct CrewSettings {
     /// Line renderers: one on this thread, or several on a thread each, at least 1.
     pub renderers: u16,
-    /// Slots of each one's object cache.
-    pub slots: usize,
+    /// Slots of each one's object cache, of which up to [`MOST_SLOTS`] are used.
+    pub slots: u16,
     /// Bytes a line that each fetches ahead.
     pub prefetch: u32,
-    /// How far the picture may be off where the method chooses.
-    pub quality: Quality,
-    /// When depth is compared, where there is any.
-    pub depth_use: DepthUse,
+    /// Whether spans and pixels are counted, for which lines take longer.
+    pub counts: bool,
+    /// How what is seen is found.
+    pub depth: DepthArg,
 }
 
 impl Default for CrewSettings {
     fn default() -> Self {
         Self {
             renderers: 1,
-            slots: usize::from(DEFAULT_SLOTS),
+            slots: DEFAULT_SLOTS,
             prefetch: 0,
-            quality: Quality::default(),
-            depth_use: DepthUse::default(),
+            counts: false,
+            depth: DepthArg::Auto,
         }
     }
 }
@@ -83,15 +79,59 @@ pub enum DrawFailure {
     /// The mocked display refused something.
     #[error("display: {0}")]
     Display(FrameError<MockError>),
-    /// The same, of a picture by draw calls.
+    /// What a laboratory method drew did not arrive, or it has too little memory.
     #[error("display: {0}")]
-    Calls(scanbeam::frame::FrameError<MockError>),
-    /// The mocked display refused what the hardware model drew.
-    #[error("display: {0:?}")]
-    Model(ModelFrameError<MockError>),
+    Method(String),
     /// The frame did not arrive whole.
     #[error("display: {0:?}")]
     Incomplete(MockError),
+}
+
+/// Lines that have more triangles than memory can hold: they show those that fit.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Overfull {
+    /// The first such line.
+    pub line: u16,
+    /// How many lines there are.
+    pub lines: u32,
+    /// How many triangles are left out, each on each of the lines.
+    pub triangles: u32,
+    /// What was full on the first line.
+    pub first: String,
+}
+
+impl std::fmt::Display for Overfull {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { line, first, .. } = self;
+        write!(f, "line {line}: {first}; the rest is drawn")?;
+        match self.lines {
+            1 => Ok(()),
+            n => write!(
+                f,
+                " ({n} lines are so, {} triangles in all)",
+                self.triangles
+            ),
+        }
+    }
+}
+
+/// Memory that a picture takes: that of the part with the most of each.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Figures {
+    /// Parts that the picture is put together from.
+    pub parts: u32,
+    /// Records of triangles, more than are seen where clipping cuts: of the whole picture, whatever its parts are.
+    pub objects: usize,
+    /// Vertices of the whole picture, likewise.
+    pub vertices: usize,
+    /// Bytes that a renderer reads of a triangle with its corners.
+    pub record_bytes: u32,
+    /// Most bytes of slow memory in use: the scene, and a column of links for each renderer.
+    pub slow_bytes: usize,
+    /// Bytes of fast memory: slots of the caches and depth of a line, for each renderer.
+    pub fast_bytes: usize,
+    /// Bytes of the two line buffers.
+    pub line_bytes: usize,
 }
 
 /// A finished picture and what it took.
@@ -99,240 +139,75 @@ pub enum DrawFailure {
 pub struct Drawn {
     /// The picture, converted back to 8-bit levels.
     pub frame: Frame,
-    /// The figures, summed over bands. Those of `pass_one` are of the model and the whole picture:
-    /// each triangle, object and vertex counts once whatever the bands.
-    pub stats: FrameStats,
-    /// Bands that the picture was put together from; 1 unless an arena was too small.
-    pub bands: u32,
+    /// What it took, all parts and renderers together; of the most slots in use, those of the renderer that has most.
+    /// Figures of pass one are of the model and the whole picture: each triangle counts once whatever the parts.
+    pub used: FrameUse,
+    /// Spans and pixels, likewise together, where they were counted.
+    pub spans: Option<SpanCounts>,
+    /// Memory.
+    pub figures: Figures,
     /// What is left out.
     pub overfull: Option<Overfull>,
-    /// Most bytes of slow memory in use: the scene and one link column.
-    pub slow_bytes: usize,
-    /// Bytes of fast memory: cache slots and line depth.
-    pub fast_bytes: usize,
-    /// Bytes of the two line buffers.
-    pub line_bytes: usize,
 }
 
 impl Drawn {
     /// The figures as `render --stats` writes them.
     ///
-    /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them
-    /// are on no line of the picture or show their back; `objects_skipped` are those of the culled
-    /// that were not looked at, because their mesh is outside the view. `objects_kept` are the
-    /// records made of the others, more where clipping cuts; `vertices_kept` are theirs.
+    /// `objects_in` is the number of the model's triangles, and `objects_culled` how many of them are on no line of the
+    /// picture or show their back. `objects_kept` are the records made of the others, more where clipping cuts, and in
+    /// a picture of more than 1016 columns or lines more where parts of it share a triangle; `vertices_kept` are
+    /// theirs. What was `skipped`, since its part of the model is out of sight, counts in each part of the picture. Of the cache, `hits` are spans drawn from a slot, and `misses` those that were set up for their line.
     #[must_use]
     pub fn to_json(&self) -> serde_json::Value {
-        let s = &self.stats;
-        json!({
-            "objects_in": s.pass_one.triangles,
-            "objects_culled": s.pass_one.culled,
-            "objects_clipped": s.pass_one.clipped,
-            "objects_kept": s.pass_one.objects,
-            "objects_skipped": s.pass_one.triangles_skipped,
-            "meshes_skipped": s.pass_one.meshes_skipped,
-            "vertices_kept": s.pass_one.vertices,
-            "vertices_skipped": s.pass_one.vertices_skipped,
-            "spans": s.spans.spans,
-            "spans_hidden": s.spans.spans_hidden,
-            "spans_untested": s.spans.spans_untested,
-            "spans_flat": s.spans.spans_flat,
-            "pixels_shaded": s.spans.pixels_shaded,
-            "pixels_hidden": s.spans.pixels_hidden,
-            "depth_tests": s.spans.depth_tests,
-            "texture_fetches": s.spans.texture_fetches,
-            "scanlines_skipped": s.scanlines_skipped,
-            "bytes_sent": s.scan_out.bytes_sent,
-            "lines_unsent": s.scan_out.lines_unsent,
-            "bytes_unsent": s.scan_out.bytes_unsent,
-            "transfers": s.scan_out.transfers,
-            "bands": self.bands,
+        let (done, cache, sent) = (&self.used.assembled, &self.used.cache, &self.used.scan_out);
+        let figures = &self.figures;
+        let mut all = json!({
+            "objects_in": done.triangles,
+            "objects_culled": done.culled,
+            "objects_clipped": done.clipped,
+            "objects_kept": figures.objects,
+            "vertices_kept": figures.vertices,
+            "objects_skipped": done.triangles_skipped,
+            "meshes_skipped": done.meshes_skipped,
+            "vertices_skipped": done.vertices_skipped,
+            "scanlines_skipped": self.used.lines_skipped,
+            "bytes_sent": sent.bytes_sent,
+            "lines_unsent": sent.lines_unsent,
+            "bytes_unsent": sent.bytes_unsent,
+            "transfers": sent.transfers,
+            "bands": figures.parts,
             "cache": {
-                "hits": s.cache.hits,
-                "misses": s.cache.misses,
-                "spills": s.cache.spills,
-                "hits_per_mille": s.cache.hits_per_mille(),
-                "set_ups": s.cache.records_read(),
-                "prefetched": s.cache.fetched,
-                "prefetch_hits": s.cache.fetched_hits,
-                "prefetch_in_vain": s.cache.fetched_in_vain,
-                "prefetch_bytes": s.prefetch_bytes,
-                "slow_read_bytes": s.slow_read_bytes,
-                "slow_write_bytes": s.slow_write_bytes,
-                "peak_slots": s.cache.peak_slots,
+                "found_slot": cache.hits,
+                "misses": cache.misses,
+                "spills": cache.spilled,
+                "moved_in": cache.moved_in,
+                "set_ups": cache.set_ups,
+                "prefetched": cache.fetched,
+                "prefetch_bytes": cache.fetched_bytes,
+                "slow_read_bytes": cache.slow_read_bytes(figures.record_bytes),
+                "slow_write_bytes": cache.slow_write_bytes(),
+                "peak_slots": cache.peak,
             },
             "ram": {
-                "slow_bytes": self.slow_bytes,
-                "fast_bytes": self.fast_bytes,
-                "line_bytes": self.line_bytes,
+                "slow_bytes": figures.slow_bytes,
+                "fast_bytes": figures.fast_bytes,
+                "line_bytes": figures.line_bytes,
             },
-        })
-    }
-}
-
-/// Draws a model with the pipeline that the view and the format ask for.
-///
-/// # Errors
-/// See [`DrawFailure`].
-pub fn draw(
-    model: &Model,
-    view: &View,
-    format: PixelFormatArg,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    let prepared = Prepared::new(model);
-    formats::draw_in(&prepared, view, format, crew)
-}
-
-/// Draws a model as [`draw`] does, through the hardware model.
-///
-/// # Errors
-/// See [`DrawFailure`].
-pub fn draw_model(
-    model: &Model,
-    view: &View,
-    format: PixelFormatArg,
-) -> Result<Drawn, DrawFailure> {
-    let prepared = Prepared::new(model);
-    match (view.shade, format) {
-        (Shade::Flat, PixelFormatArg::Rgb888) => {
-            draw_model_as::<FlatDepth<Rgb888>>(&prepared, view)
+        });
+        if let Some(spans) = &self.spans {
+            all["spans"] = json!(spans.spans);
+            all["spans_hidden"] = json!(spans.spans_hidden);
+            all["spans_untested"] = json!(spans.spans_untested);
+            all["pixels_shaded"] = json!(spans.pixels_shaded);
+            all["pixels_hidden"] = json!(spans.pixels_hidden);
+            all["depth_tests"] = json!(spans.depth_tests);
+            all["texture_fetches"] = json!(spans.texture_fetches);
+            let hits = spans.spans.saturating_sub(cache.misses);
+            let share = 1000 * u64::from(hits) / u64::from(spans.spans.max(1));
+            all["cache"]["hits"] = json!(hits);
+            all["cache"]["hits_per_mille"] = json!(share);
         }
-        (Shade::Flat, PixelFormatArg::Rgb565) => {
-            draw_model_as::<FlatDepth<Rgb565Be>>(&prepared, view)
-        }
-        (_, PixelFormatArg::Rgb888) => draw_model_as::<GouraudDepth<Rgb888>>(&prepared, view),
-        (_, PixelFormatArg::Rgb565) => draw_model_as::<GouraudDepth<Rgb565Be>>(&prepared, view),
-        _ => Err(formats::refused("the hardware model draws")),
-    }
-}
-
-/// Draws a prepared model with the pipeline `P`.
-///
-/// # Errors
-/// See [`DrawFailure`].
-pub fn draw_as<P: Pipeline<Textures: Sync>>(
-    prepared: &Prepared,
-    view: &View,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    draw_with::<P>(prepared, view, crew, P::Textures::default())
-}
-
-/// Draws a prepared model with the pipeline `P` and its textures.
-fn draw_with<P: Pipeline<Textures: Sync>>(
-    prepared: &Prepared,
-    view: &View,
-    crew: CrewSettings,
-    textures: P::Textures,
-) -> Result<Drawn, DrawFailure> {
-    let setting = Setting::new(prepared, view)?;
-    let mut rooms = rooms_for::<P>(prepared, view.height as u16);
-    rooms.textures = textures;
-    let build = |scene: &mut Scene<'_, P>, chunk: usize, alone: bool| {
-        prepared.chunks[chunk].draw(scene, &setting.instance, alone)
-    };
-    let steps = prepared.chunks.len();
-    let (width, height) = (view.width as u16, view.height as u16);
-    let links = rooms.objects();
-    let mut line_rooms: Vec<LineRooms<P>> = (0..crew.renderers.max(1))
-        .map(|_| LineRooms::new(crew.slots, links, width.into()))
-        .collect();
-    let fast_bytes = line_rooms.iter().map(LineRooms::fast_bytes).sum();
-    let mut renderers = crew::renderers(&mut line_rooms, crew);
-    // A link column for each renderer.
-    let column_bytes = renderers.len() * size_of::<Link>();
-    let background = P::Pixel::from_rgb8(view.background);
-    let (mut pump, lines) = display::<WordOf<P>>(width, height);
-    let mut total = FrameStats::default();
-    let mut slow_bytes = 0;
-    let bands = setting.bands_of((&mut rooms, 0..height), (steps, build), |scene| {
-        let stats = crew::draw_frame(scene, &mut renderers, &mut pump, background, lines)
-            .map_err(DrawFailure::Display)?;
-        add(&mut total, &stats);
-        slow_bytes = slow_bytes.max(scene.bytes() + stats.pass_one.objects as usize * column_bytes);
-        Ok(())
-    })?;
-    if bands.count > 1 {
-        setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
-    }
-    Ok(Drawn {
-        frame: shown::<P::Pixel>(&pump, view)?,
-        stats: total,
-        bands: bands.count,
-        overfull: bands.overfull,
-        slow_bytes,
-        fast_bytes,
-        line_bytes: line_bytes::<P>(width, lines),
-    })
-}
-
-/// Draws a prepared model with the pipeline `P` through the hardware model.
-fn draw_model_as<P>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure>
-where
-    P: Pipeline<Shading: CornerColours>,
-{
-    let setting = Setting::new(prepared, view)?;
-    let (width, height) = (view.width as u16, view.height as u16);
-    let mut rooms = rooms_for::<P>(prepared, height);
-    let mut lines_of_model = ModelLines::new(width);
-    let mut renderer = lines_of_model.renderer();
-    let background = P::Pixel::from_rgb8(view.background);
-    let (mut pump, lines) = display::<WordOf<P>>(width, height);
-    let mut total = FrameStats::default();
-    let mut slow_bytes = 0;
-    let bands = setting.bands(prepared, &mut rooms, 0..height, |scene| {
-        draw_model_frame(scene, &mut renderer, &mut pump, background, lines)
-            .map_err(DrawFailure::Model)?;
-        let band = FrameStats {
-            pass_one: scene.pass_one(),
-            scan_out: pump.stats(),
-            ..FrameStats::default()
-        };
-        add(&mut total, &band);
-        slow_bytes = slow_bytes.max(scene.bytes());
-        Ok(())
-    })?;
-    if bands.count > 1 {
-        setting.count_once(prepared, &mut rooms, &mut total.pass_one)?;
-    }
-    let counts = renderer.counts();
-    total.spans.pixels_shaded = (counts.pixels - counts.hidden) as u32;
-    total.spans.pixels_hidden = counts.hidden as u32;
-    total.spans.depth_tests = counts.pixels as u32;
-    Ok(Drawn {
-        frame: shown::<P::Pixel>(&pump, view)?,
-        stats: total,
-        bands: bands.count,
-        overfull: bands.overfull,
-        slow_bytes,
-        fast_bytes: lines_of_model.bytes(),
-        line_bytes: line_bytes::<P>(width, lines),
-    })
-}
-
-/// The scanlines that the hardware model works in.
-pub struct ModelLines([Vec<u64>; 4]);
-
-impl ModelLines {
-    /// As wide as a picture, or as the widest segment.
-    #[must_use]
-    pub fn new(width: u16) -> Self {
-        let line = vec![0; usize::from(width).min(SEGMENT)];
-        Self([line.clone(), line.clone(), line.clone(), line])
-    }
-
-    /// A renderer over them.
-    pub fn renderer(&mut self) -> ModelRenderer<'_> {
-        let [z0, z1, c0, c1] = &mut self.0;
-        ModelRenderer::new(PipeMemory {
-            z: [z0, z1],
-            rgb: [c0, c1],
-        })
-    }
-
-    fn bytes(&self) -> usize {
-        self.0.iter().map(|line| size_of_val(line.as_slice())).sum()
+        all
     }
 }
 
@@ -346,61 +221,4 @@ fn display<W: Copy + Default + 'static>(
     let sink = MockFrameBuffer::new(width, height).late_by(LATE);
     let pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     (pump, lines)
-}
-
-/// Bytes of the two line buffers.
-fn line_bytes<P: Pipeline>(width: u16, lines: u16) -> usize {
-    2 * usize::from(width) * usize::from(lines) * size_of::<WordOf<P>>()
-}
-
-/// The picture that has arrived.
-fn shown<F: PixelFormat>(
-    pump: &Pump<MockFrameBuffer<F::Word>>,
-    view: &View,
-) -> Result<Frame, DrawFailure> {
-    let pixels = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
-    let rgb = pixels.into_iter().flat_map(F::to_rgb8).collect();
-    Frame::new(view.width, view.height, rgb)
-        .ok_or_else(|| DrawFailure::View("the picture has another size".into()))
-}
-
-/// Memory for a model's scene.
-#[must_use]
-pub fn rooms_for<P: Pipeline>(prepared: &Prepared, height: u16) -> SceneRooms<P> {
-    let faces: usize = prepared.chunks.iter().map(|c| c.faces.len()).sum();
-    let vertices: usize = prepared.chunks.iter().map(|c| c.positions.len()).sum();
-    // Clipping can make several triangles of one; a scene that needs more is drawn in bands.
-    let objects = (4 * faces + 64).min(usize::from(Link::CACHED));
-    SceneRooms::new(
-        (vertices + 8 * faces + 64).min(1 << 16),
-        objects,
-        height.into(),
-    )
-}
-
-/// Adds the figures of a band.
-fn add(total: &mut FrameStats, band: &FrameStats) {
-    let (a, b): (&mut PassOne, &PassOne) = (&mut total.pass_one, &band.pass_one);
-    a.triangles += b.triangles;
-    a.culled += b.culled;
-    a.clipped += b.clipped;
-    a.objects += b.objects;
-    a.vertices += b.vertices;
-    a.dropped += b.dropped;
-    // One that is on several bands is told of in each.
-    a.untextured += b.untextured;
-    a.meshes_skipped += b.meshes_skipped;
-    a.triangles_skipped += b.triangles_skipped;
-    a.vertices_skipped += b.vertices_skipped;
-    total.spans += band.spans;
-    total.cache += band.cache;
-    total.prefetch_bytes += band.prefetch_bytes;
-    total.slow_read_bytes += band.slow_read_bytes;
-    total.slow_write_bytes += band.slow_write_bytes;
-    total.scanlines_skipped += band.scanlines_skipped;
-    total.scan_out.bytes_sent += band.scan_out.bytes_sent;
-    total.scan_out.transfers += band.scan_out.transfers;
-    total.scan_out.stall_polls += band.scan_out.stall_polls;
-    total.scan_out.lines_unsent += band.scan_out.lines_unsent;
-    total.scan_out.bytes_unsent += band.scan_out.bytes_unsent;
 }

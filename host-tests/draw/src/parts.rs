@@ -1,19 +1,25 @@
 //! A picture by draw calls in as many scenes as it takes: tiles where it is larger than a scene can be, and bands of
 //! lines where more is seen than the memory of a scene holds.
 
+use crate::choice::DepthArg;
+use crate::counted::{count_triangles, lines_of_faces};
 use crate::prepared::Chunk;
-use crate::values::{Called, MOST_SLOTS, draw_shared};
-use crate::{DrawFailure, Overfull, display};
+use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
 use host_support::image_out::Frame;
+use host_support::mock::MockFrameBuffer;
+use host_support::reference::View;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::frame::{CacheUse, FastMemory, FrameUse, draw_frame};
+use scanbeam::frame::{FastMemory, FrameUse};
 use scanbeam::look::Look;
 use scanbeam::pixel::{Pixel, PixelFormat};
-use scanbeam::scene::{DrawError, DrawState, Object, TexturePlace, Vertex};
-use scanbeam::{Camera, Link, Scene, Screen};
+use scanbeam::scan_out::Pump;
+use scanbeam::scene::{DrawError, DrawState, LARGEST, Object, TexturePlace, Vertex};
+use scanbeam::stats::SpanCounts;
+use scanbeam::{Camera, Link, Renderer, Scene, Screen};
+use std::ops::Range;
 
 /// Words of 32 slots that the cache of a renderer has.
-pub(crate) const WORDS: usize = MOST_SLOTS as usize / 32;
+const WORDS: usize = MOST_SLOTS as usize / 32;
 
 /// What is to be drawn, and by how many.
 #[derive(Clone, Copy)]
@@ -24,13 +30,29 @@ pub(crate) struct Job {
     pub(crate) most: u16,
     pub(crate) camera: Camera,
     pub(crate) background: [u8; 3],
-    /// At least 1.
-    pub(crate) renderers: u16,
-    pub(crate) slots: u16,
-    /// Whether there are shadow volumes.
+    pub(crate) crew: CrewSettings,
+    /// Whether there are shadow volumes, and triangles are drawn more than once.
     pub(crate) shadows: bool,
+    /// Whether all is so far ahead that a tile which no camera sees shows none of it.
+    pub(crate) is_ahead: bool,
     /// Memory of a scene.
     pub(crate) room: Room,
+}
+
+impl Job {
+    /// One without shadows.
+    pub(crate) fn new(view: &View, camera: Camera, crew: CrewSettings, room: Room) -> Self {
+        Self {
+            size: [view.width, view.height],
+            most: LARGEST,
+            camera,
+            background: view.background,
+            crew,
+            shadows: false,
+            is_ahead: false,
+            room,
+        }
+    }
 }
 
 /// Room for a scene of these parts of models, with textures or without, and with faces of one colour each where it is
@@ -111,101 +133,204 @@ pub(crate) fn tiles(job: &Job) -> impl Iterator<Item = Tile> {
         })
 }
 
-/// Draws a picture of what `step` draws, for each number from 0 to below `steps` once a scene. A line that has more than a
-/// scene's memory holds shows what does.
+/// What a band of a picture took.
+pub(crate) struct Took {
+    pub(crate) used: FrameUse,
+    /// Where they were counted.
+    pub(crate) spans: Option<SpanCounts>,
+    /// Bytes of fast memory.
+    pub(crate) fast_bytes: usize,
+}
+
+/// The pump to the mocked display of a part.
+pub(crate) type Display<F> = Pump<MockFrameBuffer<<F as PixelFormat>::Word>>;
+
+/// Draws a picture by line renderers, of what `step` draws, for each number from 0 to below those of `counted` once a
+/// scene. These are the parts of the model that steps draw; `None` where triangles do not count, since they are none of
+/// it or are drawn again. A step that is given another part draws that instead. A line that has more than a scene's
+/// memory holds shows what does.
 ///
 /// # Errors
 /// See [`DrawFailure`].
 pub(crate) fn draw_parts<'t, L, F>(
     job: &Job,
-    steps: usize,
-    step: impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize) -> Result<(), DrawError>,
-) -> Result<Called, DrawFailure>
+    counted: &[Option<&Chunk>],
+    step: impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+) -> Result<Drawn, DrawFailure>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
     F: Pixel + Sync,
+{
+    draw_parts_by(job, counted, step, |scene, pump, lines| {
+        draw_by_crew(job, scene, pump, lines)
+    })
+}
+
+/// The same by whoever draws: a scene to a display, so many lines a transfer.
+///
+/// # Errors
+/// See [`DrawFailure`].
+pub(crate) fn draw_parts_by<'t, L, F>(
+    job: &Job,
+    counted: &[Option<&Chunk>],
+    step: impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+    by: impl FnMut(&Scene<'_, 't, L>, &mut Display<F>, u16) -> Result<Took, DrawFailure>,
+) -> Result<Drawn, DrawFailure>
+where
+    L: Look<Pixel = F>,
+    F: Pixel,
 {
     let [width, height] = job.size;
     let mut parts = Parts {
         rgb: vec![0; 3 * width as usize * height as usize],
         used: FrameUse::default(),
-        figures: Figures {
-            once: true,
-            ..Figures::default()
-        },
+        spans: None,
+        figures: Figures::default(),
         overfull: None,
-        steps,
+        counted,
         step,
+        by,
     };
     for tile in tiles(job) {
         parts.tile::<L, F>(job, tile)?;
     }
-    Ok(Called {
+    if parts.figures.parts != 1 || job.shadows {
+        let all = count_triangles(job, counted, &mut parts.step)?;
+        let done = &mut parts.used.assembled;
+        (done.triangles, done.culled, done.clipped) = (all.triangles, all.culled, all.clipped);
+        (parts.figures.objects, parts.figures.vertices) = (all.objects, all.vertices);
+    }
+    Ok(Drawn {
         frame: Frame::new(width, height, parts.rgb)
             .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?,
         used: parts.used,
+        spans: parts.spans,
         figures: parts.figures,
         overfull: parts.overfull,
     })
 }
 
-/// A picture as its parts become ready.
-struct Parts<S> {
-    rgb: Vec<u8>,
-    used: FrameUse,
-    figures: Figures,
-    overfull: Option<Overfull>,
-    steps: usize,
-    step: S,
+/// Draws a scene by a crew of renderers.
+fn draw_by_crew<L, F>(
+    job: &Job,
+    scene: &Scene<'_, '_, L>,
+    pump: &mut Display<F>,
+    lines: u16,
+) -> Result<Took, DrawFailure>
+where
+    L: Look<Pixel = F, Planes: Send> + Sync,
+    F: Pixel + Sync,
+{
+    let width = scene.screen().width();
+    let slots = job.crew.slots.min(MOST_SLOTS);
+    let count = job.crew.renderers.max(1);
+    let has_depth = job.crew.depth != DepthArg::Priority;
+    let mut rooms: Vec<LineRooms<L, WORDS>> = (0..count)
+        .map(|_| LineRooms::new(scene.objects(), width).with_limit(slots))
+        .map(|rooms| match (job.shadows, has_depth) {
+            (true, _) => rooms.with_counts(),
+            (false, true) => rooms,
+            (false, false) => rooms.without_depth(),
+        })
+        .collect();
+    let mut renderers: Vec<_> = rooms
+        .iter_mut()
+        .map(|rooms| {
+            let renderer = match job.crew.counts {
+                true => rooms.renderer().counting(),
+                false => rooms.renderer(),
+            };
+            match job.crew.prefetch {
+                0 => renderer,
+                bytes => renderer.fetching(bytes),
+            }
+        })
+        .collect();
+    let background = F::from_rgb8(job.background);
+    let used = crew::draw_frame(scene, &mut renderers, pump, background, lines);
+    let cell = if has_depth { size_of::<u32>() } else { 0 };
+    let cells = usize::from(width) * (cell + usize::from(job.shadows));
+    let fast = usize::from(slots) * FastMemory::<L, WORDS>::SLOT_BYTES + cells;
+    let spans = job.crew.counts.then(|| {
+        let mut all = SpanCounts::default();
+        renderers
+            .iter()
+            .for_each(|renderer| all += renderer.spans());
+        all
+    });
+    Ok(Took {
+        used: used.map_err(DrawFailure::Display)?,
+        spans,
+        fast_bytes: usize::from(count) * fast,
+    })
 }
 
-impl<S> Parts<S> {
+/// A picture as its parts become ready.
+struct Parts<'c, S, B> {
+    rgb: Vec<u8>,
+    used: FrameUse,
+    spans: Option<SpanCounts>,
+    figures: Figures,
+    overfull: Option<Overfull>,
+    counted: &'c [Option<&'c Chunk>],
+    step: S,
+    by: B,
+}
+
+impl<S, B> Parts<'_, S, B> {
     /// Draws a tile, in as many bands of lines as it takes.
     fn tile<'t, L, F>(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure>
     where
-        L: Look<Pixel = F, Planes: Send> + Sync,
-        F: Pixel + Sync,
-        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize) -> Result<(), DrawError>,
+        L: Look<Pixel = F>,
+        F: Pixel,
+        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+        B: FnMut(&Scene<'_, 't, L>, &mut Display<F>, u16) -> Result<Took, DrawFailure>,
     {
         let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
         let [width, height] = tile.size;
-        let camera = tile.camera(job)?;
+        // Where nothing is seen, from anywhere.
+        let camera = match tile.camera(job) {
+            Err(_) if job.is_ahead => None,
+            camera => Some(camera?),
+        };
+        let mut own_lines = None;
         let mut memory = SceneRooms::new(job.room, height);
         let mut scene = memory.scene::<L>(tile.screen()?);
-        let mut lines: Vec<LineRooms<L, WORDS>> = (0..job.renderers)
-            .map(|_| LineRooms::new(job.room.objects, width).with_limit(job.slots))
-            .map(|rooms| match job.shadows {
-                true => rooms.with_counts(),
-                false => rooms,
-            })
-            .collect();
-        let mut crew: Vec<_> = lines.iter_mut().map(LineRooms::renderer).collect();
-        let (mut pump, band) = display::<F::Word>(width, height);
-        let background = F::from_rgb8(job.background);
+        let (mut pump, lines) = display::<F::Word>(width, height);
         let (mut start, mut count) = (0, height);
         while start < height {
             count = count.min(height - start);
-            let begun = scene.begin_lines(&camera, start..start + count);
+            let lines_of_band = start..start + count;
+            let begun = scene.begin_lines(camera.as_ref().unwrap_or(&job.camera), lines_of_band);
             begun.map_err(|e| bad(&e))?;
-            let full = self.build(&mut scene, &tile, count > 1)?;
-            match full {
+            let full = match &camera {
+                Some(_) => self.build(&mut scene, &tile, count > 1, own_lines.as_deref())?,
+                None => None,
+            };
+            match (full, &camera) {
+                // Without vertices of triangles elsewhere.
+                (Some(_), Some(camera)) if own_lines.is_none() => {
+                    let lines = lines_of_faces(camera, &tile, self.counted, &mut self.step)?;
+                    own_lines = Some(lines);
+                    continue;
+                }
                 // Fewer lines have fewer triangles.
-                Some(_) if count > 1 => {
+                (Some(_), _) if count > 1 => {
                     count = count.div_ceil(2);
                     continue;
                 }
-                Some(first) => {
+                (Some(first), _) => {
                     let line = tile.first[1] as u16 + start;
                     self.is_overfull(line, first, scene.assembled().dropped);
                 }
-                None => {}
+                (None, _) => {}
             }
-            let used = match &mut crew[..] {
-                [alone] => draw_frame(&scene, alone, &mut pump, background, band),
-                several => draw_shared(&scene, several, &mut pump, background, band),
-            };
-            add(&mut self.used, &used.map_err(DrawFailure::Calls)?);
-            self.figures.count(job, &scene, band);
+            let took = (self.by)(&scene, &mut pump, lines)?;
+            add(&mut self.used, &took.used);
+            if let Some(spans) = took.spans {
+                *self.spans.get_or_insert_default() += spans;
+            }
+            self.figures.add(job, &scene, lines, took.fast_bytes);
             start += count;
         }
         let words = pump.sink().frame().map_err(DrawFailure::Incomplete)?;
@@ -213,19 +338,27 @@ impl<S> Parts<S> {
         Ok(())
     }
 
-    /// Draws all that a scene has room for; what found none first. Where that is asked for, it stops there.
+    /// Draws all that a scene has room for, of parts of the model what may be on its lines, where that is known; what
+    /// found none first. Where that is asked for, it stops there.
     fn build<'t, L>(
         &mut self,
         scene: &mut Scene<'_, 't, L>,
         tile: &Tile,
         stops: bool,
+        own_lines: Option<&[Vec<Range<i32>>]>,
     ) -> Result<Option<DrawError>, DrawFailure>
     where
-        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize) -> Result<(), DrawError>,
+        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
     {
         let mut full = None;
-        for step in 0..self.steps {
-            match (self.step)(scene, tile, step) {
+        let band = scene.lines();
+        let band = i32::from(band.start)..i32::from(band.end);
+        for (step, chunk) in self.counted.iter().enumerate() {
+            let part = chunk.zip(own_lines).map(|(chunk, lines)| {
+                let on_band = |lines: &Range<i32>| lines.start < band.end && band.start < lines.end;
+                chunk.only(|face| on_band(&lines[step][face]))
+            });
+            match (self.step)(scene, tile, step, part.as_ref()) {
                 Ok(()) => {}
                 Err(error @ DrawError::Full { .. }) => {
                     full.get_or_insert(error);
@@ -271,7 +404,10 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.assembled.clipped += one.assembled.clipped;
     all.assembled.dropped += one.assembled.dropped;
     all.assembled.untextured += one.assembled.untextured;
-    add_cache(&mut all.cache, &one.cache);
+    all.assembled.meshes_skipped += one.assembled.meshes_skipped;
+    all.assembled.triangles_skipped += one.assembled.triangles_skipped;
+    all.assembled.vertices_skipped += one.assembled.vertices_skipped;
+    all.cache += one.cache;
     all.lines_skipped += one.lines_skipped;
     all.scan_out.bytes_sent += one.scan_out.bytes_sent;
     all.scan_out.transfers += one.scan_out.transfers;
@@ -280,78 +416,26 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.scan_out.bytes_unsent += one.scan_out.bytes_unsent;
 }
 
-/// Adds what another cache has done.
-pub(crate) fn add_cache(all: &mut CacheUse, one: &CacheUse) {
-    all.hits += one.hits;
-    all.spilled += one.spilled;
-    all.moved_in += one.moved_in;
-    all.misses += one.misses;
-    all.set_ups += one.set_ups;
-    all.peak = all.peak.max(one.peak);
-}
-
-/// Memory that a picture takes: that of the part with the most of each.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub struct Figures {
-    /// Parts that the picture is put together from.
-    pub parts: u32,
-    /// Whether no triangle is drawn more than once in a part.
-    pub once: bool,
-    /// Triangles in memory: more than are seen where clipping cuts.
-    pub objects: usize,
-    /// Vertices in memory.
-    pub vertices: usize,
-    /// Bytes of slow memory in use: the scene, and a column of links for each renderer.
-    pub slow_bytes: usize,
-    /// Bytes of fast memory: slots of the caches and depth of a line, for each renderer.
-    pub fast_bytes: usize,
-    /// Bytes of the two line buffers.
-    pub line_bytes: usize,
-}
-
 impl Figures {
-    /// Counts another part, that has sent so many lines a transfer.
-    fn count<L: Look>(&mut self, job: &Job, scene: &Scene<'_, '_, L>, lines: u16) {
+    /// Adds another part, that has sent so many lines a transfer.
+    fn add<L: Look>(&mut self, job: &Job, scene: &Scene<'_, '_, L>, lines: u16, fast: usize) {
         let place = match L::TEXTURED {
             true => size_of::<TexturePlace>(),
             false => 0,
         };
-        let renderers = usize::from(job.renderers);
-        let object = size_of::<Object>() + renderers * size_of::<Link>();
+        let links = usize::from(job.crew.renderers.max(1)) * size_of::<Link>();
         let slow = scene.vertices() * (size_of::<Vertex>() + place)
-            + scene.objects() * object
+            + scene.objects() * (size_of::<Object>() + links)
             + scene.lines().len() * size_of::<u16>()
             + job.room.draws * size_of::<DrawState<'_>>();
-        let line = usize::from(scene.screen().width());
-        let fast = usize::from(job.slots) * FastMemory::<L, WORDS>::SLOT_BYTES
-            + line * 4
-            + if job.shadows { line } else { 0 };
         let word = size_of::<<L::Pixel as PixelFormat>::Word>();
+        let line = usize::from(scene.screen().width()) * usize::from(lines);
         self.parts += 1;
+        self.record_bytes = Renderer::<L, WORDS>::RECORD_BYTES;
         self.objects = self.objects.max(scene.objects());
         self.vertices = self.vertices.max(scene.vertices());
         self.slow_bytes = self.slow_bytes.max(slow);
-        self.fast_bytes = self.fast_bytes.max(renderers * fast);
-        self.line_bytes = self.line_bytes.max(2 * line * usize::from(lines) * word);
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn parts_are_all_of_it_and_none_is_too_large() {
-        for (length, most) in [(1, 1016), (1016, 1016), (1017, 1016), (4096, 1016), (9, 4)] {
-            let parts: Vec<_> = split(length, most).collect();
-            let mut next = 0;
-            for &(first, count) in &parts {
-                assert_eq!(first % 4, 0, "{parts:?}");
-                assert!(first == next && (1..=most).contains(&count), "{parts:?}");
-                next += u32::from(count);
-            }
-            assert_eq!(next, length, "{parts:?}");
-            assert_eq!(parts.len() as u32, length.div_ceil(most.into()));
-        }
+        self.fast_bytes = self.fast_bytes.max(fast);
+        self.line_bytes = self.line_bytes.max(2 * line * word);
     }
 }

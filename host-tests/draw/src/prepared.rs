@@ -2,13 +2,11 @@
 
 use super::TextureSet;
 use host_support::model::Model;
-use scanbeam::light::LightingModel;
 use scanbeam::mesh::Sphere;
-use scanbeam::pipeline::texture::{Quality, Skin};
-use scanbeam::pipeline::{DrawError, Instance, Pipeline, Scene};
 use scanbeam::scene::{ShadowEdge, ShadowLight, ShadowMemory};
 use scanbeam::{Affine, Faces, Mesh};
 use std::collections::HashMap;
+use std::ops::Range;
 
 /// A model in the crate's number formats.
 pub struct Prepared {
@@ -65,7 +63,6 @@ pub(super) struct Chunk {
     /// Texture places, where there is a texture.
     pub(super) places: Vec<[i32; 2]>,
     pub(super) texture: Option<u16>,
-    quality: Quality,
     /// Which of the model's looks.
     pub(super) look: u16,
 }
@@ -74,22 +71,17 @@ impl Prepared {
     /// Rounds a model to Q1.30 coordinates about its middle, Q1.14 normals and 8-bit colours.
     #[must_use]
     pub fn new(model: &Model) -> Self {
-        Self::textured(model, &TextureSet::default(), Quality::default())
+        Self::textured(model, &TextureSet::default())
     }
 
     /// The same with textures: a part has one, or none.
     #[must_use]
-    pub fn textured(model: &Model, set: &TextureSet, quality: Quality) -> Self {
-        Self::split(model, set, quality, |_| 0)
+    pub fn textured(model: &Model, set: &TextureSet) -> Self {
+        Self::split(model, set, |_| 0)
     }
 
     /// The same, and the triangles of a part have one look.
-    pub(super) fn split(
-        model: &Model,
-        set: &TextureSet,
-        quality: Quality,
-        look: impl Fn(usize) -> u16,
-    ) -> Self {
+    pub(super) fn split(model: &Model, set: &TextureSet, look: impl Fn(usize) -> u16) -> Self {
         let (low, high) = model.bounds().unwrap_or(([-1.0; 3], [1.0; 3]));
         let centre = [0, 1, 2].map(|i| low[i] / 2.0 + high[i] / 2.0);
         let reach = (0..3).fold(0.0f64, |r, i| r.max(high[i] - centre[i]));
@@ -113,13 +105,13 @@ impl Prepared {
         } else {
             look(0)
         };
-        let mut chunk = Chunk::new(set.of(0).map(|(number, _)| number), quality, first);
+        let mut chunk = Chunk::new(set.of(0).map(|(number, _)| number), first);
         for (number, triangle) in model.triangles.iter().enumerate() {
             let (texture, image) = set.of(number).unzip();
             let look = look(number);
             let is_other = (chunk.texture, chunk.look) != (texture, look);
             if chunk.positions.len() + 3 > CHUNK || is_other {
-                let next = Chunk::new(texture, quality, look);
+                let next = Chunk::new(texture, look);
                 prepared.chunks.push(std::mem::replace(&mut chunk, next));
                 for index in used.drain(..) {
                     new_index[index] = u16::MAX;
@@ -200,7 +192,7 @@ impl Prepared {
 }
 
 impl Chunk {
-    fn new(texture: Option<u16>, quality: Quality, look: u16) -> Self {
+    fn new(texture: Option<u16>, look: u16) -> Self {
         Self {
             positions: Vec::new(),
             normals: Vec::new(),
@@ -209,16 +201,7 @@ impl Chunk {
             sphere: Sphere::around::<i32>(&[]),
             places: Vec::new(),
             texture,
-            quality,
             look,
-        }
-    }
-
-    fn skin<'a>(&self, places: &'a [[i32; 2]]) -> Skin<'a> {
-        Skin {
-            places,
-            texture: self.texture.unwrap_or(Skin::TEXTURES),
-            quality: self.quality,
         }
     }
 
@@ -231,41 +214,58 @@ impl Chunk {
         }
     }
 
-    /// Draws the chunk with shared vertices or, `alone`, triangle by triangle: then only the
-    /// vertices of triangles that can be seen take room. The pixels are the same.
-    pub(super) fn draw<P: Pipeline, L: LightingModel>(
-        &self,
-        scene: &mut Scene<'_, P>,
-        instance: &Instance<L>,
-        alone: bool,
-    ) -> Result<(), DrawError> {
-        if !alone {
-            if scene
-                .skip_outside(&self.mesh(), instance, &self.sphere)
-                .is_some()
-            {
-                return Ok(());
+    /// One with some of its faces, and all of its vertices.
+    pub(super) fn some(&self, faces: Range<usize>) -> Self {
+        Self {
+            positions: self.positions.clone(),
+            normals: self.normals.clone(),
+            colours: self.colours.clone(),
+            faces: self.faces[faces].to_vec(),
+            places: self.places.clone(),
+            ..*self
+        }
+    }
+
+    /// One with those faces that `has`, and their vertices alone.
+    pub(super) fn only(&self, has: impl Fn(usize) -> bool) -> Self {
+        let mut part = Self::new(self.texture, self.look);
+        let mut new_index = vec![u16::MAX; self.positions.len()];
+        for (number, face) in self.faces.iter().enumerate() {
+            if !has(number) {
+                continue;
             }
-            let skin = self.skin(&self.places);
-            return scene
-                .draw_skinned(&self.mesh(), skin.into(), instance)
-                .map(drop);
+            let face = face.map(|index| {
+                let old = usize::from(index);
+                if new_index[old] == u16::MAX {
+                    new_index[old] = part.positions.len() as u16;
+                    part.positions.push(self.positions[old]);
+                    part.normals.push(self.normals[old]);
+                    part.colours.push(self.colours[old]);
+                    part.places.extend(self.places.get(old));
+                }
+                new_index[old]
+            });
+            part.faces.push(face);
         }
-        for face in &self.faces {
-            let corners = face.map(usize::from);
-            let mesh = Mesh {
-                positions: &corners.map(|i| self.positions[i]),
-                normals: &corners.map(|i| self.normals[i]),
-                colours: &corners.map(|i| self.colours[i]),
-                faces: Faces::Triangles(&[[0, 1, 2]]),
-            };
-            let places = corners.map(|i| self.places.get(i).copied().unwrap_or_default());
-            let skin = match self.texture {
-                Some(_) => self.skin(&places),
-                None => Skin::default(),
-            };
-            scene.draw_skinned(&mesh, skin.into(), instance)?;
+        part.sphere = self.sphere;
+        part
+    }
+
+    /// One with a face alone.
+    pub(super) fn alone(&self, face: usize) -> Self {
+        let corners = self.faces[face].map(usize::from);
+        let places = if self.places.is_empty() {
+            Vec::new()
+        } else {
+            corners.map(|i| self.places[i]).to_vec()
+        };
+        Self {
+            positions: corners.map(|i| self.positions[i]).to_vec(),
+            normals: corners.map(|i| self.normals[i]).to_vec(),
+            colours: corners.map(|i| self.colours[i]).to_vec(),
+            faces: vec![[0, 1, 2]],
+            places,
+            ..*self
         }
-        Ok(())
     }
 }

@@ -2,19 +2,19 @@
 //! several lights or in palettes a line.
 
 use crate::choice::PixelFormatArg;
+use crate::formats::{Picture, draw_in, refused};
 use crate::parts::{Job, Tile, draw_parts, room_for};
+use crate::prepared::Chunk;
 use crate::scene_file::{BlendKind, DepthKind, Item, Loaded, SceneFile};
+use crate::setting::{focal, unit};
 use crate::textured::Texels16;
-use crate::{
-    Called, CrewSettings, DrawFailure, FilterArg, MOST_SLOTS, Prepared, Skins, TextureSet,
-};
+use crate::{CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, Skins, TextureSet};
 use host_support::image_out::Frame;
 use host_support::reference::{Cull, View};
 use scanbeam::light::{DirectionalLight, Lighting};
-use scanbeam::look::{Gouraud, Look, Textured};
+use scanbeam::look::{Gouraud, Look, Textured, TexturedPhong};
 use scanbeam::mesh::{Material, U1F15};
-use scanbeam::pipeline::texture::Quality;
-use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
+use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
     Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, LARGEST, Lights, Scissor, Skin,
     Texture,
@@ -44,7 +44,7 @@ impl<'a> SceneParts<'a> {
         let mut parts = Vec::new();
         for (number, part) in loaded.parts.iter().enumerate() {
             let item = &part.item;
-            let mut prepared = Prepared::textured(&part.model, &part.textures, Quality::default());
+            let mut prepared = Prepared::textured(&part.model, &part.textures);
             if loaded.scene.has_palettes() {
                 prepared.paint(Index8::colour(item.index.unwrap_or(0)));
             }
@@ -159,117 +159,109 @@ pub fn draw_scene_file(
     view: &View,
     format: PixelFormatArg,
     crew: CrewSettings,
-) -> Result<Called, DrawFailure> {
-    let job = job(parts, view, crew)?;
+) -> Result<Drawn, DrawFailure> {
+    let task = Task {
+        parts,
+        job: job(parts, view, crew)?,
+        dither: format == PixelFormatArg::Dithered565,
+    };
     match (format, parts.scene.has_palettes()) {
-        (PixelFormatArg::Rgb888, true) => by_palettes::<Rgb888>(parts, &job),
-        (PixelFormatArg::Rgb565, true) => by_palettes::<Rgb565Be>(parts, &job),
-        (PixelFormatArg::Rgb888, _) => {
-            by_colours::<Textured<Rgb888>, _, Rgb565>(parts, &job, false)
-        }
-        (PixelFormatArg::Xrgb8888, _) => {
-            by_colours::<Textured<Xrgb8888>, _, Rgb565>(parts, &job, false)
-        }
-        (PixelFormatArg::Rgb565 | PixelFormatArg::Dithered565, _) => {
-            let dithers = format == PixelFormatArg::Dithered565;
-            by_colours::<Textured<Rgb565Be>, _, Rgb565Be>(parts, &job, dithers)
-        }
-        _ => Err(crate::formats::refused("scenes are drawn")),
-    }
-}
-
-/// The slots of each renderer, where draw calls can have them.
-pub(crate) fn most_slots(crew: CrewSettings) -> Result<u16, DrawFailure> {
-    let bad = |reason: String| Err(DrawFailure::View(reason));
-    if crew.prefetch > 0 {
-        return bad("what is drawn by draw calls fetches nothing ahead".into());
-    }
-    match u16::try_from(crew.slots) {
-        Ok(slots) if slots <= MOST_SLOTS => Ok(slots),
-        _ => bad(format!(
-            "what is drawn by draw calls has at most {MOST_SLOTS} slots"
-        )),
+        (_, false) => draw_in(&task, format),
+        (PixelFormatArg::Rgb888, true) => by_palettes::<Rgb888>(parts, &task.job),
+        (PixelFormatArg::Rgb565, true) => by_palettes::<Rgb565Be>(parts, &task.job),
+        _ => Err(refused("scenes with palettes are drawn")),
     }
 }
 
 /// What is drawn, and by whom.
 fn job(parts: &SceneParts<'_>, view: &View, crew: CrewSettings) -> Result<Job, DrawFailure> {
-    let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
     let single = |v: [f64; 3]| v.map(|c| c as f32);
-    let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
-    let (near, far) = (view.near as f32, view.far as f32);
     let places = [view.eye, view.at, view.up].map(single);
-    let camera = Camera::look_at(places[0], places[1], places[2], focal as f32, near, far);
-    Ok(Job {
-        size: [view.width, view.height],
-        most: LARGEST,
-        camera: camera.map_err(|error| bad(&error))?,
-        background: view.background,
-        renderers: crew.renderers.max(1),
-        slots: most_slots(crew)?,
-        shadows: false,
-        room: room_for(
-            parts.parts.iter().flat_map(|part| &part.prepared.chunks),
-            parts.are_textured(),
-            false,
-        ),
-    })
+    let camera = Camera::look_at(
+        places[0],
+        places[1],
+        places[2],
+        focal(view),
+        view.near as f32,
+        view.far as f32,
+    );
+    let camera = camera.map_err(|error| DrawFailure::View(error.to_string()))?;
+    let chunks = parts.parts.iter().flat_map(|part| &part.prepared.chunks);
+    let room = room_for(chunks, parts.are_textured(), false);
+    Ok(Job::new(view, camera, crew, room))
 }
 
-/// Surfaces in several lights, with textures whose texels are pixels of the format `T`.
-fn by_colours<L, F, T>(
-    parts: &SceneParts<'_>,
-    job: &Job,
+/// A scene of colours, in several lights.
+struct Task<'a> {
+    parts: &'a SceneParts<'a>,
+    job: Job,
     dither: bool,
-) -> Result<Called, DrawFailure>
-where
-    L: Look<Pixel = F, Planes: Send> + Sync,
-    F: Pixel + Sync,
-    T: PixelFormat<Word = u16>,
-{
-    let bad = |error| DrawFailure::View(format!("a texture: {error}"));
-    let texels: Vec<_> = (parts
-        .parts
-        .iter()
-        .map(|part| Texels16::of::<T>(part.textures)))
-    .collect();
-    let coarser: Result<Vec<_>, _> = texels.iter().map(Texels16::coarser).collect();
-    let coarser = coarser.map_err(bad)?;
-    let mut textures = Vec::new();
-    for ((part, texels), coarser) in parts.parts.iter().zip(&texels).zip(&coarser) {
-        let skins = Skins {
-            set: part.textures,
-            filter: FilterArg::Nearest,
-            quality: Quality::default(),
-        };
-        textures.push(texels.textures(coarser, skins).map_err(bad)?);
+}
+
+impl Picture for Task<'_> {
+    fn is_textured(&self) -> bool {
+        self.parts.are_textured()
     }
-    let lamps: Option<Vec<DirectionalLight>> = (parts.scene.lights.iter())
-        .map(|lamp| {
-            let largest = lamp.towards.iter().fold(0.0f64, |m, c| m.max(c.abs()));
-            let towards = lamp.towards.map(|c| (c / largest) as f32);
-            DirectionalLight::new(towards, lamp.colour.map(|c| c as f32))
-        })
-        .collect();
-    let lamps = lamps.ok_or_else(|| DrawFailure::View("a light has no direction".into()))?;
-    let material = Material {
-        ambient: [U1F15::ONE; 3],
-        diffuse: [U1F15::ONE; 3],
-        ..Material::default()
-    };
-    let level = |value: f64| U1F15::from_bits((value * 32_768.0).round() as u16);
-    let ambient = level(parts.scene.ambient.unwrap_or(0.2));
-    let light = Lighting::new(&lamps, [ambient; 3], material).filter(|_| !lamps.is_empty());
-    let worn = Worn {
-        parts,
-        textures: &textures,
-        lights: light.as_ref().map(|light| light as &dyn Lights),
-        dither,
-    };
-    let steps = parts.steps();
-    draw_parts::<L, F>(job, steps.len(), |scene, tile, step| {
-        worn.draw(scene, tile, steps[step])
-    })
+
+    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure> {
+        self.draw::<Gouraud<F>, F>(&[])
+    }
+
+    fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
+    where
+        F: Pixel + Sync,
+        T: PixelFormat<Word = u16>,
+        Textured<F>: Look<Pixel = F, Planes: Send>,
+        TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
+    {
+        let sets = || self.parts.parts.iter().map(|part| part.textures);
+        let texels: Vec<_> = sets().map(Texels16::of::<T>).collect();
+        let coarser: Result<Vec<_>, _> = texels.iter().map(Texels16::coarser).collect();
+        let coarser = coarser?;
+        let mut textures = Vec::new();
+        for ((set, texels), coarser) in sets().zip(&texels).zip(&coarser) {
+            let skins = Skins {
+                set,
+                filter: FilterArg::Nearest,
+                budget: Budget::BALANCED,
+            };
+            textures.push(texels.textures(coarser, skins)?);
+        }
+        self.draw::<Textured<F>, F>(&textures)
+    }
+}
+
+impl Task<'_> {
+    /// Draws surfaces in several lights, with the textures of each object.
+    fn draw<L, F>(&self, textures: &[Vec<Texture<'_>>]) -> Result<Drawn, DrawFailure>
+    where
+        L: Look<Pixel = F, Planes: Send> + Sync,
+        F: Pixel + Sync,
+    {
+        let scene = self.parts.scene;
+        let lamps: Option<Vec<DirectionalLight>> = (scene.lights.iter())
+            .map(|lamp| {
+                let colour = lamp.colour.map(|c| c as f32);
+                DirectionalLight::new(unit(lamp.towards), colour)
+            })
+            .collect();
+        let lamps = lamps.ok_or_else(|| DrawFailure::View("a light has no direction".into()))?;
+        let material = Material {
+            ambient: [U1F15::ONE; 3],
+            diffuse: [U1F15::ONE; 3],
+            ..Material::default()
+        };
+        let level = |value: f64| U1F15::from_bits((value * 32_768.0).round() as u16);
+        let ambient = level(scene.ambient.unwrap_or(0.2));
+        let light = Lighting::new(&lamps, [ambient; 3], material).filter(|_| !lamps.is_empty());
+        let worn = Worn {
+            parts: self.parts,
+            textures,
+            lights: light.as_ref().map(|light| light as &dyn Lights),
+            dither: self.dither,
+        };
+        worn.draw_all::<L, F>(&self.job)
+    }
 }
 
 /// What the parts of a scene have in common.
@@ -282,15 +274,31 @@ struct Worn<'s, 't> {
 }
 
 impl<'t> Worn<'_, 't> {
-    /// Draws a part of an object, by the numbers of both.
+    /// Draws all parts of all objects.
+    fn draw_all<L, F>(&self, job: &Job) -> Result<Drawn, DrawFailure>
+    where
+        L: Look<Pixel = F, Planes: Send> + Sync,
+        F: Pixel + Sync,
+    {
+        let steps = self.parts.steps();
+        let chunk = |(object, chunk): (usize, usize)| -> &Chunk {
+            &self.parts.parts[object].prepared.chunks[chunk]
+        };
+        let counted: Vec<_> = steps.iter().map(|step| Some(chunk(*step))).collect();
+        draw_parts::<L, F>(job, &counted, |scene, tile, step, instead| {
+            let chunk = instead.unwrap_or_else(|| chunk(steps[step]));
+            self.draw(scene, tile, (steps[step].0, chunk))
+        })
+    }
+
+    /// Draws a part of an object, by its number.
     fn draw<L: Look>(
         &self,
         scene: &mut Scene<'_, 't, L>,
         tile: &Tile,
-        (number, chunk): (usize, usize),
+        (number, chunk): (usize, &Chunk),
     ) -> Result<(), DrawError> {
         let part = &self.parts.parts[number];
-        let chunk = &part.prepared.chunks[chunk];
         let textures = self.textures.get(number);
         let texture = chunk
             .texture
@@ -315,25 +323,21 @@ impl<'t> Worn<'_, 't> {
 }
 
 /// Indices, which become colours by the palette of each line.
-fn by_palettes<F: PixelFormat>(parts: &SceneParts<'_>, job: &Job) -> Result<Called, DrawFailure> {
+fn by_palettes<F: PixelFormat>(parts: &SceneParts<'_>, job: &Job) -> Result<Drawn, DrawFailure> {
     let worn = Worn {
         parts,
         textures: &[],
         lights: None,
         dither: false,
     };
-    let steps = parts.steps();
     let indices = Job {
         background: Index8::colour(0),
         ..*job
     };
-    let mut called =
-        draw_parts::<Gouraud<Index8>, Index8>(&indices, steps.len(), |scene, tile, step| {
-            worn.draw(scene, tile, steps[step])
-        })?;
+    let mut drawn = worn.draw_all::<Gouraud<Index8>, Index8>(&indices)?;
     let [width, height] = job.size;
     let palettes = &parts.scene.palettes;
-    let lines = called.frame.rgb().chunks_exact(3 * width as usize);
+    let lines = drawn.frame.rgb().chunks_exact(3 * width as usize);
     let rgb = (0..height).zip(lines).flat_map(|(line, row)| {
         let palette = &palettes[palette_of(parts.scene, line, height)].colours;
         let colour = |index: u8| palette.get(usize::from(index)).copied().unwrap_or([0; 3]);
@@ -341,14 +345,13 @@ fn by_palettes<F: PixelFormat>(parts: &SceneParts<'_>, job: &Job) -> Result<Call
         row.chunks_exact(3)
             .flat_map(move |pixel| F::to_rgb8(F::from_rgb8(colour(pixel[0]))))
     });
-    called.frame = Frame::new(width, height, rgb.collect())
+    drawn.frame = Frame::new(width, height, rgb.collect())
         .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?;
     let word = size_of::<F::Word>();
     // The line that is drawn has a byte a pixel; what is sent of it, a word.
-    called.used.scan_out.bytes_sent *= word as u64;
-    called.figures.line_bytes =
-        called.figures.line_bytes * word + width.min(LARGEST.into()) as usize;
-    Ok(called)
+    drawn.used.scan_out.bytes_sent *= word as u64;
+    drawn.figures.line_bytes = drawn.figures.line_bytes * word + width.min(LARGEST.into()) as usize;
+    Ok(drawn)
 }
 
 /// The palette of a line of a picture of this height: of one of another height than the file's, the lines in proportion.

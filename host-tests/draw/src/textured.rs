@@ -1,17 +1,10 @@
 //! Models with textures: one file for all of it, or those that its materials name.
 
-use super::{CrewSettings, DrawFailure, Drawn, Prepared, draw_with};
-use crate::choice::PixelFormatArg;
+use super::DrawFailure;
 use clap::ValueEnum;
 use host_support::model::Model;
-use host_support::reference::{Shade, View};
-use host_support::texture_file::{TextureFileError, TextureImage, of_materials};
-use scanbeam::pipeline::texture::{
-    Bilinear, Detail, DetailedTextures, LEVELS, LevelEnds, Levels, Period, Quality, Rgba8871, Size,
-    Texel, TexelFormat, Texels, Texture, TextureSource, Textured, Textures, Uv, Words,
-};
-use scanbeam::pipeline::{Counted, Depth32, Flat, Gouraud, Packed8, Parts, Shading};
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use host_support::texture_file::{LEVELS, TextureFileError, TextureImage, of_materials};
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{self, Budget, Sampling};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -120,19 +113,10 @@ pub struct Skins<'s> {
     /// How texels are taken.
     pub filter: FilterArg,
     /// How far texture places may be off.
-    pub quality: Quality,
+    pub budget: Budget,
 }
 
 impl Skins<'_> {
-    /// How far that is in texels.
-    pub(super) fn budget(&self) -> Budget {
-        match self.quality {
-            Quality::Fast => Budget::FAST,
-            Quality::Balanced => Budget::BALANCED,
-            Quality::Exact => Budget::EXACT,
-        }
-    }
-
     fn sampling(&self) -> Option<Sampling> {
         match self.filter {
             FilterArg::Bilinear => Some(Sampling::LINEAR),
@@ -144,17 +128,22 @@ impl Skins<'_> {
 /// A level of a texture in words of 16 bits.
 struct Level {
     words: Vec<u16>,
-    size: Size,
+    sides: [u32; 2],
 }
 
 impl Level {
     fn texture(&self) -> Result<scene::Texture<'_>, scene::TextureError> {
-        scene::Texture::words(&self.words, self.size.width(), self.size.height())
+        scene::Texture::words(&self.words, self.sides[0], self.sides[1])
     }
 }
 
 /// The texels of a set's textures as draw calls read them: of each the levels of detail, the picture first.
 pub(super) struct Texels16(Vec<Vec<Level>>);
+
+/// What a texture is refused by.
+fn bad(error: scene::TextureError) -> DrawFailure {
+    DrawFailure::View(format!("a texture: {error}"))
+}
 
 impl Texels16 {
     /// Levels rounded to those of the format `F`; coarser ones only where the set has them.
@@ -162,15 +151,14 @@ impl Texels16 {
         let count = if set.levels { LEVELS } else { 1 };
         let levels = |image: &TextureImage| {
             let mut levels: Vec<Level> = Vec::new();
-            for (level, words) in (0..).zip(&image.levels).take(count) {
-                let size = image.size.level(level);
+            for (level, texels) in image.levels.iter().enumerate().take(count) {
+                let sides = image.sides(level);
                 // One texel has no level below it.
-                if levels.last().is_some_and(|above| above.size == size) {
+                if levels.last().is_some_and(|above| above.sides == sides) {
                     break;
                 }
-                let word = |&word: &u32| F::from_rgb8(Rgba8871::expand(word).rgb);
-                let words = words.iter().map(word).collect();
-                levels.push(Level { words, size });
+                let words = texels.iter().map(|&rgb| F::from_rgb8(rgb)).collect();
+                levels.push(Level { words, sides });
             }
             levels
         };
@@ -178,11 +166,12 @@ impl Texels16 {
     }
 
     /// The levels below each picture.
-    pub(super) fn coarser(&self) -> Result<Vec<Vec<scene::Texture<'_>>>, scene::TextureError> {
+    pub(super) fn coarser(&self) -> Result<Vec<Vec<scene::Texture<'_>>>, DrawFailure> {
         let below = self.0.iter().map(|levels| levels.iter().skip(1));
-        below
+        let textures: Result<_, _> = below
             .map(|below| below.map(Level::texture).collect())
-            .collect()
+            .collect();
+        textures.map_err(bad)
     }
 
     /// The textures, read as `skins` says.
@@ -190,7 +179,7 @@ impl Texels16 {
         &'t self,
         coarser: &'t [Vec<scene::Texture<'t>>],
         skins: Skins<'_>,
-    ) -> Result<Vec<scene::Texture<'t>>, scene::TextureError> {
+    ) -> Result<Vec<scene::Texture<'t>>, DrawFailure> {
         let texture = |(levels, coarser): (&'t Vec<Level>, &'t Vec<scene::Texture<'t>>)| {
             let texture = levels[0].texture()?;
             match skins.sampling() {
@@ -198,126 +187,7 @@ impl Texels16 {
                 None => Ok(texture),
             }
         };
-        self.0.iter().zip(coarser).map(texture).collect()
+        let textures: Result<_, _> = self.0.iter().zip(coarser).map(texture).collect();
+        textures.map_err(bad)
     }
-}
-
-/// A texture with its filter.
-#[derive(Debug, Clone, Copy)]
-pub enum HostTexture<'t> {
-    /// The nearest texel.
-    Nearest(Texture<Words<'t, u32>>),
-    /// The weighted mean of four.
-    Bilinear(Bilinear<Texture<Words<'t, u32>>, Rgba8871>),
-}
-
-impl Texels for HostTexture<'_> {
-    type Texel = Texel;
-
-    fn at(&self, place: Uv) -> Texel {
-        match self {
-            Self::Nearest(texture) => Rgba8871::expand(texture.at(place)),
-            Self::Bilinear(texture) => texture.at(place),
-        }
-    }
-
-    fn period(&self) -> Period {
-        match self {
-            Self::Nearest(texture) => texture.period(),
-            Self::Bilinear(texture) => texture.period(),
-        }
-    }
-
-    fn fetches(&self) -> u32 {
-        match self {
-            Self::Nearest(_) => 1,
-            Self::Bilinear(_) => 4,
-        }
-    }
-}
-
-/// Draws a model with its textures: colours linear on the screen, times texels in perspective.
-///
-/// # Errors
-/// See [`DrawFailure`].
-pub fn draw_textured(
-    model: &Model,
-    set: &TextureSet,
-    (filter, quality): (FilterArg, Quality),
-    view: &View,
-    format: PixelFormatArg,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure> {
-    let prepared = Prepared::textured(model, set, quality);
-    let textures = textures(set, filter)?;
-    let how = (&prepared, view, crew);
-    if set.levels {
-        return by::<LevelEnds, _>(how, format, DetailedTextures(&textures));
-    }
-    let whole: Vec<HostTexture<'_>> = textures.iter().map(|t| t.levels[0]).collect();
-    by::<(), _>(how, format, Textures(&whole))
-}
-
-/// The textures of a set, read through a filter.
-fn textures(
-    set: &TextureSet,
-    filter: FilterArg,
-) -> Result<Vec<Levels<HostTexture<'_>>>, DrawFailure> {
-    set.images
-        .iter()
-        .map(|image| {
-            let mut levels = Vec::new();
-            for (level, words) in (0..).zip(&image.levels) {
-                let texture = Texture::new(Words(words), image.size.level(level))
-                    .map_err(|error| DrawFailure::View(error.to_string()))?;
-                levels.push(match filter {
-                    FilterArg::Nearest => HostTexture::Nearest(texture),
-                    FilterArg::Bilinear => HostTexture::Bilinear(Bilinear::new(texture)),
-                });
-            }
-            let levels: [_; LEVELS] = std::array::from_fn(|i| levels[i]);
-            Ok(Levels { levels })
-        })
-        .collect()
-}
-
-/// Draws with textures of some kind, in the detail `D`.
-fn by<D, X>(
-    (prepared, view, crew): (&Prepared, &View, CrewSettings),
-    format: PixelFormatArg,
-    textures: X,
-) -> Result<Drawn, DrawFailure>
-where
-    D: Detail,
-    X: TextureSource<Rgb888> + TextureSource<Rgb565Be> + Sync,
-{
-    match (view.shade, format) {
-        (Shade::Flat, PixelFormatArg::Rgb888) => {
-            by_shading::<Textured<Flat, D>, Rgb888, X>(prepared, textures, view, crew)
-        }
-        (Shade::Flat, PixelFormatArg::Rgb565) => {
-            by_shading::<Textured<Flat, D>, Rgb565Be, X>(prepared, textures, view, crew)
-        }
-        (_, PixelFormatArg::Rgb888) => {
-            by_shading::<Textured<Gouraud, D>, Rgb888, X>(prepared, textures, view, crew)
-        }
-        (_, PixelFormatArg::Rgb565) => {
-            by_shading::<Textured<Gouraud, D>, Rgb565Be, X>(prepared, textures, view, crew)
-        }
-        _ => Err(super::formats::refused("textures are drawn")),
-    }
-}
-
-fn by_shading<S, F, X>(
-    prepared: &Prepared,
-    textures: X,
-    view: &View,
-    crew: CrewSettings,
-) -> Result<Drawn, DrawFailure>
-where
-    S: Shading<Levels: scanbeam::pipeline::Levels>,
-    F: PixelFormat,
-    X: TextureSource<F> + Sync,
-{
-    draw_with::<Counted<Parts<S, Depth32, F, (), Packed8, X>>>(prepared, view, crew, textures)
 }

@@ -20,7 +20,6 @@ use cortex_m_rt::exception;
 pub(crate) const INSTRUCTIONS_PER_TICK: u64 = 40;
 
 /// Places of a tick at which runs start that are counted finely.
-#[cfg(feature = "bench")]
 pub(crate) const PHASES: u32 = 10;
 
 /// Ticks from one wrap to the next at the counter's full width.
@@ -65,7 +64,6 @@ impl Counter {
 
     /// Counts the instructions of `work`, which does the same each time, to within about 5: the
     /// mean of runs that start at [`PHASES`] places of a tick.
-    #[cfg(feature = "bench")]
     pub(crate) fn finely(&self, mut work: impl FnMut()) -> u64 {
         let mut sum = 0;
         for phase in 0..PHASES {
@@ -76,7 +74,6 @@ impl Counter {
     }
 
     /// The same of lines that are drawn one after the other, without the first, which is drawn before.
-    #[cfg(feature = "bench")]
     pub(crate) fn lines_finely(
         &self,
         lines: core::ops::Range<u16>,
@@ -92,7 +89,6 @@ impl Counter {
     }
 
     /// Waits for the start of a tick, and then for `phase` of [`PHASES`] parts of it.
-    #[cfg(feature = "bench")]
     #[inline(never)]
     pub(crate) fn wait(&self, phase: u32) {
         let now = current();
@@ -116,7 +112,6 @@ impl Counter {
     }
 
     /// What measuring nothing costs, in ticks.
-    #[cfg(feature = "bench")]
     pub(crate) fn overhead(&self) -> u64 {
         self.overhead
     }

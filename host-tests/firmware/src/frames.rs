@@ -1,333 +1,231 @@
-//! The frames that this firmware draws, by name.
+//! How the frames of the test scenes are drawn here.
 
-use crate::choices::{draw_b, draw_b_cached, draw_seen, draw_suite};
-use crate::lean::{draw_lean, draw_played, draw_values};
-use crate::rooms::{EffectRooms, Rooms, RoomsOf, SLOTS};
+use crate::rooms::{LINES_PER_TRANSFER, Rooms};
 use core::convert::Infallible;
 use core::task::Poll;
-use scanbeam::pipeline::parallel::{Crew, Interleave};
-use scanbeam::pipeline::send::send_frame;
-use scanbeam::pipeline::texture::Textures;
-use scanbeam::pipeline::{
-    BlockFixed, Deferred, FlatDepth, GouraudDepth, Interpolated, Interpolation, LineMemory,
-    LineRenderer, Pipeline, Quality, Scene, SceneMemory, Worded, draw_frame,
-};
+use scanbeam::frame::draw_frame;
+use scanbeam::list::ListCommand;
+use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
+use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    DEPTHS, DrawsEffect, DrawsMethod, EFFECTS, Grainy, KeepsDepth, LEAN, LookB, METHODS, PLAYED,
-    Played, SCENE_B_BLOCKS, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, ShotError, Suite,
-    TEXTURES_B, Transparent, VALUES, VARIANTS, Values, Variant, build_method, by_effect, by_method,
-    method_screen,
+    Frame, LeanLook, LeanTextured, Played, SUITE_LINES, Shot, ShotError, Values, ValuesMemory,
+    Variant, WIDTH,
 };
 
-/// Most frames' pipeline: Gouraud, 32-bit depth, as an SPI panel takes it.
-pub(crate) type Smooth = GouraudDepth<Rgb565Be>;
-/// One colour a face.
-pub(crate) type Faceted = FlatDepth<Rgb565Be>;
+/// Slots of the caches that are not wide.
+const SLOTS: u16 = 64;
 
-/// Lines that one transfer takes.
-pub(crate) const LINES_PER_TRANSFER: u16 = 4;
+const LARGE: &str = "the sink cannot fail and the rooms are large enough";
 
-/// What a frame is drawn with.
-#[derive(Clone, Copy)]
-enum Way {
-    Smooth,
-    Faceted,
-    /// The hardware model, from a smooth scene.
-    Model,
-    /// A small frame by this interpolation method of the scenes' table.
-    Method(usize),
-    /// A small frame of this effect of the scenes' table.
-    Effect(usize),
-    /// With depth kept in another way.
-    Depth(KeepsDepth),
-    /// A way to draw scene B.
-    B(SceneB),
-    /// Scene B from blocks through a cache.
-    BlocksB,
-    /// A scene of the suite, as it is measured.
-    Suite(Suite),
-    /// The same in the new rooms.
-    Lean(Suite),
-    /// A small frame of what few draw calls have in them.
-    Values(Values),
-    /// A list that is played in the new rooms.
-    Played(Played),
+/// What a display would be.
+pub(crate) trait Receives {
+    /// A frame begins: pass one is done.
+    fn begin(&mut self) {}
+    /// The bytes of a transfer.
+    fn transfer(&mut self, bytes: &[u8]);
 }
 
-/// One frame: how a shot is drawn.
-#[derive(Clone, Copy)]
-pub(crate) struct Frame {
-    pub(crate) name: &'static str,
-    how: Variant,
-    way: Way,
-}
-
-/// Every frame, in the order in which they are drawn: the suite, the same, lists and
-/// what few draw calls have in the new rooms, all other shots, those of stress
-/// too, then flat faces and one by the hardware model, then what the cache and its
-/// renderers must not change, then the interpolation methods and effects, other depths, and scene B.
-pub(crate) fn frames() -> impl Iterator<Item = Frame> {
-    let plain = |name, shot, way| Frame {
-        name,
-        how: Variant {
-            name,
-            shot,
-            slots: SLOTS,
-            renderers: 1,
-            prefetch: 0,
-        },
-        way,
-    };
-    let suite = SUITE.map(|suite| plain(suite.name(), Shot::Sphere, Way::Suite(suite)));
-    let lean = LEAN.map(|(name, suite)| plain(name, Shot::Sphere, Way::Lean(suite)));
-    let values = VALUES.map(|(name, values)| plain(name, Shot::Sphere, Way::Values(values)));
-    let played = PLAYED.map(|(name, list)| plain(name, Shot::Teapot, Way::Played(list)));
-    let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
-    let shots = SHOTS.into_iter().filter(move |shot| !measured(shot));
-    let shots = shots.chain(STRESS);
-    let variants = VARIANTS.into_iter().map(|how| Frame {
-        name: how.name,
-        how,
-        way: Way::Smooth,
-    });
-    suite
-        .into_iter()
-        .chain(lean)
-        .chain(values)
-        .chain(played)
-        .chain(shots.map(move |shot| plain(shot.name(), shot, Way::Smooth)))
-        .chain([
-            plain("teapot_flat", Shot::Teapot, Way::Faceted),
-            plain("teapot_model", Shot::Teapot, Way::Model),
-            plain("crossings_flat", Shot::Crossings, Way::Faceted),
-        ])
-        .chain(variants)
-        .chain(
-            (0..)
-                .zip(METHODS)
-                .map(move |(index, name)| plain(name, Shot::Quads, Way::Method(index))),
-        )
-        .chain(
-            (0..)
-                .zip(EFFECTS)
-                .map(move |(index, name)| plain(name, Shot::Quads, Way::Effect(index))),
-        )
-        .chain(DEPTHS.map(|(name, shot, keeps)| plain(name, shot, Way::Depth(keeps))))
-        .chain(SCENES_B.map(|scene| plain(scene.name, Shot::Sphere, Way::B(scene))))
-        .chain([plain(SCENE_B_BLOCKS.name, Shot::Sphere, Way::BlocksB)])
-}
-
-impl Frame {
-    /// Draws the frame and hands the bytes of each transfer, in order, to `emit`. Drawing twice
-    /// gives the same bytes.
-    pub(crate) fn draw(&self, rooms: &mut Rooms, emit: &mut dyn FnMut(&[u8])) {
-        let buffers = rooms.lines.take().expect("the last frame gave them back");
-        let mut pump = Pump::new(Emit { emit, sent: None }, buffers);
-        match self.way {
-            Way::Faceted => {
-                let rooms = &mut rooms.faceted;
-                draw_as::<Faceted, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
-            }
-            Way::Model => draw_by_model(self.how.shot, rooms, &mut pump),
-            Way::Method(index) => by_method(
-                index,
-                &mut SmallFrame {
-                    rooms: &mut rooms.smooth,
-                    pump: &mut pump,
-                },
-            ),
-            Way::Effect(index) => {
-                let mut small = SmallEffect {
-                    rooms: &mut rooms.effects,
-                    pump: &mut pump,
-                };
-                by_effect(index, &mut small);
-            }
-            Way::Depth(KeepsDepth::BlockFix) => {
-                let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.block_fix);
-                draw_seen::<BlockFixed<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
-            }
-            Way::Depth(KeepsDepth::Word) => {
-                // Names are words too.
-                let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.named);
-                draw_seen::<Worded<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
-            }
-            Way::Depth(KeepsDepth::Deferred) => {
-                let (rooms, cells) = (&mut rooms.smooth, &mut *rooms.named);
-                draw_seen::<Deferred<Smooth>, _>(self.how.shot, rooms, cells, &mut pump);
-            }
-            Way::B(scene) => {
-                let (textures, rooms) = (Textures(&TEXTURES_B), &mut rooms.textured);
-                draw_b::<LookB, _>(scene, textures, rooms, &mut pump, LINES_PER_TRANSFER);
-            }
-            Way::BlocksB => draw_b_cached(rooms, &mut pump),
-            Way::Suite(suite) => draw_suite(suite, rooms, &mut pump),
-            Way::Lean(suite) => draw_lean(suite, rooms, &mut pump),
-            Way::Values(values) => draw_values(values, rooms, &mut pump),
-            Way::Played(list) => draw_played(list, rooms, &mut pump),
-            Way::Smooth if self.how.renderers == 1 && self.how.slots <= SLOTS => {
-                let rooms = &mut rooms.smooth;
-                draw_as::<Smooth, _>(&self.how, rooms, &mut pump, LINES_PER_TRANSFER);
-            }
-            Way::Smooth => {
-                // The larger cache, and the second link column and line of depth.
-                let [small, large] = [&mut rooms.smooth, &mut rooms.second];
-                core::mem::swap(&mut small.slots, &mut large.slots);
-                if self.how.renderers == 1 {
-                    draw_as::<Smooth, _>(&self.how, small, &mut pump, LINES_PER_TRANSFER);
-                } else {
-                    draw_by_two(&self.how, small, large, &mut pump);
-                }
-                core::mem::swap(&mut small.slots, &mut large.slots);
-            }
-        }
-        if let (_, [Some(a), Some(b)]) = pump.release() {
-            rooms.lines = Some([a, b]);
-        }
+impl<F: FnMut(&[u8])> Receives for F {
+    fn transfer(&mut self, bytes: &[u8]) {
+        self(bytes);
     }
 }
 
-/// Draws a shot alone, as `how` says, so many lines a transfer.
-pub(crate) fn draw_as<P, D>(
-    how: &Variant,
-    rooms: &mut RoomsOf<P>,
-    pump: &mut Pump<D>,
-    lines_per_transfer: u16,
-) where
-    P: Pipeline<Pixel = Rgb565Be>,
-    D: ScanoutDma<Buf = &'static mut [u16]>,
-{
-    let (mut scene, mut renderer) = rooms.lend::<P>(Shot::screen(), how.slots);
-    how.shot
-        .build(&mut scene)
-        .expect("the rooms are large enough");
-    renderer.set_prefetch(how.prefetch);
-    let background = Rgb565Be::from_rgb8(how.shot.background());
-    draw_frame(&scene, &mut renderer, pump, background, lines_per_transfer)
-        .expect("the sink cannot fail and the rooms are large enough");
-}
-
-/// A small frame in the rooms of large ones.
-struct SmallFrame<'a, 'e> {
-    rooms: &'a mut RoomsOf<Smooth>,
-    pump: &'a mut Pump<Emit<'e>>,
-}
-
-impl DrawsMethod for SmallFrame<'_, '_> {
-    fn draw<I: Interpolation>(&mut self, quality: Quality) {
-        // Records are those of any method.
-        type By<I> = Interpolated<Smooth, I>;
-        let rooms = &mut *self.rooms;
-        let (mut scene, mut renderer) = rooms.lend::<By<I>>(method_screen(), SLOTS);
-        build_method(&mut scene).expect("the rooms are large enough");
-        renderer.set_quality(quality);
-        draw_frame(&scene, &mut renderer, self.pump, 0, LINES_PER_TRANSFER)
-            .expect("the sink cannot fail and the rooms are large enough");
+/// Lines that a transfer of a frame takes.
+pub(crate) const fn lines_of(frame: Frame) -> u16 {
+    match frame {
+        Frame::Suite(_) | Frame::Played(_) => SUITE_LINES,
+        _ => LINES_PER_TRANSFER,
     }
 }
 
-/// A small frame of an effect.
-struct SmallEffect<'a, 'e> {
-    rooms: &'a mut EffectRooms,
-    pump: &'a mut Pump<Emit<'e>>,
-}
-
-impl DrawsEffect for SmallEffect<'_, '_> {
-    fn transparent(
-        &mut self,
-        build: impl Fn(&mut Scene<'_, Transparent>) -> Result<(), ShotError>,
-    ) {
-        draw_effect::<Transparent>(&mut self.rooms.transparent, self.pump, build);
-    }
-
-    fn grainy(&mut self, build: impl Fn(&mut Scene<'_, Grainy>) -> Result<(), ShotError>) {
-        draw_effect::<Grainy>(&mut self.rooms.grainy, self.pump, build);
-    }
-}
-
-fn draw_effect<P: Pipeline<Pixel: PixelFormat<Word = u16>>>(
-    rooms: &mut RoomsOf<P>,
-    pump: &mut Pump<Emit<'_>>,
-    build: impl Fn(&mut Scene<'_, P>) -> Result<(), ShotError>,
-) {
-    let (mut scene, mut renderer) = rooms.lend::<P>(method_screen(), SLOTS);
-    build(&mut scene).expect("the rooms are large enough");
-    draw_frame(&scene, &mut renderer, pump, 0, LINES_PER_TRANSFER)
-        .expect("the sink cannot fail and the rooms are large enough");
-}
-
-fn draw_by_model(shot: Shot, rooms: &mut Rooms, pump: &mut Pump<Emit<'_>>) {
-    let mut scene = Scene::<Smooth>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: rooms.smooth.vertices,
-            objects: rooms.smooth.objects,
-            buckets: rooms.smooth.buckets,
-        },
-    );
-    shot.build(&mut scene).expect("the rooms are large enough");
-    let [z0, z1, c0, c1] = &mut rooms.model;
-    let mut renderer = ModelRenderer::new(PipeMemory {
-        z: [z0, z1],
-        rgb: [c0, c1],
-    });
-    let background = Rgb565Be::from_rgb8(shot.background());
-    draw_model_frame(&scene, &mut renderer, pump, background, LINES_PER_TRANSFER)
-        .expect("the sink cannot fail and the rooms are large enough");
-}
-
-/// Two renderers of one scene take turns, as they would on two cores.
+/// Draws a frame, so many lines a transfer where it does not say that itself, and hands what is sent, in order, to `to`.
+/// Drawing twice gives the same bytes.
 #[inline(never)]
-fn draw_by_two(
-    how: &Variant,
-    rooms: &mut RoomsOf<Smooth>,
-    other: &mut RoomsOf<Smooth>,
-    pump: &mut Pump<Emit<'_>>,
-) {
-    let mut scene = Scene::<Smooth>::new(
-        Shot::screen(),
-        SceneMemory {
-            vertices: rooms.vertices,
-            objects: rooms.objects,
-            buckets: rooms.buckets,
-        },
-    );
-    how.shot
-        .build(&mut scene)
-        .expect("the rooms are large enough");
-    let memory = [
-        (&mut *rooms.slots, &mut *rooms.links, &mut *rooms.depth),
-        (&mut *other.slots, &mut *other.links, &mut *other.depth),
-    ];
-    let mut offset = 0;
-    let mut renderers = memory.map(|(slots, links, depth)| {
-        let slots = &mut slots[..how.slots];
-        let mut renderer = LineRenderer::new(LineMemory {
-            slots,
-            links,
-            depth,
-        });
-        renderer.set_interleave(Interleave::lines(2, offset).unwrap_or_default());
-        renderer.set_prefetch(how.prefetch);
-        offset += 1;
-        renderer
-    });
-    let mut crew = Crew {
-        scene: &scene,
-        here: &mut renderers,
-        background: Rgb565Be::from_rgb8(how.shot.background()),
-        skipped: 0,
+pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Receives) {
+    let buffers = rooms.buffers.take().expect("the last frame gave them back");
+    let mut pump = Pump::new(Emit { to, sent: None }, buffers);
+    let mut sent = Sent {
+        lines,
+        pump: &mut pump,
     };
-    send_frame(&scene, &mut crew, pump, LINES_PER_TRANSFER)
-        .expect("the sink cannot fail and the rooms are large enough");
+    match frame {
+        Frame::Suite(suite) if suite.texture().is_some() => {
+            sent.textured(rooms, suite.background(), &|scene| suite.build(scene));
+        }
+        Frame::Suite(suite) => {
+            sent.smooth(rooms, suite.background(), &|scene| suite.build(scene));
+        }
+        Frame::B(how) => {
+            let background = Shot::Sphere.background();
+            sent.textured(rooms, background, &|scene| how.build(scene));
+        }
+        Frame::Shot(how) => sent.shot(how, rooms),
+        Frame::Values(values) => sent.values(values, rooms),
+        Frame::Played(played) => sent.played(played, rooms),
+        Frame::Model(shot) => sent.model(shot, rooms),
+    }
+    if let (_, [Some(a), Some(b)]) = pump.release() {
+        rooms.buffers = Some([a, b]);
+    }
+}
+
+/// Where frames go.
+struct Sent<'p, 'e> {
+    /// Lines of a transfer.
+    lines: u16,
+    pump: &'p mut Pump<Emit<'e>>,
+}
+
+/// Makes a scene.
+type Build<'b, L> = &'b dyn Fn(&mut Scene<'_, 'static, L>) -> Result<(), ShotError>;
+
+impl Sent<'_, '_> {
+    /// A scene of smooth colours.
+    #[inline(never)]
+    fn smooth(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, LeanLook>) {
+        let mut scene = rooms.scene.scene();
+        build(&mut scene).expect(LARGE);
+        let mut renderer = rooms.lines.renderer(rooms.caches.smooth);
+        self.send(&scene, &mut renderer, background);
+    }
+
+    /// A scene with textures.
+    #[inline(never)]
+    fn textured(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, LeanTextured>) {
+        let mut scene = rooms.scene.scene();
+        build(&mut scene).expect(LARGE);
+        let mut renderer = rooms.lines.renderer(rooms.caches.textured);
+        self.send(&scene, &mut renderer, background);
+    }
+
+    /// A shot as it says.
+    fn shot(&mut self, how: Variant, rooms: &mut Rooms) {
+        let background = how.shot.background();
+        let build: Build<'_, LeanLook> = &|scene| how.shot.build_shaded(how.shading, scene);
+        if how.renderers > 1 {
+            return self.by_two(how, rooms, build);
+        }
+        if how.slots > SLOTS {
+            let mut scene = rooms.scene.scene();
+            build(&mut scene).expect(LARGE);
+            let mut renderer = rooms.lines.renderer(rooms.caches.wide);
+            return self.send(&scene, &mut renderer, background);
+        }
+        if how.ahead > 0 {
+            let mut scene = rooms.scene.scene();
+            build(&mut scene).expect(LARGE);
+            let renderer = rooms.lines.renderer(rooms.caches.smooth);
+            return self.send(&scene, &mut renderer.fetching(how.ahead), background);
+        }
+        rooms.caches.smooth.set_limit(how.slots);
+        self.smooth(rooms, background, build);
+        rooms.caches.smooth.set_limit(SLOTS);
+    }
+
+    /// Two renderers of one scene take turns, as they would on two cores.
+    #[inline(never)]
+    fn by_two(&mut self, how: Variant, rooms: &mut Rooms, build: Build<'_, LeanLook>) {
+        let (first, second) = (&mut *rooms.caches.smooth, &mut *rooms.caches.second);
+        first.set_limit(how.slots);
+        second.set_limit(how.slots);
+        let mut scene = rooms.scene.scene();
+        build(&mut scene).expect(LARGE);
+        let mut renderers = [rooms.lines.renderer(first), rooms.second.renderer(second)];
+        let background = Rgb565Be::from_rgb8(how.shot.background());
+        let mut pixels = [background; WIDTH as usize];
+        self.pump.sink_mut().to.begin();
+        for line in scene.lines() {
+            let renderer = &mut renderers[usize::from(line % 2)];
+            let drawn = renderer.draw_line(&scene, line, &mut pixels, background);
+            drawn.expect(LARGE);
+            let bytes = bytemuck::cast_slice(&pixels);
+            self.pump.sink_mut().to.transfer(bytes);
+        }
+        rooms.caches.smooth.set_limit(SLOTS);
+    }
+
+    /// A shot by the hardware model.
+    #[inline(never)]
+    fn model(&mut self, shot: Shot, rooms: &mut Rooms) {
+        let mut scene: Scene<'_, '_, LeanLook> = rooms.scene.scene();
+        shot.build(&mut scene).expect(LARGE);
+        let [z0, z1, c0, c1] = &mut rooms.model;
+        let mut renderer = ModelRenderer::new(PipeMemory {
+            z: [z0, z1],
+            rgb: [c0, c1],
+        });
+        let background = Rgb565Be::from_rgb8(shot.background());
+        let sent = draw_model_frame(&scene, &mut renderer, self.pump, background, self.lines);
+        assert!(sent.is_ok(), "{LARGE}");
+    }
+
+    /// Draws all lines of a scene.
+    #[inline(never)]
+    fn send<L: Look<Pixel = Rgb565Be>, const WORDS: usize>(
+        &mut self,
+        scene: &Scene<'_, '_, L>,
+        renderer: &mut Renderer<'_, L, WORDS>,
+        background: [u8; 3],
+    ) {
+        let background = Rgb565Be::from_rgb8(background);
+        draw_frame(scene, renderer, self.pump, background, self.lines).expect(LARGE);
+    }
+
+    /// A list; it is looked at before.
+    #[inline(never)]
+    fn played(&mut self, played: Played, rooms: &mut Rooms) {
+        let (begin, background) = (ListCommand::Start(0), played.background());
+        match played {
+            Played::Crate => {
+                let mut scene = rooms.scene.scene();
+                played
+                    .play(&mut rooms.wood, begin, &mut scene)
+                    .expect(LARGE);
+                let mut renderer = rooms.lines.renderer(rooms.caches.textured);
+                self.send(&scene, &mut renderer, background);
+            }
+            Played::Teapot => {
+                let mut scene = rooms.scene.scene();
+                played
+                    .play(&mut rooms.teapot, begin, &mut scene)
+                    .expect(LARGE);
+                let mut renderer = rooms.lines.renderer(rooms.caches.smooth);
+                self.send(&scene, &mut renderer, background);
+            }
+        }
+    }
+
+    /// A small frame of what few draw calls have.
+    #[inline(never)]
+    fn values(&mut self, values: Values, rooms: &mut Rooms) {
+        let (scene, lines, caches) = (&mut rooms.scene, &mut rooms.lines, &mut rooms.caches);
+        let lent = ValuesMemory {
+            vertices: scene.vertices,
+            places: scene.places,
+            objects: scene.objects,
+            links: lines.links,
+            bins: scene.bins,
+            depth: lines.depth,
+            shown: rooms.shown,
+            smooth: caches.smooth,
+            textured: caches.textured,
+            lit: caches.lit,
+            lit_texels: caches.lit_texels,
+            indexed: caches.indexed,
+            banded: caches.banded,
+        };
+        let drawn = values.draw(lent, self.pump);
+        assert!(drawn.is_ok(), "{LARGE}");
+    }
 }
 
 /// A sink that is done as soon as it starts.
 struct Emit<'e> {
-    emit: &'e mut dyn FnMut(&[u8]),
+    to: &'e mut dyn Receives,
     sent: Option<&'static mut [u16]>,
 }
 
@@ -339,11 +237,12 @@ impl ScanoutDma for Emit<'_> {
     type Buf = &'static mut [u16];
 
     fn begin(&mut self, _: Window) -> Result<(), Infallible> {
+        self.to.begin();
         Ok(())
     }
 
     fn start(&mut self, line: Self::Buf, len: usize) -> Result<(), (Infallible, Self::Buf)> {
-        (self.emit)(bytemuck::cast_slice(&line[..len]));
+        self.to.transfer(bytemuck::cast_slice(&line[..len]));
         self.sent = Some(line);
         Ok(())
     }

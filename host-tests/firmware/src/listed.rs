@@ -3,24 +3,31 @@
 
 use crate::rooms::Rooms;
 use crate::unpacked::Unpacked;
-use scanbeam::scene::Draw;
-use scenes::Played;
+use scanbeam::list::ListCommand;
+use scanbeam::{Draw, Scene};
+use scenes::{LeanLook, Played};
 
-/// By immediate calls; what [`play_teapot`](crate::lean::play_teapot) gives.
+/// From the list: the vertices that were transformed and the triangles that were filed.
+#[inline(never)]
+pub(crate) fn by_list(begin: ListCommand, rooms: &mut Rooms) -> (u32, u32) {
+    let mut scene = rooms.scene.scene();
+    let counts = Played::Teapot.play(&mut rooms.teapot, begin, &mut scene);
+    let counts = counts.expect("the rooms are large enough");
+    (counts.vertices, scene.objects() as u32)
+}
+
+/// By immediate calls; what [`by_list`] gives.
 #[inline(never)]
 pub(crate) fn by_draws(unpacked: &Unpacked, rooms: &mut Rooms) -> (u32, u32) {
-    let mut scene = crate::lean::scene(rooms);
+    let mut scene: Scene<'_, '_, LeanLook> = rooms.scene.scene();
     let camera = Played::Teapot.camera().expect("it sees");
     scene.begin(&camera).expect("a bin for each line");
-    let instance = &unpacked.instance;
     let mut vertices = 0;
     for mesh in unpacked.meshes() {
         vertices += mesh.positions.len() as u32;
         let call = Draw {
-            model: instance.model,
-            light: instance.light,
-            colour: instance.colour,
-            ..Draw::new(mesh)
+            mesh,
+            ..unpacked.call
         };
         scene.draw(&call).expect("the rooms are large enough");
     }

@@ -4,10 +4,11 @@
 //! logs every instruction between the marks.
 
 use crate::console::Console;
-use crate::frames::frames;
+use crate::frames::{draw, lines_of};
 use crate::rooms::Rooms;
 use core::hint::black_box;
 use cortex_m_semihosting::nr;
+use scenes::frames;
 
 /// Bytes that the words may have.
 const WORDS: usize = 128;
@@ -35,20 +36,28 @@ pub(crate) fn asked(console: &mut Console) -> Option<bool> {
         return None;
     }
     let name = words.next().unwrap_or_default();
-    let Some(frame) = frames().find(|frame| frame.name == name) else {
+    let Some((_, frame)) = frames().find(|(known, _)| *known == name) else {
         console.line(format_args!("there is no frame `{name}`; there are:"));
-        for frame in frames() {
-            console.line(format_args!("{}", frame.name));
+        for (known, _) in frames() {
+            console.line(format_args!("{known}"));
         }
         return Some(false);
     };
     let mut rooms = Rooms::take();
     let mut bytes = 0;
     scanbeam_profile_begin();
-    frame.draw(&mut rooms, &mut |line| bytes += black_box(line).len());
+    draw(frame, lines_of(frame), &mut rooms, &mut |line: &[u8]| {
+        bytes += black_box(line).len();
+    });
     scanbeam_profile_end();
     black_box(bytes);
     Some(true)
+}
+
+/// Whether the host asks for kernels, units, lines and growth too: `qemu-firmware bench`.
+pub(crate) fn asks_bench() -> bool {
+    let mut line = [0; WORDS];
+    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("bench"))
 }
 
 /// The words that the host hands over; `None` where there are none, or too many.

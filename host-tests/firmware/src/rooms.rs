@@ -1,156 +1,125 @@
 //! The memory that the firmware lends, each piece in the region of `memory.x` it belongs to.
 
-use crate::frames::{Faceted, LINES_PER_TRANSFER, Smooth};
-use crate::lean::LeanRooms;
 use crate::lend::lend;
 use crate::unpacked::Unpacked;
-use scanbeam::pipeline::{
-    BlockFixed, CellOf, Deferred, LineDepth, LineMemory, LineRenderer, Object, ObjectOf, Pipeline,
-    Scene, SceneMemory, SceneVertex, SlotOf, VertexOf,
-};
-use scanbeam::{Link, Screen};
+use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
+use scanbeam::input::{Player, PlayerMemory, TextureRoom};
+use scanbeam::list::TextureSlot;
+use scanbeam::look::Look;
+use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
+use scanbeam::{Link, Scene, Screen};
 use scenes::{
-    BLOCK_TEXELS_B, CACHE_SLOTS_B, EFFECT_HEIGHT, EFFECT_ROOM, EFFECT_WIDTH, Grainy, HEIGHT, LookB,
-    MOST_SLOTS, OBJECTS, OBJECTS_B, SHEET_TRIANGLES, SUITE_SLOTS, Sheet, SheetPipeline, Shot,
-    TEXELS_PANEL, Transparent, VERTICES, VERTICES_B, WIDTH,
+    CRATE_INDICES, CRATE_TABLE, DRAWS, HEIGHT, Hits, LIST_INDICES, LIST_TABLE, LeanContours,
+    LeanIndexed, LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, OBJECTS, Octasphere,
+    PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, Sheet, Shot, VALUES_SHOWN, VERTICES,
+    WIDTH,
 };
 
-/// Slots of the object cache.
-pub(crate) const SLOTS: usize = 43;
+/// Lines that one transfer takes, at most.
+pub(crate) const LINES_PER_TRANSFER: u16 = 4;
+/// Words of 32 slots in the largest cache: [`scenes::MOST_SLOTS`].
+pub(crate) const WIDE: usize = 7;
 
-/// What one pipeline is lent.
-pub(crate) struct RoomsOf<P: Pipeline> {
-    /// External RAM, `.slow`.
-    pub(crate) vertices: &'static mut [VertexOf<P>],
-    pub(crate) objects: &'static mut [ObjectOf<P>],
-    pub(crate) buckets: &'static mut [Link],
-    pub(crate) links: &'static mut [Link],
-    /// Tightly coupled RAM, `.fast`.
-    pub(crate) slots: &'static mut [SlotOf<P>],
-    pub(crate) depth: &'static mut [CellOf<P>],
+/// Vertices, and triangles, that there is room for: those of any shot and of any sphere.
+const MOST_VERTICES: usize = larger(VERTICES, Octasphere::MOST_VERTICES);
+const MOST_OBJECTS: usize = larger(OBJECTS, Octasphere::MOST_FACES);
+
+const fn larger(a: usize, b: usize) -> usize {
+    if a > b { a } else { b }
 }
 
-impl<P: Pipeline> RoomsOf<P> {
-    /// An empty scene and a renderer with so many slots, of a pipeline with records like these.
-    pub(crate) fn lend<Q>(
-        &mut self,
-        screen: Screen,
-        slots: usize,
-    ) -> (Scene<'_, Q>, LineRenderer<'_, Q>)
-    where
-        Q: Pipeline<Shading = P::Shading, Depth = P::Depth>,
-    {
-        let scene = Scene::new(
-            screen,
-            SceneMemory {
-                vertices: self.vertices,
-                objects: self.objects,
-                buckets: self.buckets,
-            },
-        );
-        let renderer = LineRenderer::new(LineMemory {
-            slots: &mut self.slots[..slots],
+/// What a scene is lent: external RAM, `.slow`.
+pub(crate) struct SceneRooms {
+    pub(crate) vertices: &'static mut [Vertex],
+    pub(crate) places: &'static mut [TexturePlace],
+    pub(crate) objects: &'static mut [Object],
+    pub(crate) bins: &'static mut [u16],
+    pub(crate) draws: &'static mut [DrawState<'static>],
+}
+
+impl SceneRooms {
+    /// An empty scene of the size of a shot.
+    pub(crate) fn scene<L: Look>(&mut self) -> Scene<'_, 'static, L> {
+        self.sized(Shot::screen())
+    }
+
+    /// One of that size.
+    pub(crate) fn sized<L: Look>(&mut self, screen: Screen) -> Scene<'_, 'static, L> {
+        let memory = Memory {
+            vertices: self.vertices,
+            places: self.places,
+            objects: self.objects,
+            bins: self.bins,
+            draws: self.draws,
+        };
+        Scene::new(screen, memory)
+    }
+}
+
+/// What renderers of all looks share, one after the other: links in external RAM, and the depth of a line in tightly
+/// coupled RAM, `.fast`.
+pub(crate) struct LineRooms {
+    pub(crate) links: &'static mut [Link],
+    pub(crate) depth: &'static mut [u32],
+}
+
+impl LineRooms {
+    /// A renderer with these slots.
+    pub(crate) fn renderer<'r, L: Look, const WORDS: usize>(
+        &'r mut self,
+        cache: &'r mut FastMemory<L, WORDS>,
+    ) -> Renderer<'r, L, WORDS> {
+        Renderer::new(LineMemory {
+            cache,
             links: self.links,
             depth: self.depth,
-        });
-        (scene, renderer)
+        })
     }
+}
+
+/// Slots, of the look that most frames have and of textures in tightly coupled RAM, of all others in external RAM:
+/// here instructions count.
+pub(crate) struct Caches {
+    pub(crate) smooth: &'static mut FastMemory<LeanLook>,
+    pub(crate) textured: &'static mut FastMemory<LeanTextured>,
+    /// Slots for almost everything.
+    pub(crate) wide: &'static mut FastMemory<LeanLook, WIDE>,
+    /// Of a second renderer.
+    pub(crate) second: &'static mut FastMemory<LeanLook>,
+    pub(crate) lit: &'static mut FastMemory<LeanPhong>,
+    pub(crate) lit_texels: &'static mut FastMemory<LeanPhongTextured>,
+    pub(crate) indexed: &'static mut FastMemory<LeanIndexed>,
+    pub(crate) banded: &'static mut FastMemory<LeanContours>,
 }
 
 /// What frames are drawn with.
 pub(crate) struct Rooms {
-    pub(crate) smooth: RoomsOf<Smooth>,
-    pub(crate) faceted: RoomsOf<Faceted>,
-    /// For scenes of the suite in the new rooms.
-    pub(crate) lean: LeanRooms,
-    /// For scenes B and F; all in external RAM.
-    pub(crate) textured: RoomsOf<LookB>,
-    /// For scene B in blocks: its texels, in external RAM, and the cache through which they are
-    /// read, tags and texels.
-    pub(crate) blocks: &'static mut [u16],
-    pub(crate) tags: &'static mut [u32],
-    pub(crate) cached: &'static mut [u16],
-    /// Depth of a line in 16 bits, and with names: external RAM.
-    pub(crate) block_fix: &'static mut [CellOf<BlockFixed<Smooth>>],
-    pub(crate) named: &'static mut [CellOf<Deferred<Smooth>>],
+    pub(crate) scene: SceneRooms,
+    pub(crate) lines: LineRooms,
+    /// Of a second renderer: external RAM.
+    pub(crate) second: LineRooms,
+    pub(crate) caches: Caches,
     /// Depth and colour of two lines each, for the hardware model: external RAM.
     pub(crate) model: [&'static mut [u64]; 4],
-    /// What comparisons take beyond what one renderer needs: a cache for everything and a second
-    /// renderer's links and depth. No scene. All in external RAM: here instructions count.
-    pub(crate) second: RoomsOf<Smooth>,
-    /// For sheets, which are drawn without depth and counted.
-    pub(crate) sheet: RoomsOf<SheetPipeline>,
-    /// For small frames of effects, one after the other: external RAM.
-    pub(crate) effects: EffectRooms,
+    /// What a display shows.
+    pub(crate) shown: &'static mut [u32],
+    pub(crate) teapot: Player<'static, 'static, LeanLook>,
+    /// Its textures are made once.
+    pub(crate) wood: Player<'static, 'static, LeanTextured>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
-    pub(crate) lines: Option<[&'static mut [u16]; 2]>,
+    pub(crate) buffers: Option<[&'static mut [u16]; 2]>,
 }
 
-/// The rooms of a pipeline, its slots and the depth of a line in the section `$near`: so many
-/// vertices and objects, and lines and columns, and [`SLOTS`] where it is not said how many.
-macro_rules! rooms_of {
-    ($pipeline:ty, $near:literal, ($vertices:expr, $objects:expr), ($lines:expr, $columns:expr)) => {
-        rooms_of!(
-            $pipeline,
-            $near,
-            ($vertices, $objects),
-            ($lines, $columns),
-            SLOTS
-        )
+/// Slots in the section `$near`: a constant, so that they are copied, and not made on the stack.
+macro_rules! slots {
+    ($near:literal, $look:ty) => {
+        slots!($near, $look, 2)
     };
-    (
-        $pipeline:ty, $near:literal, ($vertices:expr, $objects:expr), ($lines:expr, $columns:expr),
-        $slots:expr
-    ) => {
-        RoomsOf::<$pipeline> {
-            vertices: lend!(
-                ".slow",
-                VertexOf<$pipeline>,
-                $vertices,
-                SceneVertex::empty()
-            ),
-            objects: lend!(".slow", ObjectOf<$pipeline>, $objects, Object::default()),
-            buckets: lend!(".slow", Link, $lines as usize, Link::NONE),
-            links: lend!(".slow", Link, $objects, Link::NONE),
-            slots: lend!(
-                $near,
-                SlotOf<$pipeline>,
-                $slots,
-                LineRenderer::<$pipeline>::empty_slot()
-            ),
-            depth: depth_of!($pipeline, $near, $columns),
-        }
-    };
-}
-
-/// The depth of a line in the section `$near`.
-macro_rules! depth_of {
-    ($pipeline:ty, $near:literal, $columns:expr) => {
-        lend!(
-            $near,
-            CellOf<$pipeline>,
-            $columns as usize,
-            <$pipeline as Pipeline>::Depth::FARTHEST
-        )
-    };
-}
-
-/// Rooms for small frames of effects.
-macro_rules! small_rooms_of {
-    ($pipeline:ty) => {
-        rooms_of!(
-            $pipeline,
-            ".slow",
-            (EFFECT_ROOM, EFFECT_ROOM),
-            (EFFECT_HEIGHT, EFFECT_WIDTH)
-        )
-    };
-}
-
-/// What the pipelines of effects are lent.
-pub(crate) struct EffectRooms {
-    pub(crate) transparent: RoomsOf<Transparent>,
-    pub(crate) grainy: RoomsOf<Grainy>,
+    ($near:literal, $look:ty, $words:expr) => {{
+        const EMPTY: FastMemory<$look, $words> = FastMemory::new();
+        let one: &'static mut [_] = lend!($near, FastMemory<$look, $words>, 1, EMPTY);
+        one.first_mut().expect("one is lent")
+    }};
 }
 
 impl Rooms {
@@ -158,62 +127,82 @@ impl Rooms {
     pub(crate) fn take() -> Self {
         const WORDS: usize = WIDTH as usize * LINES_PER_TRANSFER as usize;
         Self {
-            smooth: rooms_of!(Smooth, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
-            faceted: rooms_of!(Faceted, ".fast", (VERTICES, OBJECTS), (HEIGHT, WIDTH)),
-            lean: LeanRooms::take(),
-            textured: rooms_of!(
-                LookB,
-                ".slow",
-                (VERTICES_B, OBJECTS_B),
-                (HEIGHT, WIDTH),
-                SUITE_SLOTS
-            ),
-            blocks: lend!(".slow", u16, TEXELS_PANEL.len(), 0),
-            tags: lend!(".fast", u32, CACHE_SLOTS_B, 0),
-            cached: lend!(".fast", u16, CACHE_SLOTS_B * BLOCK_TEXELS_B, 0),
-            block_fix: depth_of!(BlockFixed<Smooth>, ".slow", WIDTH),
-            named: depth_of!(Deferred<Smooth>, ".slow", WIDTH),
+            scene: SceneRooms {
+                vertices: lend!(".slow", Vertex, MOST_VERTICES, Vertex::EMPTY),
+                places: lend!(".slow", TexturePlace, MOST_VERTICES, TexturePlace::EMPTY),
+                objects: lend!(".slow", Object, MOST_OBJECTS, Object::EMPTY),
+                bins: lend!(".slow", u16, HEIGHT as usize, 0),
+                draws: lend!(".slow", DrawState<'static>, DRAWS, DrawState::EMPTY),
+            },
+            lines: LineRooms {
+                links: lend!(".slow", Link, MOST_OBJECTS, Link::EMPTY),
+                depth: lend!(".fast", u32, WIDTH as usize, 0),
+            },
+            second: LineRooms {
+                links: lend!(".slow", Link, OBJECTS, Link::EMPTY),
+                depth: lend!(".slow", u32, WIDTH as usize, 0),
+            },
+            caches: Caches {
+                smooth: slots!(".fast", LeanLook),
+                textured: slots!(".fast", LeanTextured),
+                wide: slots!(".slow", LeanLook, WIDE),
+                second: slots!(".slow", LeanLook),
+                lit: slots!(".slow", LeanPhong),
+                lit_texels: slots!(".slow", LeanPhongTextured),
+                indexed: slots!(".slow", LeanIndexed),
+                banded: slots!(".slow", LeanContours),
+            },
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
-            sheet: rooms_of!(
-                SheetPipeline,
-                ".slow",
-                (SHEET_TRIANGLES, SHEET_TRIANGLES),
-                (HEIGHT, WIDTH)
-            ),
-            effects: EffectRooms {
-                transparent: small_rooms_of!(Transparent),
-                grainy: small_rooms_of!(Grainy),
-            },
-            second: RoomsOf {
-                vertices: &mut [],
-                objects: &mut [],
-                buckets: &mut [],
-                links: lend!(".slow", Link, OBJECTS, Link::NONE),
-                slots: lend!(
-                    ".slow",
-                    SlotOf<Smooth>,
-                    MOST_SLOTS,
-                    LineRenderer::<Smooth>::empty_slot()
-                ),
-                depth: depth_of!(Smooth, ".slow", WIDTH),
-            },
-            lines: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
+            shown: lend!(".slow", u32, VALUES_SHOWN, 0),
+            teapot: Player::new(teapot_memory(), Played::settings()),
+            wood: Player::new(crate_memory(), Played::settings()),
+            buffers: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
     }
-}
 
-impl Rooms {
-    /// Draws the sheet of a seed: pixels drawn, hits counted, and pixels left out.
-    pub(crate) fn sheet_hits(&mut self, seed: u32) -> (u32, u32) {
-        let (mut scene, mut renderer) = self.sheet.lend::<SheetPipeline>(Shot::screen(), SLOTS);
+    /// Draws the sheet of a seed, without depth.
+    pub(crate) fn sheet_hits(&mut self, seed: u32) -> Hits {
+        let mut scene = self.scene.scene();
+        let mut renderer = Renderer::new(LineMemory {
+            cache: self.caches.smooth,
+            links: self.lines.links,
+            depth: &mut [],
+        });
         Sheet::new(seed)
             .hits(&mut scene, &mut renderer)
             .expect("the rooms are large enough")
+    }
+}
+
+/// The teapot's places are used where they lie.
+fn teapot_memory() -> PlayerMemory<'static, 'static> {
+    PlayerMemory {
+        normals: lend!(".slow", [i16; 3], LIST_TABLE, [0; 3]),
+        indices: lend!(".slow", u16, LIST_INDICES, 0),
+        ..PlayerMemory::default()
+    }
+}
+
+fn crate_memory() -> PlayerMemory<'static, 'static> {
+    PlayerMemory {
+        positions: lend!(".slow", [i16; 3], CRATE_TABLE, [0; 3]),
+        normals: lend!(".slow", [i16; 3], CRATE_TABLE, [0; 3]),
+        indices: lend!(".slow", u16, CRATE_INDICES, 0),
+        places: lend!(".slow", [i32; 2], CRATE_TABLE, [0; 2]),
+        names: lend!(".slow", TextureSlot, PLAYED_NAMES, TextureSlot::new()),
+        textures: lend!(
+            ".slow",
+            TextureRoom<'static>,
+            PLAYED_TEXTURES,
+            TextureRoom::EMPTY
+        ),
+        texels: lend!(".slow", u16, PLAYED_TEXELS, 0),
+        ..PlayerMemory::default()
     }
 }
 

@@ -1,119 +1,73 @@
-//! What the small programs share: a display, a picture of the teapot, and the way out, without
-//! formatting and without messages, so that `.text` is what drawing takes.
+//! A small firmware with one look: the teapot with smooth colours and depth, sent line by line; by features with flat
+//! faces, with light at each pixel, or a sphere whose texture is lit, and with the code for values that few draw calls
+//! have.
+//!
+//! It is there to be measured: `firmware --sizes` prints what it takes, and `budgets` fails where its `.text` is above
+//! the limit in `host-tests/figures/budgets.txt`. It prints `picture NAME` and the picture's CRC-32.
+#![no_std]
+#![no_main]
 
-// Supplies the critical-section implementation, also where nothing else names it.
-use cortex_m as _;
+mod display;
+mod lend;
+mod room;
 
-use core::convert::Infallible;
-use core::panic::PanicInfo;
-use core::sync::atomic::{AtomicU16, Ordering};
-use core::task::Poll;
-use cortex_m_semihosting::{debug, hio};
-use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
+use cortex_m_rt::entry;
+use display::{buffers, display, exit, say};
+use room::{VERTICES, room, send};
+use scanbeam::scene::DrawState;
+use scanbeam::{Renderer, Scene};
+use scenes::Suite;
 
-/// Vertices of the teapot on the screen, and its objects: what the README's table has.
-pub(crate) const VERTICES: usize = 1184;
-pub(crate) const OBJECTS: usize = 1280;
-/// The two line buffers, one line each.
-macro_rules! buffers {
-    () => {{
-        use crate::lend::lend;
-        use scenes::WIDTH;
-        let one: &'static mut [u16] = lend!(".dma", u16, WIDTH as usize, 0);
-        let two: &'static mut [u16] = lend!(".dma", u16, WIDTH as usize, 0);
-        [one, two]
-    }};
-}
-pub(crate) use buffers;
+#[cfg(not(any(feature = "textured", feature = "phong")))]
+type Look = scenes::LeanLook;
+#[cfg(feature = "textured")]
+type Look = scenes::LeanTextured;
+#[cfg(feature = "phong")]
+type Look = scenes::LeanPhong;
 
-/// A pump to a display, and back.
-pub(crate) type Display = Pump<Wire>;
+/// What the picture is called, and the scene of the suite.
+#[cfg(not(any(feature = "flat", feature = "textured", feature = "phong")))]
+const SHOWN: (&str, Suite) = ("teapot", Suite::Teapot);
+#[cfg(feature = "flat")]
+const SHOWN: (&str, Suite) = ("teapot_flat", Suite::Teapot);
+#[cfg(feature = "textured")]
+const SHOWN: (&str, Suite) = ("b", Suite::B);
+#[cfg(feature = "phong")]
+const SHOWN: (&str, Suite) = ("teapot_lamplit", Suite::Teapot);
 
-/// A display on two line buffers.
-pub(crate) fn display(buffers: [&'static mut [u16]; 2]) -> Display {
-    Pump::new(
-        Wire {
-            crc: !0,
-            sent: None,
-        },
-        buffers,
-    )
-}
+/// A face of one colour takes three vertices.
+const MORE: usize = if cfg!(feature = "flat") {
+    3 * room::OBJECTS
+} else {
+    0
+};
 
-/// Says what has been sent since the last time: `picture NAME CRC`.
-pub(crate) fn say(name: &str, display: &mut Display) {
-    let Ok(mut host) = hio::hstdout() else {
+#[entry]
+fn main() -> ! {
+    let (name, suite) = SHOWN;
+    let mut display = display(buffers!());
+    #[cfg(not(feature = "textured"))]
+    let mut room = room!(Look, VERTICES + MORE);
+    #[cfg(feature = "textured")]
+    let mut room = room!(Look, VERTICES + MORE, textured);
+    #[cfg(feature = "phong")]
+    let Ok(lamps) = scenes::teapot_lamps() else {
         exit(false)
     };
-    let crc = !core::mem::replace(&mut display.sink_mut().crc, !0);
-    let mut digits = [0; 9];
-    digits[8] = b'\n';
-    for (i, digit) in digits[..8].iter_mut().enumerate() {
-        *digit = b"0123456789abcdef"[(crc >> (28 - 4 * i) & 15) as usize];
-    }
-    for text in [b"picture ", name.as_bytes(), b" ", &digits] {
-        if host.write_all(text).is_err() {
-            exit(false);
-        }
-    }
-}
-
-/// Where a display would be: each word goes to a register, and into a checksum.
-pub(crate) struct Wire {
-    /// CRC-32 as PNG has it, not yet inverted.
-    crc: u32,
-    sent: Option<&'static mut [u16]>,
-}
-
-static REGISTER: AtomicU16 = AtomicU16::new(0);
-
-impl ErrorType for Wire {
-    type Error = Infallible;
-}
-
-impl ScanoutDma for Wire {
-    type Buf = &'static mut [u16];
-
-    fn begin(&mut self, _: Window) -> Result<(), Infallible> {
-        Ok(())
-    }
-
-    fn start(&mut self, line: Self::Buf, len: usize) -> Result<(), (Infallible, Self::Buf)> {
-        for &word in line.iter().take(len) {
-            REGISTER.store(word, Ordering::Relaxed);
-            for byte in word.to_ne_bytes() {
-                self.crc ^= u32::from(byte);
-                for _ in 0..8 {
-                    self.crc = self.crc >> 1 ^ (0xEDB8_8320 & (self.crc & 1).wrapping_neg());
-                }
-            }
-        }
-        self.sent = Some(line);
-        Ok(())
-    }
-
-    fn poll(&mut self) -> Poll<Result<Option<Self::Buf>, Infallible>> {
-        Poll::Ready(Ok(self.sent.take()))
-    }
-
-    fn end(&mut self) -> Result<(), Infallible> {
-        Ok(())
-    }
-}
-
-/// Ends the run with exit code 0 or 1.
-pub(crate) fn exit(success: bool) -> ! {
-    debug::exit(if success {
-        debug::EXIT_SUCCESS
-    } else {
-        debug::EXIT_FAILURE
-    });
-    loop {
-        cortex_m::asm::wfi();
-    }
-}
-
-#[panic_handler]
-fn panic(_: &PanicInfo<'_>) -> ! {
-    exit(false)
+    let mut draws = [DrawState::EMPTY];
+    let (memory, lines) = room.lend(&mut draws);
+    let mut scene = Scene::<Look>::new(scenes::Shot::screen(), memory);
+    #[cfg(not(any(feature = "flat", feature = "phong")))]
+    let built = suite.build(&mut scene);
+    #[cfg(feature = "flat")]
+    let built = suite.build_shaded(scanbeam::scene::Shading::Flat, &mut scene);
+    #[cfg(feature = "phong")]
+    let built = scenes::lamplit_teapot(&lamps, &mut scene);
+    #[cfg(not(feature = "values"))]
+    let renderer = Renderer::plain(lines);
+    #[cfg(feature = "values")]
+    let renderer = Renderer::new(lines);
+    send(built, &scene, renderer, suite.background(), &mut display);
+    say(name, &mut display);
+    exit(true)
 }

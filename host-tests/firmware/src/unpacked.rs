@@ -1,8 +1,7 @@
 //! The baked teapot's own tables, unpacked beforehand, as meshes for immediate calls.
 
 use scanbeam::list::{Instruction, Layout, State, Strip, VertexFormat, normal, read_block};
-use scanbeam::pipeline::Instance;
-use scanbeam::{Affine, Faces, Light, Mesh};
+use scanbeam::{Affine, Draw, Faces, Light, Mesh};
 use scenes::teapot_list;
 
 /// Tables that the list may have.
@@ -16,10 +15,18 @@ struct Part {
     faces: (usize, usize),
 }
 
+const NOTHING: Mesh<'static> = Mesh {
+    positions: &[],
+    normals: &[],
+    colours: &[],
+    faces: Faces::Triangles(&[]),
+};
+
 /// The list's tables as meshes.
 pub(crate) struct Unpacked {
     parts: [Part; TABLES],
-    pub(crate) instance: Instance,
+    /// What is said of all of them; its mesh is empty.
+    pub(crate) call: Draw<'static, 'static>,
     normals: &'static mut [[i16; 3]],
     faces: &'static mut [[u16; 3]],
 }
@@ -30,9 +37,9 @@ impl Unpacked {
         let list = teapot_list().expect("it is aligned");
         let mut all = Self {
             parts: [Part::default(); TABLES],
-            instance: Instance {
+            call: Draw {
                 light: Light::new([0.3, 0.8, 0.6], 0.2),
-                ..Instance::default()
+                ..Draw::new(NOTHING)
             },
             normals,
             faces,
@@ -44,9 +51,9 @@ impl Unpacked {
             at += block.words;
             match block.instruction {
                 Instruction::State(State::Format(new)) => format = new,
-                Instruction::State(State::Material(m)) => all.instance.colour = m.diffuse,
+                Instruction::State(State::Material(m)) => all.call.colour = m.diffuse,
                 Instruction::State(State::Matrix(m)) => {
-                    all.instance.model = Affine::from(&m).then(&Affine::rotation_y(0.6));
+                    all.call.model = Affine::from(&m).then(&Affine::rotation_y(0.6));
                 }
                 Instruction::Table(run) => {
                     let layout = Layout::new(&format, run.header);

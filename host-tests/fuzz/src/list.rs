@@ -46,6 +46,7 @@ pub fn play(list: &[u32]) -> Played {
     let (mut positions, mut normals) = ([[0i16; 3]; 32], [[0; 3]; 32]);
     let (mut colours, mut indices) = ([[0; 3]; 32], [0; 48]);
     let (mut places, mut lights) = ([[0; 2]; 32], LightRoom::new());
+    let mut alphas = [0; 32];
     let (mut vertices, mut objects) = ([Vertex::EMPTY; 512], [Object::EMPTY; 512]);
     let mut placed = [TexturePlace::EMPTY; 512];
     let (mut bins, mut draws) = ([0; 24], [DrawState::EMPTY; 64]);
@@ -77,6 +78,7 @@ pub fn play(list: &[u32]) -> Played {
         colours: &mut colours,
         indices: &mut indices,
         places: &mut places,
+        alphas: &mut alphas,
         names: &names,
         textures: &mut textures,
         texels: &mut texels,

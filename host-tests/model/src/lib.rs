@@ -10,6 +10,7 @@
 //! | `lirp` | the blend of selectors and adders | K7 |
 //! | `weight` | the vertical divider, the circuit of W(X) | K5, K6 |
 //! | `format` | input and processing formats, conversions | K15 |
+//! | `block_fix` | depth in 16 bits: a range a triangle, and a significand | H2 |
 //! | `vertex` | the loadable table that describes a vertex, the parameter memories | K15 |
 //! | `layout` | charts A to L, field by field | K13 |
 //! | `token` | tokens understood, encode and decode | K13 |
@@ -34,6 +35,7 @@
 #[cfg(test)]
 extern crate std;
 
+mod block_fix;
 mod buffers;
 mod cusp;
 mod edge_function;
@@ -55,6 +57,7 @@ mod vertex;
 mod walker;
 mod weight;
 
+pub use block_fix::BlockFix16;
 pub use buffers::{LineBuffers, Word40};
 pub use cusp::{Cusp, CuspPolygon, CuspSide};
 pub use edge_function::{EdgeFunction, EdgeFunctions};
@@ -64,7 +67,7 @@ pub use layout::{CHARTS, CONTROL, Chart, Field, TOKEN_BITS, TokenBits};
 pub use lirp::{EDGE_BITS, SPAN_BITS, lirp, lirp_by_selectors};
 pub use priority::{Decision, Wins, priority_contest, priority_stage};
 pub use render::{
-    CornerColours, ModelFrameError, ModelRenderer, SCENE_VERTEX, SEGMENT, draw_model_frame,
+    ModelError, ModelFrameError, ModelRenderer, SCENE_VERTEX, SEGMENT, draw_model_frame,
 };
 pub use stage::{CompositingUnit, ZUnit};
 pub use token::{

@@ -1,6 +1,6 @@
-//! Whole scenes through the model: a scene's objects into tokens, tokens into pixels.
+//! Whole scenes through the model: a scene's triangles into tokens, tokens into pixels.
 //!
-//! The conductor. It takes the objects as they lie in the scene, corners and all,
+//! The conductor. It takes the triangles as pass one has filed them, corners and all,
 //! hands each one that a line meets to stage one as the words of a draw command, and lets the
 //! pipeline have the tokens. No plane, no edge and no walker of the fast path is used, so the
 //! two can be held against each other: the same pixels are covered (K4), colours and depths are
@@ -15,12 +15,12 @@ use super::interpreter::{Output, Pipe, PipeCounts, PipeMemory};
 use super::token::{Argb10, GlobalMode, StartDma, Target, Token};
 use super::vertex::{FormatWord, PLACE, ParameterRam, VertexFormat};
 use super::walker::{Segment, ZFlags, draw};
-use scanbeam::mesh::Colour;
-use scanbeam::pipeline::{
-    Filed, Flat, Gouraud, LineDepth, Pipeline, RendererError, Scale, Scene, Shading, WordOf,
-};
-use scanbeam::pixel::PixelFormat;
-use scanbeam::scan_out::{LineBuf, Pump, ScanError, ScanoutDma, Window};
+use core::fmt;
+use scanbeam::Scene;
+use scanbeam::look::Gouraud;
+use scanbeam::pixel::{MadeOf, Pixel};
+use scanbeam::scan_out::{self, LineBuf, Pump, ScanError, ScanoutDma, Window};
+use scanbeam::scene::{FiledCorner, FiledTriangle};
 
 /// Pixels of a segment, at most: what the 11 bits of a DMA's length count.
 pub const SEGMENT: usize = 2047;
@@ -33,23 +33,54 @@ pub const SCENE_VERTEX: [FormatWord; 4] = [
     FormatWord::parameter(2, InputFormat::U8x4),
 ];
 
-/// A shading whose corners have a colour each.
-pub trait CornerColours: Shading {
-    /// The colours of an object's corners from what is kept of them and of the face.
-    fn colours(corners: [Self::Vertex; 3], face: Self::Face) -> [Colour; 3];
+/// Columns and lines of the device's space before a picture's first: no corner of a scene lies
+/// farther out.
+const ORIGIN: i32 = 3072;
+
+/// Why the model does not draw a line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelError {
+    /// The pixels are not those of a line.
+    Pixels {
+        /// Pixels of a line.
+        needed: usize,
+        /// How many there are.
+        have: usize,
+    },
+    /// The line is not of the scene.
+    Line {
+        /// The line.
+        line: u16,
+    },
+    /// The pipeline was lent no memory.
+    Memory,
+    /// A draw call has more than the colours of its corners, and the model has no stage for it.
+    Call {
+        /// The number of its [state](Scene::draw_state).
+        call: u16,
+    },
+    /// Pixels are numbers of a palette, which have no levels.
+    Indices,
 }
 
-impl CornerColours for Gouraud {
-    fn colours(corners: [Colour; 3], (): ()) -> [Colour; 3] {
-        corners
+impl fmt::Display for ModelError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Pixels { needed, have } => {
+                write!(f, "model: a line of {needed} pixels was lent {have}")
+            }
+            Self::Line { line } => write!(f, "model: line {line} is not part of the scene"),
+            Self::Memory => f.write_str("model: a line buffer of no pixels was lent"),
+            Self::Call { call } => write!(
+                f,
+                "model: draw call {call} has a texture, blend, scissor, dither, shadow, priority or depth test"
+            ),
+            Self::Indices => f.write_str("model: pixels of a palette have no levels"),
+        }
     }
 }
 
-impl CornerColours for Flat {
-    fn colours(_: [(); 3], face: Colour) -> [Colour; 3] {
-        [face; 3]
-    }
-}
+impl core::error::Error for ModelError {}
 
 /// Draws lines of scenes with the model.
 #[derive(Debug)]
@@ -59,6 +90,7 @@ pub struct ModelRenderer<'m> {
     format: VertexFormat,
     /// The write register's colour, once both buffers are filled with it.
     cleared: Option<u64>,
+    has_depth: bool,
 }
 
 impl<'m> ModelRenderer<'m> {
@@ -71,7 +103,14 @@ impl<'m> ModelRenderer<'m> {
             ram: ParameterRam::new(),
             format: VertexFormat::SCENE,
             cleared: None,
+            has_depth: true,
         }
+    }
+
+    /// Whether depths are compared, as they are at first; if not, what is drawn last is seen. What the scene has switched
+    /// off is not asked.
+    pub fn set_depth(&mut self, has_depth: bool) {
+        self.has_depth = has_depth;
     }
 
     /// Pixels of a segment.
@@ -89,17 +128,15 @@ impl<'m> ModelRenderer<'m> {
     /// Draws a line of the picture over `background` into `pixels`.
     ///
     /// # Errors
-    /// When there is no memory, the pixels are not a line, or the line is not of the scene.
-    pub fn draw_line<P>(
+    /// When there is no memory, the pixels are not a line, the line is not of the scene, or the
+    /// scene has what the model does not draw.
+    pub fn draw_line<F: Pixel>(
         &mut self,
-        scene: &Scene<'_, P>,
+        scene: &Scene<'_, '_, Gouraud<F>>,
         line: u16,
-        background: WordOf<P>,
-        pixels: &mut [WordOf<P>],
-    ) -> Result<(), RendererError>
-    where
-        P: Pipeline<Shading: CornerColours>,
-    {
+        background: F::Word,
+        pixels: &mut [F::Word],
+    ) -> Result<(), ModelError> {
         self.trace_line(scene, line, background, pixels, &mut |_| ())
     }
 
@@ -108,37 +145,22 @@ impl<'m> ModelRenderer<'m> {
     ///
     /// # Errors
     /// As [`draw_line`](Self::draw_line).
-    pub fn trace_line<P>(
+    pub fn trace_line<F: Pixel>(
         &mut self,
-        scene: &Scene<'_, P>,
+        scene: &Scene<'_, '_, Gouraud<F>>,
         line: u16,
-        background: WordOf<P>,
-        pixels: &mut [WordOf<P>],
+        background: F::Word,
+        pixels: &mut [F::Word],
         trace: &mut impl FnMut(&Token),
-    ) -> Result<(), RendererError>
-    where
-        P: Pipeline<Shading: CornerColours>,
-    {
-        let screen = scene.screen();
-        let needed = usize::from(screen.width());
-        if pixels.len() != needed {
-            let have = pixels.len();
-            return Err(RendererError::Pixels { needed, have });
-        }
-        if !scene.lines().contains(&line) {
-            return Err(RendererError::Line { line });
-        }
+    ) -> Result<(), ModelError> {
+        self.check(scene, line, pixels.len())?;
         let segment = self.segment();
-        if segment == 0 {
-            return Err(RendererError::Depth { needed: 1, have: 0 });
-        }
-        let clear = Argb10::from_rgb8(P::Pixel::to_rgb8(background)).to_word();
-        let y = 8 * (screen.top() + i32::from(line)) + 4;
+        let clear = Argb10::from_rgb8(F::to_rgb8(background)).to_word();
         for (i, pixels) in pixels.chunks_mut(segment).enumerate() {
             let part = Segment {
-                column: screen.left() + (i * segment) as i32,
+                column: ORIGIN + (i * segment) as i32,
                 width: pixels.len() as u16,
-                y: y as u16,
+                y: (8 * (ORIGIN + i32::from(line)) + 4) as u16,
             };
             let filled = self.cleared == Some(clear);
             let pipe = &mut self.pipe;
@@ -149,7 +171,7 @@ impl<'m> ModelRenderer<'m> {
                 } = output
                 {
                     if let Some(pixel) = pixels.get_mut(usize::from(x)) {
-                        *pixel = P::Pixel::from_rgb8(rgb);
+                        *pixel = F::from_rgb8(rgb);
                     }
                 }
             };
@@ -157,11 +179,14 @@ impl<'m> ModelRenderer<'m> {
                 trace(&token);
                 pipe.token(token, &mut out);
             };
-            begin::<P>(&mut emit);
+            begin(self.has_depth, &mut emit);
             if !filled {
                 fill(clear, segment as u16, &mut emit);
             }
-            objects(scene, &mut self.ram, &self.format, part, &mut emit);
+            let on_line = |t: &FiledTriangle| t.lines().contains(&i32::from(line));
+            for triangle in scene.triangles().filter(on_line) {
+                draw_triangle(&triangle, &mut self.ram, &self.format, part, &mut emit);
+            }
             finish(part.width, &mut emit);
             // Both buffers are clear again: of this one no more than the part was drawn, and that
             // is cleared behind what is sent.
@@ -169,13 +194,37 @@ impl<'m> ModelRenderer<'m> {
         }
         Ok(())
     }
+
+    /// Whether a line of the scene can be drawn into so many pixels.
+    fn check<F: Pixel>(
+        &self,
+        scene: &Scene<'_, '_, Gouraud<F>>,
+        line: u16,
+        have: usize,
+    ) -> Result<(), ModelError> {
+        let needed = usize::from(scene.screen().width());
+        let mut calls = (0..).map_while(|call| Some((call, scene.draw_state(call)?)));
+        if have != needed {
+            Err(ModelError::Pixels { needed, have })
+        } else if !scene.lines().contains(&line) {
+            Err(ModelError::Line { line })
+        } else if self.segment() == 0 {
+            Err(ModelError::Memory)
+        } else if F::MADE_OF == MadeOf::Index {
+            Err(ModelError::Indices)
+        } else if let Some((call, _)) = calls.find(|(_, state)| !state.is_colours_alone()) {
+            Err(ModelError::Call { call })
+        } else {
+            Ok(())
+        }
+    }
 }
 
-/// The mode of a pipeline `P`: without depth every pixel counts as visible.
-fn begin<P: Pipeline>(emit: &mut impl FnMut(Token)) {
+/// The mode: without depth every pixel counts as visible.
+fn begin(has_depth: bool, emit: &mut impl FnMut(Token)) {
     emit(Token::GlobalMode(GlobalMode {
         diffuse_shade: true,
-        force_z_visible: !P::Depth::TESTS,
+        force_z_visible: !has_depth,
         ..GlobalMode::default()
     }));
 }
@@ -200,54 +249,30 @@ fn fill(colour: u64, length: u16, emit: &mut impl FnMut(Token)) {
     }
 }
 
-/// The tokens of every object on the segment, in order of submission.
-fn objects<P>(
-    scene: &Scene<'_, P>,
+/// The tokens of a triangle on the segment.
+fn draw_triangle(
+    triangle: &FiledTriangle,
     ram: &mut ParameterRam,
     format: &VertexFormat,
     segment: Segment,
     emit: &mut impl FnMut(Token),
-) where
-    P: Pipeline<Shading: CornerColours>,
-{
-    let scale = Scale::new(P::Pixel::STEPS);
-    for index in 0..scene.pass_one().objects {
-        let Some(filed) = scene.filed(index as u16) else {
-            break;
-        };
-        let y = filed.places.map(|(_, y)| y);
-        let above = y.iter().all(|y| *y < segment.y);
-        let below = y.iter().all(|y| *y >= segment.y);
-        if above || below {
-            continue;
-        }
-        for (v, words) in (0..).zip(words::<P::Shading>(&filed, &scale)) {
-            // The format has as many words as these arrays, so this does not fail.
-            let _ = ram.load(0, v, format, &words);
-        }
-        draw(
-            ram,
-            format,
-            (0, [0, 1, 2]),
-            segment,
-            ZFlags::default(),
-            emit,
-        );
+) {
+    for (v, corner) in (0..).zip(&triangle.corners) {
+        // The format has as many words as these arrays, so this does not fail.
+        let _ = ram.load(0, v, format, &words(corner));
     }
+    let flags = ZFlags::default();
+    draw(ram, format, (0, [0, 1, 2]), segment, flags, emit);
 }
 
-/// The words of an object's corners, as [`SCENE_VERTEX`] describes them.
-fn words<S: CornerColours>(filed: &Filed<S::Vertex, S::Face>, scale: &Scale) -> [[u32; 3]; 3] {
-    let colours = S::colours(filed.attributes, filed.face);
-    [0, 1, 2].map(|i| {
-        let (x, y) = filed.places[i];
-        let argb = colours[i]
-            .to_rgb8(scale)
-            .iter()
-            .fold(0xFF, |word, &level| word << 8 | u32::from(level));
-        // Scenes keep 1/w, where more is nearer; tokens keep what is nearer below.
-        [u32::from(x) << 16 | u32::from(y), !filed.depths[i], argb]
-    })
+/// The words of a corner, as [`SCENE_VERTEX`] describes them.
+fn words(corner: &FiledCorner) -> [u32; 3] {
+    let place = |at: i16| (i32::from(at) + 8 * ORIGIN) as u16;
+    let levels = corner.colour.iter();
+    let argb = levels.fold(0xFF, |word, &level| word << 8 | u32::from(level));
+    let (x, y) = (place(corner.x), place(corner.y));
+    // Scenes keep 1/w, where more is nearer; tokens keep what is nearer below.
+    [u32::from(x) << 16 | u32::from(y), !corner.depth, argb]
 }
 
 /// Sends the line and clears it behind (K12).
@@ -279,24 +304,35 @@ pub enum ModelFrameError<E> {
     /// The sink failed.
     ScanOut(ScanError<E>),
     /// A line could not be drawn.
-    Renderer(RendererError),
+    Line(ModelError),
 }
 
+impl<E: scan_out::Error> fmt::Display for ModelFrameError<E> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::ScanOut(error) => error.fmt(f),
+            Self::Line(error) => error.fmt(f),
+        }
+    }
+}
+
+impl<E: scan_out::Error> core::error::Error for ModelFrameError<E> {}
+
 /// Draws all lines of `scene` with the model and sends them through `pump`, as
-/// [`draw_frame`](scanbeam::pipeline::draw_frame) does with the fast path.
+/// [`draw_frame`](scanbeam::draw_frame) does with the fast path.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or there is too little memory.
-pub fn draw_model_frame<P, D>(
-    scene: &Scene<'_, P>,
+pub fn draw_model_frame<F, D>(
+    scene: &Scene<'_, '_, Gouraud<F>>,
     renderer: &mut ModelRenderer<'_>,
     pump: &mut Pump<D>,
-    background: WordOf<P>,
+    background: F::Word,
     lines_per_transfer: u16,
 ) -> Result<(), ModelFrameError<D::Error>>
 where
-    P: Pipeline<Shading: CornerColours>,
-    D: ScanoutDma<Buf: LineBuf<Word = WordOf<P>>>,
+    F: Pixel,
+    D: ScanoutDma<Buf: LineBuf<Word = F::Word>>,
 {
     let lines = scene.lines();
     let window = Window {
@@ -312,7 +348,7 @@ where
         let pixels = pump.line().map_err(ModelFrameError::ScanOut)?;
         renderer
             .draw_line(scene, line, background, pixels)
-            .map_err(ModelFrameError::Renderer)?;
+            .map_err(ModelFrameError::Line)?;
         pump.line_done().map_err(ModelFrameError::ScanOut)?;
     }
     pump.finish().map_err(ModelFrameError::ScanOut)

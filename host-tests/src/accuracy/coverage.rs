@@ -1,11 +1,13 @@
 //! Which pixels a triangle has, against whole numbers and against corners that were not snapped.
 
-use super::stage::{Place, Rng, Setting, Stage, covers};
+use super::stage::{Done, Place, Rng, Stage, ahead, call, covers, with_model};
 use super::{Name, Row};
-use scanbeam::pipeline::{FlatPainter, Scene};
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::Rgb888;
-use scanbeam_model::{ModelRenderer, PipeMemory};
+use scanbeam::{Draw, Faces, Mesh, Renderer, Scene};
 use std::error::Error;
+
+type L = Gouraud<Rgb888>;
 
 const SIDE: u16 = 128;
 const BATCHES: usize = 20;
@@ -15,25 +17,16 @@ const SNAPPED: &str = "corners on the 1/8 grid, against exact rationals";
 const FREE: &str = "corners anywhere, against f64";
 
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
-    // Wrong pixels and pixels of each batch: fast and model, against both.
+    // Wrong pixels and pixels of each batch: the renderer and the model, against both.
     let mut batches = [[(0u32, 0u32); BATCHES]; 4];
     let mut rng = Rng::new(3);
-    let setting = Setting::flat(SIDE, SIDE)?;
-    let mut stage = Stage::<FlatPainter<Rgb888>>::new(setting.screen);
+    // At distance 1 a unit of the screen, 1/8 pixel, is 2^-15 of a coordinate.
+    let mut stage = Stage::<L>::new((SIDE, SIDE), ahead(4096.0, 0.5, 2.0)?)?;
     for batch in 0..BATCHES {
         for _ in 0..TRIANGLES {
-            let (free, positions) = corners(&mut rng, &setting);
+            let (free, positions) = corners(&mut rng);
             let snapped = free.map(|(x, y)| ((x + 0.5).floor() as i32, (y + 0.5).floor() as i32));
-            let (scene, mut lines) = stage.scene(&setting, &positions, &[[255; 3]; 3])?;
-            let mut renderer = lines.renderer();
-            let mut row = [[0; 3]; SIDE as usize];
-            let fast = picture(|line, out| {
-                row.fill([0; 3]);
-                renderer.draw_line(&scene, line, &mut row)?;
-                out.extend(row.iter().map(|p| *p != [0; 3]));
-                Ok(())
-            })?;
-            let model = by_model(&scene)?;
+            let [fast, model] = stage.show(|scene| build(scene, &positions), pictures)?;
             for line in 0..i32::from(SIDE) {
                 for column in 0..i32::from(SIDE) {
                     let at = (line * i32::from(SIDE) + column) as usize;
@@ -54,7 +47,13 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
         }
     }
     let names: [Name; 4] = [
-        ("coverage", SNAPPED, "exact edges", UNIT, Some("flat_565")),
+        (
+            "coverage",
+            SNAPPED,
+            "exact edges",
+            UNIT,
+            Some("flat_565_large"),
+        ),
         (
             "coverage",
             SNAPPED,
@@ -62,7 +61,13 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             UNIT,
             Some("model_565"),
         ),
-        ("coverage", FREE, "exact edges", UNIT, Some("flat_565")),
+        (
+            "coverage",
+            FREE,
+            "exact edges",
+            UNIT,
+            Some("flat_565_large"),
+        ),
         ("coverage", FREE, "hardware model", UNIT, Some("model_565")),
     ];
     Ok(names
@@ -84,7 +89,7 @@ pub(super) fn rates(name: Name, scale: f64, batches: &[(u32, u32)]) -> Row {
 
 /// Corners in units of 1/8 pixel, and as positions; none so near the middle between two places of
 /// the grid that the product with the camera could decide.
-fn corners(rng: &mut Rng, setting: &Setting) -> ([(f64, f64); 3], [[i32; 3]; 3]) {
+fn corners(rng: &mut Rng) -> ([(f64, f64); 3], [[i32; 3]; 3]) {
     let size = rng.within(16, 8 * i32::from(SIDE) - 16);
     let base: Place = (
         rng.within(8, 8 * i32::from(SIDE) - 8 - size),
@@ -95,8 +100,9 @@ fn corners(rng: &mut Rng, setting: &Setting) -> ([(f64, f64); 3], [[i32; 3]; 3])
         let at = (base.0 + rng.within(0, size), base.1 + rng.within(0, size));
         // y goes up in positions, so it is taken off.
         let part = [(); 2].map(|()| rng.within(-16_000, 16_000));
-        let [x, y, z] = setting.vertex(at);
-        positions[i] = [x + part[0], y - part[1], z];
+        let middle = 4 * i32::from(SIDE);
+        let [x, y] = [(at.0 - middle) << 15, (middle - at.1) << 15];
+        positions[i] = [x + part[0], y - part[1], -1 << 30];
         let place = |whole: i32, part: i32| f64::from(whole) + f64::from(part) / 32_768.0;
         (place(at.0, part[0]), place(at.1, part[1]))
     });
@@ -116,27 +122,36 @@ fn covers_free(triangle: [(f64, f64); 3], column: i32, line: i32) -> bool {
     left
 }
 
-fn picture(
-    mut draw: impl FnMut(u16, &mut Vec<bool>) -> Result<(), Box<dyn Error>>,
-) -> Result<Vec<bool>, Box<dyn Error>> {
-    let mut out = Vec::new();
-    for line in 0..SIDE {
-        draw(line, &mut out)?;
-    }
-    Ok(out)
+/// A white triangle.
+fn build(scene: &mut Scene<'_, '_, L>, positions: &[[i32; 3]; 3]) -> Done {
+    let mesh = Mesh {
+        positions,
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&[[0, 1, 2]]),
+    };
+    let cull = call().cull;
+    Ok(scene.draw(&Draw {
+        cull,
+        ..Draw::new(mesh)
+    })?)
 }
 
-fn by_model(scene: &Scene<'_, FlatPainter<Rgb888>>) -> Result<Vec<bool>, Box<dyn Error>> {
-    let mut memory = [[0; SIDE as usize]; 4];
-    let [z0, z1, c0, c1] = &mut memory;
-    let mut renderer = ModelRenderer::new(PipeMemory {
-        z: [z0, z1],
-        rgb: [c0, c1],
-    });
+/// The pixels that a scene has by the renderer and by the model.
+fn pictures(scene: &Scene<'_, '_, L>, renderer: &mut Renderer<'_, L>) -> Done<[Vec<bool>; 2]> {
+    let mut pictures = [Vec::new(), Vec::new()];
     let mut row = [[0; 3]; SIDE as usize];
-    picture(|line, out| {
-        renderer.draw_line(scene, line, [0; 3], &mut row)?;
-        out.extend(row.iter().map(|p| *p != [0; 3]));
-        Ok(())
+    with_model(SIDE, |model| {
+        for line in 0..SIDE {
+            for (i, picture) in pictures.iter_mut().enumerate() {
+                if i == 0 {
+                    renderer.draw_line(scene, line, &mut row, [0; 3])?;
+                } else {
+                    model.draw_line(scene, line, [0; 3], &mut row)?;
+                }
+                picture.extend(row.iter().map(|pixel| *pixel != [0; 3]));
+            }
+        }
+        Ok(pictures)
     })
 }

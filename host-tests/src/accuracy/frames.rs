@@ -1,16 +1,16 @@
 //! Whole scenes, away from edges, against the `f64` renderer.
 
-use super::methods::{DEFAULT, METHODS};
+use super::methods::{METHODS, Method, RENDERER};
 use super::spans::beyond;
 use super::{Errors, Row};
-use crate::args::{InterpArg, PixelFormatArg};
-use crate::draw::{CrewSettings, draw_by};
+use crate::args::PixelFormatArg;
+use crate::draw::{CrewSettings, DrawFailure, Drawn, draw, draw_by_methods, draw_model};
 use crate::image_out::Frame;
 use crate::model::{Model, ModelVertex};
 use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
-use scanbeam::pipeline::Quality;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::{Faces, Mesh};
+use scanbeam_lab::DepthMethod;
 use scenes::{CUBE, SPHERE, TEAPOT};
 use std::error::Error;
 
@@ -48,27 +48,35 @@ pub(super) fn model_of(mesh: &Mesh<'_>) -> Model {
     }
 }
 
-/// A method's pictures in both formats, or the model's.
+/// The pictures of a method, or of the hardware model, in both formats.
 struct Drawer {
-    interp: InterpArg,
-    crew: CrewSettings,
+    method: Option<&'static Method>,
     errors: [Errors; 2],
 }
 
+impl Drawer {
+    fn draw(
+        &self,
+        model: &Model,
+        view: &View,
+        format: PixelFormatArg,
+    ) -> Result<Drawn, DrawFailure> {
+        match self.method.map(|method| method.way) {
+            None => draw_model(model, view, format),
+            Some(None) => draw(model, view, format, CrewSettings::default()),
+            Some(Some(way)) => draw_by_methods(model, view, format, (way, DepthMethod::Bits32)),
+        }
+    }
+}
+
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
-    let drawer = |interp, quality| Drawer {
-        interp,
-        crew: CrewSettings {
-            quality,
-            ..CrewSettings::default()
-        },
-        errors: Default::default(),
-    };
-    let mut drawers: Vec<Drawer> = METHODS
-        .iter()
-        .map(|m| drawer(m.interp, m.quality))
+    let methods = METHODS.iter().map(Some).chain([None]);
+    let mut drawers: Vec<Drawer> = methods
+        .map(|method| Drawer {
+            method,
+            errors: Default::default(),
+        })
         .collect();
-    drawers.push(drawer(InterpArg::Model, Quality::exact()));
     for (mesh, shade) in [
         (&TEAPOT, Shade::Gouraud),
         (&SPHERE, Shade::Gouraud),
@@ -86,48 +94,33 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
             };
             let reference = render(&model, &view)?;
             for drawer in &mut drawers {
-                for (errors, (format, steps)) in drawer.errors.iter_mut().zip(FORMATS) {
-                    let drawn = draw_by(&model, &view, format, drawer.crew, drawer.interp)?;
-                    compare(&drawn.frame, &reference, steps, errors);
+                for (i, (format, steps)) in FORMATS.into_iter().enumerate() {
+                    let drawn = drawer.draw(&model, &view, format)?;
+                    compare(&drawn.frame, &reference, steps, &mut drawer.errors[i]);
                 }
             }
         }
     }
+    Ok(drawers.into_iter().flat_map(named).collect())
+}
+
+/// The rows of a method: with depth, and of the renderer and the model beside other frames too.
+fn named(Drawer { method, errors }: Drawer) -> Vec<Row> {
     let mut rows = Vec::new();
-    for (drawer, method) in drawers
-        .into_iter()
-        .zip(METHODS.iter().map(Some).chain([None]))
-    {
-        for (i, errors) in drawer.errors.into_iter().enumerate() {
-            let name = match method {
-                // What a pixel costs with depth, measured on a kernel.
-                Some(m) => (
-                    "interpolation",
-                    SCENES[i],
-                    m.name,
-                    "levels",
-                    (i == 0).then(|| m.with_depth()),
-                ),
-                None => (
-                    "frame",
-                    CASE,
-                    MODEL[i],
-                    "levels",
-                    (i == 0).then_some("teapot_model"),
-                ),
-            };
-            if method.is_some_and(|m| m.name == DEFAULT) {
-                let kernel = (i == 0).then_some("teapot");
-                rows.push(
-                    errors
-                        .clone()
-                        .row(("frame", CASE, PLANES[i], "levels", kernel)),
-                );
-            }
-            rows.push(errors.row(name));
+    for (i, errors) in errors.into_iter().enumerate() {
+        let of_565 = |kernel| (i == 0).then_some(kernel);
+        let frame = |name, kernel| ("frame", CASE, name, "levels", of_565(kernel));
+        let Some(method) = method else {
+            rows.push(errors.row(frame(MODEL[i], "teapot_model")));
+            continue;
+        };
+        if method.name == RENDERER {
+            rows.push(errors.clone().row(frame(PLANES[i], "teapot")));
         }
+        let kernel = of_565(method.with_depth());
+        rows.push(errors.row(("interpolation", SCENES[i], method.name, "levels", kernel)));
     }
-    Ok(rows)
+    rows
 }
 
 /// The errors of a picture, away from edges.

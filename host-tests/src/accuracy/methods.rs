@@ -1,27 +1,21 @@
-//! The interpolation methods of the crate, and how each is drawn and costed.
+//! The interpolation methods of the laboratory, and how each is costed.
 
-use crate::args::InterpArg;
-use scanbeam::pipeline::{GouraudPainter, Interpolated, Quality};
+use scanbeam_lab::Method as Way;
 
 /// A method by name.
 pub(super) struct Method {
     pub(super) name: &'static str,
-    pub(super) interp: InterpArg,
-    pub(super) quality: Quality,
-    /// Kernels of the firmware: RGB565 and RGB888, small triangles and large ones, and RGB565
-    /// with depth.
+    /// How the laboratory draws it; what it has not is the renderer's own.
+    pub(super) way: Option<Way>,
+    /// Kernels of the firmware: RGB565 and RGB888, short spans and long ones, and RGB565 with depth.
     kernels: [&'static str; 5],
 }
 
-/// The pipeline of a method without depth.
-pub(super) type Painter<F, I> = Interpolated<GouraudPainter<F>, I>;
-
 macro_rules! method {
-    ($name:literal, $interp:ident, $quality:ident, $kernel:literal) => {
+    ($name:literal, $way:expr, $kernel:literal) => {
         Method {
             name: $name,
-            interp: InterpArg::$interp,
-            quality: Quality::$quality(),
+            way: $way,
             kernels: [
                 concat!($kernel, "_565"),
                 concat!($kernel, "_565_large"),
@@ -33,23 +27,34 @@ macro_rules! method {
     };
 }
 
-/// The one that presets have.
-pub(super) const DEFAULT: &str = "packed8";
+/// What the renderer does.
+pub(super) const RENDERER: &str = "renderer";
 
 /// All of them.
-pub(super) const METHODS: [Method; 12] = [
-    method!("plane, forward steps", Plane, exact, "forward"),
-    method!("packed8", Packed8, exact, "packed8"),
-    method!("packed16", Packed16, exact, "packed16"),
-    method!("half rate", Half, exact, "half"),
-    method!("quarter rate", Quarter, exact, "quarter"),
-    method!("LIRP, 10 bits", Lirp10, exact, "lirp10"),
-    method!("LIRP, 12 bits", Lirp12, exact, "lirp12"),
-    method!("LIRP, 16 bits", Lirp16, exact, "lirp16"),
-    method!("LIRP, packed", LirpPacked, exact, "lirp_packed"),
-    method!("auto, fast", Auto, fast, "auto_fast"),
-    method!("auto, balanced", Auto, balanced, "auto_balanced"),
-    method!("auto, exact", Auto, exact, "auto_exact"),
+pub(super) const METHODS: [Method; 13] = [
+    Method {
+        name: RENDERER,
+        way: None,
+        kernels: [
+            "renderer_565",
+            "renderer_565_large",
+            "renderer_888",
+            "renderer_888_large",
+            "renderer_565_depth",
+        ],
+    },
+    method!("plane, forward steps", Some(Way::Plane), "forward"),
+    method!("packed8", Some(Way::Packed8), "packed8"),
+    method!("packed16", Some(Way::Packed16), "packed16"),
+    method!("half rate", Some(Way::Half), "half"),
+    method!("quarter rate", Some(Way::Quarter), "quarter"),
+    method!("LIRP, 10 bits", Some(Way::Lirp(10)), "lirp10"),
+    method!("LIRP, 12 bits", Some(Way::Lirp(12)), "lirp12"),
+    method!("LIRP, 16 bits", Some(Way::Lirp(16)), "lirp16"),
+    method!("LIRP, packed", Some(Way::LirpPacked), "lirp_packed"),
+    method!("auto, fast", Some(Way::FAST), "auto_fast"),
+    method!("auto, balanced", Some(Way::BALANCED), "auto_balanced"),
+    method!("auto, exact", Some(Way::EXACT), "auto_exact"),
 ];
 
 impl Method {
@@ -58,7 +63,7 @@ impl Method {
         self.kernels[2 * !bits_565 as usize + large as usize]
     }
 
-    /// The kernel of small triangles with depth, RGB565.
+    /// The kernel with depth, RGB565.
     pub(super) const fn with_depth(&self) -> &'static str {
         self.kernels[4]
     }

@@ -4,7 +4,7 @@
 use super::frames::model_of;
 use super::spans::beyond;
 use super::{Errors, Row};
-use crate::frames::{lean_picture, values_pictures};
+use crate::frames::{suite_frame, values_pictures};
 use crate::image_out::Frame;
 use crate::model::Model;
 use crate::reference::{Cull, NO_OBJECT, Reference, Shade, View, render};
@@ -31,7 +31,7 @@ fn teapot() -> (Model, View) {
     for vertex in &mut model.vertices {
         vertex.position = turned(vertex.position);
         vertex.normal = turned(vertex.normal);
-        vertex.colour = part.instance.colour.map(|level| f64::from(level) / 255.0);
+        vertex.colour = part.colour.map(|level| f64::from(level) / 255.0);
     }
     let looking = Suite::Teapot.view();
     let view = View {
@@ -60,7 +60,11 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for (case, edges) in [(WHOLE, true), (INSIDE, false)] {
         for (frame, method, kernel) in [
-            (&lean_picture(Suite::Teapot)?, "drawn whole", "lean_teapot"),
+            (
+                &suite_frame(Suite::Teapot)?.picture()?,
+                "drawn whole",
+                "teapot",
+            ),
             (&doubled, "160 x 120 drawn, doubled", "values_doubled"),
         ] {
             let errors = off(frame, &reference, edges);

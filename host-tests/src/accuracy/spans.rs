@@ -1,28 +1,29 @@
-//! Colour along spans, between corners of full 8-bit colours, against the line between them.
+//! Colour along spans, between corners of full 8-bit colours, against the plane between them.
 
-use super::methods::{METHODS, Method, Painter};
-use super::stage::{Place, Rng, Setting, Stage, covers, doubled_area, plane};
-use super::{Errors, Row};
-use crate::args::InterpArg;
-use scanbeam::pipeline::{
-    Auto, Forward, HalfRate, Interpolation, Lirp10, Lirp12, Lirp16, LirpPacked, Packed8, Packed16,
-    Quality, QuarterRate,
+use super::methods::METHODS;
+use super::stage::{
+    Done, Place, Rng, Stage, ahead, by_method, call, corner, covers, doubled_area, plane,
 };
-use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
+use super::{Errors, Row};
+use scanbeam::look::Gouraud;
+use scanbeam::pixel::{Pixel, PixelFormat, Rgb565, Rgb888};
+use scanbeam::scene::{LARGEST, ScreenCorner};
+use scanbeam_lab::{DepthMethod, Format};
 use scanbeam_model::{SpanWeight, divided_weight, lirp, round_to_8, widen};
 use std::error::Error;
+use std::ops::RangeInclusive;
 
 const FAMILY: &str = "interpolation";
 const UNIT: &str = "levels";
-/// Cases by format, spans of small triangles first.
+/// Cases by format, short spans first.
 const CASES: [[&str; 2]; 2] = [
     [
         "RGB565, spans of 1 to 63 pixels",
-        "RGB565, spans of 1 to 8192 pixels",
+        "RGB565, spans of 1 to 1016 pixels",
     ],
     [
         "RGB888, spans of 1 to 63 pixels",
-        "RGB888, spans of 1 to 8192 pixels",
+        "RGB888, spans of 1 to 1016 pixels",
     ],
 ];
 
@@ -37,13 +38,14 @@ pub(super) fn beyond(word: [u8; 3], channel: usize, steps: [u16; 3], exact: f64)
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = Vec::new();
     for long in [false, true] {
-        for method in &METHODS {
-            let [five, eight] = CASES.map(|cases| cases[usize::from(long)]);
+        let [five, eight] = CASES.map(|cases| cases[usize::from(long)]);
+        let both = spans::<Rgb565>(long)?
+            .into_iter()
+            .zip(spans::<Rgb888>(long)?);
+        for (method, (of_565, of_888)) in METHODS.iter().zip(both) {
             let name = |case, kernel| (FAMILY, case, method.name, UNIT, Some(kernel));
-            let errors = by::<Rgb565>(method, long)?;
-            rows.push(errors.row(name(five, method.kernel(true, long))));
-            let errors = by::<Rgb888>(method, long)?;
-            rows.push(errors.row(name(eight, method.kernel(false, long))));
+            rows.push(of_565.row(name(five, method.kernel(true, long))));
+            rows.push(of_888.row(name(eight, method.kernel(false, long))));
         }
         for (bits, method, kernel) in [
             (10, "circuit: LIRP, 10-bit W(X)", "model_lirp_10"),
@@ -63,38 +65,19 @@ pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     Ok(rows)
 }
 
-/// Spans by a method.
-fn by<F: PixelFormat>(method: &Method, long: bool) -> Result<Errors, Box<dyn Error>> {
-    let spans = match method.interp {
-        InterpArg::Plane => spans::<F, Forward>,
-        InterpArg::Packed8 => spans::<F, Packed8>,
-        InterpArg::Packed16 => spans::<F, Packed16>,
-        InterpArg::Half => spans::<F, HalfRate>,
-        InterpArg::Quarter => spans::<F, QuarterRate>,
-        InterpArg::Lirp10 => spans::<F, Lirp10>,
-        InterpArg::Lirp12 => spans::<F, Lirp12>,
-        InterpArg::Lirp16 => spans::<F, Lirp16>,
-        InterpArg::LirpPacked => spans::<F, LirpPacked>,
-        InterpArg::Auto => spans::<F, Auto>,
-        InterpArg::Model => return Err("the model draws no spans of its own".into()),
-    };
-    spans(method.quality, long)
-}
-
 /// LIRP from end to end of random spans, as the RGB unit has it: 10 bits a channel, 8 shown.
 fn blends(bits: u32, long: bool) -> Errors {
     let mut rng = Rng::new(1);
     let mut errors = Errors::default();
     for _ in 0..4_000 {
-        let length = rng.log(8.0, if long { 65_535.0 } else { 511.0 }) as u16;
+        let length = rng.log(8.0, if long { 8_128.0 } else { 511.0 }) as u16;
         let reach = if rng.unit() < 0.5 { 16 } else { 255 };
         let a = rng.within(0, 255);
         let b = rng.within((a - reach).max(0), (a + reach).min(255));
         let [wide_a, wide_b] = [a, b].map(|level| i64::from(widen(level as u32, 8, 10)));
         let circuit = SpanWeight::new(length);
         let first = rng.within(0, 7) as u16;
-        let stride = 8 * (1 + length / 2048);
-        for distance in (first..=length).step_by(usize::from(stride)) {
+        for distance in (first..=length).step_by(8) {
             let w = if bits == 10 {
                 circuit.at(distance).into()
             } else {
@@ -109,67 +92,101 @@ fn blends(bits: u32, long: bool) -> Errors {
     errors
 }
 
-/// Spans of random triangles through the line renderer. Those of at most 63 x 63 pixels are set up
-/// as small if they are not thin; those that are taller than 64 as large.
-fn spans<F: PixelFormat, I: Interpolation>(
-    quality: Quality,
-    long: bool,
-) -> Result<Errors, Box<dyn Error>> {
-    let mut rng = Rng::new(2);
-    let mut errors = Errors::default();
-    let (width, height) = if long { (8192, 256) } else { (64, 64) };
-    let setting = Setting::flat(width, height)?;
-    let mut stage = Stage::<Painter<F, I>>::new(setting.screen);
-    let mut pixels = vec![F::Word::default(); usize::from(width)];
-    for _ in 0..if long { 500 } else { 2_000 } {
-        let Some(triangle) = triangle(&mut rng, long) else {
-            continue;
-        };
+/// A triangle that is drawn by all methods, and the colours of its corners.
+struct Subject {
+    places: [Place; 3],
+    colours: [[u8; 3]; 3],
+}
+
+impl Subject {
+    /// None if chance made it thin.
+    fn random(rng: &mut Rng, long: bool) -> Option<Self> {
+        let places = triangle(rng, long)?;
         let reach = if rng.unit() < 0.5 { 16 } else { 255 };
         let colour = [(); 3].map(|()| rng.within(0, 255));
-        let colours = [(); 3]
-            .map(|()| colour.map(|c| rng.within((c - reach).max(0), (c + reach).min(255)) as u8));
-        let positions = triangle.map(|p| setting.vertex(p));
-        let (scene, mut lines) = stage.scene(&setting, &positions, &colours)?;
-        let bounds = |c: [i32; 3], size: u16| {
-            let low = c.into_iter().min().unwrap_or(0) / 8;
-            let high = c.into_iter().max().unwrap_or(0) / 8;
-            (low, high.min(i32::from(size) - 1))
-        };
-        let (left, right) = bounds(triangle.map(|p| p.0), width);
-        let (top, bottom) = bounds(triangle.map(|p| p.1), height);
-        let mut drawn: Vec<i32> = if long {
-            (0..4).map(|_| rng.within(top, bottom)).collect()
-        } else {
-            (top..=bottom).collect()
-        };
-        drawn.sort_unstable();
-        let mut renderer = lines.renderer();
-        renderer.set_quality(quality);
-        for line in drawn {
-            renderer.draw_line(&scene, line as u16, &mut pixels)?;
-            for column in (left..=right).filter(|c| covers(triangle, *c, line)) {
-                let shown = F::to_rgb8(pixels[column as usize]);
-                for channel in 0..3 {
-                    let values = colours.map(|c| f64::from(c[channel]));
-                    let exact = plane(triangle, values, column, line);
-                    errors.push(beyond(shown, channel, F::STEPS, exact));
-                }
+        let near = |rng: &mut Rng, c: i32| rng.within((c - reach).max(0), (c + reach).min(255));
+        let colours = [(); 3].map(|()| colour.map(|c| near(rng, c) as u8));
+        Some(Self { places, colours })
+    }
+
+    fn corners(&self) -> [ScreenCorner; 3] {
+        [0, 1, 2].map(|i| corner(self.places[i], 1 << 30, self.colours[i]))
+    }
+
+    /// The columns or lines of a picture that it may have pixels on.
+    fn extent(&self, axis: fn(&Place) -> i32, size: u16) -> RangeInclusive<i32> {
+        let all = self.places.each_ref().map(axis);
+        let (low, high) = all
+            .iter()
+            .fold((i32::MAX, 0), |(l, h), &c| (l.min(c), h.max(c)));
+        low / 8..=(high / 8).min(i32::from(size) - 1)
+    }
+
+    /// The errors of a line.
+    fn compare<F: PixelFormat>(&self, line: i32, pixels: &[F::Word], errors: &mut Errors) {
+        let columns = self.extent(|p| p.0, pixels.len() as u16);
+        for column in columns.filter(|&column| covers(self.places, column, line)) {
+            let shown = F::to_rgb8(pixels[column as usize]);
+            for channel in 0..3 {
+                let values = self.colours.map(|c| f64::from(c[channel]));
+                let exact = plane(self.places, values, column, line);
+                errors.push(beyond(shown, channel, F::STEPS, exact));
             }
         }
+    }
+}
+
+/// The same random triangles by all methods. Those of at most 63 x 63 pixels are set up by the renderer as small if they
+/// are not thin; those that are taller than 64 as large.
+fn spans<F: Pixel + Format>(long: bool) -> Done<Vec<Errors>> {
+    let mut rng = Rng::new(2);
+    let mut errors = vec![Errors::default(); METHODS.len()];
+    let size = if long { (LARGEST, 256) } else { (64, 64) };
+    let mut stage = Stage::<Gouraud<F>>::new(size, ahead(100.0, 1.0, 100.0)?)?;
+    let mut pixels = vec![F::Word::default(); size.0.into()];
+    let mut cells = vec![0; size.0.into()];
+    for _ in 0..if long { 400 } else { 12_000 } {
+        let Some(subject) = Subject::random(&mut rng, long) else {
+            continue;
+        };
+        let mut lines: Vec<i32> = subject.extent(|p| p.1, size.1).collect();
+        if long {
+            let last = lines.len() as i32 - 1;
+            lines = (0..4)
+                .map(|_| lines[rng.within(0, last) as usize])
+                .collect();
+        }
+        stage.show(
+            |scene| Ok(scene.draw_screen(&call(), &[subject.corners()])?),
+            |scene, renderer| {
+                for line in lines {
+                    for (method, errors) in METHODS.iter().zip(&mut errors) {
+                        if let Some(way) = method.way {
+                            let how = (way, DepthMethod::Bits32);
+                            by_method(how, scene, line as u16, &mut pixels, &mut cells);
+                        } else {
+                            let nothing = F::Word::default();
+                            renderer.draw_line(scene, line as u16, &mut pixels, nothing)?;
+                        }
+                        subject.compare::<F>(line, &pixels, errors);
+                    }
+                }
+                Ok(())
+            },
+        )?;
     }
     Ok(errors)
 }
 
-/// A triangle that is drawn by the method asked for; none if chance made it thin.
+/// A triangle within the picture; none if chance made it thin.
 fn triangle(rng: &mut Rng, long: bool) -> Option<[Place; 3]> {
+    let most = 8 * i32::from(LARGEST);
     let (wide, tall) = if long {
-        let wide = rng.log(8.0, 65_528.0) as i32;
-        (wide, rng.within(640, 2040))
+        (rng.log(8.0, most.into()) as i32, rng.within(640, 2040))
     } else {
         (rng.within(40, 504), rng.within(40, 504))
     };
-    let x0 = rng.within(0, if long { 65_528 } else { 504 } - wide);
+    let x0 = rng.within(0, if long { most } else { 504 } - wide);
     let place = |rng: &mut Rng| (x0 + rng.within(0, wide), rng.within(0, tall));
     let triangle = if long {
         [

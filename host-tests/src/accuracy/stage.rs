@@ -1,10 +1,13 @@
-//! Triangles on chosen places of the screen, and any pipeline to draw them.
+//! Triangles on chosen places of the screen, and a scene and a renderer for them.
 
-use scanbeam::pipeline::{
-    CellOf, DepthUse, DrawError, Instance, LineDepth, LineMemory, LineRenderer, ObjectOf, Pipeline,
-    Scene, SceneMemory, SlotOf, VertexOf, WordOf,
-};
-use scanbeam::{Camera, Cull, Faces, Link, Mesh, Screen};
+use crate::rooms::{LineRooms, Room, SceneRooms};
+use scanbeam::look::{Gouraud, Look};
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::pixel::Pixel;
+use scanbeam::scene::ScreenCorner;
+use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Renderer, Scene, Screen};
+use scanbeam_lab::{DepthMethod, Format, Method, Triangle, draw_line};
+use scanbeam_model::{ModelRenderer, PipeMemory};
 use std::error::Error;
 
 /// xorshift64*: small, and the same everywhere.
@@ -77,134 +80,102 @@ pub(super) fn doubled_area([a, b, c]: [Place; 3]) -> i64 {
     d(a.0, b.0) * d(a.1, c.1) - d(a.0, c.0) * d(a.1, b.1)
 }
 
-/// Where eyes are: a focal length that makes a unit of the screen a power of two of a coordinate.
-pub(super) struct Setting {
-    pub(super) screen: Screen,
-    camera: Camera,
-    instance: Instance,
+/// 1/w of a distance where the near plane is at `near`, in units of 2^-31.
+pub(super) fn depth_of(distance: f64, near: f64) -> u32 {
+    (near / distance * f64::from(1u32 << 31)) as u32
 }
 
-impl Setting {
-    /// All corners at distance 1: 2^-15 of a coordinate is 1/8 pixel.
-    pub(super) fn flat(width: u16, height: u16) -> Result<Self, Box<dyn Error>> {
-        Self::new(width, height, (4096.0, 0.5, 2.0), 1.0)
+/// A corner without a texture.
+pub(super) fn corner((x, y): Place, depth: u32, colour: [u8; 3]) -> ScreenCorner {
+    ScreenCorner {
+        vertex: ScreenVertex {
+            x: x as i16,
+            y: y as i16,
+            depth,
+            colour,
+        },
+        ..ScreenCorner::default()
     }
+}
 
-    /// With this focal length in pixels and this range; coordinates of a mesh are `scale` large.
-    pub(super) fn new(
-        width: u16,
-        height: u16,
-        (focal, near, far): (f32, f32, f32),
-        scale: f32,
-    ) -> Result<Self, Box<dyn Error>> {
-        let ahead = [0.0, 0.0, -1.0];
-        let camera = Camera::look_at([0.0; 3], ahead, [0.0, 1.0, 0.0], focal, near, far)?;
-        let model = scanbeam::Affine::placed(scale, [0.0; 3]).ok_or("the scale is finite")?;
+/// A draw call of no mesh, whose faces are seen from both sides.
+pub(super) fn call<'t>() -> Draw<'static, 't> {
+    Draw {
+        cull: Cull::None,
+        ..Draw::new(Mesh {
+            positions: &[],
+            normals: &[],
+            colours: &[],
+            faces: Faces::Triangles(&[]),
+        })
+    }
+}
+
+/// Looks along -z from the origin.
+pub(super) fn ahead(focal: f32, near: f32, far: f32) -> Result<Camera, Box<dyn Error>> {
+    let (to, up) = ([0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+    Ok(Camera::look_at([0.0; 3], to, up, focal, near, far)?)
+}
+
+/// What has been drawn, or why it was not.
+pub(super) type Done<R = ()> = Result<R, Box<dyn Error>>;
+
+/// Memory for scenes of a few triangles.
+pub(super) struct Stage<'t, L: Look> {
+    screen: Screen,
+    camera: Camera,
+    scene: SceneRooms<'t>,
+    lines: LineRooms<L>,
+}
+
+impl<'t, L: Look> Stage<'t, L> {
+    /// Of a picture of this size, seen by a camera.
+    pub(super) fn new((width, height): (u16, u16), camera: Camera) -> Done<Self> {
+        let room = Room {
+            vertices: 16,
+            places: 16,
+            objects: 8,
+            draws: 2,
+        };
         Ok(Self {
             screen: Screen::new(width, height)?,
             camera,
-            instance: Instance {
-                cull: Cull::None,
-                model,
-                ..Instance::default()
-            },
+            scene: SceneRooms::new(room, height),
+            lines: LineRooms::new(room.objects, width),
         })
     }
 
-    /// A vertex of a flat setting.
-    pub(super) fn vertex(&self, at: Place) -> [i32; 3] {
-        let x = at.0 - 4 * i32::from(self.screen.width());
-        let y = at.1 - 4 * i32::from(self.screen.height());
-        [x << 15, -(y << 15), -1 << 30]
-    }
-}
-
-/// Memory for scenes of a few triangles.
-pub(super) struct Stage<P: Pipeline> {
-    vertices: Vec<VertexOf<P>>,
-    objects: Vec<ObjectOf<P>>,
-    buckets: Vec<Link>,
-    slots: Vec<SlotOf<P>>,
-    links: Vec<Link>,
-    /// The depth of the line that was drawn last.
-    pub(super) depth: Vec<CellOf<P>>,
-}
-
-impl<P: Pipeline> Stage<P> {
-    pub(super) fn new(screen: Screen) -> Self {
-        Self {
-            vertices: vec![VertexOf::<P>::empty(); 16],
-            objects: vec![ObjectOf::<P>::default(); 8],
-            buckets: vec![Link::NONE; usize::from(screen.height())],
-            slots: vec![LineRenderer::<P>::empty_slot(); 8],
-            links: vec![Link::NONE; 8],
-            depth: vec![P::Depth::FARTHEST; usize::from(screen.width())],
-        }
-    }
-
-    /// A scene of triangles, three positions each, with the colours of their corners.
-    pub(super) fn scene(
+    /// Hands a scene that `build` makes, and who draws it, to `with`.
+    pub(super) fn show<R>(
         &mut self,
-        setting: &Setting,
-        positions: &[[i32; 3]],
-        colours: &[[u8; 3]],
-    ) -> Result<(Scene<'_, P>, Lines<'_, P>), Box<dyn Error>> {
-        let mut scene = Scene::new(
-            setting.screen,
-            SceneMemory {
-                vertices: &mut self.vertices,
-                objects: &mut self.objects,
-                buckets: &mut self.buckets,
-            },
-        );
-        scene.begin(&setting.camera)?;
-        let faces: Vec<[u16; 3]> = (0..positions.len() as u16 / 3)
-            .map(|i| [3 * i, 3 * i + 1, 3 * i + 2])
-            .collect();
-        let mesh = Mesh {
-            positions,
-            normals: &[],
-            colours,
-            faces: Faces::Triangles(&faces),
-        };
-        let drawn: Result<_, DrawError> = scene.draw(&mesh, &setting.instance);
-        drawn?;
-        let lines = Lines {
-            slots: &mut self.slots,
-            links: &mut self.links,
-            depth: &mut self.depth,
-        };
-        Ok((scene, lines))
+        build: impl FnOnce(&mut Scene<'_, 't, L>) -> Done,
+        with: impl FnOnce(&Scene<'_, 't, L>, &mut Renderer<'_, L>) -> Done<R>,
+    ) -> Done<R> {
+        let mut scene = self.scene.scene(self.screen);
+        scene.begin(&self.camera)?;
+        build(&mut scene)?;
+        with(&scene, &mut self.lines.renderer())
     }
 }
 
-/// What a line renderer is lent.
-pub(super) struct Lines<'s, P: Pipeline> {
-    slots: &'s mut [SlotOf<P>],
-    links: &'s mut [Link],
-    pub(super) depth: &'s mut [CellOf<P>],
+/// Draws a line by a method, over what is there.
+pub(super) fn by_method<F: Pixel + Format>(
+    how: (Method, DepthMethod),
+    scene: &Scene<'_, '_, Gouraud<F>>,
+    line: u16,
+    pixels: &mut [F::Word],
+    cells: &mut [u32],
+) {
+    let triangles = scene.triangles().map(Triangle::from);
+    draw_line::<F>(how, triangles, line, pixels, cells);
 }
 
-impl<P: Pipeline> Lines<'_, P> {
-    /// A renderer which tests and keeps all depth.
-    pub(super) fn renderer(&mut self) -> LineRenderer<'_, P> {
-        let mut renderer = LineRenderer::new(LineMemory {
-            slots: self.slots,
-            links: self.links,
-            depth: self.depth,
-        });
-        renderer.set_depth_use(DepthUse::Always);
-        renderer
-    }
-
-    /// Draws a line alone.
-    pub(super) fn draw(
-        &mut self,
-        scene: &Scene<'_, P>,
-        line: u16,
-        pixels: &mut [WordOf<P>],
-    ) -> Result<(), Box<dyn Error>> {
-        self.renderer().draw_line(scene, line, pixels)?;
-        Ok(())
-    }
+/// Hands a hardware model, with lines of so many pixels, to `with`.
+pub(super) fn with_model<R>(width: u16, with: impl FnOnce(&mut ModelRenderer<'_>) -> R) -> R {
+    let mut memory = [(); 4].map(|()| vec![0; width.into()]);
+    let [z0, z1, c0, c1] = &mut memory;
+    with(&mut ModelRenderer::new(PipeMemory {
+        z: [z0, z1],
+        rgb: [c0, c1],
+    }))
 }

@@ -1,26 +1,32 @@
-//! Texture places: along spans by every way of dividing, and in whole scenes by every quality.
+//! Texture places: in triangles by the renderer's budgets and the laboratory's divisions, and in whole scenes by the
+//! renderer.
+//!
+//! The texture's texels are their own places, so a picture says which texel each pixel shows. A pixel is off by how far
+//! its place lies outside of that texel.
 
 use super::coverage::rates;
-use super::stage::Rng;
+use super::stage::{Done, Place, Rng, Stage, ahead, call, covers, plane};
 use super::{Errors, Row};
 use crate::model::{Model, ModelVertex};
-use crate::places::places;
 use crate::reference::{NO_OBJECT, Options, TextureMap, Textures, View, render_textured};
-use scanbeam::pipeline::texture::{
-    FRACTION, Homogeneous, PerspectiveSpan, Quality, Stride, Texels, Uv,
-};
+use crate::rooms::{Room, picture};
+use scanbeam::look::Textured;
+use scanbeam::mesh::ScreenVertex;
+use scanbeam::pixel::Rgb565;
+use scanbeam::scene::{Budget, ScreenCorner, Skin, Texture};
+use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Screen};
+use scanbeam_lab::perspective::{FRACTION, Homogeneous, PerspectiveSpan, Stride, Uv};
 use std::error::Error;
 
 const FAMILY: &str = "texture";
 const OFF: &str = "texels";
 const WRONG: &str = "% wrong texel";
-/// The span of the kernels' goals: 1/w falls or rises to a tenth.
-const TENTH: &str = "spans of 208 pixels, 1/w 1:10, 64 texels";
-const ANY: &str = "spans of 2 to 1024 pixels, 1/w 1:1 to 1:100, 4 to 1024 texels";
+const TENTH: &str = "triangles 208 pixels wide, 1/w 1:10, 64 texels";
+const ANY: &str = "triangles 2 to 1000 pixels wide, 1/w 1:1 to 1:100, 4 to 1024 texels";
 const SCENES: &str = "sphere, ground, quad";
 const CHOSEN: [(&str, &str); 3] = [
-    (TENTH, "texels chosen, spans of 208 pixels, 1/w 1:10"),
-    (ANY, "texels chosen, spans of 2 to 1024 pixels, to 1:100"),
+    (TENTH, "texels chosen, 208 pixels wide, 1/w 1:10"),
+    (ANY, "texels chosen, 2 to 1000 pixels wide, to 1:100"),
     (SCENES, "texels chosen, sphere, ground, quad"),
 ];
 
@@ -28,12 +34,12 @@ const CHOSEN: [(&str, &str); 3] = [
 #[derive(Clone, Copy)]
 enum Way {
     Fixed(Stride),
-    Within(Quality),
+    Within(Budget),
 }
 
 /// By name, with the firmware's kernel.
-const WAYS: [(&str, Way, &str); 8] = [
-    ("affine", Way::Fixed(Stride::Affine), "affine_565"),
+const WAYS: [(&str, Way, &str); 9] = [
+    ("affine", Way::Fixed(Stride::Affine), "affine"),
     (
         "linear over 16",
         Way::Fixed(Stride::Sixteen),
@@ -46,20 +52,21 @@ const WAYS: [(&str, Way, &str); 8] = [
         Way::Fixed(Stride::Two),
         "perspective_2",
     ),
+    ("every pixel", Way::Fixed(Stride::One), "perspective_1"),
     (
         "fast: 1/2 texel",
-        Way::Within(Quality::Fast),
-        "texture_fast",
+        Way::Within(Budget::FAST),
+        "leaning_fast_565_large",
     ),
     (
         "balanced: 1/4 texel",
-        Way::Within(Quality::Balanced),
-        "texture_balanced",
+        Way::Within(Budget::BALANCED),
+        "leaning_balanced_565_large",
     ),
     (
-        "exact: every pixel",
-        Way::Within(Quality::Exact),
-        "perspective_1",
+        "exact: 1/100 texel",
+        Way::Within(Budget::EXACT),
+        "leaning_exact_565_large",
     ),
 ];
 
@@ -68,18 +75,20 @@ const WAYS: [(&str, Way, &str); 8] = [
 pub(super) const DEFAULT: &str = "balanced: 1/4 texel";
 
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
+    let texels = texels();
+    let map = Texture::words(&texels, SIDE, SIDE)?;
     let mut rows = Vec::new();
     for (name, way, kernel) in WAYS {
-        let tenth = spans(way, 6, |rng| Ends::random(rng, 208, 10.0, 64.0));
+        let tenth = spans(way, &map, 6, |rng| Subject::random(rng, 208, 10.0, 64.0))?;
         rows.extend(both(tenth, TENTH, name, kernel));
-        let any = spans(way, 7, |rng| {
-            let pixels = rng.log(2.0, 1025.0) as usize;
+        let any = spans(way, &map, 7, |rng| {
+            let pixels = rng.log(2.0, 1001.0) as i32;
             let (ratio, texels) = (rng.log(1.0, 100.0), rng.log(4.0, 1024.0));
-            Ends::random(rng, pixels, ratio, texels)
-        });
+            Subject::random(rng, pixels, ratio, texels)
+        })?;
         rows.extend(both(any, ANY, name, kernel));
-        if let Way::Within(quality) = way {
-            rows.extend(both(scenes(quality)?, SCENES, name, kernel));
+        if let Way::Within(budget) = way {
+            rows.extend(both(scenes(budget, &map)?, SCENES, name, kernel));
         }
     }
     Ok(rows)
@@ -103,138 +112,251 @@ fn both(
     rows
 }
 
-/// A span in real numbers: 1/w, u and v in texels at the first and the last pixel's centre.
-struct Ends {
-    pixels: usize,
-    q: [f64; 2],
-    u: [f64; 2],
-    v: [f64; 2],
+/// Texels a side of the texture.
+const SIDE: u32 = 128;
+/// A texel that it has not.
+const NOTHING: u16 = 0xFFFF;
+
+/// Each texel its own number.
+fn texels() -> Vec<u16> {
+    (0..(SIDE * SIDE) as u16).collect()
 }
 
-impl Ends {
-    /// Places from 0 to so many texels; the nearest end is anywhere in its exponent's octave.
-    fn random(rng: &mut Rng, pixels: usize, ratio: f64, texels: f64) -> Self {
+/// Adds how far the texel that a pixel shows is from its place.
+fn compare((errors, batch): (&mut Errors, &mut (u32, u32)), texel: u16, want: [f64; 2]) {
+    let side = f64::from(SIDE);
+    let shown = [u32::from(texel) % SIDE, u32::from(texel) / SIDE].map(f64::from);
+    let off = [0, 1].map(|i| {
+        let off = shown[i] + 0.5 - want[i];
+        // The texture repeats.
+        ((off - (off / side).round() * side).abs() - 0.5).max(0.0)
+    });
+    errors.push(off[0].max(off[1]));
+    batch.0 += u32::from(off != [0.0; 2]);
+    batch.1 += 1;
+}
+
+/// A triangle whose corners have 1/w and places on the texture.
+struct Subject {
+    places: [Place; 3],
+    /// 1/w, 1 at the near plane.
+    q: [f64; 3],
+    /// Texels in units of 1/256.
+    texels: [[i32; 2]; 3],
+}
+
+/// Lines of the picture.
+const LINES: u16 = 64;
+
+impl Subject {
+    /// As wide as said at its top, where 1/w changes by the ratio. Its nearest corner has any 1/w of an octave.
+    fn random(rng: &mut Rng, pixels: i32, ratio: f64, texels: f64) -> Self {
+        let x = rng.within(0, 8 * (1_008 - pixels));
+        let foot = rng.within(0, 8 * pixels);
+        let places = [
+            (x, 0),
+            (x + 8 * pixels, 0),
+            (x + foot, 8 * i32::from(LINES)),
+        ];
         let near = 0.5 + 0.499 * rng.unit();
-        let mut q = [near, near / ratio];
+        let mut q = [
+            near,
+            near / ratio,
+            near / (1.0 + (ratio - 1.0) * rng.unit()),
+        ];
         if rng.unit() < 0.5 {
-            q.reverse();
+            q.swap(0, 1);
         }
-        let [u, v] = [(); 2].map(|()| [(); 2].map(|()| texels * rng.unit()));
-        Self { pixels, q, u, v }
+        // As corners have it.
+        let q = q.map(|q| (q * 2f64.powi(31)).round() / 2f64.powi(31));
+        let place = |rng: &mut Rng| (256.0 * texels * rng.unit()) as i32;
+        let texels = [(); 3].map(|()| [place(rng), place(rng)]);
+        Self { places, q, texels }
     }
 
-    fn steps(&self) -> f64 {
-        (self.pixels - 1) as f64
-    }
-
-    /// Where a pixel lies on the texture.
-    fn place(&self, pixel: usize) -> [f64; 2] {
-        let t = pixel as f64 / self.steps();
-        let mix = |a: f64, b: f64| a * (1.0 - t) + b * t;
-        let q = mix(self.q[0], self.q[1]);
-        [self.u, self.v].map(|x| mix(x[0] * self.q[0], x[1] * self.q[1]) / q)
-    }
-
-    /// As planes hand it to a span: 1/w with 31 fraction bits, places over w with 21.
-    fn span(&self) -> PerspectiveSpan {
-        let fixed = |x: [f64; 2], bits: i32| x.map(|x| x * 2f64.powi(bits));
-        let over = |x: [f64; 2]| fixed([x[0] * self.q[0], x[1] * self.q[1]], 21);
-        let (q, s, t) = (fixed(self.q, 31), over(self.u), over(self.v));
-        let at = |x: [f64; 2]| x[0].round() as i32;
-        let step = |x: [f64; 2]| ((x[1] - x[0]) / self.steps()).round() as i32;
-        PerspectiveSpan {
-            at: Homogeneous {
-                q: at(q),
-                s: at(s),
-                t: at(t),
+    fn corners(&self) -> [ScreenCorner; 3] {
+        [0, 1, 2].map(|i| ScreenCorner {
+            vertex: ScreenVertex {
+                x: self.places[i].0 as i16,
+                y: self.places[i].1 as i16,
+                depth: (self.q[i] * 2f64.powi(31)) as u32,
+                colour: [255; 3],
             },
-            step: Homogeneous {
-                q: step(q),
-                s: step(s),
-                t: step(t),
-            },
-        }
+            texel: self.texels[i],
+        })
+    }
+
+    /// 1/w, u/w and v/w at a pixel, in texels.
+    fn at(&self, column: i32, line: i32) -> [f64; 3] {
+        let over = |axis: usize| {
+            let of = |i: usize| f64::from(self.texels[i][axis]) / 256.0 * self.q[i];
+            plane(self.places, [of(0), of(1), of(2)], column, line)
+        };
+        [plane(self.places, self.q, column, line), over(0), over(1)]
+    }
+
+    /// Texels of the covered columns of a line by a way of dividing.
+    fn divided(&self, stride: Stride, columns: &[i32], line: i32) -> Vec<u16> {
+        let (first, last) = (columns[0], columns[columns.len() - 1]);
+        let [first, last] = [first, last].map(|column| self.at(column, line));
+        let steps = (columns.len() - 1).max(1) as f64;
+        // 1/w with 31 fraction bits, places over w with 21.
+        let fixed = |values: [f64; 3]| {
+            let of = |i: usize, bits: i32| (values[i] * 2f64.powi(bits)).round() as i32;
+            Homogeneous {
+                q: of(0, 31),
+                s: of(1, 21),
+                t: of(2, 21),
+            }
+        };
+        let span = PerspectiveSpan {
+            at: fixed(first),
+            step: fixed([0, 1, 2].map(|i| (last[i] - first[i]) / steps)),
+        };
+        let mut texels = vec![0; columns.len()];
+        span.walk(stride, &mut texels, |texel, Uv { u, v }| {
+            let of = |place: i32| (place >> FRACTION) as u32 % SIDE;
+            *texel = (of(v) * SIDE + of(u)) as u16;
+        });
+        texels
     }
 }
 
-/// A texture whose texel is its place.
-struct Placed;
-
-impl Texels for Placed {
-    type Texel = Uv;
-
-    fn at(&self, place: Uv) -> Uv {
-        place
-    }
-}
-
-/// Random spans by a way.
-fn spans(way: Way, seed: u64, random: impl Fn(&mut Rng) -> Ends) -> Found {
+/// Lines of random triangles by a way.
+fn spans<'t>(
+    way: Way,
+    map: &'t Texture<'t>,
+    seed: u64,
+    random: impl Fn(&mut Rng) -> Subject,
+) -> Done<Found> {
     const BATCHES: usize = 20;
-    const SPANS: usize = 100;
+    const TRIANGLES: usize = 60;
     let mut rng = Rng::new(seed);
     let mut errors = Errors::default();
     let mut batches = vec![(0, 0); BATCHES];
-    let mut line = Vec::new();
+    let mut stage = Stage::<Textured<Rgb565>>::new((1_008, LINES), ahead(100.0, 1.0, 100.0)?)?;
+    let mut pixels = [0; 1_008];
     for batch in &mut batches {
-        for _ in 0..SPANS {
-            let ends = random(&mut rng);
-            let span = ends.span();
-            let stride = match way {
-                Way::Fixed(stride) => stride,
-                Way::Within(quality) => quality.budget().stride(&span, ends.pixels),
+        for _ in 0..TRIANGLES {
+            let subject = random(&mut rng);
+            let lines = [(); 2].map(|()| rng.within(0, i32::from(LINES) - 1));
+            let mut line_of = |line: i32, shown: &dyn Fn(&[i32]) -> Vec<u16>| {
+                let columns: Vec<i32> = (0..1_008)
+                    .filter(|&column| covers(subject.places, column, line))
+                    .collect();
+                if columns.is_empty() {
+                    return;
+                }
+                for (column, texel) in columns.iter().zip(shown(&columns)) {
+                    let [q, s, t] = subject.at(*column, line);
+                    compare((&mut errors, batch), texel, [s / q, t / q]);
+                }
             };
-            line.clear();
-            line.resize(ends.pixels, Uv::default());
-            span.draw(stride, &Placed, &mut line, |pixel, place| *pixel = place);
-            for (pixel, place) in line.iter().enumerate() {
-                let want = ends.place(pixel);
-                let got = [place.u, place.v].map(|x| f64::from(x) / f64::from(1 << FRACTION));
-                errors.push((got[0] - want[0]).abs().max((got[1] - want[1]).abs()));
-                let same = got.map(f64::floor) == want.map(f64::floor);
-                batch.0 += u32::from(!same);
-                batch.1 += 1;
+            match way {
+                Way::Fixed(stride) => {
+                    for line in lines {
+                        line_of(line, &|columns| subject.divided(stride, columns, line));
+                    }
+                }
+                Way::Within(budget) => stage.show(
+                    |scene| {
+                        let texture = Some(Skin {
+                            texture: map,
+                            places: &[],
+                            budget,
+                        });
+                        let draw = Draw { texture, ..call() };
+                        Ok(scene.draw_screen(&draw, &[subject.corners()])?)
+                    },
+                    |scene, renderer| {
+                        for line in lines {
+                            renderer.draw_line(scene, line as u16, &mut pixels, NOTHING)?;
+                            let at = |column: &i32| pixels[*column as usize];
+                            line_of(line, &|columns| columns.iter().map(at).collect());
+                        }
+                        Ok(())
+                    },
+                )?,
             }
         }
     }
-    (errors, batches)
+    Ok((errors, batches))
 }
 
-/// Texels a side of the scenes' texture.
-const SIDE: u32 = 128;
-
-/// Whole scenes through the pipeline, corners moved to the grid of the screen; each a batch.
+/// Whole scenes by the renderer, each a batch. Its corners are rounded to 1/64 pixel, which is up to 1/8 texel on the
+/// ground near its horizon.
 ///
 /// The near plane cuts none: what it makes of corners is the edges' error, which has its own bound.
-fn scenes(quality: Quality) -> Result<Found, Box<dyn Error>> {
+fn scenes<'t>(budget: Budget, map: &'t Texture<'t>) -> Done<Found> {
     let mut errors = Errors::default();
     let mut batches = Vec::new();
-    let map = TextureMap::made(SIDE, SIDE, |_, _| [255.0; 3]);
+    let blank = TextureMap::made(SIDE, SIDE, |_, _| [255.0; 3]);
     for (model, view) in pictures() {
         let of_triangle = vec![Some(0); model.triangles.len()];
         let textures = Textures {
-            maps: std::slice::from_ref(&map),
+            maps: std::slice::from_ref(&blank),
             of_triangle: &of_triangle,
         };
-        let snapped = Options {
-            steps_per_pixel: Some(8.0),
-        };
-        let reference = render_textured(&model, textures, &view, snapped)?;
-        let drawn = places(&model, SIDE, quality, &view)?;
+        let reference = render_textured(&model, textures, &view, Options::default())?;
         let mut batch = (0, 0);
-        for (i, shown) in drawn.iter().enumerate() {
+        for (i, &texel) in shown(&model, &view, budget, map)?.iter().enumerate() {
             if reference.object[i] == NO_OBJECT || reference.near_edge[i] {
                 continue;
             }
-            let want = reference.place[i];
-            let off = shown.off(want).ok_or("a pixel shows no texel")?;
-            errors.push(off[0].abs().max(off[1].abs()));
-            batch.0 += u32::from(!shown.is_texel_of(want));
-            batch.1 += 1;
+            if texel == NOTHING {
+                return Err("a pixel shows no texel".into());
+            }
+            compare((&mut errors, &mut batch), texel, reference.place[i]);
         }
         batches.push(batch);
     }
     Ok((errors, batches))
+}
+
+/// World units of a whole coordinate of a mesh.
+const SCALE: f64 = 128.0;
+
+/// The texels that the renderer shows of a model.
+fn shown<'t>(model: &Model, view: &View, budget: Budget, map: &'t Texture<'t>) -> Done<Vec<u16>> {
+    let q30 = |c: f64| (c / SCALE * f64::from(1 << 30)).round() as i32;
+    let positions: Vec<_> = model.vertices.iter().map(|v| v.position.map(q30)).collect();
+    let units = |c: f64| (c * f64::from(256 * SIDE)).round() as i32;
+    let place = |v: &ModelVertex| [units(v.uv[0]), units(1.0 - v.uv[1])];
+    let places: Vec<_> = model.vertices.iter().map(place).collect();
+    let faces: Vec<_> = model
+        .triangles
+        .iter()
+        .map(|f| f.map(|i| i as u16))
+        .collect();
+    let mesh = Mesh {
+        positions: &positions,
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&faces),
+    };
+    let room = Room {
+        vertices: 8_000,
+        places: 8_000,
+        objects: 8_000,
+        draws: 1,
+    };
+    let screen = Screen::new(view.width as u16, view.height as u16)?;
+    picture::<_, Textured<Rgb565>>(screen, room, NOTHING, |scene| {
+        let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
+        let [eye, at, up] = [view.eye, view.at, view.up].map(|p| p.map(|c| c as f32));
+        let (near, far) = (view.near as f32, view.far as f32);
+        scene.begin(&Camera::look_at(eye, at, up, focal as f32, near, far)?)?;
+        Ok(scene.draw(&Draw {
+            model: Affine::placed(SCALE as f32, [0.0; 3]).ok_or("the scale is finite")?,
+            cull: Cull::None,
+            texture: Some(Skin {
+                texture: map,
+                places: &places,
+                budget,
+            }),
+            ..Draw::new(mesh)
+        })?)
+    })
 }
 
 /// The scenes: a sphere as scene B has it, a ground plane to the horizon, a turned and tilted quad.

@@ -15,13 +15,13 @@ pub struct FirmwareArgs {
     /// Record what is measured, for every compiler that is complete here, and fail this once
     #[arg(long, requires = "bench")]
     pub bless: bool,
-    /// Instead: build each preset for each core, draw the teapot by it, and print what it takes
+    /// Instead: build programs with one look and with all for each core, draw by them, and print what they take
     #[arg(long, conflicts_with_all = ["bench", "output"])]
     pub sizes: bool,
     /// Write the table of sizes into host-tests/figures/tables.md, between its markers
     #[arg(long, requires = "sizes")]
     pub markdown: bool,
-    /// With the sizes also the largest functions of each preset's firmware
+    /// With the sizes also the largest functions of each program
     #[arg(long, requires = "sizes")]
     pub symbols: bool,
     /// Instead: step through one frame and print where its instructions go, by function

@@ -3,43 +3,54 @@
 use super::picture::{PictureArgs, ShadeArg, parse_number};
 use super::{DEFAULT_SLOTS, MAX_RENDERERS, MAX_SLOTS};
 use crate::choice::{DepthArg, InterpArg, PixelFormatArg};
-use crate::draw::{Effects, FilterArg, MOST_SLOTS};
+use crate::draw::{CrewSettings, Effects, FilterArg};
 use crate::image_out::ImageFormat;
 use crate::reference::View;
 use clap::{Args, ValueEnum};
-use scanbeam::pipeline::Quality;
+use scanbeam::scene::Budget;
+use std::fmt;
 use std::path::PathBuf;
 
-/// How far a picture may be off.
+/// How far texture places may be off.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum QualityArg {
-    /// 4 levels of 255
+    /// 1/2 texel
     Fast,
-    /// 1.5 levels (when nothing is said)
+    /// 1/4 texel
     Balanced,
-    /// Nothing beyond planes and rounding
+    /// 1/100 texel
     Exact,
 }
 
 impl QualityArg {
-    /// What a renderer is told.
+    /// What draw calls are told.
     #[must_use]
-    pub fn quality(self) -> Quality {
+    pub fn budget(self) -> Budget {
         match self {
-            Self::Fast => Quality::fast(),
-            Self::Balanced => Quality::balanced(),
-            Self::Exact => Quality::exact(),
+            Self::Fast => Budget::FAST,
+            Self::Balanced => Budget::BALANCED,
+            Self::Exact => Budget::EXACT,
         }
     }
+}
 
-    /// What textures are drawn by.
-    #[must_use]
-    pub fn texture_quality(self) -> scanbeam::pipeline::texture::Quality {
-        use scanbeam::pipeline::texture::Quality;
+/// By what a picture is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// By draw calls.
+    DrawCalls,
+    /// By the hardware model, or by a method of the laboratory for colours.
+    Interp(InterpArg),
+    /// By a method of the laboratory for depth.
+    Depth(DepthArg),
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Fast => Quality::Fast,
-            Self::Balanced => Quality::Balanced,
-            Self::Exact => Quality::Exact,
+            Self::DrawCalls => f.write_str("--interp auto"),
+            Self::Interp(interp) => write!(f, "--interp {interp}"),
+            Self::Depth(depth) => write!(f, "--depth {depth}"),
         }
     }
 }
@@ -73,14 +84,14 @@ pub struct RenderArgs {
     /// What to draw.
     #[command(flatten)]
     pub picture: PictureArgs,
-    /// How colours are taken from pixel to pixel; packed8 when not said, auto with --quality
-    #[arg(long, value_enum, value_name = "METHOD")]
-    pub interp: Option<InterpArg>,
+    /// How colours are taken from pixel to pixel
+    #[arg(long, value_enum, value_name = "METHOD", default_value_t = InterpArg::Auto)]
+    pub interp: InterpArg,
     /// How what is seen is found
     #[arg(long, value_enum, value_name = "METHOD", default_value_t = DepthArg::Auto)]
     pub depth: DepthArg,
     /// Texture of the whole model, .png or .ppm; without it those of its materials (map_Kd).
-    /// Its levels are rounded to 5, 6 and 5 bits, unless --interp, --depth or --prefetch are there too
+    /// Its levels are rounded to 5, 6 and 5 bits
     #[arg(long, value_name = "FILE")]
     pub texture: Option<PathBuf>,
     /// How texels are taken from textures
@@ -100,10 +111,10 @@ pub struct RenderArgs {
     /// Whether colours between two steps of rgb565 are mixed by an ordered 4x4 dither
     #[arg(long, value_enum, value_name = "SWITCH", default_value = "off")]
     pub dither: SwitchArg,
-    /// How far colours and texture places may be off where the method is auto
+    /// How far texture places may be off; balanced when not said
     #[arg(long, value_enum, value_name = "BUDGET")]
     pub quality: Option<QualityArg>,
-    /// Slots of each renderer's object cache, 0 to 4095
+    /// Slots of each renderer's object cache, 0 to 4095, of which up to 224 are used
     #[arg(long, value_name = "SLOTS", default_value_t = DEFAULT_SLOTS,
         value_parser = clap::value_parser!(u16).range(0..=i64::from(MAX_SLOTS)))]
     pub cache: u16,
@@ -114,8 +125,7 @@ pub struct RenderArgs {
     /// Bytes a line that each renderer fetches ahead into its cache
     #[arg(long, value_name = "BYTES", default_value_t = 0)]
     pub prefetch: u32,
-    /// Also write figures of the frame, as JSON; with textures those of spans and pixels are left
-    /// out where texels are rounded
+    /// Also write figures of the frame, as JSON
     #[arg(long, value_name = "OUT.json")]
     pub stats: Option<PathBuf>,
 }
@@ -138,11 +148,23 @@ impl RenderArgs {
 
     /// The method that the flags ask for.
     #[must_use]
-    pub fn method(&self) -> InterpArg {
-        match (self.interp, self.quality) {
-            (Some(interp), _) => interp,
-            (None, Some(_)) => InterpArg::Auto,
-            (None, None) => InterpArg::Packed8,
+    pub fn method(&self) -> Method {
+        match (self.interp, self.depth) {
+            (InterpArg::Auto, depth) if depth.is_of_laboratory() => Method::Depth(depth),
+            (InterpArg::Auto, _) => Method::DrawCalls,
+            (interp, _) => Method::Interp(interp),
+        }
+    }
+
+    /// Who draws.
+    #[must_use]
+    pub fn crew(&self) -> CrewSettings {
+        CrewSettings {
+            renderers: self.renderers,
+            slots: self.cache,
+            prefetch: self.prefetch,
+            counts: self.stats.is_some(),
+            depth: self.depth,
         }
     }
 
@@ -163,67 +185,49 @@ impl RenderArgs {
 
     /// How far texture places may be off.
     #[must_use]
-    pub fn texture_quality(&self) -> scanbeam::pipeline::texture::Quality {
-        let quality = self.quality.unwrap_or(QualityArg::Balanced);
-        quality.texture_quality()
+    pub fn budget(&self) -> Budget {
+        self.quality.map(QualityArg::budget).unwrap_or_default()
     }
 
-    /// Whether the method by which what is seen is found goes with the rest.
-    fn check_depth(&self) -> Result<(), String> {
-        let depth = self.depth;
-        if depth != DepthArg::Auto && self.interp == Some(InterpArg::Model) {
-            return Err("--interp model has no --depth: its own is what it is".into());
-        }
-        if !depth.is_a_pipeline() {
+    /// Whether the rest goes with the hardware model, or with a method of the laboratory.
+    fn check_method(&self) -> Result<(), String> {
+        let method = self.method();
+        if method == Method::DrawCalls {
             return Ok(());
         }
-        if self.method() != InterpArg::Packed8 {
-            return Err(format!("--depth {depth} goes with --interp packed8 alone"));
+        if matches!(method, Method::Interp(_)) && self.depth != DepthArg::Auto {
+            return Err(format!("{method} has no --depth: its own is what it is"));
+        }
+        let crew = (self.cache, self.renderers, self.prefetch, self.quality);
+        if crew != (DEFAULT_SLOTS, 1, 0, None) {
+            return Err(format!(
+                "{method} has no --cache, --renderers, --prefetch or --quality"
+            ));
         }
         if self.texture.is_some() || self.has_effects() {
             return Err(format!(
-                "--depth {depth} has no --texture, --specular, --shadows on or --shade phong"
+                "{method} has no --texture, --specular, --shadows on or --shade phong"
             ));
         }
         if ![PixelFormatArg::Rgb888, PixelFormatArg::Rgb565].contains(&self.format()) {
             return Err(format!(
-                "--depth {depth} needs --format rgb888 or rgb565, and --dither off"
+                "{method} needs --format rgb888 or rgb565, and --dither off"
             ));
         }
         Ok(())
     }
 
     pub(super) fn check(&self) -> Result<(), String> {
-        let crew = (self.cache, self.renderers, self.prefetch, self.quality);
-        if self.interp == Some(InterpArg::Model) && crew != (DEFAULT_SLOTS, 1, 0, None) {
-            return Err(
-                "--interp model has no --cache, --renderers, --prefetch or --quality".into(),
-            );
-        }
-        self.check_depth()?;
-        let common = [PixelFormatArg::Rgb888, PixelFormatArg::Rgb565];
-        let is_common = common.contains(&self.picture.format);
-        let by_calls = self.dither.is_on() || self.has_effects();
-        let is_usual = self.depth == DepthArg::Auto && self.prefetch == 0;
-        if by_calls && !(is_usual && self.cache <= MOST_SLOTS) {
-            return Err(format!(
-                "--dither on, --specular, --shadows on and --shade phong have no --depth, no --prefetch and at most {MOST_SLOTS} slots"
-            ));
-        }
         if self.dither.is_on() && self.picture.format != PixelFormatArg::Rgb565 {
             return Err("--dither on needs --format rgb565".into());
         }
-        if self.interp.is_some() && !common.contains(&self.format()) {
-            return Err("--interp needs --format rgb888 or rgb565, and --dither off".into());
+        self.check_method()?;
+        let is_grey = [PixelFormatArg::Grey8, PixelFormatArg::Mono].contains(&self.picture.format);
+        if is_grey && self.texture.is_some() {
+            return Err("--texture needs --format rgb888, rgb565 or xrgb8888".into());
         }
-        if !is_common && (self.texture.is_some() || self.quality.is_some() || self.has_effects()) {
-            return Err(
-                "--texture, --quality, --specular, --shadows and --shade phong need --format rgb888 or rgb565"
-                    .into(),
-            );
-        }
-        if self.interp.is_some() && self.has_effects() {
-            return Err("--interp has no --specular, --shadows on or --shade phong".into());
+        if self.depth == DepthArg::Priority && self.shadows.is_on() {
+            return Err("--depth priority has no --shadows on, which are found by depth".into());
         }
         if self.specular.is_some() && self.picture.shade == ShadeArg::None {
             return Err("--specular needs --shade flat, gouraud or phong".into());
@@ -232,9 +236,6 @@ impl RenderArgs {
         ImageFormat::from_path(&self.output).map_err(|error| error.to_string())?;
         if self.texture.as_ref() == Some(&self.output) {
             return Err("-o must not be the texture itself".into());
-        }
-        if self.texture.is_some() && self.interp == Some(InterpArg::Model) {
-            return Err("--interp model has no --texture".into());
         }
         if self.output == self.model {
             return Err("-o must not be the model itself".into());

@@ -1,7 +1,9 @@
 //! What is read, and what is refused.
 
 use super::*;
+use crate::draw::CrewSettings;
 use crate::reference::{Cull, Shade, View};
+use scanbeam::scene::Budget;
 
 fn words(line: &str) -> Result<Command, Stop> {
     parse(std::iter::once("scanbeam").chain(line.split_whitespace()))
@@ -25,8 +27,10 @@ fn defaults_are_those_of_the_design() {
     let args = render("");
     assert_eq!(args.view(), View::default());
     assert_eq!(args.picture.format, PixelFormatArg::Rgb888);
-    assert_eq!((args.interp, args.quality), (None, None));
-    assert_eq!(args.method(), InterpArg::Packed8);
+    assert_eq!((args.interp, args.quality), (InterpArg::Auto, None));
+    assert_eq!(args.method(), Method::DrawCalls);
+    assert_eq!(args.budget(), Budget::BALANCED);
+    assert_eq!(args.crew(), CrewSettings::default());
     assert_eq!(args.stats, None);
     assert_eq!(words(""), Ok(Command::Demo(DemoArgs::default())));
     assert_eq!(words("demo"), words(""));
@@ -95,13 +99,19 @@ fn boards_are_run_as_asked() {
 fn every_flag_arrives() {
     let view = render(
         "--size 17x8192 --eye -1,0,3 --at=-2,-3.5,1e-2 --up 0,0,-1 --fov 179.9 --near 1 --far 2.5 --light -1,-1,-1 \
-         --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --interp half --quality fast --stats s.json \
-         --cache 0 --renderers 16 --prefetch 99",
+         --ambient 1 --shade gouraud --cull back --background 255,0,7 --format rgb565 --quality fast --stats s.json \
+         --cache 0 --renderers 16 --prefetch 99 --depth z32",
     );
-    assert_eq!((view.cache, view.renderers, view.prefetch), (0, 16, 99));
+    let crew = CrewSettings {
+        renderers: 16,
+        slots: 0,
+        prefetch: 99,
+        counts: true,
+        depth: DepthArg::Z32,
+    };
+    assert_eq!((view.crew(), view.method()), (crew, Method::DrawCalls));
     assert_eq!(view.stats, Some(PathBuf::from("s.json")));
     assert_eq!(view.picture.format, PixelFormatArg::Rgb565);
-    assert_eq!(view.method(), InterpArg::Half);
     assert_eq!(view.quality, Some(QualityArg::Fast));
     let expected = View {
         width: 17,
@@ -141,24 +151,72 @@ fn every_flag_arrives() {
         ("lirp12", InterpArg::Lirp12),
         ("lirp16", InterpArg::Lirp16),
         ("lirp-packed", InterpArg::LirpPacked),
-        ("auto", InterpArg::Auto),
         ("model", InterpArg::Model),
     ] {
-        assert_eq!(render(&format!("--interp {name}")).method(), method);
+        let args = render(&format!("--interp {name}"));
+        assert_eq!(args.method(), Method::Interp(method));
     }
-    for (name, quality) in [
-        ("fast", QualityArg::Fast),
-        ("balanced", QualityArg::Balanced),
-        ("exact", QualityArg::Exact),
+    for (name, budget) in [
+        ("fast", Budget::FAST),
+        ("balanced", Budget::BALANCED),
+        ("exact", Budget::EXACT),
     ] {
-        let args = render(&format!("--quality {name}"));
-        assert_eq!(
-            (args.method(), args.quality),
-            (InterpArg::Auto, Some(quality))
-        );
+        let args = render(&format!("--quality {name} --interp auto"));
+        assert_eq!((args.method(), args.budget()), (Method::DrawCalls, budget));
     }
-    assert!(words("render m.obj -o o.png --interp model --quality fast").is_err());
-    assert!(words("render m.obj -o o.png --interp model --cache 3").is_err());
+    for (name, method) in [
+        ("block-fix", Method::Depth(DepthArg::BlockFix)),
+        ("word", Method::Depth(DepthArg::Word)),
+        ("id", Method::DrawCalls),
+        ("priority", Method::DrawCalls),
+    ] {
+        let args = render(&format!("--depth {name}"));
+        assert_eq!(args.method(), method);
+    }
+}
+
+/// Draw calls have any flag beside any other.
+#[test]
+fn flags_of_draw_calls_go_together() {
+    let crews = [
+        "",
+        "--cache 4095 --renderers 3 --prefetch 8 --quality exact",
+    ];
+    let depths = ["auto", "z32", "id", "priority"];
+    let effects = [
+        "",
+        "--specular 0.5,8 --shade flat",
+        "--shade phong",
+        "--shadows on",
+        "--shadows on --shade phong --specular 0.5,8",
+        "--texture t.png",
+        "--texture t.png --filter bilinear --levels off --shade phong",
+    ];
+    let formats = [
+        "rgb888",
+        "rgb565",
+        "rgb565 --dither on",
+        "xrgb8888",
+        "grey8",
+        "mono",
+    ];
+    let mut refused = Vec::new();
+    for crew in crews {
+        for depth in depths {
+            for effect in effects {
+                for format in formats {
+                    let flags = format!("--depth {depth} --format {format} {crew} {effect}");
+                    let no_shadow = depth == "priority" && effect.contains("shadows");
+                    let no_texture =
+                        effect.contains("texture") && ["grey8", "mono"].contains(&format);
+                    let line = words(&format!("render m.obj -o o.png {flags}"));
+                    assert_eq!(line.is_err(), no_shadow || no_texture, "{flags}: {line:?}");
+                    refused.extend(line.err());
+                }
+            }
+        }
+    }
+    assert_eq!(refused.len(), 2 * (2 * 6 + 4 * 2 * 2));
 }
 
 #[test]
@@ -317,33 +375,71 @@ fn refusals_say_what_is_wrong() {
         refusal("--dither on --format grey8"),
         "error: --dither on needs --format rgb565"
     );
-    for flags in [
-        "--dither on --format rgb565",
-        "--shadows on",
-        "--shade phong",
+    assert_eq!(
+        refusal("--shadows on --depth priority"),
+        "error: --depth priority has no --shadows on, which are found by depth"
+    );
+    for method in [
+        "--interp plane",
+        "--interp model",
+        "--depth block-fix",
+        "--depth word",
     ] {
-        for more in ["--depth z32", "--prefetch 8", "--cache 225"] {
-            assert_eq!(
-                refusal(&format!("{flags} {more}")),
-                "error: --dither on, --specular, --shadows on and --shade phong have no --depth, no --prefetch and at most 224 slots"
-            );
+        for (flags, what) in [
+            (
+                "--cache 3",
+                "has no --cache, --renderers, --prefetch or --quality",
+            ),
+            (
+                "--renderers 2",
+                "has no --cache, --renderers, --prefetch or --quality",
+            ),
+            (
+                "--prefetch 8",
+                "has no --cache, --renderers, --prefetch or --quality",
+            ),
+            (
+                "--quality fast",
+                "has no --cache, --renderers, --prefetch or --quality",
+            ),
+            (
+                "--shadows on",
+                "has no --texture, --specular, --shadows on or --shade phong",
+            ),
+            (
+                "--texture x.png",
+                "has no --texture, --specular, --shadows on or --shade phong",
+            ),
+            (
+                "--shade phong",
+                "has no --texture, --specular, --shadows on or --shade phong",
+            ),
+            (
+                "--format grey8",
+                "needs --format rgb888 or rgb565, and --dither off",
+            ),
+            (
+                "--format rgb565 --dither on",
+                "needs --format rgb888 or rgb565, and --dither off",
+            ),
+        ] {
+            let line = refusal(&format!("{method} {flags}"));
+            assert_eq!(line, format!("error: {method} {what}"));
         }
     }
-    assert_eq!(
-        refusal("--format grey8 --interp plane"),
-        "error: --interp needs --format rgb888 or rgb565, and --dither off"
-    );
+    for depth in ["z32", "id", "priority", "block-fix", "word"] {
+        assert_eq!(
+            refusal(&format!("--interp plane --depth {depth}")),
+            "error: --interp plane has no --depth: its own is what it is"
+        );
+    }
     assert_eq!(
         refusal("--format mono --texture x.png"),
-        "error: --texture, --quality, --specular, --shadows and --shade phong need --format rgb888 or rgb565"
+        "error: --texture needs --format rgb888, rgb565 or xrgb8888"
     );
     assert_eq!(
         refusal("--specular 0.5,8"),
         "error: --specular needs --shade flat, gouraud or phong"
-    );
-    assert_eq!(
-        refusal("--shadows on --interp plane"),
-        "error: --interp has no --specular, --shadows on or --shade phong"
     );
     for wrong in ["0.5", "1.5,8", "0.5,-1", "0.5,8.5", "a,b"] {
         let line = refusal(&format!("--shade flat --specular {wrong}"));

@@ -35,10 +35,10 @@ pub struct ViewArgs {
     /// Pixel format that the display is sent
     #[arg(long, value_enum, default_value_t = PixelFormatArg::Rgb565)]
     pub format: PixelFormatArg,
-    /// How far colours and texels may be off, of scenes and of models with textures
+    /// How far texture places may be off
     #[arg(long, value_enum, value_name = "BUDGET", default_value = "balanced")]
     pub quality: QualityArg,
-    /// Slots of each renderer's object cache, 0 to 4095; over 224 by the presets
+    /// Slots of each renderer's object cache, 0 to 4095, of which up to 224 are used
     #[arg(long, value_name = "SLOTS", default_value_t = DEFAULT_SLOTS,
         value_parser = clap::value_parser!(u16).range(0..=i64::from(MAX_SLOTS)))]
     pub cache: u16,

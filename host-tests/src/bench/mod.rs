@@ -23,7 +23,7 @@ pub use boards::{Counted, OnBoard};
 
 use crate::args::BenchArgs;
 use crate::firmware::{clean_command, usual_target, workspace};
-use crate::{preset_sizes, stdio};
+use crate::{sizes, stdio};
 use scenes::{HEIGHT, Shot, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -128,7 +128,7 @@ pub fn run(args: &BenchArgs) -> Result<(), Box<dyn Error>> {
     if args.markdown {
         let tables = table::page();
         table::write(&tables, &rows)?;
-        preset_sizes::write(&tables, &preset_sizes::measure()?)?;
+        sizes::write(&tables, &sizes::measure()?)?;
     }
     Ok(())
 }

@@ -17,8 +17,21 @@ pub struct Chip {
     emulator: Emulator,
     /// Whether its panel is fed from memory, and gets no commands.
     pub is_memory_mapped: bool,
+    /// What a run has to keep to.
+    pub limits: Limits,
+}
+
+/// What a run of a chip has to keep to; nothing where nothing is said.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Limits {
     /// Misses of the flash's cache that a frame may have.
-    pub most_misses: Option<u64>,
+    pub misses: Option<u64>,
+    /// The clock of the bus to the panel, in Hz: what the head of the example says.
+    pub bus_hz: Option<u64>,
+    /// Bytes that core 0's stack may have.
+    pub stack: Option<u64>,
+    /// Divisions that cores may make in a frame: one that polls instead of sleeping makes many.
+    pub divisions: Option<u64>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,23 +57,47 @@ const M33: &str = "thumbv8m.main-none-eabihf";
 const RV32IMC: &str = "riscv32imc-unknown-none-elf";
 const RV32IMAC: &str = "riscv32imac-unknown-none-elf";
 
+/// Core 0's stack in the RP2040's upper RAM, and what a frame takes of its dividers.
+const STACK: u64 = 4_096;
+const DIVISIONS: u64 = 1_000;
+/// Half of the RP2040's clock, and a quarter of the RP2350's.
+const RP2040_BUS: u64 = 62_500_000;
+const RP2350_BUS: u64 = 37_500_000;
 /// With the whole of pass two in RAM.
 const MISSES_OF_ALL: u64 = 2_000;
 /// With 12 KB of it.
 const MISSES_OF_12K: u64 = 6_000;
 
+/// What an RP2040 keeps to that misses its flash's cache so often at most.
+const fn rp2040(misses: u64) -> Limits {
+    Limits {
+        misses: Some(misses),
+        bus_hz: Some(RP2040_BUS),
+        stack: Some(STACK),
+        divisions: Some(DIVISIONS),
+    }
+}
+
+const RP2350: Limits = Limits {
+    misses: None,
+    bus_hz: Some(RP2350_BUS),
+    stack: None,
+    divisions: None,
+};
+
 /// Every board.
 pub const CHIPS: [Chip; 10] = [
-    Chip::new("rp2040-two-cores", M0, Emulator::Rp2040js).misses_at_most(MISSES_OF_ALL),
-    Chip::new("rp2040-two-cores-hot-12k", M0, Emulator::Rp2040js).misses_at_most(MISSES_OF_12K),
+    Chip::new("rp2040-two-cores", M0, Emulator::Rp2040js).keeps(rp2040(MISSES_OF_ALL)),
+    Chip::new("rp2040-two-cores-hot-12k", M0, Emulator::Rp2040js).keeps(rp2040(MISSES_OF_12K)),
     Chip::new("stm32f4", M4, Emulator::Unicorn("stm32f4.py")),
     Chip::new("stm32h7-ltdc", M4, Emulator::Unicorn("stm32h7.py")).memory_mapped(),
-    Chip::new("rp2350", M33, Emulator::Unicorn("rp2350.py")),
+    Chip::new("rp2350", M33, Emulator::Unicorn("rp2350.py")).keeps(RP2350),
     Chip::new(
         "rp2350-embassy",
         M33,
         Emulator::Unicorn("rp2350_embassy.py"),
-    ),
+    )
+    .keeps(RP2350),
     Chip::new("esp32c3", RV32IMC, Emulator::Unicorn("esp32c3.py")),
     Chip::new("bare", RV32IMAC, RISCV).called("bare-riscv32imac"),
     Chip::new("bare", RV32IMC, RISCV).called("bare-riscv32imc"),
@@ -106,7 +143,12 @@ impl Chip {
             target,
             emulator,
             is_memory_mapped: false,
-            most_misses: None,
+            limits: Limits {
+                misses: None,
+                bus_hz: None,
+                stack: None,
+                divisions: None,
+            },
         }
     }
 
@@ -118,12 +160,9 @@ impl Chip {
         }
     }
 
-    /// Its list of what runs from RAM is to keep misses below this.
-    const fn misses_at_most(self, most: u64) -> Self {
-        Self {
-            most_misses: Some(most),
-            ..self
-        }
+    /// With limits that its runs keep to.
+    const fn keeps(self, limits: Limits) -> Self {
+        Self { limits, ..self }
     }
 
     /// For a program that runs on several.

@@ -1,5 +1,6 @@
 //! A run of a board, judged.
 
+use super::chips::Limits;
 use super::expected::Expected;
 use super::panel::Panel;
 use super::wire::{self, Event, FRAMES, Figures, Use};
@@ -32,6 +33,12 @@ pub struct Outcome {
     pub xip_misses: Option<u64>,
     /// Frames a second.
     pub fps: Option<f64>,
+    /// The clock of the bus to the panel, in Hz.
+    pub bus_hz: Option<u64>,
+    /// The most bytes that core 0's stack had.
+    pub stack_bytes: Option<u64>,
+    /// Divisions of all cores in a frame, by the chip's divider.
+    pub divisions: Option<u64>,
     /// Why it was not run.
     #[serde(skip)]
     pub missing: Option<String>,
@@ -85,6 +92,9 @@ impl Outcome {
 
     /// What a frame takes on average, from the first frame's opening to the last's.
     fn spend(&mut self, run: &Run) {
+        (self.bus_hz, self.stack_bytes) = (run.bus, run.stack);
+        let shown = self.frames.max(1) as u64;
+        self.divisions = run.divisions.map(|all| all / shown);
         let ([first, .., last], Some(clock)) = (&run.figures[..], run.clock) else {
             return;
         };
@@ -99,15 +109,36 @@ impl Outcome {
         self.fps = Some((100.0 * clock as f64 / cycles.max(1) as f64).round() / 100.0);
     }
 
-    /// Complains where the flash's cache is missed oftener than so many times a frame.
-    pub fn hold_misses(&mut self, most: Option<u64>) {
-        let (Some(misses), Some(most)) = (self.xip_misses, most) else {
+    /// Complains where a run keeps to a limit of its chip not, or says nothing of it.
+    pub fn hold(&mut self, limits: Limits) {
+        if !self.ran {
             return;
-        };
-        if misses > most {
-            let text =
-                format!("{misses} misses of the flash's cache a frame, and not {most} at most");
-            self.complaints.push(text);
+        }
+        let kept = [
+            (
+                "misses of the flash's cache a frame",
+                self.xip_misses,
+                limits.misses,
+            ),
+            ("bytes of core 0's stack", self.stack_bytes, limits.stack),
+            ("divisions a frame", self.divisions, limits.divisions),
+        ];
+        for (what, is, most) in kept {
+            let Some(most) = most else { continue };
+            match is {
+                Some(is) if is <= most => {}
+                Some(is) => self
+                    .complaints
+                    .push(format!("{is} {what}, and not {most} at most")),
+                None => self.complaints.push(format!("nothing is said of {what}")),
+            }
+        }
+        if let Some(hertz) = limits.bus_hz.filter(|hertz| self.bus_hz != Some(*hertz)) {
+            let is = self
+                .bus_hz
+                .map_or("an unknown rate".into(), |is| format!("{is} Hz"));
+            self.complaints
+                .push(format!("the bus runs at {is}, and not at {hertz} Hz"));
         }
     }
 
@@ -138,6 +169,9 @@ struct Run {
     panel: Panel,
     figures: Vec<Figures>,
     clock: Option<u64>,
+    bus: Option<u64>,
+    stack: Option<u64>,
+    divisions: Option<u64>,
     end: Option<String>,
 }
 
@@ -150,6 +184,9 @@ impl Run {
             Event::Picture { size, bytes } => self.panel.show(size, &bytes),
             Event::Figures(figures) => self.figures.push(figures),
             Event::Clock(hertz) => self.clock = Some(hertz),
+            Event::Bus(hertz) => self.bus = Some(hertz),
+            Event::Stack(bytes) => self.stack = Some(bytes),
+            Event::Divisions(all) => self.divisions = Some(all),
             Event::Fault(text) => self.panel.complain(text),
             Event::End(why) => self.end = Some(why),
             Event::Note(_) | Event::Use(_) => {}

@@ -1,5 +1,6 @@
 //! Streams that are right and streams with one fault each, what is read, and what is printed.
 
+use super::chips::Limits;
 use super::outcome::Outcome;
 use super::wire::{self, Event, Figures, Use};
 use super::*;
@@ -219,18 +220,63 @@ fn a_run_that_ends_early_or_says_nonsense_is_not_good() {
 }
 
 #[test]
-fn what_is_read_is_kept_and_misses_are_held() {
+fn what_is_read_is_kept() {
     let outcome = with("note done", &["use 16 1 2", "use 24 3 4"]);
     let addresses: Vec<u64> = outcome.uses.iter().map(|used| used.address).collect();
     assert_eq!(addresses, [16, 24]);
+}
+
+/// Each limit is held by itself, and a run that is silent of what is limited has not kept to it.
+///
+/// Kills: a limit that is not looked at, `<` in place of `<=`, a bus that may be slower, silence that is taken for good.
+#[test]
+fn limits_of_chips_are_held() {
+    let said = ["bus 62500000", "stack 4096", "divisions 30"];
+    let outcome = with("note done", &said);
+    let frames = outcome.frames as u64;
+    assert!(frames > 1 && 30 / frames > 1);
+    let none = Limits::default();
+    let misses = |most| Limits {
+        misses: Some(most),
+        ..none
+    };
+    let bus = |hertz| Limits {
+        bus_hz: Some(hertz),
+        ..none
+    };
+    let stack = |most| Limits {
+        stack: Some(most),
+        ..none
+    };
+    let divisions = |most| Limits {
+        divisions: Some(most),
+        ..none
+    };
     // A frame has 10,000 misses.
-    for (most, is_good) in [(None, true), (Some(10_000), true), (Some(9_999), false)] {
+    for (limits, is_good) in [
+        (none, true),
+        (misses(10_000), true),
+        (misses(9_999), false),
+        (bus(62_500_000), true),
+        (bus(62_500_001), false),
+        (bus(31_250_000), false),
+        (stack(4_096), true),
+        (stack(4_095), false),
+        (divisions(30 / frames), true),
+        (divisions(30 / frames - 1), false),
+    ] {
         let mut held = outcome.clone();
-        held.hold_misses(most);
-        assert_eq!(held.is_good(), is_good, "{most:?}");
+        held.hold(limits);
+        assert_eq!(held.is_good(), is_good, "{limits:?}");
+    }
+    let silent = with("note done", &[]);
+    for limits in [bus(1), stack(u64::MAX), divisions(u64::MAX)] {
+        let mut held = silent.clone();
+        held.hold(limits);
+        assert_eq!(held.complaints.len(), 1, "{limits:?}");
     }
     let mut without = Outcome::skipped("none", "it is missing".into());
-    without.hold_misses(Some(0));
+    without.hold(stack(0));
     assert!(without.is_good());
 }
 
@@ -300,6 +346,9 @@ fn the_report_has_the_keys_that_it_promises() {
             "wait_cycles",
             "xip_misses",
             "fps",
+            "bus_hz",
+            "stack_bytes",
+            "divisions",
         ];
         wanted.sort_unstable();
         assert_eq!(keys, wanted);

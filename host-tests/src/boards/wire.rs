@@ -23,6 +23,12 @@ pub enum Event {
     Figures(Figures),
     /// The processor's clock, in Hz.
     Clock(u64),
+    /// The clock of the bus to the panel, in Hz.
+    Bus(u64),
+    /// The most bytes that core 0's stack had.
+    Stack(u64),
+    /// Divisions of all cores, by the chip's divider.
+    Divisions(u64),
     /// How often what lies at an address was wanted, all in all.
     Use(Use),
     /// What a chip would not forgive.
@@ -73,6 +79,9 @@ pub fn parse(line: &str) -> Result<Event, String> {
     match word {
         "time" => number(rest).map(Event::Time),
         "clock" => number(rest).map(Event::Clock),
+        "bus" => number(rest).map(Event::Bus),
+        "stack" => number(rest).map(Event::Stack),
+        "divisions" => number(rest).map(Event::Divisions),
         "figures" => {
             let fields = rest.split(' ').map(number).collect::<Result<Vec<_>, _>>()?;
             let [cycles, bus, wait, misses] = fields[..] else {

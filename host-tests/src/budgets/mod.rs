@@ -19,9 +19,8 @@ use crate::image_out::write_atomically;
 use crate::stdio;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::frame::FastMemory;
-use scanbeam::pipeline::{GouraudDepth, ObjectOf, SlotOf};
-use scanbeam::pixel::Rgb565Be;
-use scenes::{LeanLook, LeanTextured, LookB};
+use scanbeam::scene::Object;
+use scenes::{LeanLook, LeanTextured};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -177,16 +176,11 @@ pub fn run(args: &BudgetsArgs) -> Result<bool, Box<dyn Error>> {
 /// # Errors
 /// When a file cannot be read.
 pub fn of_source() -> Result<Figures, Box<dyn Error>> {
-    type Smooth = GouraudDepth<Rgb565Be>;
     let counts = source::count(&workspace().join("src"))?;
     let figures = [
         ("source lines of code in src", counts.code_lines),
         ("source traits", counts.traits),
         ("source boolean constants of traits", counts.bools),
-        (
-            "source type parameters of a pipeline",
-            counts.pipeline_parameters,
-        ),
         ("source names at the root", counts.root_names),
         ("source names in all", counts.names),
         ("source files over 500 lines in src", counts.long_files),
@@ -195,16 +189,10 @@ pub fn of_source() -> Result<Figures, Box<dyn Error>> {
             counts.wide_functions,
         ),
         ("source functions that take a tuple", counts.tuple_functions),
-        ("record object, smooth", size_of::<ObjectOf<Smooth>>()),
-        ("record object, textured", size_of::<ObjectOf<LookB>>()),
-        ("record slot, smooth", size_of::<SlotOf<Smooth>>()),
-        ("record slot, textured", size_of::<SlotOf<LookB>>()),
+        ("record object", size_of::<Object>()),
+        ("record slot, smooth", <FastMemory<LeanLook>>::SLOT_BYTES),
         (
-            "record slot in the rooms, smooth",
-            <FastMemory<LeanLook>>::SLOT_BYTES,
-        ),
-        (
-            "record slot in the rooms, textured",
+            "record slot, textured",
             <FastMemory<LeanTextured>>::SLOT_BYTES,
         ),
     ];
@@ -212,21 +200,12 @@ pub fn of_source() -> Result<Figures, Box<dyn Error>> {
     Ok(figures.into_iter().map(owned).collect())
 }
 
-/// A program of `host-tests/firmware`, its features, and what it is called here.
-const PROGRAMS: [(&str, &[&str], &str); 5] = [
-    ("small-rooms", &[], "smooth with depth in the rooms"),
-    (
-        "small-rooms",
-        &["rooms-textured"],
-        "textured with depth in the rooms",
-    ),
-    ("preset", &["sized", "gouraud-depth"], "smooth with depth"),
-    (
-        "preset",
-        &["sized", "textured-depth"],
-        "textured with depth",
-    ),
-    ("presets", &[], "all presets in one program"),
+/// A program of `host-tests/firmware`, its features, and what it is called here. The first two have no code for values
+/// that few draw calls have.
+const PROGRAMS: [(&str, &[&str], &str); 3] = [
+    ("small", &[], "smooth with depth"),
+    ("small", &["sized", "textured"], "textured with depth"),
+    ("looks", &[], "all looks in one program"),
 ];
 
 /// Bytes of code, by program and core.

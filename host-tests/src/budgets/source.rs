@@ -27,8 +27,6 @@ pub struct Counts {
     pub tuple_functions: usize,
     /// Files of more than 500 lines, tests among them.
     pub long_files: usize,
-    /// Type parameters of the pipeline's parts.
-    pub pipeline_parameters: usize,
     /// Names at the root.
     pub root_names: usize,
     /// Names of all public modules, those at the root among them.
@@ -155,10 +153,10 @@ fn is_module(root: &Path, file: &Path, name: &str) -> bool {
 /// Counts what stands in a file.
 fn items(words: &[Word<'_>], counts: &mut Counts) {
     for (at, word) in words.iter().enumerate() {
-        let next = words.get(at + 1).filter(|next| next.kind == Kind::Name);
-        let Some(next) = next.filter(|_| word.kind == Kind::Name) else {
+        let is_name = |word: &Word<'_>| word.kind == Kind::Name;
+        if !is_name(word) || !words.get(at + 1).is_some_and(is_name) {
             continue;
-        };
+        }
         match word.text {
             "trait" => {
                 counts.traits += 1;
@@ -166,12 +164,8 @@ fn items(words: &[Word<'_>], counts: &mut Counts) {
                 let open = open.unwrap_or(at);
                 counts.bools += bools(&words[open..=closed(words, open)]);
             }
-            "struct" if next.is("Parts") => {
-                counts.pipeline_parameters = generics(&words[at + 2..]).0;
-            }
             "fn" => {
-                let (_, behind) = generics(&words[at + 2..]);
-                let open = at + 2 + behind;
+                let open = at + 2 + generics(&words[at + 2..]);
                 let values = values(&words[open..=closed(words, open)]);
                 counts.wide_functions += usize::from(values.all >= MANY_VALUES);
                 counts.tuple_functions += usize::from(values.tuples > 0);
@@ -187,19 +181,14 @@ fn bools(body: &[Word<'_>]) -> usize {
     body.windows(4).filter(is_bool).count()
 }
 
-/// How many parameters stand between the angle brackets at the start, lifetimes left out, and how
-/// many words that is; 0 where there are none.
-fn generics(words: &[Word<'_>]) -> (usize, usize) {
+/// How many words the angle brackets at the start take, with what is between them; 0 where there are none.
+fn generics(words: &[Word<'_>]) -> usize {
     if !words.first().is_some_and(|word| word.is("<")) {
-        return (0, 0);
+        return 0;
     }
-    let (mut depth, mut parameters) = (0, 0);
+    let mut depth = 0;
     for (at, word) in words.iter().enumerate() {
         let arrow = at > 0 && words[at - 1].is("-");
-        if depth == 1 && word.kind == Kind::Name && (words[at - 1].is("<") || words[at - 1].is(","))
-        {
-            parameters += 1;
-        }
         match word.text {
             "<" | "(" | "[" => depth += 1,
             ")" | "]" => depth -= 1,
@@ -207,10 +196,10 @@ fn generics(words: &[Word<'_>]) -> (usize, usize) {
             _ => {}
         }
         if depth == 0 {
-            return (parameters, at + 1);
+            return at + 1;
         }
     }
-    (parameters, words.len())
+    words.len()
 }
 
 /// What a function takes.
@@ -364,11 +353,10 @@ mod tests {
              impl A for C { const X: bool = false; }\n\
              fn few(a: u8, (b, c): (u8, [u8; 2]), d: &(u8,)) {}\n\
              fn many<F: Fn((u8, u8)) -> bool>(&mut self, (a, (b, c)): (u8, (u8, u8)), f: F, x: &mut (u8, u8, u8), y: A<u8, u8>) {}\n\
-             pub struct Parts<'a, S, D = Packed<u8, u8>>(S, D);\n";
+             pub struct Two<'a, S, D = Packed<u8, u8>>(S, D);\n";
         let counts = counted(&[("src/x.rs", text)]);
         assert_eq!((counts.traits, counts.bools), (1, 2));
         assert_eq!((counts.tuple_functions, counts.wide_functions), (2, 1));
-        assert_eq!(counts.pipeline_parameters, 2);
     }
 
     #[test]

@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 /// A cost: less is better.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// What costs: `frame sphere`, `kernel flat_565 pixel`, `text preset` ...
+    /// What costs: `frame sphere`, `kernel flat_565 pixel`, `text small` ...
     pub name: String,
     /// Instructions, or bytes.
     pub value: f64,

@@ -7,7 +7,7 @@ use super::gate::Record;
 use crate::bench::table::between;
 use crate::firmware::{BOARDS, workspace};
 use crate::image_out::write_atomically;
-use scenes::{LEAN, Suite};
+use scenes::{SUITE, Suite};
 use std::error::Error;
 use std::fmt::Write as _;
 
@@ -31,10 +31,8 @@ const BEST_PEERS: [(&str, [f64; 3]); 7] = [
 
 /// A scene of the suite on one board: million instructions, where they are known.
 struct Cell {
-    /// In the rooms `scene`, `look` and `frame`.
-    rooms: Option<f64>,
-    /// With a preset.
-    preset: Option<f64>,
+    /// Ours.
+    ours: Option<f64>,
     /// The best other renderer.
     peer: Option<f64>,
 }
@@ -42,7 +40,7 @@ struct Cell {
 impl Cell {
     fn text(&self) -> String {
         let some = |value: Option<f64>| value.map_or("-".to_owned(), |v| format!("{v:.2}"));
-        let mut out = format!("**{}** / {}", some(self.rooms), some(self.preset));
+        let mut out = format!("**{}**", some(self.ours));
         if let Some(peer) = self.peer {
             // Writing to a string cannot fail.
             let _ = write!(out, " / {peer:?}");
@@ -70,17 +68,13 @@ fn title(scene: &str) -> &'static str {
 /// The head and a row for each scene.
 #[must_use]
 pub fn rows(record: &Record) -> Vec<Vec<String>> {
-    let row = |(lean, suite): (&str, Suite)| {
+    let row = |suite: Suite| {
         let scene = suite.name();
         let peers = BEST_PEERS.iter().find(|(name, _)| *name == scene);
         let cells = (0..).zip(BOARDS).map(|(at, board)| {
-            let millions = |frame: &str| {
-                let figure = record.latest(board.name, &format!("frame {frame}"));
-                figure.map(|instructions| instructions / 1e6)
-            };
+            let figure = record.latest(board.name, &format!("frame {scene}"));
             let cell = Cell {
-                rooms: millions(lean),
-                preset: millions(scene),
+                ours: figure.map(|instructions| instructions / 1e6),
                 peer: peers.map(|(_, best)| best[at]),
             };
             cell.text()
@@ -89,7 +83,7 @@ pub fn rows(record: &Record) -> Vec<Vec<String>> {
         title.into_iter().chain(cells).collect()
     };
     let head = ["scene", "Cortex-M4", "Cortex-M3", "M0+ code"].map(str::to_owned);
-    let rows = LEAN.into_iter().map(row);
+    let rows = SUITE.into_iter().map(row);
     [head.to_vec()].into_iter().chain(rows).collect()
 }
 

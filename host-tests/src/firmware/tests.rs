@@ -144,7 +144,7 @@ fn stepped_frames_have_what_was_counted(
             .filter(|f| f.symbol.name.contains(words));
         named.map(|f| f.calls).max().unwrap_or_default()
     };
-    assert_eq!(calls("Frame::draw"), 1);
+    assert_eq!(calls("frames::draw"), 1);
     let missing = stepped.listing("no such function").unwrap_err();
     assert!(
         matches!(missing, FirmwareError::NoFunction { .. }),

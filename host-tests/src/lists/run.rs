@@ -94,19 +94,23 @@ pub fn head(list: &[u32]) -> Option<Head> {
 pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn Error>> {
     let names: Vec<TextureSlot> = (0..TEXTURES).map(|_| TextureSlot::new()).collect();
     let overlays: Vec<OverlaySlot> = (0..OVERLAYS).map(|_| OverlaySlot::new()).collect();
-    let mut textures: Vec<TextureRoom<'_>> = (0..TEXTURES).map(|_| TextureRoom::EMPTY).collect();
+    // Each may have a mask.
+    let rooms = (0..2 * TEXTURES).map(|_| TextureRoom::EMPTY);
+    let mut textures: Vec<TextureRoom<'_>> = rooms.collect();
     // Two texels a word of the list at most, in several forms; and palettes.
-    let mut texels = vec![0; 4 * list.len() + 320 * TEXTURES];
-    let mut levels = vec![Texture::EMPTY; 3 * TEXTURES];
+    let mut texels = vec![0; 2 * (4 * list.len() + 256 * TEXTURES)];
+    let mut levels = vec![Texture::EMPTY; 2 * 3 * TEXTURES];
     let (mut positions, mut normals) = (vec![[0i32; 3]; TABLE], vec![[0; 3]; TABLE]);
     let (mut colours, mut places) = (vec![[0; 3]; TABLE], vec![[0; 2]; TABLE]);
     let (mut indices, mut lights) = (vec![0; INDICES], LightRoom::new());
+    let mut alphas = vec![0; TABLE];
     let memory = PlayerMemory {
         positions: &mut positions,
         normals: &mut normals,
         colours: &mut colours,
         indices: &mut indices,
         places: &mut places,
+        alphas: &mut alphas,
         names: &names,
         textures: &mut textures,
         texels: &mut texels,

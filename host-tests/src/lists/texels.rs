@@ -9,7 +9,7 @@ use crate::image_out::Frame;
 use crate::lists::writer::{ListWriter, WriteError};
 use crate::texture_file::TextureImage;
 use scanbeam::list::{Palette, State, TexelForm, Texture};
-use scanbeam::pipeline::texture::{Rgba8871, TexelFormat, TextureError};
+use scanbeam::scene::TextureError;
 use std::collections::BTreeMap;
 
 /// Forms that a palette goes with, and how many colours it can have.
@@ -65,14 +65,11 @@ impl Texels {
     /// The picture in the form of the fewest bytes whose error is at most `allowed`.
     #[must_use]
     pub fn new(picture: &Picture, allowed: f64) -> Self {
-        let size = picture.image.size;
-        let log_sides = [size.width(), size.height()].map(|side| side.ilog2() as u8);
-        let texels: Vec<[u8; 3]> = picture.image.levels[0]
-            .iter()
-            .map(|word| Rgba8871::expand(*word).rgb)
-            .collect();
+        let image = &picture.image;
+        let log_sides = [image.width, image.height].map(|side| side.ilog2() as u8);
+        let texels = &image.levels[0];
         let mut counts: BTreeMap<[u8; 3], u64> = BTreeMap::new();
-        for texel in &texels {
+        for texel in texels {
             *counts.entry(*texel).or_default() += 1;
         }
         let counts: Vec<([u8; 3], u64)> = counts.into_iter().collect();

@@ -3,10 +3,10 @@
 use super::Page;
 use crate::args::PixelFormatArg;
 use crate::draw::{CrewSettings, Effects, FilterArg, Skins, TextureSet, draw_effects};
-use crate::frames::{effect_pictures, values_pictures};
+use crate::frames::values_pictures;
 use crate::model::{Material, Model, obj_text};
 use crate::reference::{Cull, Shade, View};
-use scanbeam::pipeline::texture::Quality;
+use scanbeam::scene::Budget;
 use std::error::Error;
 use std::path::Path;
 
@@ -64,7 +64,7 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         let skins = Skins {
             set: &set,
             filter: FilterArg::Nearest,
-            quality: Quality::Balanced,
+            budget: Budget::BALANCED,
         };
         let crew = CrewSettings::default();
         let drawn = draw_effects(&model, skins, (&view, format), crew, effects)?;
@@ -72,16 +72,7 @@ pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
         page.pictures(&[&drawn.frame], &caption)?;
     }
     page.paragraph(
-        "Small frames that the firmware draws with the same bits, by presets: what is clear, and dither.",
-    );
-    for (name, frame) in effect_pictures()? {
-        page.pictures(
-            &[&frame],
-            &name.trim_start_matches("effect_").replace('_', " "),
-        )?;
-    }
-    page.paragraph(
-        "Such frames of draw calls: light at pixels, texels that are lit so, a palette for each line, a look of \
+        "Small frames that the firmware draws with the same bits: light at pixels, texels that are lit so, a palette for each line, a look of \
          one's own, texels with holes, dither, blends by depth and by priority, shadows, points, sprites, and what a \
          second frame changed.",
     );

@@ -20,7 +20,11 @@ use crate::model::{Model, obj_text};
 use crate::reference::{Cull, Reference, Shade, View, compare, render};
 use crate::{accuracy, bench, cache_report};
 use page::Page;
-use scanbeam::pipeline::{CellOf, ObjectOf, Pipeline, SlotOf, VertexOf};
+use scanbeam::Link;
+use scanbeam::frame::FastMemory;
+use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scene::{Object, TexturePlace, Vertex};
 use scenes::{HEIGHT, SCENES_B, SHOTS, STACKS, SUITE, Shot, WIDTH};
 use std::error::Error;
 use std::path::Path;
@@ -75,11 +79,8 @@ fn shots(page: &mut Page) -> Result<(), Box<dyn Error>> {
     for (name, drawn) in shots.chain(textured).chain(suite) {
         let (frame, stats) = drawn?;
         let caption = format!(
-            "{name}: {} triangles, {} objects kept, {} spans, {} pixels written",
-            stats.pass_one.triangles,
-            stats.pass_one.objects,
-            stats.spans.spans,
-            stats.spans.pixels_shaded
+            "{name}: {} triangles, {} filed, {} spans, {} pixels written",
+            stats.pass_one.triangles, stats.objects, stats.spans.spans, stats.spans.pixels_shaded
         );
         page.pictures(&[&frame], &caption)?;
     }
@@ -288,18 +289,21 @@ fn peers(page: &mut Page) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Bytes of the records of a pipeline, and of fast RAM for a line of the shots with 64 slots.
-fn sizes<P: Pipeline>(name: &str) -> Vec<String> {
-    let slot = size_of::<SlotOf<P>>();
-    let cell = size_of::<CellOf<P>>();
-    let fast = 64 * slot + usize::from(WIDTH) * cell;
+/// Bytes of the records of a look, and of fast RAM for a line of the shots with 64 slots.
+fn sizes<L: Look>(name: &str) -> Vec<String> {
+    let place = if L::TEXTURED {
+        size_of::<TexturePlace>()
+    } else {
+        0
+    };
+    let cell = size_of::<u32>();
     let bytes = [
-        size_of::<VertexOf<P>>(),
-        size_of::<ObjectOf<P>>(),
-        slot,
+        size_of::<Vertex>() + place,
+        size_of::<Object>() + size_of::<Link>(),
+        FastMemory::<L>::SLOT_BYTES,
         cell,
-        fast,
-        2 * usize::from(WIDTH) * 2,
+        size_of::<FastMemory<L>>() + usize::from(WIDTH) * cell,
+        2 * usize::from(WIDTH) * size_of::<<L::Pixel as PixelFormat>::Word>(),
     ];
     std::iter::once(name.to_owned())
         .chain(bytes.map(|bytes| bytes.to_string()))
@@ -315,20 +319,19 @@ fn memory(page: &mut Page) {
         usize::from(WIDTH) * usize::from(HEIGHT) * 4
     ));
     let head = [
-        "preset",
+        "look",
         "vertex (slow)",
-        "object (slow)",
+        "triangle and link (slow)",
         "slot",
         "depth a pixel",
         "cache and depth line",
         "two line buffers",
     ];
-    macro_rules! all {
-        ($($feature:literal, $name:literal, $look:ty;)*) => {
-            vec![$(sizes::<$look>($name)),*]
-        };
-    }
-    let mut rows = scenes::sized!(all);
-    rows.insert(0, head.map(str::to_owned).to_vec());
-    page.table(&rows);
+    page.table(&[
+        head.map(str::to_owned).to_vec(),
+        sizes::<Gouraud<Rgb565Be>>("smooth"),
+        sizes::<Textured<Rgb565Be>>("textured"),
+        sizes::<Phong<Rgb565Be>>("light at pixels"),
+        sizes::<TexturedPhong<Rgb565Be>>("textured, light at pixels"),
+    ]);
 }

@@ -22,7 +22,7 @@ mod terminal;
 mod window;
 
 pub use blocks::{Colours, half_blocks, nearest};
-pub use show::{Did, Scenery, Shown};
+pub use show::{Scenery, Shown};
 pub use state::{KEYS, State, Step};
 
 use crate::args::{ViewArgs, is_scene};

@@ -2,21 +2,19 @@
 
 use super::State;
 use crate::draw::{
-    Called, CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, Skins, TextureSet,
-    TextureSetError, draw_by_calls, draw_prepared, draw_scene_file, draw_textured,
+    CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, SceneParts, Skins, TextureSet,
+    TextureSetError, draw_prepared, draw_scene_file,
 };
 use crate::image_out::Frame;
 use crate::model::Model;
 use crate::reference::View;
 use crate::scene_file::{Loaded, SceneFile};
 use scanbeam::frame::FrameUse;
-use scanbeam::pipeline::{FrameStats, texture};
 use std::time::{Duration, Instant};
 
 /// What is shown.
 enum What<'m> {
     Model {
-        model: &'m Model,
         prepared: Prepared,
         textures: TextureSet,
     },
@@ -41,7 +39,7 @@ impl<'m> Scenery<'m> {
     ///
     /// # Errors
     /// A texture that cannot be read.
-    pub fn new(model: &'m Model) -> Result<Self, TextureSetError> {
+    pub fn new(model: &Model) -> Result<Self, TextureSetError> {
         let (low, high) = model.bounds().unwrap_or_default();
         let centre: [f64; 3] = std::array::from_fn(|i| low[i] / 2.0 + high[i] / 2.0);
         let radius = model.vertices.iter().fold(0.0, |most: f64, vertex| {
@@ -51,8 +49,7 @@ impl<'m> Scenery<'m> {
         let textures = TextureSet::load(model, None)?.with_levels(true);
         Ok(Self {
             what: What::Model {
-                model,
-                prepared: Prepared::textured(model, &textures, texture::Quality::default()),
+                prepared: Prepared::textured(model, &textures),
                 textures,
             },
             centre,
@@ -100,53 +97,28 @@ impl<'m> Scenery<'m> {
     pub fn frame(&self, state: &State, width: u32, height: u32) -> Result<Shown, DrawFailure> {
         let start = Instant::now();
         let view = state.view(self, width, height);
-        let (frame, did) = match self.by_calls(state, &view)? {
-            Some(Called { frame, used, .. }) => (frame, Did::Calls(used)),
-            None => {
-                let drawn = self.by_presets(state, &view)?;
-                (drawn.frame, Did::Presets(Box::new(drawn.stats)))
-            }
-        };
+        let drawn = self.draw(state, &view)?;
         Ok(Shown {
-            frame,
-            did,
+            frame: drawn.frame,
+            used: drawn.used,
             took: start.elapsed(),
         })
     }
 
-    /// By draw calls: scenes, and models where that can be.
-    fn by_calls(&self, state: &State, view: &View) -> Result<Option<Called>, DrawFailure> {
+    fn draw(&self, state: &State, view: &View) -> Result<Drawn, DrawFailure> {
         match &self.what {
-            What::Model {
-                prepared, textures, ..
-            } => {
+            What::Model { prepared, textures } => {
                 let skins = Skins {
                     set: textures,
                     filter: FilterArg::Nearest,
-                    quality: state.quality.texture_quality(),
+                    budget: state.quality.budget(),
                 };
-                let (format, slots) = (state.format, state.slots);
-                draw_by_calls(prepared, Some(skins), view, format, state.renderers, slots)
+                draw_prepared(prepared, Some(skins), view, state.format, crew(state))
             }
             What::Scene { scene, parts, .. } => {
                 let format = scene.in_format(state.format);
-                draw_scene_file(parts, view, format, crew(state)).map(Some)
+                draw_scene_file(parts, view, format, crew(state))
             }
-        }
-    }
-
-    fn by_presets(&self, state: &State, view: &View) -> Result<Drawn, DrawFailure> {
-        match &self.what {
-            What::Model {
-                model, textures, ..
-            } if !textures.is_empty() => {
-                let how = (FilterArg::Nearest, state.quality.texture_quality());
-                draw_textured(model, textures, how, view, state.format, crew(state))
-            }
-            What::Model { prepared, .. } => {
-                draw_prepared(prepared, view, state.format, crew(state))
-            }
-            What::Scene { .. } => Err(DrawFailure::View("scenes are drawn by draw calls".into())),
         }
     }
 }
@@ -155,28 +127,17 @@ impl<'m> Scenery<'m> {
 fn crew(state: &State) -> CrewSettings {
     CrewSettings {
         renderers: state.renderers,
-        slots: state.slots.into(),
-        prefetch: 0,
-        quality: state.quality.quality(),
+        slots: state.slots,
         ..CrewSettings::default()
     }
-}
-
-/// What was done for a frame, by whom.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Did {
-    /// By draw calls.
-    Calls(FrameUse),
-    /// By a preset.
-    Presets(Box<FrameStats>),
 }
 
 /// A frame, and how long it took on this machine.
 pub struct Shown {
     /// The picture.
     pub frame: Frame,
-    /// Its figures.
-    pub did: Did,
+    /// What was done for it.
+    pub used: FrameUse,
     /// To set the scene up and draw it.
     pub took: Duration,
 }
@@ -185,33 +146,15 @@ impl Shown {
     /// What was done and what was skipped, in one line without times.
     #[must_use]
     pub fn figures(&self) -> String {
-        match &self.did {
-            Did::Calls(used) => {
-                let (done, cache) = (&used.assembled, &used.cache);
-                format!(
-                    "{} of {} triangles left out, {} of {} found no slot at first, {} set-ups, \
-                     {} lines empty",
-                    done.culled,
-                    done.triangles,
-                    cache.spilled,
-                    cache.hits + cache.spilled,
-                    cache.set_ups,
-                    used.lines_skipped,
-                )
-            }
-            Did::Presets(s) => format!(
-                "{} of {} triangles left out, {} of {} spans hidden, {} pixels shaded, {} hidden, \
-                 {} lines empty, cache {}.{} %",
-                s.pass_one.culled,
-                s.pass_one.triangles,
-                s.spans.spans_hidden,
-                s.spans.spans,
-                s.spans.pixels_shaded,
-                s.spans.pixels_hidden,
-                s.scanlines_skipped,
-                s.cache.hits_per_mille() / 10,
-                s.cache.hits_per_mille() % 10,
-            ),
-        }
+        let (done, cache) = (&self.used.assembled, &self.used.cache);
+        format!(
+            "{} of {} triangles left out, {} of {} found no slot at first, {} set-ups, {} lines empty",
+            done.culled,
+            done.triangles,
+            cache.spilled,
+            cache.hits + cache.spilled,
+            cache.set_ups,
+            self.used.lines_skipped,
+        )
     }
 }

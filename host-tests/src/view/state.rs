@@ -47,7 +47,7 @@ pub struct State {
     pub spins: bool,
     /// How light is applied.
     pub shade: Shade,
-    /// How far colours and texels may be off, where presets draw.
+    /// How far texture places may be off.
     pub quality: QualityArg,
     /// Slots of each renderer's object cache.
     pub slots: u16,

@@ -6,7 +6,6 @@
 pub mod stdio;
 
 pub mod image_out;
-pub mod lent;
 pub mod mock;
 pub mod model;
 pub mod reference;

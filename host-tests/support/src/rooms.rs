@@ -82,6 +82,13 @@ impl<L: Look, const WORDS: usize> LineRooms<L, WORDS> {
         self
     }
 
+    /// The same, without depth: what is drawn later is in front.
+    #[must_use]
+    pub fn without_depth(mut self) -> Self {
+        self.depth.clear();
+        self
+    }
+
     /// The same, of which no more than so many slots are used.
     #[must_use]
     pub fn with_limit(mut self, slots: u16) -> Self {

@@ -7,9 +7,7 @@
 
 use crate::image_out::{Frame, ImageError, read_image};
 use crate::model::Model;
-use scanbeam::pipeline::texture::{
-    LEVELS, MAX_SIDE, Rgba8871, Size, Texel, TexelFormat, TextureError, build_level,
-};
+use scanbeam::scene::{MAX_SIDE, TextureError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -29,13 +27,18 @@ pub enum TextureFileError {
     },
 }
 
+/// Levels of detail that a picture is given, itself the first.
+pub const LEVELS: usize = 4;
+
 /// A texture in host memory, with its levels of detail.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TextureImage {
-    /// The sides, powers of two.
-    pub size: Size,
-    /// Texels of each level, rows from the top: the picture, then three averages.
-    pub levels: [Vec<u32>; LEVELS],
+    /// Texels a line of the picture: a power of two.
+    pub width: u32,
+    /// Lines of the picture: a power of two.
+    pub height: u32,
+    /// Texels of each level, 8 bits a channel, rows from the top: the picture, then three averages.
+    pub levels: [Vec<[u8; 3]>; LEVELS],
     /// What was done to the picture, for the user.
     pub note: Option<String>,
 }
@@ -60,11 +63,14 @@ impl TextureImage {
     /// Makes a texture of a picture of any size.
     ///
     /// # Errors
-    /// None for a legal picture.
+    /// A picture without pixels.
     pub fn new(frame: &Frame) -> Result<Self, TextureError> {
         let side = |n: u32| n.next_power_of_two().min(MAX_SIDE);
         let (width, height) = (side(frame.width()), side(frame.height()));
-        let size = Size::new(width, height)?;
+        if frame.width() == 0 || frame.height() == 0 {
+            let (width, height) = (frame.width(), frame.height());
+            return Err(TextureError::Side { width, height });
+        }
         let note = ((width, height) != (frame.width(), frame.height())).then(|| {
             format!(
                 "resized from {}x{} to {width}x{height}: sides of textures are powers of two up to {MAX_SIDE}",
@@ -80,7 +86,7 @@ impl TextureImage {
                 .unwrap_or_default()
                 .map(f64::from)
         };
-        let mut full = Vec::with_capacity(size.texels());
+        let mut full = Vec::with_capacity(width as usize * height as usize);
         for rows in &down {
             for columns in &across {
                 let mut sum = [0.0; 3];
@@ -91,30 +97,54 @@ impl TextureImage {
                         }
                     }
                 }
-                full.push(Rgba8871::pack(Texel {
-                    rgb: sum.map(|level| (level + 0.5) as u8),
-                    alpha: 127,
-                    undithered: false,
-                }));
+                full.push(sum.map(|level| (level + 0.5) as u8));
             }
         }
-        let mut levels = [full, Vec::new(), Vec::new(), Vec::new()];
+        let mut made = Self {
+            width,
+            height,
+            levels: [full, Vec::new(), Vec::new(), Vec::new()],
+            note,
+        };
         for level in 1..LEVELS {
-            let from = size.level(level as u32 - 1);
-            let mut words = vec![0; size.level(level as u32).texels()];
-            let above = &levels[level - 1];
-            build_level::<Rgba8871>(from, |i| Rgba8871::expand(above[i]), &mut words)?;
-            levels[level] = words;
+            made.levels[level] = halved(&made.levels[level - 1], made.sides(level - 1));
         }
-        Ok(Self { size, levels, note })
+        Ok(made)
+    }
+
+    /// Columns and lines of a level.
+    #[must_use]
+    pub fn sides(&self, level: usize) -> [u32; 2] {
+        [self.width, self.height].map(|side| (side >> level).max(1))
     }
 
     /// Texels with 8 fraction bits from a place of OBJ: (0, 0) at the lower left, 1 a side.
     #[must_use]
     pub fn texels(&self, [u, v]: [f64; 2]) -> (i32, i32) {
         let fix = |part: f64, side: u32| (part * f64::from(side) * 256.0).round() as i32;
-        (fix(u, self.size.width()), fix(1.0 - v, self.size.height()))
+        (fix(u, self.width), fix(1.0 - v, self.height))
     }
+}
+
+/// The level below one with these sides: of two by two texels the mean, halves up; of one column or line, of two.
+fn halved(above: &[[u8; 3]], sides: [u32; 2]) -> Vec<[u8; 3]> {
+    let [width, height] = sides.map(|side| side as usize);
+    let [columns, lines] = [width, height].map(|side| (side / 2).max(1));
+    let mean = |i: usize| {
+        let (x, y) = (i % columns, i / columns);
+        // Twice the place where the side is halved, and the texel beside it.
+        let at = |place: usize, step: usize, side: usize| match side {
+            1 => place,
+            _ => 2 * place + step,
+        };
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
+            .map(|(dx, dy)| above[at(y, dy, height) * width + at(x, dx, width)]);
+        [0, 1, 2].map(|c| {
+            let sum: u16 = four.iter().map(|texel| u16::from(texel[c])).sum();
+            ((sum + 2) >> 2) as u8
+        })
+    };
+    (0..columns * lines).map(mean).collect()
 }
 
 /// For each of `to` places, which of `from` places count, and by how much; the parts add up to 1.
@@ -175,10 +205,6 @@ mod tests {
         Frame::new(width, height, rgb).expect("the size is legal")
     }
 
-    fn rgb(word: u32) -> [u8; 3] {
-        Rgba8871::expand(word).rgb
-    }
-
     #[test]
     fn powers_of_two_are_taken_as_they_are() {
         let frame = frame(64, 16);
@@ -186,7 +212,7 @@ mod tests {
         assert_eq!(made.note, None);
         for y in 0..16 {
             for x in 0..64 {
-                let texel = rgb(made.levels[0][(y * 64 + x) as usize]);
+                let texel = made.levels[0][(y * 64 + x) as usize];
                 assert_eq!(Some(texel), frame.pixel(x, y));
             }
         }
@@ -198,13 +224,13 @@ mod tests {
     #[test]
     fn other_sizes_grow_to_the_next_and_say_so() {
         let made = TextureImage::new(&frame(100, 33)).expect("it is a picture");
-        assert_eq!((made.size.width(), made.size.height()), (128, 64));
+        assert_eq!((made.width, made.height), (128, 64));
         let note = made.note.expect("it was resized");
         assert!(note.contains("100x33") && note.contains("128x64"), "{note}");
         // A ramp stays a ramp, within the rounding.
         for x in 2..126u32 {
             let want = ((f64::from(x) + 0.5) * 100.0 / 128.0 - 0.5).clamp(0.0, 99.0);
-            let got = rgb(made.levels[0][(20 * 128 + x) as usize])[0];
+            let got = made.levels[0][(20 * 128 + x) as usize][0];
             assert!((f64::from(got) - want).abs() <= 0.51, "{x}: {got}, {want}");
         }
     }
@@ -217,8 +243,8 @@ mod tests {
             (0..4096 * 3).map(|i| (i / 3 % 4 * 80) as u8).collect(),
         );
         let made = TextureImage::new(&wide.expect("it is legal")).expect("it is a picture");
-        assert_eq!((made.size.width(), made.size.height()), (1024, 1));
-        assert!(made.levels[0].iter().all(|w| rgb(*w) == [120; 3]));
+        assert_eq!((made.width, made.height), (1024, 1));
+        assert!(made.levels[0].iter().all(|texel| *texel == [120; 3]));
         let sum = |from, to| {
             resampling(from, to)
                 .iter()
@@ -226,6 +252,36 @@ mod tests {
                 .all(|sum| (sum - 1.0).abs() < 1e-9)
         };
         assert!(sum(1500, 1024) && sum(7, 8) && sum(1, 1) && sum(8191, 1024));
+    }
+
+    /// Kills: means of the wrong texels, means rounded down, a side of one texel that is halved.
+    #[test]
+    fn levels_are_means_of_two_by_two() {
+        for (width, height) in [(16, 8), (1, 4), (2, 1), (1, 1)] {
+            let made = TextureImage::new(&frame(width, height)).expect("it is a picture");
+            for level in 1..LEVELS {
+                let [above, below] = [level - 1, level].map(|level| made.sides(level));
+                let texels = &made.levels[level];
+                assert_eq!(texels.len(), (below[0] * below[1]) as usize);
+                for (i, texel) in (0u32..).zip(texels) {
+                    let sides = [0, 1].map(|axis| {
+                        let at = [i % below[0], i / below[0]][axis];
+                        let each = above[axis] / below[axis];
+                        at * each..(at + 1) * each
+                    });
+                    let [columns, lines] = sides;
+                    let all = lines.flat_map(|y| columns.clone().map(move |x| (x, y)));
+                    let all: Vec<[u8; 3]> = all
+                        .map(|(x, y)| made.levels[level - 1][(y * above[0] + x) as usize])
+                        .collect();
+                    let mean = [0, 1, 2].map(|c| {
+                        let sum: f64 = all.iter().map(|texel| f64::from(texel[c])).sum();
+                        (sum / all.len() as f64 + 0.5).floor() as u8
+                    });
+                    assert_eq!(*texel, mean, "{width}x{height}, level {level}, {i}");
+                }
+            }
+        }
     }
 
     #[test]
@@ -260,8 +316,8 @@ mod tests {
         let textures = of_materials(&model).expect("the picture is there");
         assert_eq!(textures.len(), 3);
         assert_eq!(textures[1], None);
-        let size = textures[0].as_ref().expect("it has one").size;
-        assert_eq!((size.width(), size.height()), (32, 8));
+        let image = textures[0].as_ref().expect("it has one");
+        assert_eq!((image.width, image.height), (32, 8));
         assert_eq!(textures[0], textures[2]);
         std::fs::remove_file(at("a b.png")).expect("it is there");
         let error = of_materials(&model).expect_err("it is gone").to_string();

@@ -1,11 +1,8 @@
-//! What the proofs share: a generator whose failures can be repeated, memory for scenes, frames
-//! drawn line by line, vectors and solids in f64, and displays that are sent what changed.
+//! What the proofs share: a generator whose failures can be repeated, vectors and solids in f64, and displays that are
+//! sent what changed.
 
 pub mod changes;
 pub mod solid;
-
-pub use host_tests::lent::{LineRooms, SceneRooms};
-use scanbeam::pipeline::{LineRenderer, Pipeline, Scene, WordOf};
 
 /// xorshift64*: small, and the same everywhere.
 #[derive(Clone, Debug)]
@@ -60,27 +57,4 @@ impl Rng {
             values.swap(i, self.below(i as u32 + 1) as usize);
         }
     }
-}
-
-/// One line, drawn over the default word.
-pub fn line<P: Pipeline>(
-    renderer: &mut LineRenderer<'_, P>,
-    scene: &Scene<'_, P>,
-    line: u16,
-) -> Vec<WordOf<P>> {
-    let mut pixels = vec![WordOf::<P>::default(); usize::from(scene.screen().width())];
-    renderer
-        .draw_line(scene, line, &mut pixels)
-        .expect("the memory suffices");
-    pixels
-}
-
-/// All lines that were begun, from the top, with so many cache slots.
-pub fn frame<P: Pipeline>(scene: &Scene<'_, P>, slots: usize) -> Vec<Vec<WordOf<P>>> {
-    let mut rooms = LineRooms::fitting(slots, scene);
-    let mut renderer = rooms.renderer();
-    scene
-        .lines()
-        .map(|y| line(&mut renderer, scene, y))
-        .collect()
 }

@@ -1,10 +1,13 @@
 //! What the proofs of the new drawing rooms share: memory for scenes and renderers, triangles whose
 //! corners lie on chosen 1/8 pixels at chosen distances, and what is exact at a pixel.
 
+pub mod count;
+pub mod cover;
 pub mod exact;
 pub mod layers;
 pub mod shine;
 pub mod values;
+pub mod ways;
 
 use scanbeam::frame::{FastMemory, LineError, Memory as Lent, Renderer};
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
@@ -221,6 +224,13 @@ pub fn scale(screen: Screen, corners: &[Corner]) -> f64 {
     farthest.log2().ceil().exp2()
 }
 
+/// Where a vertex lies that [`camera`] sees at a place from so far away, in a model of this scale.
+pub fn position(screen: Screen, at: Place, w: f64, scale: f64) -> [i32; 3] {
+    let q30 = |v: f64| (v / scale * f64::from(1 << 30)).round() as i32;
+    let [x, y] = from_middle(screen, at);
+    [q30(x / 32_768.0 * w), q30(-y / 32_768.0 * w), q30(-w)]
+}
+
 /// Draws triangles as one mesh, of one scale.
 pub fn draw<L: Look>(
     scene: &mut Scene<'_, '_, L>,
@@ -236,16 +246,21 @@ pub fn draw_with<L: Look>(
     triangles: &[[Corner; 3]],
     dress: impl FnOnce(&mut Draw<'_, '_, i32>),
 ) -> Result<(), DrawError> {
-    let screen = scene.screen();
+    draw_of(scene, scene.screen(), triangles, dress)
+}
+
+/// The same of triangles of a larger picture, of which the scene is a part.
+pub fn draw_of<L: Look>(
+    scene: &mut Scene<'_, '_, L>,
+    screen: Screen,
+    triangles: &[[Corner; 3]],
+    dress: impl FnOnce(&mut Draw<'_, '_, i32>),
+) -> Result<(), DrawError> {
     let corners = triangles.as_flattened();
     let scale = scale(screen, corners);
-    let q30 = |v: f64| (v / scale * f64::from(1 << 30)).round() as i32;
     let positions: Vec<_> = corners
         .iter()
-        .map(|c| {
-            let [x, y] = from_middle(screen, c.at);
-            [q30(x / 32_768.0 * c.w), q30(-y / 32_768.0 * c.w), q30(-c.w)]
-        })
+        .map(|c| position(screen, c.at, c.w, scale))
         .collect();
     let colours: Vec<_> = corners.iter().map(|c| c.colour).collect();
     let faces: Vec<_> = (0..triangles.len() as u16)

@@ -72,15 +72,40 @@ pub fn passes((_, passing): Function, order: Ordering) -> bool {
     }
 }
 
+/// Alphas of a pixel beside that of its mode, 0 to 1, and whether it is added.
+#[derive(Clone, Copy)]
+pub struct Alphas {
+    pub surface: f64,
+    pub texel: f64,
+    pub is_added: bool,
+}
+
 /// What a mode makes of a level that is there, and what becomes of its error.
 pub fn blended(mode: BlendMode, old: f64, new: f64) -> [f64; 2] {
+    let opaque = Alphas {
+        surface: 1.0,
+        texel: 1.0,
+        is_added: false,
+    };
+    blended_by(mode, opaque, old, new)
+}
+
+/// The same of a pixel with these alphas.
+pub fn blended_by(mode: BlendMode, by: Alphas, old: f64, new: f64) -> [f64; 2] {
     let part = |alpha: u8| f64::from(alpha) / 255.0;
+    let all = |alpha: u8| part(alpha) * by.surface * by.texel;
     let [level, of_old] = match mode {
         BlendMode::Replace => [new, 0.0],
-        BlendMode::Filter(alpha) => [old + (new - old) * part(alpha), 1.0 - part(alpha)],
+        BlendMode::Filter(alpha) | BlendMode::Add(alpha) | BlendMode::Subtract(alpha)
+            if by.is_added =>
+        {
+            [old + new * all(alpha), 1.0]
+        }
+        _ if by.is_added => [old + new * all(255), 1.0],
+        BlendMode::Filter(alpha) => [old + (new - old) * all(alpha), 1.0 - all(alpha)],
         BlendMode::Half => [(old + new) / 2.0, 0.5],
-        BlendMode::Add(alpha) => [old + new * part(alpha), 1.0],
-        BlendMode::Subtract(alpha) => [old - new * part(alpha), 1.0],
+        BlendMode::Add(alpha) => [old + new * all(alpha), 1.0],
+        BlendMode::Subtract(alpha) => [old - new * all(alpha), 1.0],
         BlendMode::Factors {
             source,
             destination,
@@ -89,6 +114,10 @@ pub fn blended(mode: BlendMode, old: f64, new: f64) -> [f64; 2] {
                 Factor::Constant(value) => [part(value), 0.0],
                 Factor::Destination => [old / 255.0, 1.0 / 255.0],
                 Factor::InverseDestination => [1.0 - old / 255.0, -1.0 / 255.0],
+                Factor::SourceAlpha => [by.surface, 0.0],
+                Factor::InverseSourceAlpha => [1.0 - by.surface, 0.0],
+                Factor::TextureAlpha => [by.texel, 0.0],
+                Factor::InverseTextureAlpha => [1.0 - by.texel, 0.0],
             };
             let [[s, ds], [d, dd]] = [factor(source), factor(destination)];
             [new * s + old * d, (new * ds + old * dd + d).abs()]

@@ -23,6 +23,7 @@ fn shows(choices: &Choices, pair: &Pair) -> bool {
         Axis::Key,
         Axis::Application,
         Axis::Filter,
+        Axis::Mask,
     ]
     .into_iter()
     .any(has)

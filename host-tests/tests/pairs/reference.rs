@@ -7,7 +7,7 @@ use crate::hot::Corner;
 use crate::hot::exact::{weights, within};
 use crate::hot::layers::{Layer, lay_all};
 use crate::hot::shine::{V3, dot, unit};
-use crate::hot::values::{Cut, Function, blended};
+use crate::hot::values::{Alphas, Cut, Function, blended_by};
 use scanbeam::Screen;
 use scanbeam::scene::{Application, BlendMode, Budget, Wrap};
 
@@ -22,6 +22,9 @@ pub struct Texels {
     pub rgb: Vec<V3>,
     /// Which are transparent where a call says so.
     pub is_key: Vec<bool>,
+    /// What a mask says of them: alpha, 0 to 255, and whether they are added.
+    pub alpha: Vec<f64>,
+    pub is_added: Vec<bool>,
 }
 
 /// A texture on a triangle, its places in texels.
@@ -35,6 +38,8 @@ pub struct Skin64 {
     pub is_keyed: bool,
     /// Whether four texels are mixed.
     pub is_filtered: bool,
+    /// None, one of alphas, or one that says also what is added.
+    pub mask: usize,
     pub application: Application,
 }
 
@@ -63,6 +68,8 @@ pub struct Call {
     pub test: [Function; 2],
     /// What becomes of colours that are there, and the channels that are written.
     pub blend: Option<(BlendMode, [bool; 3])>,
+    /// Of the corners.
+    pub alphas: Option<[u8; 3]>,
     pub dithers: bool,
     pub priority: u8,
 }
@@ -180,8 +187,8 @@ impl Call {
         })
     }
 
-    /// What of the texture may be shown at a pixel; `None` where that is a lot, or not told from a transparent texel.
-    fn texels(&self, skin: &Skin64, [x, y]: [u16; 2], all: &[Texels]) -> Option<Shown> {
+    /// The texels that may be shown at a pixel, across and down; `None` where these are a lot.
+    fn reach(&self, skin: &Skin64, [x, y]: [u16; 2]) -> Option<[[i32; 2]; 2]> {
         let (x, y) = (i32::from(x), i32::from(y));
         let at = self.place(skin, x, y);
         let steps = [(1, 0), (-1, 0), (0, 1), (0, -1)].map(|(dx, dy)| {
@@ -194,9 +201,46 @@ impl Call {
             skin.budget.1 + 1.0 / 16.0 + step / 16.0
         });
         let span = [0, 1].map(|k| [at[k] - reach[k], at[k] + reach[k]].map(|c| c.floor() as i32));
-        if span.iter().any(|[low, high]| high - low > 8) {
-            return None;
+        let is_much = span.iter().any(|[low, high]| high - low > 8);
+        (!is_much).then_some(span)
+    }
+
+    /// What alphas a pixel may have, and whether it is added; `None` where that is not known.
+    fn alphas(&self, at: [u16; 2], world: &World<'_>) -> Option<([Range; 2], bool)> {
+        let surface = self.alphas.map_or(1.0, |alphas| {
+            let (part, _) = weights(self.corners.map(|c| c.at), at[0].into(), at[1].into());
+            (0..3).map(|k| part[k] * f64::from(alphas[k]) / 255.0).sum()
+        });
+        let masked = self.skin.as_ref().filter(|skin| skin.mask > 0);
+        let Some(skin) = masked else {
+            return Some(([[surface; 2], [1.0; 2]], false));
+        };
+        let span = self.reach(skin, at)?;
+        let (mut alpha, mut added) = ([1.0f64, 0.0f64], [false; 2]);
+        let beyond = i32::from(skin.is_filtered);
+        let texels = &world.texels[skin.form];
+        for v in span[1][0] - beyond..=span[1][1] + beyond {
+            for u in span[0][0] - beyond..=span[0][1] + beyond {
+                let at = texels.at(skin.wrap, u, v);
+                let of = texels.alpha[at] / 255.0;
+                alpha = [alpha[0].min(of), alpha[1].max(of)];
+                let may_be_nearest = (span[0][0]..=span[0][1]).contains(&u)
+                    && (span[1][0]..=span[1][1]).contains(&v);
+                if may_be_nearest {
+                    added[usize::from(texels.is_added[at])] = true;
+                }
+            }
         }
+        match (skin.mask, added) {
+            (1, _) | (_, [true, false]) => Some(([[surface; 2], alpha], false)),
+            (_, [false, true]) => Some(([[surface; 2], alpha], true)),
+            _ => None,
+        }
+    }
+
+    /// What of the texture may be shown at a pixel; `None` where that is a lot, or not told from a transparent texel.
+    fn texels(&self, skin: &Skin64, at: [u16; 2], all: &[Texels]) -> Option<Shown> {
+        let span = self.reach(skin, at)?;
         let texels = &all[skin.form];
         let mut levels = [[255.0f64, 0.0f64]; 3];
         let (mut keys, mut others) = (0, 0);
@@ -298,13 +342,27 @@ impl Texels {
 fn lay(levels: &mut [Range; 3], call: &Call, at: [u16; 2], world: &World<'_>) -> Option<()> {
     let new = call.levels(at, world)?;
     let (mode, rgb) = call.blend.unwrap_or((BlendMode::Replace, [true; 3]));
+    let (by, is_added) = match mode {
+        BlendMode::Replace => ([[1.0; 2]; 2], false),
+        _ => call.alphas(at, world)?,
+    };
+    let has_alphas = by != [[1.0; 2]; 2];
     for i in (0..3).filter(|&i| rgb[i]) {
         let clamped = |range: Range| range.map(|c| c.clamp(0.0, 255.0));
         let (old, new) = (clamped(levels[i]), clamped(new[i]));
-        // Each mode is linear in both, so its least and its most are at the ends.
-        let ends = [0, 1, 2, 3].map(|k| blended(mode, old[k & 1], new[k >> 1])[0]);
+        // Each mode is linear in each of them, so its least and its most are at the ends.
+        let ends: [f64; 8] = std::array::from_fn(|k| {
+            let alphas = Alphas {
+                surface: by[0][0],
+                texel: by[1][k >> 2],
+                is_added,
+            };
+            blended_by(mode, alphas, old[k & 1], new[k >> 1 & 1])[0]
+        });
         let off = match mode {
             BlendMode::Replace => 0.0,
+            // Each alpha is rounded to a level, and their product.
+            _ if has_alphas => world.rounding.blended + 1.2,
             _ => world.rounding.blended,
         };
         let fold = |f: fn(f64, f64) -> f64| ends.into_iter().reduce(f).unwrap_or_default();

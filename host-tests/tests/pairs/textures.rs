@@ -1,7 +1,7 @@
 //! Textures of every form and wrap, with and without a key, and what they are to the reference.
 
 use super::reference::Texels;
-use scanbeam::scene::{Application, Budget, Sampling, Texture, Wrap};
+use scanbeam::scene::{Application, Budget, MaskTexel, Sampling, Texture, Wrap};
 use std::sync::OnceLock;
 
 /// Sides and bits a texel of the forms; the first choice is none. 16 bits are words of the panel.
@@ -43,10 +43,24 @@ fn steps(form: usize, u: i32, v: i32) -> Steps {
     }
 }
 
-/// All textures by form and wrap, as they are and filtered, in the byte order of this machine or the other; without a
-/// key, and with.
+/// What a mask says of a texel: its alpha, and whether it is added. Of indices it hangs on the colour alone.
+fn said(form: usize, u: i32, v: i32) -> (u8, bool) {
+    let (width, height, bits) = FORMS[form];
+    if bits == 16 {
+        let both = u * 255 / (width - 1) + v * 255 / (height - 1);
+        return ((both / 2) as u8, (u / 16 + v / 16) % 2 == 1);
+    }
+    let [r, g, b] = steps(form, u, v);
+    ((r * 7 + g * 3 + b * 5) as u8, r & 2 == 2)
+}
+
+/// Those of one form and wrap: by mask, order of bytes and key.
+type Forms = [[[Texture<'static>; 3]; 2]; 3];
+
+/// All textures by form and wrap, as they are and filtered, each without a mask, with one of alphas, and with one that says
+/// also what is added and not dithered; in the byte order of this machine or the other; without a key, and with.
 pub struct Textures {
-    pub of: [[Vec<[[Texture<'static>; 2]; 3]>; 2]; 2],
+    pub of: [[Vec<Forms>; 2]; 2],
     pub texels: Vec<Texels>,
 }
 
@@ -55,28 +69,28 @@ fn word([r, g, b]: Steps, is_swapped: bool) -> u16 {
     if is_swapped { word.swap_bytes() } else { word }
 }
 
-fn texture(form: usize, is_swapped: bool) -> Texture<'static> {
+/// A texture of a form, with a word for each place.
+fn texture(form: usize, word: impl Fn(i32, i32) -> u16) -> Texture<'static> {
     let (width, height, bits) = FORMS[form];
-    let word = |texel: Steps| word(texel, is_swapped);
-    let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
-    let texels: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
+    let places = || (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
     let (wide, high) = (width as u32, height as u32);
     if bits == 16 {
-        let words: Vec<_> = texels.into_iter().map(word).collect();
+        let words: Vec<_> = places().map(|(u, v)| word(u, v)).collect();
         return Texture::words(words.leak(), wide, high).expect("sides are powers of two");
     }
-    let mut colours: Vec<Steps> = Vec::new();
-    let mut bytes = vec![0u8; texels.len() * bits as usize / 8];
-    for (i, texel) in texels.into_iter().enumerate() {
+    let (mut colours, mut palette): (Vec<Steps>, Vec<u16>) = (Vec::new(), Vec::new());
+    let mut bytes = vec![0u8; (width * height) as usize * bits as usize / 8];
+    for (i, (u, v)) in places().enumerate() {
+        let texel = steps(form, u, v);
         let index = colours.iter().position(|c| *c == texel);
         let index = index.unwrap_or_else(|| {
             colours.push(texel);
+            palette.push(word(u, v));
             colours.len() - 1
         });
         let each = (8 / bits) as usize;
         bytes[i / each] |= (index << (bits as usize * (i % each))) as u8;
     }
-    let mut palette: Vec<_> = colours.into_iter().map(word).collect();
     assert!(palette.len() <= 1 << bits);
     palette.resize(1 << bits, 0);
     let (bytes, palette) = (bytes.leak(), palette.leak());
@@ -107,21 +121,40 @@ pub const WRAPS: [Wrap; 3] = [Wrap::Repeat, Wrap::Clamp, Wrap::Mirror];
 pub fn textures() -> &'static Textures {
     static ALL: OnceLock<Textures> = OnceLock::new();
     ALL.get_or_init(|| {
+        let mask = |form: usize, has_bits: bool| {
+            texture(form, |u, v| {
+                let (alpha, is_added) = said(form, u, v);
+                let mut texel = MaskTexel::alpha(alpha);
+                if has_bits && is_added {
+                    texel = texel.added();
+                }
+                if has_bits && alpha & 1 != 0 {
+                    texel = texel.undithered();
+                }
+                texel.word()
+            })
+        };
+        let masks = (0..FORMS.len()).map(|form| [mask(form, false), mask(form, true)]);
+        let masks: &'static [_] = masks.collect::<Vec<_>>().leak();
         let of = |is_swapped| {
             let forms: Vec<_> = (0..FORMS.len())
-                .map(|form| texture(form, is_swapped))
+                .map(|form| texture(form, |u, v| word(steps(form, u, v), is_swapped)))
                 .collect();
             let key = word(KEY, is_swapped);
             let filtered = |t: Texture<'static>| t.sampled(Sampling::LINEAR, &[]);
-            let wrapped = |t: Texture<'static>| {
+            let wrapped = |(form, t): (usize, Texture<'static>)| {
                 WRAPS.map(|wrap| {
                     let plain = t.wrapping(wrap);
-                    [plain, filtered(plain).expect("no levels")]
+                    [plain, filtered(plain).expect("no levels")].map(|t| {
+                        let masked = |of: usize| t.masked(&masks[form][of]).expect("alike");
+                        [t, masked(0), masked(1)]
+                    })
                 })
             };
+            let keyed = forms.iter().map(|t| t.keyed(key)).enumerate();
             [
-                forms.iter().map(|&t| wrapped(t)).collect(),
-                forms.iter().map(|t| wrapped(t.keyed(key))).collect(),
+                forms.iter().copied().enumerate().map(wrapped).collect(),
+                keyed.map(wrapped).collect(),
             ]
         };
         let level = |[r, g, b]: Steps| {
@@ -131,12 +164,15 @@ pub fn textures() -> &'static Textures {
         let texels = (0..FORMS.len()).map(|form| {
             let (width, height, _) = FORMS[form];
             let places = (0..height).flat_map(|v| (0..width).map(move |u| (u, v)));
+            let said: Vec<_> = places.clone().map(|(u, v)| said(form, u, v)).collect();
             let steps: Vec<_> = places.map(|(u, v)| steps(form, u, v)).collect();
             Texels {
                 width,
                 height,
                 rgb: steps.iter().map(|&texel| level(texel)).collect(),
                 is_key: steps.iter().map(|texel| *texel == KEY).collect(),
+                alpha: said.iter().map(|(alpha, _)| f64::from(*alpha)).collect(),
+                is_added: said.iter().map(|(_, is_added)| *is_added).collect(),
             }
         });
         Textures {

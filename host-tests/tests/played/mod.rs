@@ -64,6 +64,7 @@ pub struct Kept {
     places: Vec<[i32; 2]>,
     names: Vec<TextureSlot>,
     lights: Option<LightRoom>,
+    alphas: Vec<u8>,
 }
 
 impl Kept {
@@ -76,6 +77,15 @@ impl Kept {
             places: vec![[0; 2]; vertices],
             names: (0..16).map(|_| TextureSlot::new()).collect(),
             lights: None,
+            alphas: Vec::new(),
+        }
+    }
+
+    /// The same with room for the alphas of so many vertices.
+    pub fn with_alphas(self, vertices: usize) -> Self {
+        Self {
+            alphas: vec![0; vertices],
+            ..self
         }
     }
 
@@ -125,6 +135,7 @@ impl Kept {
             colours: &mut self.colours,
             indices: &mut self.indices,
             places: &mut self.places,
+            alphas: &mut self.alphas,
             names: &self.names,
             textures: Vec::leak(textures),
             texels: Vec::leak(vec![0; texels]),

@@ -5,9 +5,9 @@ use super::super::mapping::Mapping;
 use super::super::{Fill, Gouraud, Paint, Parts, Place, Textured, ThinSpan, WordOf};
 use super::triangles::{inside, some_triangle};
 use super::{Texels, WRAPS, draw_mapped, some_texture};
-use crate::composite::{Rgb565, Rgb565Be, Rgb888};
 use crate::geometry::{Faces, Mesh};
 use crate::num::random::Rng;
+use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
 use crate::scene::{
     Budget, Draw, DrawState, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace, Vertex,
 };

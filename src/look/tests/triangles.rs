@@ -151,6 +151,62 @@ fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
     assert_eq!(values(&thin).map(planes), Some(false));
 }
 
+/// u/w, v/w and 1/w share the triangle's exponent, which cancels (H1, H3): at any distance, places at the corners are those
+/// of the corners.
+///
+/// Kills: a shift by the exponent of each corner's own 1/w, none at all, u/w by half of 1/w.
+#[test]
+fn corners_share_an_exponent() {
+    let words = coordinates();
+    let texture = Texture::words(&words, 256, 256).unwrap();
+    let mut rng = Rng(16);
+    let mut seen = 0;
+    for i in 0..60_000 {
+        let far = i % 24;
+        let ratio = [1.3, 3.0, 60.0][i / 24 % 3];
+        let wide = [60.0, 1000.0, 4000.0][i / 72 % 3];
+        let base = f64::from(rng.signed()) * 8000.0;
+        let corners = [(); 3].map(|()| Corner {
+            x: 0,
+            y: 0,
+            depth: (0.999 * 2f64.powi(31 - far as i32) / (1.0 + (ratio - 1.0) * rng.unit())) as u32,
+            texel: [base + rng.unit() * wide, rng.unit() * 50.0].map(|t| (t * 16_384.0) as i32),
+        });
+        let Some(values) = Values::new(&corners, &texture, Budget::EXACT) else {
+            panic!("{corners:?}");
+        };
+        if values.method != Method::Perspective {
+            continue;
+        }
+        seen += 1;
+        let q = values.of[2];
+        let most = q.iter().max().unwrap();
+        assert!((1 << 29..1 << 30).contains(most), "{q:?}");
+        let nearest = corners.map(|c| c.depth).into_iter().max().unwrap();
+        for (q, corner) in q.into_iter().zip(&corners) {
+            let want = f64::from(corner.depth) / f64::from(nearest) * f64::from(*most);
+            assert!((f64::from(q) - want).abs() <= 1.0, "one unit for all");
+        }
+        for (corner, i) in corners.iter().zip(0..) {
+            let [s, t] = [0, 1].map(|axis| values.of[axis][i]);
+            let place = super::Homogeneous {
+                q: q[i] as u32,
+                s,
+                t,
+            }
+            .place();
+            for (axis, got) in [place.u, place.v].into_iter().enumerate() {
+                let got = f64::from(got) / f64::from(1 << 19);
+                let want = f64::from(corner.texel[axis]) / 16_384.0 - f64::from(values.base[axis]);
+                // The reciprocal's, and a unit of u/w, of which 1/w has the fewest at the farthest corner.
+                let bound = want.abs() / 32_768.0 + 2.0 * 2048.0 / f64::from(q[i]) + 0.001;
+                assert!((got - want).abs() <= bound, "{corners:?}: {got} {want}");
+            }
+        }
+    }
+    assert!(seen > 40_000, "{seen}");
+}
+
 #[test]
 fn affine_is_what_the_bound_allows() {
     let mut rng = Rng(12);

@@ -28,6 +28,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
             normal: layout.normal.map_or(Column::None, |_| Column::Unpacked),
             colour: layout.colour.map_or(Column::None, |_| Column::Unpacked),
             texture: layout.texture,
+            alphas: false,
             prsp: run.header.prsp,
             placed: None,
             usable: true,
@@ -46,10 +47,14 @@ impl<C: ListCoordinate> Gather<'_, C> {
         }
         let n = usize::from(count);
         let m = &mut self.memory;
+        let alpha = layout.colour.filter(|slot| slot.has_alpha());
+        let alpha = alpha.filter(|_| !m.alphas.is_empty());
+        table.alphas = alpha.is_some();
         let short = |c: Column, len: usize| c == Column::Unpacked && len < n;
         if short(table.place, m.positions.len())
             || short(table.normal, m.normals.len())
             || short(table.colour, m.colours.len())
+            || table.alphas && m.alphas.len() < n
         {
             table.usable = false;
             self.table = Some(table);
@@ -72,6 +77,12 @@ impl<C: ListCoordinate> Gather<'_, C> {
         {
             self.base = n;
             slot.column(words, at, out, |_, f| colour(f));
+        }
+        if let (Some(slot), Some(out)) = (alpha, m.alphas.get_mut(..n)) {
+            self.base = n;
+            for (alpha, at) in out.iter_mut().zip(at..) {
+                *alpha = slot.alpha(words, at);
+            }
         }
         // Room for texture places, which are unpacked when something is drawn.
         let placed = out.textured && table.texture.is_some();

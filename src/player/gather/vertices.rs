@@ -27,9 +27,14 @@ impl<C: ListCoordinate> Gather<'_, C> {
         }
         let texture = layout.texture.filter(|_| out.textured);
         let keeps_places = !self.memory.places.is_empty();
+        let keeps_alphas = !self.memory.alphas.is_empty();
+        let alpha = layout
+            .colour
+            .filter(|slot| slot.has_alpha() && keeps_alphas);
         let has = Attributes {
             normals: layout.normal.is_some(),
             colours: layout.colour.is_some(),
+            alphas: alpha.is_some(),
             places: texture.is_some() && keeps_places,
             prsp: texture.is_some() && header.prsp,
             lacks_places: texture.is_some() && !keeps_places,
@@ -96,6 +101,9 @@ impl<C: ListCoordinate> Gather<'_, C> {
             }
             if let (Some(from), Some(slot)) = (layout.colour, self.memory.colours.get_mut(to)) {
                 *slot = colour(from.field(words, at));
+            }
+            if let (Some(from), Some(slot)) = (alpha, self.memory.alphas.get_mut(to)) {
+                *slot = from.alpha(words, at);
             }
             if let (Some(from), Some(slot)) = (texture, self.memory.places.get_mut(to)) {
                 let [u, v, _] = from.field(words, at);

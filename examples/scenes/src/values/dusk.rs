@@ -3,7 +3,7 @@
 
 use super::scenes::{at, light, uncoloured};
 use super::{LeanIndexed, VALUES_HEIGHT, scenes::draw_all};
-use crate::lean::LeanError;
+use crate::ShotError;
 use crate::{CUBE, SPHERE};
 use scanbeam::Affine;
 use scanbeam::pixel::{Index8, LinePalettes, PixelFormat, Rgb565Be};
@@ -38,7 +38,7 @@ impl LinePalettes<u16, 256> for Dusk {
 }
 
 /// Makes the scene.
-pub(super) fn dusk(scene: &mut Scene<'_, 'static, LeanIndexed>) -> Result<(), LeanError> {
+pub(super) fn dusk(scene: &mut Scene<'_, 'static, LeanIndexed>) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.7, [-0.5, 0.1, 0.0]),
         light: light(),

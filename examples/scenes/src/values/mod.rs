@@ -10,10 +10,13 @@
 //! | `values_mirror` | a teapot that reflects its surroundings |
 //! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
 //! | `values_dither` | smooth and textured surfaces, dithered |
+//! | `values_alpha` | a fading ribbon, cubes of rings that are clear, added or not dithered, cut and flat ones |
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
 //! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
+//! | `values_computed` | a floor and cubes of computed texels, nearest, mixed and with holes |
+//! | `values_blocks` | a floor and a cube whose texels lie in blocks behind a small cache |
 //! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_points` | points of three sizes and corners on the screen, textured, by a camera that looks aside |
 //! | `values_overlay` | a ball below sprites |
@@ -21,15 +24,20 @@
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
+mod alpha;
 mod dusk;
+mod fetched;
 mod points;
 mod sampled;
 mod scenes;
 mod shadows;
 
+use crate::ShotError;
 use crate::contours::LeanContours;
-use crate::lean::{LeanError, LeanLook, LeanTextured};
+use crate::lean::{LeanLook, LeanTextured};
+use alpha::alpha;
 use dusk::{Dusk, dusk};
+use fetched::{Slow, blocks, computed};
 use points::points;
 use sampled::{levels, sampled, textures};
 use scanbeam::frame::{
@@ -88,6 +96,8 @@ pub enum Values {
     Holes,
     /// Dithered colours and texels.
     Dither,
+    /// Alphas of vertices and texels.
+    Alpha,
     /// Blends, scissors, depth tests, lights.
     Blends,
     /// The same by priority.
@@ -96,6 +106,10 @@ pub enum Values {
     Master,
     /// Levels of detail, and means of texels.
     Sampled,
+    /// Texels that are computed.
+    Computed,
+    /// Texels in blocks of slow memory, through a cache.
+    Blocks,
     /// Volumes of two lights, and what they light.
     Shadows,
     /// Points, and triangles that are set up beforehand.
@@ -111,7 +125,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 17] = [
+pub const VALUES: [(&str, Values); 20] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -119,10 +133,13 @@ pub const VALUES: [(&str, Values); 17] = [
     ("values_mirror", Values::Mirror),
     ("values_holes", Values::Holes),
     ("values_dither", Values::Dither),
+    ("values_alpha", Values::Alpha),
     ("values_blends", Values::Blends),
     ("values_ranked", Values::Ranked),
     ("values_master", Values::Master),
     ("values_sampled", Values::Sampled),
+    ("values_computed", Values::Computed),
+    ("values_blocks", Values::Blocks),
     ("values_shadows", Values::Shadows),
     ("values_points", Values::Points),
     ("values_overlay", Values::Overlay),
@@ -166,13 +183,13 @@ pub struct ValuesMemory<'m> {
 #[derive(Debug)]
 pub enum ValuesError<E> {
     /// The scene was not made.
-    Scene(LeanError),
+    Scene(ShotError),
     /// The frame was not sent.
     Frame(FrameError<E>),
 }
 
-impl<E> From<LeanError> for ValuesError<E> {
-    fn from(error: LeanError) -> Self {
+impl<E> From<ShotError> for ValuesError<E> {
+    fn from(error: ShotError) -> Self {
         Self::Scene(error)
     }
 }
@@ -235,6 +252,7 @@ impl Values {
             Self::Bands => rest.send(self, lent.banded, pump, |scene, _| bands(scene)),
             Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
+            Self::Alpha => rest.send(self, lent.textured, pump, |scene, _| alpha(scene)),
             Self::Points => rest.send(self, lent.textured, pump, |scene, _| points(scene)),
             Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
             Self::Blends | Self::Ranked | Self::Master => {
@@ -242,6 +260,8 @@ impl Values {
                 rest.send(self, lent.smooth, pump, |scene, _| blends(scene, is_ranked))
             }
             Self::Sampled => rest.send_sampled(lent.textured, pump),
+            Self::Computed => rest.send(self, lent.textured, pump, |scene, _| computed(scene)),
+            Self::Blocks => rest.send_blocks(lent.textured, pump),
             Self::Shadows => rest.send_shadows(lent.smooth, pump),
             Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
@@ -338,6 +358,24 @@ impl<'m> Rest<'m> {
         })
     }
 
+    /// Lays texels in blocks, and sends the scene that reads them through a cache.
+    #[inline(never)]
+    fn send_blocks<D>(
+        self,
+        cache: &mut FastMemory<LeanTextured>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut slow = Slow::new();
+        let texels = slow.cache()?;
+        let cached = texels.texture();
+        self.send(Values::Blocks, cache, pump, |scene, _| {
+            blocks(scene, &cached)
+        })
+    }
+
     /// Makes the scene by `build`, of this moment, and sends it.
     #[inline(never)]
     fn send<'t, L, D>(
@@ -345,7 +383,7 @@ impl<'m> Rest<'m> {
         values: Values,
         cache: &mut FastMemory<L>,
         pump: &mut Pump<D>,
-        build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), LeanError>,
+        build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), ShotError>,
     ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
     where
         L: Look<Pixel = Rgb565Be>,
@@ -364,7 +402,7 @@ impl<'m> Rest<'m> {
         if values == Values::Overlay {
             let sprites = sprites();
             let overlay = Overlay::<Rgb565Be>::new(&sprites);
-            let overlay = overlay.map_err(|_| LeanError::Sprites)?;
+            let overlay = overlay.map_err(|_| ShotError::Sprites)?;
             draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, overlay)?;
             return Ok(());
         }

@@ -3,7 +3,8 @@
 
 use super::scenes::{GRILLE, PANEL, at, camera, light};
 use crate::SPHERE;
-use crate::lean::{LeanError, LeanTextured};
+use crate::ShotError;
+use crate::lean::LeanTextured;
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::scene::{Budget, Draw, Scene, ScreenCorner, Skin, Texture};
 use scanbeam::{Affine, Cull, Faces, Mesh};
@@ -34,11 +35,11 @@ fn card(left: i16, top: i16, depth: u32) -> [[ScreenCorner; 3]; 2] {
 }
 
 /// Makes the scene.
-pub(super) fn points(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), LeanError> {
+pub(super) fn points(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
     let aside = camera()?
         .shifted([21.5, -8.25])
-        .map_err(LeanError::Camera)?;
-    scene.begin(&aside).map_err(LeanError::Begin)?;
+        .map_err(ShotError::Camera)?;
+    scene.begin(&aside).map_err(ShotError::Begin)?;
     // Every third vertex of a ball.
     let some = |values: &[[i16; 3]]| {
         let mut thirds = values.iter().step_by(3);
@@ -56,7 +57,7 @@ pub(super) fn points(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(),
                 ..NOTHING
             })
         };
-        scene.draw_points(&cloud, size).map_err(LeanError::Draw)?;
+        scene.draw_points(&cloud, size).map_err(ShotError::Draw)?;
     }
     let with = |texture: &'static Texture<'static>| Draw {
         cull: Cull::None,
@@ -72,8 +73,8 @@ pub(super) fn points(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(),
     let among = card(20, 40, 76_000_000);
     scene
         .draw_screen(&with(&GRILLE), &near)
-        .map_err(LeanError::Draw)?;
+        .map_err(ShotError::Draw)?;
     scene
         .draw_screen(&with(&PANEL), &among)
-        .map_err(LeanError::Draw)
+        .map_err(ShotError::Draw)
 }

@@ -2,7 +2,8 @@
 //! are mixed, one whose are not, and one with holes (H6).
 
 use super::scenes::{GRILLE, PANEL, at, camera, light, uncoloured};
-use crate::lean::{LeanError, LeanTextured};
+use crate::ShotError;
+use crate::lean::LeanTextured;
 use crate::{CUBE, PLACES_F};
 use scanbeam::look::halved;
 use scanbeam::pixel::Rgb565Be;
@@ -11,7 +12,7 @@ use scanbeam::{Cull, Faces, Mesh, mesh::QuadSplit};
 
 const ONE: i16 = 1 << 14;
 
-const FLOOR: Mesh<'static> = Mesh {
+pub(super) const FLOOR: Mesh<'static> = Mesh {
     positions: &[
         [-ONE, 0, -ONE],
         [ONE, 0, -ONE],
@@ -25,15 +26,15 @@ const FLOOR: Mesh<'static> = Mesh {
 
 /// The texture twelve times each way, in texels with 8 fraction bits.
 const FAR: i32 = 12 * 64 * 256;
-const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
+pub(super) const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
 
 /// Words of four levels below 64 x 64 texels.
 pub(super) type Words = ([u16; 1024], [u16; 256], [u16; 64], [u16; 16]);
 
 /// The levels below the texture of the floor.
-pub(super) fn levels(words: &mut Words) -> Result<[Texture<'_>; 4], LeanError> {
+pub(super) fn levels(words: &mut Words) -> Result<[Texture<'_>; 4], ShotError> {
     let half = |texture: &Texture<'_>, words| {
-        halved::<Rgb565Be>(texture, words).map_err(LeanError::Texture)
+        halved::<Rgb565Be>(texture, words).map_err(ShotError::Texture)
     };
     let first = half(&PANEL, &mut words.0)?;
     let second = half(&first, &mut words.1)?;
@@ -43,11 +44,11 @@ pub(super) fn levels(words: &mut Words) -> Result<[Texture<'_>; 4], LeanError> {
 }
 
 /// The textures: in levels, in levels that are mixed, mixed, and mixed with holes.
-pub(super) fn textures<'t>(levels: &'t [Texture<'t>]) -> Result<[Texture<'t>; 4], LeanError> {
+pub(super) fn textures<'t>(levels: &'t [Texture<'t>]) -> Result<[Texture<'t>; 4], ShotError> {
     let of = |texture: Texture<'t>, sampling, levels| {
         texture
             .sampled(sampling, levels)
-            .map_err(LeanError::Texture)
+            .map_err(ShotError::Texture)
     };
     Ok([
         of(PANEL, Sampling::NEAREST, levels)?,
@@ -61,8 +62,8 @@ pub(super) fn textures<'t>(levels: &'t [Texture<'t>]) -> Result<[Texture<'t>; 4]
 pub(super) fn sampled<'t>(
     scene: &mut Scene<'_, 't, LeanTextured>,
     [near, mixed, cube, holes]: &'t [Texture<'t>; 4],
-) -> Result<(), LeanError> {
-    scene.begin(&camera()?).map_err(LeanError::Begin)?;
+) -> Result<(), ShotError> {
+    scene.begin(&camera()?).map_err(ShotError::Begin)?;
     let floor = |texture: &'t Texture<'t>, x: f32| Draw {
         model: at(6.0, [x, -0.5, -4.0]),
         texture: Some(Skin {
@@ -90,7 +91,7 @@ pub(super) fn sampled<'t>(
         shape(&PANEL, 0.9, [0.8, 0.2, 0.8]),
         shape(holes, 0.2, [-0.7, 0.3, 0.6]),
     ] {
-        scene.draw(&call).map_err(LeanError::Draw)?;
+        scene.draw(&call).map_err(ShotError::Draw)?;
     }
     Ok(())
 }

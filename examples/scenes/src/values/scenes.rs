@@ -1,15 +1,16 @@
 //! What the small frames show: their draw calls, their textures and sprites.
 
 use super::{LeanPhong, LeanPhongTextured, values_screen};
+use crate::ShotError;
 use crate::contours::{CONTOURED, LeanContours};
-use crate::lean::{LeanError, LeanLook, LeanTextured};
+use crate::lean::{LeanLook, LeanTextured};
 use crate::suite::{Looking, Suite, teapot_part};
 use crate::{CUBE, PLACES_F, RIBBON, SPHERE, SURROUNDINGS, TEAPOT, TEXELS_F_PANEL};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::Look;
 use scanbeam::mesh::{Material, U1F15};
+use scanbeam::overlay::Pixels;
 use scanbeam::overlay::{Ink, Sprite};
-use scanbeam::pixel::Pixels;
 use scanbeam::scene::{
     Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Factor, Scene, Scissor,
     Shading, Skin, TexGen, Texture,
@@ -17,9 +18,9 @@ use scanbeam::scene::{
 use scanbeam::{Affine, Camera, Cull, Light, Mesh};
 
 /// Who looks at it.
-pub(super) fn camera() -> Result<Camera, LeanError> {
+pub(super) fn camera() -> Result<Camera, ShotError> {
     let (eye, up) = ([0.6, 1.0, 2.8], [0.0, 1.0, 0.0]);
-    Camera::look_at(eye, [0.0; 3], up, 140.0, 0.1, 100.0).map_err(LeanError::Camera)
+    Camera::look_at(eye, [0.0; 3], up, 140.0, 0.1, 100.0).map_err(ShotError::Camera)
 }
 
 pub(super) fn at(scale: f32, place: [f32; 3]) -> Affine {
@@ -27,7 +28,7 @@ pub(super) fn at(scale: f32, place: [f32; 3]) -> Affine {
 }
 
 /// A warm light from the right, as pixels see it.
-pub(super) fn lamps() -> Result<Option<PixelLamps>, LeanError> {
+pub(super) fn lamps() -> Result<Option<PixelLamps>, ShotError> {
     let light = DirectionalLight::new([0.6, 0.8, 1.0], [1.0, 0.9, 0.8]);
     let ambient = [U1F15::from_bits(5_000); 3];
     let lighting = light.as_ref().and_then(|light| {
@@ -50,10 +51,10 @@ pub(super) fn uncoloured(mesh: Mesh<'static>) -> Mesh<'static> {
 pub(super) fn draw_all<'t, L: Look>(
     scene: &mut Scene<'_, 't, L>,
     calls: &[Draw<'_, 't>],
-) -> Result<(), LeanError> {
-    scene.begin(&camera()?).map_err(LeanError::Begin)?;
+) -> Result<(), ShotError> {
+    scene.begin(&camera()?).map_err(ShotError::Begin)?;
     for call in calls {
-        scene.draw(call).map_err(LeanError::Draw)?;
+        scene.draw(call).map_err(ShotError::Draw)?;
     }
     Ok(())
 }
@@ -62,7 +63,7 @@ pub(super) fn draw_all<'t, L: Look>(
 pub(super) fn phong<'t>(
     scene: &mut Scene<'_, 't, LeanPhong>,
     lamps: &'t Option<PixelLamps>,
-) -> Result<(), LeanError> {
+) -> Result<(), ShotError> {
     let lamps = lamps.as_ref();
     let ball = Draw {
         model: Affine::rotation_x(0.5).then(&at(0.8, [-0.2, 0.1, 0.0])),
@@ -84,7 +85,7 @@ pub(super) fn phong<'t>(
 pub(super) fn texels<'t>(
     scene: &mut Scene<'_, 't, LeanPhongTextured>,
     lamps: &'t Option<PixelLamps>,
-) -> Result<(), LeanError> {
+) -> Result<(), ShotError> {
     let lamps = lamps.as_ref();
     let cube = Draw {
         model: Affine::rotation_x(0.5)
@@ -115,7 +116,7 @@ pub(super) fn texels<'t>(
 }
 
 /// A ball with contour bands, a corner of the picture left out.
-pub(super) fn bands(scene: &mut Scene<'_, 'static, LeanContours>) -> Result<(), LeanError> {
+pub(super) fn bands(scene: &mut Scene<'_, 'static, LeanContours>) -> Result<(), ShotError> {
     let ball = Draw {
         model: Affine::rotation_x(0.5).then(&at(0.9, [0.0, 0.1, 0.0])),
         scissor: Some(Scissor::outside(0..75, 0..40)),
@@ -125,7 +126,7 @@ pub(super) fn bands(scene: &mut Scene<'_, 'static, LeanContours>) -> Result<(), 
 }
 
 /// A teapot that is a mirror.
-pub(super) fn mirror(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), LeanError> {
+pub(super) fn mirror(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
     let teapot = Draw {
         model: Affine::rotation_y(0.6),
         texture: Some(Skin {
@@ -179,7 +180,7 @@ pub(super) fn light() -> Option<Light> {
 }
 
 /// A lit cube with holes around a ball, one whose holes its colours fill, and one that is not lit.
-pub(super) fn holes(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), LeanError> {
+pub(super) fn holes(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
     let cube = |angle: f32, scale: f32, place: [f32; 3]| Draw {
         model: Affine::rotation_y(angle).then(&at(scale, place)),
         cull: Cull::None,
@@ -210,7 +211,7 @@ pub(super) fn holes(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), 
 }
 
 /// A ball, a ribbon and a textured cube.
-pub(super) fn dither(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), LeanError> {
+pub(super) fn dither(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.8, [-0.5, 0.1, 0.0]),
         colour: [90, 70, 60],
@@ -243,7 +244,7 @@ pub(super) fn dither(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(),
 pub(super) fn blends(
     scene: &mut Scene<'_, 'static, LeanLook>,
     is_ranked: bool,
-) -> Result<(), LeanError> {
+) -> Result<(), ShotError> {
     let warm = DirectionalLight::new([0.3, 0.8, 0.6], [0.9, 0.8, 0.6]);
     let cold = DirectionalLight::new([-0.9, 0.1, 0.3], [0.1, 0.2, 0.5]);
     let lights = warm.zip(cold).map(|(warm, cold)| [warm, cold]);
@@ -303,26 +304,20 @@ pub(super) fn blends(
 }
 
 /// The teapot of the suite, at half the size.
-pub(super) fn teapot(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), LeanError> {
+pub(super) fn teapot(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), ShotError> {
     let view = Suite::Teapot.view();
     let half = Looking {
         focal: view.focal / 2.0,
         ..view
     };
-    let camera = half.camera().map_err(LeanError::Camera)?;
-    scene.begin(&camera).map_err(LeanError::Begin)?;
+    let camera = half.camera().map_err(ShotError::Camera)?;
+    scene.begin(&camera).map_err(ShotError::Begin)?;
     let part = teapot_part();
-    let teapot = Draw {
-        model: part.instance.model,
-        light: part.instance.light,
-        colour: part.instance.colour,
-        ..Draw::new(part.mesh)
-    };
-    scene.draw(&teapot).map_err(LeanError::Draw)
+    scene.draw(&part.draw()).map_err(ShotError::Draw)
 }
 
 /// A ball of which a part turns, with a cube that goes round it.
-pub(super) fn ball(scene: &mut Scene<'_, 'static, LeanLook>, moment: f32) -> Result<(), LeanError> {
+pub(super) fn ball(scene: &mut Scene<'_, 'static, LeanLook>, moment: f32) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.8, [-0.2, 0.1, 0.0]),
         colour: [90, 160, 220],

@@ -2,7 +2,8 @@
 //! lights, and what each light adds where it is not in the way (K9).
 
 use super::scenes::{at, camera, uncoloured};
-use crate::lean::{LeanError, LeanLook};
+use crate::ShotError;
+use crate::lean::LeanLook;
 use crate::{CUBE, RIBBON};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::scene::{Blend, Draw, Scene, Shadow, ShadowEdge, ShadowLight, ShadowMemory};
@@ -58,19 +59,19 @@ fn throw(
     scene: &mut Scene<'_, 'static, LeanLook>,
     model: &Affine,
     light: &ShadowLight,
-) -> Result<(), LeanError> {
+) -> Result<(), ShotError> {
     let memory = ShadowMemory {
         edges: &mut [ShadowEdge::default(); 36],
         positions: &mut [[0; 3]; 24],
         faces: &mut [[0; 3]; 24],
     };
     let drawn = scene.draw_shadow(&CLOSED, model, light, memory);
-    drawn.map_err(LeanError::Draw)
+    drawn.map_err(ShotError::Draw)
 }
 
 /// Makes the scene.
-pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), LeanError> {
-    scene.begin(&camera()?).map_err(LeanError::Begin)?;
+pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), ShotError> {
+    scene.begin(&camera()?).map_err(ShotError::Begin)?;
     let cubes = [
         Affine::rotation_y(0.5).then(&at(0.35, [-0.3, -0.1, 0.2])),
         Affine::rotation_x(0.8).then(&at(0.25, [0.45, 0.5, 0.5])),
@@ -80,7 +81,7 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Le
     let draw_all = |scene: &mut Scene<'_, 'static, LeanLook>, dressed: &Draw<'_, 'static>| {
         for model in cubes.into_iter().chain([floor]) {
             let call = Draw { model, ..*dressed };
-            scene.draw(&call).map_err(LeanError::Draw)?;
+            scene.draw(&call).map_err(ShotError::Draw)?;
         }
         let open = Draw {
             mesh: uncoloured(RIBBON),
@@ -88,7 +89,7 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Le
             cull: Cull::None,
             ..*dressed
         };
-        scene.draw(&open).map_err(LeanError::Draw)
+        scene.draw(&open).map_err(ShotError::Draw)
     };
     let dark = Draw {
         colour: [40, 40, 50],
@@ -123,5 +124,5 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Le
         blend: Some(Blend::filter(110)),
         ..Draw::new(uncoloured(CUBE))
     };
-    scene.draw(&pane).map_err(LeanError::Draw)
+    scene.draw(&pane).map_err(ShotError::Draw)
 }

@@ -1,6 +1,6 @@
 //! Draws a shot of the test scenes by scanbeam: `ours SCENE FRAMES [PICTURE]`.
 //!
-//! Lines go to a display, not into a picture; only [`Renderer::picture`] keeps them.
+//! Lines go to a display, not into a picture; only [`Measured::picture`] keeps them.
 
 #![cfg_attr(target_os = "none", no_std, no_main)]
 
@@ -10,35 +10,32 @@ use alloc::{boxed::Box, format, string::String, vec, vec::Vec};
 use core::convert::Infallible;
 use core::hint::black_box;
 use core::task::Poll;
-use measured::{Failure, Renderer};
-use scanbeam::Link;
-use scanbeam::pipeline::{
-    GouraudDepth, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, SlotOf, VertexOf,
-    draw_frame,
-};
+use measured::{Failure, Renderer as Measured};
+use scanbeam::frame::{FastMemory, Memory as LineMemory};
+use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
-use scenes::{HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VERTICES, WIDTH};
+use scanbeam::scene::{DrawState, Memory, Object, Vertex};
+use scanbeam::{Link, Renderer, Scene, draw_frame};
+use scenes::{DRAWS, HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VERTICES, WIDTH};
 
-type Look = GouraudDepth<Rgb565>;
-
-/// Slots of the cache, as the firmware has.
-const SLOTS: usize = 43;
+type Look = Gouraud<Rgb565>;
 
 struct Ours {
     shot: Shot,
-    vertices: Vec<VertexOf<Look>>,
-    objects: Vec<ObjectOf<Look>>,
-    buckets: Vec<Link>,
+    vertices: Vec<Vertex>,
+    objects: Vec<Object>,
+    bins: Vec<u16>,
+    draws: Vec<DrawState<'static>>,
     links: Vec<Link>,
-    slots: Vec<SlotOf<Look>>,
+    cache: Box<FastMemory<Look>>,
     depth: Vec<u32>,
     pump: Pump<Display>,
 }
 
 measured::program!(ready);
 
-fn ready(words: &mut dyn Iterator<Item = String>) -> Result<Box<dyn Renderer>, Failure> {
+fn ready(words: &mut dyn Iterator<Item = String>) -> Result<Box<dyn Measured>, Failure> {
     let scene = words.next().ok_or("which scene?")?;
     let mut shots = SHOTS.into_iter().chain(STACKS);
     let shot = shots.find(|shot| shot.name() == scene);
@@ -51,29 +48,32 @@ impl Ours {
         let line = || Line(vec![0; usize::from(WIDTH)]);
         Self {
             shot,
-            vertices: vec![VertexOf::<Look>::empty(); VERTICES],
-            objects: vec![ObjectOf::<Look>::default(); OBJECTS],
-            buckets: vec![Link::NONE; usize::from(HEIGHT)],
-            links: vec![Link::NONE; OBJECTS],
-            slots: vec![LineRenderer::<Look>::empty_slot(); SLOTS],
+            vertices: vec![Vertex::EMPTY; VERTICES],
+            objects: vec![Object::EMPTY; OBJECTS],
+            bins: vec![0; usize::from(HEIGHT)],
+            draws: vec![DrawState::EMPTY; DRAWS],
+            links: vec![Link::EMPTY; OBJECTS],
+            cache: Box::new(FastMemory::new()),
             depth: vec![0; usize::from(WIDTH)],
             pump: Pump::new(Display::default(), [line(), line()]),
         }
     }
 }
 
-impl Renderer for Ours {
+impl Measured for Ours {
     fn frame(&mut self) {
-        let memory = SceneMemory {
+        let memory = Memory {
             vertices: &mut self.vertices,
+            places: &mut [],
             objects: &mut self.objects,
-            buckets: &mut self.buckets,
+            bins: &mut self.bins,
+            draws: &mut self.draws,
         };
         let mut scene = Scene::<Look>::new(Shot::screen(), memory);
         let shot = self.shot;
         shot.build(&mut scene).expect("the arenas suffice");
-        let mut renderer = LineRenderer::new(LineMemory {
-            slots: &mut self.slots,
+        let mut renderer = Renderer::new(LineMemory {
+            cache: &mut self.cache,
             links: &mut self.links,
             depth: &mut self.depth,
         });

@@ -1,67 +1,39 @@
 //! What each line of a scene costs (X8), and pass one before it.
 //!
 //! The clock is read where a line arrives at the sink, one line a transfer, so a line's cost is all
-//! that [`draw_frame`](scanbeam::pipeline::draw_frame) does for it: clear, draw, hand on. Frames are drawn
+//! that [`draw_frame`](scanbeam::draw_frame) does for it: draw, hand on. Frames are drawn
 //! again from other places of a tick, so that a line is exact to about 5 instructions, not to 40.
 
-use crate::choices::draw_b;
 use crate::console::Console;
 use crate::count::{Counter, INSTRUCTIONS_PER_TICK, PHASES};
-use crate::frames::{Smooth, draw_as};
-use crate::rooms::{Rooms, SLOTS};
-use core::convert::Infallible;
+use crate::frames::{Receives, draw};
+use crate::rooms::Rooms;
 use core::fmt;
-use core::task::Poll;
-use scanbeam::pipeline::texture::Textures;
-use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
-use scenes::{HEIGHT, LookB, SCENES_B, STACKS, Shot, TEXTURES_B, Variant};
+use core::hint::black_box;
+use scenes::{Frame, HEIGHT, frames};
 
 /// Lines of a row that is printed.
 const ROW: usize = 16;
 
-/// Measures the lines of all scenes that have a goal, and of the other models.
+/// The scenes that have a goal, and others, beside those of scene B.
+const MEASURED: [&str; 5] = ["sphere", "teapot", "cube", "c_f2n", "c_n2f"];
+
+/// Measures the lines of them.
 pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
-    let shots = [Shot::Sphere, Shot::Teapot, Shot::Cube];
-    for shot in shots.into_iter().chain(STACKS) {
-        let how = Variant {
-            name: shot.name(),
-            shot,
-            slots: SLOTS,
-            renderers: 1,
-            prefetch: 0,
-        };
-        measure(shot.name(), counter, console, rooms, |rooms, pump| {
-            draw_as::<Smooth, _>(&how, &mut rooms.smooth, pump, 1);
-        });
-    }
-    for scene in SCENES_B {
-        measure(scene.name, counter, console, rooms, |rooms, pump| {
-            let textures = Textures(&TEXTURES_B[..]);
-            draw_b::<LookB, _>(scene, textures, &mut rooms.textured, pump, 1);
-        });
+    for (name, frame) in frames() {
+        if MEASURED.contains(&name) || matches!(frame, Frame::B(_)) {
+            measure(name, frame, counter, console, rooms);
+        }
     }
 }
 
-/// Measures a scene that `draw` draws, and prints it.
-fn measure<'c>(
-    name: &str,
-    counter: &'c Counter,
-    console: &mut Console,
-    rooms: &mut Rooms,
-    draw: impl Fn(&mut Rooms, &mut Pump<Clocked<'c>>),
-) {
+/// Measures a frame, and prints it.
+fn measure(name: &str, frame: Frame, counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     let mut sink = Clocked::new(counter);
     for phase in 0..PHASES {
-        let buffers = rooms.lines.take().expect("the last frame gave them back");
         counter.wait(phase);
         sink.last = counter.ticks();
-        let mut pump = Pump::new(sink, buffers);
-        draw(rooms, &mut pump);
-        let lines;
-        (sink, lines) = pump.release();
-        if let [Some(a), Some(b)] = lines {
-            rooms.lines = Some([a, b]);
-        }
+        draw(frame, 1, rooms, &mut sink);
     }
     let scale = |ticks: u32| u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES);
     let pass_one = scale(sink.pass_one);
@@ -98,7 +70,6 @@ struct Clocked<'c> {
     lines: [u32; HEIGHT as usize],
     /// The line that comes next.
     at: usize,
-    sent: Option<&'static mut [u16]>,
 }
 
 impl<'c> Clocked<'c> {
@@ -109,7 +80,6 @@ impl<'c> Clocked<'c> {
             pass_one: 0,
             lines: [0; HEIGHT as usize],
             at: 0,
-            sent: None,
         }
     }
 
@@ -120,36 +90,20 @@ impl<'c> Clocked<'c> {
     }
 }
 
-impl ErrorType for Clocked<'_> {
-    type Error = Infallible;
-}
-
-impl ScanoutDma for Clocked<'_> {
-    type Buf = &'static mut [u16];
-
-    fn begin(&mut self, _: Window) -> Result<(), Infallible> {
+impl Receives for Clocked<'_> {
+    fn begin(&mut self) {
         self.pass_one += self.lap();
         self.at = 0;
         self.last = self.counter.ticks();
-        Ok(())
     }
 
-    fn start(&mut self, line: Self::Buf, _: usize) -> Result<(), (Infallible, Self::Buf)> {
+    fn transfer(&mut self, bytes: &[u8]) {
         let lap = self.lap();
+        black_box(bytes);
         if let Some(sum) = self.lines.get_mut(self.at) {
             *sum += lap;
         }
         self.at += 1;
-        self.sent = Some(line);
         self.last = self.counter.ticks();
-        Ok(())
-    }
-
-    fn poll(&mut self) -> Poll<Result<Option<Self::Buf>, Infallible>> {
-        Poll::Ready(Ok(self.sent.take()))
-    }
-
-    fn end(&mut self) -> Result<(), Infallible> {
-        Ok(())
     }
 }

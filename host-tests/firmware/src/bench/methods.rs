@@ -1,92 +1,184 @@
-//! The interpolation methods, each a pipeline of its own, on the triangles of the other kernels.
+//! The methods of the laboratory, each on the spans of a right triangle of [`LINES`] lines.
 //!
-//! Names: method, pixel format, `_large` for what is taller than 64 lines, `_depth` where depth is
-//! tested. Both widths are large, one twice the other: what differs is pixels alone, and what a
-//! method takes to begin and to end counts for the span.
+//! Names: method, pixel format, `_large` for spans of up to 320 pixels in place of 63, `_depth` where each span is drawn
+//! before another one that it hides: a pixel is one of both. Both widths are large, one twice the other: what differs is
+//! pixels alone, and what a method takes to begin and to end counts for the span.
 
-use super::{LINES, WIDEST, drawn};
+use super::{LINES, Run, WIDEST, WIDTH};
 use crate::console::Console;
 use crate::count::Counter;
-use scanbeam::pipeline::{
-    Auto, Counted, Forward, GouraudDepth, GouraudPainter, HalfRate, Interpolated, Interpolation,
-    Lirp10, Lirp12, Lirp16, LirpPacked, Method, Packed8, Packed16, Precision, Quality, QuarterRate,
-};
+use core::hint::black_box;
+use core::slice::IterMut;
 use scanbeam::pixel::{Rgb565, Rgb888};
+use scanbeam_lab::bits::{BITS, bits};
+use scanbeam_lab::depth::{Depths, resolve, words};
+use scanbeam_lab::format::FRACTION;
+use scanbeam_lab::{Colours, Format, Method, paint};
+use scanbeam_model::BlockFix16;
 
-/// Times all methods and prints them.
-pub(super) fn run(counter: &Counter, console: &mut Console) {
-    method::<Forward>("forward", counter, console);
-    method::<Packed8>("packed8", counter, console);
-    method::<Packed16>("packed16", counter, console);
-    method::<HalfRate>("half", counter, console);
-    method::<QuarterRate>("quarter", counter, console);
-    method::<Lirp10>("lirp10", counter, console);
-    method::<Lirp12>("lirp12", counter, console);
-    method::<Lirp16>("lirp16", counter, console);
-    method::<LirpPacked>("lirp_packed", counter, console);
-    method::<Fast>("auto_fast", counter, console);
-    method::<Balanced>("auto_balanced", counter, console);
-    method::<Exact>("auto_exact", counter, console);
+const METHODS: [(&str, Method); 12] = [
+    ("forward", Method::Plane),
+    ("packed8", Method::Packed8),
+    ("packed16", Method::Packed16),
+    ("half", Method::Half),
+    ("quarter", Method::Quarter),
+    ("lirp10", Method::Lirp(10)),
+    ("lirp12", Method::Lirp(12)),
+    ("lirp16", Method::Lirp(16)),
+    ("lirp_packed", Method::LirpPacked),
+    ("auto_fast", Method::FAST),
+    ("auto_balanced", Method::BALANCED),
+    ("auto_exact", Method::EXACT),
+];
+
+/// Spans of a triangle but for its first line's.
+const SPANS: usize = LINES as usize - 1;
+
+/// A line of pixels, and one of depths.
+struct Lines<F: Format> {
+    pixels: [F::Word; WIDTH as usize],
+    cells: [u32; WIDTH as usize],
 }
 
-fn method<I: Interpolation>(method: &str, counter: &Counter, console: &mut Console) {
-    for (size, tall, wide) in [("", LINES, WIDEST[0]), ("_large", LINES + 1, WIDEST[1])] {
-        for width in [wide, wide / 2] {
-            let at = (width, tall);
-            // Coverage does not depend on the method.
-            let counts = drawn::<Counted<GouraudPainter<Rgb565>>>(at, counter).1;
-            for (format, instructions) in [
-                (
-                    "565",
-                    drawn::<Interpolated<GouraudPainter<Rgb565>, I>>(at, counter).0,
-                ),
-                (
-                    "888",
-                    drawn::<Interpolated<GouraudPainter<Rgb888>, I>>(at, counter).0,
-                ),
-                (
-                    "565_depth",
-                    drawn::<Interpolated<GouraudDepth<Rgb565>, I>>(at, counter).0,
-                ),
-            ] {
-                let (format, depth) = match format.strip_suffix("_depth") {
-                    Some(format) => (format, "_depth"),
-                    None => (format, ""),
+/// Times all methods and prints them, and whether they draw what they draw elsewhere.
+pub(super) fn run(counter: &Counter, console: &mut Console) {
+    let counted = bits();
+    console.line(format_args!(
+        "count name=methods expected={BITS} counted={counted} ok={}",
+        u8::from(counted == BITS)
+    ));
+    assert_eq!(counted, BITS, "methods draw other bits than elsewhere");
+    for (size, widest) in [("", WIDEST[0]), ("_large", WIDEST[1])] {
+        for width in [widest, widest / 2] {
+            let of_565 = spans::<Rgb565>(width, widest);
+            let of_888 = spans::<Rgb888>(width, widest);
+            for (method, how) in METHODS {
+                let mut print = |format, depth, run: Run| {
+                    run.print(format_args!("{method}_{format}{size}{depth}"), console);
                 };
-                console.line(format_args!(
-                    "kernel name={method}_{format}{size}{depth} pixels={} spans={} instructions={instructions}",
-                    counts.pixels_shaded, counts.spans
-                ));
+                print("565", "", plain::<Rgb565>(how, &of_565, counter));
+                print("888", "", plain::<Rgb888>(how, &of_888, counter));
+                print("565", "_depth", hidden(how, &of_565, counter));
             }
+            block_fixed(&of_565, counter).print(format_args!("block_fix_565{size}"), console);
+            worded(&of_565, counter).print(format_args!("word_565{size}"), console);
         }
     }
 }
 
-/// [`Auto`] with a quality from the start.
-macro_rules! auto {
-    ($($name:ident $quality:ident;)*) => {$(
-        #[derive(Clone, Copy)]
-        struct $name(Auto);
-
-        impl Default for $name {
-            fn default() -> Self {
-                Self(Auto::new(Quality::$quality()))
-            }
-        }
-
-        impl Interpolation for $name {
-            const CHOOSES: bool = true;
-
-            #[inline(always)]
-            fn method(&self, pixels: u32, slope: impl FnOnce() -> u32, of: Precision) -> Method {
-                self.0.method(pixels, slope, of)
-            }
-        }
-    )*};
+/// The spans of a triangle that is so wide at its top. The slope of colours is that of the widest.
+fn spans<F: Format>(width: i32, widest: i32) -> [(Colours, usize); SPANS] {
+    let ends = [[255, 0, 30], [0, 200, 60], [90, 255, 255]];
+    let level = |corner: usize, i: usize| {
+        i64::from(F::STEPS[i]) * (ends[corner][i] << FRACTION) / 255 + (1 << (FRACTION - 1))
+    };
+    core::array::from_fn(|line| {
+        let left = LINES as i32 - 1 - line as i32;
+        let at = [0, 1, 2].map(|i| {
+            let down = level(2, i) - level(0, i);
+            (level(0, i) + down * line as i64 / i64::from(LINES)) as i32
+        });
+        let step = [0, 1, 2].map(|i| ((level(1, i) - level(0, i)) / i64::from(widest)) as i32);
+        let pixels = (width * left / i32::from(LINES)).max(1);
+        (Colours { at, step }, pixels as usize)
+    })
 }
 
-auto! {
-    Fast fast;
-    Balanced balanced;
-    Exact exact;
+/// Counts what is done for all spans.
+fn timed<F: Format>(
+    spans: &[(Colours, usize); SPANS],
+    counter: &Counter,
+    mut each: impl FnMut(&mut Lines<F>, &Colours, usize),
+) -> Run {
+    let mut lines = Lines::<F> {
+        pixels: [F::Word::default(); WIDTH as usize],
+        cells: [0; WIDTH as usize],
+    };
+    let instructions = counter.finely(|| {
+        for (colours, pixels) in black_box(spans) {
+            each(black_box(&mut lines), colours, *pixels);
+        }
+    });
+    Run {
+        instructions,
+        spans: SPANS as u32,
+        pixels: spans.iter().map(|(_, pixels)| *pixels as u32).sum(),
+    }
+}
+
+#[inline(never)]
+fn plain<F: Format>(method: Method, spans: &[(Colours, usize); SPANS], counter: &Counter) -> Run {
+    timed::<F>(spans, counter, |lines, colours, pixels| {
+        paint::<F>(method, colours, &mut lines.pixels[..pixels], &mut || true);
+    })
+}
+
+/// 1/w of what is in front and of what is behind.
+const DEPTHS: [Depths; 2] = [
+    Depths {
+        at: 1 << 30,
+        step: 1 << 16,
+    },
+    Depths {
+        at: 1 << 29,
+        step: 1 << 15,
+    },
+];
+
+/// Whether the next pixel is not behind what is in its cell.
+#[inline(always)]
+fn is_seen<C: Copy>(cells: &mut IterMut<'_, C>, keep: impl FnOnce(C) -> Option<C>) -> bool {
+    let Some(cell) = cells.next() else {
+        return false;
+    };
+    let kept = keep(*cell);
+    if let Some(kept) = kept {
+        *cell = kept;
+    }
+    kept.is_some()
+}
+
+#[inline(never)]
+fn hidden(method: Method, spans: &[(Colours, usize); SPANS], counter: &Counter) -> Run {
+    timed::<Rgb565>(spans, counter, |lines, colours, pixels| {
+        for Depths { mut at, step } in black_box(DEPTHS) {
+            let mut cells = lines.cells[..pixels].iter_mut();
+            paint::<Rgb565>(method, colours, &mut lines.pixels[..pixels], &mut || {
+                let depth = at;
+                at = at.wrapping_add(step);
+                is_seen(&mut cells, |kept| (depth >= kept).then_some(depth))
+            });
+        }
+    })
+}
+
+#[inline(never)]
+fn block_fixed(spans: &[(Colours, usize); SPANS], counter: &Counter) -> Run {
+    let mut line = [0u16; WIDTH as usize];
+    timed::<Rgb565>(spans, counter, |lines, colours, pixels| {
+        for Depths { mut at, step } in black_box(DEPTHS) {
+            let range = BlockFix16::range_of(at);
+            let mut cells = line[..pixels].iter_mut();
+            let pixels = &mut lines.pixels[..pixels];
+            paint::<Rgb565>(Method::Packed16, colours, pixels, &mut || {
+                let depth = BlockFix16::new(at, range);
+                at = at.wrapping_add(step);
+                is_seen(&mut cells, |kept| {
+                    let nearer = depth.covers(BlockFix16::from_bits(kept));
+                    nearer.then_some(depth.to_bits())
+                })
+            });
+        }
+    })
+}
+
+/// What it takes to read the line out of the words is in it.
+#[inline(never)]
+fn worded(spans: &[(Colours, usize); SPANS], counter: &Counter) -> Run {
+    timed::<Rgb565>(spans, counter, |lines, colours, pixels| {
+        for depths in black_box(DEPTHS) {
+            words(&mut lines.cells[..pixels], depths, colours);
+        }
+        resolve(&mut lines.cells[..pixels], &mut lines.pixels[..pixels]);
+    })
 }

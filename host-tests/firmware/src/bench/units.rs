@@ -5,20 +5,22 @@
 //! |---|---|
 //! | `active_line` | a triangle that is active on a line and lies between two pixels there |
 //! | `span` | one with pixels there, on a line without overlap; its active line and pixels taken off |
-//! | `span_depth` | the same where depth is tested |
-//! | `triangle_setup_small`, `_large` | a triangle's first line, an ordinary line of it taken off |
+//! | `slotless_line` | the same of one that found no slot, its pixels taken off |
+//! | `triangle_setup_small`, `_large`, `_textured` | a triangle's first line, an ordinary line of it taken off |
 //! | `triangle_filed`, `triangle_culled` | a face of known vertices in pass one, from front and back |
 //! | `vertex` | a lit vertex in pass one |
 
 use super::{LINES, WIDTH};
 use crate::console::Console;
 use crate::count::Counter;
-use crate::frames::Smooth;
+use crate::rooms::{LineRooms, Rooms, SceneRooms};
 use core::hint::black_box;
-use scanbeam::pipeline::{
-    DepthUse, Instance, LineMemory, LineRenderer, ObjectOf, Scene, SceneMemory, VertexOf,
-};
-use scanbeam::{Camera, Faces, Light, Link, Mesh, Screen};
+use scanbeam::frame::FastMemory;
+use scanbeam::look::Look;
+use scanbeam::pixel::Rgb565Be;
+use scanbeam::scene::{Budget, Skin};
+use scanbeam::{Camera, Draw, Faces, Light, Mesh, Scene, Screen};
+use scenes::{LeanLook, LeanTextured, Suite};
 
 /// Things of the smaller scene.
 const FEW: usize = 8;
@@ -29,8 +31,11 @@ const MEASURED: u16 = 25;
 /// Pixels that triangles are apart that have none.
 const APART: i32 = 20;
 
+/// Slots of the caches.
+const SLOTS: u16 = 64;
+
 /// Measures all units and prints them.
-pub(super) fn run(counter: &Counter, console: &mut Console) {
+pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     let mut print = |name: &str, count: u64, instructions: u64| {
         console.line(format_args!(
             "unit name={name} count={count} instructions={instructions}"
@@ -38,13 +43,12 @@ pub(super) fn run(counter: &Counter, console: &mut Console) {
     };
     let more = (MANY - FEW) as u64;
     let on_lines = more * u64::from(MEASURED);
-    let between = difference(|count| lines(&Stand::between(count), DepthUse::WhereNeeded, counter));
+    let mut bench = Bench { counter, rooms };
+    let between = difference(|count| bench.lines(&Stand::between(count)));
     print("active_line", on_lines, between.instructions);
-    for (name, depth_use) in [
-        ("span", DepthUse::WhereNeeded),
-        ("span_depth", DepthUse::Always),
-    ] {
-        let of = |width| difference(|count| lines(&Stand::fan(count, width), depth_use, counter));
+    for (name, slots) in [("span", SLOTS), ("slotless_line", 0)] {
+        bench.rooms.caches.smooth.set_limit(slots);
+        let mut of = |width| difference(|count| bench.lines(&Stand::fan(count, width)));
         let (narrow, wide) = (of(4), of(7));
         // A line through both, at no pixels.
         let (dx, dy) = (
@@ -52,45 +56,33 @@ pub(super) fn run(counter: &Counter, console: &mut Console) {
             wide.instructions as i64 - narrow.instructions as i64,
         );
         let entry = narrow.instructions as i64 - narrow.pixels as i64 * dy / dx;
-        let entry = entry - between.instructions as i64;
-        print(name, on_lines, entry.max(0) as u64);
+        let known = if slots > 0 { between.instructions } else { 0 };
+        print(name, on_lines, (entry - known as i64).max(0) as u64);
     }
-    for (name, small) in [
-        ("triangle_setup_small", true),
-        ("triangle_setup_large", false),
-    ] {
-        let of = |count| {
-            let stand = if small {
-                Stand::fan(count, 7)
-            } else {
-                Stand::large(count)
-            };
-            set_up(&stand, counter)
-        };
-        print(name, more, of(MANY).saturating_sub(of(FEW)));
-    }
+    bench.rooms.caches.smooth.set_limit(SLOTS);
+    let set_up = |of: &mut dyn FnMut(usize) -> u64| of(MANY).saturating_sub(of(FEW));
+    let small = set_up(&mut |count| bench.set_up(&Stand::fan(count, 7)));
+    print("triangle_setup_small", more, small);
+    let large = set_up(&mut |count| bench.set_up(&Stand::large(count)));
+    print("triangle_setup_large", more, large);
+    let textured = set_up(&mut |count| bench.set_up_textured(&Stand::fan(count, 7)));
+    print("triangle_setup_textured", more, textured);
     for (name, front) in [("triangle_filed", true), ("triangle_culled", false)] {
-        let of = |count| {
-            pass_one(
-                &Faced {
-                    count,
-                    front,
-                    own: false,
-                },
-                counter,
-            )
+        let mut of = |count| {
+            bench.pass_one(&Faced {
+                count,
+                front,
+                own: false,
+            })
         };
         print(name, more, of(MANY).saturating_sub(of(FEW)));
     }
-    let of = |own| {
-        pass_one(
-            &Faced {
-                count: MANY,
-                front: true,
-                own,
-            },
-            counter,
-        )
+    let mut of = |own| {
+        bench.pass_one(&Faced {
+            count: MANY,
+            front: true,
+            own,
+        })
     };
     print(
         "vertex",
@@ -107,7 +99,7 @@ struct Drawn {
 }
 
 /// What the larger scene has more than the smaller.
-fn difference(of: impl Fn(usize) -> Drawn) -> Drawn {
+fn difference(mut of: impl FnMut(usize) -> Drawn) -> Drawn {
     let (few, many) = (of(FEW), of(MANY));
     Drawn {
         instructions: many.instructions.saturating_sub(few.instructions),
@@ -153,18 +145,25 @@ impl Stand {
         Self { corners, count }
     }
 
-    /// Draws them into `scene`.
-    fn draw(&self, scene: &mut Scene<'_, Smooth>) {
-        scene.begin(&camera()).expect("the buckets suffice");
+    /// Draws them into `scene`, with the texture of scene F where that is asked.
+    fn draw<L: Look>(&self, is_textured: bool, scene: &mut Scene<'_, 'static, L>) {
+        scene.begin(&camera()).expect("a bin for each line");
         let mesh = Mesh {
             positions: self.corners.as_flattened(),
             normals: &[],
             colours: &COLOURS,
             faces: Faces::Triangles(&FACES[..self.count]),
         };
-        scene
-            .draw(&mesh, &Instance::default())
-            .expect("the arenas suffice");
+        let skin = |texture| Skin {
+            texture,
+            places: &PLACES,
+            budget: Budget::BALANCED,
+        };
+        let call = Draw {
+            texture: Suite::F.texture().filter(|_| is_textured).map(skin),
+            ..Draw::new(mesh)
+        };
+        scene.draw(&call).expect("the rooms suffice");
     }
 }
 
@@ -178,6 +177,18 @@ const COLOURS: [[u8; 3]; 3 * MANY] = {
         i += 1;
     }
     colours
+};
+
+/// Places of corners on the texture.
+const PLACES: [[i32; 2]; 3 * MANY] = {
+    let mut places = [[0; 2]; 3 * MANY];
+    let mut i = 0;
+    while i < MANY {
+        places[3 * i + 1] = [2_000, 12_000];
+        places[3 * i + 2] = [1_800, 0];
+        i += 1;
+    }
+    places
 };
 
 /// Triangles of three vertices each.
@@ -205,93 +216,15 @@ fn place((x, y): (i32, i32)) -> [i32; 3] {
     [x << 15, -(y << 15), -1 << 30]
 }
 
-/// Lends memory for a scene of a few triangles.
-fn with_scene<R>(with: impl FnOnce(&mut Scene<'_, Smooth>) -> R) -> R {
-    let mut vertices = [VertexOf::<Smooth>::empty(); 3 * MANY];
-    let mut objects = [ObjectOf::<Smooth>::default(); MANY];
-    let mut buckets = [Link::NONE; LINES as usize];
-    let memory = SceneMemory {
-        vertices: &mut vertices,
-        objects: &mut objects,
-        buckets: &mut buckets,
-    };
-    let screen = Screen::new(WIDTH, LINES).expect("the size is legal");
-    with(&mut Scene::new(screen, memory))
+/// What units are measured with.
+struct Bench<'b> {
+    counter: &'b Counter,
+    rooms: &'b mut Rooms,
 }
 
-/// Lends memory for a renderer that tests depth where it has to, or always.
-fn with_renderer<R>(
-    depth_use: DepthUse,
-    with: impl FnOnce(&mut LineRenderer<'_, Smooth>) -> R,
-) -> R {
-    let mut slots = [(); MANY].map(|()| LineRenderer::<Smooth>::empty_slot());
-    let mut links = [Link::NONE; MANY];
-    let mut depth = [0; WIDTH as usize];
-    let mut renderer = LineRenderer::new(LineMemory {
-        slots: &mut slots,
-        links: &mut links,
-        depth: &mut depth,
-    });
-    renderer.set_depth_use(depth_use);
-    with(&mut renderer)
-}
-
-/// What all [`MEASURED`] lines cost, and how many pixels they have.
-#[inline(never)]
-fn lines(stand: &Stand, depth_use: DepthUse, counter: &Counter) -> Drawn {
-    with_scene(|scene| {
-        stand.draw(scene);
-        with_renderer(depth_use, |renderer| {
-            let mut pixels = [0; WIDTH as usize];
-            let mut all = |first: u16, last: u16, drawn: &mut u64| {
-                for line in first..=last {
-                    pixels.fill(0);
-                    let done = renderer.draw_line(scene, line, black_box(&mut pixels));
-                    done.expect("the memory suffices");
-                    *drawn += pixels.iter().filter(|pixel| **pixel != 0).count() as u64;
-                }
-            };
-            let mut drawn = 0;
-            all(0, 0, &mut 0);
-            all(1, MEASURED, &mut drawn);
-            let timed = |renderer: &mut LineRenderer<'_, Smooth>, pixels: &mut [u16], last| {
-                counter.finely(|| {
-                    renderer.restart();
-                    for line in 0..=last {
-                        let done = renderer.draw_line(scene, line, black_box(pixels));
-                        done.expect("the memory suffices");
-                    }
-                })
-            };
-            let with_first = timed(renderer, &mut pixels, MEASURED);
-            Drawn {
-                instructions: with_first - timed(renderer, &mut pixels, 0),
-                pixels: drawn,
-            }
-        })
-    })
-}
-
-/// What the first line costs beyond the one after it.
-#[inline(never)]
-fn set_up(stand: &Stand, counter: &Counter) -> u64 {
-    with_scene(|scene| {
-        stand.draw(scene);
-        with_renderer(DepthUse::WhereNeeded, |renderer| {
-            let mut pixels = [0; WIDTH as usize];
-            let mut timed = |last| {
-                counter.finely(|| {
-                    renderer.restart();
-                    for line in 0..=last {
-                        let done = renderer.draw_line(scene, line, black_box(&mut pixels));
-                        done.expect("the memory suffices");
-                    }
-                })
-            };
-            let (one, two) = (timed(0), timed(1));
-            one - (two - one)
-        })
-    })
+/// The size of the picture.
+fn screen() -> Screen {
+    Screen::new(WIDTH, LINES).expect("the size is legal")
 }
 
 /// Faces that lie on each other, as pass one sees them.
@@ -303,34 +236,114 @@ struct Faced {
     own: bool,
 }
 
-/// What pass one costs.
-#[inline(never)]
-fn pass_one(faced: &Faced, counter: &Counter) -> u64 {
-    const NORMALS: [[i16; 3]; 3 * MANY] = [[4_000, 9_000, 13_000]; 3 * MANY];
-    let corners = [[(80, 0), (80, 8 * i32::from(LINES)), (480, 0)].map(place); MANY];
-    let vertices = if faced.own { 3 * faced.count } else { 3 };
-    let faces = [(); MANY].map(|()| [0, 1, 2]);
-    let mut faces = if faced.own { FACES } else { faces };
-    if !faced.front {
-        for face in &mut faces {
-            face.swap(0, 1);
+impl Bench<'_> {
+    /// What all [`MEASURED`] lines cost, and how many pixels they have.
+    #[inline(never)]
+    fn lines(&mut self, stand: &Stand) -> Drawn {
+        let mut scene = self.rooms.scene.sized::<LeanLook>(screen());
+        stand.draw(false, &mut scene);
+        let mut renderer = self.rooms.lines.renderer(self.rooms.caches.smooth);
+        let mut pixels = [0; WIDTH as usize];
+        let mut drawn = 0;
+        for line in 0..=MEASURED {
+            let done = renderer.draw_line(&scene, line, black_box(&mut pixels), 0);
+            done.expect("the rooms suffice");
+            if line > 0 {
+                drawn += pixels.iter().filter(|pixel| **pixel != 0).count() as u64;
+            }
+        }
+        let mut timed = |last| {
+            self.counter.finely(|| {
+                renderer.restart();
+                for line in 0..=last {
+                    let done = renderer.draw_line(&scene, line, black_box(&mut pixels), 0);
+                    done.expect("the rooms suffice");
+                }
+            })
+        };
+        Drawn {
+            instructions: timed(MEASURED) - timed(0),
+            pixels: drawn,
         }
     }
-    let mesh = Mesh {
-        positions: &corners.as_flattened()[..vertices],
-        normals: &NORMALS[..vertices],
-        colours: &COLOURS[..vertices],
-        faces: Faces::Triangles(&faces[..faced.count]),
-    };
-    let instance = Instance {
-        light: Light::new([0.5, 0.7, 0.8], 0.15),
-        ..Instance::default()
-    };
-    with_scene(|scene| {
-        counter.finely(|| {
-            scene.begin(&camera()).expect("the buckets suffice");
-            let done = scene.draw(black_box(&mesh), &instance);
-            done.expect("the arenas suffice");
+
+    /// What the first line costs beyond the one after it.
+    fn set_up(&mut self, stand: &Stand) -> u64 {
+        let Rooms {
+            scene,
+            lines,
+            caches,
+            ..
+        } = &mut *self.rooms;
+        first_line::<LeanLook>(stand, false, self.counter, scene, lines, caches.smooth)
+    }
+
+    /// The same with a texture.
+    fn set_up_textured(&mut self, stand: &Stand) -> u64 {
+        let Rooms {
+            scene,
+            lines,
+            caches,
+            ..
+        } = &mut *self.rooms;
+        first_line::<LeanTextured>(stand, true, self.counter, scene, lines, caches.textured)
+    }
+
+    /// What pass one costs.
+    #[inline(never)]
+    fn pass_one(&mut self, faced: &Faced) -> u64 {
+        const NORMALS: [[i16; 3]; 3 * MANY] = [[4_000, 9_000, 13_000]; 3 * MANY];
+        let corners = [[(80, 0), (80, 8 * i32::from(LINES)), (480, 0)].map(place); MANY];
+        let vertices = if faced.own { 3 * faced.count } else { 3 };
+        let faces = [(); MANY].map(|()| [0, 1, 2]);
+        let mut faces = if faced.own { FACES } else { faces };
+        if !faced.front {
+            for face in &mut faces {
+                face.swap(0, 1);
+            }
+        }
+        let mesh = Mesh {
+            positions: &corners.as_flattened()[..vertices],
+            normals: &NORMALS[..vertices],
+            colours: &COLOURS[..vertices],
+            faces: Faces::Triangles(&faces[..faced.count]),
+        };
+        let call = Draw {
+            light: Light::new([0.5, 0.7, 0.8], 0.15),
+            ..Draw::new(mesh)
+        };
+        let mut scene = self.rooms.scene.sized::<LeanLook>(screen());
+        self.counter.finely(|| {
+            scene.begin(&camera()).expect("a bin for each line");
+            let done = scene.draw(black_box(&call));
+            done.expect("the rooms suffice");
         })
-    })
+    }
+}
+
+/// What the first line of some triangles costs beyond the one after it.
+#[inline(never)]
+fn first_line<L: Look<Pixel = Rgb565Be>>(
+    stand: &Stand,
+    is_textured: bool,
+    counter: &Counter,
+    scene: &mut SceneRooms,
+    lines: &mut LineRooms,
+    cache: &mut FastMemory<L>,
+) -> u64 {
+    let mut scene = scene.sized::<L>(screen());
+    stand.draw(is_textured, &mut scene);
+    let mut renderer = lines.renderer(cache);
+    let mut pixels = [0; WIDTH as usize];
+    let mut timed = |last| {
+        counter.finely(|| {
+            renderer.restart();
+            for line in 0..=last {
+                let done = renderer.draw_line(&scene, line, black_box(&mut pixels), 0);
+                done.expect("the rooms suffice");
+            }
+        })
+    };
+    let (one, two) = (timed(0), timed(1));
+    one - (two - one)
 }

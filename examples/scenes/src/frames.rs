@@ -1,0 +1,41 @@
+//! The frames that are drawn on the host and on every target, by name.
+
+use crate::{
+    PLAYED, Played, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, Suite, VALUES, VARIANTS, Values,
+    Variant,
+};
+
+/// What a frame is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// A scene of the suite, with 64 slots and one line a transfer, as it is measured.
+    Suite(Suite),
+    /// A small frame of what few draw calls have.
+    Values(Values),
+    /// A list that is played.
+    Played(Played),
+    /// A shot, in one of the ways that must not change it.
+    Shot(Variant),
+    /// Scene B on the upright sphere.
+    B(SceneB),
+    /// A shot by the hardware model.
+    Model(Shot),
+}
+
+/// Every frame, in the order in which they are drawn: the suite, what few draw calls have, lists, all other shots,
+/// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, and one by the hardware model.
+pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
+    let suite = SUITE.map(|suite| (suite.name(), Frame::Suite(suite)));
+    let values = VALUES.map(|(name, values)| (name, Frame::Values(values)));
+    let played = PLAYED.map(|(name, played)| (name, Frame::Played(played)));
+    let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
+    let shots = SHOTS.into_iter().filter(move |shot| !measured(shot));
+    let shots = shots.chain(STRESS).map(Variant::of).chain(VARIANTS);
+    suite
+        .into_iter()
+        .chain(values)
+        .chain(played)
+        .chain(shots.map(|how| (how.name, Frame::Shot(how))))
+        .chain(SCENES_B.map(|scene| (scene.name, Frame::B(scene))))
+        .chain([("teapot_model", Frame::Model(Shot::Teapot))])
+}

@@ -1,0 +1,132 @@
+//! Floors and cubes whose texels are computed, and others whose texels lie in blocks of slow memory behind a small cache
+//! (H17, B1, B5).
+
+use super::sampled::{FLOOR, FLOOR_PLACES};
+use super::scenes::{PANEL, at, camera, light, uncoloured};
+use crate::ShotError;
+use crate::lean::LeanTextured;
+use crate::{CUBE, PLACES_F, TEXELS_F_PANEL};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scene::{
+    BlockCache, Blocked, Budget, CacheWord, Checker, Draw, Gradient, Sampling, Scene, Skin, Texels,
+    Texture, Wrap,
+};
+use scanbeam::{Affine, Cull};
+
+static CHECKER: Checker = Checker {
+    colours: [0xFFFF, 0x18E3_u16.to_be()],
+    log_side: 3,
+};
+
+static GRADIENT: Gradient = Gradient {
+    from: [250, 120, 0],
+    to: [0, 40, 220],
+    log_length: 5,
+    word: Rgb565Be::from_rgb8,
+};
+
+const fn computed_of(texels: &'static dyn Texels, width: u32, height: u32) -> Texture<'static> {
+    match Texture::computed(texels, width, height) {
+        Ok(texture) => texture,
+        Err(_) => panic!("powers of two"),
+    }
+}
+
+static SQUARES: Texture<'static> = computed_of(&CHECKER, 64, 64);
+/// Squares of white, and holes between them.
+static HOLES: Texture<'static> = SQUARES.keyed(CHECKER.colours[1]);
+static WAY: Texture<'static> = computed_of(&GRADIENT, 64, 1).wrapping(Wrap::Mirror);
+static MIXED: Texture<'static> = match SQUARES.sampled(Sampling::LINEAR, &[]) {
+    Ok(texture) => texture,
+    Err(_) => panic!("it has no levels"),
+};
+
+/// Columns and rows of the texture in blocks: the upper half of that of scene F.
+const SIDES: [u32; 2] = [64, 32];
+
+/// Texels of slow memory, and fast memory for 8 blocks of 32 bytes.
+pub(super) struct Slow {
+    texels: [u16; (SIDES[0] * SIDES[1]) as usize],
+    fast: [CacheWord; 8 * 16],
+}
+
+impl Slow {
+    pub(super) const fn new() -> Self {
+        Self {
+            texels: [0; (SIDES[0] * SIDES[1]) as usize],
+            fast: [const { CacheWord::new() }; 8 * 16],
+        }
+    }
+
+    /// Lays the texels in blocks, and makes the cache.
+    pub(super) fn cache(&mut self) -> Result<BlockCache<'_>, ShotError> {
+        let layout = Blocked::of_page(32, 16);
+        layout
+            .arrange(SIDES, &TEXELS_F_PANEL, &mut self.texels)
+            .map_err(ShotError::Texture)?;
+        let slow = Texture::words(&self.texels, SIDES[0], SIDES[1]).map_err(ShotError::Texture)?;
+        BlockCache::new(slow, layout, &mut self.fast).map_err(ShotError::Cache)
+    }
+}
+
+fn floor<'t>(texture: &'t Texture<'t>, x: f32) -> Draw<'static, 't> {
+    Draw {
+        model: at(6.0, [x, -0.5, -4.0]),
+        texture: Some(Skin {
+            texture,
+            places: &FLOOR_PLACES,
+            budget: Budget::BALANCED,
+        }),
+        ..Draw::new(FLOOR)
+    }
+}
+
+fn cube<'t>(texture: &'t Texture<'t>, angle: f32, place: [f32; 3]) -> Draw<'static, 't> {
+    Draw {
+        model: Affine::rotation_y(angle).then(&at(0.3, place)),
+        cull: Cull::None,
+        light: light(),
+        texture: Some(Skin {
+            texture,
+            places: &PLACES_F,
+            budget: Budget::EXACT,
+        }),
+        ..Draw::new(uncoloured(CUBE))
+    }
+}
+
+fn draw_all<'t>(
+    scene: &mut Scene<'_, 't, LeanTextured>,
+    calls: &[Draw<'_, 't>],
+) -> Result<(), ShotError> {
+    scene.begin(&camera()?).map_err(ShotError::Begin)?;
+    calls
+        .iter()
+        .try_for_each(|call| scene.draw(call).map_err(ShotError::Draw))
+}
+
+/// Makes the scene of computed texels.
+pub(super) fn computed(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+    let calls = [
+        floor(&SQUARES, -6.0),
+        floor(&MIXED, 6.0),
+        cube(&WAY, 0.5, [-0.1, 0.0, 1.2]),
+        cube(&MIXED, 0.9, [0.8, 0.2, 0.8]),
+        cube(&HOLES, 0.2, [-0.7, 0.3, 0.6]),
+    ];
+    draw_all(scene, &calls)
+}
+
+/// Makes the scene of texels behind a cache, and of some that are not.
+pub(super) fn blocks<'t>(
+    scene: &mut Scene<'_, 't, LeanTextured>,
+    cached: &'t Texture<'t>,
+) -> Result<(), ShotError> {
+    let calls = [
+        floor(cached, -6.0),
+        floor(&PANEL, 6.0),
+        cube(cached, 0.5, [-0.1, 0.0, 1.2]),
+        cube(&PANEL, 0.9, [0.8, 0.2, 0.8]),
+    ];
+    draw_all(scene, &calls)
+}

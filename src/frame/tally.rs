@@ -1,0 +1,323 @@
+//! Spans and pixels, counted (M4): what a renderer does that is [`counting`](Renderer::counting), and no other.
+//!
+//! A line without values is counted before it is drawn: who is seen is asked of any two spans that share columns, so
+//! the figures do not hang on the order in which spans are drawn, nor on who has a slot. On a line with values each span
+//! is counted as it comes, before it is drawn: its depths are compared with a copy of the cells.
+
+use super::alone::set_up_stray;
+use super::guests::Stray;
+use super::renderer::Renderer;
+use super::rival::{Rival, rival_of};
+use super::ruled::{Ruled, depth_on_line, ink_of};
+use super::shadow::count_shadowed;
+use super::slot::{Active, Flags};
+use super::spans::{Drawn, Known, Line, Span, columns_of};
+use crate::active::{CacheSlot, CacheUse, next};
+use crate::look::{Look, Paint, Place, WordOf};
+use crate::num::take_first;
+use crate::scene::DrawState;
+use crate::stats::{SpanCounts, SpanPixels};
+use crate::visible::{MOST_TESTED, Mask, test};
+
+/// What counts, as functions: a program that names none of them does not have their code.
+#[derive(Debug)]
+pub(super) struct Counter<L: Look, const WORDS: usize> {
+    /// A line without values, before it is drawn.
+    pub(super) line: CountLine<L, WORDS>,
+    /// A span of a line with values, before it is drawn.
+    pub(super) span: CountSpan<L>,
+    /// What is translucent on a line with values, of so many slots that are listed and of what has none, before the first
+    /// is drawn.
+    pub(super) panes: CountPanes<L, WORDS>,
+    /// What has to do with shadows, before it is taken.
+    pub(super) shadowed: CountShadowed<L>,
+}
+
+type PlanesOf<L> = <L as Paint>::Planes;
+
+type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, WordOf<L>>);
+
+/// The depth that the span is compared with, if it is, and whether it shares no column with another.
+type CountSpan<L> =
+    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, Option<&Known<'_>>, bool, &Line<'_, '_, WordOf<L>>);
+
+type CountPanes<L, const WORDS: usize> =
+    fn(&mut Renderer<'_, L, WORDS>, usize, &Line<'_, '_, WordOf<L>>);
+
+/// The depth of the line, and its counts of volumes.
+type CountShadowed<L> =
+    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, &Known<'_>, &[u8], &Line<'_, '_, WordOf<L>>);
+
+impl<L: Look, const WORDS: usize> Counter<L, WORDS> {
+    pub(super) fn new() -> Self {
+        Self {
+            line: |renderer, out| renderer.count_line(out),
+            span: count_span::<L>,
+            panes: |renderer, slots, out| renderer.count_panes(slots, out),
+            shadowed: count_shadowed::<L>,
+        }
+    }
+}
+
+/// A span of a line without values, from a slot or without one.
+struct Seen<'a, P> {
+    object: u16,
+    span: Span,
+    slot: Option<&'a CacheSlot<Active<P>>>,
+}
+
+impl<P> Seen<'_, P> {
+    /// With its depth, or what stands for it; nothing is kept of it.
+    fn rival<L: Look<Planes = P>>(&self, out: &Line<'_, '_, WordOf<L>>) -> Option<Rival> {
+        let slot = self
+            .slot
+            .filter(|slot| !out.deep || Flags(slot.flags).is_deep());
+        if let Some(slot) = slot {
+            return Some(rival_of::<L>(slot, self.span, out));
+        }
+        let stray = Stray {
+            triangle: out.view.triangle_of(self.object)?,
+            object: self.object,
+            span: self.span,
+        };
+        Some(stray.rival(stray.slope::<L>(out)))
+    }
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Calls `f` with each span of the line.
+    fn each_span(&self, out: &Line<'_, '_, WordOf<L>>, f: &mut dyn FnMut(&Seen<'_, L::Planes>)) {
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let slot = &self.cache.slots[word][take_first(&mut used) as usize & 31];
+                let span = columns_of::<L>(slot, out);
+                if span.start < span.end {
+                    f(&Seen {
+                        object: slot.object,
+                        span,
+                        slot: Some(slot),
+                    });
+                }
+            }
+        }
+        let mut at = self.cache.spilled;
+        while at.is_some() {
+            let object = at.object();
+            let stray = Stray::of(object, out).filter(|stray| !stray.has_ended(out));
+            if let Some(Stray { object, span, .. }) = stray {
+                let slot = None;
+                f(&Seen { object, span, slot });
+            }
+            at = next(self.links, at);
+        }
+    }
+
+    /// Counts the spans of a line without values.
+    #[inline(never)]
+    fn count_line(&mut self, out: &Line<'_, '_, WordOf<L>>) {
+        let (mut covered, mut over) = (Mask::EMPTY, Mask::EMPTY);
+        self.each_span(out, &mut |one| {
+            covered.cover_over(&mut over, one.span.start, one.span.end);
+        });
+        let mut counts = self.spans;
+        self.each_span(out, &mut |one| {
+            let Span { start, end } = one.span;
+            let is_alone = !over.meets(start, end);
+            let all = end - start;
+            let seen = if is_alone {
+                all
+            } else {
+                self.seen_of(one, out)
+            };
+            let pixels = SpanPixels {
+                all,
+                seen,
+                hidden: all - seen,
+                tested: 0,
+                fetched: if has_texels::<L>(out.view.state(one.object)) {
+                    seen
+                } else {
+                    0
+                },
+            };
+            counts.add_span(pixels, is_alone);
+        });
+        self.spans = counts;
+    }
+
+    /// How many pixels of a span no other is seen before.
+    fn seen_of(&self, one: &Seen<'_, L::Planes>, out: &Line<'_, '_, WordOf<L>>) -> u32 {
+        let Some(rival) = one.rival::<L>(out) else {
+            return 0;
+        };
+        let mut hidden = Mask::EMPTY;
+        self.each_span(out, &mut |other| {
+            if other.object != one.object && other.span.meets(one.span) {
+                let part = other
+                    .rival::<L>(out)
+                    .and_then(|other| other.hidden_of(rival));
+                if let Some(Span { start, end }) = part {
+                    hidden.cover(start, end);
+                }
+            }
+        });
+        let Span { start, end } = one.span;
+        end - start - hidden.count(start, end)
+    }
+
+    /// Counts what is translucent on a line that is drawn by depth: all else is drawn, and none of it changes depths.
+    #[inline(never)]
+    fn count_panes(&mut self, slots: usize, out: &Line<'_, '_, WordOf<L>>) {
+        for k in 0..slots {
+            let number = self.cache.order.as_flattened().get(k).copied();
+            let number = number.unwrap_or_default() as usize;
+            let (Some(slot), Some(&span)) = (
+                self.cache.slots.as_flattened().get(number),
+                self.cache.spans.as_flattened().get(number),
+            ) else {
+                return;
+            };
+            let Some(state) = out.view.state(slot.object) else {
+                continue;
+            };
+            let (drawn, span) = (Drawn::of(slot), Span::of(span));
+            let known = Known {
+                plane: slot.item.depth,
+                cells: self.depth,
+                written: &mut self.written,
+            };
+            let ruled = Ruled { drawn, span, state };
+            count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
+        }
+        let mut at = self.cache.spilled;
+        while at.is_some() {
+            let state = out.view.state(at.object());
+            if let Some(state) = state.filter(|state| state.is_translucent()) {
+                self.count_pane_alone(at.object(), state, out);
+            }
+            at = next(self.links, at);
+        }
+    }
+
+    /// Counts a translucent span without a slot.
+    fn count_pane_alone(
+        &mut self,
+        object: u16,
+        state: &DrawState<'_>,
+        out: &Line<'_, '_, WordOf<L>>,
+    ) {
+        let Some(stray) = Stray::of(object, out) else {
+            return;
+        };
+        // What it takes to count is not counted.
+        let mut alone = set_up_stray::<L>(&stray, &mut CacheUse::default(), out);
+        let plane = Self::find_depth(&mut alone, out.view);
+        let (drawn, span) = (alone.drawn(), alone.span);
+        let known = Known {
+            plane,
+            cells: self.depth,
+            written: &mut self.written,
+        };
+        let ruled = Ruled { drawn, span, state };
+        count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
+    }
+}
+
+/// Whether texels are read for pixels of a call.
+pub(super) fn has_texels<L: Look>(state: Option<&DrawState<'_>>) -> bool {
+    L::TEXTURED && state.is_some_and(|state| state.texture.is_some())
+}
+
+/// Counts a span of a line with values, before it is drawn.
+#[inline(never)]
+fn count_span<L: Look>(
+    counts: &mut SpanCounts,
+    ruled: Ruled<'_, L::Planes>,
+    known: Option<&Known<'_>>,
+    is_alone: bool,
+    out: &Line<'_, '_, WordOf<L>>,
+) {
+    let Ruled { drawn, span, state } = ruled;
+    let depth = known.map(|known| depth_on_line::<L>(drawn, known.plane, span, out));
+    let mut pixels = SpanPixels::default();
+    // A slot without values is compared by no state of its own.
+    let has_texels = has_texels::<L>(out.view.state(drawn.object));
+    each_part(ruled, out, &mut |first, part| {
+        let all = u32::MAX >> (32 - part);
+        let is_holed = L::TEXTURED && state.holes.is_some();
+        let asked = if is_holed {
+            all & opaque_of::<L>(ruled, first, part, out)
+        } else {
+            all
+        };
+        let mut seen = asked;
+        if let (Some(known), Some([at, step])) = (known, depth) {
+            let mut cells = cells_at(known, first);
+            let cells = cells.get_mut(..part as usize).unwrap_or_default();
+            seen &= test(
+                cells,
+                at.wrapping_add(step.wrapping_mul(first)),
+                step,
+                state.depth,
+            );
+            pixels.tested += asked.count_ones();
+        }
+        pixels.all += part;
+        pixels.seen += seen.count_ones();
+        pixels.hidden += (asked & !seen).count_ones();
+        if has_texels {
+            pixels.fetched += if is_holed { part } else { seen.count_ones() };
+        }
+    });
+    counts.add_span(pixels, is_alone && known.is_none());
+}
+
+/// Calls `f` with the first column of each part of at most 32 pixels that the scissor keeps, and their number.
+pub(super) fn each_part<P, W>(
+    ruled: Ruled<'_, P>,
+    out: &Line<'_, '_, W>,
+    f: &mut dyn FnMut(u32, u32),
+) {
+    let Span { start, end } = ruled.span;
+    for run in ruled.state.cut(out.number, start..end) {
+        let mut first = run.start;
+        while first < run.end {
+            let part = (run.end - first).min(MOST_TESTED as u32);
+            f(first, part);
+            first += part;
+        }
+    }
+}
+
+/// A bit for each of some pixels that is not a hole of the texture, the first the lowest.
+pub(super) fn opaque_of<L: Look>(
+    ruled: Ruled<'_, L::Planes>,
+    first: u32,
+    pixels: u32,
+    out: &Line<'_, '_, WordOf<L>>,
+) -> u32 {
+    let mut others = None;
+    let ink = ink_of::<L>(ruled, &mut others, out);
+    let at = Place {
+        span: ruled.span.start,
+        end: ruled.span.end,
+        column: first,
+        line: out.number,
+    };
+    let mut colours = [WordOf::<L>::default(); MOST_TESTED];
+    let colours = colours.get_mut(..pixels as usize).unwrap_or_default();
+    L::fill_holed(ink.fill, ink.planes, at, out.view.draws, false, colours).reverse_bits()
+}
+
+/// A copy of the depths that are there from a column on; what nobody has written is farthest away.
+pub(super) fn cells_at(known: &Known<'_>, first: u32) -> [u32; MOST_TESTED] {
+    let mut copy = [0; MOST_TESTED];
+    let cells = known.cells.get(first as usize..).unwrap_or_default();
+    for ((to, from), column) in copy.iter_mut().zip(cells).zip(first..) {
+        if known.written.meets(column, column + 1) {
+            *to = *from;
+        }
+    }
+    copy
+}

@@ -1,0 +1,157 @@
+//! What is known of faces before there are objects: their indices, and their normals (K2).
+
+use super::mesh::{Faces, Mesh, QuadSplit};
+use super::transform::unit;
+
+/// Which faces are dropped.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Cull {
+    /// Those seen from behind.
+    #[default]
+    Back,
+    /// None.
+    None,
+}
+
+/// A mesh that contradicts itself. Nothing of it is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[non_exhaustive]
+pub enum MeshError {
+    /// An attribute slice is neither empty nor as long as the positions.
+    AttributeLength,
+    /// This face names a vertex that does not exist.
+    Index {
+        /// Index of the face.
+        face: u32,
+    },
+    /// A quad strip has an odd number of indices, or two.
+    StripLength,
+}
+
+/// How many triangles there are.
+pub(crate) fn triangles(faces: Faces<'_>) -> u32 {
+    (match faces {
+        Faces::Triangles(faces) => faces.len(),
+        Faces::Quads(faces, _) => 2 * faces.len(),
+        Faces::QuadStrip(strip, _) => strip.len().saturating_sub(2),
+    }) as u32
+}
+
+/// Whether all slices agree and all indices exist.
+pub(crate) fn check<C>(mesh: &Mesh<'_, C>) -> Result<(), MeshError> {
+    check_known(mesh, usize::MAX)
+}
+
+/// The same where those indices exist that are known to be below a number of vertices that are
+/// there.
+pub(crate) fn check_known<C>(mesh: &Mesh<'_, C>, below: usize) -> Result<(), MeshError> {
+    let count = mesh.positions.len();
+    let fits = |len: usize| len == 0 || len == count;
+    if !fits(mesh.normals.len()) || !fits(mesh.colours.len()) {
+        return Err(MeshError::AttributeLength);
+    }
+    match mesh.faces {
+        Faces::QuadStrip(strip, _) if strip.len() % 2 != 0 || strip.len() == 2 => {
+            return Err(MeshError::StripLength);
+        }
+        _ => {}
+    }
+    if below <= count {
+        return Ok(());
+    }
+    let good = |face: &[u16]| face.iter().all(|&i| usize::from(i) < count);
+    if all_below(mesh.faces, count) {
+        return Ok(());
+    }
+    let bad = match mesh.faces {
+        Faces::Triangles(faces) => faces.iter().position(|f| !good(f)),
+        Faces::Quads(faces, _) => faces.iter().position(|f| !good(f)),
+        Faces::QuadStrip(strip, _) => strip
+            .iter()
+            .position(|&i| usize::from(i) >= count)
+            .map(|i| i.saturating_sub(2) / 2),
+    };
+    match bad {
+        Some(face) => Err(MeshError::Index { face: face as u32 }),
+        None => Ok(()),
+    }
+}
+
+/// Whether all indices are below `count`: three instructions each on a Cortex-M4.
+#[inline]
+fn all_below(faces: Faces<'_>, count: usize) -> bool {
+    let indices = match faces {
+        Faces::Triangles(faces) => faces.as_flattened(),
+        Faces::Quads(faces, _) => faces.as_flattened(),
+        Faces::QuadStrip(strip, _) => strip,
+    };
+    are_below(indices, count)
+}
+
+/// One copy of the loop, whatever the faces are.
+#[inline(never)]
+fn are_below(indices: &[u16], count: usize) -> bool {
+    let last = count.min(1 << 16) as i32 - 1;
+    // The sign of the least distance from the last.
+    indices
+        .iter()
+        .fold(0, |all, &i| all | (last - i32::from(i)))
+        >= 0
+}
+
+/// Calls `f` with face, corners and provoking vertex of each triangle.
+#[inline]
+pub(crate) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u16)) {
+    let mut quad = |face: u32, q: [u16; 4], split| {
+        let [a, b, c, d] = q;
+        match split {
+            QuadSplit::Corner0To2 => {
+                f(face, [a, b, c], a);
+                f(face, [a, c, d], a);
+            }
+            QuadSplit::Corner1To3 => {
+                f(face, [a, b, d], a);
+                f(face, [b, c, d], a);
+            }
+        }
+    };
+    match faces {
+        Faces::Triangles(faces) => {
+            for (face, &corners) in (0..).zip(faces) {
+                f(face, corners, corners[0]);
+            }
+        }
+        Faces::Quads(faces, split) => {
+            for (face, &q) in (0..).zip(faces) {
+                quad(face, q, split);
+            }
+        }
+        Faces::QuadStrip(strip, split) => {
+            // Two new vertices reuse the last two and take their roles crosswise, so a constant
+            // split gives a cross-hatch.
+            for (face, p) in (0..).zip(strip.windows(4).step_by(2)) {
+                let split = if face % 2 == 0 { split } else { split.other() };
+                quad(face, [p[0], p[1], p[3], p[2]], split);
+            }
+        }
+    }
+}
+
+/// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
+pub(crate) fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
+    let d = |a: usize, i: usize| i64::from(p[a][i]) - i64::from(p[0][i]);
+    // Shifted together until they have 30 bits, so that the products fit, and small faces keep
+    // all of theirs.
+    let mut bits = 1;
+    for i in 0..3 {
+        bits |= d(1, i).unsigned_abs() | d(2, i).unsigned_abs();
+    }
+    let down = 34u32.saturating_sub(bits.leading_zeros());
+    let e = |a: usize, i: usize| d(a, i) >> down;
+    let axis = |i: usize, k: usize| e(1, i) * e(2, k) - e(1, k) * e(2, i);
+    let n = [axis(1, 2), axis(2, 0), axis(0, 1)];
+    let bits = n.iter().fold(1, |b, c| b | c.unsigned_abs());
+    let down = 32u32.saturating_sub(bits.leading_zeros());
+    unit(n.map(|c| c >> down)).map(|c| c.to_bits())
+}

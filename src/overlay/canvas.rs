@@ -1,0 +1,113 @@
+//! Drawables of `embedded-graphics` as overlays: text, lines, pictures (K14).
+//!
+//! A [`Canvas`] is a rectangle of words that they can be drawn into. Of the size of a sprite it is
+//! drawn once and then costs what its pixels cost; of the size of one line, by [`DrawnLines`], it
+//! needs no memory, but every drawable goes through all its pixels on every line.
+
+use super::LineOverlay;
+use crate::pixel::PixelFormat;
+use core::convert::Infallible;
+use core::marker::PhantomData;
+use embedded_graphics_core::Pixel;
+use embedded_graphics_core::draw_target::DrawTarget;
+use embedded_graphics_core::geometry::{Dimensions, Point, Size};
+use embedded_graphics_core::pixelcolor::{PixelColor, Rgb888, RgbColor};
+use embedded_graphics_core::primitives::Rectangle;
+
+/// Words of the format `F` that drawables with colours `C` are drawn into, clipped at all sides.
+#[derive(Debug)]
+pub struct Canvas<'c, F: PixelFormat, C = Rgb888> {
+    pixels: &'c mut [F::Word],
+    area: Rectangle,
+    colours: PhantomData<C>,
+}
+
+impl<'c, F: PixelFormat, C> Canvas<'c, F, C> {
+    /// A canvas whose upper left pixel is at `origin`, `width` pixels wide and as high as there
+    /// are pixels for; those left over are not used.
+    pub fn new(pixels: &'c mut [F::Word], origin: Point, width: u16) -> Self {
+        // No picture has more lines.
+        let height = (pixels.len() / usize::from(width.max(1))).min(1 << 15);
+        let height = if width == 0 { 0 } else { height as u32 };
+        Self {
+            pixels,
+            area: Rectangle::new(origin, Size::new(width.into(), height)),
+            colours: PhantomData,
+        }
+    }
+
+    /// The pixels of a line from `from` on, at most so many; all inside the area.
+    fn run(&mut self, from: Point, count: u32) -> Option<&mut [F::Word]> {
+        let (x, y) = (from.x - self.area.top_left.x, from.y - self.area.top_left.y);
+        let at = y as usize * self.area.size.width as usize + x as usize;
+        self.pixels.get_mut(at..at + count as usize)
+    }
+}
+
+fn word<F: PixelFormat>(colour: impl Into<Rgb888>) -> F::Word {
+    let colour = colour.into();
+    F::from_rgb8([colour.r(), colour.g(), colour.b()])
+}
+
+impl<F: PixelFormat, C> Dimensions for Canvas<'_, F, C> {
+    fn bounding_box(&self) -> Rectangle {
+        self.area
+    }
+}
+
+impl<F: PixelFormat, C: PixelColor + Into<Rgb888>> DrawTarget for Canvas<'_, F, C> {
+    type Color = C;
+    type Error = Infallible;
+
+    fn draw_iter<I>(&mut self, pixels: I) -> Result<(), Infallible>
+    where
+        I: IntoIterator<Item = Pixel<C>>,
+    {
+        for Pixel(at, colour) in pixels {
+            if self.area.contains(at) {
+                if let Some([pixel]) = self.run(at, 1) {
+                    *pixel = word::<F>(colour);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn fill_solid(&mut self, area: &Rectangle, colour: C) -> Result<(), Infallible> {
+        let seen = area.intersection(&self.area);
+        let word = word::<F>(colour);
+        for line in seen.rows() {
+            if let Some(run) = self.run(Point::new(seen.top_left.x, line), seen.size.width) {
+                F::fill(run, word);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// An overlay drawn anew on each line, by a closure that is given the line as a [`Canvas`] in
+/// coordinates of the picture.
+#[derive(Debug)]
+pub struct DrawnLines<D, C = Rgb888>(D, PhantomData<C>);
+
+impl<D, C> DrawnLines<D, C> {
+    /// Drawn by `draw`.
+    pub fn new<F: PixelFormat>(draw: D) -> Self
+    where
+        D: FnMut(&mut Canvas<'_, F, C>),
+    {
+        Self(draw, PhantomData)
+    }
+}
+
+impl<F, D, C> LineOverlay<F> for DrawnLines<D, C>
+where
+    F: PixelFormat,
+    D: FnMut(&mut Canvas<'_, F, C>),
+{
+    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
+        let width = pixels.len().min(usize::from(u16::MAX)) as u16;
+        let origin = Point::new(0, line.into());
+        (self.0)(&mut Canvas::new(pixels, origin, width));
+    }
+}

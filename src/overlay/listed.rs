@@ -1,0 +1,37 @@
+//! Overlays of an instruction list, painted from where they lie (K14).
+
+use super::LineOverlay;
+use crate::list::{OverlaySlot, OverlaySlots};
+use crate::pixel::PixelFormat;
+
+/// The overlays of a list, for [`draw_frame_overlaid`](crate::frame::draw_frame_overlaid). Each pixel is
+/// expanded where it is painted.
+///
+/// A list that is not in one piece, such as a ring, has none.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ListOverlays<'t> {
+    /// The words of the list.
+    pub words: &'t [u32],
+    /// The slots that its [`PlayerMemory`](crate::input::PlayerMemory) has too.
+    pub slots: &'t [OverlaySlot],
+}
+
+impl<F: PixelFormat> LineOverlay<F> for ListOverlays<'_> {
+    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
+        for row in OverlaySlots(self.slots).on(line, self.words) {
+            let below = pixels.get_mut(usize::from(row.left)..).unwrap_or_default();
+            for (column, pixel) in (0..row.width).zip(below) {
+                let [r, g, b, alpha] = row.rgba(column);
+                if alpha == 0 {
+                    continue;
+                }
+                let word = F::from_rgb8([r, g, b]);
+                *pixel = if row.additive {
+                    F::add(*pixel, word)
+                } else {
+                    word
+                };
+            }
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! What lies over the picture: sprites and painted lines (K14).
+
+#[cfg(feature = "embedded-graphics")]
+mod canvas;
+mod listed;
+mod sprites;
+
+#[cfg(feature = "embedded-graphics")]
+pub use canvas::{Canvas, DrawnLines};
+pub use listed::ListOverlays;
+pub use sprites::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};

@@ -1,0 +1,123 @@
+//! Triangles with vertices of their own: cut by a plane, of one colour, or made on the screen (K1, K11).
+
+use super::alpha;
+use super::assemble::bin_of;
+use super::cut::{Corner, cut_all};
+use super::pass::{Own, Pass, colour_of};
+use super::{Full, NONE, Object, Scene, TexturePlace, Vertex};
+use crate::geometry::{Coordinate, Mesh, Scale};
+
+impl<L> Scene<'_, '_, L> {
+    /// A face that brings its own vertices, and is cut where needed; of one colour, if it has one.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn file_one<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        face: u32,
+        corners: [u16; 3],
+        colour: Option<u32>,
+        pass: &mut Pass<'_>,
+    ) {
+        let corners = corners.map(|i| corner_of(mesh, i.into(), colour, pass, &self.scale));
+        let beyond = corners.map(|c| pass.view.beyond(c.point));
+        let any = beyond[0] | beyond[1] | beyond[2];
+        let before = self.objects.len();
+        let mut lost = None;
+        if beyond[0] & beyond[1] & beyond[2] == 0 {
+            if any == 0 {
+                lost = self.file_piece(corners, pass).err();
+            } else {
+                pass.clipped += 1;
+                let (view, pass) = (pass.view, &*pass);
+                cut_all(corners, &view, any, &mut |piece| {
+                    lost = lost.or(self.file_piece(piece, pass).err());
+                });
+            }
+        }
+        if let Some(memory) = lost {
+            pass.lost.lose(memory, face);
+        } else if self.objects.len() == before {
+            pass.culled += 1;
+        }
+    }
+
+    /// A triangle within all planes; an error names the memory that is full.
+    pub(super) fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
+        self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
+    }
+
+    /// A triangle with vertices of its own; an error names the memory that is full.
+    pub(super) fn file_own(&mut self, own: [Own; 3], pass: &Pass<'_>) -> Result<(), Full> {
+        let places = own.map(|own| own.vertex.place);
+        let Some((order, places)) = pass.order(places) else {
+            return Ok(());
+        };
+        let Some(bin) = bin_of(places, &self.picture()) else {
+            return Ok(());
+        };
+        let own = order.map(|i| own[usize::from(i) % 3]);
+        let base = self.vertices.len();
+        let record = usize::from(!pass.alphas.is_empty());
+        let Some(vertices) = self.vertices.append(3 + record) else {
+            return Err(Full::Vertices);
+        };
+        if let Some(record) = vertices.get_mut(3) {
+            *record = alpha::own_record(own.map(|own| own.alpha));
+        }
+        for (vertex, own) in vertices.iter_mut().zip(own) {
+            *vertex = own.vertex;
+        }
+        if pass.texels.is_some() {
+            let Some(places) = self.places.get_mut(base..base + 3) else {
+                self.vertices.truncate(base);
+                return Err(Full::Vertices);
+            };
+            for (place, own) in places.iter_mut().zip(own) {
+                *place = own.place;
+            }
+        }
+        let next = self.bins.get(bin).copied().unwrap_or(NONE);
+        let corner = [0, 1, 2].map(|i| base as u16 + i);
+        let Some(number) = self.objects.push(Object { corner, next }) else {
+            self.vertices.truncate(base);
+            return Err(Full::Objects);
+        };
+        if let Some(head) = self.bins.get_mut(bin) {
+            *head = number;
+        }
+        Ok(())
+    }
+}
+
+/// A corner of a face as the camera sees it, of a colour, or lit; out of line, since a face has three.
+#[inline(never)]
+fn corner_of<C: Coordinate>(
+    mesh: &Mesh<'_, C>,
+    i: usize,
+    colour: Option<u32>,
+    pass: &Pass<'_>,
+    scale: &Scale,
+) -> Corner {
+    Corner {
+        point: pass.view.point(mesh.positions[i]),
+        colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
+        texel: pass.texel(i),
+        alpha: pass.alpha(i),
+    }
+}
+
+/// A corner within all planes as a vertex; out of line, since a triangle has three.
+#[inline(never)]
+fn own_of(corner: Corner, pass: &Pass<'_>) -> Own {
+    let on = pass.view.project(corner.point);
+    Own {
+        vertex: Vertex {
+            place: on.place,
+            depth: on.depth,
+            colour: corner.colour,
+        },
+        place: TexturePlace::new(corner.texel, on.fine),
+        alpha: corner.alpha,
+    }
+}
