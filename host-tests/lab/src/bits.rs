@@ -14,7 +14,8 @@ pub const BITS: u32 = 0x3A21_1B8E;
 /// Pixels of a line.
 const WIDTH: usize = 61;
 
-const METHODS: [Method; 13] = [
+/// Every method.
+pub(crate) const METHODS: [Method; 13] = [
     Method::Plane,
     Method::Packed8,
     Method::Packed16,
@@ -30,6 +31,7 @@ const METHODS: [Method; 13] = [
     Method::EXACT,
 ];
 
+/// Every depth.
 const DEPTHS: [DepthMethod; 6] = [
     DepthMethod::Bits16,
     DepthMethod::Bits22,
@@ -39,7 +41,8 @@ const DEPTHS: [DepthMethod; 6] = [
     DepthMethod::Word,
 ];
 
-const STRIDES: [Stride; 6] = [
+/// Every way of dividing.
+pub(crate) const STRIDES: [Stride; 6] = [
     Stride::One,
     Stride::Two,
     Stride::Four,

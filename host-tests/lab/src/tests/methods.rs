@@ -1,6 +1,7 @@
 //! Every method against the colours that it stands for.
 
 use super::Rng;
+use crate::bits::METHODS;
 use crate::colours::Colours;
 use crate::format::{FRACTION, Format};
 use crate::method::Method;
@@ -8,22 +9,6 @@ use crate::paint::paint;
 use scanbeam::pixel::{Rgb565, Rgb888};
 use std::vec::Vec;
 use std::{println, vec};
-
-pub(super) const METHODS: [Method; 13] = [
-    Method::Plane,
-    Method::Packed8,
-    Method::Packed16,
-    Method::Half,
-    Method::Quarter,
-    Method::Whole,
-    Method::Lirp(10),
-    Method::Lirp(12),
-    Method::Lirp(16),
-    Method::LirpPacked,
-    Method::FAST,
-    Method::BALANCED,
-    Method::EXACT,
-];
 
 /// Colours of a format along so many pixels, as near to either end of their range as there are.
 pub(super) fn random<F: Format>(rng: &mut Rng) -> (Colours, usize) {

@@ -1,17 +1,9 @@
 //! Texture places along spans against f64.
 
 use super::Rng;
+use crate::bits::STRIDES;
 use crate::perspective::{FRACTION, Homogeneous, PerspectiveSpan, Stride, Uv};
 use std::{println, vec};
-
-const STRIDES: [Stride; 6] = [
-    Stride::One,
-    Stride::Two,
-    Stride::Four,
-    Stride::Eight,
-    Stride::Sixteen,
-    Stride::Affine,
-];
 
 /// A span in real numbers: 1/w, u and v (texels) at the first and last pixel's centre.
 struct Ends {

@@ -1,7 +1,7 @@
 //! Lines of triangles against the fill rule, planes and depth of whole numbers and f64.
 
 use super::Rng;
-use super::methods::METHODS;
+use crate::bits::METHODS;
 use crate::depth::DepthMethod;
 use crate::format::Format;
 use crate::lines::{Triangle, draw_line};
