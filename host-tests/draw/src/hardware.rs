@@ -7,7 +7,6 @@ use crate::{CrewSettings, DrawFailure, Drawn, Overfull, Prepared, Setting, forma
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use host_support::rooms::SceneRooms;
-use scanbeam::frame::FrameUse;
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{Pixel, Rgb565Be, Rgb888};
 use scanbeam::scene::DrawError;
@@ -76,15 +75,7 @@ fn draw_in<F: Pixel>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFail
                 depth_tests: counts.pixels as u32,
                 ..SpanCounts::default()
             };
-            Ok(Took {
-                used: FrameUse {
-                    assembled: scene.assembled(),
-                    scan_out: pump.stats(),
-                    ..FrameUse::default()
-                },
-                spans: Some(spans),
-                fast_bytes: memory.bytes(),
-            })
+            Ok(Took::by_other(scene, pump, spans, memory.bytes()))
         },
     )
 }

@@ -5,7 +5,6 @@ use crate::parts::{Display, Job, Took, draw_parts_by, room_for};
 use crate::{CrewSettings, DrawFailure, Drawn, Prepared, Setting, draw, draw_model, formats};
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
-use scanbeam::frame::FrameUse;
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{Pixel, Rgb565, Rgb888};
 use scanbeam::scan_out::Window;
@@ -114,13 +113,6 @@ fn draw_lines<F: Pixel + Format>(
         pump.line_done().map_err(failed)?;
     }
     pump.finish().map_err(failed)?;
-    Ok(Took {
-        used: FrameUse {
-            assembled: scene.assembled(),
-            scan_out: pump.stats(),
-            ..FrameUse::default()
-        },
-        spans: Some(spans),
-        fast_bytes: size_of_val(cells.as_slice()),
-    })
+    let fast_bytes = size_of_val(cells.as_slice());
+    Ok(Took::by_other(scene, pump, spans, fast_bytes))
 }

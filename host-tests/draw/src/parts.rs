@@ -142,6 +142,26 @@ pub(crate) struct Took {
     pub(crate) fast_bytes: usize,
 }
 
+impl Took {
+    /// What a band took that was not drawn by a [`Renderer`].
+    pub(crate) fn by_other<'t, L: Look<Pixel = F>, F: Pixel>(
+        scene: &Scene<'_, 't, L>,
+        pump: &Display<F>,
+        spans: SpanCounts,
+        fast_bytes: usize,
+    ) -> Self {
+        Self {
+            used: FrameUse {
+                assembled: scene.assembled(),
+                scan_out: pump.stats(),
+                ..FrameUse::default()
+            },
+            spans: Some(spans),
+            fast_bytes,
+        }
+    }
+}
+
 /// The pump to the mocked display of a part.
 pub(crate) type Display<F> = Pump<MockFrameBuffer<<F as PixelFormat>::Word>>;
 
