@@ -2,20 +2,12 @@
 //! another far.
 
 use crate::common::Rng;
-use crate::hot::{SceneRooms, camera, frame};
+use crate::hot::{NO_MESH, SceneRooms, camera, frame};
 use scanbeam::look::Textured;
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::Rgb565;
 use scanbeam::scene::{Budget, Checker, Draw, Gradient, ScreenCorner, Skin, Texels, Texture, Wrap};
-use scanbeam::{Cull, Faces, Mesh, Screen};
-
-/// No faces: what is drawn lies on the screen.
-const NONE: Mesh<'static> = Mesh {
-    positions: &[],
-    normals: &[],
-    colours: &[],
-    faces: Faces::Triangles(&[]),
-};
+use scanbeam::{Cull, Screen};
 
 fn corner(x: i16, y: i16, depth: u32, texel: [i32; 2]) -> ScreenCorner {
     let vertex = ScreenVertex {
@@ -44,7 +36,7 @@ fn picture(
             budget,
         }),
         cull: Cull::None,
-        ..Draw::new(NONE)
+        ..Draw::new(NO_MESH)
     };
     scene.draw_screen(&call, &[corners]).unwrap();
     assert_eq!(scene.assembled().untextured, 0);

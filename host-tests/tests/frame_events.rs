@@ -1,6 +1,6 @@
 //! Status events of whole frames (H14).
 
-use crate::hot::{LineRooms, SceneRooms, camera};
+use crate::hot::{LineRooms, NO_MESH, SceneRooms, camera};
 use host_tests::mock::{HostLine, MockFrameBuffer};
 use scanbeam::event::Event;
 use scanbeam::look::Gouraud;
@@ -8,19 +8,12 @@ use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::{DepthFunction, DepthTest, ScreenCorner};
-use scanbeam::{Cull, Draw, Faces, Mesh, Screen, draw_frame};
+use scanbeam::{Cull, Draw, Screen, draw_frame};
 
 type Look = Gouraud<Rgb565Be>;
 
 const WIDTH: u16 = 24;
 const HEIGHT: u16 = 17;
-const EMPTY: Mesh = Mesh {
-    positions: &[],
-    normals: &[],
-    colours: &[],
-    faces: Faces::Triangles(&[]),
-};
-
 /// A triangle at a column, so near.
 fn near(x: i16, depth: u32) -> [ScreenCorner; 3] {
     let at = |dx, y| ScreenCorner {
@@ -44,7 +37,7 @@ fn events(triangles: &[[ScreenCorner; 3]], depth: DepthTest, room: usize) -> Vec
     let call = Draw {
         cull: Cull::None,
         depth,
-        ..Draw::new(EMPTY)
+        ..Draw::new(NO_MESH)
     };
     for triangle in triangles {
         // That memory is full is one of the events.

@@ -7,7 +7,7 @@ mod sampled;
 
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
-use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
+use crate::hot::{Corner, NO_MESH, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
@@ -254,20 +254,11 @@ fn what_is_made_on_the_screen_has_alphas() {
                 ..ScreenCorner::default()
             })
         });
-        let empty = Mesh {
-            positions: &[] as &[[i16; 3]],
-            ..Mesh {
-                positions: &[],
-                normals: &[],
-                colours: &[],
-                faces: Faces::Triangles(&[]),
-            }
-        };
         let call = Draw {
             cull: Cull::None,
             alphas: &alphas,
             blend: Some(Blend::add(255)),
-            ..Draw::new(empty)
+            ..Draw::new(NO_MESH)
         };
         scene.draw_screen(&call, &faces).expect("there is room");
         let lines = frame(&scene, 8, true, BLACK);

@@ -2,7 +2,7 @@
 //! what stretches farther is white, counted once, and told.
 
 use crate::common::Rng;
-use crate::hot::{LineRooms, SceneRooms, Smooth, camera, line};
+use crate::hot::{LineRooms, NO_MESH, SceneRooms, Smooth, camera, line};
 use scanbeam::event::Event;
 use scanbeam::look::{Textured, TexturedPhong};
 use scanbeam::mesh::ScreenVertex;
@@ -22,14 +22,6 @@ fn columns() -> &'static [u16] {
 fn texture() -> &'static Texture<'static> {
     Box::leak(Box::new(Texture::words(columns(), 1024, 1).unwrap()))
 }
-
-/// No faces: what is drawn lies on the screen.
-const NONE: Mesh<'static> = Mesh {
-    positions: &[],
-    normals: &[],
-    colours: &[],
-    faces: Faces::Triangles(&[]),
-};
 
 /// A call of the texture, of either side.
 fn textured<'a>(mesh: Mesh<'a>, places: &'a [[i32; 2]], budget: Budget) -> Draw<'a, 'static> {
@@ -67,7 +59,7 @@ fn picture(triangles: &[[ScreenCorner; 3]], budget: Budget, slots: u16) -> (Vec<
     let mut rooms = SceneRooms::of_triangles(triangles.len(), screen);
     let mut scene = rooms.scene::<Textured<Rgb565>>(screen);
     scene.begin(&camera()).unwrap();
-    let call = textured(NONE, &[], budget);
+    let call = textured(NO_MESH, &[], budget);
     scene.draw_screen(&call, triangles).unwrap();
     let mut rooms = LineRooms::fitting(&scene, slots, true);
     let mut renderer = rooms.renderer();
@@ -160,7 +152,7 @@ fn wide_triangles_are_counted_once() {
     let mut rooms = SceneRooms::of_triangles(2 * triangles.len(), screen);
     let mut scene = rooms.scene::<Textured<Rgb565>>(screen);
     scene.begin(&camera()).unwrap();
-    let mut call = textured(NONE, &[], Budget::FAST);
+    let mut call = textured(NO_MESH, &[], Budget::FAST);
     for half in triangles.chunks(45) {
         scene.draw_screen(&call, half).unwrap();
     }

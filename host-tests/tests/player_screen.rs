@@ -2,6 +2,7 @@
 //! rules that define them, and against the same calls.
 
 use crate::common::Rng;
+use crate::hot::NO_MESH;
 use crate::listing::{Cloud, PLENTY, in_blocks, some_format, unrolled};
 use crate::played::lists::after_a_triangle;
 use crate::played::{HEIGHT, Kept, WIDTH, drawn, played};
@@ -19,13 +20,6 @@ use scanbeam::scene::{Draw, DrawError, ScreenCorner, Shading};
 use scanbeam::{Affine, Cull, Faces, Light, Mesh};
 
 type Smooth = Gouraud<Rgb565Be>;
-
-const NONE: Mesh<'static> = Mesh {
-    positions: &[],
-    normals: &[],
-    colours: &[],
-    faces: Faces::Triangles(&[]),
-};
 
 /// Vertices on and around the picture.
 fn on_screen(rng: &mut Rng, count: usize) -> Vec<ScreenVertex> {
@@ -49,7 +43,7 @@ fn listed(list: &[u32], shading: Shading, vertices: usize) -> Vec<u16> {
     let settings = PlayerSettings {
         draw: Draw {
             shading,
-            ..Draw::new(NONE)
+            ..Draw::new(NO_MESH)
         },
         ..PlayerSettings::default()
     };
@@ -124,7 +118,7 @@ fn long_vertices_are_triangles_of_calls() {
         let call = Draw {
             cull: if two_sided { Cull::None } else { Cull::Back },
             shading,
-            ..Draw::new(NONE)
+            ..Draw::new(NO_MESH)
         };
         let want = drawn::<Smooth>(|scene| scene.draw_screen(&call, &triangles).unwrap());
         assert!(listed(writer.words(), shading, 8) == want, "seed {seed}");
@@ -175,7 +169,7 @@ fn triangles_on_the_screen_cover_what_the_rule_says_and_the_nearest_is_seen() {
         let both = [corner(1 << 30, [255; 3]), corner(1 << 29, [255, 0, 0])];
         let call = Draw {
             cull: Cull::None,
-            ..Draw::new(NONE)
+            ..Draw::new(NO_MESH)
         };
         let got = drawn::<Smooth>(|scene| scene.draw_screen(&call, &both).unwrap());
         let p = [0, 1, 2].map(|k: usize| (i64::from(vertices[k].x), i64::from(vertices[k].y)));
@@ -203,7 +197,7 @@ fn triangles_on_the_screen_cover_what_the_rule_says_and_the_nearest_is_seen() {
                 ..Draw::new(Mesh {
                     positions: &[[-16_384, -16_384, 0], [16_384, -16_384, 0], [0, 16_384, 0]],
                     faces: Faces::Triangles(&[[0, 1, 2]]),
-                    ..NONE
+                    ..NO_MESH
                 })
             };
             scene.draw(&call).unwrap();
@@ -219,8 +213,8 @@ fn triangles_on_the_screen_cover_what_the_rule_says_and_the_nearest_is_seen() {
             scene
                 .draw_screen(
                     &Draw {
-                        mesh: NONE,
-                        ..Draw::new(NONE)
+                        mesh: NO_MESH,
+                        ..Draw::new(NO_MESH)
                     },
                     &[red],
                 )
@@ -236,7 +230,7 @@ fn what_cannot_be_drawn_on_the_screen_is_said() {
     let corners = [[ScreenCorner::default(); 3]];
     drawn::<Phong<Rgb565Be>>(|scene| {
         assert_eq!(
-            scene.draw_screen(&Draw::new(NONE), &corners),
+            scene.draw_screen(&Draw::new(NO_MESH), &corners),
             Err(DrawError::Light)
         );
     });
@@ -250,7 +244,7 @@ fn what_cannot_be_drawn_on_the_screen_is_said() {
             texel: [0; 2],
         });
         let many = vec![large; 20_000];
-        let done = scene.draw_screen(&Draw::new(NONE), &many);
+        let done = scene.draw_screen(&Draw::new(NO_MESH), &many);
         assert!(matches!(done, Err(DrawError::Full { triangles, .. }) if triangles > 10_000));
         assert!(scene.objects() > 6_000);
     });
@@ -349,7 +343,7 @@ fn points_are_squares_of_pixels_where_they_project_to() {
         let first = first.map(|c| c.floor() as i64);
         let mesh = Mesh {
             positions: &[point],
-            ..NONE
+            ..NO_MESH
         };
         let got = drawn::<Smooth>(|scene| scene.draw_points(&Draw::new(mesh), size).unwrap());
         for (n, pixel) in (0..).zip(&got) {

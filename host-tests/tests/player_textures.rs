@@ -203,7 +203,33 @@ fn sample_of(rng: &mut Rng, form: TexelForm, has_holes: bool, sides: [u8; 2]) ->
     }
 }
 
+/// A texel's word, whatever its alpha is.
+fn word_of([r, g, b, _]: [u8; 4]) -> u16 {
+    Rgb565Be::from_rgb8([r, g, b])
+}
+
 impl Sample {
+    /// What lies beyond its sides.
+    fn wrap(&self) -> Wrap {
+        match self.block.clamped {
+            true => Wrap::Clamp,
+            false => Wrap::Repeat,
+        }
+    }
+
+    /// The words of its texels, whatever their alphas are.
+    fn words(&self) -> Vec<u16> {
+        self.texels.iter().map(|texel| word_of(*texel)).collect()
+    }
+
+    /// The texture that calls have for it, of these words.
+    fn texture<'t>(&self, words: &'t [u16]) -> Texture<'t> {
+        let (width, height) = (1 << self.block.log_width, 1 << self.block.log_height);
+        Texture::words(words, width, height)
+            .unwrap()
+            .wrapping(self.wrap())
+    }
+
     /// A list that draws a quad with it, with PRSP or not.
     fn list(&self, prsp: bool) -> Vec<u32> {
         let mut memory = vec![0; 16_384];
@@ -233,29 +259,21 @@ fn textures_of_every_form_are_those_of_calls() {
             let list = &sample.list(prsp)[..];
 
             // A word that is no texel's stands for the holes.
-            let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
             let is_opaque = |texel: &&[u8; 4]| texel[3] == 255;
             let opaque: Vec<u16> = sample
                 .texels
                 .iter()
                 .filter(is_opaque)
-                .map(|t| word(*t))
+                .map(|t| word_of(*t))
                 .collect();
             let key = (0..=u16::MAX)
                 .rev()
                 .find(|word| !opaque.contains(word))
                 .unwrap();
             let words: Vec<u16> = (sample.texels.iter())
-                .map(|texel| if texel[3] == 0 { key } else { word(*texel) })
+                .map(|texel| if texel[3] == 0 { key } else { word_of(*texel) })
                 .collect();
-            let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
-            let wrap = match sample.block.clamped {
-                true => Wrap::Clamp,
-                false => Wrap::Repeat,
-            };
-            let texture = Texture::words(&words, width, height)
-                .unwrap()
-                .wrapping(wrap);
+            let texture = sample.texture(&words);
             let texture = if has_holes {
                 texture.keyed(key)
             } else {
@@ -294,14 +312,16 @@ fn levelled(form: TexelForm, seed: u64, sides: [u8; 2]) -> (Sample, Vec<Vec<u16>
             }
         }
     }
-    let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
     let texels = || all.iter().flat_map(|sample| &sample.texels);
-    let opaque: Vec<u16> = texels().filter(|t| t[3] == 255).map(|t| word(*t)).collect();
+    let opaque: Vec<u16> = texels()
+        .filter(|t| t[3] == 255)
+        .map(|t| word_of(*t))
+        .collect();
     let key = (0..=u16::MAX)
         .rev()
         .find(|word| !opaque.contains(word))
         .unwrap();
-    let of = |texel: &[u8; 4]| if texel[3] == 0 { key } else { word(*texel) };
+    let of = |texel: &[u8; 4]| if texel[3] == 0 { key } else { word_of(*texel) };
     let levels = (all.iter())
         .map(|sample| sample.texels.iter().map(of).collect())
         .collect();
@@ -332,11 +352,7 @@ fn levels_of_detail_are_those_of_calls() {
             Texture::words(&words[level], width, height).unwrap()
         };
         let coarser = [level(1), level(2), level(3)];
-        let wrap = match whole.block.clamped {
-            true => Wrap::Clamp,
-            false => Wrap::Repeat,
-        };
-        let first = level(0).wrapping(wrap).keyed(key);
+        let first = level(0).wrapping(whole.wrap()).keyed(key);
         let sampled = first.sampled(Sampling::NEAREST, &coarser).unwrap();
         let want = call_quad(&sampled, Budget::BALANCED);
         let mut kept = Kept::new(64, 96);
@@ -522,17 +538,9 @@ fn texels_with_alpha_are_those_of_calls() {
         let mut sample = sample(&mut rng, form, false);
         let masks = make_translucent(&mut rng, &mut sample, has_alpha);
         let list = &sample.list(true)[..];
-        let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
-        let words: Vec<u16> = sample.texels.iter().map(|texel| word(*texel)).collect();
-        let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
-        let wrap = match sample.block.clamped {
-            true => Wrap::Clamp,
-            false => Wrap::Repeat,
-        };
-        let plain = Texture::words(&words, width, height)
-            .unwrap()
-            .wrapping(wrap);
-        let mask = Texture::words(&masks, width, height).unwrap();
+        let words = sample.words();
+        let plain = sample.texture(&words);
+        let mask = Texture::words(&masks, plain.width(), plain.height()).unwrap();
         let masked = plain.masked(&mask).unwrap();
         // Shaded, so that there is something to dither.
         let light = Light::new([0.8, 0.0, 0.6], 0.3);
@@ -574,16 +582,8 @@ fn textures_of_lists_are_filtered_as_those_of_calls() {
     for form in [TexelForm::Rgb565, TexelForm::Index4, TexelForm::Rgba] {
         let sample = sample(&mut rng, form, false);
         let list = &sample.list(true)[..];
-        let word = |[r, g, b, _]: [u8; 4]| Rgb565Be::from_rgb8([r, g, b]);
-        let words: Vec<u16> = sample.texels.iter().map(|t| word(*t)).collect();
-        let (width, height) = (1 << sample.block.log_width, 1 << sample.block.log_height);
-        let wrap = match sample.block.clamped {
-            true => Wrap::Clamp,
-            false => Wrap::Repeat,
-        };
-        let plain = Texture::words(&words, width, height)
-            .unwrap()
-            .wrapping(wrap);
+        let words = sample.words();
+        let plain = sample.texture(&words);
         let pictures = [None, Some(Sampling::LINEAR)].map(|sampling| {
             let texture = match sampling {
                 Some(sampling) => plain.sampled(sampling, &[]).unwrap(),

@@ -4,12 +4,13 @@
 //! that cover it; what is covered is told by the model's vertex sort.
 
 use crate::common::Rng;
+use crate::hot::NO_MESH;
 use host_tests::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::look::{Gouraud, Look};
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{Draw, Scissor, ScreenCorner};
-use scanbeam::{Camera, Cull, Faces, Mesh, Scene, Screen};
+use scanbeam::{Camera, Cull, Scene, Screen};
 use scanbeam_model::{CuspPolygon, ModelSpan, Wins, priority_contest};
 use std::ops::Range;
 
@@ -65,17 +66,11 @@ impl Face {
     }
 
     fn draw<L: Look>(&self, scene: &mut Scene<'_, '_, L>, scissor: Option<Scissor>) {
-        let nothing = Mesh {
-            positions: &[],
-            normals: &[],
-            colours: &[],
-            faces: Faces::Triangles(&[]),
-        };
         let call = Draw {
             cull: Cull::None,
             priority: self.priority,
             scissor,
-            ..Draw::new(nothing)
+            ..Draw::new(NO_MESH)
         };
         let corners = self.corners.map(|vertex| ScreenCorner {
             vertex,

@@ -1,4 +1,4 @@
-//! What the proofs of the new drawing rooms share: memory for scenes and renderers, triangles whose
+//! What the proofs of the hot path share: memory for scenes and renderers, triangles whose
 //! corners lie on chosen 1/8 pixels at chosen distances, and what is exact at a pixel.
 
 pub mod count;
@@ -19,6 +19,14 @@ use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 
 /// Distance of the near plane: what is 1 away is just behind it.
 pub const NEAR: f64 = 1.0 - 1.0 / 1024.0;
+
+/// The mesh of calls that draw triangles of the screen.
+pub const NO_MESH: Mesh<'static> = Mesh {
+    positions: &[],
+    normals: &[],
+    colours: &[],
+    faces: Faces::Triangles(&[]),
+};
 
 /// Units of 1/8 pixel from the left and the top of the picture.
 pub type Place = (i32, i32);
