@@ -16,7 +16,7 @@ use scanbeam::Link;
 use scanbeam::frame::FastMemory;
 use scanbeam::look::Look;
 use scanbeam::scene::{Object, Shading, TexturePlace, Vertex};
-use scenes::{LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, Shot, Suite};
+use scenes::{PhongLook, Shot, SmoothLook, Suite, TexturedLook, TexturedPhongLook};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -52,15 +52,15 @@ const PLACE: usize = size_of::<TexturePlace>();
 
 /// All of them.
 pub const PROGRAMS: [Program; 7] = [
-    program::<LeanLook>("Gouraud, plain", &[], 0),
-    program::<LeanLook>("Gouraud, plain, flat faces", &["sized", "flat"], 0),
-    program::<LeanLook>("Gouraud", &["sized", "values"], 0),
-    program::<LeanTextured>("Textured, plain", &["sized", "textured"], PLACE),
-    program::<LeanTextured>("Textured", &["sized", "textured", "values"], PLACE),
-    program::<LeanPhong>("Phong, plain", &["sized", "phong"], 0),
+    program::<SmoothLook>("Gouraud, plain", &[], 0),
+    program::<SmoothLook>("Gouraud, plain, flat faces", &["sized", "flat"], 0),
+    program::<SmoothLook>("Gouraud", &["sized", "values"], 0),
+    program::<TexturedLook>("Textured, plain", &["sized", "textured"], PLACE),
+    program::<TexturedLook>("Textured", &["sized", "textured", "values"], PLACE),
+    program::<PhongLook>("Phong, plain", &["sized", "phong"], 0),
     Program {
         binary: "looks",
-        ..program::<LeanPhongTextured>("all looks, with shadows", &[], PLACE)
+        ..program::<TexturedPhongLook>("all looks, with shadows", &[], PLACE)
     },
 ];
 

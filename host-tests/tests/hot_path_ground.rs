@@ -1,4 +1,4 @@
-//! Texels of the new rooms on a ground plane that goes through a near plane of 0.02, against f64: its edges are
+//! Texels on a ground plane that goes through a near plane of 0.02, against f64: its edges are
 //! cut far outside of the picture, and what is shown is read back from the picture (X13, H4, X2).
 //!
 //! Wanted at [`Budget::EXACT`] are 0.3 % of another texel at most. Pixels whose texel was another one when this was

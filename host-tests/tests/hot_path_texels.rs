@@ -1,4 +1,4 @@
-//! Texels of the new rooms against f64, on a field of 27 cubes whose texture names each texel: what is shown is
+//! Texels against f64, on a field of 27 cubes whose texture names each texel: what is shown is
 //! read back from the picture. And textured pictures by any cache and any order of lines.
 //!
 //! The reference knows the vertices unsnapped, so what snapping moves is counted with the rest (X13, H4, X2).

@@ -1,4 +1,4 @@
-//! K9: shadow volumes of meshes in the rooms `scene`, `look` and `frame`, against rays cast in f64, and what is
+//! K9: shadow volumes of meshes, against rays cast in f64, and what is
 //! refused. The worlds, and what rays say of them, are those of `shadow_world`.
 
 use crate::common::Rng;

@@ -2,13 +2,13 @@
 //! spans (B1, B2, B4, B6).
 
 use crate::hot::exact::within;
-use crate::hot::{SceneRooms, frame};
+use crate::hot::{NO_MESH, SceneRooms, frame};
+use scanbeam::Cull;
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::Rgb888;
 use scanbeam::scan_out::BlockFrame;
 use scanbeam::scene::{Blocked, Draw, FiledTriangle, Scene, ScreenCorner, Shading};
-use scanbeam::{Cull, Faces, Mesh};
 use scanbeam_model::{Cluster, Grid, Traversal};
 use scenes::{DRAWS, HEIGHT, OBJECTS, SHOTS, Shot, VERTICES, WIDTH};
 
@@ -55,16 +55,10 @@ fn numbered<'m>(shot: Shot, rooms: &'m mut SceneRooms) -> Scene<'m, 'static, L> 
         .collect();
     let mut scene = rooms.scene::<L>(Shot::screen());
     scene.begin(&crate::hot::camera()).unwrap();
-    let nothing = Mesh {
-        positions: &[],
-        normals: &[],
-        colours: &[],
-        faces: Faces::Triangles(&[]),
-    };
     let call = Draw {
         cull: Cull::None,
         shading: Shading::Flat,
-        ..Draw::new(nothing)
+        ..Draw::new(NO_MESH)
     };
     scene.draw_screen(&call, &faces).unwrap();
     assert_eq!(scene.objects(), faces.len());

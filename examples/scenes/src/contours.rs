@@ -11,7 +11,7 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 pub struct Contours;
 
 /// The look of them, as an SPI panel takes it.
-pub type LeanContours = Shaded<Contours>;
+pub type ContourLook = Shaded<Contours>;
 
 impl Shader for Contours {
     type Pixel = Rgb565Be;

@@ -22,9 +22,8 @@
 mod contours;
 mod frames;
 mod lamps;
-mod lean;
 mod listed;
-mod methods;
+mod looks;
 mod mirror;
 mod octasphere;
 mod played;
@@ -36,12 +35,11 @@ mod suite;
 mod texels;
 mod values;
 
-pub use contours::{CONTOURED, Contours, LeanContours};
+pub use contours::{CONTOURED, ContourLook, Contours};
 pub use frames::{Frame, frames};
 pub use lamps::{lamplit_teapot, teapot_lamps};
-pub use lean::{LeanLook, LeanTextured};
 pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
-pub use methods::{METHOD_HEIGHT, METHOD_WIDTH, build_method, method_screen};
+pub use looks::{SmoothLook, TexturedLook};
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};
 pub use played::{PLAYED, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, PlayedError};
@@ -59,7 +57,7 @@ pub use suite::{
 };
 pub use texels::{TEXEL_SIDE, TEXELS_565};
 pub use values::{
-    LeanIndexed, LeanPhong, LeanPhongTextured, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN,
+    IndexedLook, PhongLook, TexturedPhongLook, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN,
     VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,
 };
 

@@ -1,7 +1,7 @@
 //! A random sheet of triangles over the whole picture, for the proof that no pixel is missed and
 //! none is hit twice (K4).
 
-use crate::{HEIGHT, LeanLook, Shot, ShotError, WIDTH};
+use crate::{HEIGHT, Shot, ShotError, SmoothLook, WIDTH};
 use scanbeam::frame::LineError;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::Blend;
@@ -106,8 +106,8 @@ impl Sheet {
     /// When the memory of scene or renderer is too small.
     pub fn hits(
         &self,
-        scene: &mut Scene<'_, '_, LeanLook>,
-        renderer: &mut Renderer<'_, LeanLook>,
+        scene: &mut Scene<'_, '_, SmoothLook>,
+        renderer: &mut Renderer<'_, SmoothLook>,
     ) -> Result<Hits, SheetError> {
         let mut hits = Hits::default();
         self.draw(Some(Blend::add(255)), scene, renderer, |pixel| {
@@ -126,8 +126,8 @@ impl Sheet {
     fn draw(
         &self,
         blend: Option<Blend>,
-        scene: &mut Scene<'_, '_, LeanLook>,
-        renderer: &mut Renderer<'_, LeanLook>,
+        scene: &mut Scene<'_, '_, SmoothLook>,
+        renderer: &mut Renderer<'_, SmoothLook>,
         mut look: impl FnMut(u16),
     ) -> Result<(), SheetError> {
         let camera = Camera::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 160.0, 0.1, 9.0);

@@ -3,7 +3,7 @@
 use scanbeam::frame::{FastMemory, Memory as LineMemory};
 use scanbeam::scene::{DrawState, Memory, Object, Vertex};
 use scanbeam::{Link, Renderer, Scene};
-use scenes::{Hits, LeanLook, SHEET_TRIANGLES, SHEETS, Sheet, Shot};
+use scenes::{Hits, SHEET_TRIANGLES, SHEETS, Sheet, Shot, SmoothLook};
 
 /// Kills: a side that turns a line late (`turn` in `span/triangle.rs`).
 #[test]
@@ -12,7 +12,7 @@ fn every_pixel_of_a_sheet_is_hit_once() {
     let mut objects = vec![Object::EMPTY; SHEET_TRIANGLES];
     let mut bins = vec![0; 240];
     let mut draws = [DrawState::EMPTY];
-    let mut cache = Box::new(FastMemory::<LeanLook>::new());
+    let mut cache = Box::new(FastMemory::<SmoothLook>::new());
     let mut links = vec![Link::EMPTY; SHEET_TRIANGLES];
     for slots in [64, 16] {
         cache.set_limit(slots);

@@ -11,7 +11,7 @@ use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Frame, LeanLook, LeanTextured, Played, SUITE_LINES, Shot, ShotError, Values, ValuesMemory,
+    Frame, SmoothLook, TexturedLook, Played, SUITE_LINES, Shot, ShotError, Values, ValuesMemory,
     Variant, WIDTH,
 };
 
@@ -86,7 +86,7 @@ type Build<'b, L> = &'b dyn Fn(&mut Scene<'_, 'static, L>) -> Result<(), ShotErr
 impl Sent<'_, '_> {
     /// A scene of smooth colours.
     #[inline(never)]
-    fn smooth(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, LeanLook>) {
+    fn smooth(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, SmoothLook>) {
         let mut scene = rooms.scene.scene();
         build(&mut scene).expect(LARGE);
         let mut renderer = rooms.lines.renderer(rooms.caches.smooth);
@@ -95,7 +95,7 @@ impl Sent<'_, '_> {
 
     /// A scene with textures.
     #[inline(never)]
-    fn textured(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, LeanTextured>) {
+    fn textured(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, TexturedLook>) {
         let mut scene = rooms.scene.scene();
         build(&mut scene).expect(LARGE);
         let mut renderer = rooms.lines.renderer(rooms.caches.textured);
@@ -105,7 +105,7 @@ impl Sent<'_, '_> {
     /// A shot as it says.
     fn shot(&mut self, how: Variant, rooms: &mut Rooms) {
         let background = how.shot.background();
-        let build: Build<'_, LeanLook> = &|scene| how.shot.build_shaded(how.shading, scene);
+        let build: Build<'_, SmoothLook> = &|scene| how.shot.build_shaded(how.shading, scene);
         if how.renderers > 1 {
             return self.by_two(how, rooms, build);
         }
@@ -128,7 +128,7 @@ impl Sent<'_, '_> {
 
     /// Two renderers of one scene take turns, as they would on two cores.
     #[inline(never)]
-    fn by_two(&mut self, how: Variant, rooms: &mut Rooms, build: Build<'_, LeanLook>) {
+    fn by_two(&mut self, how: Variant, rooms: &mut Rooms, build: Build<'_, SmoothLook>) {
         let (first, second) = (&mut *rooms.caches.smooth, &mut *rooms.caches.second);
         first.set_limit(how.slots);
         second.set_limit(how.slots);
@@ -151,7 +151,7 @@ impl Sent<'_, '_> {
     /// A shot by the hardware model.
     #[inline(never)]
     fn model(&mut self, shot: Shot, rooms: &mut Rooms) {
-        let mut scene: Scene<'_, '_, LeanLook> = rooms.scene.scene();
+        let mut scene: Scene<'_, '_, SmoothLook> = rooms.scene.scene();
         shot.build(&mut scene).expect(LARGE);
         let [z0, z1, c0, c1] = &mut rooms.model;
         let mut renderer = ModelRenderer::new(PipeMemory {

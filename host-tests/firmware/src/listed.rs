@@ -5,7 +5,7 @@ use crate::rooms::Rooms;
 use crate::unpacked::Unpacked;
 use scanbeam::list::ListCommand;
 use scanbeam::{Draw, Scene};
-use scenes::{LeanLook, Played};
+use scenes::{SmoothLook, Played};
 
 /// From the list: the vertices that were transformed and the triangles that were filed.
 #[inline(never)]
@@ -19,7 +19,7 @@ pub(crate) fn by_list(begin: ListCommand, rooms: &mut Rooms) -> (u32, u32) {
 /// By immediate calls; what [`by_list`] gives.
 #[inline(never)]
 pub(crate) fn by_draws(unpacked: &Unpacked, rooms: &mut Rooms) -> (u32, u32) {
-    let mut scene: Scene<'_, '_, LeanLook> = rooms.scene.scene();
+    let mut scene: Scene<'_, '_, SmoothLook> = rooms.scene.scene();
     let camera = Played::Teapot.camera().expect("it sees");
     scene.begin(&camera).expect("a bin for each line");
     let mut vertices = 0;

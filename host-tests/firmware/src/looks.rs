@@ -19,7 +19,7 @@ use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::DrawState;
 use scanbeam::{Renderer, Scene};
 use scenes::{
-    LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, Shot, ShotError, Suite, WIDTH,
+    SmoothLook, PhongLook, TexturedPhongLook, TexturedLook, Shot, ShotError, Suite, WIDTH,
     lamplit_teapot, teapot_lamps,
 };
 
@@ -31,24 +31,24 @@ fn main() -> ! {
         exit(false)
     };
     let teapot = Suite::Teapot;
-    let mut room = room!(LeanLook, VERTICES);
+    let mut room = room!(SmoothLook, VERTICES);
     show(&mut room, counts, teapot, &mut display, |scene| {
         teapot.build(scene)
     });
     say("teapot", &mut display);
-    let mut room = room!(LeanTextured, VERTICES, textured);
+    let mut room = room!(TexturedLook, VERTICES, textured);
     show(&mut room, counts, Suite::B, &mut display, |scene| {
         Suite::B.build(scene)
     });
     say("b", &mut display);
-    lit::<LeanPhong>(
-        &mut room!(LeanPhong, VERTICES),
+    lit::<PhongLook>(
+        &mut room!(PhongLook, VERTICES),
         counts,
         &lamps,
         &mut display,
     );
-    lit::<LeanPhongTextured>(
-        &mut room!(LeanPhongTextured, VERTICES),
+    lit::<TexturedPhongLook>(
+        &mut room!(TexturedPhongLook, VERTICES),
         counts,
         &lamps,
         &mut display,

@@ -9,8 +9,8 @@ use scanbeam::look::Look;
 use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
 use scanbeam::{Link, Scene, Screen};
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, DRAWS, HEIGHT, Hits, LIST_INDICES, LIST_TABLE, LeanContours,
-    LeanIndexed, LeanLook, LeanPhong, LeanPhongTextured, LeanTextured, OBJECTS, Octasphere,
+    CRATE_INDICES, CRATE_TABLE, DRAWS, HEIGHT, Hits, LIST_INDICES, LIST_TABLE, ContourLook,
+    IndexedLook, SmoothLook, PhongLook, TexturedPhongLook, TexturedLook, OBJECTS, Octasphere,
     PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, Sheet, Shot, VALUES_SHOWN, VERTICES,
     WIDTH,
 };
@@ -80,16 +80,16 @@ impl LineRooms {
 /// Slots, of the look that most frames have and of textures in tightly coupled RAM, of all others in external RAM:
 /// here instructions count.
 pub(crate) struct Caches {
-    pub(crate) smooth: &'static mut FastMemory<LeanLook>,
-    pub(crate) textured: &'static mut FastMemory<LeanTextured>,
+    pub(crate) smooth: &'static mut FastMemory<SmoothLook>,
+    pub(crate) textured: &'static mut FastMemory<TexturedLook>,
     /// Slots for almost everything.
-    pub(crate) wide: &'static mut FastMemory<LeanLook, WIDE>,
+    pub(crate) wide: &'static mut FastMemory<SmoothLook, WIDE>,
     /// Of a second renderer.
-    pub(crate) second: &'static mut FastMemory<LeanLook>,
-    pub(crate) lit: &'static mut FastMemory<LeanPhong>,
-    pub(crate) lit_texels: &'static mut FastMemory<LeanPhongTextured>,
-    pub(crate) indexed: &'static mut FastMemory<LeanIndexed>,
-    pub(crate) banded: &'static mut FastMemory<LeanContours>,
+    pub(crate) second: &'static mut FastMemory<SmoothLook>,
+    pub(crate) lit: &'static mut FastMemory<PhongLook>,
+    pub(crate) lit_texels: &'static mut FastMemory<TexturedPhongLook>,
+    pub(crate) indexed: &'static mut FastMemory<IndexedLook>,
+    pub(crate) banded: &'static mut FastMemory<ContourLook>,
 }
 
 /// What frames are drawn with.
@@ -103,9 +103,9 @@ pub(crate) struct Rooms {
     pub(crate) model: [&'static mut [u64]; 4],
     /// What a display shows.
     pub(crate) shown: &'static mut [u32],
-    pub(crate) teapot: Player<'static, 'static, LeanLook>,
+    pub(crate) teapot: Player<'static, 'static, SmoothLook>,
     /// Its textures are made once.
-    pub(crate) wood: Player<'static, 'static, LeanTextured>,
+    pub(crate) wood: Player<'static, 'static, TexturedLook>,
     /// RAM that a DMA can reach, `.dma`; absent while a pump has them.
     pub(crate) buffers: Option<[&'static mut [u16]; 2]>,
 }
@@ -143,14 +143,14 @@ impl Rooms {
                 depth: lend!(".slow", u32, WIDTH as usize, 0),
             },
             caches: Caches {
-                smooth: slots!(".fast", LeanLook),
-                textured: slots!(".fast", LeanTextured),
-                wide: slots!(".slow", LeanLook, WIDE),
-                second: slots!(".slow", LeanLook),
-                lit: slots!(".slow", LeanPhong),
-                lit_texels: slots!(".slow", LeanPhongTextured),
-                indexed: slots!(".slow", LeanIndexed),
-                banded: slots!(".slow", LeanContours),
+                smooth: slots!(".fast", SmoothLook),
+                textured: slots!(".fast", TexturedLook),
+                wide: slots!(".slow", SmoothLook, WIDE),
+                second: slots!(".slow", SmoothLook),
+                lit: slots!(".slow", PhongLook),
+                lit_texels: slots!(".slow", TexturedPhongLook),
+                indexed: slots!(".slow", IndexedLook),
+                banded: slots!(".slow", ContourLook),
             },
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),

@@ -19,11 +19,11 @@ use scanbeam::{Renderer, Scene};
 use scenes::Suite;
 
 #[cfg(not(any(feature = "textured", feature = "phong")))]
-type Look = scenes::LeanLook;
+type Look = scenes::SmoothLook;
 #[cfg(feature = "textured")]
-type Look = scenes::LeanTextured;
+type Look = scenes::TexturedLook;
 #[cfg(feature = "phong")]
-type Look = scenes::LeanPhong;
+type Look = scenes::PhongLook;
 
 /// What the picture is called, and the scene of the suite.
 #[cfg(not(any(feature = "flat", feature = "textured", feature = "phong")))]

@@ -15,8 +15,8 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{Assembled, Shading};
 use scanbeam::stats::SpanCounts;
 use scenes::{
-    DRAWS, Frame, HEIGHT, LeanLook, LeanPhong, LeanTextured, OBJECTS, SceneB, Shot, ShotError,
-    Suite, VERTICES, WIDTH, frames, lamplit_teapot, teapot_lamps,
+    DRAWS, Frame, HEIGHT, OBJECTS, PhongLook, SceneB, Shot, ShotError, SmoothLook, Suite,
+    TexturedLook, VERTICES, WIDTH, frames, lamplit_teapot, teapot_lamps,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -131,9 +131,9 @@ pub fn host_counts() -> Result<BTreeMap<&'static str, FrameCounts>, Box<dyn Erro
 pub fn suite_frame(suite: Suite) -> Result<Drawn, Box<dyn Error>> {
     let background = suite.background();
     if suite.texture().is_some() {
-        drawn::<LeanTextured>(background, |scene| said(suite.name(), suite.build(scene)))
+        drawn::<TexturedLook>(background, |scene| said(suite.name(), suite.build(scene)))
     } else {
-        drawn::<LeanLook>(background, |scene| said(suite.name(), suite.build(scene)))
+        drawn::<SmoothLook>(background, |scene| said(suite.name(), suite.build(scene)))
     }
 }
 
@@ -142,7 +142,7 @@ pub fn suite_frame(suite: Suite) -> Result<Drawn, Box<dyn Error>> {
 /// # Errors
 /// When it does not fit the memory that it asks for.
 pub fn shot_frame(shot: Shot, shading: Shading) -> Result<Drawn, Box<dyn Error>> {
-    drawn::<LeanLook>(shot.background(), |scene| {
+    drawn::<SmoothLook>(shot.background(), |scene| {
         said(shot.name(), shot.build_shaded(shading, scene))
     })
 }
@@ -152,7 +152,7 @@ pub fn shot_frame(shot: Shot, shading: Shading) -> Result<Drawn, Box<dyn Error>>
 /// # Errors
 /// When it does not fit the memory that it asks for.
 pub fn scene_b_frame(how: SceneB) -> Result<Drawn, Box<dyn Error>> {
-    drawn::<LeanTextured>(Shot::Sphere.background(), |scene| {
+    drawn::<TexturedLook>(Shot::Sphere.background(), |scene| {
         said(how.name, how.build(scene))
     })
 }
@@ -160,7 +160,7 @@ pub fn scene_b_frame(how: SceneB) -> Result<Drawn, Box<dyn Error>> {
 /// The words of a shot as the hardware model draws it.
 fn model_words(shot: Shot) -> Result<Vec<u16>, Box<dyn Error>> {
     let mut memory = SceneRooms::new(ROOM, HEIGHT);
-    let mut scene: Scene<'_, '_, LeanLook> = memory.scene(Shot::screen());
+    let mut scene: Scene<'_, '_, SmoothLook> = memory.scene(Shot::screen());
     said(shot.name(), shot.build(&mut scene))?;
     let mut lines = ModelLines::new(WIDTH);
     let mut renderer = lines.renderer();
@@ -179,7 +179,7 @@ fn model_words(shot: Shot) -> Result<Vec<u16>, Box<dyn Error>> {
 /// When it does not fit the memory that it asks for.
 pub fn lamplit_frame() -> Result<Drawn, Box<dyn Error>> {
     let lamps = teapot_lamps().map_err(|error| format!("{error:?}"))?;
-    drawn::<LeanPhong>(Shot::Teapot.background(), |scene| {
+    drawn::<PhongLook>(Shot::Teapot.background(), |scene| {
         said("teapot_lamplit", lamplit_teapot(&lamps, scene))
     })
 }

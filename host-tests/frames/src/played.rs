@@ -5,7 +5,7 @@ use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::Rgb565Be;
-use scenes::{LeanLook, LeanTextured, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played};
+use scenes::{PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, SmoothLook, TexturedLook};
 use std::error::Error;
 
 /// A list that is played.
@@ -14,8 +14,8 @@ use std::error::Error;
 /// When it does not fit the memory that it asks for.
 pub fn played_frame(played: Played) -> Result<Drawn, Box<dyn Error>> {
     match played {
-        Played::Teapot => played_as::<LeanLook>(played),
-        Played::Crate => played_as::<LeanTextured>(played),
+        Played::Teapot => played_as::<SmoothLook>(played),
+        Played::Crate => played_as::<TexturedLook>(played),
     }
 }
 

@@ -1,4 +1,4 @@
-//! The small frames of what few draw calls have in the rooms, as this machine draws them.
+//! The small frames of what few draw calls have, as this machine draws them.
 
 use host_support::image_out::Frame;
 use host_support::mock::HostLine;

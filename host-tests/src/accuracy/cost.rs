@@ -4,7 +4,7 @@ use super::Row;
 use super::rooms::mirror_pixels;
 use crate::firmware::{FirmwareError, KernelRun, M4, Output, Profile, Toolchain, measure};
 use crate::rooms::{Room, picture};
-use scenes::{LeanLook, SUITE_DRAWS, SUITE_OBJECTS, SUITE_VERTICES, Shot, Suite};
+use scenes::{SUITE_DRAWS, SUITE_OBJECTS, SUITE_VERTICES, Shot, SmoothLook, Suite};
 use std::collections::BTreeMap;
 use std::error::Error;
 
@@ -121,7 +121,7 @@ fn teapot_pixels() -> Result<u32, Box<dyn Error>> {
             objects: SUITE_OBJECTS,
             draws: SUITE_DRAWS,
         };
-        picture::<_, LeanLook>(Shot::screen(), room, background, |scene| {
+        picture::<_, SmoothLook>(Shot::screen(), room, background, |scene| {
             let built = Suite::Teapot.build(scene);
             Ok(built.map_err(|error| format!("teapot: {error:?}"))?)
         })

@@ -20,7 +20,7 @@ use crate::stdio;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::frame::FastMemory;
 use scanbeam::scene::Object;
-use scenes::{LeanLook, LeanTextured};
+use scenes::{SmoothLook, TexturedLook};
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::fmt::Write as _;
@@ -190,10 +190,10 @@ pub fn of_source() -> Result<Figures, Box<dyn Error>> {
         ),
         ("source functions that take a tuple", counts.tuple_functions),
         ("record object", size_of::<Object>()),
-        ("record slot, smooth", <FastMemory<LeanLook>>::SLOT_BYTES),
+        ("record slot, smooth", <FastMemory<SmoothLook>>::SLOT_BYTES),
         (
             "record slot, textured",
-            <FastMemory<LeanTextured>>::SLOT_BYTES,
+            <FastMemory<TexturedLook>>::SLOT_BYTES,
         ),
     ];
     let owned = |(name, value): (&str, usize)| (name.to_owned(), value as u64);

@@ -8,7 +8,7 @@
 use crate::firmware::GrowthRun;
 use crate::plot::{Dot, Scatter};
 use crate::rooms::{LineRooms, Room, SceneRooms};
-use scenes::{HEIGHT, LeanLook, OCTASPHERES, Octasphere, Shot, WIDTH};
+use scenes::{HEIGHT, OCTASPHERES, Octasphere, Shot, SmoothLook, WIDTH};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -45,7 +45,7 @@ pub fn spans() -> Result<BTreeMap<u64, u64>, Box<dyn Error>> {
         draws: 1,
     };
     let mut lent = SceneRooms::new(room, HEIGHT);
-    let mut rooms: LineRooms<LeanLook> = LineRooms::new(room.objects, WIDTH);
+    let mut rooms: LineRooms<SmoothLook> = LineRooms::new(room.objects, WIDTH);
     let mut spans = BTreeMap::new();
     for parts in OCTASPHERES {
         let sphere = Octasphere::new(parts, &mut positions, &mut faces).ok_or("no room")?;

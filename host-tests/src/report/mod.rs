@@ -234,9 +234,8 @@ fn costs(page: &mut Page) -> Result<(), Box<dyn Error>> {
 /// The suite on every board, beside the best of others.
 fn suite_table(page: &mut Page, record: &Record) {
     page.paragraph(
-        "The suite with 64 slots and a line a transfer, in million instructions: in the rooms `scene`, \
-         `look` and `frame`, with the presets, and with the best other renderer (TGX, TinyGL or \
-         small3dlib).",
+        "The suite with 64 slots and a line a transfer, in million instructions: ours, and the best \
+         other renderer (TGX, TinyGL or small3dlib).",
     );
     let mut rows = suite::rows(record);
     for cell in rows.iter_mut().flatten() {

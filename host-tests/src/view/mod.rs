@@ -2,8 +2,7 @@
 //!
 //! A cell of the terminal shows two pixels, one above the other, by the half block and its two
 //! colours. The picture is what the crate draws for a display of that size: nothing is scaled.
-//! Models are drawn by draw calls, their texels rounded to 5, 6 and 5 bits; by presets scenes, sides over 1,016 pixels,
-//! caches of more than 224 slots, and models of which too much is seen for one scene in memory.
+//! Texels are rounded to 5, 6 and 5 bits.
 //!
 //! | file | there |
 //! |---|---|

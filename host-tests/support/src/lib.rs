@@ -1,5 +1,5 @@
 //! What the tool and the tests stand on: models and pictures from files and to files, the mocked frame buffer, the
-//! memory that is lent, pictures of scenes in the rooms, the reference in f64, and what is said on standard output.
+//! memory that is lent, pictures of scenes, the reference in f64, and what is said on standard output.
 
 // First: its macros are everybody's.
 #[macro_use]

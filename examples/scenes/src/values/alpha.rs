@@ -1,7 +1,7 @@
 //! Alphas of vertices and of texels before a ball, texels that are added, and some that are not dithered (K11, H7, H10).
 
 use super::scenes::{at, draw_all, light, uncoloured};
-use crate::lean::LeanTextured;
+use crate::looks::TexturedLook;
 use crate::{CUBE, PLACES_F, RIBBON, SPHERE, ShotError};
 use scanbeam::scene::{
     Blend, BlendMode, Budget, Draw, Factor, MaskTexel, Scene, Shading, Skin, Texture,
@@ -94,7 +94,7 @@ static CORNERS: [u8; CUBE.positions.len()] = {
 
 /// A ribbon that fades and a dithered cube of rings before a ball, a cube of both that the near plane cuts, and one of flat
 /// faces by factors.
-pub(super) fn alpha(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+pub(super) fn alpha(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.6, [-0.2, 0.1, -0.6]),
         colour: [250, 140, 50],

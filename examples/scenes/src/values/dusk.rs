@@ -2,7 +2,7 @@
 //! (H18).
 
 use super::scenes::{at, light, uncoloured};
-use super::{LeanIndexed, VALUES_HEIGHT, scenes::draw_all};
+use super::{IndexedLook, VALUES_HEIGHT, scenes::draw_all};
 use crate::ShotError;
 use crate::{CUBE, SPHERE};
 use scanbeam::Affine;
@@ -38,7 +38,7 @@ impl LinePalettes<u16, 256> for Dusk {
 }
 
 /// Makes the scene.
-pub(super) fn dusk(scene: &mut Scene<'_, 'static, LeanIndexed>) -> Result<(), ShotError> {
+pub(super) fn dusk(scene: &mut Scene<'_, 'static, IndexedLook>) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.7, [-0.5, 0.1, 0.0]),
         light: light(),

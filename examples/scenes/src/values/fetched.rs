@@ -1,17 +1,15 @@
 //! Floors and cubes whose texels are computed, and others whose texels lie in blocks of slow memory behind a small cache
 //! (H17, B1, B5).
 
-use super::sampled::{FLOOR, FLOOR_PLACES};
-use super::scenes::{PANEL, at, camera, light, uncoloured};
+use super::sampled::{cube, floor};
+use super::scenes::{PANEL, draw_all};
 use crate::ShotError;
-use crate::lean::LeanTextured;
-use crate::{CUBE, PLACES_F, TEXELS_F_PANEL};
+use crate::TEXELS_F_PANEL;
+use crate::looks::TexturedLook;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{
-    BlockCache, Blocked, Budget, CacheWord, Checker, Draw, Gradient, Sampling, Scene, Skin, Texels,
-    Texture, Wrap,
+    BlockCache, Blocked, CacheWord, Checker, Gradient, Sampling, Scene, Texels, Texture, Wrap,
 };
-use scanbeam::{Affine, Cull};
 
 static CHECKER: Checker = Checker {
     colours: [0xFFFF, 0x18E3_u16.to_be()],
@@ -69,44 +67,8 @@ impl Slow {
     }
 }
 
-fn floor<'t>(texture: &'t Texture<'t>, x: f32) -> Draw<'static, 't> {
-    Draw {
-        model: at(6.0, [x, -0.5, -4.0]),
-        texture: Some(Skin {
-            texture,
-            places: &FLOOR_PLACES,
-            budget: Budget::BALANCED,
-        }),
-        ..Draw::new(FLOOR)
-    }
-}
-
-fn cube<'t>(texture: &'t Texture<'t>, angle: f32, place: [f32; 3]) -> Draw<'static, 't> {
-    Draw {
-        model: Affine::rotation_y(angle).then(&at(0.3, place)),
-        cull: Cull::None,
-        light: light(),
-        texture: Some(Skin {
-            texture,
-            places: &PLACES_F,
-            budget: Budget::EXACT,
-        }),
-        ..Draw::new(uncoloured(CUBE))
-    }
-}
-
-fn draw_all<'t>(
-    scene: &mut Scene<'_, 't, LeanTextured>,
-    calls: &[Draw<'_, 't>],
-) -> Result<(), ShotError> {
-    scene.begin(&camera()?).map_err(ShotError::Begin)?;
-    calls
-        .iter()
-        .try_for_each(|call| scene.draw(call).map_err(ShotError::Draw))
-}
-
 /// Makes the scene of computed texels.
-pub(super) fn computed(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+pub(super) fn computed(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let calls = [
         floor(&SQUARES, -6.0),
         floor(&MIXED, 6.0),
@@ -119,7 +81,7 @@ pub(super) fn computed(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(
 
 /// Makes the scene of texels behind a cache, and of some that are not.
 pub(super) fn blocks<'t>(
-    scene: &mut Scene<'_, 't, LeanTextured>,
+    scene: &mut Scene<'_, 't, TexturedLook>,
     cached: &'t Texture<'t>,
 ) -> Result<(), ShotError> {
     let calls = [

@@ -33,8 +33,8 @@ mod scenes;
 mod shadows;
 
 use crate::ShotError;
-use crate::contours::LeanContours;
-use crate::lean::{LeanLook, LeanTextured};
+use crate::contours::ContourLook;
+use crate::looks::{SmoothLook, TexturedLook};
 use alpha::alpha;
 use dusk::{Dusk, dusk};
 use fetched::{Slow, blocks, computed};
@@ -73,11 +73,11 @@ const SHADOW_DRAWS: usize = 24;
 const CELL: (u16, u16) = (16, 2);
 
 /// Light at each pixel.
-pub type LeanPhong = Phong<Rgb565Be>;
+pub type PhongLook = Phong<Rgb565Be>;
 /// The same of texels.
-pub type LeanPhongTextured = TexturedPhong<Rgb565Be>;
+pub type TexturedPhongLook = TexturedPhong<Rgb565Be>;
 /// Indices of a palette.
-pub type LeanIndexed = Gouraud<Index8>;
+pub type IndexedLook = Gouraud<Index8>;
 
 /// A small frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,17 +166,17 @@ pub struct ValuesMemory<'m> {
     /// [`VALUES_SHOWN`] of them.
     pub shown: &'m mut [u32],
     /// The slots of smooth colours.
-    pub smooth: &'m mut FastMemory<LeanLook>,
+    pub smooth: &'m mut FastMemory<SmoothLook>,
     /// The slots of textures.
-    pub textured: &'m mut FastMemory<LeanTextured>,
+    pub textured: &'m mut FastMemory<TexturedLook>,
     /// The slots of light at each pixel.
-    pub lit: &'m mut FastMemory<LeanPhong>,
+    pub lit: &'m mut FastMemory<PhongLook>,
     /// The slots of texels that are lit so.
-    pub lit_texels: &'m mut FastMemory<LeanPhongTextured>,
+    pub lit_texels: &'m mut FastMemory<TexturedPhongLook>,
     /// The slots of indices.
-    pub indexed: &'m mut FastMemory<LeanIndexed>,
+    pub indexed: &'m mut FastMemory<IndexedLook>,
     /// The slots of a look of one's own.
-    pub banded: &'m mut FastMemory<LeanContours>,
+    pub banded: &'m mut FastMemory<ContourLook>,
 }
 
 /// Why a frame was not drawn.
@@ -304,7 +304,7 @@ impl<'m> Rest<'m> {
     #[inline(never)]
     fn send_shadows<D>(
         self,
-        cache: &mut FastMemory<LeanLook>,
+        cache: &mut FastMemory<SmoothLook>,
         pump: &mut Pump<D>,
     ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
     where
@@ -324,7 +324,7 @@ impl<'m> Rest<'m> {
     #[inline(never)]
     fn send_indexed<D>(
         self,
-        cache: &mut FastMemory<LeanIndexed>,
+        cache: &mut FastMemory<IndexedLook>,
         pump: &mut Pump<D>,
     ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
     where
@@ -344,7 +344,7 @@ impl<'m> Rest<'m> {
     #[inline(never)]
     fn send_sampled<D>(
         self,
-        cache: &mut FastMemory<LeanTextured>,
+        cache: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
     ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
     where
@@ -362,7 +362,7 @@ impl<'m> Rest<'m> {
     #[inline(never)]
     fn send_blocks<D>(
         self,
-        cache: &mut FastMemory<LeanTextured>,
+        cache: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
     ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
     where

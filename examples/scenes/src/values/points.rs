@@ -4,7 +4,7 @@
 use super::scenes::{GRILLE, PANEL, at, camera, light};
 use crate::SPHERE;
 use crate::ShotError;
-use crate::lean::LeanTextured;
+use crate::looks::TexturedLook;
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::scene::{Budget, Draw, Scene, ScreenCorner, Skin, Texture};
 use scanbeam::{Affine, Cull, Faces, Mesh};
@@ -35,7 +35,7 @@ fn card(left: i16, top: i16, depth: u32) -> [[ScreenCorner; 3]; 2] {
 }
 
 /// Makes the scene.
-pub(super) fn points(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+pub(super) fn points(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let aside = camera()?
         .shifted([21.5, -8.25])
         .map_err(ShotError::Camera)?;

@@ -1,18 +1,18 @@
 //! A floor in levels of detail that reaches to the horizon, and cubes near enough to show single texels: one whose texels
 //! are mixed, one whose are not, and one with holes (H6).
 
-use super::scenes::{GRILLE, PANEL, at, camera, light, uncoloured};
+use super::scenes::{GRILLE, PANEL, at, draw_all, light, uncoloured};
 use crate::ShotError;
-use crate::lean::LeanTextured;
+use crate::looks::TexturedLook;
 use crate::{CUBE, PLACES_F};
 use scanbeam::look::halved;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Budget, Draw, Sampling, Scene, Skin, Texture};
-use scanbeam::{Cull, Faces, Mesh, mesh::QuadSplit};
+use scanbeam::{Affine, Cull, Faces, Mesh, mesh::QuadSplit};
 
 const ONE: i16 = 1 << 14;
 
-pub(super) const FLOOR: Mesh<'static> = Mesh {
+const FLOOR: Mesh<'static> = Mesh {
     positions: &[
         [-ONE, 0, -ONE],
         [ONE, 0, -ONE],
@@ -26,7 +26,7 @@ pub(super) const FLOOR: Mesh<'static> = Mesh {
 
 /// The texture twelve times each way, in texels with 8 fraction bits.
 const FAR: i32 = 12 * 64 * 256;
-pub(super) const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
+const FLOOR_PLACES: [[i32; 2]; 4] = [[0, FAR], [FAR, FAR], [FAR, 0], [0, 0]];
 
 /// Words of four levels below 64 x 64 texels.
 pub(super) type Words = ([u16; 1024], [u16; 256], [u16; 64], [u16; 16]);
@@ -58,13 +58,9 @@ pub(super) fn textures<'t>(levels: &'t [Texture<'t>]) -> Result<[Texture<'t>; 4]
     ])
 }
 
-/// Makes the scene.
-pub(super) fn sampled<'t>(
-    scene: &mut Scene<'_, 't, LeanTextured>,
-    [near, mixed, cube, holes]: &'t [Texture<'t>; 4],
-) -> Result<(), ShotError> {
-    scene.begin(&camera()?).map_err(ShotError::Begin)?;
-    let floor = |texture: &'t Texture<'t>, x: f32| Draw {
+/// A floor so far to the right.
+pub(super) fn floor<'t>(texture: &'t Texture<'t>, x: f32) -> Draw<'static, 't> {
+    Draw {
         model: at(6.0, [x, -0.5, -4.0]),
         texture: Some(Skin {
             texture,
@@ -72,9 +68,13 @@ pub(super) fn sampled<'t>(
             budget: Budget::BALANCED,
         }),
         ..Draw::new(FLOOR)
-    };
-    let shape = |texture: &'t Texture<'t>, angle: f32, place: [f32; 3]| Draw {
-        model: scanbeam::Affine::rotation_y(angle).then(&at(0.3, place)),
+    }
+}
+
+/// A cube at a place, turned about the vertical.
+pub(super) fn cube<'t>(texture: &'t Texture<'t>, angle: f32, place: [f32; 3]) -> Draw<'static, 't> {
+    Draw {
+        model: Affine::rotation_y(angle).then(&at(0.3, place)),
         cull: Cull::None,
         light: light(),
         texture: Some(Skin {
@@ -83,15 +83,20 @@ pub(super) fn sampled<'t>(
             budget: Budget::EXACT,
         }),
         ..Draw::new(uncoloured(CUBE))
-    };
-    for call in [
+    }
+}
+
+/// Makes the scene.
+pub(super) fn sampled<'t>(
+    scene: &mut Scene<'_, 't, TexturedLook>,
+    [near, mixed, sharp, holes]: &'t [Texture<'t>; 4],
+) -> Result<(), ShotError> {
+    let calls = [
         floor(near, -6.0),
         floor(mixed, 6.0),
-        shape(cube, 0.5, [-0.1, 0.0, 1.2]),
-        shape(&PANEL, 0.9, [0.8, 0.2, 0.8]),
-        shape(holes, 0.2, [-0.7, 0.3, 0.6]),
-    ] {
-        scene.draw(&call).map_err(ShotError::Draw)?;
-    }
-    Ok(())
+        cube(sharp, 0.5, [-0.1, 0.0, 1.2]),
+        cube(&PANEL, 0.9, [0.8, 0.2, 0.8]),
+        cube(holes, 0.2, [-0.7, 0.3, 0.6]),
+    ];
+    draw_all(scene, &calls)
 }

@@ -1,9 +1,9 @@
 //! What the small frames show: their draw calls, their textures and sprites.
 
-use super::{LeanPhong, LeanPhongTextured, values_screen};
+use super::{PhongLook, TexturedPhongLook, values_screen};
 use crate::ShotError;
-use crate::contours::{CONTOURED, LeanContours};
-use crate::lean::{LeanLook, LeanTextured};
+use crate::contours::{CONTOURED, ContourLook};
+use crate::looks::{SmoothLook, TexturedLook};
 use crate::suite::{Looking, Suite, teapot_part};
 use crate::{CUBE, PLACES_F, RIBBON, SPHERE, SURROUNDINGS, TEAPOT, TEXELS_F_PANEL};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
@@ -61,7 +61,7 @@ pub(super) fn draw_all<'t, L: Look>(
 
 /// A ball and a ribbon.
 pub(super) fn phong<'t>(
-    scene: &mut Scene<'_, 't, LeanPhong>,
+    scene: &mut Scene<'_, 't, PhongLook>,
     lamps: &'t Option<PixelLamps>,
 ) -> Result<(), ShotError> {
     let lamps = lamps.as_ref();
@@ -83,7 +83,7 @@ pub(super) fn phong<'t>(
 
 /// A cube, a grille in front of it and a ball without texels.
 pub(super) fn texels<'t>(
-    scene: &mut Scene<'_, 't, LeanPhongTextured>,
+    scene: &mut Scene<'_, 't, TexturedPhongLook>,
     lamps: &'t Option<PixelLamps>,
 ) -> Result<(), ShotError> {
     let lamps = lamps.as_ref();
@@ -116,7 +116,7 @@ pub(super) fn texels<'t>(
 }
 
 /// A ball with contour bands, a corner of the picture left out.
-pub(super) fn bands(scene: &mut Scene<'_, 'static, LeanContours>) -> Result<(), ShotError> {
+pub(super) fn bands(scene: &mut Scene<'_, 'static, ContourLook>) -> Result<(), ShotError> {
     let ball = Draw {
         model: Affine::rotation_x(0.5).then(&at(0.9, [0.0, 0.1, 0.0])),
         scissor: Some(Scissor::outside(0..75, 0..40)),
@@ -126,7 +126,7 @@ pub(super) fn bands(scene: &mut Scene<'_, 'static, LeanContours>) -> Result<(), 
 }
 
 /// A teapot that is a mirror.
-pub(super) fn mirror(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+pub(super) fn mirror(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let teapot = Draw {
         model: Affine::rotation_y(0.6),
         texture: Some(Skin {
@@ -180,7 +180,7 @@ pub(super) fn light() -> Option<Light> {
 }
 
 /// A lit cube with holes around a ball, one whose holes its colours fill, and one that is not lit.
-pub(super) fn holes(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+pub(super) fn holes(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let cube = |angle: f32, scale: f32, place: [f32; 3]| Draw {
         model: Affine::rotation_y(angle).then(&at(scale, place)),
         cull: Cull::None,
@@ -211,7 +211,7 @@ pub(super) fn holes(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), 
 }
 
 /// A ball, a ribbon and a textured cube.
-pub(super) fn dither(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(), ShotError> {
+pub(super) fn dither(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.8, [-0.5, 0.1, 0.0]),
         colour: [90, 70, 60],
@@ -242,7 +242,7 @@ pub(super) fn dither(scene: &mut Scene<'_, 'static, LeanTextured>) -> Result<(),
 /// Panes of all modes before a ribbon, a cube in two lights and a ribbon of flat faces, some of them cut; each by a
 /// priority of its own if it `is_ranked`.
 pub(super) fn blends(
-    scene: &mut Scene<'_, 'static, LeanLook>,
+    scene: &mut Scene<'_, 'static, SmoothLook>,
     is_ranked: bool,
 ) -> Result<(), ShotError> {
     let warm = DirectionalLight::new([0.3, 0.8, 0.6], [0.9, 0.8, 0.6]);
@@ -304,7 +304,7 @@ pub(super) fn blends(
 }
 
 /// The teapot of the suite, at half the size.
-pub(super) fn teapot(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), ShotError> {
+pub(super) fn teapot(scene: &mut Scene<'_, 'static, SmoothLook>) -> Result<(), ShotError> {
     let view = Suite::Teapot.view();
     let half = Looking {
         focal: view.focal / 2.0,
@@ -317,7 +317,10 @@ pub(super) fn teapot(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Sho
 }
 
 /// A ball of which a part turns, with a cube that goes round it.
-pub(super) fn ball(scene: &mut Scene<'_, 'static, LeanLook>, moment: f32) -> Result<(), ShotError> {
+pub(super) fn ball(
+    scene: &mut Scene<'_, 'static, SmoothLook>,
+    moment: f32,
+) -> Result<(), ShotError> {
     let ball = Draw {
         model: at(0.8, [-0.2, 0.1, 0.0]),
         colour: [90, 160, 220],

@@ -3,7 +3,7 @@
 
 use super::scenes::{at, camera, uncoloured};
 use crate::ShotError;
-use crate::lean::LeanLook;
+use crate::looks::SmoothLook;
 use crate::{CUBE, RIBBON};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::scene::{Blend, Draw, Scene, Shadow, ShadowEdge, ShadowLight, ShadowMemory};
@@ -56,7 +56,7 @@ const CLOSED: Mesh<'static> = Mesh {
 
 /// Draws the volumes of a cube.
 fn throw(
-    scene: &mut Scene<'_, 'static, LeanLook>,
+    scene: &mut Scene<'_, 'static, SmoothLook>,
     model: &Affine,
     light: &ShadowLight,
 ) -> Result<(), ShotError> {
@@ -70,7 +70,7 @@ fn throw(
 }
 
 /// Makes the scene.
-pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), ShotError> {
+pub(super) fn shadows(scene: &mut Scene<'_, 'static, SmoothLook>) -> Result<(), ShotError> {
     scene.begin(&camera()?).map_err(ShotError::Begin)?;
     let cubes = [
         Affine::rotation_y(0.5).then(&at(0.35, [-0.3, -0.1, 0.2])),
@@ -78,7 +78,7 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, LeanLook>) -> Result<(), Sh
     ];
     let floor = at(4.0, [0.0, -4.6, 0.0]);
     let ribbon = Affine::rotation_y(0.3).then(&at(0.7, [0.5, -0.3, 0.3]));
-    let draw_all = |scene: &mut Scene<'_, 'static, LeanLook>, dressed: &Draw<'_, 'static>| {
+    let draw_all = |scene: &mut Scene<'_, 'static, SmoothLook>, dressed: &Draw<'_, 'static>| {
         for model in cubes.into_iter().chain([floor]) {
             let call = Draw { model, ..*dressed };
             scene.draw(&call).map_err(ShotError::Draw)?;

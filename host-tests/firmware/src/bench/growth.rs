@@ -8,7 +8,7 @@ use crate::rooms::Rooms;
 use core::hint::black_box;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::{Renderer, Scene};
-use scenes::{HEIGHT, LeanLook, MOST_SLOTS, OCTASPHERES, Octasphere, WIDTH};
+use scenes::{HEIGHT, SmoothLook, MOST_SLOTS, OCTASPHERES, Octasphere, WIDTH};
 
 /// Slots where there are few.
 const FEW: u16 = 64;
@@ -38,8 +38,8 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
 #[inline(never)]
 fn pass_two<const WORDS: usize>(
     counter: &Counter,
-    scene: &Scene<'_, '_, LeanLook>,
-    renderer: &mut Renderer<'_, LeanLook, WORDS>,
+    scene: &Scene<'_, '_, SmoothLook>,
+    renderer: &mut Renderer<'_, SmoothLook, WORDS>,
 ) -> u64 {
     let background = Rgb565Be::from_rgb8([0; 3]);
     let mut pixels = [background; WIDTH as usize];

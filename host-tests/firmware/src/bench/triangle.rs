@@ -25,7 +25,7 @@ use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::{Blend, Budget, Shading, Skin};
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Screen};
 use scanbeam_model::{ModelRenderer, PipeMemory};
-use scenes::{LeanLook, LeanTextured, PLACES_F, Suite};
+use scenes::{SmoothLook, TexturedLook, PLACES_F, Suite};
 
 /// A triangle as wide and as tall as said, in pixels.
 #[derive(Clone, Copy)]
@@ -85,12 +85,12 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
             let (scene, lines) = (&mut rooms.scene, &mut rooms.lines);
             for (small, large, way) in SMOOTH {
                 let cache = &mut *rooms.caches.smooth;
-                drawn::<LeanLook>(way, size, counter, scene, lines, cache)
+                drawn::<SmoothLook>(way, size, counter, scene, lines, cache)
                     .print(name(small, large), console);
             }
             for (small, large, way) in TEXTURED {
                 let cache = &mut *rooms.caches.textured;
-                drawn::<LeanTextured>(way, size, counter, scene, lines, cache)
+                drawn::<TexturedLook>(way, size, counter, scene, lines, cache)
                     .print(name(small, large), console);
             }
             let mut cache = FastMemory::<Gouraud<Rgb888>>::new();
@@ -164,7 +164,7 @@ fn drawn<L: Look<Pixel: PixelFormat<Word: Default + PartialEq>>>(
 #[inline(never)]
 fn model(size: Size, counter: &Counter, scene: &mut SceneRooms) -> Run {
     let screen = Screen::new(WIDTH, size.tall).expect("the size is legal");
-    let mut scene = scene.sized::<LeanLook>(screen);
+    let mut scene = scene.sized::<SmoothLook>(screen);
     scene.begin(&camera()).expect("a bin for each line");
     let triangle = Triangle::new(Way::Smooth, size);
     let done = scene.draw(&triangle.call(Way::Smooth));

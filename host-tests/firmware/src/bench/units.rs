@@ -20,7 +20,7 @@ use scanbeam::look::Look;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Budget, Skin};
 use scanbeam::{Camera, Draw, Faces, Light, Mesh, Scene, Screen};
-use scenes::{LeanLook, LeanTextured, Suite};
+use scenes::{SmoothLook, TexturedLook, Suite};
 
 /// Things of the smaller scene.
 const FEW: usize = 8;
@@ -240,7 +240,7 @@ impl Bench<'_> {
     /// What all [`MEASURED`] lines cost, and how many pixels they have.
     #[inline(never)]
     fn lines(&mut self, stand: &Stand) -> Drawn {
-        let mut scene = self.rooms.scene.sized::<LeanLook>(screen());
+        let mut scene = self.rooms.scene.sized::<SmoothLook>(screen());
         stand.draw(false, &mut scene);
         let mut renderer = self.rooms.lines.renderer(self.rooms.caches.smooth);
         let mut pixels = [0; WIDTH as usize];
@@ -275,7 +275,7 @@ impl Bench<'_> {
             caches,
             ..
         } = &mut *self.rooms;
-        first_line::<LeanLook>(stand, false, self.counter, scene, lines, caches.smooth)
+        first_line::<SmoothLook>(stand, false, self.counter, scene, lines, caches.smooth)
     }
 
     /// The same with a texture.
@@ -286,7 +286,7 @@ impl Bench<'_> {
             caches,
             ..
         } = &mut *self.rooms;
-        first_line::<LeanTextured>(stand, true, self.counter, scene, lines, caches.textured)
+        first_line::<TexturedLook>(stand, true, self.counter, scene, lines, caches.textured)
     }
 
     /// What pass one costs.
@@ -312,7 +312,7 @@ impl Bench<'_> {
             light: Light::new([0.5, 0.7, 0.8], 0.15),
             ..Draw::new(mesh)
         };
-        let mut scene = self.rooms.scene.sized::<LeanLook>(screen());
+        let mut scene = self.rooms.scene.sized::<SmoothLook>(screen());
         self.counter.finely(|| {
             scene.begin(&camera()).expect("a bin for each line");
             let done = scene.draw(black_box(&call));

@@ -4,7 +4,7 @@ use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::Rgb565Be;
 
 /// Smooth colours, as an SPI panel takes them.
-pub type LeanLook = Gouraud<Rgb565Be>;
+pub type SmoothLook = Gouraud<Rgb565Be>;
 
 /// What scenes with a texture are drawn with.
-pub type LeanTextured = Textured<Rgb565Be>;
+pub type TexturedLook = Textured<Rgb565Be>;
