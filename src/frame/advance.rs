@@ -38,7 +38,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             (fetcher.forget)(self);
         }
         self.cache.clear();
-        self.met = false;
+        (self.met, self.dense) = (false, false);
         self.content = Some(view.content);
         self.next = view.first;
     }

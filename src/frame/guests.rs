@@ -1,7 +1,7 @@
 //! What has no slot, where spans meet: guests, which lie in the cells of depth while a line is drawn (X3, C5).
 //!
 //! A guest is set up for its line alone, and only where some of it is seen. Where there are more than the cells have
-//! room for, the line is drawn in parts with fewer guests each; of those on one column only the nearest counts.
+//! room for, the nearest depth of each column is kept there instead (`dense`).
 
 use super::alone::set_up_stray;
 use super::near::{Drawing, Field, Taken, colour_free};
@@ -237,93 +237,43 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         } else {
             &mut *depth
         };
-        let end = out.pixels.len() as u32;
-        let hidden = match self.sort_guests(Span { start: 0, end }, cells, out) {
-            Some(guests) => self.draw_field(slots, cells, guests, out),
-            None => self.draw_in_parts(slots, cells, out),
+        let hidden = if self.dense {
+            self.draw_dense(slots, cells, out)
+        } else {
+            match self.sort_guests(cells, out) {
+                Some(guests) => self.draw_field(slots, cells, guests, out),
+                None => {
+                    (self.dense, out.nearest_first) = (true, false);
+                    let slots = self.sort_slots(out);
+                    self.draw_dense(slots, cells, out)
+                }
+            }
         };
         self.depth = depth;
         hidden
     }
 
-    /// The same in parts of the line whose guests find room in the cells.
-    #[cold]
+    /// Sorts what has no slot; how many that are, or `None` where the cells do not hold them.
     #[inline(never)]
-    fn draw_in_parts(
-        &mut self,
-        slots: usize,
-        cells: &mut [u32],
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) -> usize {
-        let width = out.pixels.len() as u32;
-        let (mut start, mut hidden, mut drawn) = (0, 0, Mask::EMPTY);
-        while start < width {
-            let half = start + width.div_ceil(2);
-            let mut part = Span {
-                start,
-                end: half.min(width),
-            };
-            let guests = loop {
-                if let Some(guests) = self.sort_guests(part, cells, out) {
-                    break guests;
-                }
-                part.end -= (part.end - part.start) / 2;
-            };
-            // Other parts of the line are as if covered.
-            self.written.clear();
-            self.written.cover(0, part.start);
-            self.written.cover(part.end, width);
-            hidden += self.draw_field(slots, cells, guests, out);
-            drawn.add(&self.written, part.start, part.end);
-            start = part.end;
-        }
-        self.written = drawn;
-        hidden
-    }
-
-    /// Sorts what has no slot and pixels on a part of the line; how many that are, or `None` where the cells do not
-    /// hold them.
-    #[inline(never)]
-    fn sort_guests(
-        &mut self,
-        part: Span,
-        cells: &mut [u32],
-        out: &Line<'_, '_, WordOf<L>>,
-    ) -> Option<usize> {
+    fn sort_guests(&mut self, cells: &mut [u32], out: &Line<'_, '_, WordOf<L>>) -> Option<usize> {
         let (mut count, room) = (0, cells.len() / CELLS);
-        let columns = part.end - part.start;
-        let is_first = columns == out.pixels.len() as u32;
         let mut walk = Walk::of(self.cache.spilled);
         while let Some(stray) = self.next_stray(&mut walk, out) {
-            self.counts.misses += u32::from(is_first && self.crowded);
-            let span = stray.span;
-            if !span.meets(part) {
-                continue;
+            if count == room {
+                return None;
             }
             // What meets nobody may come at any time: behind all others, and no two are compared.
-            let is_compared = self.crowded || self.over.meets(span.start, span.end);
+            let is_compared = self.crowded || self.over.meets(stray.span.start, stray.span.end);
             let slope = if is_compared {
                 stray.slope::<L>(out)
             } else {
                 Slope::even(FARTHEST.saturating_sub(count as u32))
             };
-            let rival = stray.rival(slope);
-            if columns == 1 {
-                let other = Guest::of(cells, 0).filter(|_| count > 0);
-                if other.is_some_and(|other| other.rival.hides(rival, part.start)) {
-                    continue;
-                }
-                count = 0;
-            } else if count == room {
-                if is_first && self.crowded {
-                    while self.next_stray(&mut walk, out).is_some() {
-                        self.counts.misses += 1;
-                    }
-                }
-                return None;
-            }
-            Guest::of_rival(rival).insert(cells, count);
+            Guest::of_rival(stray.rival(slope)).insert(cells, count);
             count += 1;
+        }
+        if self.crowded {
+            self.counts.misses += count as u32;
         }
         Some(count)
     }

@@ -52,6 +52,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut out = Line {
             deep: !self.depth.is_empty() && view.deep,
+            nearest_first: false,
             view,
             number: u32::from(line),
             pixels,

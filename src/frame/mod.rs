@@ -14,6 +14,7 @@
 //! | `meet` | where spans meet |
 //! | `plan` | an order that lasts from line to line |
 //! | `guests` | of these, what has no slot |
+//! | `dense` | lines with many of these |
 //! | `rival` | who of two spans is seen |
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
@@ -33,6 +34,7 @@ mod ahead;
 mod alone;
 mod alpha;
 mod changed;
+mod dense;
 mod guests;
 mod line;
 mod meet;

@@ -32,7 +32,7 @@ const NUMBER: u32 = 0xFF;
 
 /// The slot of a key, below the number of slots: no index has to be looked at again.
 #[inline(always)]
-fn number_of<const WORDS: usize>(key: u32) -> usize {
+pub(super) fn number_of<const WORDS: usize>(key: u32) -> usize {
     (key & NUMBER) as usize % (32 * WORDS)
 }
 
@@ -236,7 +236,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             core::mem::swap(&mut self.covered, &mut self.written);
             self.met = hidden > 0;
             self.crowded = 8 * hidden > slots;
-            self.lasting = !self.changed && self.lasts(out);
+            self.lasting = !self.changed && !self.dense && self.lasts(out);
             return;
         }
         let met = self.find_all(out);
@@ -251,6 +251,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws slots that are listed, and what has no slot; how many slots these are, and how many spans met others.
     #[inline(never)]
     fn draw_listed(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> (usize, usize) {
+        self.dense &= self.cache.spilled.is_some();
+        out.nearest_first = out.deep && !self.dense;
         let slots = self.sort_slots(out);
         let hidden = if self.cache.spilled.is_some() {
             self.draw_with_guests(slots, out)
@@ -288,7 +290,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Sorts the slots that are listed, from the last line's order on, and finds their spans; how many they
     /// are.
     #[inline(never)]
-    fn sort_slots(&mut self, out: &Line<'_, '_, WordOf<L>>) -> usize {
+    pub(super) fn sort_slots(&mut self, out: &Line<'_, '_, WordOf<L>>) -> usize {
         let (listed, before) = (self.cache.listed, self.append_new());
         let mut count = 0;
         let mut last = u32::MAX;
@@ -335,7 +337,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     ) {
         let number = number_of::<WORDS>(key);
         let slot = &self.cache.slots.as_flattened()[number];
-        if out.deep && Flags(slot.flags).is_usual() {
+        if out.nearest_first && Flags(slot.flags).is_usual() {
             let sides = &slot.item.sides;
             let span = Span {
                 start: sides.left.column(out.number),
@@ -375,9 +377,16 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let number = number_of::<WORDS>(key);
         let slot = &mut self.cache.slots.as_flattened_mut()[number];
         let span = columns_of::<L>(slot, out);
-        if !out.deep {
+        if self.dense && out.deep {
+            deepen::<L>(slot, out.view);
+        }
+        if self.dense || !out.deep {
             // Its place is the same on lines to come.
-            let place = place_of(out.view, slot.object);
+            let place = if self.dense {
+                u32::from(slot.object) << 8
+            } else {
+                place_of(out.view, slot.object)
+            };
             return self.keep_span(place | number as u32, span, Slope::even(place));
         }
         if span.start >= span.end {

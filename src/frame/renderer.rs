@@ -185,6 +185,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) ordered: [u32; WORDS],
     /// Whether most spans of the last line met others.
     pub(super) crowded: bool,
+    /// Whether so much had no slot on the last line that slots are in order of submission.
+    pub(super) dense: bool,
     /// Whether the order of the last line is that of the next, if it has the same triangles.
     pub(super) lasting: bool,
     /// Whether triangles began or ended on this line.
@@ -245,6 +247,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             nearest: 0,
             ordered: [0; WORDS],
             crowded: false,
+            dense: false,
             lasting: false,
             changed: true,
             counts: CacheUse::default(),

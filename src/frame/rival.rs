@@ -46,7 +46,7 @@ impl Slope {
     }
 
     #[inline(always)]
-    fn at(self, column: u32) -> u32 {
+    pub(super) fn at(self, column: u32) -> u32 {
         self.at.wrapping_add(self.step.wrapping_mul(column))
     }
 

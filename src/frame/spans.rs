@@ -14,6 +14,8 @@ pub(super) struct Line<'a, 'v, W> {
     pub(super) pixels: &'a mut [W],
     /// Whether the nearest span is seen; otherwise the one of the highest priority, of equals the one submitted last.
     pub(super) deep: bool,
+    /// Whether slots are sorted by depth.
+    pub(super) nearest_first: bool,
 }
 
 /// The columns of a span.

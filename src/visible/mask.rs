@@ -249,13 +249,6 @@ impl Mask {
         count
     }
 
-    /// Adds what another has of `start .. end`, which ends below 1,024.
-    pub(crate) fn add(&mut self, other: &Self, start: u32, end: u32) {
-        each_word(start, end, |word, bits| {
-            self.0[word] |= other.0[word] & bits;
-        });
-    }
-
     /// Calls `run` with each run of the first `width` columns that is not covered, from left to right; then the
     /// mask is empty.
     #[inline(always)]

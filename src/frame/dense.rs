@@ -1,0 +1,218 @@
+//! Lines with many spans without a slot: the nearest depth of each column comes first, then who has it (X3, C5).
+//!
+//! What has no slot is walked twice, once for depths and once for colours, whatever its number is; nothing is sorted,
+//! and what is hidden is not set up. Both walks go in order of submission, slots among them: of equal depths in a column
+//! the one submitted last is coloured last. Where fewer cells of depth are lent than a line has columns, the line is
+//! drawn in parts.
+
+use super::alone::set_up_stray;
+use super::guests::{CELLS, Stray, Walk};
+use super::near::number_of;
+use super::renderer::Renderer;
+use super::rival::{Rival, rival_of};
+use super::spans::{Drawn, Line, Span, colour_run};
+use crate::look::{Look, WordOf};
+
+/// Columns of a line that have cells, the first one's cell first.
+struct Part<'a> {
+    columns: Span,
+    cells: &'a mut [u32],
+}
+
+/// The run of a rival's columns in a part, with its depth there.
+struct Run<'c> {
+    cells: &'c mut [u32],
+    start: u32,
+    depth: u32,
+    step: u32,
+}
+
+impl Part<'_> {
+    fn run_of(&mut self, rival: Rival) -> Option<Run<'_>> {
+        let (start, end) = (self.columns.start, self.columns.end);
+        let (start, end) = (rival.span.start.max(start), rival.span.end.min(end));
+        let first = self.columns.start;
+        let cells = (start.checked_sub(first)? as usize)..(end.checked_sub(first)? as usize);
+        Some(Run {
+            cells: self.cells.get_mut(cells)?,
+            start,
+            depth: rival.slope.at(start),
+            step: rival.slope.step,
+        })
+    }
+
+    /// Keeps the depths of a rival, where they are nearer.
+    #[inline(never)]
+    fn deepen(&mut self, rival: Rival) {
+        let Some(run) = self.run_of(rival) else {
+            return;
+        };
+        let mut depth = run.depth;
+        for cell in run.cells {
+            *cell = depth.max(*cell);
+            depth = depth.wrapping_add(run.step);
+        }
+    }
+
+    /// Calls `f` with each run of columns in which nobody is nearer than a rival; how many columns these are not.
+    #[inline(always)]
+    fn each_seen(&mut self, rival: Rival, mut f: impl FnMut(Span)) -> u32 {
+        let Some(run) = self.run_of(rival) else {
+            return 0;
+        };
+        let (mut depth, mut hidden) = (run.depth, 0);
+        let (mut start, mut end) = (run.start, run.start);
+        for &mut cell in run.cells {
+            if cell != depth {
+                if start < end {
+                    f(Span { start, end });
+                }
+                (start, hidden) = (end + 1, hidden + 1);
+            }
+            depth = depth.wrapping_add(run.step);
+            end += 1;
+        }
+        if start < end {
+            f(Span { start, end });
+        }
+        hidden
+    }
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Draws so many slots that are in order of submission, the last one first, and all that has no slot; how many spans
+    /// met others.
+    #[inline(never)]
+    pub(super) fn draw_dense(
+        &mut self,
+        slots: usize,
+        cells: &mut [u32],
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> usize {
+        let (mut start, mut hidden) = (0, 0);
+        let width = out.pixels.len();
+        while start < width {
+            let end = width.min(start + cells.len());
+            let Some(cells) = cells.get_mut(..end - start) else {
+                break;
+            };
+            cells.fill(0);
+            let mut part = Part {
+                columns: Span {
+                    start: start as u32,
+                    end: end as u32,
+                },
+                cells,
+            };
+            self.find_nearest(slots, &mut part, out);
+            hidden += self.colour_nearest(slots, &mut part, out);
+            start = end;
+        }
+        hidden
+    }
+
+    /// The nearest depth of each column.
+    fn find_nearest(
+        &mut self,
+        slots: usize,
+        part: &mut Part<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) {
+        for k in 0..slots {
+            if let Some(rival) = self.rival_at(k, out) {
+                part.deepen(rival);
+            }
+        }
+        let mut walk = Walk::of(self.cache.spilled);
+        let mut guests = 0usize;
+        while let Some(stray) = self.next_stray(&mut walk, out) {
+            guests += 1;
+            if stray.span.meets(part.columns) {
+                part.deepen(stray.rival(stray.slope::<L>(out)));
+            }
+        }
+        if part.columns.start == 0 {
+            // Below half of what cells hold of sorted ones, sorting is cheaper again.
+            self.dense = 2 * CELLS * guests > part.cells.len();
+            self.counts.misses += if self.crowded { guests as u32 } else { 0 };
+        }
+    }
+
+    /// Colours who is nearest, in order of submission; how many spans are not seen whole.
+    fn colour_nearest(
+        &mut self,
+        mut slots: usize,
+        part: &mut Part<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> usize {
+        let mut hidden = 0;
+        let mut walk = Walk::of(self.cache.spilled);
+        loop {
+            let stray = self.next_stray(&mut walk, out);
+            let until = stray.as_ref().map_or(u16::MAX, |stray| stray.object);
+            while let Some(k) = slots.checked_sub(1) {
+                let rival = self.rival_at(k, out);
+                if rival.is_some_and(|rival| rival.object > until) {
+                    break;
+                }
+                slots = k;
+                if let Some(rival) = rival {
+                    hidden += usize::from(self.colour_seen(k, rival, part, out));
+                }
+            }
+            match stray {
+                Some(stray) if stray.span.meets(part.columns) => {
+                    hidden += usize::from(self.colour_stray(&stray, part, out));
+                }
+                Some(_) => {}
+                None => return hidden,
+            }
+        }
+    }
+
+    /// The span of the slot that is so many places from the front; `None` where it has no columns.
+    #[inline(never)]
+    fn rival_at(&self, at: usize, out: &Line<'_, '_, WordOf<L>>) -> Option<Rival> {
+        let number = number_of::<WORDS>(*self.cache.order.as_flattened().get(at)?);
+        let span = Span::of(self.cache.spans.as_flattened()[number]);
+        let slot = &self.cache.slots.as_flattened()[number];
+        (span.start < span.end).then(|| rival_of::<L>(slot, span, out))
+    }
+
+    /// Colours what is seen of the slot at a place; whether that is not all.
+    #[inline(never)]
+    fn colour_seen(
+        &mut self,
+        at: usize,
+        rival: Rival,
+        part: &mut Part<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> bool {
+        let key = self.cache.order.as_flattened().get(at).copied();
+        let number = number_of::<WORDS>(key.unwrap_or_default());
+        let drawn = Drawn::of(&self.cache.slots.as_flattened()[number]);
+        let mask = &mut self.written;
+        part.each_seen(rival, |run| {
+            mask.cover(run.start, run.end);
+            colour_run::<L>(drawn, rival.span, run, out);
+        }) > 0
+    }
+
+    /// The same of what has no slot, which is set up where it is seen.
+    #[inline(never)]
+    fn colour_stray(
+        &mut self,
+        stray: &Stray<'_>,
+        part: &mut Part<'_>,
+        out: &mut Line<'_, '_, WordOf<L>>,
+    ) -> bool {
+        let rival = stray.rival(stray.slope::<L>(out));
+        let (mask, counts) = (&mut self.written, &mut self.counts);
+        let mut alone = None;
+        part.each_seen(rival, |run| {
+            let alone = alone.get_or_insert_with(|| set_up_stray::<L>(stray, counts, out));
+            mask.cover(run.start, run.end);
+            colour_run::<L>(alone.drawn(), rival.span, run, out);
+        }) > 0
+    }
+}
