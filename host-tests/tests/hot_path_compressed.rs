@@ -70,10 +70,6 @@ fn shown(blocks: &[u8], sides: [u32; 2], word: fn(u16) -> u16, key: Option<u16>)
 }
 
 /// Every block of any bytes, on textures of all sides, alone and through a cache, in both orders of bytes.
-///
-/// Kills: ends in each other's place, thirds by 10 or 12 of 32, no half in the sum, a mean by 15 of 32, `>=` for `>` between
-/// the ends, rows of blocks by another power of two, indices from the highest bits on, columns for rows within a block,
-/// a key that an opaque texel may have, no order of bytes, the word of a block's first texel for the one asked for.
 #[test]
 fn texels_are_those_of_real_numbers() {
     let mut rng = Rng::new(1);
@@ -118,8 +114,6 @@ fn texels_are_those_of_real_numbers() {
 }
 
 /// All pairs of levels and all parts: sums of one channel never reach the next.
-///
-/// Kills: channels with 4 bits between them.
 #[test]
 fn what_is_mixed_is_within_half_a_level_of_the_part_and_one_of_the_third() {
     for first in 0..64u16 {
@@ -208,9 +202,6 @@ impl Texels for Table {
 
 /// Frames with wraps, filters and keys: compressed, through caches from one block on, and of words that were decoded
 /// beforehand; and what a cache does is what one does that follows each texel.
-///
-/// Kills: a key of the cache's texture that is not the compressed one's, misses that are not counted, a block that is
-/// decoded into another's words.
 #[test]
 fn frames_are_those_of_the_same_texels_in_memory() {
     let mut rng = Rng::new(2);
@@ -266,9 +257,6 @@ fn frames_are_those_of_the_same_texels_in_memory() {
 
 /// What is loaded ahead is not missed, in whatever steps it is loaded; and what a cache has not room for is missed and
 /// right all the same.
-///
-/// Kills: blocks from the range's first texel on that is a block's first, a last block that is left out, a bound that is not
-/// kept, blocks that are there and loaded again, loads that count as misses.
 #[test]
 fn what_is_loaded_ahead_is_not_missed() {
     let mut rng = Rng::new(3);
@@ -443,8 +431,6 @@ fn off(texels: &[Texel], blocks: &Blocks) -> f64 {
 }
 
 /// The compressor says how far it is off, is within a bound on each sample, and leaves alone what two colours can show.
-///
-/// Kills: ends that are not moved from where they began, the least variance for the largest, an order of ends without holes.
 #[test]
 fn pictures_are_compressed_within_a_bound_and_it_is_told() {
     let two = |x: u32, y: u32| [[255, 0, 0], [0, 255, 255]][(x * y % 2) as usize];

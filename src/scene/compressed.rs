@@ -178,7 +178,7 @@ impl Texels for Compressed<'_> {
     fn texel(&self, column: u16, row: u16) -> u16 {
         let [column, row] = [column, row].map(u32::from);
         let across = u32::from(self.log_width.saturating_sub(2));
-        let Block { ends, indices } = self.block((row / 4) << across | column / 4);
+        let Block { ends, indices } = self.block(((row / 4) << across) | (column / 4));
         self.shown(ends, indices >> (8 * (row % 4) + 2 * (column % 4)) & 3)
     }
 }

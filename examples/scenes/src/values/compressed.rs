@@ -34,7 +34,9 @@ const ROWS: u32 = 8;
 pub(super) type Words = [CacheWord; (STONE_SIDE * ROWS) as usize];
 
 /// None yet.
-pub(super) const EMPTY: Words = [const { CacheWord::new() }; (STONE_SIDE * ROWS) as usize];
+pub(super) const fn empty() -> Words {
+    [const { CacheWord::new() }; (STONE_SIDE * ROWS) as usize]
+}
 
 /// A cache of the stone, of which as much is there as there is room for.
 pub(super) fn cache(words: &mut Words) -> Result<BlockCache<'_>, ShotError> {

@@ -38,7 +38,7 @@ use crate::ShotError;
 use crate::contours::ContourLook;
 use crate::looks::{SmoothLook, TexturedLook};
 use alpha::alpha;
-use compressed::{EMPTY, cache, compressed, pressed};
+use compressed::{cache, compressed, empty, pressed};
 use dusk::{Dusk, dusk};
 use fetched::{Slow, blocks, computed};
 use points::points;
@@ -393,7 +393,7 @@ impl<'m> Rest<'m> {
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
-        let mut words = EMPTY;
+        let mut words = empty();
         let cache = cache(&mut words)?;
         let textures = pressed(&cache)?;
         self.send(Values::Compressed, slots, pump, |scene, _| {
