@@ -79,6 +79,8 @@ pub enum Command {
     Report(ReportArgs),
     /// Make a list of a model: strips of quantised vertices for flash
     Bake(BakeArgs),
+    /// Compress a picture for a texture of 4 bits a texel
+    Compress(CompressArgs),
     /// Execute a list and draw it to a picture
     RunList(RunListArgs),
     /// Print a list, block by block
@@ -161,6 +163,26 @@ pub struct CacheArgs {
 /// Flags of `accuracy`: those of `cache`.
 pub type AccuracyArgs = CacheArgs;
 
+/// Flags of `compress`.
+#[derive(Debug, Clone, PartialEq, Eq, Args)]
+pub struct CompressArgs {
+    /// Picture to compress, .png, .jpg or .ppm; its sides become powers of two
+    #[arg(value_name = "PICTURE")]
+    pub picture: PathBuf,
+    /// Blocks to write, 8 bytes each, rows from the top
+    #[arg(short = 'o', long = "output", value_name = "OUT.bc1")]
+    pub output: PathBuf,
+}
+
+impl CompressArgs {
+    fn check(&self) -> Result<(), String> {
+        match self.output == self.picture {
+            true => Err("-o must not be the picture itself".into()),
+            false => Ok(()),
+        }
+    }
+}
+
 /// Flags of `report`.
 #[derive(Debug, Clone, PartialEq, Eq, Args)]
 pub struct ReportArgs {
@@ -214,6 +236,7 @@ where
         Command::View(view) => view.check(),
         Command::Trace(trace) => trace.check(),
         Command::Bake(bake) => bake.check(),
+        Command::Compress(compress) => compress.check(),
         Command::RunList(list) => list.check(),
         Command::Demo(_)
         | Command::Cache(_)

@@ -14,6 +14,7 @@ pub mod bench;
 pub mod boards;
 pub mod budgets;
 pub mod cache_report;
+pub mod compress;
 pub mod demo;
 pub mod figures;
 pub mod firmware;

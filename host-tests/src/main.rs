@@ -8,8 +8,8 @@ use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::scene_file::Loaded;
 use host_tests::{
-    accuracy, bench, boards, budgets, cache_report, demo, draw, firmware_report, report, stdio,
-    tell, trace, view,
+    accuracy, bench, boards, budgets, cache_report, compress, demo, draw, firmware_report, report,
+    stdio, tell, trace, view,
 };
 use std::error::Error;
 use std::process::ExitCode;
@@ -42,6 +42,7 @@ fn main() -> ExitCode {
         Command::Bench(args) => bench::run(&args),
         Command::Report(args) => report::run(&args),
         Command::Bake(args) => bake::run(&args),
+        Command::Compress(args) => compress::run(&args),
         Command::RunList(args) => list_run::run(&args),
         Command::Disassemble(args) => list_text::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {

@@ -35,6 +35,7 @@ mod fuzz;
 mod golden;
 mod hot_path_alpha;
 mod hot_path_colours;
+mod hot_path_compressed;
 mod hot_path_computed;
 mod hot_path_counts;
 mod hot_path_cover;

@@ -55,7 +55,7 @@ fn a_reader_that_goes_away_ends_the_tool_quietly() {
 }
 
 /// All words that the tool has.
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "render",
     "view",
     "demo",
@@ -68,6 +68,7 @@ const COMMANDS: [&str; 14] = [
     "bench",
     "report",
     "bake",
+    "compress",
     "run-list",
     "disassemble",
 ];

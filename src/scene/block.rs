@@ -17,6 +17,12 @@ pub struct Blocked {
 }
 
 impl Blocked {
+    /// Blocks of compressed textures.
+    pub(super) const COMPRESSED: Self = Self {
+        log_width: 2,
+        log_height: 2,
+    };
+
     /// Blocks of `2^log_width` by `2^log_height` texels, each at most 32; `None` for more.
     #[must_use]
     pub const fn new(log_width: u32, log_height: u32) -> Option<Self> {
@@ -82,6 +88,13 @@ impl Blocked {
     #[inline(always)]
     pub(super) const fn log_texels(self) -> u8 {
         self.log_width + self.log_height
+    }
+
+    /// The column and the row within its block of what lies at an index.
+    #[inline(always)]
+    pub(super) const fn inside(self, index: u32) -> [u32; 2] {
+        let inside = index & ((1 << self.log_texels()) - 1);
+        [inside & (self.width() - 1), inside >> self.log_width]
     }
 
     /// Where a texel lies, of a block that is within a texture of `2^log_across` columns.

@@ -20,7 +20,8 @@
 //! ```
 
 use super::form::Form;
-use super::{Blocked, TexelWay, Texels, Texture};
+use super::{Blocked, Compressed, TexelWay, Texels, Texture};
+use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Why a cache cannot be made of what was lent.
@@ -40,8 +41,16 @@ pub enum CacheError {
         /// Words lent.
         have: usize,
     },
-    /// The texture is computed, or behind a cache, and does not lie in memory.
+    /// The texture is computed, or behind a cache, and does not lie in memory. What is compressed has
+    /// [a constructor](BlockCache::compressed) of its own.
     Computed,
+    /// Texels to be loaded lie beyond the sides of the texture.
+    Outside {
+        /// The first column or row that is not there.
+        side: u32,
+        /// The column or row that the range ends before.
+        end: u32,
+    },
 }
 
 impl core::fmt::Display for CacheError {
@@ -53,6 +62,9 @@ impl core::fmt::Display for CacheError {
                 write!(f, "{needed} words are needed, there are {have}")
             }
             Self::Computed => f.write_str("computed texels do not lie in blocks"),
+            Self::Outside { side, end } => {
+                write!(f, "there are {side} columns or rows, not {end}")
+            }
         }
     }
 }
@@ -68,8 +80,10 @@ pub struct CacheReads {
     /// Texels asked for of another block than the one before them. Where a block is a page of memory, so often the page
     /// would change without a cache.
     pub page_changes: u32,
-    /// Blocks that were copied from slow memory.
+    /// Blocks that were copied from slow memory because a texel of them was asked for.
     pub misses: u32,
+    /// Blocks that were copied ahead, by [`load`](BlockCache::load).
+    pub loaded: u32,
 }
 
 /// A texel in fast memory: 4 bytes.
@@ -85,12 +99,32 @@ impl CacheWord {
     pub const fn new() -> Self {
         Self(AtomicU32::new(0))
     }
+
+    /// Puts a texel there, below the upper part of its index and 1.
+    #[inline(always)]
+    pub(super) fn set(&self, upper: u32, texel: u16) {
+        self.0.store(upper << 16 | u32::from(texel), Relaxed);
+    }
+}
+
+/// Decodes the block of an index: `Compressed::load`.
+type Load = fn(&Compressed<'_>, u32, Blocked, u32, &[CacheWord]) -> u16;
+
+/// Where blocks come from.
+#[derive(Debug)]
+enum Slow<'m> {
+    /// Words or indices, in blocks as the cache has them.
+    Stored(Form<'m>),
+    /// What has to be decoded, and by which code: a program that names no such texture does not have it.
+    Compressed(Compressed<'m>, Load),
 }
 
 /// Blocks of a texture in fast memory.
 #[derive(Debug)]
 pub struct BlockCache<'m> {
-    slow: Texture<'m>,
+    slow: Slow<'m>,
+    /// Powers of two that the sides of the texture are.
+    log_sides: [u8; 2],
     /// Not larger than the texture.
     block: Blocked,
     /// A power of two.
@@ -98,6 +132,7 @@ pub struct BlockCache<'m> {
     reads: AtomicU32,
     page_changes: AtomicU32,
     misses: AtomicU32,
+    loaded: AtomicU32,
     /// The block that was read last, and 1; 0 before the first.
     last: AtomicU32,
 }
@@ -127,9 +162,36 @@ impl<'m> BlockCache<'m> {
         if matches!(slow.form, Form::Computed(..)) {
             return Err(CacheError::Computed);
         }
+        let log_sides = [slow.log_width() as u8, slow.log_height() as u8];
+        Self::of(Slow::Stored(slow.form), log_sides, layout, words)
+    }
+
+    /// A cache of a compressed texture, whose blocks of 4 x 4 texels are decoded once for all that are read of them. Empty
+    /// at first. `words` is a power of two, 16 or more, less for smaller textures.
+    ///
+    /// # Errors
+    /// See [`CacheError`].
+    pub fn compressed(
+        slow: Compressed<'m>,
+        words: &'m mut [CacheWord],
+    ) -> Result<Self, CacheError> {
+        let log_sides = slow.log_sides();
+        let slow = Slow::Compressed(slow, |slow, index, layout, upper, words| {
+            slow.load(index, layout, upper, words)
+        });
+        Self::of(slow, log_sides, Blocked::COMPRESSED, words)
+    }
+
+    fn of(
+        slow: Slow<'m>,
+        log_sides: [u8; 2],
+        layout: Blocked,
+        words: &'m mut [CacheWord],
+    ) -> Result<Self, CacheError> {
         let have = words.len();
-        let block = layout.within(slow.log_width() as u8, slow.log_height() as u8);
-        let texels = 1usize << (slow.log_width() + slow.log_height());
+        let [log_width, log_height] = log_sides;
+        let block = layout.within(log_width, log_height);
+        let texels = 1usize << (log_width + log_height);
         let needed = (1 << block.log_texels()).max(texels >> UPPER);
         if have < needed {
             return Err(CacheError::Words { needed, have });
@@ -140,21 +202,74 @@ impl<'m> BlockCache<'m> {
         words.fill_with(CacheWord::new);
         Ok(Self {
             slow,
+            log_sides,
             block,
             words,
             reads: AtomicU32::new(0),
             page_changes: AtomicU32::new(0),
             misses: AtomicU32::new(0),
+            loaded: AtomicU32::new(0),
             last: AtomicU32::new(0),
         })
     }
 
-    /// The texture that is read through the cache: it repeats, and has no key.
+    /// The texture that is read through the cache: it repeats, and has no key but that of what is compressed.
     #[must_use]
     pub fn texture(&self) -> Texture<'_> {
-        let [width, height] = [self.slow.width(), self.slow.height()];
+        if let Slow::Compressed(slow, _) = &self.slow {
+            return slow.dressed(self);
+        }
+        let [width, height] = self.log_sides.map(|log| 1 << log);
         // Sides of a texture are those of one.
         Texture::computed(self, width, height).unwrap_or(Texture::EMPTY)
+    }
+
+    /// Copies blocks ahead of their use, those with a texel in these columns and rows that are not there, row by row of
+    /// blocks: `most` of them, and how many these were. So texels that the next lines show are there when they are drawn,
+    /// and the time for it is taken where there is some.
+    ///
+    /// It may be asked again, and goes on where it stopped; 0 says that all are there. Of two blocks that have the same
+    /// place in the cache the later one stays: a rectangle of whole rows of blocks has none, as long as the cache is as
+    /// large as it.
+    ///
+    /// # Errors
+    /// [`CacheError::Outside`] where a range ends beyond the texture; nothing is copied then.
+    pub fn load(
+        &self,
+        columns: Range<u32>,
+        rows: Range<u32>,
+        most: u32,
+    ) -> Result<u32, CacheError> {
+        let ends = [columns.end, rows.end].into_iter().zip(self.log_sides);
+        for (end, side) in ends.map(|(end, log)| (end, 1 << log)) {
+            if end > side {
+                return Err(CacheError::Outside { side, end });
+            }
+        }
+        let [width, height] = [self.block.width(), self.block.height()];
+        let [columns, rows] = [(columns, width), (rows, height)].map(|(texels, side)| {
+            let is_some = !texels.is_empty();
+            texels.start / side..if is_some {
+                texels.end.div_ceil(side)
+            } else {
+                0
+            }
+        });
+        let mut loaded = 0;
+        for row in rows {
+            for column in columns.clone() {
+                let first = self.index([(column * width) as u16, (row * height) as u16]);
+                if self.held(first).is_none() {
+                    if loaded == most {
+                        return Ok(loaded);
+                    }
+                    self.fill(first);
+                    add(&self.loaded, 1);
+                    loaded += 1;
+                }
+            }
+        }
+        Ok(loaded)
     }
 
     /// What has been done so far.
@@ -164,25 +279,32 @@ impl<'m> BlockCache<'m> {
             reads: self.reads.load(Relaxed),
             page_changes: self.page_changes.load(Relaxed),
             misses: self.misses.load(Relaxed),
+            loaded: self.loaded.load(Relaxed),
         }
     }
 
     /// The index of a texel.
     #[inline(always)]
     fn index(&self, [column, row]: [u16; 2]) -> u32 {
-        let across = self.slow.log_width() as u8;
-        self.block.place(column.into(), row.into(), across)
+        self.block
+            .place(column.into(), row.into(), self.log_sides[0])
+    }
+
+    /// The texel of an index, if it is there.
+    #[inline(always)]
+    fn held(&self, index: u32) -> Option<u16> {
+        let word = self.words.get(index as usize & (self.words.len() - 1));
+        let word = word.map_or(0, |word| word.0.load(Relaxed));
+        (word >> 16 == self.upper(index)).then_some(word as u16)
     }
 
     /// The texel of an index.
     #[inline(always)]
     fn read(&self, index: u32) -> u16 {
-        let word = self.words.get(index as usize & (self.words.len() - 1));
-        let word = word.map_or(0, |word| word.0.load(Relaxed));
-        if word >> 16 == self.upper(index) {
-            return word as u16;
+        match self.held(index) {
+            Some(texel) => texel,
+            None => self.fetch_block(index),
         }
-        self.fetch_block(index)
     }
 
     /// The upper part of an index, and 1.
@@ -191,18 +313,30 @@ impl<'m> BlockCache<'m> {
         (index >> self.words.len().trailing_zeros()) + 1
     }
 
-    /// Copies the block of an index; its texel.
+    /// Copies the block of an index that was asked for; its texel.
     #[inline(never)]
     fn fetch_block(&self, index: u32) -> u16 {
         add(&self.misses, 1);
+        self.fill(index)
+    }
+
+    /// Copies the block of an index; its texel.
+    fn fill(&self, index: u32) -> u16 {
         let texels = 1u32 << self.block.log_texels();
         let first = index & !(texels - 1);
-        let upper = self.upper(index) << 16;
+        let upper = self.upper(index);
         let from = first as usize & (self.words.len() - 1);
+        let form = match &self.slow {
+            Slow::Stored(form) => form,
+            Slow::Compressed(slow, load) => {
+                let words = self.words.get(from..from + texels as usize);
+                return load(slow, index, self.block, upper, words.unwrap_or_default());
+            }
+        };
         let mut read = 0;
         for (index_here, word) in (first..first + texels).zip(&self.words[from..]) {
-            let texel = self.slow.form.get(index_here as usize).unwrap_or_default();
-            word.0.store(upper | u32::from(texel), Relaxed);
+            let texel = form.get(index_here as usize).unwrap_or_default();
+            word.set(upper, texel);
             if index_here == index {
                 read = texel;
             }
@@ -239,157 +373,4 @@ impl Texels for BlockCache<'_> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::num::random::Rng;
-    use std::vec;
-    use std::vec::Vec;
-
-    /// Texels of 64 x 32, all different, in rows and in the blocks of a layout.
-    fn texels(layout: Blocked) -> [Vec<u16>; 2] {
-        let rows: Vec<u16> = (0..2048).map(|i| (i * 31) as u16).collect();
-        let mut blocks = rows.clone();
-        layout.arrange([64, 32], &rows, &mut blocks).unwrap();
-        [rows, blocks]
-    }
-
-    fn words(count: usize) -> Vec<CacheWord> {
-        (0..count).map(|_| CacheWord::new()).collect()
-    }
-
-    /// Against a model that follows every read.
-    ///
-    /// Kills: no upper part of the index, one without the 1, a word's place by the block alone, a block that is copied
-    /// from its middle on, counts that are not added up.
-    #[test]
-    fn a_cache_of_any_size_gives_the_same_texels_and_counts_what_it_does() {
-        for (log_w, log_h) in [(2, 2), (4, 0), (0, 0), (5, 5)] {
-            let layout = Blocked::new(log_w, log_h).unwrap();
-            let [rows, blocks] = texels(layout);
-            let block = 1usize << (log_w + log_h);
-            for slots in [1usize, 2, 8, 2048 / block] {
-                // What another cache has left there.
-                let mut fast = words(slots * block);
-                fast.fill_with(|| CacheWord(AtomicU32::new(1 << 16 | 0xBAD)));
-                let slow = Texture::words(&blocks, 64, 32).unwrap();
-                let cache = BlockCache::new(slow, layout, &mut fast).unwrap();
-                let (mut held, mut last) = (vec![usize::MAX; slots], usize::MAX);
-                let (mut rng, mut want) = (Rng(3), CacheReads::default());
-                for i in 0..5_000 {
-                    let at = [rng.below(64), rng.below(32)].map(|n| n as u16);
-                    let number = usize::from(at[1] >> log_h << (6 - log_w) | at[0] >> log_w);
-                    want.reads += 1;
-                    want.page_changes += u32::from(number != last);
-                    want.misses += u32::from(held[number % slots] != number);
-                    (held[number % slots], last) = (number, number);
-                    let texel = usize::from(at[1]) << 6 | usize::from(at[0]);
-                    if i % 2 == 0 {
-                        assert_eq!(cache.texel(at[0], at[1]), rows[texel]);
-                    } else {
-                        let mut pixel = [0];
-                        let turn = |n: u16, log: u32| [u32::from(n) << (32 - log), 0];
-                        let way = TexelWay::new(turn(at[0], 6), turn(at[1], 5), [6, 5]);
-                        cache.fetch(&mut pixel, way);
-                        assert_eq!(pixel[0], rows[texel]);
-                    }
-                    assert_eq!(cache.reads(), want, "{slots} of {block}");
-                }
-            }
-        }
-    }
-
-    /// Indices in slow memory are words in fast memory; the largest texture has the least cache.
-    #[test]
-    fn any_form_and_size_is_read() {
-        let bytes: Vec<u8> = (0..1 << 20).map(|i| (i * 7 % 251) as u8).collect();
-        let palette: Vec<u16> = (0..256).map(|i| 0x8000 | (i * 3)).collect();
-        let slow = Texture::index8(&bytes, &palette, 1024, 1024).unwrap();
-        let layout = Blocked::new(4, 0).unwrap();
-        let mut fast = words(32);
-        let cache = BlockCache::new(slow, layout, &mut fast).unwrap();
-        let mut rng = Rng(4);
-        for _ in 0..20_000 {
-            let [column, row] = [(); 2].map(|()| rng.below(1024));
-            let want = palette[usize::from(bytes[(row << 10 | column) as usize])];
-            assert_eq!(cache.texel(column as u16, row as u16), want);
-        }
-    }
-
-    #[test]
-    fn what_does_not_fit_is_said() {
-        let (texels, layout) = (vec![0; 1 << 20], Blocked::new(2, 2).unwrap());
-        let make = |side: u32, count: usize| {
-            let mut fast = words(count);
-            let slow = Texture::words(&texels, side, side).unwrap();
-            BlockCache::new(slow, layout, &mut fast).err()
-        };
-        assert_eq!(make(64, 48), Some(CacheError::NotPowerOfTwo { have: 48 }));
-        let words_error = |needed, have| Some(CacheError::Words { needed, have });
-        assert_eq!(make(64, 0), words_error(16, 0));
-        assert_eq!(make(64, 8), words_error(16, 8));
-        assert_eq!(make(1024, 16), words_error(32, 16));
-        // A block is not larger than its texture.
-        assert_eq!((make(64, 16), make(2, 4), make(1, 1)), (None, None, None));
-        let mut fast = [words(16), words(16)];
-        let [first, second] = &mut fast;
-        let slow = Texture::words(&texels, 64, 64).unwrap();
-        let cache = BlockCache::new(slow, layout, first).unwrap();
-        let twice = BlockCache::new(cache.texture(), layout, second);
-        assert_eq!(twice.err(), Some(CacheError::Computed));
-    }
-
-    /// A slot as two cores leave it that copy two blocks there at once: each word is of either block.
-    ///
-    /// Kills: a tag for each block in place of one for each word.
-    #[test]
-    fn words_of_two_blocks_in_one_slot_are_told_apart() {
-        let layout = Blocked::new(2, 2).unwrap();
-        let [rows, blocks] = texels(layout);
-        let slow = Texture::words(&blocks, 64, 32).unwrap();
-        // One slot: blocks 0 and 1 are both kept there.
-        for mixed in 0..1u32 << 16 {
-            if mixed.count_ones() != 1 && mixed % 97 != 0 {
-                continue;
-            }
-            let mut fast = words(16);
-            let cache = BlockCache::new(slow, layout, &mut fast).unwrap();
-            let words_after = |column: u16| {
-                let _ = cache.texel(column, 0);
-                let words = cache.words.iter().map(|word| word.0.load(Relaxed));
-                words.collect::<Vec<_>>()
-            };
-            let [first, second] = [words_after(0), words_after(4)];
-            for column in [0, 1, 5, 4] {
-                for (i, word) in cache.words.iter().enumerate() {
-                    let of = [&first, &second][(mixed >> i & 1) as usize];
-                    word.0.store(of[i], Relaxed);
-                }
-                let want = rows[usize::from(column)];
-                assert_eq!(cache.texel(column, 0), want, "{mixed:x}");
-            }
-        }
-    }
-
-    /// Two cores at once: each has its texels, whoever copied them.
-    #[test]
-    fn two_cores_read_through_one_cache() {
-        let layout = Blocked::new(2, 2).unwrap();
-        let [rows, blocks] = texels(layout);
-        let mut fast = words(32);
-        let slow = Texture::words(&blocks, 64, 32).unwrap();
-        let cache = BlockCache::new(slow, layout, &mut fast).unwrap();
-        std::thread::scope(|scope| {
-            for seed in [1, 2] {
-                let (cache, rows) = (&cache, &rows);
-                scope.spawn(move || {
-                    let mut rng = Rng(seed);
-                    for _ in 0..200_000 {
-                        let [column, row] = [rng.below(64), rng.below(32)];
-                        let want = rows[(row << 6 | column) as usize];
-                        assert_eq!(cache.texel(column as u16, row as u16), want);
-                    }
-                });
-            }
-        });
-    }
-}
+mod tests;

@@ -16,6 +16,7 @@
 //! | `screen` | triangles and points that are made on the screen |
 //! | `texgen` | texture places from normals |
 //! | `texture`, `sampling`, `budget` | textures as values, how their texels are taken, and how exact they are drawn |
+//! | `compressed` | texels of 4 bits, in blocks that are decoded |
 //! | `form`, `computed` | texels that lie in memory, and those that somebody is asked for |
 //! | `block`, `block_cache` | texels in blocks of slow memory, and a small cache of them |
 //! | `scissor`, `depth`, `blend` | what else a draw call does to its pixels, as values |
@@ -34,6 +35,7 @@ mod block;
 mod block_cache;
 mod budget;
 mod check;
+mod compressed;
 mod computed;
 mod cut;
 mod depth;
@@ -65,6 +67,7 @@ pub use blend::{Blend, BlendMode, Factor};
 pub use block::Blocked;
 pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
+pub use compressed::Compressed;
 pub use computed::{Checker, Gradient, TexelWay, Texels};
 pub use depth::{DepthFunction, DepthTest};
 pub(crate) use draw::Holes;

@@ -131,13 +131,13 @@ pub struct Texture<'t> {
 
 /// The powers of two that the sides are.
 #[derive(Clone, Copy)]
-struct Sides {
-    log_width: u8,
-    log_height: u8,
+pub(super) struct Sides {
+    pub(super) log_width: u8,
+    pub(super) log_height: u8,
 }
 
 impl Sides {
-    const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
+    pub(super) const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
         if width.is_power_of_two()
             && height.is_power_of_two()
             && width <= MAX_SIDE

@@ -17,6 +17,7 @@
 //! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
 //! | `values_computed` | a floor and cubes of computed texels, nearest, mixed and with holes |
 //! | `values_blocks` | a floor and a cube whose texels lie in blocks behind a small cache |
+//! | `values_compressed` | floors and cubes of compressed texels: through a cache, mixed, alone, and with holes |
 //! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_points` | points of three sizes and corners on the screen, textured, by a camera that looks aside |
 //! | `values_overlay` | a ball below sprites |
@@ -25,6 +26,7 @@
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 
 mod alpha;
+mod compressed;
 mod dusk;
 mod fetched;
 mod points;
@@ -36,6 +38,7 @@ use crate::ShotError;
 use crate::contours::ContourLook;
 use crate::looks::{SmoothLook, TexturedLook};
 use alpha::alpha;
+use compressed::{cache, compressed, empty, pressed};
 use dusk::{Dusk, dusk};
 use fetched::{Slow, blocks, computed};
 use points::points;
@@ -110,6 +113,8 @@ pub enum Values {
     Computed,
     /// Texels in blocks of slow memory, through a cache.
     Blocks,
+    /// Texels of 4 bits.
+    Compressed,
     /// Volumes of two lights, and what they light.
     Shadows,
     /// Points, and triangles that are set up beforehand.
@@ -125,7 +130,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 20] = [
+pub const VALUES: [(&str, Values); 21] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -140,6 +145,7 @@ pub const VALUES: [(&str, Values); 20] = [
     ("values_sampled", Values::Sampled),
     ("values_computed", Values::Computed),
     ("values_blocks", Values::Blocks),
+    ("values_compressed", Values::Compressed),
     ("values_shadows", Values::Shadows),
     ("values_points", Values::Points),
     ("values_overlay", Values::Overlay),
@@ -262,6 +268,7 @@ impl Values {
             Self::Sampled => rest.send_sampled(lent.textured, pump),
             Self::Computed => rest.send(self, lent.textured, pump, |scene, _| computed(scene)),
             Self::Blocks => rest.send_blocks(lent.textured, pump),
+            Self::Compressed => rest.send_compressed(lent.textured, pump),
             Self::Shadows => rest.send_shadows(lent.smooth, pump),
             Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
@@ -373,6 +380,24 @@ impl<'m> Rest<'m> {
         let cached = texels.texture();
         self.send(Values::Blocks, cache, pump, |scene, _| {
             blocks(scene, &cached)
+        })
+    }
+
+    /// Loads what fits the cache of a compressed texture, and sends the scene that reads it.
+    #[inline(never)]
+    fn send_compressed<D>(
+        self,
+        slots: &mut FastMemory<TexturedLook>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let mut words = empty();
+        let cache = cache(&mut words)?;
+        let textures = pressed(&cache)?;
+        self.send(Values::Compressed, slots, pump, |scene, _| {
+            compressed(scene, &textures)
         })
     }
 
