@@ -12,6 +12,7 @@ use super::renderer::Renderer;
 use super::rival::{Rival, rival_of};
 use super::spans::{Drawn, Line, Span, colour_run};
 use crate::look::{Look, WordOf};
+use crate::visible::Mask;
 
 /// Columns of a line that have cells, the first one's cell first.
 struct Part<'a> {
@@ -77,6 +78,19 @@ impl Part<'_> {
         }
         hidden
     }
+}
+
+/// Colours a run of a span, and covers it.
+#[inline(never)]
+fn colour_seen_run<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
+    run: Span,
+    mask: &mut Mask,
+    out: &mut Line<'_, '_, WordOf<L>>,
+) {
+    mask.cover(run.start, run.end);
+    colour_run::<L>(drawn, span, run, out);
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -193,8 +207,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let drawn = Drawn::of(&self.cache.slots.as_flattened()[number]);
         let mask = &mut self.written;
         part.each_seen(rival, |run| {
-            mask.cover(run.start, run.end);
-            colour_run::<L>(drawn, rival.span, run, out);
+            colour_seen_run::<L>(drawn, rival.span, run, mask, out);
         }) > 0
     }
 
@@ -211,8 +224,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut alone = None;
         part.each_seen(rival, |run| {
             let alone = alone.get_or_insert_with(|| set_up_stray::<L>(stray, counts, out));
-            mask.cover(run.start, run.end);
-            colour_run::<L>(alone.drawn(), rival.span, run, out);
+            colour_seen_run::<L>(alone.drawn(), rival.span, run, mask, out);
         }) > 0
     }
 }
