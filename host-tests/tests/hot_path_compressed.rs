@@ -70,6 +70,10 @@ fn shown(blocks: &[u8], sides: [u32; 2], word: fn(u16) -> u16, key: Option<u16>)
 }
 
 /// Every block of any bytes, on textures of all sides, alone and through a cache, in both orders of bytes.
+///
+/// Kills: the second end for the first one; 10/32 for 11/32; parts that are cut off, not rounded; equal ends read as a
+/// first one that is above; an opaque texel that equals the key; rows and columns of a block swapped; a block's first
+/// texel for the one that is asked for.
 #[test]
 fn texels_are_those_of_real_numbers() {
     let mut rng = Rng::new(1);
@@ -257,6 +261,9 @@ fn frames_are_those_of_the_same_texels_in_memory() {
 
 /// What is loaded ahead is not missed, in whatever steps it is loaded; and what a cache has not room for is missed and
 /// right all the same.
+///
+/// Kills: a last block that is not whole is left out; what is loaded counts as missed; one block more than was asked for;
+/// blocks that are there are loaded again.
 #[test]
 fn what_is_loaded_ahead_is_not_missed() {
     let mut rng = Rng::new(3);
@@ -431,6 +438,8 @@ fn off(texels: &[Texel], blocks: &Blocks) -> f64 {
 }
 
 /// The compressor says how far it is off, is within a bound on each sample, and leaves alone what two colours can show.
+///
+/// Kills: the outermost colours are taken, and none better is looked for.
 #[test]
 fn pictures_are_compressed_within_a_bound_and_it_is_told() {
     let two = |x: u32, y: u32| [[255, 0, 0], [0, 255, 255]][(x * y % 2) as usize];

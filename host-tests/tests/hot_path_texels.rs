@@ -265,7 +265,7 @@ fn model() -> (Model, TextureImage) {
     (model, image)
 }
 
-/// Kills: the tool's pictures by presets, of which 707 pixels are wrong at exact.
+/// Kills: texture places at the 1/8 pixel of their corner.
 #[test]
 fn the_tool_shows_the_texels_of_f64() {
     let (model, image) = model();

@@ -228,3 +228,59 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }) > 0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::frame::rival::Slope;
+    use crate::num::random::Rng;
+    use std::vec::Vec;
+
+    /// Kills: columns of a depth that is one unit farther are seen too; the last run of columns is left out.
+    #[test]
+    fn columns_are_seen_in_which_nobody_is_nearer() {
+        let mut rng = Rng(7);
+        let (mut shared, mut outside) = (0, 0);
+        for _ in 0..2_000 {
+            let first = rng.below(50);
+            let mut cells = [0; 40];
+            let mut part = Part {
+                columns: Span {
+                    start: first,
+                    end: first + 40,
+                },
+                cells: &mut cells,
+            };
+            let rivals: Vec<Rival> = (0..5)
+                .map(|object| {
+                    let start = rng.below(90);
+                    let (end, at) = (start + 1 + rng.below(30), 1_000 + rng.below(4));
+                    let step = rng.below(3).wrapping_sub(1);
+                    Rival {
+                        span: Span { start, end },
+                        slope: Slope { at, step },
+                        object,
+                    }
+                })
+                .collect();
+            for &rival in &rivals {
+                part.deepen(rival);
+            }
+            let is_at = |r: &Rival, c: u32| r.span.start <= c && c < r.span.end;
+            for rival in &rivals {
+                let columns = (first..first + 40).filter(|&c| is_at(rival, c));
+                let (want, behind): (Vec<u32>, Vec<u32>) = columns.partition(|&c| {
+                    let others = rivals.iter().filter(|r| is_at(r, c));
+                    let nearest = others.map(|r| r.slope.at(c)).max();
+                    nearest == Some(rival.slope.at(c))
+                });
+                let mut got = Vec::new();
+                let hidden = part.each_seen(*rival, |run| got.extend(run.start..run.end));
+                assert_eq!((&got, hidden as usize), (&want, behind.len()));
+                shared += usize::from(!want.is_empty() && !behind.is_empty());
+                outside += usize::from(want.is_empty() && behind.is_empty());
+            }
+        }
+        assert!(shared > 1_000 && outside > 1_000, "{shared}, {outside}");
+    }
+}
