@@ -11,7 +11,7 @@ use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Frame, SmoothLook, TexturedLook, Played, SUITE_LINES, Shot, ShotError, Values, ValuesMemory,
+    Frame, Played, SUITE_LINES, Shot, ShotError, SmoothLook, TexturedLook, Values, ValuesMemory,
     Variant, WIDTH,
 };
 

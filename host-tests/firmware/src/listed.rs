@@ -5,7 +5,7 @@ use crate::rooms::Rooms;
 use crate::unpacked::Unpacked;
 use scanbeam::list::ListCommand;
 use scanbeam::{Draw, Scene};
-use scenes::{SmoothLook, Played};
+use scenes::{Played, SmoothLook};
 
 /// From the list: the vertices that were transformed and the triangles that were filed.
 #[inline(never)]

@@ -19,7 +19,7 @@ use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::DrawState;
 use scanbeam::{Renderer, Scene};
 use scenes::{
-    SmoothLook, PhongLook, TexturedPhongLook, TexturedLook, Shot, ShotError, Suite, WIDTH,
+    PhongLook, Shot, ShotError, SmoothLook, Suite, TexturedLook, TexturedPhongLook, WIDTH,
     lamplit_teapot, teapot_lamps,
 };
 

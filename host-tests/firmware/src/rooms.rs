@@ -9,9 +9,9 @@ use scanbeam::look::Look;
 use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
 use scanbeam::{Link, Scene, Screen};
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, DRAWS, HEIGHT, Hits, LIST_INDICES, LIST_TABLE, ContourLook,
-    IndexedLook, SmoothLook, PhongLook, TexturedPhongLook, TexturedLook, OBJECTS, Octasphere,
-    PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, Sheet, Shot, VALUES_SHOWN, VERTICES,
+    CRATE_INDICES, CRATE_TABLE, ContourLook, DRAWS, HEIGHT, Hits, IndexedLook, LIST_INDICES,
+    LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, PhongLook,
+    Played, Sheet, Shot, SmoothLook, TexturedLook, TexturedPhongLook, VALUES_SHOWN, VERTICES,
     WIDTH,
 };
 

@@ -8,7 +8,7 @@ use crate::rooms::Rooms;
 use core::hint::black_box;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::{Renderer, Scene};
-use scenes::{HEIGHT, SmoothLook, MOST_SLOTS, OCTASPHERES, Octasphere, WIDTH};
+use scenes::{HEIGHT, MOST_SLOTS, OCTASPHERES, Octasphere, SmoothLook, WIDTH};
 
 /// Slots where there are few.
 const FEW: u16 = 64;

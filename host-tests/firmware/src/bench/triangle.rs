@@ -25,7 +25,7 @@ use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::{Blend, Budget, Shading, Skin};
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Screen};
 use scanbeam_model::{ModelRenderer, PipeMemory};
-use scenes::{SmoothLook, TexturedLook, PLACES_F, Suite};
+use scenes::{PLACES_F, SmoothLook, Suite, TexturedLook};
 
 /// A triangle as wide and as tall as said, in pixels.
 #[derive(Clone, Copy)]

@@ -20,7 +20,7 @@ use scanbeam::look::Look;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Budget, Skin};
 use scanbeam::{Camera, Draw, Faces, Light, Mesh, Scene, Screen};
-use scenes::{SmoothLook, TexturedLook, Suite};
+use scenes::{SmoothLook, Suite, TexturedLook};
 
 /// Things of the smaller scene.
 const FEW: usize = 8;
