@@ -30,8 +30,8 @@ fn no_picture_is_missing() {
     memory(&mut page);
     let page = page.finish();
     let sources = values(&page, " src");
-    // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, and 18 by draw calls.
-    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 18);
+    // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, and 19 by draw calls.
+    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 19);
     for source in sources {
         let data = source.strip_prefix("data:image/png;base64,").unwrap();
         let png = STANDARD.decode(data).unwrap();
