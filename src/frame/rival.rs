@@ -60,7 +60,7 @@ impl Slope {
 
 impl Rival {
     /// Whether this is seen in a column that both have, and not the other.
-    pub(super) fn hides(self, other: Self, column: u32) -> bool {
+    fn hides(self, other: Self, column: u32) -> bool {
         let of = |rival: Self| (rival.slope.at(column), rival.object);
         of(self) > of(other)
     }
