@@ -1,0 +1,356 @@
+//! Mutants: small changes of `src/`, each of which a unit test or a proof must notice.
+//!
+//! All of them are compiled into one copy of the project, each behind a question that is asked at run
+//! time, so that trying one takes no build: `SCANBEAM_MUTANT` holds the number of the one that is on.
+//! First each test runs alone and tells which mutants it reaches. Then mutants are tried in a random
+//! order, each by the tests that reach it, the fastest first, until one fails.
+
+mod case;
+mod change;
+mod compile;
+mod known;
+mod reach;
+mod report;
+mod scan;
+mod site;
+mod tree;
+mod trial;
+mod weave;
+mod work;
+
+use clap::Parser;
+use compile::Copy;
+use reach::Case;
+use site::{Mutant, Source};
+use std::collections::{BTreeSet, HashSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+use tree::Files;
+use trial::{Court, Fate, Tried};
+use weave::Choices;
+
+/// Says on the terminal what is being done.
+#[macro_export]
+macro_rules! say {
+    ($($text:tt)*) => { eprintln!($($text)*) };
+}
+
+/// Where the table is written.
+const TABLE: &str = "host-tests/figures/mutants.md";
+
+/// What is changed when a test is run anew in the copy: what it blesses.
+const GUARDED: [&str; 2] = ["host-tests/figures/", "host-tests/pictures/"];
+
+/// Tries small changes of src/ by the unit tests and the proofs.
+#[derive(Debug, Parser)]
+#[command(name = "mutants")]
+struct Args {
+    /// Begins no further mutant after so many seconds of trying.
+    #[arg(long, default_value_t = 600)]
+    seconds: u64,
+    /// Tries all mutants, however long it takes.
+    #[arg(long)]
+    all: bool,
+    /// Tries so many, and no more.
+    #[arg(long)]
+    count: Option<usize>,
+    /// Decides the order.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Mutants that are tried at the same time; as many as there are processors unless said.
+    #[arg(long)]
+    jobs: Option<usize>,
+    /// Prints what would be tried, and tries nothing.
+    #[arg(long)]
+    list: bool,
+    /// Writes the table to host-tests/figures/mutants.md.
+    #[arg(long)]
+    markdown: bool,
+    /// Files whose mutants are tried, or FILE:LINE; all of src/ when none is named.
+    files: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    match run(&Args::parse()) {
+        Ok(true) => ExitCode::SUCCESS,
+        Ok(false) => ExitCode::FAILURE,
+        Err(error) => {
+            say!("error: {error}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// Whether no mutant lives but those that are known.
+fn run(args: &Args) -> Result<bool, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = root
+        .canonicalize()
+        .map_err(|error| format!("{}: {error}", root.display()))?;
+    let known = known::read(&root)?;
+    let files = tree::read(&root)?;
+    let mut mutants = Vec::new();
+    let sources = sources(&files, &mut mutants)?;
+    check_known(&known, &mutants)?;
+    let chosen = chosen(args, &mutants)?;
+    let work = work_folder(&root);
+    let copy = Copy {
+        tree: work.join("tree"),
+        build: work.join("build"),
+        sources: &sources,
+        mutants: &mutants,
+    };
+    let mut others = files.clone();
+    others.retain(|name, _| !sources.iter().any(|source| source.file == *name));
+    write_others(&copy, &others)?;
+    let mut choices = compiled(&copy, &files, &work)?;
+    if args.list {
+        for id in chosen.iter().filter(|id| copy.is_live(&choices, **id)) {
+            println!("{}", mutants[*id].place());
+        }
+        return Ok(true);
+    }
+    let bench = case::Bench {
+        programs: copy.build(&mut choices)?,
+        tree: copy.tree.clone(),
+        build: copy.build.clone(),
+        scratch: work.clone(),
+    };
+    let key = tree::hash(&files, is_tested);
+    let jobs = args
+        .jobs
+        .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
+    let cases = reach::all(&bench, jobs, &work.join(format!("reached-{key}.json")))?;
+    let (cases, left_out): (Vec<Case>, Vec<Case>) =
+        cases.into_iter().partition(|case| case.left_out.is_none());
+    let mut guarded = others;
+    guarded.retain(|name, _| GUARDED.iter().any(|folder| name.starts_with(folder)));
+    let court = Court {
+        bench: &bench,
+        cases: &cases,
+        guarded: &guarded,
+        kept: work.join(format!("tried-{key}.jsonl")),
+        jobs,
+    };
+    let live: Vec<usize> = chosen
+        .into_iter()
+        .filter(|id| copy.is_live(&choices, *id))
+        .collect();
+    let tried = tried(args, &court, &live)?;
+    let told = Told {
+        mutants: &mutants,
+        known: &known,
+        left_out: &left_out,
+        tried: &tried,
+    };
+    let not_tried = (0..mutants.len()).filter(|id| !copy.is_live(&choices, *id));
+    let constant = not_tried
+        .clone()
+        .filter(|id| !choices.dropped.contains(id))
+        .count();
+    told.tell(
+        &report::rows(&mutants, |id| copy.is_live(&choices, id), &tried, &known),
+        &format!(
+            "{} did not compile, {constant} are in constant functions.",
+            not_tried.count() - constant
+        ),
+        args.markdown.then(|| root.join(TABLE)).as_deref(),
+    )
+}
+
+/// Whether what a file says may change what becomes of a mutant.
+fn is_tested(name: &str) -> bool {
+    let aside = [known::FILE, TABLE, "host-tests/mutants/", ".ci/"];
+    !aside.iter().any(|folder| name.starts_with(folder))
+}
+
+/// The files of `src/` with their mutants.
+fn sources(files: &Files, mutants: &mut Vec<Mutant>) -> Result<Vec<Source>, String> {
+    let mut texts = Vec::new();
+    let mut tests = Vec::new();
+    for (name, content) in files {
+        if name.starts_with("src/") && name.ends_with(".rs") {
+            let text =
+                String::from_utf8(content.clone()).map_err(|error| format!("{name}: {error}"))?;
+            tests.extend(scan::test_modules(name, &text));
+            texts.push((name, text));
+        }
+    }
+    let is_test = |name: &str| {
+        let below = |test: &String| {
+            let rest = name.strip_prefix(test.as_str());
+            rest.is_some_and(|rest| rest.is_empty() || rest == ".rs" || rest.starts_with('/'))
+        };
+        tests.iter().any(below)
+    };
+    let sources = texts.into_iter().filter(|(name, _)| !is_test(name));
+    sources
+        .map(|(name, text)| scan::file(name, text, mutants))
+        .collect()
+}
+
+fn check_known(known: &BTreeSet<String>, mutants: &[Mutant]) -> Result<(), String> {
+    let names: HashSet<String> = mutants.iter().map(Mutant::name).collect();
+    let gone: Vec<&str> = (known.iter())
+        .filter(|name| !names.contains(*name))
+        .map(String::as_str)
+        .collect();
+    if gone.is_empty() {
+        return Ok(());
+    }
+    Err(format!(
+        "{}: there is no such mutant:\n{}",
+        known::FILE,
+        gone.join("\n")
+    ))
+}
+
+/// The mutants that are asked for.
+fn chosen(args: &Args, mutants: &[Mutant]) -> Result<Vec<usize>, String> {
+    let is_of = |mutant: &Mutant, file: &str| {
+        mutant.file == file || format!("{}:{}", mutant.file, mutant.line) == file
+    };
+    for file in &args.files {
+        if !mutants.iter().any(|mutant| is_of(mutant, file)) {
+            return Err(format!("{file} has no mutants"));
+        }
+    }
+    let is_chosen = |id: &usize| {
+        args.files.is_empty() || args.files.iter().any(|file| is_of(&mutants[*id], file))
+    };
+    Ok((0..mutants.len()).filter(is_chosen).collect())
+}
+
+fn work_folder(root: &Path) -> PathBuf {
+    let target = std::env::var_os("CARGO_TARGET_DIR").map_or(root.join("target"), PathBuf::from);
+    std::path::absolute(&target)
+        .unwrap_or(target)
+        .join("mutants")
+}
+
+/// Writes what is not mutated, and leaves there what is.
+fn write_others(copy: &Copy, others: &Files) -> Result<(), String> {
+    let mut all = others.clone();
+    let woven = copy.sources.iter().map(|source| source.file.as_str());
+    for name in woven.chain(["src/mutant.rs"]) {
+        if let Ok(old) = fs::read(copy.tree.join(name)) {
+            all.insert(name.to_owned(), old);
+        }
+    }
+    tree::write(&copy.tree, &all)
+}
+
+/// Which mutants compile, as found before where the sources are the same.
+fn compiled(copy: &Copy, files: &Files, work: &Path) -> Result<Choices, String> {
+    let is_source = |name: &str| {
+        (name.starts_with("src/") && name.ends_with(".rs")) || name.ends_with("Cargo.toml")
+    };
+    let kept = work.join(format!("compiled-{}.json", tree::hash(files, is_source)));
+    let old = fs::read(&kept).ok();
+    let mut choices = Choices::default();
+    if let Some((dropped, constant)) = old.and_then(|text| serde_json::from_slice(&text).ok()) {
+        choices = Choices { dropped, constant };
+    }
+    say!("{} mutants: finding those that compile", copy.mutants.len());
+    copy.make_compile(&mut choices)?;
+    let text = serde_json::to_vec(&(&choices.dropped, &choices.constant));
+    let text = text.map_err(|error| error.to_string())?;
+    fs::write(&kept, text).map_err(|error| format!("{}: {error}", kept.display()))?;
+    Ok(choices)
+}
+
+/// Tries the mutants that were not tried before. What was found before is told as well.
+fn tried(args: &Args, court: &Court, live: &[usize]) -> Result<Vec<Tried>, String> {
+    let is_asked: HashSet<usize> = live.iter().copied().collect();
+    let mut all = court.before();
+    all.retain(|tried| is_asked.contains(&tried.id));
+    let done: HashSet<usize> = all.iter().map(|tried| tried.id).collect();
+    let mut left = live.to_vec();
+    trial::shuffle(&mut left, args.seed);
+    left.retain(|id| !done.contains(id));
+    left.truncate(args.count.unwrap_or(left.len()));
+    let seconds = if args.all {
+        u64::from(u32::MAX)
+    } else {
+        args.seconds
+    };
+    say!(
+        "{} were tried before; {} are left to try",
+        all.len(),
+        left.len()
+    );
+    all.extend(court.hear(&left, Instant::now() + Duration::from_secs(seconds))?);
+    all.sort_by_key(|tried| tried.id);
+    Ok(all)
+}
+
+/// What is told in the end.
+struct Told<'a> {
+    mutants: &'a [Mutant],
+    known: &'a BTreeSet<String>,
+    left_out: &'a [Case],
+    tried: &'a [Tried],
+}
+
+impl Told<'_> {
+    /// Whether no mutant lives but those that are known.
+    fn tell(
+        &self,
+        rows: &[(String, report::Row)],
+        not_tried: &str,
+        markdown: Option<&Path>,
+    ) -> Result<bool, String> {
+        let table = report::table(rows);
+        println!("{table}\n{not_tried}");
+        for case in self.left_out {
+            let reason = case.left_out.as_deref().unwrap_or("");
+            println!("left out: {}: {reason}", case.name);
+        }
+        for tried in self.tried {
+            self.tell_odd(tried);
+        }
+        if let Some(path) = markdown {
+            let text = format!("{HEAD}{table}\n{not_tried}\n");
+            fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
+        }
+        Ok(self.tried.iter().all(|tried| self.is_right(tried)))
+    }
+
+    fn is_right(&self, tried: &Tried) -> bool {
+        let lives = matches!(tried.fate, Fate::Lived | Fate::Unreached);
+        lives == self.known.contains(&self.mutants[tried.id].name())
+    }
+
+    /// One that lives and is not known, or is known to live and does not.
+    fn tell_odd(&self, tried: &Tried) {
+        if self.is_right(tried) {
+            return;
+        }
+        let mutant = &self.mutants[tried.id];
+        let by = tried.by.as_deref().unwrap_or("a test");
+        match tried.fate {
+            Fate::Lived => println!("lives: {}", mutant.place()),
+            Fate::Unreached => println!("not reached: {}", mutant.place()),
+            _ => println!(
+                "is killed by {by}, unlike {} says: {}",
+                known::FILE,
+                mutant.place()
+            ),
+        }
+    }
+}
+
+/// What stands above the table.
+const HEAD: &str = "\
+# Mutants
+
+How many small changes of `src/` are noticed by the unit tests and the proofs.
+`.ci/mutants` tries more of them, and `cargo run -p host-mutants -- --markdown` writes this file.
+
+`failed`: a test failed. `overflow`: arithmetic went out of its range, which is checked in tests alone.
+`by time`: a test took more than five times as long. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
+The last column is of those tried without the equal ones, with the standard error of a random sample.
+
+";

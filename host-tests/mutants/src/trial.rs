@@ -1,0 +1,163 @@
+//! Tries mutants by the tests that reach them.
+
+use crate::case::{Bench, End, Program, Run};
+use crate::reach::Case;
+use crate::tree::{self, Files};
+use crate::{say, work};
+use serde::{Deserialize, Serialize};
+use std::collections::HashMap;
+use std::fs;
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+/// What became of a mutant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Fate {
+    /// A test failed.
+    Killed,
+    /// A test failed as arithmetic went out of its range, which is checked in tests alone.
+    Overflowed,
+    /// A test took far too long.
+    Late,
+    /// All tests that reach it passed.
+    Lived,
+    /// No test reaches it.
+    Unreached,
+}
+
+/// A mutant that was tried.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Tried {
+    /// Its number.
+    pub id: usize,
+    /// What became of it.
+    pub fate: Fate,
+    /// The test that failed; of unit tests, which are run together, `unit`.
+    pub by: Option<String>,
+    /// How long it took to find out.
+    pub seconds: f64,
+}
+
+/// What mutants are tried with.
+#[derive(Debug)]
+pub struct Court<'a> {
+    /// Where tests are run.
+    pub bench: &'a Bench,
+    /// Those that count, the fastest first.
+    pub cases: &'a [Case],
+    /// Files that a test may change in the copy: they are put back.
+    pub guarded: &'a Files,
+    /// Where what became of each mutant is appended.
+    pub kept: PathBuf,
+    /// Mutants that are tried at the same time.
+    pub jobs: usize,
+}
+
+impl Court<'_> {
+    /// What became of mutants before, with the same sources.
+    #[must_use]
+    pub fn before(&self) -> Vec<Tried> {
+        let text = fs::read_to_string(&self.kept).unwrap_or_default();
+        let lines = text.lines();
+        lines
+            .filter_map(|line| serde_json::from_str(line).ok())
+            .collect()
+    }
+
+    /// Tries mutants in this order, until the deadline.
+    ///
+    /// # Errors
+    /// Programs that cannot be run, and files that cannot be written.
+    pub fn hear(&self, ids: &[usize], deadline: Instant) -> Result<Vec<Tried>, String> {
+        let mut of: HashMap<usize, Vec<&Case>> = HashMap::new();
+        for case in self.cases {
+            for id in &case.reached {
+                of.entry(*id).or_default().push(case);
+            }
+        }
+        let told = |error: std::io::Error| format!("{}: {error}", self.kept.display());
+        let kept = fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&self.kept);
+        let kept = Mutex::new(kept.map_err(told)?);
+        work::share(self.jobs, ids.len(), |worker, at| {
+            if Instant::now() >= deadline {
+                return Ok(None);
+            }
+            let id = ids[at];
+            let cases = of.get(&id).map_or(&[][..], Vec::as_slice);
+            let tried = self.one(id, cases, worker)?;
+            self.put_back()?;
+            let line = serde_json::to_string(&tried).map_err(|error| error.to_string())?;
+            let mut kept = kept.lock().map_err(|error| error.to_string())?;
+            writeln!(kept, "{line}").map_err(told)?;
+            Ok(Some(tried))
+        })
+    }
+
+    fn one(&self, id: usize, cases: &[&Case], worker: usize) -> Result<Tried, String> {
+        let begun = Instant::now();
+        let mutant = id.to_string();
+        let is_unit = |case: &&&Case| case.program == Program::Unit;
+        let unit: Vec<&Case> = cases.iter().filter(is_unit).copied().collect();
+        let proofs = cases.iter().filter(|case| !is_unit(case));
+        let groups = std::iter::once(unit).chain(proofs.map(|case| vec![*case]));
+        let mut found = (Fate::Unreached, None);
+        for group in groups.filter(|group| !group.is_empty()) {
+            let names: Vec<&str> = group.iter().map(|case| case.name.as_str()).collect();
+            let seconds: f64 = group.iter().map(|case| case.seconds).sum();
+            let (end, _) = self.bench.run(&Run {
+                program: group[0].program,
+                tests: &names,
+                mutant: &mutant,
+                reached: PathBuf::new(),
+                limit: Duration::from_secs_f64(5.0 + 5.0 * seconds),
+                worker,
+            })?;
+            let by = (names.len() == 1).then(|| names[0].to_owned());
+            let by = by.or_else(|| Some("unit".to_owned()));
+            found = match end {
+                End::Passed => (Fate::Lived, None),
+                End::Failed => (Fate::Killed, by),
+                End::Overflowed => (Fate::Overflowed, by),
+                End::Late => (Fate::Late, by),
+            };
+            if end != End::Passed {
+                break;
+            }
+        }
+        Ok(Tried {
+            id,
+            fate: found.0,
+            by: found.1,
+            seconds: begun.elapsed().as_secs_f64(),
+        })
+    }
+
+    fn put_back(&self) -> Result<(), String> {
+        for (name, content) in self.guarded {
+            if tree::write_one(&self.bench.tree.join(name), content)? {
+                say!("a test had changed {name} in the copy: it was put back");
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Numbers in a random order, which is the same for the same seed.
+pub fn shuffle(numbers: &mut [usize], seed: u64) {
+    let mut state = seed;
+    for at in (1..numbers.len()).rev() {
+        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut mixed = state;
+        mixed = (mixed ^ (mixed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^= mixed >> 31;
+        // Far fewer than 2^32 are shuffled, so the remainder is as good as even.
+        let other = usize::try_from(mixed % (at as u64 + 1)).unwrap_or(0);
+        numbers.swap(at, other);
+    }
+}
