@@ -13,13 +13,12 @@ use std::process::{Command, Stdio};
 const ROUNDS: usize = 60;
 
 /// What the proofs and the unit tests are built of.
-const TESTS: [&str; 8] = [
+const TESTS: [&str; 7] = [
     "-p",
     "host-tests",
     "-p",
     "scanbeam",
     "--lib",
-    "--bins",
     "--test",
     "proofs",
 ];
@@ -82,17 +81,20 @@ impl Copy<'_> {
         let mut arguments = vec!["--no-run"];
         arguments.extend(TESTS);
         let made = self.rounds("test", &arguments, choices)?;
-        let program = |name: &str| {
+        // The tool has the name of the crate.
+        let program = |kind: &str, name: &str| {
             let found = made.iter().rev().find(|artifact| {
-                artifact["target"]["name"] == name && artifact["profile"]["test"] == true
+                artifact["target"]["name"] == name
+                    && artifact["target"]["kind"][0] == kind
+                    && artifact["profile"]["test"] == true
             });
             let path = found.and_then(|artifact| artifact["executable"].as_str());
             path.map(PathBuf::from)
                 .ok_or_else(|| format!("cargo made no tests of {name}"))
         };
         Ok(Programs {
-            unit: program("scanbeam")?,
-            proofs: program("proofs")?,
+            unit: program("lib", "scanbeam")?,
+            proofs: program("test", "proofs")?,
         })
     }
 

@@ -118,46 +118,62 @@ fn run(args: &Args) -> Result<bool, String> {
         build: copy.build.clone(),
         scratch: work.clone(),
     };
-    let key = tree::hash(&files, is_tested);
-    let jobs = args
-        .jobs
-        .unwrap_or_else(|| std::thread::available_parallelism().map_or(1, usize::from));
-    let cases = reach::all(&bench, jobs, &work.join(format!("reached-{key}.json")))?;
-    let (cases, left_out): (Vec<Case>, Vec<Case>) =
-        cases.into_iter().partition(|case| case.left_out.is_none());
-    let mut guarded = others;
-    guarded.retain(|name, _| GUARDED.iter().any(|folder| name.starts_with(folder)));
-    let court = Court {
-        bench: &bench,
-        cases: &cases,
-        guarded: &guarded,
-        kept: work.join(format!("tried-{key}.jsonl")),
-        jobs,
-    };
-    let live: Vec<usize> = chosen
-        .into_iter()
-        .filter(|id| copy.is_live(&choices, *id))
-        .collect();
-    let tried = tried(args, &court, &live)?;
+    others.retain(|name, _| GUARDED.iter().any(|folder| name.starts_with(folder)));
+    let live = |id: &usize| copy.is_live(&choices, *id);
+    let chosen: Vec<usize> = chosen.into_iter().filter(live).collect();
+    let found = heard(
+        args,
+        &bench,
+        &others,
+        &chosen,
+        &tree::hash(&files, is_tested),
+    )?;
+    let dropped = choices.dropped.len();
+    let constant = (0..mutants.len()).filter(|id| !live(id)).count() - dropped;
     let told = Told {
         mutants: &mutants,
         known: &known,
-        left_out: &left_out,
-        tried: &tried,
-    };
-    let not_tried = (0..mutants.len()).filter(|id| !copy.is_live(&choices, *id));
-    let constant = not_tried
-        .clone()
-        .filter(|id| !choices.dropped.contains(id))
-        .count();
-    told.tell(
-        &report::rows(&mutants, |id| copy.is_live(&choices, id), &tried, &known),
-        &format!(
-            "{} did not compile, {constant} are in constant functions.",
-            not_tried.count() - constant
+        found: &found,
+        not_tried: format!(
+            "{dropped} more do not compile, and {constant} are in functions that constants are made of."
         ),
-        args.markdown.then(|| root.join(TABLE)).as_deref(),
-    )
+    };
+    let rows = report::rows(&mutants, |id| live(&id), &found.tried, &known);
+    told.tell(&rows, args.markdown.then(|| root.join(TABLE)).as_deref())
+}
+
+/// What was found.
+struct Found {
+    tried: Vec<Tried>,
+    /// Tests that are not used.
+    left_out: Vec<Case>,
+}
+
+/// Tries mutants. `key` stands for all that is tested and all tests.
+fn heard(
+    args: &Args,
+    bench: &case::Bench,
+    guarded: &Files,
+    chosen: &[usize],
+    key: &str,
+) -> Result<Found, String> {
+    let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let jobs = args.jobs.unwrap_or_else(processors);
+    let kept = |what: &str| bench.scratch.join(format!("{what}-{key}.json"));
+    let cases = reach::all(bench, jobs, &kept("reached"))?;
+    let (cases, left_out): (Vec<Case>, Vec<Case>) =
+        cases.into_iter().partition(|case| case.left_out.is_none());
+    let court = Court {
+        bench,
+        cases: &cases,
+        guarded,
+        kept: kept("tried"),
+        jobs,
+    };
+    Ok(Found {
+        tried: tried(args, &court, chosen)?,
+        left_out,
+    })
 }
 
 /// Whether what a file says may change what becomes of a mutant.
@@ -290,8 +306,9 @@ fn tried(args: &Args, court: &Court, live: &[usize]) -> Result<Vec<Tried>, Strin
 struct Told<'a> {
     mutants: &'a [Mutant],
     known: &'a BTreeSet<String>,
-    left_out: &'a [Case],
-    tried: &'a [Tried],
+    found: &'a Found,
+    /// How many could not be tried, and why.
+    not_tried: String,
 }
 
 impl Told<'_> {
@@ -299,23 +316,32 @@ impl Told<'_> {
     fn tell(
         &self,
         rows: &[(String, report::Row)],
-        not_tried: &str,
         markdown: Option<&Path>,
     ) -> Result<bool, String> {
-        let table = report::table(rows);
-        println!("{table}\n{not_tried}");
-        for case in self.left_out {
+        let table = format!("{}\n{}\n", report::table(rows), self.not_tried);
+        println!("{table}");
+        for case in &self.found.left_out {
             let reason = case.left_out.as_deref().unwrap_or("");
             println!("left out: {}: {reason}", case.name);
         }
-        for tried in self.tried {
+        for tried in &self.found.tried {
             self.tell_odd(tried);
         }
         if let Some(path) = markdown {
-            let text = format!("{HEAD}{table}\n{not_tried}\n");
+            let text = format!("{HEAD}{table}{}", self.left_out());
             fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))?;
         }
-        Ok(self.tried.iter().all(|tried| self.is_right(tried)))
+        Ok(self.found.tried.iter().all(|tried| self.is_right(tried)))
+    }
+
+    /// The tests that are not used, as a list.
+    fn left_out(&self) -> String {
+        let mut text = "\nTests that are left out:\n\n".to_owned();
+        for case in &self.found.left_out {
+            let reason = case.left_out.as_deref().unwrap_or("");
+            text += &format!("- `{}`: {reason}\n", case.name);
+        }
+        text
     }
 
     fn is_right(&self, tried: &Tried) -> bool {
