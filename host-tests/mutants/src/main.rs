@@ -56,6 +56,9 @@ struct Args {
     /// Tries so many, and no more.
     #[arg(long)]
     count: Option<usize>,
+    /// Takes no further test for a mutant after so many seconds of tests, as they take without it.
+    #[arg(long, default_value_t = 60)]
+    patience: u64,
     /// Decides the order.
     #[arg(long, default_value_t = 1)]
     seed: u64,
@@ -168,6 +171,7 @@ fn heard(
         cases: &cases,
         guarded,
         kept: kept("tried"),
+        patience: args.patience,
         jobs,
     };
     Ok(Found {
@@ -281,11 +285,10 @@ fn compiled(copy: &Copy, files: &Files, work: &Path) -> Result<Choices, String> 
 fn tried(args: &Args, court: &Court, live: &[usize]) -> Result<Vec<Tried>, String> {
     let is_asked: HashSet<usize> = live.iter().copied().collect();
     let mut all = court.before();
-    all.retain(|tried| is_asked.contains(&tried.id));
-    let done: HashSet<usize> = all.iter().map(|tried| tried.id).collect();
+    all.retain(|id, _| is_asked.contains(id));
     let mut left = live.to_vec();
     trial::shuffle(&mut left, args.seed);
-    left.retain(|id| !done.contains(id));
+    left.retain(|id| !all.contains_key(id));
     left.truncate(args.count.unwrap_or(left.len()));
     let seconds = if args.all {
         u64::from(u32::MAX)
@@ -297,9 +300,9 @@ fn tried(args: &Args, court: &Court, live: &[usize]) -> Result<Vec<Tried>, Strin
         all.len(),
         left.len()
     );
-    all.extend(court.hear(&left, Instant::now() + Duration::from_secs(seconds))?);
-    all.sort_by_key(|tried| tried.id);
-    Ok(all)
+    let heard = court.hear(&left, Instant::now() + Duration::from_secs(seconds))?;
+    all.extend(heard.into_iter().map(|tried| (tried.id, tried)));
+    Ok(all.into_values().collect())
 }
 
 /// What is told in the end.
@@ -345,7 +348,7 @@ impl Told<'_> {
     }
 
     fn is_right(&self, tried: &Tried) -> bool {
-        let lives = matches!(tried.fate, Fate::Lived | Fate::Unreached);
+        let lives = matches!(tried.fate, Fate::Lived | Fate::Open | Fate::Unreached);
         lives == self.known.contains(&self.mutants[tried.id].name())
     }
 
@@ -358,6 +361,7 @@ impl Told<'_> {
         let by = tried.by.as_deref().unwrap_or("a test");
         match tried.fate {
             Fate::Lived => println!("lives: {}", mutant.place()),
+            Fate::Open => println!("lives so far: {}", mutant.place()),
             Fate::Unreached => println!("not reached: {}", mutant.place()),
             _ => println!(
                 "is killed by {by}, unlike {} says: {}",
@@ -376,7 +380,7 @@ How many small changes of `src/` are noticed by the unit tests and the proofs.
 `.ci/mutants` tries more of them, and `cargo run -p host-mutants -- --markdown` writes this file.
 
 `failed`: a test failed. `overflow`: arithmetic went out of its range, which is checked in tests alone.
-`by time`: a test took more than five times as long. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
+`by time`: a test took more than five times as long. `open`: the fastest minute of tests passed, and it counts as one that lived. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
 The last column is of those tried without the equal ones, with the standard error of a random sample.
 
 ";

@@ -22,6 +22,8 @@ pub struct Row {
     pub equal: usize,
     /// Lived.
     pub lived: usize,
+    /// Lived so far.
+    pub open: usize,
     /// Reached by no test.
     pub unreached: usize,
 }
@@ -33,8 +35,9 @@ impl Row {
             Fate::Killed => &mut self.killed,
             Fate::Overflowed => &mut self.overflowed,
             Fate::Late => &mut self.late,
-            Fate::Lived | Fate::Unreached if is_known => &mut self.equal,
+            Fate::Lived | Fate::Open | Fate::Unreached if is_known => &mut self.equal,
             Fate::Lived => &mut self.lived,
+            Fate::Open => &mut self.open,
             Fate::Unreached => &mut self.unreached,
         } += 1;
     }
@@ -47,6 +50,7 @@ impl Row {
         self.late += other.late;
         self.equal += other.equal;
         self.lived += other.lived;
+        self.open += other.open;
         self.unreached += other.unreached;
     }
 
@@ -69,7 +73,7 @@ impl Row {
         })
     }
 
-    fn cells(&self) -> [String; 9] {
+    fn cells(&self) -> [String; 10] {
         let rate = match self.rate() {
             Some(rate) => format!("{:.1} ± {:.1}", rate.percent, rate.error),
             None => "-".to_owned(),
@@ -82,6 +86,7 @@ impl Row {
             self.late.to_string(),
             self.equal.to_string(),
             self.lived.to_string(),
+            self.open.to_string(),
             self.unreached.to_string(),
             rate,
         ]
@@ -98,7 +103,7 @@ pub struct Rate {
 }
 
 /// The heads of the columns.
-const HEADS: [&str; 10] = [
+const HEADS: [&str; 11] = [
     "room",
     "mutants",
     "tried",
@@ -107,6 +112,7 @@ const HEADS: [&str; 10] = [
     "by time",
     "equal",
     "lived",
+    "open",
     "not reached",
     "noticed, %",
 ];
@@ -156,7 +162,7 @@ pub fn table(rows: &[(String, Row)]) -> String {
         let cells = lines.iter().map(|line| line[column].chars().count());
         cells.max().unwrap_or(0)
     };
-    let widths: [usize; 10] = std::array::from_fn(width);
+    let widths: [usize; 11] = std::array::from_fn(width);
     let mut text = String::new();
     for (number, line) in lines.iter().enumerate() {
         for (column, cell) in line.iter().enumerate() {

@@ -5,7 +5,7 @@ use crate::reach::Case;
 use crate::tree::{self, Files};
 use crate::{say, work};
 use serde::{Deserialize, Serialize};
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::fs;
 use std::io::Write;
 use std::path::PathBuf;
@@ -23,6 +23,8 @@ pub enum Fate {
     Late,
     /// All tests that reach it passed.
     Lived,
+    /// The fastest tests that reach it passed; there was no time for the others.
+    Open,
     /// No test reaches it.
     Unreached,
 }
@@ -38,6 +40,9 @@ pub struct Tried {
     pub by: Option<String>,
     /// How long it took to find out.
     pub seconds: f64,
+    /// Seconds of tests that there was time for.
+    #[serde(default)]
+    pub patience: u64,
 }
 
 /// What mutants are tried with.
@@ -51,18 +56,22 @@ pub struct Court<'a> {
     pub guarded: &'a Files,
     /// Where what became of each mutant is appended.
     pub kept: PathBuf,
+    /// Seconds of tests after which no further one is begun, as they take without a mutant.
+    pub patience: u64,
     /// Mutants that are tried at the same time.
     pub jobs: usize,
 }
 
 impl Court<'_> {
-    /// What became of mutants before, with the same sources.
+    /// What became of mutants before, with the same sources and no more patience than now.
     #[must_use]
-    pub fn before(&self) -> Vec<Tried> {
+    pub fn before(&self) -> BTreeMap<usize, Tried> {
         let text = fs::read_to_string(&self.kept).unwrap_or_default();
-        let lines = text.lines();
-        lines
-            .filter_map(|line| serde_json::from_str(line).ok())
+        let all = text.lines().filter_map(|line| {
+            let tried: Tried = serde_json::from_str(line).ok()?;
+            Some((tried.id, tried))
+        });
+        all.filter(|(_, tried)| tried.fate != Fate::Open || tried.patience >= self.patience)
             .collect()
     }
 
@@ -106,9 +115,15 @@ impl Court<'_> {
         let proofs = cases.iter().filter(|case| !is_unit(case));
         let groups = std::iter::once(unit).chain(proofs.map(|case| vec![*case]));
         let mut found = (Fate::Unreached, None);
+        let mut spent = 0.0;
         for group in groups.filter(|group| !group.is_empty()) {
             let names: Vec<&str> = group.iter().map(|case| case.name.as_str()).collect();
             let seconds: f64 = group.iter().map(|case| case.seconds).sum();
+            if spent > 0.0 && spent + seconds > self.patience as f64 {
+                found = (Fate::Open, None);
+                break;
+            }
+            spent += seconds;
             let (end, _) = self.bench.run(&Run {
                 program: group[0].program,
                 tests: &names,
@@ -134,6 +149,7 @@ impl Court<'_> {
             fate: found.0,
             by: found.1,
             seconds: begun.elapsed().as_secs_f64(),
+            patience: self.patience,
         })
     }
 
