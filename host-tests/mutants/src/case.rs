@@ -65,9 +65,13 @@ pub struct Run<'a> {
 
 impl Bench {
     fn command(&self, program: Program) -> Command {
+        let proofs = self.programs.proofs.as_ref();
         let (path, folder) = match program {
             Program::Unit => (&self.programs.unit, self.tree.clone()),
-            Program::Proofs => (&self.programs.proofs, self.tree.join("host-tests")),
+            Program::Proofs => (
+                proofs.unwrap_or(&self.programs.unit),
+                self.tree.join("host-tests"),
+            ),
         };
         let mut command = Command::new("sh");
         command

@@ -13,15 +13,9 @@ use std::process::{Command, Stdio};
 const ROUNDS: usize = 60;
 
 /// What the proofs and the unit tests are built of.
-const TESTS: [&str; 7] = [
-    "-p",
-    "host-tests",
-    "-p",
-    "scanbeam",
-    "--lib",
-    "--test",
-    "proofs",
-];
+const TESTS: &str = "-p host-tests -p scanbeam --lib --test proofs";
+/// What the unit tests alone are built of.
+const UNIT: &str = "-p scanbeam --lib --features async,embedded-graphics,mipidsi";
 
 /// The copy and the sources that are mutated in it.
 #[derive(Debug)]
@@ -34,6 +28,8 @@ pub struct Copy<'a> {
     pub sources: &'a [Source],
     /// All mutants.
     pub mutants: &'a [Mutant],
+    /// Whether they are tried by unit tests alone.
+    pub is_unit: bool,
 }
 
 /// The programs of tests.
@@ -41,8 +37,8 @@ pub struct Copy<'a> {
 pub struct Programs {
     /// Unit tests of the crate.
     pub unit: PathBuf,
-    /// Proofs.
-    pub proofs: PathBuf,
+    /// Proofs, where they are asked for.
+    pub proofs: Option<PathBuf>,
 }
 
 impl Copy<'_> {
@@ -61,14 +57,10 @@ impl Copy<'_> {
     /// # Errors
     /// What does not compile for another reason.
     pub fn make_compile(&self, choices: &mut Choices) -> Result<(), String> {
-        let alone = [
-            "-p",
-            "scanbeam",
-            "--features",
-            "async,embedded-graphics,mipidsi",
-        ];
-        self.rounds("check", &alone, choices)?;
-        self.rounds("check", &TESTS, choices)?;
+        self.rounds("check", UNIT, choices)?;
+        if !self.is_unit {
+            self.rounds("check", TESTS, choices)?;
+        }
         Ok(())
     }
 
@@ -78,9 +70,8 @@ impl Copy<'_> {
     /// What does not compile, and programs that are missing.
     pub fn build(&self, choices: &mut Choices) -> Result<Programs, String> {
         say!("building the tests with all mutants in them");
-        let mut arguments = vec!["--no-run"];
-        arguments.extend(TESTS);
-        let made = self.rounds("test", &arguments, choices)?;
+        let tests = if self.is_unit { UNIT } else { TESTS };
+        let made = self.rounds("test --no-run", tests, choices)?;
         // The tool has the name of the crate.
         let program = |kind: &str, name: &str| {
             let found = made.iter().rev().find(|artifact| {
@@ -94,14 +85,17 @@ impl Copy<'_> {
         };
         Ok(Programs {
             unit: program("lib", "scanbeam")?,
-            proofs: program("test", "proofs")?,
+            proofs: match self.is_unit {
+                true => None,
+                false => Some(program("test", "proofs")?),
+            },
         })
     }
 
     fn rounds(
         &self,
         command: &str,
-        arguments: &[&str],
+        arguments: &str,
         choices: &mut Choices,
     ) -> Result<Vec<Value>, String> {
         for _ in 0..ROUNDS {
@@ -144,10 +138,11 @@ impl Copy<'_> {
     }
 
     /// What cargo made, and the errors of the compiler.
-    fn cargo(&self, command: &str, arguments: &[&str]) -> Result<(Vec<Value>, Vec<Value>), String> {
+    fn cargo(&self, command: &str, arguments: &str) -> Result<(Vec<Value>, Vec<Value>), String> {
         let output = cargo_in(&self.tree, &self.build)
-            .args([command, "--quiet", "--message-format=json"])
-            .args(arguments)
+            .args(command.split(' '))
+            .args(["--quiet", "--message-format=json"])
+            .args(arguments.split(' '))
             .output()
             .map_err(|error| format!("cargo: {error}"))?;
         let (mut made, mut errors) = (Vec::new(), Vec::new());

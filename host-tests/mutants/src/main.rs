@@ -65,7 +65,10 @@ struct Args {
     /// Mutants that are tried at the same time; as many as there are processors unless said.
     #[arg(long)]
     jobs: Option<usize>,
-    /// Prints what would be tried, and tries nothing.
+    /// Tries them by unit tests alone, which are built in a third of the time.
+    #[arg(long)]
+    unit: bool,
+    /// Prints what would be tried, with the number that SCANBEAM_MUTANT takes, and tries nothing.
     #[arg(long)]
     list: bool,
     /// Writes the table to host-tests/figures/mutants.md.
@@ -104,6 +107,7 @@ fn run(args: &Args) -> Result<bool, String> {
         build: work.join("build"),
         sources: &sources,
         mutants: &mutants,
+        is_unit: args.unit,
     };
     let mut others = files.clone();
     others.retain(|name, _| !sources.iter().any(|source| source.file == *name));
@@ -111,7 +115,7 @@ fn run(args: &Args) -> Result<bool, String> {
     let mut choices = compiled(&copy, &files, &work)?;
     if args.list {
         for id in chosen.iter().filter(|id| copy.is_live(&choices, **id)) {
-            println!("{}", mutants[*id].place());
+            println!("{id} {}", mutants[*id].place());
         }
         return Ok(true);
     }
@@ -162,7 +166,8 @@ fn heard(
 ) -> Result<Found, String> {
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = args.jobs.unwrap_or_else(processors);
-    let kept = |what: &str| bench.scratch.join(format!("{what}-{key}.json"));
+    let by = if args.unit { "by-unit-" } else { "" };
+    let kept = |what: &str| bench.scratch.join(format!("{what}-{by}{key}.json"));
     let cases = reach::all(bench, jobs, &kept("reached"))?;
     let (cases, left_out): (Vec<Case>, Vec<Case>) =
         cases.into_iter().partition(|case| case.left_out.is_none());

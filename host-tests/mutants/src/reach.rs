@@ -35,7 +35,9 @@ pub fn all(bench: &Bench, jobs: usize, kept: &Path) -> Result<Vec<Case>, String>
         return Ok(cases);
     }
     let mut tests = Vec::new();
-    for program in [Program::Unit, Program::Proofs] {
+    let has_proofs = bench.programs.proofs.is_some();
+    let programs = [Some(Program::Unit), has_proofs.then_some(Program::Proofs)];
+    for program in programs.into_iter().flatten() {
         let names = bench.list(program)?;
         tests.extend(names.into_iter().map(|name| (program, name)));
     }
