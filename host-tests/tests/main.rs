@@ -63,6 +63,7 @@ mod lines_alone;
 mod list_bake;
 mod list_bake_textures;
 mod list_fuzz;
+mod list_values;
 mod list_words;
 mod model_clusters;
 mod model_pipe;

@@ -451,4 +451,18 @@ mod tests {
         assert_eq!(cache.spilled.object(), 7);
         assert!(!next(&[Link::NONE; 3], cache.spilled).is_some());
     }
+
+    /// Kills: a kind of record that is not counted, or is taken off, and bytes of another size.
+    #[test]
+    fn what_is_read_and_written_is_counted() {
+        let used = CacheUse {
+            set_ups: 500,
+            turning: 70,
+            misses: 3,
+            ..CacheUse::default()
+        };
+        assert_eq!(used.records_read(), 573);
+        // A record of 20 bytes, and links of two bytes.
+        assert_eq!(used.slow_read_bytes(20), 11_460 + 6);
+    }
 }

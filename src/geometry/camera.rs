@@ -307,6 +307,40 @@ mod tests {
         assert!(text.contains("65536"), "{text}");
     }
 
+    /// Kills: limits that are refused themselves, and such as let more in.
+    #[test]
+    fn limits_of_cameras_are_let_in_and_nothing_beyond() {
+        let make = |far_off: f32, focal, near, far| {
+            let (o, y) = ([0.0; 3], [0.0, 1.0, 0.0]);
+            Camera::look_at([0.0, 0.0, far_off], o, y, focal, near, far).err()
+        };
+        let power = |exponent: i32| 2.0f32.powi(exponent);
+        for focal in [power(-10), power(20)] {
+            assert_eq!(make(1.0, focal, 1.0, 2.0), None);
+        }
+        for focal in [power(-10).next_down(), power(20).next_up()] {
+            assert_eq!(make(1.0, focal, 1.0, 2.0), Some(CameraError::Focal));
+        }
+        assert_eq!(make(1.0, 100.0, power(-60), power(-59)), None);
+        assert_eq!(make(1.0, 100.0, power(80), power(90).next_down()), None);
+        let refused = [
+            (power(-60).next_down(), power(-59)),
+            (power(80), power(90)),
+            (1.0, 1.0),
+        ];
+        for (near, far) in refused {
+            assert_eq!(make(1.0, 100.0, near, far), Some(CameraError::Range));
+        }
+        assert_eq!(
+            make(power(90), 100.0, 1.0, 2.0),
+            Some(CameraError::NotFinite)
+        );
+        assert_eq!(
+            make(-power(90), 100.0, 1.0, 2.0),
+            Some(CameraError::NotFinite)
+        );
+    }
+
     #[test]
     fn screens_lie_in_the_middle() {
         let s = Screen::new(320, 241).unwrap();

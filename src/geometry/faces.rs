@@ -155,3 +155,90 @@ pub(crate) fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
     let down = 32u32.saturating_sub(bits.leading_zeros());
     unit(n.map(|c| c >> down)).map(|c| c.to_bits())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::QuadSplit::Corner0To2;
+
+    const PLACES: [[i16; 3]; 4] = [[0; 3]; 4];
+
+    fn checked(faces: Faces<'_>) -> Result<(), MeshError> {
+        check(&Mesh {
+            positions: &PLACES,
+            normals: &[],
+            colours: &[],
+            faces,
+        })
+    }
+
+    /// Kills: strips of two or an odd number that are let in, and a count of their triangles without its end.
+    #[test]
+    fn strips_have_an_even_number_of_corners_and_not_two() {
+        let strip = [0, 1, 2, 3, 0, 1];
+        for (len, count) in [
+            (0, Some(0)),
+            (1, None),
+            (2, None),
+            (3, None),
+            (4, Some(2)),
+            (5, None),
+            (6, Some(4)),
+        ] {
+            let faces = Faces::QuadStrip(&strip[..len], Corner0To2);
+            match count {
+                Some(count) => assert_eq!((checked(faces), triangles(faces)), (Ok(()), count)),
+                None => assert_eq!(checked(faces), Err(MeshError::StripLength), "{len}"),
+            }
+        }
+    }
+
+    /// Kills: a corner right behind the last that is let in, the last that is refused, and the wrong face.
+    #[test]
+    fn the_face_of_a_corner_that_is_not_there_is_named() {
+        let index = |face| Err(MeshError::Index { face });
+        assert_eq!(checked(Faces::Triangles(&[[0, 1, 3], [3, 2, 1]])), Ok(()));
+        assert_eq!(
+            checked(Faces::Triangles(&[[0, 1, 3], [0, 1, 2], [3, 2, 4]])),
+            index(2)
+        );
+        let quads = [[0, 1, 2, 3], [0, 4, 2, 3]];
+        assert_eq!(checked(Faces::Quads(&quads[..1], Corner0To2)), Ok(()));
+        assert_eq!(triangles(Faces::Quads(&quads, Corner0To2)), 4);
+        assert_eq!(checked(Faces::Quads(&quads, Corner0To2)), index(1));
+        for (at, face) in [(0, 0), (1, 0), (2, 0), (3, 0), (4, 1), (5, 1)] {
+            let mut strip = [0, 1, 2, 3, 0, 1];
+            strip[at] = 4;
+            assert_eq!(
+                checked(Faces::QuadStrip(&strip, Corner0To2)),
+                index(face),
+                "{at}"
+            );
+        }
+    }
+
+    /// Kills: attributes of another length that are let in, and none that are refused.
+    #[test]
+    fn attributes_are_none_or_as_many_as_places() {
+        for (normals, colours, is_good) in [
+            (4, 0, true),
+            (0, 4, true),
+            (3, 0, false),
+            (0, 5, false),
+            (4, 3, false),
+        ] {
+            let result = check(&Mesh {
+                positions: &PLACES,
+                normals: &[[0; 3]; 5][..normals],
+                colours: &[[0; 3]; 5][..colours],
+                faces: Faces::Triangles(&[]),
+            });
+            let want = if is_good {
+                Ok(())
+            } else {
+                Err(MeshError::AttributeLength)
+            };
+            assert_eq!(result, want, "{normals} {colours}");
+        }
+    }
+}

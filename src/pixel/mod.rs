@@ -219,4 +219,36 @@ mod tests {
             assert_eq!(little.to_ne_bytes(), Rgb565::of_word(word).to_le_bytes());
         }
     }
+
+    /// Two pixels as parts of 16, channel by channel: what `narrow` says.
+    fn mixed<P: Pixel>(of: impl Fn([u8; 3]) -> P::Word, channels: impl Fn(P::Word) -> [u8; 3]) {
+        for i in 0..50_000u32 {
+            let bytes = |n: u32| {
+                i.wrapping_mul(0x9E37_79B9)
+                    .wrapping_add(n)
+                    .rotate_left(n)
+                    .to_le_bytes()
+            };
+            let ([a0, a1, a2, k], [b0, b1, b2, _]) = (bytes(0), bytes(11));
+            let (a, b, k) = (of([a0, a1, a2]), of([b0, b1, b2]), u32::from(k) % 17);
+            let fields = [0, 1].map(|n| P::widen(a)[n] * k + P::widen(b)[n] * (16 - k));
+            let want = [0, 1, 2].map(|n| {
+                let [a, b] = [channels(a)[n], channels(b)[n]].map(u32::from);
+                ((a * k + b * (16 - k) + 8) / 16) as u8
+            });
+            assert_eq!(channels(P::narrow(fields)), want, "{i} {k}");
+        }
+    }
+
+    /// Kills: channels that run into one another, and rounding down.
+    #[test]
+    fn channels_are_mixed_to_the_nearest_step() {
+        mixed::<Rgb888>(|rgb| rgb, |word| word);
+        let xrgb = |[red, green, blue]: [u8; 3]| u32::from_be_bytes([0, red, green, blue]);
+        mixed::<Xrgb8888>(xrgb, |word| {
+            let [_, red, green, blue] = word.to_be_bytes();
+            [red, green, blue]
+        });
+        mixed::<Grey8>(|[grey, _, _]| grey, |word| [word; 3]);
+    }
 }

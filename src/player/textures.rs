@@ -455,3 +455,27 @@ fn unused(words: &[u16], is_hole: impl Fn(u32) -> bool) -> Option<u16> {
         Some(part << 10 | row << 5 | bits.trailing_ones() as u16)
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::unused;
+    use std::vec::Vec;
+
+    /// Kills: words of other parts that are taken for those of the part that is looked at, holes that take a word,
+    /// and a word that is there.
+    #[test]
+    fn a_word_of_holes_is_that_of_nothing_else() {
+        let part = |part: u16| (0..1024).map(move |low| part << 10 | low);
+        let second: Vec<u16> = part(1).collect();
+        assert_eq!(unused(&second, |_| false), Some(0));
+        let first: Vec<u16> = part(0).collect();
+        assert_eq!(unused(&first, |_| false), Some(1024));
+        for hole in [0, 31, 32, 777, 1023] {
+            let word = unused(&first, |n| n == hole);
+            assert_eq!(word.map(u32::from), Some(hole));
+        }
+        let all: Vec<u16> = (0..=u16::MAX).collect();
+        assert_eq!(unused(&all, |_| false), None);
+        assert_eq!(unused(&all, |n| n == 40_000), Some(40_000));
+    }
+}

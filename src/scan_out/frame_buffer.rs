@@ -224,3 +224,41 @@ impl<W: Copy + 'static> LineWriter for FrameBuffer<'_, W> {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::{thread, time::Duration};
+
+    const ALL: Window = Window {
+        x: 0,
+        y: 0,
+        width: 2,
+        height: 1,
+    };
+
+    /// Kills: polls that end although none were said, or before as many as were said.
+    #[test]
+    fn a_rectangle_waits_for_the_swap_as_long_as_it_may() {
+        let flag = SwapFlag::new();
+        let (mut first, mut second) = ([0u16; 2], [0; 2]);
+        let mut frames = FrameBuffer::new([&mut first, &mut second], 2, 1, &flag);
+        for max_polls in [None, Some(u32::MAX)] {
+            frames = frames.with_max_polls(max_polls);
+            flag.ask();
+            thread::scope(|scope| {
+                scope.spawn(|| {
+                    thread::sleep(Duration::from_millis(10));
+                    flag.vertical_blank();
+                });
+                assert_eq!(frames.open(ALL), Ok(()));
+            });
+            assert!(!flag.is_pending());
+        }
+        flag.ask();
+        let mut hasty = frames.with_max_polls(Some(3));
+        assert_eq!(hasty.open(ALL), Err(FrameBufferError::NoBlank));
+        flag.vertical_blank();
+        assert_eq!(hasty.open(ALL), Ok(()));
+    }
+}

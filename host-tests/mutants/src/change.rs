@@ -80,6 +80,12 @@ pub fn binds(condition: &Expr) -> bool {
     }
 }
 
+/// Whether a condition is false in all programs for this computer.
+#[must_use]
+pub fn is_for_others(condition: &Expr) -> bool {
+    matches!(condition, Expr::Path(path) if path.path.is_ident("SHORT"))
+}
+
 /// Whether leaving a statement out leaves a call out, and nothing else.
 #[must_use]
 pub fn is_call(expression: &Expr) -> bool {

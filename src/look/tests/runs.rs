@@ -1,10 +1,11 @@
 //! Runs of a span, each coloured alone, have the bits of the whole span.
 
+use super::super::fetch::packed;
 use super::super::gouraud::fields;
 use super::super::mapping::Mapping;
 use super::super::{Fill, Gouraud, Paint, Parts, Place, Textured, ThinSpan, WordOf};
 use super::triangles::{inside, some_triangle};
-use super::{Texels, WRAPS, draw_mapped, some_texture};
+use super::{FRACTION, Texels, Uv, WRAPS, draw_mapped, some_texture};
 use crate::geometry::{Faces, Mesh};
 use crate::num::random::Rng;
 use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
@@ -238,5 +239,25 @@ fn pixels_of_every_look_do_not_depend_on_runs() {
             };
             assert!(is_rare || spans > 300, "{i} {fill:?}: {fills:?}");
         }
+    }
+}
+
+/// Kills: a bit of one coordinate that gets into the other, and sides of another length.
+#[test]
+fn packed_places_have_sixteen_bits_of_the_period_each() {
+    let mut rng = Rng(7);
+    for _ in 0..20_000 {
+        let log = rng.below(9);
+        let at = Uv {
+            u: rng.bits() as i32,
+            v: rng.bits() as i32,
+        };
+        let period = 1i64 << (FRACTION + log);
+        let part = |c: i32| (i64::from(c).rem_euclid(period) * 65_536 / period) as u32;
+        assert_eq!(
+            packed(at, log),
+            part(at.v) << 16 | part(at.u),
+            "{at:?} {log}"
+        );
     }
 }

@@ -1,0 +1,190 @@
+//! Numbers that a block cannot have are refused, and named with the word that they stand in (H13).
+
+use host_tests::lists::writer::ListWriter;
+use scanbeam::list::*;
+
+/// A block of a list on its own, as words.
+fn block(state: &State, data: &[u32]) -> Vec<u32> {
+    let mut memory = [0; 64];
+    let mut writer = ListWriter::new(&mut memory);
+    match data {
+        [] => writer.state(state).unwrap(),
+        data => writer.bulk(state, data).unwrap(),
+    }
+    writer.words().to_vec()
+}
+
+/// With one word replaced: what is let in, and what is refused with that word and its value.
+fn replaced(block: &[u32], word: usize, good: &[u32], bad: &[u32]) {
+    for (values, is_good) in [(good, true), (bad, false)] {
+        for &value in values {
+            let mut list = block.to_vec();
+            list[word] = value;
+            let read = read_block(&list[..], 0, &VertexFormat::default());
+            let reason = read.map(|_| ()).map_err(|error| error.reason);
+            let refused = Reason::Value {
+                word: word as u32,
+                value,
+            };
+            let want = if is_good { Ok(()) } else { Err(refused) };
+            assert_eq!(reason, want, "word {word}: {value:#x} in {block:x?}");
+        }
+    }
+}
+
+/// Two halves of a word, the lower one first.
+fn halves(low: i16, high: i16) -> u32 {
+    u32::from(low as u16) | u32::from(high as u16) << 16
+}
+
+const MOST: i32 = (1 << 30) - 1;
+
+/// Kills: each limit of `reader.rs` one off, or not asked for: the mark of a head, mantissas of more than 30 bits,
+/// exponents, a negative radius, ambient light above 1.
+#[test]
+fn numbers_of_space_and_light_have_limits() {
+    let head = block(&State::Head(Head::default()), &[]);
+    replaced(&head, 1, &[MAGIC], &[0, MAGIC + 1, MAGIC.swap_bytes()]);
+    let matrix = Matrix {
+        linear: [0; 9],
+        linear_exponent: 0,
+        offset: [0; 3],
+        offset_exponent: 0,
+    };
+    let matrix = block(&State::Matrix(matrix), &[]);
+    let (good, bad) = ([MOST, -MOST], [MOST + 1, -MOST - 1, i32::MIN, i32::MAX]);
+    let (good, bad) = (good.map(|m| m as u32), bad.map(|m| m as u32));
+    for word in (1..=9).chain(11..=13) {
+        replaced(&matrix, word, &good, &bad);
+    }
+    let good = [halves(-128, 96), halves(96, -128)];
+    let bad = [
+        halves(-129, 0),
+        halves(97, 0),
+        halves(0, -129),
+        halves(0, 97),
+    ];
+    replaced(&matrix, 10, &good, &bad);
+    let bounds = Bounds {
+        centre: [0; 3],
+        radius: 1,
+        exponent: 0,
+        words: 0,
+    };
+    let bounds = block(&State::Bounds(bounds), &[]);
+    replaced(&bounds, 4, &[0, MOST as u32], &[-1i32 as u32, 1 << 30]);
+    let bad = [-129i32, 97, 1 << 16, i32::MIN].map(|exponent| exponent as u32);
+    replaced(&bounds, 5, &[96, -128i32 as u32], &bad);
+    let light = LightWords {
+        direction: [0, 0, 1 << 14],
+        ambient: 0,
+        colour: [255; 3],
+    };
+    let light = block(&State::Light { number: 0, light }, &[]);
+    replaced(&light, 2, &[1 << 31], &[1 << 31 | 1 << 16, u32::MAX]);
+    replaced(&light, 3, &[0xFF_FFFF], &[1 << 24, 1 << 31]);
+}
+
+/// Kills: floats that are no numbers, windows without a column or a line, and bits that nothing has.
+#[test]
+fn cameras_windows_and_materials_have_limits() {
+    let camera = CameraWords {
+        eye: [0.0; 3],
+        at: [0.0; 3],
+        up: [0.0; 3],
+        focal: 1.0,
+        near: 1.0,
+        far: 1.0,
+    };
+    let camera = block(&State::Camera(camera), &[]);
+    let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(f32::to_bits);
+    for word in 1..=12 {
+        replaced(&camera, word, &[f32::MAX.to_bits()], &bad);
+    }
+    let window = Window {
+        left: 5,
+        top: 7,
+        right: 10,
+        bottom: 10,
+    };
+    let window = block(&State::Window(window), &[]);
+    let bad = [halves(5, 8), halves(6, 7), halves(4, 8), halves(6, 6), 0];
+    replaced(&window, 2, &[halves(6, 8)], &bad);
+    let material = Material {
+        diffuse: [0; 3],
+        opacity: 0,
+        specular: [0; 3],
+        exponent: 0,
+        two_sided: false,
+        unlit: false,
+        texture: None,
+    };
+    let material = block(&State::Material(material), &[]);
+    // A number of a texture where there is one alone.
+    replaced(
+        &material,
+        3,
+        &[0, 3, 4, 0xFF07],
+        &[8, 0x80, 1 << 16, 1 << 31, 0x100, 0x8003],
+    );
+}
+
+/// Kills: sides, forms and lengths that a texture, a palette or an overlay cannot have.
+#[test]
+fn what_has_texels_has_limits() {
+    let texture = Texture {
+        number: 0,
+        log_width: 1,
+        log_height: 1,
+        form: TexelForm::Rgb565,
+        levels: 1,
+        palette: 0,
+        clamped: false,
+        at: 0,
+    };
+    let words = texture.words();
+    let block_of = block(&State::Texture(texture), &vec![0; words as usize]);
+    let first = block_of[1];
+    let bad = [
+        first | 11,
+        first | 11 << 4,
+        first | 15 << 8,
+        first | 1 << 14,
+        first | 1 << 25,
+    ];
+    replaced(
+        &block_of,
+        1,
+        &[first, first | 1 << 24, first | 0xFF << 16],
+        &bad,
+    );
+    replaced(&block_of, 2, &[words], &[0, words - 1, words + 1]);
+    let palette = Palette {
+        number: 0,
+        count: 2,
+        at: 0,
+    };
+    let palette = block(&State::Palette(palette), &[0; 2]);
+    replaced(&palette, 1, &[1, 2], &[0, 257, u32::MAX]);
+    let overlay = Overlay {
+        left: 0,
+        top: 0,
+        width: 2,
+        height: 1,
+        form: TexelForm::Rgb565,
+        additive: false,
+        palette: 0,
+        at: 0,
+    };
+    let overlay = block(&State::Overlay(overlay), &[0]);
+    let bad = [halves(0, 1), halves(1, 0), halves(1025, 1), halves(1, 1025)];
+    replaced(&overlay, 2, &[halves(1, 1), halves(2, 1)], &bad);
+    let flags = overlay[3];
+    let good = [flags, flags | 1 << 4, flags | 0xFF << 8];
+    replaced(
+        &overlay,
+        3,
+        &good,
+        &[flags | 15, flags | 1 << 5, flags | 1 << 16],
+    );
+}
