@@ -5,7 +5,7 @@ use scanbeam::list::*;
 
 /// A block of a list on its own, as words.
 fn block(state: &State, data: &[u32]) -> Vec<u32> {
-    let mut memory = [0; 64];
+    let mut memory = [0; 1024];
     let mut writer = ListWriter::new(&mut memory);
     match data {
         [] => writer.state(state).unwrap(),
@@ -159,6 +159,21 @@ fn what_has_texels_has_limits() {
         &bad,
     );
     replaced(&block_of, 2, &[words], &[0, words - 1, words + 1]);
+    for (log_width, log_height) in [(10, 0), (0, 10)] {
+        let longest = Texture {
+            log_width,
+            log_height,
+            ..texture
+        };
+        let data = vec![0; longest.words() as usize];
+        let block_of = block(&State::Texture(longest), &data);
+        replaced(
+            &block_of,
+            1,
+            &[block_of[1]],
+            &[block_of[1] | 15, block_of[1] | 15 << 4],
+        );
+    }
     let palette = Palette {
         number: 0,
         count: 2,
@@ -187,4 +202,103 @@ fn what_has_texels_has_limits() {
         &good,
         &[flags | 15, flags | 1 << 5, flags | 1 << 16],
     );
+}
+
+/// Kills: a length that is not asked for before words are read.
+#[test]
+fn what_ends_within_a_block_is_refused_with_its_length() {
+    let vector = [0.0; 3];
+    let camera = CameraWords {
+        eye: vector,
+        at: vector,
+        up: vector,
+        focal: 1.0,
+        near: 1.0,
+        far: 1.0,
+    };
+    let light = LightWords {
+        direction: [0; 3],
+        ambient: 0,
+        colour: [0; 3],
+    };
+    let matrix = Matrix {
+        linear: [0; 9],
+        linear_exponent: 0,
+        offset: [0; 3],
+        offset_exponent: 0,
+    };
+    let window = Window {
+        left: 0,
+        top: 0,
+        right: 1,
+        bottom: 1,
+    };
+    let bounds = Bounds {
+        centre: [0; 3],
+        radius: 0,
+        exponent: 0,
+        words: 0,
+    };
+    let states = [
+        (State::Head(Head::default()), 5),
+        (State::Matrix(matrix), 14),
+        (State::Light { number: 0, light }, 4),
+        (State::Camera(camera), 13),
+        (State::Window(window), 3),
+        (State::Bounds(bounds), 7),
+    ];
+    for (state, need) in states {
+        let list = block(&state, &[]);
+        assert_eq!(list.len(), need, "{state:?}");
+        for have in 1..need {
+            cut(&list, have, need);
+        }
+    }
+    let palette = Palette {
+        number: 0,
+        count: 3,
+        at: 0,
+    };
+    let texture = Texture {
+        number: 0,
+        log_width: 2,
+        log_height: 0,
+        form: TexelForm::Rgb565,
+        levels: 1,
+        palette: 0,
+        clamped: false,
+        at: 0,
+    };
+    let overlay = Overlay {
+        left: 0,
+        top: 0,
+        width: 4,
+        height: 1,
+        form: TexelForm::Rgb565,
+        additive: false,
+        palette: 0,
+        at: 0,
+    };
+    // Their lengths are known once their first words are there.
+    let known = [
+        (State::Palette(palette), 2, 3),
+        (State::Texture(texture), 3, 2),
+        (State::Overlay(overlay), 4, 2),
+    ];
+    for (state, first, data) in known {
+        let list = block(&state, &[0; 3][..data]);
+        assert_eq!(list.len(), first + data, "{state:?}");
+        for have in 1..list.len() {
+            let need = if have < first { first } else { list.len() };
+            cut(&list, have, need);
+        }
+    }
+}
+
+/// A list that ends within its only block.
+fn cut(list: &[u32], have: usize, need: usize) {
+    let read = read_block(&list[..have], 0, &VertexFormat::default());
+    let reason = read.map(|_| ()).map_err(|error| error.reason);
+    let (need, have) = (need as u32, have as u32);
+    assert_eq!(reason, Err(Reason::Truncated { need, have }), "{list:x?}");
 }

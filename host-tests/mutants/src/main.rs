@@ -352,28 +352,24 @@ impl Told<'_> {
         text
     }
 
+    /// Whether it does not live, or is known to. Lines that are equal share a name, so one of them may
+    /// be known that is noticed.
     fn is_right(&self, tried: &Tried) -> bool {
         let lives = matches!(tried.fate, Fate::Lived | Fate::Open | Fate::Unreached);
-        lives == self.known.contains(&self.mutants[tried.id].name())
+        !lives || self.known.contains(&self.mutants[tried.id].name())
     }
 
-    /// One that lives and is not known, or is known to live and does not.
+    /// One that lives and is not known.
     fn tell_odd(&self, tried: &Tried) {
         if self.is_right(tried) {
             return;
         }
-        let mutant = &self.mutants[tried.id];
-        let by = tried.by.as_deref().unwrap_or("a test");
-        match tried.fate {
-            Fate::Lived => println!("lives: {}", mutant.place()),
-            Fate::Open => println!("lives so far: {}", mutant.place()),
-            Fate::Unreached => println!("not reached: {}", mutant.place()),
-            _ => println!(
-                "is killed by {by}, unlike {} says: {}",
-                known::FILE,
-                mutant.place()
-            ),
-        }
+        let how = match tried.fate {
+            Fate::Unreached => "not reached",
+            Fate::Open => "lives so far",
+            _ => "lives",
+        };
+        println!("{how}: {}", self.mutants[tried.id].place());
     }
 }
 

@@ -283,3 +283,32 @@ fn units_have_length_one() {
     assert_eq!(unit([0; 3]).map(I2F14::to_bits), [0; 3]);
     assert_eq!(unit([-(1 << 32), 0, 0]).map(I2F14::to_bits), [-16384, 0, 0]);
 }
+
+/// Kills: a direction that is scaled on its way, and entries of another row or column.
+#[test]
+fn directions_are_turned_in_units_of_the_mantissa() {
+    let mut rng = Rng(23);
+    for i in 0..2_000 {
+        let scale = f32::from(1u16 << rng.below(8));
+        let row = |rng: &mut Rng| [0; 3].map(|_: u8| scale * rng.signed());
+        let rows = [row(&mut rng), row(&mut rng), row(&mut rng)];
+        let map = Affine::from_rows(rows, [0.0; 3]).unwrap();
+        let bits = [0; 3].map(|_: u8| (rng.signed() * 16_384.0) as i16);
+        let direction = bits.map(I2F14::from_bits);
+        let unit = 2f64.powi(map.linear.exponent - 30);
+        let (there, back) = (map.turned(direction), map.transposed_times(direction));
+        for axis in 0..3 {
+            let sum = |entry: [f64; 3]| {
+                let parts = [0, 1, 2].map(|k| entry[k] * f64::from(bits[k]) / 16_384.0);
+                parts.iter().sum::<f64>() / unit
+            };
+            let row = [0, 1, 2].map(|k| value(&map.linear, 3 * axis + k));
+            let column = [0, 1, 2].map(|k| value(&map.linear, 3 * k + axis));
+            for (got, want) in [(there[axis], sum(row)), (back[axis], sum(column))] {
+                // Rounded down to a unit.
+                let off = want - got as f64;
+                assert!((-1e-3..1.001).contains(&off), "{i}: {got} for {want}");
+            }
+        }
+    }
+}
