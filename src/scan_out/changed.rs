@@ -160,6 +160,30 @@ mod tests {
         }
     }
 
+    /// Kills: bytes that a pixel does not have, and a last pixel without a partner that is left out.
+    #[test]
+    fn lines_of_bytes_have_the_hashes_of_their_words() {
+        let mut seed = 5u32;
+        for len in 0..8 {
+            let mut next = |_| {
+                seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                seed >> 8
+            };
+            let words: Vec<u32> = (0..len).map(&mut next).collect();
+            let half: Vec<u16> = words.iter().map(|word| *word as u16).collect();
+            let two: Vec<[u8; 2]> = half.iter().map(|word| word.to_le_bytes()).collect();
+            assert_eq!(<[u8; 2]>::hash(&two), u16::hash(&half));
+            let three = words.iter().map(|word| word.to_le_bytes());
+            let three: Vec<[u8; 3]> = three.map(|[a, b, c, _]| [a, b, c]).collect();
+            assert_eq!(<[u8; 3]>::hash(&three), u32::hash(&words));
+            if let Some(last) = half.last() {
+                let mut other = half.clone();
+                other[len - 1] = last ^ 0x100;
+                assert!(u16::hash(&other) != u16::hash(&half), "{len}");
+            }
+        }
+    }
+
     #[test]
     fn a_line_is_shown_once_it_was_replaced_and_until_it_is_forgotten() {
         let mut hashes = [9; 2];
