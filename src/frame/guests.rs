@@ -4,10 +4,10 @@
 //! room for, the nearest depth of each column is kept there instead (`dense`).
 
 use super::alone::set_up_stray;
-use super::near::{Drawing, Field, Taken, colour_free};
+use super::near::{Drawing, Field, Taken, colour_free, colour_rest};
 use super::renderer::Renderer;
 use super::rival::{Rival, Slope, thin_slope};
-use super::spans::{Line, Span, colour_run};
+use super::spans::{Line, Span};
 use super::thin::depth_plane;
 use crate::active::next;
 use crate::link::Link;
@@ -159,12 +159,9 @@ fn colour_guest<L: Look>(
     let alone = set_up_stray::<L>(&stray, drawing.counts, out);
     let drawn = alone.drawn();
     if let Some(taken) = taken {
-        return colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
+        return colour_free::<L>(drawing.mask, taken, drawn, span, out);
     }
-    let Span { start, end } = rival.span;
-    drawing.mask.cover_free(start, end, |start, end| {
-        colour_run::<L>(drawn, rival.span, Span { start, end }, out);
-    });
+    colour_rest::<L>(drawing.mask, drawn, span, out);
 }
 
 /// A walk over what has no slot: what is next, and what was before.
