@@ -90,23 +90,21 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         out: &Line<'_, '_, WordOf<L>>,
         mask: &mut Mask,
     ) {
-        let mut hide = |other: Rival| {
-            if let Some(hidden) = other.hidden_of(rival) {
-                mask.cover(hidden.start, hidden.end);
-            }
-        };
         for &key in self.keys.get(after.slots..).unwrap_or_default() {
             if key | NUMBER < far {
                 break;
             }
-            let slots = self.cache.slots.as_flattened();
-            if let Some(slot) = slots.get(number_of::<WORDS>(key)) {
-                hide(rival_of::<L>(slot, self.span(key), out));
+            let (slots, span) = (self.cache.slots.as_flattened(), self.span(key));
+            match slots.get(number_of::<WORDS>(key)) {
+                Some(slot) if span.meets(rival.span) => {
+                    rival_of::<L>(slot, span, out).hide(&rival, mask);
+                }
+                _ => {}
             }
         }
         for k in after.guests..self.guests {
             match Guest::of(self.cells, k) {
-                Some(guest) if guest.key >= far => hide(guest.rival),
+                Some(guest) if guest.key >= far => guest.rival.hide(&rival, mask),
                 _ => break,
             }
         }

@@ -7,6 +7,7 @@ use super::spans::{Line, Span, thin_depth};
 use super::thin::depth_plane;
 use crate::active::CacheSlot;
 use crate::look::{Look, WordOf};
+use crate::visible::Mask;
 
 /// The depth of a span: its value at the picture's first column, and its step.
 #[derive(Clone, Copy)]
@@ -65,8 +66,17 @@ impl Rival {
         of(self) > of(other)
     }
 
+    /// Adds to a mask the columns in which both are and this is seen.
+    #[inline(never)]
+    pub(super) fn hide(&self, other: &Self, mask: &mut Mask) {
+        if let Some(hidden) = self.hidden_of(*other) {
+            mask.cover(hidden.start, hidden.end);
+        }
+    }
+
     /// The columns in which both are and this is seen: they begin or end with what both have, as both depths are
     /// linear.
+    #[inline(always)]
     pub(super) fn hidden_of(self, other: Self) -> Option<Span> {
         if !self.span.meets(other.span) {
             return None;
