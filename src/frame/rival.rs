@@ -133,15 +133,15 @@ pub(super) fn slope_of<L: Look>(
         return Slope::of_place(out.view, slot.object);
     }
     if Flags(slot.flags).lacks_depth() {
-        return thin_slope::<L>(slot.object, span, out);
+        return thin_slope(slot.object, span, out.view, out.number);
     }
     Slope::of_plane(slot.item.depth, out.number)
 }
 
 #[cold]
 #[inline(never)]
-pub(super) fn thin_slope<L: Look>(object: u16, span: Span, out: &Line<'_, '_, WordOf<L>>) -> Slope {
-    let [first, step] = thin_depth::<L>(object, span, out);
+pub(super) fn thin_slope(object: u16, span: Span, view: &View<'_>, line: u32) -> Slope {
+    let [first, step] = thin_depth(object, span, view, line);
     Slope {
         at: first.wrapping_sub(step.wrapping_mul(span.start)),
         step,

@@ -44,15 +44,11 @@ pub(super) struct Drawn<'a, P> {
 /// The depth of a thin triangle at a span's first pixel, and its step.
 #[cold]
 #[inline(never)]
-pub(super) fn thin_depth<L: Look>(
-    object: u16,
-    span: Span,
-    out: &Line<'_, '_, WordOf<L>>,
-) -> [u32; 2] {
-    let Some(triangle) = out.view.triangle_of(object) else {
+pub(super) fn thin_depth(object: u16, span: Span, view: &View<'_>, line: u32) -> [u32; 2] {
+    let Some(triangle) = view.triangle_of(object) else {
         return [0; 2];
     };
-    let ends = thin_span(&triangle, span, out.number);
+    let ends = thin_span(&triangle, span, line);
     let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
     let first = at.wrapping_add(step.wrapping_mul(span.start));
     [first.wrapping_add(MARGIN), step]
