@@ -10,7 +10,7 @@ use mipidsi::models::ILI9341Rgb565;
 use mipidsi::options::{Orientation, Rotation};
 use scanbeam::scan_out::{
     AsyncLineWriter, AsyncPump, AsyncSpiPanel, BlockingError, DrawTargetLines, DrawTargetSink,
-    Error as _, ErrorKind, ErrorType, FrameBuffer, FrameBufferError, FrameBufferSink, MipidsiLines,
+    Error as _, ErrorKind, FrameBuffer, FrameBufferError, FrameBufferSink, MipidsiLines,
     MipidsiSink, MipidsiWire, PanelError, Pump, ScanError, ScanoutDma, SpiSink, SwapFlag, Window,
 };
 
@@ -286,10 +286,8 @@ fn drawing_and_sending_overlap() {
     use Event::{Close, Drawn, End, Open, Start};
 
     struct Logger<'l>(&'l RefCell<Vec<Event>>);
-    impl ErrorType for Logger<'_> {
-        type Error = ErrorKind;
-    }
     impl AsyncLineWriter for Logger<'_> {
+        type Error = ErrorKind;
         type Word = u16;
         async fn open(&mut self, _: Window) -> Result<(), ErrorKind> {
             self.0.borrow_mut().push(Open);

@@ -7,7 +7,7 @@ use super::renderer::Renderer;
 use super::send::{FrameError, FrameUse, Lines, window};
 use crate::look::{Look, WordOf};
 use crate::overlay::LineOverlay;
-use crate::scan_out::{ErrorType, LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
+use crate::scan_out::{LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
 use crate::scene::Scene;
 
 /// Draws all lines of `scene` with `overlay` over them, and sends those that differ from what `shown` knows the
@@ -23,7 +23,7 @@ pub fn draw_frame_changed<L, D, const WORDS: usize>(
     lines_per_transfer: u16,
     shown: &mut ShownLines<'_>,
     overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     WordOf<L>: LineWord,
@@ -75,7 +75,7 @@ pub fn draw_frame_changed_runs<L, D, const WORDS: usize>(
     lines_per_transfer: u16,
     shown: &mut ShownRuns<'_>,
     overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     WordOf<L>: LineWord,

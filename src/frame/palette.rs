@@ -7,7 +7,7 @@ use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, SentBy, send};
 use crate::look::Look;
 use crate::pixel::{Indexed, LinePalettes, expand_indices};
-use crate::scan_out::{ErrorType, Pump, ScanoutDma};
+use crate::scan_out::{Pump, ScanoutDma};
 use crate::scene::Scene;
 
 /// Draws and sends all lines of `scene` as [`draw_frame`](super::draw_frame) does, over the index `background`. `indices`
@@ -23,7 +23,7 @@ pub fn draw_frame_indexed<L, D, const N: usize, const WORDS: usize>(
     lines_per_transfer: u16,
     indices: &mut [u8],
     palettes: impl LinePalettes<SentBy<D>, N>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look<Pixel = Indexed<N>>,
     D: ScanoutDma,

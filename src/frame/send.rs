@@ -7,8 +7,7 @@ use crate::overlay::LineOverlay;
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};
 use crate::scan_out::{
-    ContinuousPanel, ErrorType, FeedStats, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window,
-    feed_line,
+    ContinuousPanel, FeedStats, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window, feed_line,
 };
 use crate::scene::{Assembled, Scene};
 use core::fmt;
@@ -65,7 +64,7 @@ pub fn draw_frame<L, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     background: WordOf<L>,
     lines_per_transfer: u16,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
@@ -84,7 +83,7 @@ pub fn draw_frame_overlaid<L, D, const WORDS: usize>(
     background: WordOf<L>,
     lines_per_transfer: u16,
     overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
@@ -146,7 +145,7 @@ pub(super) fn send<'m, L, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     lines_per_transfer: u16,
     mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [SentBy<D>]) -> Result<bool, LineError>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: ScanoutDma,
@@ -208,7 +207,7 @@ pub async fn draw_frame_async<L, D, const WORDS: usize>(
     pump: &mut AsyncPump<'_, D>,
     background: WordOf<L>,
     lines_per_transfer: u16,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: AsyncLineWriter<Word = WordOf<L>>,

@@ -12,7 +12,7 @@ use embassy_futures::yield_now;
 use embedded_hal::digital::OutputPin;
 use embedded_hal_async::spi::SpiDevice;
 
-use super::dma::{ErrorType, Window};
+use super::dma::{Error, Window};
 use super::pump::{ScanError, ScanStats};
 use super::spi::{PanelError, RAMWR, window_commands};
 
@@ -23,7 +23,9 @@ use super::spi::{PanelError, RAMWR, window_commands};
     async_fn_in_trait,
     reason = "as in embedded-hal-async: executors of one core need no Send"
 )]
-pub trait AsyncLineWriter: ErrorType {
+pub trait AsyncLineWriter {
+    /// What can go wrong.
+    type Error: Error;
     /// One pixel, as the display takes it.
     type Word: Copy + 'static;
 
@@ -42,6 +44,7 @@ pub trait AsyncLineWriter: ErrorType {
 }
 
 impl<T: AsyncLineWriter + ?Sized> AsyncLineWriter for &mut T {
+    type Error = T::Error;
     type Word = T::Word;
 
     async fn open(&mut self, window: Window) -> Result<(), Self::Error> {
@@ -107,13 +110,10 @@ impl<SPI: SpiDevice, DC: OutputPin, W> AsyncSpiPanel<SPI, DC, W> {
     }
 }
 
-impl<SPI: SpiDevice, DC: OutputPin, W> ErrorType for AsyncSpiPanel<SPI, DC, W> {
-    type Error = PanelError<SPI::Error, DC::Error>;
-}
-
 impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> AsyncLineWriter
     for AsyncSpiPanel<SPI, DC, W>
 {
+    type Error = PanelError<SPI::Error, DC::Error>;
     type Word = W;
 
     async fn open(&mut self, window: Window) -> Result<(), Self::Error> {

@@ -9,7 +9,7 @@
 
 use core::fmt::{self, Display};
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
+use super::dma::{Error, ErrorKind, Window};
 use super::writer::{Blocking, LineWriter};
 use crate::scene::Blocked;
 
@@ -173,11 +173,8 @@ impl<'f, W: Copy> BlockFrame<'f, W> {
     }
 }
 
-impl<W> ErrorType for BlockFrame<'_, W> {
-    type Error = BlockFrameError;
-}
-
 impl<W: Copy + 'static> LineWriter for BlockFrame<'_, W> {
+    type Error = BlockFrameError;
     type Word = W;
 
     fn open(&mut self, window: Window) -> Result<(), BlockFrameError> {

@@ -11,7 +11,7 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{Point, Size};
 use embedded_graphics_core::primitives::Rectangle;
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
+use super::dma::{Error, ErrorKind, Window};
 use super::writer::{Blocking, LineWriter};
 
 /// What goes wrong on a draw target. `E` is its own error.
@@ -103,16 +103,13 @@ fn rectangle(window: Window) -> Rectangle {
     Rectangle::new(corner, Size::new(window.width.into(), window.height.into()))
 }
 
-impl<T: DrawTarget<Error: Debug>, F, W> ErrorType for DrawTargetLines<T, F, W> {
-    type Error = DrawTargetError<T::Error>;
-}
-
 impl<T, F, W> LineWriter for DrawTargetLines<T, F, W>
 where
     T: DrawTarget<Error: Debug>,
     F: FnMut(W) -> T::Color,
     W: Copy + 'static,
 {
+    type Error = DrawTargetError<T::Error>;
     type Word = W;
 
     fn open(&mut self, window: Window) -> Result<(), Self::Error> {

@@ -11,7 +11,7 @@
 use core::fmt::{self, Display};
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
+use super::dma::{Error, ErrorKind, Window};
 use super::writer::{Blocking, LineWriter};
 
 /// What the sink and the interrupt of the vertical blank share. Loads and stores alone: it works on any core.
@@ -170,11 +170,8 @@ impl<'f, W: Copy + 'static> FrameBuffer<'f, W> {
     }
 }
 
-impl<W> ErrorType for FrameBuffer<'_, W> {
-    type Error = FrameBufferError;
-}
-
 impl<W: Copy + 'static> LineWriter for FrameBuffer<'_, W> {
+    type Error = FrameBufferError;
     type Word = W;
 
     /// Waits for the vertical blank that the last rectangle asked for: until then its frame is not free.

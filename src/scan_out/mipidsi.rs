@@ -15,7 +15,7 @@ use embedded_graphics_core::geometry::OriginDimensions;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiDevice;
 
-use super::dma::{ErrorType, Window};
+use super::dma::Window;
 use super::spi::{PanelError, Wire};
 use super::writer::{Blocking, LineWriter};
 
@@ -140,16 +140,6 @@ where
     }
 }
 
-impl<SPI, DC, M, RST, W> ErrorType for MipidsiLines<'_, SPI, DC, M, RST, W>
-where
-    SPI: SpiDevice,
-    DC: OutputPin,
-    M: Model<ColorFormat: InterfacePixelFormat<u8>>,
-    RST: OutputPin,
-{
-    type Error = PanelError<SPI::Error, DC::Error>;
-}
-
 impl<SPI, DC, M, RST, W> LineWriter for MipidsiLines<'_, SPI, DC, M, RST, W>
 where
     SPI: SpiDevice,
@@ -158,6 +148,7 @@ where
     RST: OutputPin,
     W: bytemuck::NoUninit + 'static,
 {
+    type Error = PanelError<SPI::Error, DC::Error>;
     type Word = W;
 
     /// `mipidsi` adds offsets without a check, so the window must be on the display.

@@ -47,7 +47,7 @@ pub use async_out::{AsyncLineWriter, AsyncPump, AsyncSpiPanel};
 pub use blocked::{BlockFrame, BlockFrameError, BlockFrameSink};
 pub use changed::{LineWord, ShownLines};
 pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
-pub use dma::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
+pub use dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
 pub use doubled::send_doubled;
 #[cfg(feature = "embedded-graphics")]
 pub use draw_target::{DrawTargetError, DrawTargetLines, DrawTargetSink};

@@ -12,7 +12,7 @@ use core::marker::PhantomData;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::spi::{self, SpiDevice};
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
+use super::dma::{Error, ErrorKind, Window};
 use super::writer::{Blocking, LineWriter};
 
 /// Column address set: first and last column, inclusive.
@@ -147,14 +147,11 @@ impl<SPI, DC, W: 'static> SpiSink<SPI, DC, W> {
     }
 }
 
-impl<SPI: SpiDevice, DC: OutputPin, W> ErrorType for SpiPanel<SPI, DC, W> {
-    type Error = PanelError<SPI::Error, DC::Error>;
-}
-
 /// `SpiDevice` flushes before it returns, so there is nothing to wait for at the end.
 impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> LineWriter
     for SpiPanel<SPI, DC, W>
 {
+    type Error = PanelError<SPI::Error, DC::Error>;
     type Word = W;
 
     fn open(&mut self, window: Window) -> Result<(), Self::Error> {

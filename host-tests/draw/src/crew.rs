@@ -6,7 +6,7 @@
 use scanbeam::frame::{self, FrameError, FrameUse, LineError};
 use scanbeam::look::Look;
 use scanbeam::pixel::Pixel;
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
@@ -27,7 +27,7 @@ pub fn draw_frame<L, F, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     background: F::Word,
     lines_per_transfer: u16,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
     F: Pixel + Sync,
@@ -65,7 +65,7 @@ where
             pump.line_done()?;
         }
         pump.finish()?;
-        Ok::<_, FrameError<<D as ErrorType>::Error>>(())
+        Ok::<_, FrameError<D::Error>>(())
     })?;
     for renderer in renderers {
         used.cache += renderer.counts();

@@ -5,7 +5,7 @@ use host_support::mock::HostLine;
 use scanbeam::Link;
 use scanbeam::frame::FastMemory;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, Window};
 use scanbeam::scene::{Object, TexturePlace, Vertex};
 use scenes::{
     VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN, VALUES_WIDTH, Values, ValuesMemory,
@@ -46,11 +46,8 @@ impl Sent {
     }
 }
 
-impl ErrorType for Sent {
-    type Error = Infallible;
-}
-
 impl ScanoutDma for Sent {
+    type Error = Infallible;
     type Buf = HostLine<u16>;
 
     fn begin(&mut self, window: Window) -> Result<(), Infallible> {

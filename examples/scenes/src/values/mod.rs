@@ -50,9 +50,7 @@ use scanbeam::frame::{
 use scanbeam::look::{Gouraud, Look, Phong, TexturedPhong};
 use scanbeam::overlay::Overlay;
 use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{
-    ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled,
-};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled};
 use scanbeam::scene::{DrawState, Master, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Link, Screen};
 use scenes::{ball, bands, blends, dither, holes, lamps, mirror, phong, sprites, teapot, texels};
@@ -235,7 +233,7 @@ impl Values {
         self,
         lent: ValuesMemory<'_>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -313,7 +311,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<SmoothLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -333,7 +331,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<IndexedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -353,7 +351,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -371,7 +369,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -389,7 +387,7 @@ impl<'m> Rest<'m> {
         self,
         slots: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -409,7 +407,7 @@ impl<'m> Rest<'m> {
         cache: &mut FastMemory<L>,
         pump: &mut Pump<D>,
         build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), ShotError>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         L: Look<Pixel = Rgb565Be>,
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
