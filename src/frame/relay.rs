@@ -383,7 +383,7 @@ where
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     let end = scene.lines().end;
-    let mut lines = Lines::new(scene, background, ());
+    let mut lines = Lines::new(scene, background, |_, _| {});
     desk.open(scene);
     let sent = send(
         scene,

@@ -3,7 +3,6 @@
 use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
 use crate::look::{Look, WordOf};
-use crate::overlay::LineOverlay;
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};
 use crate::scan_out::{
@@ -69,10 +68,18 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    draw_frame_overlaid(scene, renderer, pump, background, lines_per_transfer, ())
+    draw_frame_overlaid(
+        scene,
+        renderer,
+        pump,
+        background,
+        lines_per_transfer,
+        |_, _| {},
+    )
 }
 
-/// Draws and sends all lines of `scene` as [`draw_frame`] does, with `overlay` over them (K14).
+/// Draws and sends all lines of `scene` as [`draw_frame`] does, with what `overlay` paints over each of them (K14), of
+/// sprites say: `|line, pixels| sprites.paint(line, pixels)`.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or the renderer has too little memory.
@@ -82,7 +89,7 @@ pub fn draw_frame_overlaid<L, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     background: WordOf<L>,
     lines_per_transfer: u16,
-    overlay: impl LineOverlay<L::Pixel>,
+    overlay: impl FnMut(u16, &mut [WordOf<L>]),
 ) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
@@ -106,7 +113,7 @@ pub(super) struct Lines<'a, L: Look, O> {
     overlay: O,
 }
 
-impl<'a, L: Look, O: LineOverlay<L::Pixel>> Lines<'a, L, O> {
+impl<'a, L: Look, O: FnMut(u16, &mut [WordOf<L>])> Lines<'a, L, O> {
     pub(super) fn new(scene: &'a Scene<'_, '_, L>, background: WordOf<L>, overlay: O) -> Self {
         Self {
             view: View::of(scene),
@@ -129,7 +136,7 @@ impl<'a, L: Look, O: LineOverlay<L::Pixel>> Lines<'a, L, O> {
             return Err(LineError::Pixels { needed, have });
         }
         let is_active = renderer.draw_known(&self.view, line, pixels, self.background);
-        self.overlay.paint(line, pixels);
+        (self.overlay)(line, pixels);
         Ok(is_active)
     }
 }
@@ -181,7 +188,7 @@ where
     C: ContinuousPanel<Word = WordOf<L>>,
 {
     renderer.begin_frame(scene)?;
-    let mut lines = Lines::new(scene, background, ());
+    let mut lines = Lines::new(scene, background, |_, _| {});
     let mut skipped = 0;
     let mut fed = FeedStats::default();
     for line in scene.lines() {
@@ -213,7 +220,7 @@ where
     D: AsyncLineWriter<Word = WordOf<L>>,
 {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;
-    let mut lines = Lines::new(scene, background, ());
+    let mut lines = Lines::new(scene, background, |_, _| {});
     let mut skipped = 0;
     pump.take_stats();
     let window = window(scene);

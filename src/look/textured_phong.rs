@@ -7,9 +7,8 @@ use super::gouraud::wide_shades;
 use super::phong::{light, steps_of, word_of};
 use super::textured::{Planes, Textured};
 use super::tint::Texel;
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::pixel::Pixel;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
@@ -51,7 +50,7 @@ fn set_up<T: Texel>(
 }
 
 /// Lights pixels by their texels, which are words of `T`, dithered or not; those without one by white.
-fn lit<F: Pixel, T: Texel>(
+fn lit<F: PixelFormat, T: Texel>(
     state: &DrawState<'_>,
     planes: &Planes,
     place: Place,
@@ -68,7 +67,7 @@ fn lit<F: Pixel, T: Texel>(
 }
 
 #[inline(never)]
-fn fill<F: Pixel, T: Texel>(
+fn fill<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     dithers: bool,
@@ -90,7 +89,7 @@ fn fill<F: Pixel, T: Texel>(
 
 /// The same of a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
 #[inline(never)]
-fn fill_holed<F: Pixel, T: Texel>(
+fn fill_holed<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     draws: &[DrawState<'_>],
@@ -121,7 +120,7 @@ fn fill_holed<F: Pixel, T: Texel>(
 /// The look in a format, of texels of another or the same.
 macro_rules! lit {
     ($($format:ty: $texel:ty),+) => {$(
-        impl Paint for TexturedPhong<$format> {
+        impl Look for TexturedPhong<$format> {
             type Pixel = $format;
             type Planes = Planes;
             const EMPTY: Planes = Textured::<$texel>::EMPTY;

@@ -6,7 +6,7 @@
 
 use super::textured::{Planes, Textured};
 use super::tint::Shade;
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::scene::DrawState;
@@ -107,7 +107,7 @@ fn fill_holed<F: PixelFormat>(
 /// The look in a format of more than 16 bits.
 macro_rules! wide {
     ($($format:ty),+) => {$(
-        impl Paint for Textured<$format> {
+        impl Look for Textured<$format> {
             type Pixel = $format;
             type Planes = Planes;
             const EMPTY: Planes = Texels::EMPTY;

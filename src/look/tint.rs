@@ -16,7 +16,7 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
-use crate::pixel::Pixel;
+use crate::pixel::PixelFormat;
 use crate::pixel::threshold;
 use crate::pixel::{Rgb565, Rgb565Bytes};
 use core::hint::black_box as unknown;
@@ -254,7 +254,7 @@ pub fn tint_ordered(
 }
 
 /// A pixel of 16 bits that can be tinted.
-pub trait Texel: Pixel<Word = u16> {
+pub trait Texel: PixelFormat<Word = u16> {
     /// Multiplies a run by a shade, which is that of the place half a pixel beyond the first.
     fn tint(run: &mut [u16], shade: Shade, step: Shade);
 

@@ -27,7 +27,6 @@ mod queue;
 mod state;
 mod textures;
 
-pub use gather::ListCoordinate;
 pub use lights::LightRoom;
 pub use outcome::{OnViolation, RunCounts};
 pub use play::{Player, PlayerMemory, PlayerSettings};

@@ -23,7 +23,7 @@ use super::pump::{Pump, ScanError};
 /// [`mix_lines`](crate::pixel::Pixel::mix_lines) of a pixel format, or what the panel needs instead.
 ///
 /// ```
-/// use scanbeam::pixel::{Pixel, Rgb565};
+/// use scanbeam::pixel::{PixelFormat, Rgb565};
 /// use scanbeam::scan_out::{Pump, ScanError, ScanoutDma, Window, send_doubled};
 ///
 /// fn grey_ramp<D>(pump: &mut Pump<D>) -> Result<(), ScanError<D::Error>>

@@ -45,7 +45,7 @@ mod writer;
 #[cfg(feature = "async")]
 pub use async_out::{AsyncLineWriter, AsyncPump, AsyncSpiPanel};
 pub use blocked::{BlockFrame, BlockFrameError, BlockFrameSink};
-pub use changed::{LineWord, ShownLines};
+pub use changed::ShownLines;
 pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
 pub use dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
 pub use doubled::send_doubled;

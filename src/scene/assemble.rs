@@ -12,9 +12,7 @@ use super::texgen::project_generated;
 use super::{
     Application, Draw, DrawError, DrawState, NONE, ORIGIN, Object, Scene, Shading, Shadow, Vertex,
 };
-use crate::geometry::{
-    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Tint, each_triangle, triangles,
-};
+use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use core::ops::Range;
 
 /// The lines and columns of guard space that are drawn.
@@ -98,7 +96,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let (model, view) = (&draw.model, camera.view());
         let lamps = draw.lights.map(|lights| Lamps::new(lights, model, view));
         let light = draw.light.filter(|_| lamps.is_none());
-        let light = light.map(|light| light.in_model(model, view));
+        let light = light.map(|light| light.in_model(model));
         let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
         let has_one = is_plain || !is_lit && draw.mesh.colours.is_empty();
         let generated = match (draw.texgen, &draw.texture) {
@@ -233,7 +231,7 @@ impl<'t, L> Scene<'_, 't, L> {
         }
         match &pass.light {
             Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
-                light_all(light, &pass.tint, &scale, mesh.normals, vertices);
+                light_all(light, &pass.tint, mesh.normals, vertices);
             }
             _ => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {

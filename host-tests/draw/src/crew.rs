@@ -5,7 +5,7 @@
 
 use scanbeam::frame::{self, FrameError, FrameUse, LineError};
 use scanbeam::look::Look;
-use scanbeam::pixel::Pixel;
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use std::sync::mpsc::{SyncSender, sync_channel};
@@ -30,7 +30,7 @@ pub fn draw_frame<L, F, D, const WORDS: usize>(
 ) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
-    F: Pixel + Sync,
+    F: PixelFormat + Sync,
     D: ScanoutDma<Buf: LineBuf<Word = F::Word>>,
 {
     if let [renderer] = renderers {
@@ -84,7 +84,7 @@ fn draw_lines<L, F, const WORDS: usize>(
     sender: &SyncSender<Drawn<F::Word>>,
 ) where
     L: Look<Pixel = F>,
-    F: Pixel,
+    F: PixelFormat,
 {
     renderer.restart();
     for line in own {

@@ -216,7 +216,8 @@ fn shown(
     let sink = MockFrameBuffer::new(width, height);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb888::from_rgb8(view.background);
-    draw_frame_overlaid(scene, &mut renderer, &mut pump, background, 1, overlays)
+    let paint = |line, pixels: &mut [[u8; 3]]| overlays.paint::<Rgb888>(line, pixels);
+    draw_frame_overlaid(scene, &mut renderer, &mut pump, background, 1, paint)
         .map_err(|error| format!("display: {error}"))?;
     let pixels = pump.sink().frame().map_err(|e| format!("display: {e:?}"))?;
     let rgb = pixels.into_iter().flat_map(Rgb888::to_rgb8).collect();

@@ -1,10 +1,11 @@
 //! A table of vertices, and triangles of it by index.
 
 use super::fill::{End, Rules, fill};
-use super::{Column, Gather, Kind, ListCoordinate, Out, Refusal, Table};
-use crate::list::{FieldForm, Layout, Run, VertexFormat, WIDE, Words, colour, normal};
+use super::{Column, Gather, Kind, Out, Refusal, Table};
+use crate::geometry::Coordinate;
+use crate::list::{FieldForm, Layout, Place, Run, VertexFormat, WIDE, Words, colour, normal};
 
-impl<C: ListCoordinate> Gather<'_, C> {
+impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes a table: columns that cannot be used where they lie are unpacked.
     ///
     /// # Errors

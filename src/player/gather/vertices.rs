@@ -1,10 +1,10 @@
 //! Short vertices: strips, fans, quads, quad strips and points.
 
-use super::{Attributes, Gather, Kind, ListCoordinate, Out, Refusal, RunFaces};
-use crate::geometry::QuadSplit;
-use crate::list::{Id, Layout, Run, SPLIT, VertexFormat, Words, colour, normal};
+use super::{Attributes, Gather, Kind, Out, Refusal, RunFaces};
+use crate::geometry::{Coordinate, QuadSplit};
+use crate::list::{Id, Layout, Place, Run, SPLIT, VertexFormat, Words, colour, normal};
 
-impl<C: ListCoordinate> Gather<'_, C> {
+impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes the vertices of a block of SHORT, QUADS, or POINTS of so many pixels each way.
     ///
     /// # Errors

@@ -49,7 +49,7 @@ use scanbeam::frame::{
 };
 use scanbeam::look::{Gouraud, Look, Phong, TexturedPhong};
 use scanbeam::overlay::Overlay;
-use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be};
+use scanbeam::pixel::{Index8, PixelFormat, Rgb565Be, expand_indices};
 use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled};
 use scanbeam::scene::{DrawState, Master, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Link, Screen};
@@ -341,7 +341,11 @@ impl<'m> Rest<'m> {
         dusk(&mut scene)?;
         let mut renderer = Renderer::new(lines);
         let mut indices = [0; VALUES_WIDTH as usize];
-        draw_frame_indexed(&scene, &mut renderer, pump, 0, 3, &mut indices, Dusk::new())?;
+        let mut dusk = Dusk::new();
+        let expand = |line, indices: &[u8], pixels: &mut [u16]| {
+            expand_indices(indices, dusk.palette(line), pixels);
+        };
+        draw_frame_indexed(&scene, &mut renderer, pump, 0, 3, &mut indices, expand)?;
         Ok(())
     }
 
@@ -425,8 +429,9 @@ impl<'m> Rest<'m> {
         if values == Values::Overlay {
             let sprites = sprites();
             let overlay = Overlay::<Rgb565Be>::new(&sprites);
-            let overlay = overlay.map_err(|_| ShotError::Sprites)?;
-            draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, overlay)?;
+            let mut overlay = overlay.map_err(|_| ShotError::Sprites)?;
+            let paint = |line, pixels: &mut [u16]| overlay.paint(line, pixels);
+            draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, paint)?;
             return Ok(());
         }
         if values == Values::Doubled {
@@ -456,9 +461,17 @@ impl<'m> Rest<'m> {
             build(&mut scene, moment)?;
             let renderer = &mut renderer;
             if values == Values::Lines {
-                draw_frame_changed(&scene, renderer, pump, background, 3, &mut lines, ())?;
+                draw_frame_changed(&scene, renderer, pump, background, 3, &mut lines, |_, _| {})?;
             } else {
-                draw_frame_changed_runs(&scene, renderer, pump, background, 2, &mut cells, ())?;
+                draw_frame_changed_runs(
+                    &scene,
+                    renderer,
+                    pump,
+                    background,
+                    2,
+                    &mut cells,
+                    |_, _| {},
+                )?;
             }
         }
         Ok(())
