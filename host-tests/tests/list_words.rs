@@ -49,7 +49,7 @@ fn random_format(r: &mut Random) -> VertexFormat {
             })
             .collect();
         fields.push(Field {
-            parameter: parameter::PLACE,
+            parameter: Field::PLACE,
             form: FieldForm::ALL[[1, 2, 5, 7][r.below(4) as usize]],
         });
         if let Ok(format) = VertexFormat::new(&fields) {
@@ -251,8 +251,8 @@ fn item_of(list: &[u32], at: u32, parsed: &Parsed) -> Item {
         | Instruction::Quads(r)
         | Instruction::Table(r) => run(r),
         Instruction::Indexed(Run { header, at }) => {
-            let wide = header.low & WIDE != 0;
-            let form = match (header.low & SEPARATE != 0, header.rm) {
+            let wide = header.low & Header::WIDE != 0;
+            let form = match (header.low & Header::SEPARATE != 0, header.rm) {
                 (true, _) => None,
                 (_, false) => Some(Form::Strip),
                 _ => Some(Form::Fan),

@@ -27,6 +27,7 @@ pub trait PixelFormat {
     }
 
     /// Blends `new` pixels over `old` ones, as many as both have.
+    #[doc(hidden)]
     fn mix(old: &mut [Self::Word], new: &[Self::Word], mix: Mix)
     where
         Self: Sized,

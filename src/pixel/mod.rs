@@ -25,10 +25,11 @@ mod ordered;
 mod xrgb;
 
 pub(crate) use blend::{blend, blend_each};
-pub use format::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
+pub(crate) use format::Rgb565Bytes;
+pub use format::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 pub use grey::{Grey8, mono_page, mono_row};
 pub use indexed::{Index4, Index8, Indexed, expand_indices};
-pub use mix::Mix;
+pub(crate) use mix::Mix;
 pub(crate) use ordered::threshold;
 pub use xrgb::Xrgb8888;
 

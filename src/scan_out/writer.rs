@@ -122,15 +122,6 @@ impl<T, B> Blocking<T, B> {
     pub fn into_writer(self) -> T {
         self.writer
     }
-
-    /// The writer and the rest, for sinks with constructors of their own.
-    pub(super) fn map<U>(self, change: impl FnOnce(T) -> U) -> Blocking<U, B> {
-        Blocking {
-            writer: change(self.writer),
-            left: self.left,
-            written: self.written,
-        }
-    }
 }
 
 impl<T: LineWriter, B: LineBuf<Word = T::Word>> Blocking<T, B> {

@@ -109,7 +109,7 @@ impl Blocked {
     /// Copies the rows of `width` by `height` texels into this layout. What is lent beyond that is not touched.
     ///
     /// # Errors
-    /// When a side is no power of two up to [`MAX_SIDE`](super::MAX_SIDE), or either slice has fewer texels.
+    /// When a side is no power of two up to [`MAX_SIDE`](super::Texture::MAX_SIDE), or either slice has fewer texels.
     pub fn arrange<W: Copy>(
         self,
         [width, height]: [u32; 2],

@@ -66,7 +66,7 @@ impl<'t> Compressed<'t> {
     /// and 21/32: the thirds of BC1, by the nearest 32nd. Else they are these two, their mean, and what is transparent.
     ///
     /// # Errors
-    /// When a side is no power of two up to [`MAX_SIDE`](super::MAX_SIDE), or too little is lent.
+    /// When a side is no power of two up to [`MAX_SIDE`](super::Texture::MAX_SIDE), or too little is lent.
     pub const fn new(
         blocks: &'t [u8],
         width: u32,

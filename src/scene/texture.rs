@@ -18,15 +18,12 @@ use super::form::{Form, Square};
 use super::{Sampling, Texels};
 use core::fmt;
 
-/// Longest side of a texture, in texels.
-pub const MAX_SIDE: u32 = 1024;
-
 /// A texture cannot be made of what was lent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TextureError {
-    /// A side is not a power of two from 1 to [`MAX_SIDE`].
+    /// A side is not a power of two from 1 to [`MAX_SIDE`](Texture::MAX_SIDE).
     Side {
         /// Width asked for.
         width: u32,
@@ -73,7 +70,8 @@ impl fmt::Display for TextureError {
             Self::Side { width, height } => {
                 return write!(
                     f,
-                    "texture: {width}x{height}, where sides are powers of two from 1 to {MAX_SIDE}"
+                    "texture: {width}x{height}, where sides are powers of two from 1 to {}",
+                    Texture::MAX_SIDE
                 );
             }
             Self::Level {
@@ -140,8 +138,8 @@ impl Sides {
     pub(super) const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
         if width.is_power_of_two()
             && height.is_power_of_two()
-            && width <= MAX_SIDE
-            && height <= MAX_SIDE
+            && width <= Texture::MAX_SIDE
+            && height <= Texture::MAX_SIDE
         {
             return Ok(Self {
                 log_width: width.trailing_zeros() as u8,
@@ -169,7 +167,7 @@ macro_rules! indexed {
         /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
         ///
         /// # Errors
-        /// When a side is not a power of two up to [`MAX_SIDE`], or too little is lent.
+        /// When a side is not a power of two up to [`MAX_SIDE`](Texture::MAX_SIDE), or too little is lent.
         pub const fn $name(
             bytes: &'t [u8],
             palette: &'t [u16],
@@ -195,6 +193,8 @@ macro_rules! indexed {
 }
 
 impl<'t> Texture<'t> {
+    /// Longest side of a texture, in texels.
+    pub const MAX_SIDE: u32 = 1024;
     /// A black texel, for memory that textures are to be put into.
     pub const EMPTY: Self = match Self::words(&[0], 1, 1) {
         Ok(texture) => texture,
@@ -235,7 +235,7 @@ impl<'t> Texture<'t> {
     /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
     ///
     /// # Errors
-    /// When a side is not a power of two up to [`MAX_SIDE`], or too little is lent.
+    /// When a side is not a power of two up to [`MAX_SIDE`](Texture::MAX_SIDE), or too little is lent.
     pub const fn words(texels: &'t [u16], width: u32, height: u32) -> Result<Self, TextureError> {
         let sides = match Sides::new(width, height) {
             Ok(sides) => sides,
@@ -275,7 +275,7 @@ impl<'t> Texture<'t> {
     /// Repeats; see [`wrapping`](Self::wrapping). It has what others have: wraps, a key, levels of detail, filters.
     ///
     /// # Errors
-    /// When a side is not a power of two up to [`MAX_SIDE`].
+    /// When a side is not a power of two up to [`MAX_SIDE`](Texture::MAX_SIDE).
     pub const fn computed(
         texels: &'t dyn Texels,
         width: u32,

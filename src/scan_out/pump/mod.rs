@@ -23,7 +23,7 @@ pub use outcome::{ScanError, ScanStats};
 pub use runs::RunFrame;
 
 /// How many line buffers a pump holds.
-pub const PUMP_BUFFERS: usize = 2;
+const PUMP_BUFFERS: usize = 2;
 
 /// One pixel of the buffers that the sink `D` takes.
 type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
