@@ -108,6 +108,12 @@ impl<F: PixelFormat> Gouraud<F> {
         if fill == Fill::Small && F::MADE_OF.is_one_word() {
             return Self::fill_small(planes, place, run);
         }
+        // Of what is one word it is all that is left.
+        let fill = if F::MADE_OF.is_one_word() {
+            Fill::Wide
+        } else {
+            fill
+        };
         Self::fill_wide(fill, planes, place, run);
     }
 
