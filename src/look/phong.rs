@@ -85,7 +85,7 @@ pub(super) fn light<F: PixelFormat>(
         let at = [column, place.line];
         let colour = own();
         let lit = match state.lamps {
-            Some(lamps) => lamps.lit_in_picture(unit_normal([x, y, z]), at, colour, F::STEPS),
+            Some(lamps) => lamps.lit(unit_normal([x, y, z]), at, colour, F::STEPS),
             None => colour,
         };
         let parts = if dithers {

@@ -258,11 +258,11 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             true => self.names.colours(overlay.palette),
             false => Some((0, 1)),
         };
-        let colours = colours.ok_or(Reason::NoPalette(overlay.palette))?;
+        let (colours, count) = colours.ok_or(Reason::NoPalette(overlay.palette))?;
         if words.slice(overlay.at, overlay.words()).is_none() {
             return Err(Reason::Missing(Missing::TexelsInPieces));
         }
-        let is_kept = self.overlays.push(overlay, colours);
+        let is_kept = self.overlays.push(overlay, colours, count);
         is_kept.then_some(()).ok_or(Reason::Lent(Lent::Overlays))
     }
 

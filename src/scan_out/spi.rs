@@ -89,12 +89,15 @@ impl<SPI: SpiDevice, DC: OutputPin> Wire<SPI, DC> {
     }
 }
 
-/// The two commands that set a window, which is `offset` columns and lines further in the controller's memory.
+/// The two commands that set a window, which is so many columns and lines further in the controller's memory.
 /// `None` when it is empty or ends beyond 65535.
-pub(super) fn window_commands(window: Window, offset: (u16, u16)) -> Option<[(u8, [u8; 4]); 2]> {
+pub(super) fn window_commands(
+    window: Window,
+    [right, down]: [u16; 2],
+) -> Option<[(u8, [u8; 4]); 2]> {
     Some([
-        (CASET, ends(window.x, window.width, offset.0)?),
-        (RASET, ends(window.y, window.height, offset.1)?),
+        (CASET, ends(window.x, window.width, right)?),
+        (RASET, ends(window.y, window.height, down)?),
     ])
 }
 
@@ -116,7 +119,7 @@ fn ends(start: u16, len: u16, offset: u16) -> Option<[u8; 4]> {
 pub struct SpiPanel<SPI, DC, W> {
     pub(super) wire: Wire<SPI, DC>,
     /// Columns and lines to add to each window, for panels smaller than their controller's memory.
-    pub(super) offset: (u16, u16),
+    pub(super) offset: [u16; 2],
     word: PhantomData<fn() -> W>,
 }
 
@@ -125,7 +128,7 @@ impl<SPI, DC, W> SpiPanel<SPI, DC, W> {
     pub const fn new(spi: SPI, dc: DC) -> Self {
         Self {
             wire: Wire { spi, dc },
-            offset: (0, 0),
+            offset: [0; 2],
             word: PhantomData,
         }
     }
@@ -133,7 +136,7 @@ impl<SPI, DC, W> SpiPanel<SPI, DC, W> {
     /// Where the panel's left top pixel is in its controller's memory, in columns and lines.
     #[must_use]
     pub const fn with_offset(mut self, columns: u16, lines: u16) -> Self {
-        self.offset = (columns, lines);
+        self.offset = [columns, lines];
         self
     }
 
