@@ -111,8 +111,7 @@ pub enum Wrap {
 #[derive(Clone, Copy, Debug)]
 pub struct Texture<'t> {
     pub(crate) form: Form<'t>,
-    log_width: u8,
-    log_height: u8,
+    pub(super) sides: Sides,
     /// The power of two of both sides of a [`Square`]; else 0.
     square: u8,
     /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
@@ -128,7 +127,7 @@ pub struct Texture<'t> {
 }
 
 /// The powers of two that the sides are.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Sides {
     pub(super) log_width: u8,
     pub(super) log_height: u8,
@@ -149,14 +148,9 @@ impl Sides {
         Err(TextureError::Side { width, height })
     }
 
-    const fn texels(self) -> usize {
+    pub(super) const fn texels(self) -> usize {
         1 << (self.log_width + self.log_height)
     }
-}
-
-/// Says whether sides are those of a texture.
-pub(super) fn check_sides(width: u32, height: u32) -> Result<(), TextureError> {
-    Sides::new(width, height).map(|_| ())
 }
 
 /// A constructor of textures with indices of `$bits` bits.
@@ -214,8 +208,7 @@ impl<'t> Texture<'t> {
         };
         Self {
             form,
-            log_width: sides.log_width,
-            log_height: sides.log_height,
+            sides,
             square,
             spare: match longest {
                 0..=7 => 2,
@@ -282,9 +275,14 @@ impl<'t> Texture<'t> {
         height: u32,
     ) -> Result<Self, TextureError> {
         match Sides::new(width, height) {
-            Ok(sides) => Ok(Self::new(Form::Computed(texels, sides.log_width), sides)),
+            Ok(sides) => Ok(Self::asked(texels, sides)),
             Err(error) => Err(error),
         }
+    }
+
+    /// The same of known sides.
+    pub(super) const fn asked(texels: &'t dyn Texels, sides: Sides) -> Self {
+        Self::new(Form::Computed(texels, sides.log_width), sides)
     }
 
     /// The same texture with something else beyond its sides.
@@ -383,27 +381,27 @@ impl<'t> Texture<'t> {
     /// Texels a row.
     #[must_use]
     pub const fn width(&self) -> u32 {
-        1 << self.log_width
+        1 << self.sides.log_width
     }
 
     /// Rows.
     #[must_use]
     pub const fn height(&self) -> u32 {
-        1 << self.log_height
+        1 << self.sides.log_height
     }
 
     /// The power of two that the width is: 0 to 10.
     #[inline(always)]
     #[must_use]
     pub const fn log_width(&self) -> u32 {
-        self.log_width as u32
+        self.sides.log_width as u32
     }
 
     /// The power of two that the height is: 0 to 10.
     #[inline(always)]
     #[must_use]
     pub const fn log_height(&self) -> u32 {
-        self.log_height as u32
+        self.sides.log_height as u32
     }
 
     /// Whether places fit into one word: no side is above 256, and the nearest texel of this size is taken.
