@@ -111,19 +111,14 @@ type Dress = fn(&mut Draw<'_, '_, i32>, &Call);
 type Off = [bool; 5];
 
 fn master([shading, depth, texture, blend, dither]: Off) -> Master {
-    let mut master = Master::ALL;
-    for (is_off, without) in [
-        (shading, Master::without_shading as fn(Master) -> Master),
-        (depth, Master::without_depth),
-        (texture, Master::without_texture),
-        (blend, Master::without_blend),
-        (dither, Master::without_dither),
-    ] {
-        if is_off {
-            master = without(master);
-        }
+    Master {
+        shading: !shading,
+        depth: !depth,
+        texture: !texture,
+        blend: !blend,
+        dither: !dither,
+        ..Master::ALL
     }
-    master
 }
 
 /// The picture of all calls, with these off for the scene, or asked for by none.

@@ -414,7 +414,7 @@ impl<'a> View<'a> {
             bins: scene.bins,
             ruled: scene.has_values,
             ranked: scene.is_ranked,
-            deep: scene.master.has_depth() && !scene.is_ranked,
+            deep: scene.master.depth && !scene.is_ranked,
         }
     }
 

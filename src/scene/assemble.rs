@@ -54,7 +54,7 @@ impl<'t, L> Scene<'_, 't, L> {
     #[inline(always)]
     pub(super) fn is_plain<C>(&self, draw: &Draw<'_, 't, C>) -> bool {
         let master = self.master.with_shadow(draw.shadow);
-        master.applied(draw) == Some(Application::Replace) || !master.has_shading()
+        master.applied(draw) == Some(Application::Replace) || !master.shading
     }
 
     /// Draws what `file` brings of a draw call, so many triangles; in line, so that a program has no code of what its

@@ -58,14 +58,19 @@ impl Master {
         if !shadow.is_some_and(Shadow::is_volume) {
             return self;
         }
-        let dark = self.without_shading().without_texture();
-        dark.without_blend().without_dither()
+        Self {
+            shading: false,
+            texture: false,
+            blend: false,
+            dither: false,
+            ..self
+        }
     }
 
     /// Whether a call with this shadow is left out.
     pub(super) fn leaves_out(self, shadow: Option<Shadow>) -> bool {
         let is_counted = matches!(shadow, Some(Shadow::Volume(_) | Shadow::Shadowed(_)));
-        let are_on = self.has_shadows() && self.has_depth();
+        let are_on = self.shadows && self.depth;
         is_counted && !are_on
     }
 }

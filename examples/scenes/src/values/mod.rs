@@ -422,8 +422,14 @@ impl<'m> Rest<'m> {
         let mut renderer = Renderer::new(lines);
         let background = background();
         if values == Values::Master {
-            let master = Master::ALL.without_shading().without_depth();
-            scene.set_master(master.without_texture().without_blend().without_dither());
+            scene.set_master(Master {
+                shading: false,
+                depth: false,
+                texture: false,
+                blend: false,
+                dither: false,
+                ..Master::ALL
+            });
         }
         build(&mut scene, 0.0)?;
         if values == Values::Overlay {
