@@ -6,6 +6,7 @@
 use super::gouraud::wide_shades;
 use super::phong::{light, steps_of, word_of};
 use super::textured::{Planes, Textured};
+use super::textured_wide::{each_holed, each_texels};
 use super::tint::Texel;
 use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
@@ -20,9 +21,6 @@ use core::marker::PhantomData;
 /// [`Replace`](crate::scene::Application::Replace) is texels that no light falls on.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedPhong<F>(PhantomData<F>);
-
-/// Texels that are fetched before any is lit.
-const AT_ONCE: usize = 64;
 
 /// A texel of 8 bits a channel times a colour in 16.16 steps, and one half.
 fn times(texel: [u8; 3], colour: [u32; 3]) -> [i32; 3] {
@@ -74,16 +72,10 @@ fn fill<F: PixelFormat, T: Texel>(
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
-    let Some(state) = planes.state(draws) else {
-        return;
-    };
-    let mut texels = [0; AT_ONCE];
-    let mut place = place;
-    for run in run.chunks_mut(AT_ONCE) {
-        let texels = &mut texels[..run.len()];
-        Textured::<T>::texels(planes, place, draws, texels);
-        lit::<F, T>(state, planes, place, dithers, texels, run);
-        place.column += run.len() as u32;
+    if let Some(state) = planes.state(draws) {
+        each_texels::<_, T>(planes, place, draws, run, |place, texels, run| {
+            lit::<F, T>(state, planes, place, dithers, texels, run);
+        });
     }
 }
 
@@ -100,21 +92,9 @@ fn fill_holed<F: PixelFormat, T: Texel>(
         fill::<F, T>(planes, place, dithers, draws, run);
         return u32::MAX;
     };
-    let mut texels = [0; 32];
-    let count = run.len().min(texels.len());
-    let texels = &mut texels[..count];
-    Textured::<T>::texels(planes, place, draws, texels);
-    if !holes.are_filled {
+    each_holed::<F, T>(planes, place, draws, holes, run, |place, texels, run| {
         lit::<F, T>(state, planes, place, dithers, texels, run);
-        return holes.opaque(texels);
-    }
-    lit::<F, T>(state, planes, place, dithers, &[], run);
-    for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
-        if texel != holes.key {
-            *pixel = F::from_rgb8(T::to_rgb8(texel));
-        }
-    }
-    u32::MAX
+    })
 }
 
 /// The look in a format, of texels of another or the same.

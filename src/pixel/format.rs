@@ -199,14 +199,9 @@ impl PixelFormat for Rgb565 {
     }
 
     fn to_rgb8(word: u16) -> [u8; 3] {
-        let scale = |v: u16, steps: u16| {
-            ((u32::from(v) * 510 + u32::from(steps)) / (2 * u32::from(steps))) as u8
-        };
-        [
-            scale(word >> 11, 31),
-            scale(word >> 5 & 63, 63),
-            scale(word & 31, 31),
-        ]
+        let [r, g, b] = [word >> 11, word >> 5 & 63, word & 31];
+        // Exact, without a division.
+        [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
     }
 
     #[inline(always)]

@@ -55,6 +55,17 @@ impl MadeOf {
 mod tests {
     use super::*;
 
+    /// Kills: levels that are cut, or repeat the upper bits.
+    #[test]
+    fn levels_are_the_nearest() {
+        for word in 0..=u16::MAX {
+            let nearest = |step: u16, steps: u32| (u32::from(step) * 510 + steps) / (2 * steps);
+            let [r, g, b] = Rgb565::to_rgb8(word).map(u32::from);
+            assert_eq!((r, b), (nearest(word >> 11, 31), nearest(word & 31, 31)));
+            assert_eq!(g, nearest(word >> 5 & 63, 63));
+        }
+    }
+
     #[test]
     fn words_give_the_pixels_of_pairs() {
         for i in 0..200_000u32 {
