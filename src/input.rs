@@ -5,5 +5,5 @@
 
 pub use crate::player::{
     Command, Input, InputError, InputQueue, LightRoom, OnViolation, Player, PlayerMemory,
-    PlayerSettings, Refused, RunCounts, Source, Stalled, Stream, TextureRoom,
+    PlayerSettings, Refused, RunCounts, Source, Stream, TextureRoom,
 };

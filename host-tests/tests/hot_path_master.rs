@@ -111,14 +111,19 @@ type Dress = fn(&mut Draw<'_, '_, i32>, &Call);
 type Off = [bool; 5];
 
 fn master([shading, depth, texture, blend, dither]: Off) -> Master {
-    Master {
-        shading: !shading,
-        depth: !depth,
-        texture: !texture,
-        blend: !blend,
-        dither: !dither,
-        ..Master::ALL
+    let mut master = Master::ALL;
+    for (is_off, what) in [
+        (shading, Master::SHADING),
+        (depth, Master::DEPTH),
+        (texture, Master::TEXTURE),
+        (blend, Master::BLEND),
+        (dither, Master::DITHER),
+    ] {
+        if is_off {
+            master = master.without(what);
+        }
     }
+    master
 }
 
 /// The picture of all calls, with these off for the scene, or asked for by none.

@@ -83,11 +83,10 @@ pub(super) fn each_holed<F: PixelFormat, T: Texel>(
     let count = run.len().min(texels.len());
     let texels = &mut texels[..count];
     Textured::<T>::texels(planes, place, draws, texels);
+    shade(place, if holes.are_filled { &[] } else { texels }, run);
     if !holes.are_filled {
-        shade(place, texels, run);
         return holes.opaque(texels);
     }
-    shade(place, &[], run);
     for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
         if texel != holes.key {
             *pixel = F::from_rgb8(T::to_rgb8(texel));

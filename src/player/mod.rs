@@ -30,5 +30,5 @@ mod textures;
 pub use lights::LightRoom;
 pub use outcome::{OnViolation, RunCounts};
 pub use play::{Player, PlayerMemory, PlayerSettings};
-pub use queue::{Command, Input, InputError, InputQueue, Refused, Source, Stalled, Stream};
+pub use queue::{Command, Input, InputError, InputQueue, Refused, Source, Stream};
 pub use textures::TextureRoom;

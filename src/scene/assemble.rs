@@ -10,7 +10,8 @@ use super::pass::{Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, ligh
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, NONE, ORIGIN, Object, Scene, Shading, Shadow, Vertex,
+    Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Shadow,
+    Vertex,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use core::ops::Range;
@@ -54,7 +55,7 @@ impl<'t, L> Scene<'_, 't, L> {
     #[inline(always)]
     pub(super) fn is_plain<C>(&self, draw: &Draw<'_, 't, C>) -> bool {
         let master = self.master.with_shadow(draw.shadow);
-        master.applied(draw) == Some(Application::Replace) || !master.shading
+        master.applied(draw) == Some(Application::Replace) || !master.has(Master::SHADING)
     }
 
     /// Draws what `file` brings of a draw call, so many triangles; in line, so that a program has no code of what its

@@ -19,43 +19,46 @@ use super::{Application, Draw};
 /// ```
 /// use scanbeam::scene::Master;
 ///
-/// let late = Master { blend: false, dither: false, ..Master::ALL };
+/// let late = Master::ALL.without(Master::BLEND).without(Master::DITHER);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Master {
-    /// There is light, and corners have colours.
-    pub shading: bool,
-    /// Depths are compared.
-    pub depth: bool,
-    /// There are textures.
-    pub texture: bool,
-    /// There is what shines through.
-    pub blend: bool,
-    /// There is a dither.
-    pub dither: bool,
-    /// There are shadows.
-    pub shadows: bool,
-}
+pub struct Master(u8);
 
 impl Master {
     /// Nothing is off.
-    pub const ALL: Self = Self {
-        shading: true,
-        depth: true,
-        texture: true,
-        blend: true,
-        dither: true,
-        shadows: true,
-    };
+    pub const ALL: Self = Self(63);
+    /// Light, and colours of corners.
+    pub const SHADING: Self = Self(1);
+    /// Comparisons of depth.
+    pub const DEPTH: Self = Self(2);
+    /// Textures.
+    pub const TEXTURE: Self = Self(4);
+    /// What shines through.
+    pub const BLEND: Self = Self(8);
+    /// Dither.
+    pub const DITHER: Self = Self(16);
+    /// Shadows.
+    pub const SHADOWS: Self = Self(32);
+
+    /// The same without what `off` has.
+    #[must_use]
+    pub const fn without(self, off: Self) -> Self {
+        Self(self.0 & !off.0)
+    }
+
+    /// Whether it has something of `some`.
+    pub(crate) const fn has(self, some: Self) -> bool {
+        self.0 & some.0 != 0
+    }
 
     /// What the texture of a call does to its colours, if there is one: a decal without transparent texels hides them,
     /// and so does any without shading.
     pub(super) fn applied<C>(self, draw: &Draw<'_, '_, C>) -> Option<Application> {
-        let skin = draw.texture.as_ref().filter(|_| self.texture)?;
+        let skin = draw.texture.as_ref().filter(|_| self.has(Self::TEXTURE))?;
         match (draw.application, skin.texture.key()) {
             (Application::Decal, None) => Some(Application::Replace),
-            (Application::Product, _) if !self.shading => Some(Application::Replace),
+            (Application::Product, _) if !self.has(Self::SHADING) => Some(Application::Replace),
             (application, _) => Some(application),
         }
     }

@@ -422,14 +422,9 @@ impl<'m> Rest<'m> {
         let mut renderer = Renderer::new(lines);
         let background = background();
         if values == Values::Master {
-            scene.set_master(Master {
-                shading: false,
-                depth: false,
-                texture: false,
-                blend: false,
-                dither: false,
-                ..Master::ALL
-            });
+            let master = Master::ALL.without(Master::SHADING).without(Master::DEPTH);
+            let master = master.without(Master::TEXTURE).without(Master::BLEND);
+            scene.set_master(master.without(Master::DITHER));
         }
         build(&mut scene, 0.0)?;
         if values == Values::Overlay {
