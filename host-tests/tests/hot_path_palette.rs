@@ -79,7 +79,7 @@ where
         let count = 1 + rng.below(40) as usize;
         let triangles = some_triangles(rng, count);
         let indices: Vec<u8> = (0..count).map(|_| rng.below(N as u32) as u8).collect();
-        let mut palettes = vec![[0u16; N]; 3];
+        let mut palettes = [[0u16; N]; 3];
         palettes
             .as_flattened_mut()
             .fill_with(|| rng.below(1 << 16) as u16);

@@ -20,7 +20,7 @@ use super::pump::{Pump, ScanError};
 ///
 /// `draw` writes a line, which counts from 0 at the top of the window; lines come in order. `memory` holds two drawn
 /// lines. `mix` makes a sent line of the drawn line that it lies in and of the one on its other side: the
-/// [`mix_lines`](crate::pixel::Pixel::mix_lines) of a pixel format, or what the panel needs instead.
+/// [`mix_lines`](crate::pixel::PixelFormat::mix_lines) of a pixel format, or what the panel needs instead.
 ///
 /// ```
 /// use scanbeam::pixel::{PixelFormat, Rgb565};

@@ -1,6 +1,8 @@
 //! The baked teapot's own tables, unpacked beforehand, as meshes for immediate calls.
 
-use scanbeam::list::{Instruction, Layout, State, Strip, VertexFormat, read_block, Header, FieldForm};
+use scanbeam::list::{
+    FieldForm, Header, Instruction, Layout, State, Strip, VertexFormat, read_block,
+};
 use scanbeam::{Affine, Draw, Faces, Light, Mesh};
 use scenes::teapot_list;
 

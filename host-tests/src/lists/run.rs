@@ -137,14 +137,13 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
         slots: &overlays,
     };
     // Any number may be one.
-    let is_texture = |number| TextureSlots(&names).pair(number).is_ok();
     Ok(Ran {
         frame: shown(&scene, view, painted)?,
         halt,
         position: player.position(),
         events,
         counts: player.counts(),
-        is_textured: (0..=u8::MAX).any(is_texture),
+        is_textured: (0..=u8::MAX).any(|number| TextureSlots(&names).has(number)),
     })
 }
 
