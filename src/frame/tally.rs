@@ -13,7 +13,7 @@ use super::shadow::count_shadowed;
 use super::slot::{Active, Flags};
 use super::spans::{Drawn, Known, Line, Span, columns_of};
 use crate::active::{CacheSlot, CacheUse, next};
-use crate::look::{Look, Paint, Place, WordOf};
+use crate::look::{Look, Place, WordOf};
 use crate::num::take_first;
 use crate::scene::DrawState;
 use crate::stats::{SpanCounts, SpanPixels};
@@ -33,7 +33,7 @@ pub(super) struct Counter<L: Look, const WORDS: usize> {
     pub(super) shadowed: CountShadowed<L>,
 }
 
-type PlanesOf<L> = <L as Paint>::Planes;
+type PlanesOf<L> = <L as Look>::Planes;
 
 type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, WordOf<L>>);
 
