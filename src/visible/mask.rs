@@ -234,6 +234,7 @@ impl Mask {
     }
 
     /// Whether the mask has all of `start .. end`.
+    #[inline(never)]
     pub(crate) fn has_all(&self, start: u32, end: u32) -> bool {
         let mut lack = 0;
         each_word(start, end, |word, bits| lack |= bits & !self.0[word]);
