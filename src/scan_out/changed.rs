@@ -28,7 +28,11 @@ pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
         // As many numbers as there are words of up to 4 bytes, or pairs of them.
         _ => {
             let bytes: &[u8] = cast_slice(line);
-            let numbers = bytes.chunks(if is_even { 4 } else { size_of::<W>().clamp(1, 4) });
+            let numbers = bytes.chunks(if is_even {
+                4
+            } else {
+                size_of::<W>().clamp(1, 4)
+            });
             numbers.map(number_of).fold(1, step)
         }
     };
@@ -48,7 +52,9 @@ fn number_of_pair(pair: &[u16]) -> u32 {
 /// Up to four bytes, the lowest first.
 fn number_of(bytes: &[u8]) -> u32 {
     let mut four = [0; 4];
-    four.iter_mut().zip(bytes).for_each(|(to, &byte)| *to = byte);
+    four.iter_mut()
+        .zip(bytes)
+        .for_each(|(to, &byte)| *to = byte);
     u32::from_le_bytes(four)
 }
 
