@@ -22,17 +22,14 @@ pub(super) fn step(hash: u32, value: u32) -> u32 {
 
 /// A hash of a line by the bytes of its words, never 0; on all targets the same where these are.
 pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
-    let number = |bytes: &[u8]| {
-        let mut four = [0; 4];
-        four.iter_mut()
-            .zip(bytes)
-            .for_each(|(to, byte)| *to = *byte);
-        u32::from_le_bytes(four)
-    };
     let hash = match size_of::<W>() {
         0..=2 => line.chunks(2).fold(1, |hash, pair| {
-            let one = |i: usize| pair.get(i).map_or(0, |word| number(bytes_of(word)));
-            step(hash, one(0) | one(1) << 16)
+            let pair = match pair {
+                [a, b] => number(bytes_of(a)) | number(bytes_of(b)) << 16,
+                [a] => number(bytes_of(a)),
+                _ => 0,
+            };
+            step(hash, pair)
         }),
         _ => line.iter().fold(1, |hash, word| {
             let parts = bytes_of(word).chunks(4);
@@ -40,6 +37,16 @@ pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
         }),
     };
     hash.max(1)
+}
+
+/// Up to four bytes as a number, the lowest first.
+#[inline(always)]
+fn number(bytes: &[u8]) -> u32 {
+    let mut four = [0; 4];
+    if let Some(to) = four.get_mut(..bytes.len()) {
+        to.copy_from_slice(bytes);
+    }
+    u32::from_le_bytes(four)
 }
 
 /// What each line of the display shows, as far as it is known: 4 bytes a line, lent.
