@@ -9,7 +9,7 @@
 //! that is one wrong line in 3 days. It stays until it changes again or is [forgotten](ShownLines::forget_line): who
 //! forgets one line a frame, in turn, has it mended within as many frames as there are lines.
 
-use bytemuck::{NoUninit, cast_slice, try_cast_slice};
+use bytemuck::{NoUninit, bytes_of};
 
 /// Takes in a number: one to one for each of `hash` and `value`.
 #[inline(always)]
@@ -22,39 +22,30 @@ pub(super) fn step(hash: u32, value: u32) -> u32 {
 
 /// A hash of a line by the bytes of its words, never 0; on all targets the same where these are.
 pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
-    let is_even = size_of::<W>().is_multiple_of(2);
-    let hash = match try_cast_slice(line) {
-        Ok(words) if is_even => words.chunks(2).map(number_of_pair).fold(1, step),
-        // As many numbers as there are words of up to 4 bytes, or pairs of them.
-        _ => {
-            let bytes: &[u8] = cast_slice(line);
-            let numbers = bytes.chunks(if is_even {
-                4
-            } else {
-                size_of::<W>().clamp(1, 4)
-            });
-            numbers.map(number_of).fold(1, step)
-        }
+    let hash = match size_of::<W>() {
+        0..=2 => line.chunks(2).fold(1, |hash, pair| {
+            let pair = match pair {
+                [a, b] => number(bytes_of(a)) | number(bytes_of(b)) << 16,
+                [a] => number(bytes_of(a)),
+                _ => 0,
+            };
+            step(hash, pair)
+        }),
+        _ => line.iter().fold(1, |hash, word| {
+            let parts = bytes_of(word).chunks(4);
+            parts.fold(hash, |hash, part| step(hash, number(part)))
+        }),
     };
     hash.max(1)
 }
 
-/// Two words of 16 bits, or the last one.
+/// Up to four bytes as a number, the lowest first.
 #[inline(always)]
-fn number_of_pair(pair: &[u16]) -> u32 {
-    match *pair {
-        [a, b] => u32::from(a) | u32::from(b) << 16,
-        [a] => a.into(),
-        _ => 0,
-    }
-}
-
-/// Up to four bytes, the lowest first.
-fn number_of(bytes: &[u8]) -> u32 {
+fn number(bytes: &[u8]) -> u32 {
     let mut four = [0; 4];
-    four.iter_mut()
-        .zip(bytes)
-        .for_each(|(to, &byte)| *to = byte);
+    if let Some(to) = four.get_mut(..bytes.len()) {
+        to.copy_from_slice(bytes);
+    }
     u32::from_le_bytes(four)
 }
 

@@ -21,14 +21,17 @@ use super::{Application, Draw};
 ///
 /// let late = Master::ALL.without(Master::BLEND).without(Master::DITHER);
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Master(u8);
+pub struct Master(
+    /// A bit for each that is off.
+    u8,
+);
 
 impl Master {
     /// Nothing is off.
-    pub const ALL: Self = Self(63);
-    /// Light, and colours of corners.
+    pub const ALL: Self = Self(0);
+    /// Nothing but light and colours of corners is off, for [`without`](Self::without); likewise the others.
     pub const SHADING: Self = Self(1);
     /// Comparisons of depth.
     pub const DEPTH: Self = Self(2);
@@ -41,15 +44,15 @@ impl Master {
     /// Shadows.
     pub const SHADOWS: Self = Self(32);
 
-    /// The same without what `off` has.
+    /// The same, and what is off in `off` is off as well.
     #[must_use]
     pub const fn without(self, off: Self) -> Self {
-        Self(self.0 & !off.0)
+        Self(self.0 | off.0)
     }
 
-    /// Whether it has something of `some`.
-    pub(crate) const fn has(self, some: Self) -> bool {
-        self.0 & some.0 != 0
+    /// Whether one of these is on.
+    pub(crate) const fn has(self, one: Self) -> bool {
+        self.0 & one.0 == 0
     }
 
     /// What the texture of a call does to its colours, if there is one: a decal without transparent texels hides them,

@@ -68,6 +68,7 @@ impl View {
     pub(super) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
         let projection = Projection::new(camera, screen, model);
         let (mut rows, mut offset) = (projection.rows, projection.offset);
+        let (near, far, near_down) = (projection.near, projection.far, projection.near_down);
         // What x and y lose, or, for long focal lengths, z.
         let down = FOCAL_BITS - projection.power;
         let (cross, along) = (down.clamp(0, 31), (-down).clamp(0, 31));
@@ -87,9 +88,9 @@ impl View {
         Self {
             rows,
             offset,
-            near: range(projection.near),
-            far: range(projection.far),
-            down: projection.near_down + along + 1,
+            near: range(near),
+            far: range(far),
+            down: near_down + along + 1,
             centre: [centre(0), centre(1)],
         }
     }
