@@ -89,10 +89,16 @@ pub(super) fn each_holed<F: PixelFormat, T: Texel>(
     }
     for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
         if texel != holes.key {
-            *pixel = F::from_rgb8(T::to_rgb8(texel));
+            *pixel = recoloured::<F, T>(texel);
         }
     }
     u32::MAX
+}
+
+/// A texel as a pixel of another format: one copy, since few are shown so.
+#[inline(never)]
+fn recoloured<F: PixelFormat, T: Texel>(texel: u16) -> F::Word {
+    F::from_rgb8(T::to_rgb8(texel))
 }
 
 /// Colours a run, texels first.
