@@ -1,7 +1,8 @@
 //! Status events: what happened while a list ran or a frame was drawn (H14).
 //!
-//! An event comes as a [`Notice`], which says where, to whatever implements [`EventSink`]: a
-//! closure, which may wake a task, or [`EventFlags`], which an interrupt or another core can read.
+//! An event comes as a [`Notice`], which says where, to a
+//! closure. It may wake a task, or [raise](EventFlags::raise) a flag of [`EventFlags`], which an interrupt or another
+//! core can read.
 //! Flags are one `AtomicBool` each and need no compare-and-swap, so that a Cortex-M0+ has them.
 
 use core::sync::atomic::{AtomicBool, AtomicU32, Ordering};
@@ -124,18 +125,6 @@ pub struct Notice {
     pub value: u32,
 }
 
-/// What takes events.
-pub trait EventSink {
-    /// Takes one.
-    fn notice(&mut self, notice: Notice);
-}
-
-impl<F: FnMut(Notice)> EventSink for F {
-    fn notice(&mut self, notice: Notice) {
-        self(notice);
-    }
-}
-
 /// Events as flags, each with an enable; one side raises them, one other takes them.
 #[derive(Debug)]
 pub struct EventFlags {
@@ -180,12 +169,6 @@ impl EventFlags {
     }
 }
 
-impl EventSink for &EventFlags {
-    fn notice(&mut self, notice: Notice) {
-        self.raise(notice.event);
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -206,23 +189,13 @@ mod tests {
     #[test]
     fn flags_are_raised_where_enabled_and_taken_once() {
         let flags = EventFlags::new(EventSet::NONE.with(Event::ListEnd).with(Event::Full));
-        let notice = |event| Notice {
-            event,
-            offset: 4,
-            value: 0,
-        };
-        let mut sink = &flags;
-        sink.notice(notice(Event::ListEnd));
-        sink.notice(notice(Event::Sync));
+        flags.raise(Event::ListEnd);
+        flags.raise(Event::Sync);
         assert!(flags.take().iter().eq([Event::ListEnd]));
         assert!(flags.take().is_empty());
         flags.enable(EventSet::ALL);
         flags.raise(Event::Sync);
         flags.raise(Event::Sync);
         assert!(flags.take().iter().eq([Event::Sync]));
-        let mut seen = None;
-        let mut closure = |n: Notice| seen = Some(n.event);
-        closure.notice(notice(Event::Full));
-        assert_eq!(seen, Some(Event::Full));
     }
 }

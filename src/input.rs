@@ -4,6 +4,6 @@
 //! A [`Player`] executes a list where it lies, into a [`Scene`](crate::scene::Scene): see there.
 
 pub use crate::player::{
-    Command, Input, InputError, InputQueue, LightRoom, ListCoordinate, OnViolation, Player,
-    PlayerMemory, PlayerSettings, Refused, RunCounts, Source, Stalled, Stream, TextureRoom,
+    Command, Input, InputError, InputQueue, LightRoom, OnViolation, Player, PlayerMemory,
+    PlayerSettings, Refused, RunCounts, Source, Stream, TextureRoom,
 };

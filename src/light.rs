@@ -1,3 +1,3 @@
 //! Lights beyond the [`Light`](crate::Light) of an instance, at vertices and at pixels.
 
-pub use crate::geometry::{DirectionalLight, Lighting, LightingModel, PixelLamps};
+pub use crate::geometry::{DirectionalLight, Lighting, PixelLamps};

@@ -146,7 +146,7 @@ impl Turn {
                 background,
                 LINES,
                 &mut shown,
-                (),
+                |_, _| {},
             )?;
             turn.took.push(Took {
                 frame,

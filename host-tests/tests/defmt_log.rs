@@ -1,7 +1,7 @@
 //! The firmware that logs by defmt says, decoded, what the host's frames say in `Debug`'s form.
 
 use defmt_decoder::{DecodeError, Table};
-use scanbeam::scan_out::{Blocking, ErrorKind, ErrorType, LineWriter, Pump, Window};
+use scanbeam::scan_out::{Blocking, ErrorKind, LineWriter, Pump, Window};
 use spinner::{LINES, Spinner, WIDTH};
 use std::path::Path;
 use std::process::{Command, Output};
@@ -11,11 +11,8 @@ struct Glass {
     fails_at: Option<u16>,
 }
 
-impl ErrorType for Glass {
-    type Error = ErrorKind;
-}
-
 impl LineWriter for Glass {
+    type Error = ErrorKind;
     type Word = u16;
 
     fn open(&mut self, _: Window) -> Result<(), ErrorKind> {

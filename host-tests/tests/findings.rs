@@ -6,7 +6,7 @@ use scanbeam::frame::{FastMemory, Memory as Lent, Renderer};
 use scanbeam::look;
 use scanbeam::mesh::{I2F14, U1F15};
 use scanbeam::pixel::{Rgb565, Rgb888};
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanError, ScanoutDma, ShownRuns, Window};
+use scanbeam::scan_out::{LineBuf, Pump, ScanError, ScanoutDma, ShownRuns, Window};
 use scanbeam::scene::{
     self, Draw, DrawState, Memory, Object, Scene, ShadowEdge, ShadowLight, ShadowMemory, Vertex,
 };
@@ -133,11 +133,8 @@ struct Shortening {
     open: bool,
 }
 
-impl ErrorType for Shortening {
-    type Error = Infallible;
-}
-
 impl ScanoutDma for Shortening {
+    type Error = Infallible;
     type Buf = Cut;
 
     fn begin(&mut self, _: Window) -> Result<(), Infallible> {

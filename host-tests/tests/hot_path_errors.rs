@@ -7,7 +7,7 @@ use scanbeam::frame::{FrameError, LineError, draw_frame};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::QuadSplit;
 use scanbeam::pixel::Rgb888;
-use scanbeam::scan_out::{Blocking, ErrorType, LineWriter, Pump, Window};
+use scanbeam::scan_out::{Blocking, LineWriter, Pump, Window};
 use scanbeam::scene::{BeginError, Draw, DrawError, Full, Scene};
 use scanbeam::{Affine, Camera, Cull, Faces, Light, Mesh, MeshError, Screen};
 
@@ -315,11 +315,8 @@ fn lines_without_the_memory_they_need_are_not_written() {
 /// Keeps what it is sent.
 struct Sink(Vec<[u8; 3]>);
 
-impl ErrorType for Sink {
-    type Error = std::convert::Infallible;
-}
-
 impl LineWriter for Sink {
+    type Error = std::convert::Infallible;
     type Word = [u8; 3];
 
     fn open(&mut self, _: Window) -> Result<(), Self::Error> {

@@ -253,7 +253,7 @@ fn frames_fetch_between_lines() {
                 BACKGROUND,
                 3,
                 &mut shown,
-                (),
+                |_, _| {},
             );
             all.push(changed.unwrap().cache);
             let mut panel = Panel(vec![0; want.len()]);

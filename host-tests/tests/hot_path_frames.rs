@@ -127,7 +127,7 @@ fn what_lies_over_a_frame_is_sent_with_it() {
                 &mut pump,
                 BACKGROUND,
                 4,
-                &mut overlay,
+                |line, pixels| overlay.paint(line, pixels),
             )
         } else {
             draw_frame(&scene, &mut renderer, &mut pump, BACKGROUND, 4)
@@ -176,7 +176,8 @@ fn the_display_is_right_whatever_changes_and_fails() {
                 sink.sink_mut().fail_at(at, rng.pick(&faults));
             }
             sink.sink_mut().next_frame();
-            let (renderer, overlay) = (&mut renderer, &mut overlay);
+            let renderer = &mut renderer;
+            let overlay = |line, pixels: &mut [u16]| overlay.paint(line, pixels);
             let used = if by_runs {
                 let runs = &mut runs;
                 draw_frame_changed_runs(

@@ -112,15 +112,15 @@ type Off = [bool; 5];
 
 fn master([shading, depth, texture, blend, dither]: Off) -> Master {
     let mut master = Master::ALL;
-    for (is_off, without) in [
-        (shading, Master::without_shading as fn(Master) -> Master),
-        (depth, Master::without_depth),
-        (texture, Master::without_texture),
-        (blend, Master::without_blend),
-        (dither, Master::without_dither),
+    for (is_off, what) in [
+        (shading, Master::SHADING),
+        (depth, Master::DEPTH),
+        (texture, Master::TEXTURE),
+        (blend, Master::BLEND),
+        (dither, Master::DITHER),
     ] {
         if is_off {
-            master = without(master);
+            master = master.without(what);
         }
     }
     master

@@ -9,7 +9,7 @@ use host_tests::mock::{HostLine, MockFrameBuffer};
 use scanbeam::frame::{FrameError, LineError, draw_frame_indexed};
 use scanbeam::look::{Gouraud, Look};
 use scanbeam::pixel::{
-    Grey8, Index4, Index8, Indexed, PaletteTable, PixelFormat, Rgb888, mono_row,
+    Grey8, Index4, Index8, Indexed, PixelFormat, Rgb888, expand_indices, mono_row,
 };
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::{Blend, BlendMode, DrawError, Scene};
@@ -79,12 +79,15 @@ where
         let count = 1 + rng.below(40) as usize;
         let triangles = some_triangles(rng, count);
         let indices: Vec<u8> = (0..count).map(|_| rng.below(N as u32) as u8).collect();
-        let mut palettes = vec![[0u16; N]; 3];
+        let mut palettes = [[0u16; N]; 3];
         palettes
             .as_flattened_mut()
             .fill_with(|| rng.below(1 << 16) as u16);
         let of_line: Vec<u8> = (0..SIZE.1).map(|_| rng.below(3) as u8).collect();
-        let table = PaletteTable::new(&palettes, &of_line).expect("three palettes");
+        let expand = |line: u16, indices: &[u8], pixels: &mut [u16]| {
+            let number = of_line[usize::from(line)];
+            expand_indices(indices, &palettes[usize::from(number)], pixels);
+        };
         let background = rng.below(N as u32) as u8;
         let transfer = 1 + rng.below(5) as u16;
         let words = usize::from(SIZE.0) * usize::from(transfer);
@@ -102,7 +105,7 @@ where
                 background,
                 transfer,
                 &mut line,
-                table,
+                expand,
             )
             .expect("a frame");
         });
@@ -135,10 +138,16 @@ fn a_line_that_is_too_short_is_refused() {
             let mut renderer = rooms.renderer();
             let sink = MockFrameBuffer::<u16>::new(SIZE.0, SIZE.1);
             let mut pump = Pump::new(sink, [HostLine::new(53), HostLine::new(53)]);
-            let palette = [0u16; 256];
             let mut line = [0; 52];
-            let drawn =
-                draw_frame_indexed(scene, &mut renderer, &mut pump, 0, 1, &mut line, &palette);
+            let drawn = draw_frame_indexed(
+                scene,
+                &mut renderer,
+                &mut pump,
+                0,
+                1,
+                &mut line,
+                |_, _, _| {},
+            );
             let (needed, have) = (53, 52);
             assert_eq!(
                 drawn.expect_err("a byte is missing"),

@@ -5,37 +5,18 @@
 
 use crate::common::Rng;
 use crate::hot::exact::{doubled_area, within};
-use crate::hot::values::{Cut, FUNCTIONS, Function, WHITE, blended, passes, some_corners};
-use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with};
+use crate::hot::values::{
+    Cut, FUNCTIONS, Function, HOLED, WHITE, blended, draw_each, passes, some_corners,
+};
+use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::scene::{
-    Blend, BlendMode, Budget, DepthTest, Draw, Scene, Shadow, Skin, Texture, Wrap,
-};
+use scanbeam::scene::{Blend, BlendMode, Budget, DepthTest, Draw, Scene, Shadow, Skin};
 use scanbeam::{Cull, Screen};
 use std::cmp::Ordering;
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
-
-/// A texture that leaves colours as they are, but for holes in every other column of four texels.
-static HOLED: Texture<'static> = {
-    static WORDS: [u16; 64] = {
-        let mut words = [0xFFFF; 64];
-        let mut i = 0;
-        while i < 64 {
-            if i % 8 < 4 {
-                words[i] = 0x1234;
-            }
-            i += 1;
-        }
-        words
-    };
-    match Texture::words(&WORDS, 8, 8) {
-        Ok(texture) => texture.wrapping(Wrap::Repeat),
-        Err(_) => panic!("8 x 8 texels"),
-    }
-};
 
 /// A draw call of one triangle of one colour.
 #[derive(Clone, Debug)]
@@ -317,13 +298,8 @@ fn hold<L: Smooth>(
     let height = screen.height().into();
     let mut rooms = SceneRooms::new(3 * calls.len(), calls.len(), height, 2 * calls.len());
     let mut scene = rooms.scene::<L>(screen);
-    scene.begin(&camera()).expect("the rooms are large enough");
-    for call in calls {
-        draw_with(&mut scene, &[call.corners], |draw| {
-            call.dress(draw, L::TEXTURED);
-        })
-        .expect("there is room");
-    }
+    let dress = |call: &Call, draw: &mut Draw<'_, '_, i32>| call.dress(draw, L::TEXTURED);
+    draw_each(&mut scene, calls, |call| call.corners, dress);
     let assembled = scene.assembled();
     assert_eq!(assembled.triangles as usize, calls.len());
     assert_eq!(assembled.culled as usize + scene.objects(), calls.len());

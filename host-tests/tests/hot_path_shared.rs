@@ -11,7 +11,7 @@ use scanbeam::frame::{
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scan_out::{
-    AsyncLineWriter, AsyncPump, ContinuousPanel, ErrorKind, ErrorType, Pump, ScanError, Window,
+    AsyncLineWriter, AsyncPump, ContinuousPanel, ErrorKind, Pump, ScanError, Window,
 };
 use scanbeam::scene::Scene;
 use scanbeam::{Cull, Screen};
@@ -305,11 +305,8 @@ struct Sheet {
     fails_at: Option<u16>,
 }
 
-impl ErrorType for Sheet {
-    type Error = ErrorKind;
-}
-
 impl AsyncLineWriter for Sheet {
+    type Error = ErrorKind;
     type Word = u16;
 
     async fn open(&mut self, _: Window) -> Result<(), ErrorKind> {

@@ -7,9 +7,9 @@ use crate::common::Rng;
 use crate::hot::exact::within;
 use crate::hot::layers::{Layer, lay_all};
 use crate::hot::values::{
-    Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, WHITE, blended, some_corners, some_mode,
+    Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, WHITE, blended, draw_each, some_corners, some_mode,
 };
-use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
+use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, frame, line};
 use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
@@ -155,13 +155,8 @@ fn with_calls<L: Smooth, R>(
     let mut rooms = SceneRooms::of_triangles(calls.len(), screen);
     rooms.places = vec![TexturePlace::EMPTY; rooms.vertices.len()];
     let mut scene = rooms.scene::<L>(screen);
-    scene.begin(&camera()).expect("the rooms are large enough");
-    for call in calls {
-        draw_with(&mut scene, &[call.corners], |draw| {
-            call.dress(draw, L::TEXTURED);
-        })
-        .expect("there is room");
-    }
+    let dress = |call: &Call, draw: &mut Draw<'_, '_, i32>| call.dress(draw, L::TEXTURED);
+    draw_each(&mut scene, calls, |call| call.corners, dress);
     see(&scene)
 }
 

@@ -1,7 +1,7 @@
 //! The input queues lose nothing, stall, and keep the order of their sources (K17).
 
 use host_tests::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::input::{Command, Input, InputError, InputQueue, Refused, Stalled};
+use scanbeam::input::{Command, Input, InputError, InputQueue, Refused};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::{Material, U1F15};
@@ -84,7 +84,7 @@ fn a_full_queue_stalls_and_hands_back() {
     source.send(draw(&CUBE, 0)).unwrap();
     source.send(draw(&CUBE, 1)).unwrap();
     assert!(source.stall() && !source.is_empty() && !stream.is_empty());
-    let Err(Stalled(Command::Draw(back))) = source.send(draw(&CUBE, 2)) else {
+    let Err(Command::Draw(back)) = source.send(draw(&CUBE, 2)) else {
         panic!("a third of two");
     };
     assert_eq!(back.colour, [2, 253, 9]);
@@ -189,7 +189,7 @@ fn producers_on_threads_give_the_picture_of_their_order() {
                     let calls = (0..COUNT).map(|i| Command::Draw(call(mesh, i, lighting)));
                     let all = begin.into_iter().chain(calls);
                     for mut command in all.chain([Command::EndOfFrame]) {
-                        while let Err(Stalled(back)) = source.send(command) {
+                        while let Err(back) = source.send(command) {
                             command = back;
                             std::thread::yield_now();
                         }

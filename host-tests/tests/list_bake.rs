@@ -7,7 +7,7 @@ use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{Shade, View};
 use scanbeam::Faces;
 use scanbeam::list::{
-    Budget, FieldForm, Halt, Instruction, Layout, SEPARATE, State, VertexFormat, WIDE, read_block,
+    Budget, FieldForm, Halt, Header, Instruction, Layout, State, VertexFormat, read_block,
 };
 use scenes::TEAPOT;
 use std::path::Path;
@@ -76,13 +76,13 @@ fn triangles_of(list: &[u32]) -> Vec<[Corner; 3]> {
                 table = places.into_iter().zip(normals).collect();
             }
             Instruction::Indexed(run) => {
-                let wide = run.header.low & WIDE != 0;
+                let wide = run.header.low & Header::WIDE != 0;
                 let (each, bits, none) = if wide { (2, 16, 0xFFFF) } else { (4, 8, 0xFF) };
                 let all: Vec<u32> = (0..u32::from(run.header.count))
                     .map(|n| list[(run.at + n / each) as usize] >> (bits * (n % each)) & none)
                     .collect();
                 let mut push = |t: [u32; 3]| triangles.push(t.map(|i| table[i as usize]));
-                if run.header.low & SEPARATE != 0 {
+                if run.header.low & Header::SEPARATE != 0 {
                     all.chunks_exact(3).for_each(|t| push([t[0], t[1], t[2]]));
                 } else {
                     for strip in all.split(|i| *i == none) {

@@ -7,7 +7,7 @@ use host_tests::lists::print;
 use host_tests::lists::writer::{Form, ListWriter};
 use scanbeam::list::{
     Bounds, CameraWords, Field, FieldForm, Flow, Head, Header, Id, LightWords, Material, Matrix,
-    Overlay, Palette, State, TexelForm, Texture, VertexFormat, Window, parameter,
+    Overlay, Palette, State, TexelForm, Texture, VertexFormat, Window,
 };
 
 #[test]
@@ -95,19 +95,19 @@ fn valid(rng: &mut Rng) -> Vec<u32> {
     let forms = [FieldForm::S16x3, FieldForm::S10x3, FieldForm::S8x3];
     let format = VertexFormat::new(&[
         Field {
-            parameter: parameter::PLACE,
+            parameter: Field::PLACE,
             form: rng.pick(&forms),
         },
         Field {
-            parameter: parameter::NORMAL,
+            parameter: Field::NORMAL,
             form: rng.pick(&forms),
         },
         Field {
-            parameter: parameter::DIFFUSE,
+            parameter: Field::DIFFUSE,
             form: FieldForm::U8x3,
         },
         Field {
-            parameter: parameter::TEXTURE,
+            parameter: Field::TEXTURE,
             form: FieldForm::U16x2,
         },
     ])

@@ -4,7 +4,7 @@
 use crate::hot::exact::within;
 use crate::hot::{SceneRooms, frame};
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{Index8, Pixel, Rgb565, Rgb888};
+use scanbeam::pixel::{Index8, PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::{Blend, Draw, Scene, Shading};
 use scanbeam_model::{ModelError, ModelRenderer, PipeCounts, PipeMemory, ProcessingFormat, Token};
 use scenes::{DRAWS, HEIGHT, OBJECTS, SHOTS, SPHERE, Shot, VERTICES, WIDTH};
@@ -12,7 +12,7 @@ use scenes::{DRAWS, HEIGHT, OBJECTS, SHOTS, SPHERE, Shot, VERTICES, WIDTH};
 type L = Gouraud<Rgb888>;
 type Picture = Vec<Vec<[u8; 3]>>;
 
-fn built<F: Pixel>(shot: Shot, rooms: &mut SceneRooms) -> Scene<'_, 'static, Gouraud<F>> {
+fn built<F: PixelFormat>(shot: Shot, rooms: &mut SceneRooms) -> Scene<'_, 'static, Gouraud<F>> {
     let mut scene = rooms.scene(Shot::screen());
     shot.build(&mut scene).unwrap();
     scene
@@ -23,7 +23,7 @@ fn rooms() -> SceneRooms {
 }
 
 /// The lines in the order given, by the model in buffers of so many pixels.
-fn by_model<F: Pixel>(
+fn by_model<F: PixelFormat>(
     scene: &Scene<'_, '_, Gouraud<F>>,
     (background, depth): ([u8; 3], bool),
     segment: usize,
@@ -55,7 +55,7 @@ fn by_fast_path(scene: &Scene<'_, '_, L>, background: [u8; 3], depth: bool) -> P
 }
 
 /// Pixels of all triangles, by whole numbers.
-fn exact_pixels<F: Pixel>(scene: &Scene<'_, '_, Gouraud<F>>) -> u64 {
+fn exact_pixels<F: PixelFormat>(scene: &Scene<'_, '_, Gouraud<F>>) -> u64 {
     let of = |corners: [scanbeam::scene::FiledCorner; 3], line| {
         let places = corners.map(|corner| (corner.x.into(), corner.y.into()));
         within(places, line, WIDTH).len() as u64

@@ -5,7 +5,7 @@ use embedded_graphics::mono_font::ascii::FONT_6X10;
 use embedded_graphics::pixelcolor::Rgb888 as Colour;
 use embedded_graphics::prelude::*;
 use embedded_graphics::text::Text;
-use scanbeam::overlay::{Canvas, DrawnLines, Ink, LineOverlay, Overlay, Pixels, Sprite};
+use scanbeam::overlay::{Canvas, Ink, Overlay, Pixels, Sprite};
 use scanbeam::pixel::Rgb565;
 
 const WIDTH: usize = 64;
@@ -27,11 +27,9 @@ fn text_is_the_same_as_a_sprite_by_lines_and_on_a_whole_picture() {
     assert!(white > 60, "{white}");
     // Line by line.
     let mut lines = vec![0x1234u16; WIDTH * HEIGHT];
-    let mut drawn = DrawnLines::new(|canvas: &mut Canvas<'_, Rgb565>| {
-        text.draw(canvas).unwrap();
-    });
     for (line, pixels) in (0..).zip(lines.chunks_mut(WIDTH)) {
-        drawn.paint(line, pixels);
+        text.draw(&mut Canvas::<Rgb565>::of_line(line, pixels))
+            .unwrap();
     }
     assert_eq!(lines, whole);
     // Once, into a sprite.

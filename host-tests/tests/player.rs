@@ -6,8 +6,8 @@ use crate::played::{Kept, WIDTH, begun, drawn, played};
 use host_tests::lists::writer::ListWriter;
 use scanbeam::input::PlayerSettings;
 use scanbeam::list::{
-    FieldForm, Flow, Header, Id, Instruction, Layout, LightWords, Material, Matrix, Palette, SPLIT,
-    State, Strip, TexelForm, Texture as TextureBlock, VertexFormat, Window, normal, read_block,
+    FieldForm, Flow, Header, Id, Instruction, Layout, LightWords, Material, Matrix, Palette, State,
+    Strip, TexelForm, Texture as TextureBlock, VertexFormat, Window, read_block,
 };
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::QuadSplit;
@@ -80,7 +80,7 @@ fn contents(list: &[u32]) -> Contents {
                 let place = |_, f: [i32; 3]| f.map(|c| (c << up) as i16);
                 (layout.place).column(words, run.at, &mut table.positions, place);
                 let slot = layout.normal.unwrap();
-                slot.column(words, run.at, &mut table.normals, normal);
+                slot.column(words, run.at, &mut table.normals, FieldForm::normal);
                 if let Some(slot) = layout.texture {
                     slot.column(words, run.at, &mut table.places, |_, [u, v, _]| [u, v]);
                 }
@@ -96,7 +96,7 @@ fn contents(list: &[u32]) -> Contents {
                         strip.restart();
                     } else if let Some(face) = strip.push(index as u16, run.header.rm) {
                         table.faces.push(face);
-                        if run.header.low & scanbeam::list::SEPARATE != 0 {
+                        if run.header.low & Header::SEPARATE != 0 {
                             strip.restart();
                         }
                     }
@@ -346,7 +346,7 @@ fn strips_fans_and_quads_are_what_the_same_calls_draw() {
                     let header = Header {
                         shade,
                         new: true,
-                        low: SPLIT,
+                        low: Header::SPLIT,
                         ..Header::of(Id::Quads, order.len() as u16)
                     };
                     let words = cloud.vertices(&format, header, &order);

@@ -5,9 +5,7 @@ use crate::listing::PLENTY;
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::input::PlayerSettings;
-use scanbeam::list::{
-    Field, FieldForm, Flow, Halt, Header, Id, Material, State, VertexFormat, parameter,
-};
+use scanbeam::list::{Field, FieldForm, Flow, Halt, Header, Id, Material, State, VertexFormat};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::Rgb565Be;
@@ -93,8 +91,8 @@ fn list_of(opacity: u8, write: impl FnOnce(&mut ListWriter<'_>)) -> &'static [u3
     let mut memory = vec![0; 1024];
     let mut writer = ListWriter::new(&mut memory);
     let fields = [
-        (parameter::PLACE, FieldForm::S16x3),
-        (parameter::DIFFUSE, FieldForm::U8x4),
+        (Field::PLACE, FieldForm::S16x3),
+        (Field::DIFFUSE, FieldForm::U8x4),
     ];
     let fields = fields.map(|(parameter, form)| Field { parameter, form });
     let format = VertexFormat::new(&fields).unwrap();

@@ -7,7 +7,7 @@ use host_tests::lists::writer::ListWriter;
 use scanbeam::input::PlayerSettings;
 use scanbeam::list::{Halt, Overlay, OverlaySlot, Palette, State, TexelForm};
 use scanbeam::look::Gouraud;
-use scanbeam::overlay::{LineOverlay, ListOverlays};
+use scanbeam::overlay::ListOverlays;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
 
 type Smooth = Gouraud<Rgb565Be>;
@@ -117,14 +117,14 @@ where
         player.start(0);
         assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
     });
-    let mut over = ListOverlays { words: list, slots };
+    let over = ListOverlays { words: list, slots };
     let mut painted = 0;
     for line in 0..HEIGHT {
         let mut got: Vec<F::Word> = (0..WIDTH)
             .map(|_| F::from_rgb8([0; 3].map(|_: u8| rng.below(256) as u8)))
             .collect();
         let mut want = got.clone();
-        LineOverlay::<F>::paint(&mut over, line, &mut got);
+        over.paint::<F>(line, &mut got);
         for sheet in &sheets {
             for (x, pixel) in (0..).zip(&mut want) {
                 let (left, top) = (sheet.block.left, sheet.block.top);

@@ -7,7 +7,7 @@ use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{
-    Field, FieldForm, Flow, Halt, Header, Id, ListRing, State, VertexFormat, Words, parameter,
+    Field, FieldForm, Flow, Halt, Header, Id, ListRing, State, VertexFormat, Words,
 };
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::QuadSplit;
@@ -54,9 +54,9 @@ impl Fine {
     fn format() -> VertexFormat {
         let field = |parameter, form| Field { parameter, form };
         VertexFormat::new(&[
-            field(parameter::PLACE, FieldForm::S32x3),
-            field(parameter::NORMAL, FieldForm::S16x3),
-            field(parameter::DIFFUSE, FieldForm::U8x3),
+            field(Field::PLACE, FieldForm::S32x3),
+            field(Field::NORMAL, FieldForm::S16x3),
+            field(Field::DIFFUSE, FieldForm::U8x3),
         ])
         .unwrap()
     }

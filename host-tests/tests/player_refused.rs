@@ -8,7 +8,7 @@ use scanbeam::event::{Event, Notice};
 use scanbeam::input::{OnViolation, Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{
     CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListError, ListRing,
-    Material, Missing, Overlay, Palette, Reason, State, TexelForm, VertexFormat, Window, parameter,
+    Material, Missing, Overlay, Palette, Reason, State, TexelForm, VertexFormat, Window,
 };
 use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::Rgb565Be;
@@ -119,7 +119,7 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
     refused::<Smooth>(&list, at, Id::State, Reason::Missing(Textures));
     let (list, at) = after_a_triangle(|writer| {
         let fields = [Field {
-            parameter: parameter::PLACE,
+            parameter: Field::PLACE,
             form: FieldForm::S32x3,
         }];
         let format = VertexFormat::new(&fields).unwrap();

@@ -14,7 +14,7 @@ use scanbeam::list::{
 use scanbeam::list::{Lent, OverlaySlot};
 use scanbeam::look::{Gouraud, Phong};
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::overlay::{LineOverlay, ListOverlays};
+use scanbeam::overlay::ListOverlays;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{Draw, DrawError, ScreenCorner, Shading};
 use scanbeam::{Affine, Cull, Faces, Light, Mesh};
@@ -403,10 +403,10 @@ fn overlays_of_lists_are_painted_until_they_were_shown() {
     let mut player = kept.player_over::<Smooth>(PlayerSettings::default(), slots);
     let painted = || {
         let mut row = vec![Rgb565Be::from_rgb8([0, 0, 8]); WIDTH.into()];
-        let mut overlays = ListOverlays { words: list, slots };
-        LineOverlay::<Rgb565Be>::paint(&mut overlays, 3, &mut row);
+        let overlays = ListOverlays { words: list, slots };
+        overlays.paint::<Rgb565Be>(3, &mut row);
         let mut other = row.clone();
-        LineOverlay::<Rgb565Be>::paint(&mut overlays, 4, &mut other);
+        overlays.paint::<Rgb565Be>(4, &mut other);
         assert_eq!(row, other, "another line");
         row.into_iter().map(Rgb565Be::to_rgb8).collect::<Vec<_>>()
     };

@@ -5,7 +5,7 @@ use crate::listing::{Cloud, PLENTY, some_format, unrolled};
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{Form, ListWriter};
 use scanbeam::input::PlayerSettings;
-use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, SPLIT, State};
+use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, State};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::QuadSplit;
 use scanbeam::pixel::Rgb565Be;
@@ -70,7 +70,7 @@ fn quads_and_quad_strips_are_those_of_meshes() {
                 new: new || !strip,
                 rm: strip,
                 low: if split == QuadSplit::Corner1To3 {
-                    SPLIT
+                    Header::SPLIT
                 } else {
                     0
                 },

@@ -6,7 +6,7 @@ use crate::hot::{LineRooms, SceneRooms};
 use scanbeam::frame::draw_continuous;
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565};
-use scanbeam::scan_out::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
+use scanbeam::scan_out::{ContinuousPanel, Fed, FeedStats, feed_line};
 use scanbeam::{Affine, Camera, Draw, Screen};
 
 const WIDTH: usize = 4;
@@ -184,14 +184,17 @@ fn one_slow_line_costs_the_lines_that_it_takes_and_no_other() {
                 ring: vec![[0; WIDTH]; 2],
             };
             let mut drawn = Vec::new();
-            let stats = feed_frame(&mut panel, 0..30, |line, pixels| {
+            let mut draw = |line, pixels: &mut [u16]| {
                 let cost = if line == slow { 40 + extra } else { 10 };
                 time.set(time.get() + cost);
                 pixels.fill(line);
                 drawn.push(line);
                 Ok::<_, ()>(())
-            })
-            .unwrap();
+            };
+            let mut stats = FeedStats::default();
+            for line in 0..30 {
+                stats.count(feed_line(&mut panel, line, &mut draw).unwrap());
+            }
             // The line starts 40 ticks before its deadline and ends `extra` after it.
             let late = u32::from(extra > 0);
             // Those whose deadline has passed by then: at 20, 40, 60, 80 after it.

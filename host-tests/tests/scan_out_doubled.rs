@@ -4,7 +4,7 @@
 
 use crate::common::Rng;
 use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
-use scanbeam::pixel::{Pixel, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use scanbeam::scan_out::{Pump, ScanError, Window, send_doubled};
 
 /// A pixel as numbers of steps, whatever its word.

@@ -9,9 +9,9 @@ use embedded_graphics_core::pixelcolor::{Rgb565, raw::RawU16};
 use mipidsi::models::ILI9341Rgb565;
 use mipidsi::options::{Orientation, Rotation};
 use scanbeam::scan_out::{
-    AsyncLineWriter, AsyncPump, AsyncSpiPanel, BlockingError, DrawTargetLines, DrawTargetSink,
-    Error as _, ErrorKind, ErrorType, FrameBuffer, FrameBufferError, FrameBufferSink, MipidsiLines,
-    MipidsiSink, MipidsiWire, PanelError, Pump, ScanError, ScanoutDma, SpiSink, SwapFlag, Window,
+    AsyncLineWriter, AsyncPump, Blocking, BlockingError, DrawTargetLines, Error as _, ErrorKind,
+    FrameBuffer, FrameBufferError, MipidsiLines, MipidsiWire, PanelError, Pump, ScanError,
+    ScanoutDma, SpiPanel, SwapFlag, Window,
 };
 
 const WIDTH: u16 = 6;
@@ -121,7 +121,7 @@ fn operations(per_window: usize) -> usize {
 #[test]
 fn spi_panels() {
     let glass = Glass::shared(WIDTH, HEIGHT);
-    let sink = SpiSink::new(Bus(glass.clone()), Pin(glass.clone()));
+    let sink = Blocking::over(SpiPanel::new(Bus(glass.clone()), Pin(glass.clone())));
     assert_eq!(sink_fails_anywhere(&glass, sink, true), operations(11));
 }
 
@@ -130,11 +130,10 @@ fn draw_targets() {
     let glass = Glass::shared(WIDTH, HEIGHT);
     let colour = |word: u16| Rgb565::from(RawU16::new(word));
     let target = DrawTargetLines::new(Target(glass.clone()), colour);
-    let sink = DrawTargetSink::over(target);
+    let sink = Blocking::over(target);
     assert_eq!(sink_fails_anywhere(&glass, sink, false), operations(0));
     // Beyond the target, which would draw nothing there.
-    let mut sink =
-        DrawTargetSink::<_, _, _, Line>::over(DrawTargetLines::new(Target(glass.clone()), colour));
+    let mut sink = Blocking::<_, Line>::over(DrawTargetLines::new(Target(glass.clone()), colour));
     for window in [Window { x: 1, ..FULL }, Window { y: 1, ..FULL }] {
         assert_eq!(sink.begin(window).unwrap_err().kind(), ErrorKind::Length);
     }
@@ -150,7 +149,7 @@ fn panels_of_mipidsi() {
         .init(&mut Nothing)
         .unwrap();
     let lines = MipidsiLines::<_, _, _, _, u16>::new(display, &wire);
-    let mut pump = Pump::new(MipidsiSink::over(lines), buffers());
+    let mut pump = Pump::new(Blocking::over(lines), buffers());
     glass.borrow_mut().sent.clear();
     let window = Window {
         x: 0x101,
@@ -204,7 +203,7 @@ fn panels_of_mipidsi_that_fail() {
         .init(&mut Nothing)
         .unwrap();
     let lines = MipidsiLines::<_, _, _, _, u16>::new(display, &wire);
-    let faults = sink_fails_anywhere(&glass, MipidsiSink::over(lines), true);
+    let faults = sink_fails_anywhere(&glass, Blocking::over(lines), true);
     assert_eq!(faults, operations(11));
 }
 
@@ -228,7 +227,7 @@ impl embedded_hal_async::spi::SpiDevice for Slow {
 }
 
 fn frame(
-    pump: &mut AsyncPump<'_, AsyncSpiPanel<Slow, Pin, u16>>,
+    pump: &mut AsyncPump<'_, SpiPanel<Slow, Pin, u16>>,
     band: u16,
     tone: u16,
 ) -> impl Future<Output = Result<(), ScanError<PanelError<Broken, Broken>>>> {
@@ -241,7 +240,7 @@ fn frame(
 #[test]
 fn panels_that_are_awaited() {
     let glass = Glass::shared(WIDTH, HEIGHT);
-    let panel = AsyncSpiPanel::<_, _, u16>::new(Slow(Bus(glass.clone())), Pin(glass.clone()));
+    let panel = SpiPanel::<_, _, u16>::new(Slow(Bus(glass.clone())), Pin(glass.clone()));
     let (mut one, mut other) = ([0; 42], [0; 42]);
     let mut pump = AsyncPump::new(panel, [&mut one, &mut other]);
     let faults = fails_anywhere(&glass, |band, tone| {
@@ -286,10 +285,8 @@ fn drawing_and_sending_overlap() {
     use Event::{Close, Drawn, End, Open, Start};
 
     struct Logger<'l>(&'l RefCell<Vec<Event>>);
-    impl ErrorType for Logger<'_> {
-        type Error = ErrorKind;
-    }
     impl AsyncLineWriter for Logger<'_> {
+        type Error = ErrorKind;
         type Word = u16;
         async fn open(&mut self, _: Window) -> Result<(), ErrorKind> {
             self.0.borrow_mut().push(Open);
@@ -349,10 +346,7 @@ fn frame_buffers() {
     let flag = SwapFlag::new();
     let (mut one, mut other) = ([0; 42], [0; 42]);
     let frames = FrameBuffer::new([&mut one, &mut other], WIDTH, HEIGHT, &flag);
-    let mut pump = Pump::new(
-        FrameBufferSink::over(frames.with_max_polls(Some(5))),
-        buffers(),
-    );
+    let mut pump = Pump::new(Blocking::over(frames.with_max_polls(Some(5))), buffers());
     let whole = |tone| -> Vec<u16> { picture(tone).into_iter().flatten().collect() };
     let mut before = vec![0; 42];
     for tone in 1..40 {
@@ -394,7 +388,7 @@ fn parts_of_frame_buffers() {
     let blanks = Cell::new(0);
     let (mut one, mut other) = ([0u16; 42], [0; 42]);
     let frames = FrameBuffer::new([&mut one, &mut other], WIDTH, HEIGHT, &flag);
-    let mut pump = Pump::new(FrameBufferSink::over(frames), buffers());
+    let mut pump = Pump::new(Blocking::over(frames), buffers());
     let mut want = [0u16; 42];
     for round in 1..60u16 {
         let (x, y) = (round % WIDTH, round * 5 % HEIGHT);
@@ -424,7 +418,7 @@ fn parts_of_frame_buffers() {
     // Frames too short for the display.
     let (mut one, mut other) = ([0u16; 42], [0; 41]);
     let frames = FrameBuffer::new([&mut one, &mut other], WIDTH, HEIGHT, &flag);
-    let mut sink = FrameBufferSink::<_, Line>::over(frames);
+    let mut sink = Blocking::<_, Line>::over(frames);
     assert!(sink.begin(FULL).is_err());
     assert!(matches!(sink.poll(), Poll::Ready(Ok(None))));
 }

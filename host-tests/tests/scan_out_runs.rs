@@ -6,7 +6,7 @@ use std::task::Poll;
 use crate::common::Rng;
 use crate::common::changes::{self, Lines, Mock, Picture, buffers, change, recovered, some_fault};
 use host_tests::mock::{HostLine, MockError};
-use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
+use scanbeam::scan_out::{Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
 
 /// The mock, with the windows that were opened.
 struct Recorder {
@@ -14,11 +14,8 @@ struct Recorder {
     windows: Vec<Window>,
 }
 
-impl ErrorType for Recorder {
-    type Error = MockError;
-}
-
 impl ScanoutDma for Recorder {
+    type Error = MockError;
     type Buf = HostLine<u16>;
 
     fn begin(&mut self, window: Window) -> Result<(), MockError> {

@@ -9,8 +9,8 @@ use embedded_hal_mock::eh1::digital::{
 };
 use embedded_hal_mock::eh1::spi::{Mock as SpiMock, Transaction as SpiTransaction};
 use scanbeam::scan_out::{
-    BlockingError, Error as _, ErrorKind, PanelError, Pump, ScanError, ScanStats, ScanoutDma,
-    SpiSink, Window,
+    Blocking, BlockingError, Error as _, ErrorKind, PanelError, Pump, ScanError, ScanStats,
+    ScanoutDma, SpiPanel, Window,
 };
 
 /// One `SpiDevice` transaction that writes `bytes`.
@@ -51,7 +51,7 @@ fn the_spi_sink_sends_exactly_these_bytes() {
         .concat(),
     );
     let mut pin = dc(3);
-    let sink = SpiSink::new(spi.clone(), pin.clone()).with_offset(2, 8);
+    let sink = Blocking::over(SpiPanel::new(spi.clone(), pin.clone()).with_offset(2, 8));
     let mut pump = Pump::new(sink, [leak::<2>(4), leak(5)]);
     pump.begin(
         Window {
@@ -79,7 +79,7 @@ fn the_spi_sink_sends_exactly_these_bytes() {
     assert_eq!(pump.stats(), expected);
     let (sink, buffers) = pump.release();
     assert_eq!(buffers.iter().flatten().count(), 2);
-    drop(sink.release());
+    drop(sink.into_writer().release());
     spi.done();
     pin.done();
 }
@@ -98,7 +98,7 @@ fn the_spi_sink_sends_three_byte_pixels() {
         .concat(),
     );
     let mut pin = dc(3);
-    let mut sink = SpiSink::<_, _, [u8; 3]>::new(spi.clone(), pin.clone());
+    let mut sink = Blocking::over(SpiPanel::<_, _, [u8; 3]>::new(spi.clone(), pin.clone()));
     sink.begin(Window {
         x: 0,
         y: 0,
@@ -136,7 +136,7 @@ fn the_spi_sink_refuses_misuse_without_a_byte_on_the_bus() {
         .concat(),
     );
     let mut pin = dc(3);
-    let mut sink = SpiSink::<_, _, [u8; 2]>::new(spi.clone(), pin.clone());
+    let mut sink = Blocking::over(SpiPanel::<_, _, [u8; 2]>::new(spi.clone(), pin.clone()));
     let (error, _) = sink.start(leak(2), 2).unwrap_err();
     assert_eq!(error, BlockingError::Sequence);
     for window in [
@@ -175,7 +175,7 @@ fn an_spi_sink_whose_pin_fails_says_so() {
     let mut spi = SpiMock::<u8>::new(&[]);
     let failed = embedded_hal_mock::eh1::MockError::Io(std::io::ErrorKind::Other);
     let mut pin = PinMock::new(&[PinTransaction::set(PinState::Low).with_error(failed.clone())]);
-    let sink = SpiSink::<_, _, [u8; 2]>::new(spi.clone(), pin.clone());
+    let sink = Blocking::over(SpiPanel::<_, _, [u8; 2]>::new(spi.clone(), pin.clone()));
     let mut pump = Pump::new(sink, [leak(6), leak(6)]);
     let window = Window {
         x: 0,

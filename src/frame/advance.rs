@@ -107,7 +107,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// A slot whose side turns, or that ends, far down: asks its triangle for the line.
-    #[inline(always)]
+    #[inline(never)]
     fn ask_change(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
         let slot = &self.cache.slots[word][i as usize & 31];
         if let Some(triangle) = view.triangle_of(slot.object) {

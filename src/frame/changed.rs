@@ -1,13 +1,12 @@
 //! Frames of which what the display shows already is not sent (X4).
 //!
 //! An overlay paints over each line between drawing and sending, so what counts as changed is a line with all that is
-//! over it. `()` is no overlay.
+//! over it.
 
 use super::renderer::Renderer;
 use super::send::{FrameError, FrameUse, Lines, window};
 use crate::look::{Look, WordOf};
-use crate::overlay::LineOverlay;
-use crate::scan_out::{ErrorType, LineBuf, LineWord, Pump, ScanoutDma, ShownLines, ShownRuns};
+use crate::scan_out::{LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns};
 use crate::scene::Scene;
 
 /// Draws all lines of `scene` with `overlay` over them, and sends those that differ from what `shown` knows the
@@ -22,11 +21,10 @@ pub fn draw_frame_changed<L, D, const WORDS: usize>(
     background: WordOf<L>,
     lines_per_transfer: u16,
     shown: &mut ShownLines<'_>,
-    overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+    overlay: impl FnMut(u16, &mut [WordOf<L>]),
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
-    WordOf<L>: LineWord,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;
@@ -74,11 +72,10 @@ pub fn draw_frame_changed_runs<L, D, const WORDS: usize>(
     background: WordOf<L>,
     lines_per_transfer: u16,
     shown: &mut ShownRuns<'_>,
-    overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+    overlay: impl FnMut(u16, &mut [WordOf<L>]),
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
-    WordOf<L>: LineWord,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;

@@ -7,7 +7,7 @@
 
 use super::alone::set_up_stray;
 use super::guests::{CELLS, Stray, Walk};
-use super::near::number_of;
+use super::near::{drawn_in, number_of};
 use super::renderer::Renderer;
 use super::rival::{Rival, rival_of};
 use super::spans::{Drawn, Line, Span, colour_run};
@@ -205,7 +205,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let key = self.cache.order.as_flattened().get(at).copied();
         let number = number_of::<WORDS>(key.unwrap_or_default());
         let drawn = Drawn::of(&self.cache.slots.as_flattened()[number]);
-        let mask = &mut self.written;
+        let mask = drawn_in(self.crowded, &mut self.covered, &mut self.written);
         part.each_seen(rival, |run| {
             colour_seen_run::<L>(drawn, rival.span, run, mask, out);
         }) > 0
@@ -220,7 +220,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         out: &mut Line<'_, '_, WordOf<L>>,
     ) -> bool {
         let rival = stray.rival(stray.slope::<L>(out));
-        let (mask, counts) = (&mut self.written, &mut self.counts);
+        let mask = drawn_in(self.crowded, &mut self.covered, &mut self.written);
+        let counts = &mut self.counts;
         let mut alone = None;
         part.each_seen(rival, |run| {
             let alone = alone.get_or_insert_with(|| set_up_stray::<L>(stray, counts, out));

@@ -4,10 +4,10 @@
 //! room for, the nearest depth of each column is kept there instead (`dense`).
 
 use super::alone::set_up_stray;
-use super::near::{Drawing, Field, Taken, colour_free};
-use super::renderer::Renderer;
+use super::near::{Drawing, Field, Taken, colour_free, colour_rest};
+use super::renderer::{Renderer, View};
 use super::rival::{Rival, Slope, thin_slope};
-use super::spans::{Line, Span, colour_run};
+use super::spans::{Line, Span};
 use super::thin::depth_plane;
 use crate::active::next;
 use crate::link::Link;
@@ -159,12 +159,9 @@ fn colour_guest<L: Look>(
     let alone = set_up_stray::<L>(&stray, drawing.counts, out);
     let drawn = alone.drawn();
     if let Some(taken) = taken {
-        return colour_free::<L>(drawing.mask, taken, drawn, rival.span, out);
+        return colour_free::<L>(drawing.mask, taken, drawn, span, out);
     }
-    let Span { start, end } = rival.span;
-    drawing.mask.cover_free(start, end, |start, end| {
-        colour_run::<L>(drawn, rival.span, Span { start, end }, out);
-    });
+    colour_rest::<L>(drawing.mask, drawn, span, out);
 }
 
 /// A walk over what has no slot: what is next, and what was before.
@@ -214,7 +211,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 continue;
             }
             (walk.before, walk.at) = (walk.at, after);
-            let stray = Stray::on_line(triangle, object, out);
+            let stray = Stray::on_line(triangle, object, out.number);
             if stray.is_some() {
                 return stray;
             }
@@ -281,16 +278,16 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
 impl<'v> Stray<'v> {
     /// A triangle by its number; `None` where it has no pixels on the line.
-    #[inline(always)]
-    pub(super) fn of<W>(object: u16, out: &Line<'_, 'v, W>) -> Option<Self> {
-        Self::on_line(out.view.triangle_of(object)?, object, out)
+    #[inline(never)]
+    pub(super) fn of(object: u16, view: &View<'v>, line: u32) -> Option<Self> {
+        Self::on_line(view.triangle_of(object)?, object, line)
     }
 
     #[inline(always)]
-    fn on_line<W>(triangle: Triangle<'v>, object: u16, out: &Line<'_, 'v, W>) -> Option<Self> {
+    fn on_line(triangle: Triangle<'v>, object: u16, line: u32) -> Option<Self> {
         let way = triangle.way();
-        let sides = triangle.sides(way, out.number as i32, triangle.lines().turn);
-        let (start, end) = sides.columns(way, out.number, out.view.frame);
+        let sides = triangle.sides(way, line as i32, triangle.lines().turn);
+        let (start, end) = sides.columns(way, line, triangle.frame);
         let span = Span { start, end };
         (start < end).then_some(Self {
             triangle,
@@ -320,7 +317,7 @@ impl<'v> Stray<'v> {
         }
         match depth_plane(&self.triangle) {
             Some(plane) => Slope::of_plane(plane, out.number),
-            None => thin_slope::<L>(self.object, self.span, out),
+            None => thin_slope(self.object, self.span, out.view, out.number),
         }
     }
 }

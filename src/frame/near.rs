@@ -90,23 +90,21 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         out: &Line<'_, '_, WordOf<L>>,
         mask: &mut Mask,
     ) {
-        let mut hide = |other: Rival| {
-            if let Some(hidden) = other.hidden_of(rival) {
-                mask.cover(hidden.start, hidden.end);
-            }
-        };
         for &key in self.keys.get(after.slots..).unwrap_or_default() {
             if key | NUMBER < far {
                 break;
             }
-            let slots = self.cache.slots.as_flattened();
-            if let Some(slot) = slots.get(number_of::<WORDS>(key)) {
-                hide(rival_of::<L>(slot, self.span(key), out));
+            let (slots, span) = (self.cache.slots.as_flattened(), self.span(key));
+            match slots.get(number_of::<WORDS>(key)) {
+                Some(slot) if span.meets(rival.span) => {
+                    rival_of::<L>(slot, span, out).hide(&rival, mask);
+                }
+                _ => {}
             }
         }
         for k in after.guests..self.guests {
             match Guest::of(self.cells, k) {
-                Some(guest) if guest.key >= far => hide(guest.rival),
+                Some(guest) if guest.key >= far => guest.rival.hide(&rival, mask),
                 _ => break,
             }
         }
@@ -165,7 +163,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
             Part::None => colour_slot::<L>(slot, word, out),
             Part::Some => {
                 drawing.hidden += 1;
-                colour_rest::<L>(drawing.mask, slot, word, out);
+                colour_rest::<L>(drawing.mask, Drawn::of(slot), span, out);
             }
             Part::All => drawing.hidden += 1,
         }
@@ -189,6 +187,16 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
     }
 }
 
+/// The mask of what is drawn in order: that of all spans, where they are not in it yet.
+#[inline(always)]
+pub(super) fn drawn_in<'a>(
+    crowded: bool,
+    covered: &'a mut Mask,
+    written: &'a mut Mask,
+) -> &'a mut Mask {
+    if crowded { covered } else { written }
+}
+
 /// What drawing changes.
 pub(super) struct Drawing<'a> {
     pub(super) mask: &'a mut Mask,
@@ -197,18 +205,18 @@ pub(super) struct Drawing<'a> {
     pub(super) hidden: usize,
 }
 
-/// Colours what is free of the span of a slot.
+/// Colours what is free of a span.
 #[inline(never)]
-fn colour_rest<L: Look>(
+pub(super) fn colour_rest<L: Look>(
     mask: &mut Mask,
-    slot: &CacheSlot<Active<L::Planes>>,
-    span: u32,
+    drawn: Drawn<'_, L::Planes>,
+    span: Span,
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
-    let (drawn, span) = (Drawn::of(slot), Span::of(span));
-    mask.cover_free(span.start, span.end, |start, end| {
-        colour_run::<L>(drawn, span, Span { start, end }, out);
-    });
+    let mut rest = span;
+    while let Some(run) = rest.take_run(mask) {
+        colour_run::<L>(drawn, span, run, out);
+    }
 }
 
 /// Colours a span but for columns that are taken.
@@ -220,10 +228,11 @@ pub(super) fn colour_free<L: Look>(
     span: Span,
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
-    taken.cover_free(span.start, span.end, |start, end| {
-        mask.cover(start, end);
-        colour_run::<L>(drawn, span, Span { start, end }, out);
-    });
+    let mut rest = span;
+    while let Some(run) = rest.take_run(taken) {
+        mask.cover(run.start, run.end);
+        colour_run::<L>(drawn, span, run, out);
+    }
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -233,7 +242,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.cache.listed = self.cache.used;
         if self.crowded {
             let (slots, hidden) = self.draw_listed(out);
-            core::mem::swap(&mut self.covered, &mut self.written);
             self.met = hidden > 0;
             self.crowded = 8 * hidden > slots;
             self.lasting = !self.changed && !self.dense && self.lasts(out);
@@ -414,7 +422,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             guests,
         };
         let mut drawing = Drawing {
-            mask: &mut self.written,
+            mask: drawn_in(self.crowded, &mut self.covered, &mut self.written),
             counts: &mut self.counts,
             hidden: 0,
         };

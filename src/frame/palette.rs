@@ -6,12 +6,14 @@
 use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, SentBy, send};
 use crate::look::Look;
-use crate::pixel::{Indexed, LinePalettes, expand_indices};
-use crate::scan_out::{ErrorType, Pump, ScanoutDma};
+use crate::pixel::Indexed;
+use crate::scan_out::{Pump, ScanoutDma};
 use crate::scene::Scene;
 
 /// Draws and sends all lines of `scene` as [`draw_frame`](super::draw_frame) does, over the index `background`. `indices`
-/// has a byte for each pixel of a line, and `palettes` say what these mean on a line.
+/// has a byte for each pixel of a line; `expand` is given a line's number and bytes and writes what they mean there, mostly
+/// by [`expand_indices`](crate::pixel::expand_indices). Lines come in the order in which they are drawn, so a palette may
+/// change as they go.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or the renderer has too little memory, or `indices` is shorter than a line.
@@ -22,8 +24,8 @@ pub fn draw_frame_indexed<L, D, const N: usize, const WORDS: usize>(
     background: u8,
     lines_per_transfer: u16,
     indices: &mut [u8],
-    palettes: impl LinePalettes<SentBy<D>, N>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+    mut expand: impl FnMut(u16, &[u8], &mut [SentBy<D>]),
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look<Pixel = Indexed<N>>,
     D: ScanoutDma,
@@ -32,10 +34,10 @@ where
     let Some(indices) = indices.get_mut(..needed) else {
         return Err(FrameError::Line(LineError::Pixels { needed, have }));
     };
-    let (mut palettes, mut lines) = (palettes, Lines::new(scene, background, ()));
+    let mut lines = Lines::new(scene, background, |_, _| {});
     let draw = |renderer: &mut Renderer<'_, L, WORDS>, line, pixels: &mut [SentBy<D>]| {
         let is_active = lines.draw(renderer, line, indices)?;
-        expand_indices(indices, palettes.palette(line), pixels);
+        expand(line, indices, pixels);
         Ok(is_active)
     };
     send(scene, renderer, pump, lines_per_transfer, draw)

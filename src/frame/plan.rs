@@ -5,7 +5,7 @@
 //! ends there.
 
 use super::renderer::{Renderer, View};
-use super::spans::{Drawn, Line, Span, colour_run, columns_of};
+use super::spans::{Drawn, Line, colour_run, columns_of};
 use super::thin::MARGIN;
 use crate::look::{Look, WordOf};
 
@@ -26,9 +26,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 continue;
             }
             let drawn = Drawn::of(slot);
-            left -= self.covered.cover_free(span.start, span.end, |start, end| {
-                colour_run::<L>(drawn, span, Span { start, end }, out);
-            });
+            let mut rest = span;
+            while let Some(run) = rest.take_run(&mut self.covered) {
+                left -= run.end - run.start;
+                colour_run::<L>(drawn, span, run, out);
+            }
             if left == 0 {
                 self.covered.clear();
                 return true;

@@ -13,7 +13,7 @@ use super::renderer::{LineError, Renderer};
 use super::send::{FrameError, FrameUse, Lines, send};
 use crate::look::{Look, WordOf};
 use crate::pixel::PixelFormat;
-use crate::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
+use crate::scan_out::{LineBuf, Pump, ScanoutDma};
 use crate::scene::Scene;
 use core::fmt;
 use core::ops::Range;
@@ -376,14 +376,14 @@ pub fn draw_frame_shared<L, D, B, const WORDS: usize>(
     background: WordOf<L>,
     lines_per_transfer: u16,
     peer: Peer<'_>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     B: LineBuf<Word = WordOf<L>>,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     let end = scene.lines().end;
-    let mut lines = Lines::new(scene, background, ());
+    let mut lines = Lines::new(scene, background, |_, _| {});
     desk.open(scene);
     let sent = send(
         scene,

@@ -7,7 +7,7 @@ use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
 use crate::look::{Look, WordOf};
-use crate::scene::{Content, DrawState, Object, Scene, TexturePlace, Vertex};
+use crate::scene::{Content, DrawState, Master, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::stats::SpanCounts;
 use crate::visible::Mask;
@@ -414,7 +414,7 @@ impl<'a> View<'a> {
             bins: scene.bins,
             ruled: scene.has_values,
             ranked: scene.is_ranked,
-            deep: scene.master.has_depth() && !scene.is_ranked,
+            deep: scene.master.has(Master::DEPTH) && !scene.is_ranked,
         }
     }
 

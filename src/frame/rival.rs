@@ -7,6 +7,7 @@ use super::spans::{Line, Span, thin_depth};
 use super::thin::depth_plane;
 use crate::active::CacheSlot;
 use crate::look::{Look, WordOf};
+use crate::visible::Mask;
 
 /// The depth of a span: its value at the picture's first column, and its step.
 #[derive(Clone, Copy)]
@@ -65,8 +66,17 @@ impl Rival {
         of(self) > of(other)
     }
 
+    /// Adds to a mask the columns in which both are and this is seen.
+    #[inline(never)]
+    pub(super) fn hide(&self, other: &Self, mask: &mut Mask) {
+        if let Some(hidden) = self.hidden_of(*other) {
+            mask.cover(hidden.start, hidden.end);
+        }
+    }
+
     /// The columns in which both are and this is seen: they begin or end with what both have, as both depths are
     /// linear.
+    #[inline(always)]
     pub(super) fn hidden_of(self, other: Self) -> Option<Span> {
         if !self.span.meets(other.span) {
             return None;
@@ -123,15 +133,15 @@ pub(super) fn slope_of<L: Look>(
         return Slope::of_place(out.view, slot.object);
     }
     if Flags(slot.flags).lacks_depth() {
-        return thin_slope::<L>(slot.object, span, out);
+        return thin_slope(slot.object, span, out.view, out.number);
     }
     Slope::of_plane(slot.item.depth, out.number)
 }
 
 #[cold]
 #[inline(never)]
-pub(super) fn thin_slope<L: Look>(object: u16, span: Span, out: &Line<'_, '_, WordOf<L>>) -> Slope {
-    let [first, step] = thin_depth::<L>(object, span, out);
+pub(super) fn thin_slope(object: u16, span: Span, view: &View<'_>, line: u32) -> Slope {
+    let [first, step] = thin_depth(object, span, view, line);
     Slope {
         at: first.wrapping_sub(step.wrapping_mul(span.start)),
         step,

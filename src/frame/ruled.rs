@@ -116,7 +116,7 @@ pub(super) fn depth_on_line<L: Look>(
     out: &Line<'_, '_, WordOf<L>>,
 ) -> [u32; 2] {
     if drawn.flags.lacks_depth() {
-        let [at, step] = thin_depth::<L>(drawn.object, span, out);
+        let [at, step] = thin_depth(drawn.object, span, out.view, out.number);
         return [at.wrapping_sub(step.wrapping_mul(span.start)), step];
     }
     let Slope { at, step } = Slope::of_plane(plane, out.number);
@@ -124,7 +124,7 @@ pub(super) fn depth_on_line<L: Look>(
 }
 
 /// The depths of a run; what nobody has written is farthest away.
-#[inline(always)]
+#[inline(never)]
 pub(super) fn cells_of<'a>(run: Span, known: &'a mut Known<'_>) -> Option<&'a mut [u32]> {
     let part = known.written.cover_part(run.start, run.end, |column| {
         if let Some(cell) = known.cells.get_mut(column) {

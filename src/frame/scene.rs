@@ -2,7 +2,7 @@
 
 use crate::geometry::{Coordinate, Screen, Sphere, triangles};
 use crate::look::Look;
-use crate::pixel::{MadeOf, Pixel};
+use crate::pixel::{MadeOf, PixelFormat};
 use crate::scene::{Draw, DrawError, FiledTriangle, Memory, Scene, ScreenCorner, Shadow};
 
 impl<'m, 't, L: Look> Scene<'m, 't, L> {
@@ -18,7 +18,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// What is wrong with the mesh, after which nothing of it is drawn; or which memory is full, after which the rest
     /// is drawn.
     pub fn draw<C: Coordinate>(&mut self, draw: &Draw<'_, 't, C>) -> Result<(), DrawError> {
-        if <L::Pixel as Pixel>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
+        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
             return Err(DrawError::Indices);
         }
         self.assemble(draw, L::TEXTURED, L::LIT_AT_PIXELS)
@@ -64,7 +64,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         draw: &Draw<'_, 't>,
         triangles: &[[ScreenCorner; 3]],
     ) -> Result<(), DrawError> {
-        if <L::Pixel as Pixel>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
+        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
             return Err(DrawError::Indices);
         }
         if L::LIT_AT_PIXELS.is_some() {
@@ -86,7 +86,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         draw: &Draw<'_, 't, C>,
         size: u8,
     ) -> Result<(), DrawError> {
-        if <L::Pixel as Pixel>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
+        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
             return Err(DrawError::Indices);
         }
         self.assemble_points(draw, size, L::TEXTURED, L::LIT_AT_PIXELS)

@@ -3,12 +3,10 @@
 use super::renderer::{LineError, Renderer, View};
 use crate::active::CacheUse;
 use crate::look::{Look, WordOf};
-use crate::overlay::LineOverlay;
 #[cfg(feature = "async")]
 use crate::scan_out::{AsyncLineWriter, AsyncPump};
 use crate::scan_out::{
-    ContinuousPanel, ErrorType, FeedStats, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window,
-    feed_line,
+    ContinuousPanel, FeedStats, LineBuf, Pump, ScanError, ScanStats, ScanoutDma, Window, feed_line,
 };
 use crate::scene::{Assembled, Scene};
 use core::fmt;
@@ -65,15 +63,23 @@ pub fn draw_frame<L, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     background: WordOf<L>,
     lines_per_transfer: u16,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    draw_frame_overlaid(scene, renderer, pump, background, lines_per_transfer, ())
+    draw_frame_overlaid(
+        scene,
+        renderer,
+        pump,
+        background,
+        lines_per_transfer,
+        |_, _| {},
+    )
 }
 
-/// Draws and sends all lines of `scene` as [`draw_frame`] does, with `overlay` over them (K14).
+/// Draws and sends all lines of `scene` as [`draw_frame`] does, with what `overlay` paints over each of them (K14), of
+/// sprites say: `|line, pixels| sprites.paint(line, pixels)`.
 ///
 /// # Errors
 /// When the sink fails, naming the line, or the renderer has too little memory.
@@ -83,8 +89,8 @@ pub fn draw_frame_overlaid<L, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     background: WordOf<L>,
     lines_per_transfer: u16,
-    overlay: impl LineOverlay<L::Pixel>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+    overlay: impl FnMut(u16, &mut [WordOf<L>]),
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
@@ -107,7 +113,7 @@ pub(super) struct Lines<'a, L: Look, O> {
     overlay: O,
 }
 
-impl<'a, L: Look, O: LineOverlay<L::Pixel>> Lines<'a, L, O> {
+impl<'a, L: Look, O: FnMut(u16, &mut [WordOf<L>])> Lines<'a, L, O> {
     pub(super) fn new(scene: &'a Scene<'_, '_, L>, background: WordOf<L>, overlay: O) -> Self {
         Self {
             view: View::of(scene),
@@ -130,7 +136,7 @@ impl<'a, L: Look, O: LineOverlay<L::Pixel>> Lines<'a, L, O> {
             return Err(LineError::Pixels { needed, have });
         }
         let is_active = renderer.draw_known(&self.view, line, pixels, self.background);
-        self.overlay.paint(line, pixels);
+        (self.overlay)(line, pixels);
         Ok(is_active)
     }
 }
@@ -146,7 +152,7 @@ pub(super) fn send<'m, L, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     lines_per_transfer: u16,
     mut draw: impl FnMut(&mut Renderer<'m, L, WORDS>, u16, &mut [SentBy<D>]) -> Result<bool, LineError>,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: ScanoutDma,
@@ -182,7 +188,7 @@ where
     C: ContinuousPanel<Word = WordOf<L>>,
 {
     renderer.begin_frame(scene)?;
-    let mut lines = Lines::new(scene, background, ());
+    let mut lines = Lines::new(scene, background, |_, _| {});
     let mut skipped = 0;
     let mut fed = FeedStats::default();
     for line in scene.lines() {
@@ -208,13 +214,13 @@ pub async fn draw_frame_async<L, D, const WORDS: usize>(
     pump: &mut AsyncPump<'_, D>,
     background: WordOf<L>,
     lines_per_transfer: u16,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look,
     D: AsyncLineWriter<Word = WordOf<L>>,
 {
     renderer.begin_frame(scene).map_err(FrameError::Line)?;
-    let mut lines = Lines::new(scene, background, ());
+    let mut lines = Lines::new(scene, background, |_, _| {});
     let mut skipped = 0;
     pump.take_stats();
     let window = window(scene);

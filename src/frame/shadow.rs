@@ -223,7 +223,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             if let Some(state) = out.view.state(at.object()) {
                 let role = state.role();
-                if step_of(role).is_some() && Stray::of(at.object(), out).is_some() {
+                if step_of(role).is_some() && Stray::of(at.object(), out.view, out.number).is_some()
+                {
                     lights.add(role);
                 }
             }

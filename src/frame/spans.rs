@@ -44,15 +44,11 @@ pub(super) struct Drawn<'a, P> {
 /// The depth of a thin triangle at a span's first pixel, and its step.
 #[cold]
 #[inline(never)]
-pub(super) fn thin_depth<L: Look>(
-    object: u16,
-    span: Span,
-    out: &Line<'_, '_, WordOf<L>>,
-) -> [u32; 2] {
-    let Some(triangle) = out.view.triangle_of(object) else {
+pub(super) fn thin_depth(object: u16, span: Span, view: &View<'_>, line: u32) -> [u32; 2] {
+    let Some(triangle) = view.triangle_of(object) else {
         return [0; 2];
     };
-    let ends = thin_span(&triangle, span, out.number);
+    let ends = thin_span(&triangle, span, line);
     let [at, step] = ends.line(triangle.vertex.map(|v| i64::from(v.depth)));
     let first = at.wrapping_add(step.wrapping_mul(span.start));
     [first.wrapping_add(MARGIN), step]
@@ -146,10 +142,21 @@ pub(super) fn colour_run<L: Look>(
     let draws = out.view.draws;
     let fill = drawn.flags.fill();
     if fill == Fill::Thin {
-        let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
-        return L::fill(Fill::Wide, &planes, at, draws, pixels);
+        return colour_thin::<L>(drawn.object, at, out.view, pixels);
     }
     L::fill(fill, drawn.planes, at, draws, pixels);
+}
+
+/// Colours a run of a thin triangle.
+#[cold]
+#[inline(never)]
+fn colour_thin<L: Look>(object: u16, at: Place, view: &View<'_>, pixels: &mut [WordOf<L>]) {
+    let span = Span {
+        start: at.span,
+        end: at.end,
+    };
+    let planes = thin_planes::<L>(object, span, at.line, view);
+    L::fill(Fill::Wide, &planes, at, view.draws, pixels);
 }
 
 impl<'a, P> Drawn<'a, P> {
@@ -169,6 +176,17 @@ impl Span {
     #[inline(always)]
     pub(super) fn meets(self, other: Self) -> bool {
         self.start < other.end && other.start < self.end
+    }
+
+    /// The first run of the span that a mask has not, which it has from now on; the span is what lies behind it then.
+    #[inline(always)]
+    pub(super) fn take_run(&mut self, mask: &mut Mask) -> Option<Self> {
+        if self.start >= self.end {
+            return None;
+        }
+        let run = Self::of(mask.take_run(self.start, self.end));
+        self.start = run.end;
+        (run.end != 0).then_some(run)
     }
 
     #[inline(always)]

@@ -13,7 +13,7 @@ use super::shadow::count_shadowed;
 use super::slot::{Active, Flags};
 use super::spans::{Drawn, Known, Line, Span, columns_of};
 use crate::active::{CacheSlot, CacheUse, next};
-use crate::look::{Look, Paint, Place, WordOf};
+use crate::look::{Look, Place, WordOf};
 use crate::num::take_first;
 use crate::scene::DrawState;
 use crate::stats::{SpanCounts, SpanPixels};
@@ -33,7 +33,7 @@ pub(super) struct Counter<L: Look, const WORDS: usize> {
     pub(super) shadowed: CountShadowed<L>,
 }
 
-type PlanesOf<L> = <L as Paint>::Planes;
+type PlanesOf<L> = <L as Look>::Planes;
 
 type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, WordOf<L>>);
 
@@ -104,7 +104,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.cache.spilled;
         while at.is_some() {
             let object = at.object();
-            let stray = Stray::of(object, out).filter(|stray| !stray.has_ended(out));
+            let stray =
+                Stray::of(object, out.view, out.number).filter(|stray| !stray.has_ended(out));
             if let Some(Stray { object, span, .. }) = stray {
                 let slot = None;
                 f(&Seen { object, span, slot });
@@ -207,7 +208,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         state: &DrawState<'_>,
         out: &Line<'_, '_, WordOf<L>>,
     ) {
-        let Some(stray) = Stray::of(object, out) else {
+        let Some(stray) = Stray::of(object, out.view, out.number) else {
             return;
         };
         // What it takes to count is not counted.

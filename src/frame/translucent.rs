@@ -97,6 +97,7 @@ impl Pile {
     }
 
     /// Takes a pane, if it is to be taken.
+    #[inline(never)]
     fn add(&mut self, pane: Pane, take: Take) {
         let mut at = self.count;
         match take {
@@ -128,6 +129,7 @@ impl Pile {
     }
 
     /// The next columns that panes have, from `from` on, and these panes as a set; `None` where there are none.
+    #[inline(never)]
     fn next_stretch(&self, from: u32, until: u32) -> Option<(Span, u32)> {
         let panes = self.panes.get(..self.count).unwrap_or_default();
         let ahead = |pane: &&Pane| pane.span.end > from;
@@ -146,6 +148,7 @@ impl Pile {
 
     /// Brings those of a set into order from far to near; how many they are, or `None` where they have no order on
     /// all of a stretch.
+    #[inline(never)]
     fn sort(&mut self, set: u32, stretch: Span) -> Option<usize> {
         let (mut rest, mut count) = (set, 0);
         while rest != 0 {
@@ -277,6 +280,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Fills a pile.
+    #[inline(never)]
     fn gather_panes(
         &mut self,
         pile: &mut Pile,
@@ -329,6 +333,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Draws some columns of a pane.
+    #[inline(never)]
     fn draw_pane(&mut self, pane: Pane, part: Span, out: &mut Line<'_, '_, WordOf<L>>) {
         let Some(state) = out.view.state(pane.object) else {
             return;

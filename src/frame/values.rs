@@ -105,7 +105,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.cache.spilled;
         while at.is_some() {
             if out.view.has_values(at.object()) {
-                let stray = Stray::of(at.object(), out);
+                let stray = Stray::of(at.object(), out.view, out.number);
                 if stray.is_some_and(|stray| !stray.has_ended(out)) {
                     return true;
                 }
@@ -142,6 +142,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Draws a span in a slot.
+    #[inline(never)]
     pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
         let (word, i) = (number >> 5, number & 31);
         let (Some(slots), Some(spans)) =
@@ -180,7 +181,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Draws a span without a slot; the next of its kind.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
         let state = out.view.state(at.object());
         let state = state.unwrap_or(&DrawState::EMPTY);

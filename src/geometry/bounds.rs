@@ -70,7 +70,7 @@ impl Sphere {
         let (left, top) = (screen.left(), screen.top());
         let columns = left..left + i32::from(screen.width());
         let lines = top + i32::from(lines.start)..top + i32::from(lines.end);
-        let rows = projection.rows().map(|row| row.map(i64::from));
+        let rows = projection.rows.map(|row| row.map(i64::from));
         let centre = projection.transform(self.centre);
         let z = i64::from(centre.z);
         if self.is_beyond(rows[2], z - i64::from(projection.near), SLACK)
@@ -79,13 +79,13 @@ impl Sphere {
             return true;
         }
         // X = v 2^power / z in units of 1/8 pixel; both sides are multiplied by z > 0.
-        let up = projection.power().clamp(0, 30);
-        let down = (-projection.power()).clamp(0, 16);
+        let up = projection.power.clamp(0, 30);
+        let down = (-projection.power).clamp(0, 16);
         [(centre.x, &columns), (centre.y, &lines)]
             .into_iter()
             .enumerate()
             .any(|(axis, (v, range))| {
-                let middle = projection.centre(axis);
+                let middle = i64::from(projection.centre[axis]);
                 let edges = [
                     (8 * i64::from(range.start) - middle - MARGIN, 1),
                     (8 * i64::from(range.end) - middle + MARGIN, -1),

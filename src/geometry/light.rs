@@ -1,32 +1,8 @@
 //! Light at a vertex: ambient and one infinite light, Lambert's law (K10).
 
-use super::colour::{Colour, Scale, Tint};
-use super::mesh::Coordinate;
+use super::colour::{Colour, Tint};
 use super::transform::{Affine, inverse_sqrt, unit};
 use crate::num::{I2F14, U1F15};
-
-/// What can light an instance: [`Light`], or [`Lighting`](super::Lighting).
-///
-/// What is not used has no code: a draw call is compiled for the one that it is given.
-pub trait LightingModel: Copy {
-    /// The same for the vertices of one draw call, in their space.
-    type InModel: ModelLight;
-
-    /// Taken to the space of a model, by the maps from there to the world and on to the camera.
-    fn in_model(&self, model: &Affine, view: &Affine) -> Self::InModel;
-}
-
-/// A light in model space.
-pub trait ModelLight: Copy {
-    /// A colour in this light, at a place with a normal; the place is asked for where it matters.
-    fn lit<C: Coordinate>(
-        &self,
-        tint: &Tint,
-        scale: &Scale,
-        normal: [i16; 3],
-        place: impl FnOnce() -> [C; 3],
-    ) -> Colour;
-}
 
 /// An infinite light and the ambient level.
 ///
@@ -77,6 +53,21 @@ impl Light {
         }
         level(dot, self.ambient)
     }
+
+    /// In the space of a model, by the map from there to the world.
+    #[inline(always)]
+    pub(crate) fn in_model(&self, model: &Affine) -> Self {
+        Self {
+            direction: model.direction_to_model(self.direction),
+            ambient: self.ambient.min(U1F15::ONE),
+        }
+    }
+
+    /// A colour in this light, which is in the space of the normal.
+    #[inline(always)]
+    pub(crate) fn lit(&self, tint: &Tint, normal: [i16; 3]) -> Colour {
+        tint.lit(self.level_of_unit(normal).to_bits())
+    }
 }
 
 /// The level of a surface whose normal has this product with the light's direction, in Q28; the
@@ -99,31 +90,6 @@ pub(super) fn direction(v: [f32; 3]) -> Option<[I2F14; 3]> {
     let v = v.map(|c| c / largest);
     let scale = inverse_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     Some(unit(v.map(|c| (c * scale * (1 << 30) as f32) as i64)))
-}
-
-impl LightingModel for Light {
-    type InModel = Self;
-
-    #[inline(always)]
-    fn in_model(&self, model: &Affine, _: &Affine) -> Self {
-        Self {
-            direction: model.direction_to_model(self.direction),
-            ambient: self.ambient.min(U1F15::ONE),
-        }
-    }
-}
-
-impl ModelLight for Light {
-    #[inline(always)]
-    fn lit<C: Coordinate>(
-        &self,
-        tint: &Tint,
-        _: &Scale,
-        normal: [i16; 3],
-        _: impl FnOnce() -> [C; 3],
-    ) -> Colour {
-        tint.lit(self.level_of_unit(normal).to_bits())
-    }
 }
 
 #[cfg(test)]
@@ -160,7 +126,7 @@ mod tests {
             assert_eq!(wide.level([i16::MAX; 3]), ambient.min(U1F15::ONE));
             let unit = Light::new([0.6, 0.0, 0.8], 0.0).unwrap();
             let light = Light { ambient, ..unit };
-            let model = light.in_model(&Affine::IDENTITY, &Affine::IDENTITY);
+            let model = light.in_model(&Affine::IDENTITY);
             for normal in [
                 [0, 0, 16_384],
                 [0, 0, -16_384],

@@ -17,8 +17,7 @@
 //! One light without a material is [`Light`](super::Light).
 
 use super::colour::{Colour, Scale, Tint};
-use super::light::{LightingModel, ModelLight, direction};
-use super::mesh::Coordinate;
+use super::light::direction;
 use super::transform::Affine;
 use crate::num::{Block, I2F14, U1F15, inverse_root, shift_round};
 
@@ -120,6 +119,21 @@ impl<'a> Lighting<'a> {
     #[must_use]
     pub const fn on(self, material: Material) -> Self {
         Self { material, ..self }
+    }
+
+    /// In the space of a model, by the maps from there to the world and on to the camera.
+    #[inline(never)]
+    pub(crate) fn in_model(&self, model: &Affine, view: &Affine) -> LampsInModel {
+        let eye: Block<3> = model.then(view).origin_in_model();
+        // Twice as far as the eye or any vertex, so that their difference fits.
+        let power = eye.exponent.max(1) + 1;
+        LampsInModel {
+            lamps: Lamps::new(self, |l| model.direction_to_model_q30(l)),
+            eye: eye
+                .mantissa
+                .map(|c| shift_round(i64::from(c), eye.exponent - power) as i32),
+            power: power.min(31) as u32,
+        }
     }
 }
 
@@ -297,9 +311,22 @@ pub struct LampsInModel {
 impl LampsInModel {
     /// The way from a place to the eye, its largest component in 2^14 ..= 2^15, or all 0.
     #[inline]
-    fn towards_eye<C: Coordinate>(&self, place: [C; 3]) -> [i32; 3] {
-        let d = [0, 1, 2].map(|i| self.eye[i] - (place[i].to_q30() >> self.power));
+    fn towards_eye(&self, place: [i32; 3]) -> [i32; 3] {
+        let d = [0, 1, 2].map(|i| self.eye[i] - (place[i] >> self.power));
         fifteen_bits(d)
+    }
+
+    /// A colour in these lights, with a normal at a place in Q1.30.
+    #[inline(never)]
+    pub(crate) fn lit(
+        &self,
+        tint: &Tint,
+        scale: &Scale,
+        normal: [i16; 3],
+        place: [i32; 3],
+    ) -> Colour {
+        let shine = self.lamps.shine(normal, || self.towards_eye(place));
+        tint.shone_on(&shine, scale)
     }
 }
 
@@ -315,38 +342,6 @@ pub(super) fn fifteen_bits(v: [i32; 3]) -> [i32; 3] {
         return v.map(|c| c << shift);
     }
     v.map(|c| ((c >> (-shift - 1)) + 1) >> 1)
-}
-
-impl LightingModel for Lighting<'_> {
-    type InModel = LampsInModel;
-
-    #[inline(never)]
-    fn in_model(&self, model: &Affine, view: &Affine) -> LampsInModel {
-        let eye: Block<3> = model.then(view).origin_in_model();
-        // Twice as far as the eye or any vertex, so that their difference fits.
-        let power = eye.exponent.max(1) + 1;
-        LampsInModel {
-            lamps: Lamps::new(self, |l| model.direction_to_model_q30(l)),
-            eye: eye
-                .mantissa
-                .map(|c| shift_round(i64::from(c), eye.exponent - power) as i32),
-            power: power.min(31) as u32,
-        }
-    }
-}
-
-impl ModelLight for LampsInModel {
-    #[inline(never)]
-    fn lit<C: Coordinate>(
-        &self,
-        tint: &Tint,
-        scale: &Scale,
-        normal: [i16; 3],
-        place: impl FnOnce() -> [C; 3],
-    ) -> Colour {
-        let shine = self.lamps.shine(normal, || self.towards_eye(place()));
-        tint.shone_on(&shine, scale)
-    }
 }
 
 #[cfg(test)]

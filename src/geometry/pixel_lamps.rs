@@ -52,10 +52,11 @@ impl PixelLamps {
         }
     }
 
-    /// [`lit`](PixelLamps::lit) of a pixel of the picture.
+    /// Colours of a pixel of the picture in this light: 16.16 steps plus one half, of formats with
+    /// so many steps a channel; none above the full step.
     #[inline]
     #[must_use]
-    pub(crate) fn lit_in_picture(
+    pub(crate) fn lit(
         &self,
         normal: [i16; 3],
         [column, line]: [u32; 2],
@@ -63,25 +64,7 @@ impl PixelLamps {
         steps: [u16; 3],
     ) -> [i32; 3] {
         let [left, top] = self.first;
-        self.lit(
-            normal,
-            (left + column as i32, top + line as i32),
-            colour,
-            steps,
-        )
-    }
-
-    /// Colours of a pixel of guard space in this light: 16.16 steps plus one half, of formats with
-    /// so many steps a channel; none above the full step.
-    #[inline]
-    #[must_use]
-    pub fn lit(
-        &self,
-        normal: [i16; 3],
-        (column, line): (i32, i32),
-        colour: [i32; 3],
-        steps: [u16; 3],
-    ) -> [i32; 3] {
+        let (column, line) = (left + column as i32, top + line as i32);
         let to_eye = || {
             let from = |at: i32, centre: i32| (centre - (8 * at + 4)) << 5;
             let [x, y] = self.centre;

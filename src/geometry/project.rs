@@ -21,17 +21,20 @@ pub(super) struct ClipPoint {
 /// Model space to screen, for one draw call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
-    rows: [[i32; 3]; 3],
-    offset: [i32; 3],
+    /// What coordinates are multiplied by.
+    pub(crate) rows: [[i32; 3]; 3],
+    /// What is added to the products.
+    pub(crate) offset: [i32; 3],
     /// `X = x 2^power / z` in units of 1/8 pixel from the principal point.
-    power: i32,
+    pub(crate) power: i32,
     /// Near plane in clip coordinates, at least 1.
-    pub(super) near: i32,
+    pub(crate) near: i32,
     /// Far plane in clip coordinates.
-    pub(super) far: i32,
+    pub(crate) far: i32,
     /// The near plane is a mantissa in 2^30 ..< 2^31 times 2^-near_down.
-    near_down: i32,
-    centre: [i32; 2],
+    pub(crate) near_down: i32,
+    /// The principal point in units of 1/8 pixel of guard space.
+    pub(crate) centre: [i32; 2],
 }
 
 impl Projection {
@@ -92,30 +95,5 @@ impl Projection {
             y: row(1),
             z: row(2),
         }
-    }
-
-    /// The focal length's power of two, for clipping at the guard band.
-    pub(crate) fn power(&self) -> i32 {
-        self.power
-    }
-
-    /// The rows that coordinates are multiplied by.
-    pub(crate) fn rows(&self) -> &[[i32; 3]; 3] {
-        &self.rows
-    }
-
-    /// What is added to the rows' products.
-    pub(crate) fn offset(&self) -> [i32; 3] {
-        self.offset
-    }
-
-    /// Near and far plane in clip coordinates, and the shift from there to the near plane's mantissa.
-    pub(crate) fn range(&self) -> (i32, i32, i32) {
-        (self.near, self.far, self.near_down)
-    }
-
-    /// The principal point in units of 1/8 pixel of guard space.
-    pub(crate) fn centre(&self, axis: usize) -> i64 {
-        i64::from(self.centre[axis])
     }
 }

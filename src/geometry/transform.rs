@@ -273,12 +273,19 @@ fn times(m: &[i32; 9], v: [i32; 3]) -> [i64; 3] {
 fn add(a: Block<3>, b: Block<3>) -> Block<3> {
     let exponent = a.exponent.max(b.exponent);
     let mut sum = [0i64; 3];
-    for (i, value) in sum.iter_mut().enumerate() {
-        // 2 more bits below, so that the sum is rounded once.
-        *value = shift_round(i64::from(a.mantissa[i]) << 2, a.exponent - exponent)
-            + shift_round(i64::from(b.mantissa[i]) << 2, b.exponent - exponent);
+    for part in [a, b] {
+        add_to(&mut sum, &part.mantissa, part.exponent - exponent);
     }
     Block::new(sum, exponent - 2)
+}
+
+/// Adds numbers times a power of two, with 2 more bits below, so that a sum is rounded once. It knows no length, so that
+/// it is not unrolled.
+#[inline(never)]
+fn add_to(sum: &mut [i64], mantissa: &[i32], shift: i32) {
+    for (value, &m) in sum.iter_mut().zip(mantissa) {
+        *value += shift_round(i64::from(m) << 2, shift);
+    }
 }
 
 /// Sine and cosine on the unit circle to 1e-7 (the angle itself is 0.0012 rad off at most); those

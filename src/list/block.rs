@@ -132,8 +132,10 @@ pub struct Head {
     pub triangles: u32,
 }
 
-/// Word 1 of HEAD: the letters `SCBL`.
-pub const MAGIC: u32 = u32::from_le_bytes(*b"SCBL");
+impl Head {
+    /// Word 1: the letters `SCBL`.
+    pub const MAGIC: u32 = u32::from_le_bytes(*b"SCBL");
+}
 
 /// An affine map in block fixed point: numbers are `mantissa 2^(exponent - 30)`.
 ///

@@ -34,7 +34,7 @@ use super::error::Reason;
 use super::header::Header;
 
 /// Parameters of a vertex, at most.
-pub const PARAMETERS: usize = 16;
+const PARAMETERS: usize = 16;
 
 /// How a parameter is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,8 +100,17 @@ impl FieldForm {
     }
 }
 
+/// One line of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Number of the parameter, 0 to 15.
+    pub parameter: u8,
+    /// Its form.
+    pub form: FieldForm,
+}
+
 /// The parameters that have a meaning here, by their numbers.
-pub mod parameter {
+impl Field {
     /// Where the vertex is.
     pub const PLACE: u8 = 0;
     /// 1/w.
@@ -114,18 +123,7 @@ pub mod parameter {
     pub const NORMAL: u8 = 4;
     /// Texture place.
     pub const TEXTURE: u8 = 5;
-}
 
-/// One line of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Field {
-    /// Number of the parameter, 0 to 15.
-    pub parameter: u8,
-    /// Its form.
-    pub form: FieldForm,
-}
-
-impl Field {
     const fn new(parameter: u8, form: FieldForm) -> Self {
         Self { parameter, form }
     }
@@ -142,11 +140,11 @@ impl Field {
         let bad = Reason::Format { parameter, format };
         let form = *FieldForm::ALL.get(usize::from(format)).ok_or(bad)?;
         let good = match parameter {
-            parameter::PLACE => matches!(form, S10x3 | S16x3 | S32x3 | S8x3),
-            parameter::DEPTH => form == U32x1,
-            parameter::DIFFUSE | parameter::SPECULAR => matches!(form, U8x4 | U8x3),
-            parameter::NORMAL => matches!(form, S10x3 | S16x3 | S8x3),
-            parameter::TEXTURE => form == U16x2,
+            Field::PLACE => matches!(form, S10x3 | S16x3 | S32x3 | S8x3),
+            Field::DEPTH => form == U32x1,
+            Field::DIFFUSE | Field::SPECULAR => matches!(form, U8x4 | U8x3),
+            Field::NORMAL => matches!(form, S10x3 | S16x3 | S8x3),
+            Field::TEXTURE => form == U16x2,
             _ => true,
         };
         if good {
@@ -160,9 +158,9 @@ impl Field {
     #[inline]
     const fn is_in(self, header: Header) -> bool {
         match self.parameter {
-            parameter::DEPTH => header.prsp,
-            parameter::DIFFUSE | parameter::SPECULAR | parameter::NORMAL => header.shade,
-            parameter::TEXTURE => header.text,
+            Field::DEPTH => header.prsp,
+            Field::DIFFUSE | Field::SPECULAR | Field::NORMAL => header.shade,
+            Field::TEXTURE => header.text,
             _ => true,
         }
     }
@@ -180,10 +178,10 @@ impl Default for VertexFormat {
     /// What a list begins with: place 3x16S, diffuse 4x8U, normal 3x10S, texture place 2x16U.
     fn default() -> Self {
         use FieldForm::{S10x3, S16x3, U8x4, U16x2};
-        let mut fields = [Field::new(parameter::PLACE, S16x3); PARAMETERS];
-        fields[1] = Field::new(parameter::DIFFUSE, U8x4);
-        fields[2] = Field::new(parameter::NORMAL, S10x3);
-        fields[3] = Field::new(parameter::TEXTURE, U16x2);
+        let mut fields = [Field::new(Field::PLACE, S16x3); PARAMETERS];
+        fields[1] = Field::new(Field::DIFFUSE, U8x4);
+        fields[2] = Field::new(Field::NORMAL, S10x3);
+        fields[3] = Field::new(Field::TEXTURE, U16x2);
         Self { fields, len: 4 }
     }
 }
@@ -192,7 +190,7 @@ impl VertexFormat {
     /// Of these fields.
     ///
     /// # Errors
-    /// When there is none or more than [`PARAMETERS`], a parameter comes twice or in a form that
+    /// When there is none or more than 16, a parameter comes twice or in a form that
     /// it cannot have, or there is no place.
     pub fn new(fields: &[Field]) -> Result<Self, Reason> {
         Self::from_bytes(fields.len(), fields.iter().map(|f| f.to_byte()))
@@ -221,7 +219,7 @@ impl VertexFormat {
         }
         if seen & 1 == 0 {
             return Err(Reason::Format {
-                parameter: parameter::PLACE,
+                parameter: Field::PLACE,
                 format: 0xFF,
             });
         }

@@ -3,25 +3,19 @@
 //! | bits | field | meaning |
 //! |---|---|---|
 //! | 31..28 | ID | the kind of block ([`Id`]) |
-//! | 27..24 | VER | 1 ([`VERSION`]) |
+//! | 27..24 | VER | 1 |
 //! | 23..8 | CNT | vertices, indices or words; of FLOW and STATE: what (8 bits) and argument (8 bits) |
 //! | 7 | SHADE | vertices carry colour, specular and normal |
 //! | 6 | PRSP | vertices carry depth; textures are perspective-correct |
 //! | 5 | TEXT | vertices carry a texture place |
 //! | 4 | NEW | a strip or fan begins; 0: that of the block before goes on |
 //! | 3 | RM | each vertex replaces the middle one (fan); 0: the oldest (strip) |
-//! | 2..0 | LOW | reserved, 0; of QUADS and INDEXED: flags ([`SPLIT`], [`WIDE`], [`SEPARATE`]) |
+//! | 2..0 | LOW | reserved, 0; of QUADS and INDEXED: flags ([`Header::SPLIT`], [`Header::WIDE`], [`Header::SEPARATE`]) |
 
 use super::error::Reason;
 
 /// The version of the format that is here; blocks of others are refused.
-pub const VERSION: u8 = 1;
-/// LOW of QUADS: split from the second corner to the fourth (K2).
-pub const SPLIT: u8 = 1;
-/// LOW of INDEXED: indices of 16 bits; else 8.
-pub const WIDE: u8 = 1;
-/// LOW of INDEXED: three indices a triangle, no strips.
-pub const SEPARATE: u8 = 2;
+const VERSION: u8 = 1;
 
 /// Kinds of blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,9 +67,9 @@ impl Id {
             Self::Flow | Self::State | Self::Later | Self::Master => 0,
             Self::Short | Self::Long => 0xF8,
             Self::Points => 0xE0,
-            Self::Quads => 0xF8 | SPLIT as u32,
+            Self::Quads => 0xF8 | Header::SPLIT as u32,
             Self::Table => 0xE0,
-            Self::Indexed => 0x18 | (WIDE | SEPARATE) as u32,
+            Self::Indexed => 0x18 | (Header::WIDE | Header::SEPARATE) as u32,
         }
     }
 }
@@ -102,6 +96,13 @@ pub struct Header {
 }
 
 impl Header {
+    /// LOW of QUADS: split from the second corner to the fourth (K2).
+    pub const SPLIT: u8 = 1;
+    /// LOW of INDEXED: indices of 16 bits; else 8.
+    pub const WIDE: u8 = 1;
+    /// LOW of INDEXED: three indices a triangle, no strips.
+    pub const SEPARATE: u8 = 2;
+
     /// A header with no bit set but CNT.
     #[must_use]
     pub const fn of(id: Id, count: u16) -> Self {
@@ -155,6 +156,12 @@ impl Header {
             rm: word >> 3 & 1 != 0,
             low: word as u8 & 7,
         })
+    }
+
+    /// Words of a vertex of a LONG block: x and y, with PRSP depth, with SHADE the colour, with TEXT u and v.
+    #[must_use]
+    pub const fn long_words(self) -> u32 {
+        1 + self.prsp as u32 + self.shade as u32 + self.text as u32
     }
 
     /// CNT's upper half: what a FLOW or STATE block does.

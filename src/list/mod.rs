@@ -90,16 +90,19 @@ mod vertex;
 mod words;
 
 pub use block::{
-    Bounds, CameraWords, Flow, Head, Instruction, LightWords, MAGIC, Material, Matrix, Overlay,
-    Palette, Run, State, TexelForm, Texture, Window,
+    Bounds, CameraWords, Flow, Head, Instruction, LightWords, Material, Matrix, Overlay, Palette,
+    Run, State, TexelForm, Texture, Window,
 };
 pub use error::{Lent, ListError, Missing, Reason};
 pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};
-pub use format::{Field, FieldForm, PARAMETERS, VertexFormat, parameter};
-pub use header::{Header, Id, SEPARATE, SPLIT, VERSION, WIDE};
-pub use overlays::{OverlayRow, OverlaySlot, OverlaySlots};
-pub use reader::{Parsed, long_words, read_block};
+pub use format::{Field, FieldForm, VertexFormat};
+pub use header::{Header, Id};
+pub use overlays::OverlaySlot;
+pub(crate) use overlays::OverlaySlots;
+pub use reader::{Parsed, read_block};
 pub use strip::Strip;
-pub use texels::{NoTexture, Pair, Texels, TextureSlot, TextureSlots};
-pub use vertex::{Layout, Place, Slot, colour, normal};
+pub(crate) use texels::{NoTexture, Pair};
+pub use texels::{Texels, TextureSlot, TextureSlots};
+pub(crate) use vertex::colour;
+pub use vertex::{Layout, Place, Slot};
 pub use words::{ListRing, RingFull, RingReader, RingWords, RingWriter, Words, words_of};

@@ -56,7 +56,7 @@ impl<'m> OverlaySlots<'m> {
     /// Keeps one, with the position and the number of its colours, 1 to 256, where it needs some;
     /// `false`: no slot is free.
     #[must_use]
-    pub fn push(self, overlay: &Overlay, (colours, count): (u32, u32)) -> bool {
+    pub fn push(self, overlay: &Overlay, colours: u32, count: u32) -> bool {
         let free = |s: &&OverlaySlot| s.name.load(Ordering::Relaxed) == 0;
         let Some(slot) = self.0.iter().find(free) else {
             return false;

@@ -4,12 +4,12 @@
 //! read one is bounded by a constant: bulk data is not touched here.
 
 use super::block::{
-    Bounds, CameraWords, Flow, Head, Instruction, LightWords, MAGIC, Material, Matrix, Overlay,
-    Palette, Run, State, TexelForm, Texture, Window,
+    Bounds, CameraWords, Flow, Head, Instruction, LightWords, Material, Matrix, Overlay, Palette,
+    Run, State, TexelForm, Texture, Window,
 };
 use super::error::{ListError, Reason};
 use super::format::VertexFormat;
-use super::header::{Header, Id, SEPARATE, WIDE};
+use super::header::{Header, Id};
 use super::words::Words;
 
 /// A block and how long it is.
@@ -49,7 +49,7 @@ pub fn read_block<'w>(
     };
     let read = match header.id {
         Id::Short | Id::Points | Id::Quads => block.vertices(format),
-        Id::Long => block.run(long_words(header) * u32::from(header.count)),
+        Id::Long => block.run(header.long_words() * u32::from(header.count)),
         Id::Table => block.run(format.table_words(header, header.count)),
         Id::Indexed => block.indexed(),
         Id::Flow => block.flow(),
@@ -57,12 +57,6 @@ pub fn read_block<'w>(
         Id::Later | Id::Master => block.foreign(),
     };
     read.map_err(|reason| fail(Some(header.id), reason))
-}
-
-/// Words of a long vertex: x and y, with PRSP depth, with SHADE the colour, with TEXT u and v.
-#[must_use]
-pub const fn long_words(header: Header) -> u32 {
-    1 + header.prsp as u32 + header.shade as u32 + header.text as u32
 }
 
 /// A block whose header was read.
@@ -144,7 +138,7 @@ impl<'w, W: Words<'w>> Block<W> {
             rm,
             ..
         } = self.header;
-        let separate = low & SEPARATE != 0;
+        let separate = low & Header::SEPARATE != 0;
         if separate && (count % 3 != 0 || rm || !new) {
             return Err(if count % 3 != 0 {
                 Reason::Count(count)
@@ -152,7 +146,7 @@ impl<'w, W: Words<'w>> Block<W> {
                 Reason::Reserved(self.header.to_word())
             });
         }
-        let a_word = if low & WIDE != 0 { 2 } else { 4 };
+        let a_word = if low & Header::WIDE != 0 { 2 } else { 4 };
         self.run(u32::from(count).div_ceil(a_word))
     }
 
@@ -244,7 +238,7 @@ impl<'w, W: Words<'w>> Block<W> {
 
     fn head(&self) -> Result<Head, Reason> {
         self.length(4)?;
-        if self.word(1) != MAGIC {
+        if self.word(1) != Head::MAGIC {
             return self.bad(1);
         }
         let head = Head {

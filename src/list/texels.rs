@@ -260,11 +260,17 @@ impl<'m> TextureSlots<'m> {
         Some((palette.at.load(Ordering::Relaxed), count))
     }
 
+    /// Whether there is the texture of a number, and its palette.
+    #[must_use]
+    pub fn has(self, number: u8) -> bool {
+        self.pair(number).is_ok()
+    }
+
     /// The texture of a number, and its palette.
     ///
     /// # Errors
     /// [`NoTexture::Missing`], of the texture; [`NoTexture::Palette`].
-    pub fn pair(self, number: u8) -> Result<Pair, NoTexture> {
+    pub(crate) fn pair(self, number: u8) -> Result<Pair, NoTexture> {
         let texture = self.numbered(TEXTURE, number).ok_or(NoTexture::Missing)?;
         let name = texture.name.load(Ordering::Relaxed);
         let form = form_of(name);

@@ -3,7 +3,7 @@
 //! The form is looked at once a column, not once a vertex; fields of 3 and 6 bytes are taken
 //! three words at a time, so that no field costs a division or a 64-bit shift.
 
-use super::format::{FieldForm, VertexFormat, parameter};
+use super::format::{Field, FieldForm, VertexFormat};
 use super::header::{Header, Id};
 use super::words::Words;
 
@@ -59,18 +59,20 @@ impl Place for i32 {
     }
 }
 
-/// A normal in Q1.14 of a field.
-#[inline(always)]
-#[must_use]
-pub fn normal(form: FieldForm, f: [i32; 3]) -> [i16; 3] {
-    match form {
-        FieldForm::S10x3 => [
-            ((f[0] * 1025) >> 6) as i16,
-            ((f[1] * 1025) >> 6) as i16,
-            ((f[2] * 513) >> 4) as i16,
-        ],
-        FieldForm::S8x3 => f.map(|v| (v * 129) as i16),
-        _ => f.map(|v| v as i16),
+impl FieldForm {
+    /// A normal in Q1.14 of a field.
+    #[inline(always)]
+    #[must_use]
+    pub fn normal(self, f: [i32; 3]) -> [i16; 3] {
+        match self {
+            Self::S10x3 => [
+                ((f[0] * 1025) >> 6) as i16,
+                ((f[1] * 1025) >> 6) as i16,
+                ((f[2] * 513) >> 4) as i16,
+            ],
+            Self::S8x3 => f.map(|v| (v * 129) as i16),
+            _ => f.map(|v| v as i16),
+        }
     }
 }
 
@@ -163,10 +165,10 @@ impl Layout {
                 word: layout.words,
             };
             match field.parameter {
-                parameter::PLACE => layout.place = slot,
-                parameter::DIFFUSE => layout.colour = Some(slot),
-                parameter::NORMAL => layout.normal = Some(slot),
-                parameter::TEXTURE => layout.texture = Some(slot),
+                Field::PLACE => layout.place = slot,
+                Field::DIFFUSE => layout.colour = Some(slot),
+                Field::NORMAL => layout.normal = Some(slot),
+                Field::TEXTURE => layout.texture = Some(slot),
                 _ => {}
             }
             layout.words += if header.id == Id::Table {

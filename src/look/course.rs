@@ -2,7 +2,7 @@
 
 use super::Place;
 use super::ramp::{self, Packed, Pair};
-use crate::pixel::Pixel;
+use crate::pixel::PixelFormat;
 
 /// A colour along a span: red, green and blue with 20, 20 and 21 bits below a field's unit, their steps to the next
 /// pixel, and these in one word.
@@ -47,7 +47,7 @@ impl Course {
 
     /// The pixel of a colour that does not step.
     #[inline(always)]
-    pub(super) fn even<F: Pixel>(&self) -> F::Word {
+    pub(super) fn even<F: PixelFormat>(&self) -> F::Word {
         if F::MADE_OF.is_one_word() {
             return F::of_word(self.packed(0).word);
         }
@@ -112,7 +112,7 @@ pub(super) fn each_part<W>(run: &mut [W], mut off: u32, mut f: impl FnMut(&mut [
 
 /// [`each_part`] by colours in one word: `next` is asked for each anchor's, so many pixels on.
 #[inline(always)]
-pub(super) fn each_packed<F: Pixel>(
+pub(super) fn each_packed<F: PixelFormat>(
     run: &mut [F::Word],
     off: u32,
     mut next: impl FnMut(u32) -> Packed,

@@ -11,9 +11,9 @@
 
 use super::course::{Course, anchor, each_packed, each_part};
 use super::ramp::{self, Packed, Pair};
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::pixel::{Pixel, threshold};
+use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle};
 use core::marker::PhantomData;
@@ -40,7 +40,7 @@ pub(super) fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
         .wrapping_add(planes[plane + 2].wrapping_mul(place.line))
 }
 
-impl<F: Pixel> Gouraud<F> {
+impl<F: PixelFormat> Gouraud<F> {
     /// One word of three fields.
     #[inline(never)]
     fn packed_planes(vertex: [&Vertex; 3], area: u32, planes: &mut Planes) {
@@ -108,6 +108,12 @@ impl<F: Pixel> Gouraud<F> {
         if fill == Fill::Small && F::MADE_OF.is_one_word() {
             return Self::fill_small(planes, place, run);
         }
+        // Of what is one word it is all that is left.
+        let fill = if F::MADE_OF.is_one_word() {
+            Fill::Wide
+        } else {
+            fill
+        };
         Self::fill_wide(fill, planes, place, run);
     }
 
@@ -326,7 +332,7 @@ fn packed_step(step: [i32; 3], below: [u32; 3]) -> u32 {
         .wrapping_add(round(1) as u32)
 }
 
-impl<F: Pixel> Paint for Gouraud<F> {
+impl<F: PixelFormat> Look for Gouraud<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = [0; 9];

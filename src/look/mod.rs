@@ -47,14 +47,10 @@ mod word_plane;
 
 pub use gouraud::Gouraud;
 pub use linear::halved;
-pub(crate) use paint::{Fill, Paint, Parts, Place, ThinSpan, WordOf};
+pub use paint::Look;
+pub(crate) use paint::{Fill, Parts, Place, ThinSpan, WordOf};
 pub use phong::Phong;
 pub(crate) use ramp::fill_even;
 pub use shaded::{Shaded, Shader};
 pub use textured::Textured;
 pub use textured_phong::TexturedPhong;
-
-/// How the triangles of a scene look: [`Gouraud`], [`Textured`], [`Phong`], [`TexturedPhong`], or [`Shaded`] by a [`Shader`] of one's own.
-pub trait Look: Paint {}
-
-impl<T: Paint> Look for T {}

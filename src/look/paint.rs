@@ -1,7 +1,7 @@
 //! What a look does, and what it is told.
 
 use crate::geometry::Scale;
-use crate::pixel::Pixel;
+use crate::pixel::PixelFormat;
 use crate::scene::{DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
 
@@ -18,22 +18,31 @@ pub enum Fill {
     Thin,
 }
 
-/// A way from corners to pixels.
-pub trait Paint: Sized {
+/// How the triangles of a scene look: [`Gouraud`](super::Gouraud), [`Textured`](super::Textured),
+/// [`Phong`](super::Phong), [`TexturedPhong`](super::TexturedPhong), or [`Shaded`](super::Shaded) by a
+/// [`Shader`](super::Shader) of one's own.
+///
+/// What it does is the crate's own affair: what its functions are given has no name outside.
+pub trait Look: Sized {
     /// The pixels of the line.
-    type Pixel: Pixel;
+    type Pixel: PixelFormat;
     /// What a triangle keeps of its colours.
     type Planes: Copy + core::fmt::Debug;
     /// The planes of no triangle.
+    #[doc(hidden)]
     const EMPTY: Self::Planes;
     /// Whether vertices have texture places.
+    #[doc(hidden)]
     const TEXTURED: bool;
     /// How a normal becomes the word of a vertex, where light falls on pixels.
+    #[doc(hidden)]
     const LIT_AT_PIXELS: Option<WordOfNormal> = None;
     /// How levels of light become colours of vertices.
+    #[doc(hidden)]
     const SCALE: Scale;
 
     /// The planes of a triangle; `area` and `size` are its own, `object` its number.
+    #[doc(hidden)]
     fn set_up(
         triangle: &Triangle<'_>,
         object: u16,
@@ -44,6 +53,7 @@ pub trait Paint: Sized {
     ) -> Fill;
 
     /// The planes of a thin triangle on one line, of the kind [`Fill::Wide`].
+    #[doc(hidden)]
     fn set_up_thin(
         span: &ThinSpan<'_>,
         object: u16,
@@ -52,6 +62,7 @@ pub trait Paint: Sized {
     );
 
     /// Colours a run of pixels; `at` is its first.
+    #[doc(hidden)]
     fn fill(
         fill: Fill,
         planes: &Self::Planes,
@@ -60,7 +71,8 @@ pub trait Paint: Sized {
         run: &mut [WordOf<Self>],
     );
 
-    /// [`fill`](Paint::fill) of [`Fill::Plain`].
+    /// [`fill`](Look::fill) of [`Fill::Plain`].
+    #[doc(hidden)]
     #[inline(always)]
     fn fill_plain(
         planes: &Self::Planes,
@@ -73,6 +85,7 @@ pub trait Paint: Sized {
 
     /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels, dithered or not; a bit for
     /// each pixel that is not a hole, the first the top one.
+    #[doc(hidden)]
     fn fill_holed(
         fill: Fill,
         planes: &Self::Planes,
@@ -91,17 +104,20 @@ pub trait Paint: Sized {
 
     /// Words of the mask of a draw call's texture, of the texels that a run of pixels shows; nothing where there is no
     /// mask.
+    #[doc(hidden)]
     fn fill_mask(planes: &Self::Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
         let _ = (planes, at, draws, run);
     }
 
     /// Planes that keep enough of a triangle's colour for a dither, where those it has do not.
+    #[doc(hidden)]
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Self::Planes) -> Option<Fill> {
         let _ = (triangle, planes);
         None
     }
 
-    /// [`fill`](Paint::fill), dithered where pixels have 16 bits; that of a look that does not dither.
+    /// [`fill`](Look::fill), dithered where pixels have 16 bits; that of a look that does not dither.
+    #[doc(hidden)]
     #[inline(always)]
     fn fill_dithered(
         fill: Fill,
@@ -115,7 +131,7 @@ pub trait Paint: Sized {
 }
 
 /// A pixel of a line buffer.
-pub type WordOf<L> = <<L as Paint>::Pixel as crate::pixel::PixelFormat>::Word;
+pub type WordOf<L> = <<L as Look>::Pixel as crate::pixel::PixelFormat>::Word;
 
 /// Where a run of pixels begins: the columns of its span, its own first one, and the line.
 ///

@@ -12,9 +12,9 @@
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye.
 
 use super::gouraud::{Planes as Three, at, dithered, thin_shades, wide_shades};
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::{Affine, Scale, unit_normal};
-use crate::pixel::{Pixel, threshold};
+use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
@@ -53,7 +53,7 @@ fn values(planes: &Three, place: Place) -> [u32; 3] {
 }
 
 /// A pixel of channels of 16.16 steps and one half, raised by so many of 32 parts of a step.
-fn pixel<F: Pixel>(channels: [i32; 3], parts: i32) -> F::Word {
+fn pixel<F: PixelFormat>(channels: [i32; 3], parts: i32) -> F::Word {
     let sixteen = |i: usize| {
         let bits = 16 - F::STEPS[i].leading_zeros();
         dithered(channels[i] as u32 >> bits, parts, F::STEPS[i])
@@ -62,14 +62,14 @@ fn pixel<F: Pixel>(channels: [i32; 3], parts: i32) -> F::Word {
 }
 
 /// The call's colour in 16.16 steps of the format.
-pub(super) fn steps_of<F: Pixel>(state: &DrawState<'_>) -> [u32; 3] {
+pub(super) fn steps_of<F: PixelFormat>(state: &DrawState<'_>) -> [u32; 3] {
     let steps = |i: usize| u32::from(state.colour[i]) * u32::from(F::STEPS[i]);
     [0, 1, 2].map(|i| ((steps(i) << 16) + 127) / 255)
 }
 
 /// Lights a run of pixels from a place on, dithered or not; `own` is the colour of each, in 16.16 steps and one half.
 #[inline(always)]
-pub(super) fn light<F: Pixel>(
+pub(super) fn light<F: PixelFormat>(
     state: &DrawState<'_>,
     planes: &Three,
     place: Place,
@@ -85,7 +85,7 @@ pub(super) fn light<F: Pixel>(
         let at = [column, place.line];
         let colour = own();
         let lit = match state.lamps {
-            Some(lamps) => lamps.lit_in_picture(unit_normal([x, y, z]), at, colour, F::STEPS),
+            Some(lamps) => lamps.lit(unit_normal([x, y, z]), at, colour, F::STEPS),
             None => colour,
         };
         let parts = if dithers {
@@ -102,7 +102,7 @@ pub(super) fn light<F: Pixel>(
 
 /// Colours a run of pixels from a place on, dithered or not.
 #[inline(never)]
-fn fill<F: Pixel>(
+fn fill<F: PixelFormat>(
     planes: &Planes,
     place: Place,
     dithers: bool,
@@ -115,7 +115,7 @@ fn fill<F: Pixel>(
     }
 }
 
-impl<F: Pixel> Paint for Phong<F> {
+impl<F: PixelFormat> Look for Phong<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = Planes {

@@ -5,7 +5,7 @@
 //! chunks of 8 without an end test, 5.4 a pixel. `black_box`, once a chunk, keeps loops from being unrolled and their
 //! steps from being multiplied out.
 
-use crate::pixel::Pixel;
+use crate::pixel::PixelFormat;
 use core::hint::black_box;
 
 /// A colour in one word that steps.
@@ -40,7 +40,7 @@ impl Pair {
 
 /// A pixel, and one step on.
 #[inline(always)]
-fn next<F: Pixel>(ramp: &mut Packed) -> F::Word {
+fn next<F: PixelFormat>(ramp: &mut Packed) -> F::Word {
     let pixel = F::of_word(ramp.word);
     ramp.word = ramp.word.wrapping_add(ramp.step);
     pixel
@@ -58,7 +58,7 @@ macro_rules! fall {
 /// Colours a run: short ones in straight code from the last pixel to the first. One copy for all: it needs no register
 /// that a caller keeps.
 #[inline(never)]
-pub(super) fn fill<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
+pub(super) fn fill<F: PixelFormat>(run: &mut [F::Word], ramp: Packed) {
     // None, which wraps, is as rare as more than 16.
     let last = (run.len() as u32).wrapping_sub(1);
     if last >= 16 {
@@ -98,13 +98,13 @@ pub(super) fn fill<F: Pixel>(run: &mut [F::Word], ramp: Packed) {
 
 /// Colours 16 pixels, as [`fill`] does, without a jump.
 #[inline(never)]
-pub(super) fn fill_sixteen<F: Pixel>(run: &mut [F::Word; 16], mut ramp: Packed) {
+pub(super) fn fill_sixteen<F: PixelFormat>(run: &mut [F::Word; 16], mut ramp: Packed) {
     fill_chunk::<F, 16>(run, &mut ramp);
 }
 
 /// Colours a run of any length, which may be of one colour.
 #[inline(never)]
-fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
+fn fill_long<F: PixelFormat>(run: &mut [F::Word], mut ramp: Packed) {
     if ramp.step == 0 {
         return fill_even::<F>(run, F::of_word(ramp.word));
     }
@@ -124,13 +124,13 @@ fn fill_long<F: Pixel>(run: &mut [F::Word], mut ramp: Packed) {
 
 /// A run of one colour: one copy of the loop.
 #[inline(never)]
-pub(crate) fn fill_even<F: Pixel>(run: &mut [F::Word], word: F::Word) {
+pub(crate) fn fill_even<F: PixelFormat>(run: &mut [F::Word], word: F::Word) {
     F::fill(run, word);
 }
 
 /// Colours so many pixels in straight code.
 #[inline(always)]
-fn fill_chunk<F: Pixel, const N: usize>(run: &mut [F::Word; N], ramp: &mut Packed) {
+fn fill_chunk<F: PixelFormat, const N: usize>(run: &mut [F::Word; N], ramp: &mut Packed) {
     for pixel in run {
         *pixel = next::<F>(ramp);
     }
@@ -138,7 +138,7 @@ fn fill_chunk<F: Pixel, const N: usize>(run: &mut [F::Word; N], ramp: &mut Packe
 
 /// Colours a run by a pair, pixel by pixel.
 #[inline(never)]
-pub(super) fn fill_pair<F: Pixel>(run: &mut [F::Word], mut at: Pair, step: Pair) {
+pub(super) fn fill_pair<F: PixelFormat>(run: &mut [F::Word], mut at: Pair, step: Pair) {
     for pixel in run {
         *pixel = F::pack_words(at.red_blue, at.green);
         at = at.plus(step);
@@ -152,7 +152,7 @@ mod tests {
     use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
 
     /// Runs of any length and alignment, of colours that step or do not, with nothing beside them.
-    fn runs_are_pixels_one_by_one<F: Pixel<Word: PartialEq + core::fmt::Debug>>() {
+    fn runs_are_pixels_one_by_one<F: PixelFormat<Word: PartialEq + core::fmt::Debug>>() {
         let mut rng = Rng(21);
         for round in 0..2000 {
             let (from, pixels) = (rng.below(3) as usize, round % 45);

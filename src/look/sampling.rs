@@ -16,7 +16,7 @@ use super::mapping::{Method, word_at};
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::Stride;
 use crate::num::{exp2, log2, mul_high};
-use crate::scene::{MAX_SIDE, SampledSpan, Sampling, Texture, Words};
+use crate::scene::{SampledSpan, Sampling, Texture, Words};
 
 impl Sampling {
     /// The nearest texel of the level that fits.
@@ -38,7 +38,7 @@ fn nearest(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
 }
 
 /// Most levels below a texture.
-const MOST: usize = MAX_SIDE.trailing_zeros() as usize;
+const MOST: usize = Texture::MAX_SIDE.trailing_zeros() as usize;
 
 /// A run of a span.
 #[inline(never)]

@@ -4,9 +4,9 @@
 //! nothing of them but their number: each has a plane with 20 fraction bits, and a pixel its exact value.
 
 use super::gouraud::{Planes, at, thin_shades, wide_shades};
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::pixel::{Pixel, PixelFormat};
+use crate::pixel::PixelFormat;
 use crate::scene::DrawState;
 use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
@@ -64,7 +64,7 @@ use core::marker::PhantomData;
 /// ```
 pub trait Shader {
     /// The pixels of the line.
-    type Pixel: Pixel;
+    type Pixel: PixelFormat;
 
     /// The pixel at a column and a line of the picture, by its parameters: 8-bit levels with 8 fraction bits, 0 to 255.0.
     fn pixel(parameters: [u16; 3], at: [u16; 2]) -> <Self::Pixel as PixelFormat>::Word;
@@ -77,7 +77,7 @@ pub struct Shaded<S>(PhantomData<S>);
 /// Half a level, which vertices have for rounding.
 const HALF: u16 = 1 << 7;
 
-impl<S: Shader> Paint for Shaded<S> {
+impl<S: Shader> Look for Shaded<S> {
     type Pixel = S::Pixel;
     type Planes = Planes;
     const EMPTY: Planes = [0; 9];

@@ -16,7 +16,7 @@ use super::shades::{shade_at, shade_planes, small_shade};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
 use crate::scene::{Budget, DrawState, Holes, ORIGIN, Texture, TexturePlace, Vertex, Words};
 use crate::span::{Size, Triangle, across, down};
@@ -211,7 +211,7 @@ impl<F: Texel> Textured<F> {
         }
     }
 
-    /// [`fill_plain`](Paint::fill_plain), called.
+    /// [`fill_plain`](Look::fill_plain), called.
     #[inline(never)]
     fn fill_word(planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
         Self::fill_plain(planes, place, draws, run);
@@ -308,7 +308,7 @@ impl<F: Texel> Textured<F> {
     }
 }
 
-impl<F: Texel> Paint for Textured<F> {
+impl<F: Texel> Look for Textured<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = Planes {

@@ -6,10 +6,10 @@
 use super::gouraud::wide_shades;
 use super::phong::{light, steps_of, word_of};
 use super::textured::{Planes, Textured};
+use super::textured_wide::{each_holed, each_texels};
 use super::tint::Texel;
-use super::{Fill, Paint, Place, ThinSpan};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
-use crate::pixel::Pixel;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
@@ -21,9 +21,6 @@ use core::marker::PhantomData;
 /// [`Replace`](crate::scene::Application::Replace) is texels that no light falls on.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedPhong<F>(PhantomData<F>);
-
-/// Texels that are fetched before any is lit.
-const AT_ONCE: usize = 64;
 
 /// A texel of 8 bits a channel times a colour in 16.16 steps, and one half.
 fn times(texel: [u8; 3], colour: [u32; 3]) -> [i32; 3] {
@@ -51,7 +48,7 @@ fn set_up<T: Texel>(
 }
 
 /// Lights pixels by their texels, which are words of `T`, dithered or not; those without one by white.
-fn lit<F: Pixel, T: Texel>(
+fn lit<F: PixelFormat, T: Texel>(
     state: &DrawState<'_>,
     planes: &Planes,
     place: Place,
@@ -68,29 +65,23 @@ fn lit<F: Pixel, T: Texel>(
 }
 
 #[inline(never)]
-fn fill<F: Pixel, T: Texel>(
+fn fill<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     dithers: bool,
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
-    let Some(state) = planes.state(draws) else {
-        return;
-    };
-    let mut texels = [0; AT_ONCE];
-    let mut place = place;
-    for run in run.chunks_mut(AT_ONCE) {
-        let texels = &mut texels[..run.len()];
-        Textured::<T>::texels(planes, place, draws, texels);
-        lit::<F, T>(state, planes, place, dithers, texels, run);
-        place.column += run.len() as u32;
+    if let Some(state) = planes.state(draws) {
+        each_texels::<_, T>(planes, place, draws, run, |place, texels, run| {
+            lit::<F, T>(state, planes, place, dithers, texels, run);
+        });
     }
 }
 
 /// The same of a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
 #[inline(never)]
-fn fill_holed<F: Pixel, T: Texel>(
+fn fill_holed<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     draws: &[DrawState<'_>],
@@ -101,27 +92,15 @@ fn fill_holed<F: Pixel, T: Texel>(
         fill::<F, T>(planes, place, dithers, draws, run);
         return u32::MAX;
     };
-    let mut texels = [0; 32];
-    let count = run.len().min(texels.len());
-    let texels = &mut texels[..count];
-    Textured::<T>::texels(planes, place, draws, texels);
-    if !holes.are_filled {
+    each_holed::<F, T>(planes, place, draws, holes, run, |place, texels, run| {
         lit::<F, T>(state, planes, place, dithers, texels, run);
-        return holes.opaque(texels);
-    }
-    lit::<F, T>(state, planes, place, dithers, &[], run);
-    for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
-        if texel != holes.key {
-            *pixel = F::from_rgb8(T::to_rgb8(texel));
-        }
-    }
-    u32::MAX
+    })
 }
 
 /// The look in a format, of texels of another or the same.
 macro_rules! lit {
     ($($format:ty: $texel:ty),+) => {$(
-        impl Paint for TexturedPhong<$format> {
+        impl Look for TexturedPhong<$format> {
             type Pixel = $format;
             type Planes = Planes;
             const EMPTY: Planes = Textured::<$texel>::EMPTY;

@@ -5,11 +5,11 @@
 //! of 8 bits a channel and a shade of 15, rounded once.
 
 use super::textured::{Planes, Textured};
-use super::tint::Shade;
-use super::{Fill, Paint, Place, ThinSpan};
+use super::tint::{Shade, Texel};
+use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
-use crate::scene::DrawState;
+use crate::scene::{DrawState, Holes};
 use crate::span::{Size, Triangle};
 
 /// The look that fetches texels.
@@ -17,13 +17,6 @@ type Texels = Textured<Rgb565>;
 
 /// Texels that are fetched before any is shaded.
 const AT_ONCE: usize = 64;
-
-/// The levels of a texel, rounded to nearest, without a division.
-#[inline(always)]
-fn levels(texel: u16) -> [u8; 3] {
-    let [r, g, b] = [texel >> 11, texel >> 5 & 63, texel & 31];
-    [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
-}
 
 /// A texel times a shade.
 #[inline(always)]
@@ -34,7 +27,7 @@ fn shaded<F: PixelFormat>(texel: u16, shade: Shade) -> F::Word {
         shade.green >> 16,
         shade.red_blue & 0xFFFF,
     ];
-    let texel = levels(texel);
+    let texel = Rgb565::to_rgb8(texel);
     // A little more than full light is full light.
     F::from_rgb8([0, 1, 2].map(|i| {
         let product = u32::from(texel[i]) * by[i].min(FULL);
@@ -46,7 +39,7 @@ fn shaded<F: PixelFormat>(texel: u16, shade: Shade) -> F::Word {
 fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mut [F::Word]) {
     let mut pairs = texels.iter().zip(run);
     if !planes.is_shaded() {
-        return pairs.for_each(|(&texel, pixel)| *pixel = F::from_rgb8(levels(texel)));
+        return pairs.for_each(|(&texel, pixel)| *pixel = F::from_rgb8(Rgb565::to_rgb8(texel)));
     }
     planes.each_shade(place, |shade| match pairs.next() {
         Some((&texel, pixel)) => {
@@ -57,6 +50,57 @@ fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mu
     });
 }
 
+/// Fetches the texels of a run, words of `T`, and calls `shade` with its parts and theirs.
+#[inline(always)]
+pub(super) fn each_texels<W, T: Texel>(
+    planes: &Planes,
+    mut place: Place,
+    draws: &[DrawState<'_>],
+    run: &mut [W],
+    mut shade: impl FnMut(Place, &[u16], &mut [W]),
+) {
+    let mut texels = [0; AT_ONCE];
+    for run in run.chunks_mut(AT_ONCE) {
+        let texels = &mut texels[..run.len()];
+        Textured::<T>::texels(planes, place, draws, texels);
+        shade(place, texels, run);
+        place.column += run.len() as u32;
+    }
+}
+
+/// The same of a run of up to 32 pixels whose texture has transparent texels, where `shade` without texels is that of the
+/// triangle's colour; a bit for each pixel that is not a hole.
+#[inline(always)]
+pub(super) fn each_holed<F: PixelFormat, T: Texel>(
+    planes: &Planes,
+    place: Place,
+    draws: &[DrawState<'_>],
+    holes: Holes,
+    run: &mut [F::Word],
+    mut shade: impl FnMut(Place, &[u16], &mut [F::Word]),
+) -> u32 {
+    let mut texels = [0; 32];
+    let count = run.len().min(texels.len());
+    let texels = &mut texels[..count];
+    Textured::<T>::texels(planes, place, draws, texels);
+    shade(place, if holes.are_filled { &[] } else { texels }, run);
+    if !holes.are_filled {
+        return holes.opaque(texels);
+    }
+    for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
+        if texel != holes.key {
+            *pixel = recoloured::<F, T>(texel);
+        }
+    }
+    u32::MAX
+}
+
+/// A texel as a pixel of another format: one copy, since few are shown so.
+#[inline(never)]
+fn recoloured<F: PixelFormat, T: Texel>(texel: u16) -> F::Word {
+    F::from_rgb8(T::to_rgb8(texel))
+}
+
 /// Colours a run, texels first.
 #[inline(never)]
 fn fill<F: PixelFormat>(
@@ -65,14 +109,9 @@ fn fill<F: PixelFormat>(
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
-    let mut texels = [0; AT_ONCE];
-    let mut place = place;
-    for run in run.chunks_mut(AT_ONCE) {
-        let texels = &mut texels[..run.len()];
-        Texels::texels(planes, place, draws, texels);
+    each_texels::<_, Rgb565>(planes, place, draws, run, |place, texels, run| {
         shade::<F>(planes, place, texels, run);
-        place.column += run.len() as u32;
-    }
+    });
 }
 
 /// Colours a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
@@ -87,27 +126,20 @@ fn fill_holed<F: PixelFormat>(
         fill::<F>(planes, place, draws, run);
         return u32::MAX;
     };
-    let mut texels = [0; 32];
-    let count = run.len().min(texels.len());
-    let texels = &mut texels[..count];
-    Texels::texels(planes, place, draws, texels);
-    if !holes.are_filled {
+    each_holed::<F, Rgb565>(planes, place, draws, holes, run, |place, texels, run| {
+        let texels = if texels.is_empty() {
+            &[0xFFFF; 32]
+        } else {
+            texels
+        };
         shade::<F>(planes, place, texels, run);
-        return holes.opaque(texels);
-    }
-    shade::<F>(planes, place, &[0xFFFF; 32][..count], run);
-    for (pixel, &texel) in run.iter_mut().zip(texels.iter()) {
-        if texel != holes.key {
-            *pixel = F::from_rgb8(levels(texel));
-        }
-    }
-    u32::MAX
+    })
 }
 
 /// The look in a format of more than 16 bits.
 macro_rules! wide {
     ($($format:ty),+) => {$(
-        impl Paint for Textured<$format> {
+        impl Look for Textured<$format> {
             type Pixel = $format;
             type Planes = Planes;
             const EMPTY: Planes = Texels::EMPTY;
@@ -170,16 +202,3 @@ macro_rules! wide {
     )+};
 }
 wide!(Rgb888, Xrgb8888);
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Kills: levels that are cut, or repeat the upper bits.
-    #[test]
-    fn levels_are_the_nearest() {
-        for texel in 0..=u16::MAX {
-            assert_eq!(levels(texel), Rgb565::to_rgb8(texel));
-        }
-    }
-}

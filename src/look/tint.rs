@@ -16,7 +16,7 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
-use crate::pixel::Pixel;
+use crate::pixel::PixelFormat;
 use crate::pixel::threshold;
 use crate::pixel::{Rgb565, Rgb565Bytes};
 use core::hint::black_box as unknown;
@@ -236,46 +236,34 @@ fn product_raised(texel: u16, by: [u32; 3], parts: i32) -> u16 {
     raised(texel >> 11, red) << 11 | raised(texel >> 5 & 63, green) << 5 | raised(texel & 31, blue)
 }
 
-/// Multiplies 565 pixels by a shade, which is that of the first one's centre, dithered by where they are on the picture;
-/// `order` brings a pixel to the order of numbers, and back.
-#[inline(always)]
-pub fn tint_ordered(
-    run: &mut [u16],
-    mut shade: Shade,
-    step: Shade,
-    [column, line]: [u32; 2],
-    order: impl Fn(u16) -> u16,
-) {
-    for (pixel, column) in run.iter_mut().zip(column..) {
-        let parts = threshold(column, line);
-        *pixel = order(product_raised(order(*pixel), shade.channels(), parts));
-        shade = shade.plus(step);
-    }
-}
-
 /// A pixel of 16 bits that can be tinted.
-pub trait Texel: Pixel<Word = u16> {
-    /// Multiplies a run by a shade, which is that of the place half a pixel beyond the first.
-    fn tint(run: &mut [u16], shade: Shade, step: Shade);
-
-    /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
-    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]);
-
+pub trait Texel: PixelFormat<Word = u16> {
     /// A pixel in the order of numbers, or such a number as a pixel.
     fn ordered(word: u16) -> u16;
+
+    /// Multiplies a run by a shade, which is that of the place half a pixel beyond the first.
+    #[inline(always)]
+    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
+        if Self::ordered(1) == 1 {
+            tint(run, shade, step);
+        } else {
+            tint_swapped(run, shade, step);
+        }
+    }
+
+    /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
+    #[inline(never)]
+    fn tint_dithered(run: &mut [u16], mut shade: Shade, step: Shade, [column, line]: [u32; 2]) {
+        for (pixel, column) in run.iter_mut().zip(column..) {
+            let parts = threshold(column, line);
+            let texel = Self::ordered(*pixel);
+            *pixel = Self::ordered(product_raised(texel, shade.channels(), parts));
+            shade = shade.plus(step);
+        }
+    }
 }
 
 impl Texel for Rgb565 {
-    #[inline(always)]
-    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
-        tint(run, shade, step);
-    }
-
-    #[inline(never)]
-    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        tint_ordered(run, shade, step, at, Self::ordered);
-    }
-
     #[inline(always)]
     fn ordered(word: u16) -> u16 {
         word
@@ -283,20 +271,6 @@ impl Texel for Rgb565 {
 }
 
 impl<const BIG: bool> Texel for Rgb565Bytes<BIG> {
-    #[inline(always)]
-    fn tint(run: &mut [u16], shade: Shade, step: Shade) {
-        if BIG == cfg!(target_endian = "big") {
-            tint(run, shade, step);
-        } else {
-            tint_swapped(run, shade, step);
-        }
-    }
-
-    #[inline(never)]
-    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
-        tint_ordered(run, shade, step, at, Self::ordered);
-    }
-
     #[inline(always)]
     fn ordered(word: u16) -> u16 {
         if BIG { word.to_be() } else { word.to_le() }

@@ -1,10 +1,9 @@
 //! Drawables of `embedded-graphics` as overlays: text, lines, pictures (K14).
 //!
 //! A [`Canvas`] is a rectangle of words that they can be drawn into. Of the size of a sprite it is
-//! drawn once and then costs what its pixels cost; of the size of one line, by [`DrawnLines`], it
+//! drawn once and then costs what its pixels cost; [of a line](Canvas::of_line) that is drawn, it
 //! needs no memory, but every drawable goes through all its pixels on every line.
 
-use super::LineOverlay;
 use crate::pixel::PixelFormat;
 use core::convert::Infallible;
 use core::marker::PhantomData;
@@ -34,6 +33,12 @@ impl<'c, F: PixelFormat, C> Canvas<'c, F, C> {
             area: Rectangle::new(origin, Size::new(width.into(), height)),
             colours: PhantomData,
         }
+    }
+
+    /// A line of the picture, in coordinates of the picture.
+    pub fn of_line(line: u16, pixels: &'c mut [F::Word]) -> Self {
+        let width = pixels.len().min(usize::from(u16::MAX)) as u16;
+        Self::new(pixels, Point::new(0, line.into()), width)
     }
 
     /// The pixels of a line from `from` on, at most so many; all inside the area.
@@ -82,32 +87,5 @@ impl<F: PixelFormat, C: PixelColor + Into<Rgb888>> DrawTarget for Canvas<'_, F, 
             }
         }
         Ok(())
-    }
-}
-
-/// An overlay drawn anew on each line, by a closure that is given the line as a [`Canvas`] in
-/// coordinates of the picture.
-#[derive(Debug)]
-pub struct DrawnLines<D, C = Rgb888>(D, PhantomData<C>);
-
-impl<D, C> DrawnLines<D, C> {
-    /// Drawn by `draw`.
-    pub fn new<F: PixelFormat>(draw: D) -> Self
-    where
-        D: FnMut(&mut Canvas<'_, F, C>),
-    {
-        Self(draw, PhantomData)
-    }
-}
-
-impl<F, D, C> LineOverlay<F> for DrawnLines<D, C>
-where
-    F: PixelFormat,
-    D: FnMut(&mut Canvas<'_, F, C>),
-{
-    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
-        let width = pixels.len().min(usize::from(u16::MAX)) as u16;
-        let origin = Point::new(0, line.into());
-        (self.0)(&mut Canvas::new(pixels, origin, width));
     }
 }

@@ -1,6 +1,5 @@
 //! Overlays of an instruction list, painted from where they lie (K14).
 
-use super::LineOverlay;
 use crate::list::{OverlaySlot, OverlaySlots};
 use crate::pixel::PixelFormat;
 
@@ -16,8 +15,9 @@ pub struct ListOverlays<'t> {
     pub slots: &'t [OverlaySlot],
 }
 
-impl<F: PixelFormat> LineOverlay<F> for ListOverlays<'_> {
-    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
+impl ListOverlays<'_> {
+    /// Paints over `line` of the picture, all of whose pixels are there, before it is sent.
+    pub fn paint<F: PixelFormat>(&self, line: u16, pixels: &mut [F::Word]) {
         for row in OverlaySlots(self.slots).on(line, self.words) {
             let below = pixels.get_mut(usize::from(row.left)..).unwrap_or_default();
             for (column, pixel) in (0..row.width).zip(below) {

@@ -6,6 +6,6 @@ mod listed;
 mod sprites;
 
 #[cfg(feature = "embedded-graphics")]
-pub use canvas::{Canvas, DrawnLines};
+pub use canvas::Canvas;
 pub use listed::ListOverlays;
-pub use sprites::{Ink, LineOverlay, Overlay, Pixels, Sprite, UnsortedSprites};
+pub use sprites::{Ink, Overlay, Pixels, Sprite, UnsortedSprites};

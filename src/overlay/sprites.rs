@@ -6,34 +6,6 @@
 
 use crate::pixel::PixelFormat;
 
-/// Paints over finished lines, before they are sent.
-pub trait LineOverlay<F: PixelFormat> {
-    /// Paints over `line` of the picture, all of whose pixels are there.
-    fn paint(&mut self, line: u16, pixels: &mut [F::Word]);
-}
-
-/// Nothing.
-impl<F: PixelFormat> LineOverlay<F> for () {
-    #[inline(always)]
-    fn paint(&mut self, _: u16, _: &mut [F::Word]) {}
-}
-
-impl<F: PixelFormat, O: LineOverlay<F> + ?Sized> LineOverlay<F> for &mut O {
-    #[inline]
-    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
-        O::paint(self, line, pixels);
-    }
-}
-
-/// The second over the first.
-impl<F: PixelFormat, A: LineOverlay<F>, B: LineOverlay<F>> LineOverlay<F> for (A, B) {
-    #[inline]
-    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
-        self.0.paint(line, pixels);
-        self.1.paint(line, pixels);
-    }
-}
-
 /// How the pixels of a sprite meet those below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Ink<W> {
@@ -151,7 +123,7 @@ impl core::error::Error for UnsortedSprites {}
 /// Lines may be painted in any order; downwards is fast.
 ///
 /// ```
-/// use scanbeam::overlay::{Ink, LineOverlay, Overlay, Pixels, Sprite};
+/// use scanbeam::overlay::{Ink, Overlay, Pixels, Sprite};
 /// use scanbeam::pixel::Rgb565;
 ///
 /// // A bar of 3 x 2 pixels, and a cross whose corners let the picture through.
@@ -200,10 +172,9 @@ impl<'o, F: PixelFormat> Overlay<'o, F> {
             }),
         }
     }
-}
 
-impl<F: PixelFormat> LineOverlay<F> for Overlay<'_, F> {
-    fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
+    /// Paints over `line` of the picture, all of whose pixels are there, before it is sent.
+    pub fn paint(&mut self, line: u16, pixels: &mut [F::Word]) {
         let line = i32::from(line);
         if line < self.line {
             (self.first, self.begun) = (0, 0);

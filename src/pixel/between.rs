@@ -5,7 +5,7 @@
 //! of 320 pixels takes 3,734 instructions on a Cortex-M4 in RGB565, 4,909 with its bytes swapped and
 //! 7,385 in RGB888: 0.9, 1.2 and 1.8 million for a picture of 320 x 240, of which a quarter is drawn.
 
-use super::Pixel;
+use super::PixelFormat;
 
 /// Where the fields of RGB565 are when four bits are free above each: green, red, blue.
 const FIELDS_565: u32 = 0x07E0_F81F;
@@ -28,7 +28,7 @@ pub(super) const fn narrow_565([wide, _]: [u32; 2]) -> u16 {
 /// A sent line: its pixels lie a quarter of a drawn one away from the drawn ones' centres, so that
 /// it is 9, 3, 3 and 1 sixteenths of the four around.
 #[inline(always)]
-pub(super) fn mix<P: Pixel>(near: &[P::Word], far: &[P::Word], sent: &mut [P::Word]) {
+pub(super) fn mix<P: PixelFormat>(near: &[P::Word], far: &[P::Word], sent: &mut [P::Word]) {
     let part = |near: [u32; 2], far: [u32; 2]| [0, 1].map(|i| 3 * near[i] + far[i]);
     let drawn = near.iter().zip(far);
     let mut columns = drawn.map(|(near, far)| part(P::widen(*near), P::widen(*far)));

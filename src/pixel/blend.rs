@@ -1,6 +1,6 @@
 //! Pixels of a span over those that are there (K11, H8, P5).
 
-use super::{Mix, Pixel};
+use super::{Mix, PixelFormat};
 use crate::scene::{Blend, BlendMode, Factor, PixelAlpha};
 
 /// The way that formats have for a mode, if there is one.
@@ -16,7 +16,7 @@ fn mix_of(mode: BlendMode) -> Option<Mix> {
 
 /// Blends `new` pixels over `old` ones, as many as both have.
 #[inline(never)]
-pub(crate) fn blend<F: Pixel>(old: &mut [F::Word], new: &[F::Word], blend: Blend) {
+pub(crate) fn blend<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend) {
     match mix_of(blend.mode) {
         Some(mix) if blend.channels == Blend::ALL => F::mix(old, new, mix),
         mix => {
@@ -29,7 +29,7 @@ pub(crate) fn blend<F: Pixel>(old: &mut [F::Word], new: &[F::Word], blend: Blend
 
 /// The same by alphas of pixels.
 #[inline(never)]
-pub(crate) fn blend_each<F: Pixel>(
+pub(crate) fn blend_each<F: PixelFormat>(
     old: &mut [F::Word],
     new: &[F::Word],
     how: Blend,
@@ -47,7 +47,7 @@ pub(crate) fn blend_each<F: Pixel>(
 }
 
 /// One pixel over another, by their levels; channels that are not written keep theirs.
-fn single<F: Pixel>(old: F::Word, new: F::Word, blend: Blend, mix: Option<Mix>) -> F::Word {
+fn single<F: PixelFormat>(old: F::Word, new: F::Word, blend: Blend, mix: Option<Mix>) -> F::Word {
     let mut word = [new];
     if let Some(mix) = mix {
         word = [old];

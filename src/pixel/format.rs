@@ -3,13 +3,16 @@
 use super::mix::{Mix, mix_levels};
 use super::mix_565::mix_565;
 use super::mix_bytes::mix_bytes;
+use super::{MadeOf, between};
 
-/// How a pixel looks in the line buffer.
+/// How a pixel looks in the line buffer, and how it is made of a colour and of other pixels.
 pub trait PixelFormat {
     /// One pixel.
-    type Word: Copy + Send + Sync + PartialEq + Default + 'static;
+    type Word: bytemuck::NoUninit + Send + Sync + PartialEq + Default;
     /// Steps a channel above 0: 255 for 8 bits.
     const STEPS: [u16; 3];
+    /// What a pixel is made of.
+    const MADE_OF: MadeOf;
 
     /// A pixel from whole steps, each at most [`STEPS`](PixelFormat::STEPS).
     fn pack(steps: [u8; 3]) -> Self::Word;
@@ -24,6 +27,7 @@ pub trait PixelFormat {
     }
 
     /// Blends `new` pixels over `old` ones, as many as both have.
+    #[doc(hidden)]
     fn mix(old: &mut [Self::Word], new: &[Self::Word], mix: Mix)
     where
         Self: Sized,
@@ -55,6 +59,28 @@ pub trait PixelFormat {
     fn texel(rgb: [u8; 3]) -> u16 {
         Rgb565::from_rgb8(rgb)
     }
+
+    /// A pixel from a word of colour.
+    #[inline(always)]
+    fn of_word(word: u32) -> Self::Word {
+        Self::pack_words(word & 0xFFE0_0000 | word >> 5 & 0xFFC0, word << 21)
+    }
+
+    /// The fields of a pixel, each with four bits free above it.
+    fn widen(word: Self::Word) -> [u32; 2];
+
+    /// The pixel of fields of 16 times its steps, to the nearest step, halves up.
+    fn narrow(fields: [u32; 2]) -> Self::Word;
+
+    /// A line that is sent of a picture with half as many lines and columns: from the drawn line
+    /// that it lies in and the one on its other side, for
+    /// [`send_doubled`](crate::scan_out::send_doubled).
+    fn mix_lines(near: &[Self::Word], far: &[Self::Word], sent: &mut [Self::Word])
+    where
+        Self: Sized,
+    {
+        between::mix::<Self>(near, far, sent);
+    }
 }
 
 /// Three bytes, red first.
@@ -76,7 +102,7 @@ pub type Rgb565Be = Rgb565Bytes<true>;
 pub type Rgb565Le = Rgb565Bytes<false>;
 
 impl<const BIG: bool> Rgb565Bytes<BIG> {
-    /// A native word with its bytes in the stated order.
+    /// A native word with its bytes in the stated order, and back.
     #[inline(always)]
     const fn in_memory(word: u16) -> u16 {
         if BIG { word.to_be() } else { word.to_le() }
@@ -86,6 +112,7 @@ impl<const BIG: bool> Rgb565Bytes<BIG> {
 impl PixelFormat for Rgb888 {
     type Word = [u8; 3];
     const STEPS: [u16; 3] = [255; 3];
+    const MADE_OF: MadeOf = MadeOf::TwoWords;
 
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> [u8; 3] {
@@ -108,11 +135,27 @@ impl PixelFormat for Rgb888 {
     fn to_rgb8(word: [u8; 3]) -> [u8; 3] {
         word
     }
+
+    #[inline(always)]
+    fn widen([red, green, blue]: [u8; 3]) -> [u32; 2] {
+        [u32::from(red) << 16 | u32::from(blue), green.into()]
+    }
+
+    #[inline(always)]
+    fn narrow([red_blue, green]: [u32; 2]) -> [u8; 3] {
+        let (red_blue, green) = (red_blue + 0x8_0008, green + 8);
+        [
+            (red_blue >> 20) as u8,
+            (green >> 4) as u8,
+            (red_blue >> 4) as u8,
+        ]
+    }
 }
 
 impl PixelFormat for Rgb565 {
     type Word = u16;
     const STEPS: [u16; 3] = [31, 63, 31];
+    const MADE_OF: MadeOf = MadeOf::OneWord;
 
     #[inline(always)]
     fn pack(s: [u8; 3]) -> u16 {
@@ -156,20 +199,31 @@ impl PixelFormat for Rgb565 {
     }
 
     fn to_rgb8(word: u16) -> [u8; 3] {
-        let scale = |v: u16, steps: u16| {
-            ((u32::from(v) * 510 + u32::from(steps)) / (2 * u32::from(steps))) as u8
-        };
-        [
-            scale(word >> 11, 31),
-            scale(word >> 5 & 63, 63),
-            scale(word & 31, 31),
-        ]
+        let [r, g, b] = [word >> 11, word >> 5 & 63, word & 31];
+        // Exact, without a division.
+        [r * 527 + 23, g * 259 + 33, b * 527 + 23].map(|level| (level >> 6) as u8)
+    }
+
+    #[inline(always)]
+    fn of_word(word: u32) -> u16 {
+        twice_565(word) as u16
+    }
+
+    #[inline(always)]
+    fn widen(word: u16) -> [u32; 2] {
+        between::widen_565(word)
+    }
+
+    #[inline(always)]
+    fn narrow(fields: [u32; 2]) -> u16 {
+        between::narrow_565(fields)
     }
 }
 
 impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     type Word = u16;
     const STEPS: [u16; 3] = Rgb565::STEPS;
+    const MADE_OF: MadeOf = MadeOf::OneWord;
 
     #[inline(always)]
     fn pack(s: [u8; 3]) -> u16 {
@@ -207,10 +261,35 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
         // To swap the bytes, or not to, is its own inverse.
         Rgb565::to_rgb8(Self::in_memory(word))
     }
+
+    #[inline(always)]
+    fn of_word(word: u32) -> u16 {
+        let twice = twice_565(word);
+        let is_native = BIG == cfg!(target_endian = "big");
+        // Of a pixel that is there twice, the bytes between are its own swapped.
+        (if is_native { twice } else { twice >> 8 }) as u16
+    }
+
+    #[inline(always)]
+    fn widen(word: u16) -> [u32; 2] {
+        between::widen_565(Self::in_memory(word))
+    }
+
+    #[inline(always)]
+    fn narrow(fields: [u32; 2]) -> u16 {
+        Self::in_memory(between::narrow_565(fields))
+    }
 }
 
 /// Both halves of a word with their bytes swapped: one instruction for two pixels, where it is two for each alone.
 #[inline(always)]
 fn swapped_halves(word: u32) -> u32 {
     word.swap_bytes().rotate_left(16)
+}
+
+/// A pixel in both halves of a word: the upper bits of the three fields, each at its place in one half or the other.
+#[inline(always)]
+fn twice_565(word: u32) -> u32 {
+    let fields = word & 0xF81F_07E0;
+    fields | fields.rotate_right(16)
 }

@@ -6,7 +6,7 @@
 //! ([`mono_row`], e-paper and most memory LCDs) or by pages of 8 lines ([`mono_page`], SSD1306
 //! and its like). A transfer of 8 lines has what a page needs.
 
-use super::PixelFormat;
+use super::{MadeOf, PixelFormat};
 
 /// One byte, 0 black to 255 white.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +24,7 @@ const fn grey(r: u32, g: u32, b: u32) -> u8 {
 impl PixelFormat for Grey8 {
     type Word = u8;
     const STEPS: [u16; 3] = [255; 3];
+    const MADE_OF: MadeOf = MadeOf::TwoWords;
 
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> u8 {
@@ -43,6 +44,16 @@ impl PixelFormat for Grey8 {
 
     fn to_rgb8(word: u8) -> [u8; 3] {
         [word; 3]
+    }
+
+    #[inline(always)]
+    fn widen(word: u8) -> [u32; 2] {
+        [word.into(), 0]
+    }
+
+    #[inline(always)]
+    fn narrow([grey, _]: [u32; 2]) -> u8 {
+        ((grey + 8) >> 4) as u8
     }
 }
 

@@ -8,7 +8,7 @@
 //! [`Indexed::colour`] has that index; in light it has a smaller one, so a palette that holds ramps
 //! is lit, and colours between vertices run along the palette.
 
-use super::PixelFormat;
+use super::{MadeOf, PixelFormat};
 
 /// A pixel is one of `N` colours, a power of two from 2 to 256.
 #[derive(Clone, Copy, Debug)]
@@ -44,6 +44,7 @@ impl<const N: usize> Indexed<N> {
 impl<const N: usize> PixelFormat for Indexed<N> {
     type Word = u8;
     const STEPS: [u16; 3] = [(Self::SIZE - 1) as u16; 3];
+    const MADE_OF: MadeOf = MadeOf::Index;
 
     #[inline(always)]
     fn pack(steps: [u8; 3]) -> u8 {
@@ -64,63 +65,22 @@ impl<const N: usize> PixelFormat for Indexed<N> {
     fn to_rgb8(word: u8) -> [u8; 3] {
         Self::colour(word)
     }
-}
 
-/// Which palette a line of the picture has: `N` pixels of a display whose words are `W`.
-///
-/// One palette by itself is that of all lines; [`PaletteTable`] chooses among several, and a type of
-/// your own may change entries as it goes. Lines are asked for in the order in which they are
-/// drawn.
-pub trait LinePalettes<W, const N: usize> {
-    /// The palette of `line`, 0 at the picture's top.
-    fn palette(&mut self, line: u16) -> &[W; N];
-}
-
-impl<W, const N: usize> LinePalettes<W, N> for &[W; N] {
     #[inline(always)]
-    fn palette(&mut self, _: u16) -> &[W; N] {
-        self
+    fn widen(word: u8) -> [u32; 2] {
+        [word.into(), 0]
     }
-}
 
-impl<W, const N: usize, L: LinePalettes<W, N> + ?Sized> LinePalettes<W, N> for &mut L {
-    #[inline]
-    fn palette(&mut self, line: u16) -> &[W; N] {
-        L::palette(self, line)
+    #[inline(always)]
+    fn narrow([index, _]: [u32; 2]) -> u8 {
+        (index >> 4) as u8
     }
-}
 
-/// Several palettes, and which of them each line has.
-#[derive(Clone, Copy, Debug)]
-pub struct PaletteTable<'p, W, const N: usize> {
-    first: &'p [W; N],
-    palettes: &'p [[W; N]],
-    of_line: &'p [u8],
-}
-
-impl<'p, W, const N: usize> PaletteTable<'p, W, N> {
-    /// The number of a palette for each line from the top; lines below have that of the last one,
-    /// or number 0.
-    ///
-    /// `None` when there are no palettes, or a number is of none of them.
-    #[must_use]
-    pub fn new(palettes: &'p [[W; N]], of_line: &'p [u8]) -> Option<Self> {
-        let exists = |number: &u8| usize::from(*number) < palettes.len();
-        let first = palettes.first()?;
-        of_line.iter().all(exists).then_some(Self {
-            first,
-            palettes,
-            of_line,
-        })
-    }
-}
-
-impl<W, const N: usize> LinePalettes<W, N> for PaletteTable<'_, W, N> {
-    #[inline]
-    fn palette(&mut self, line: u16) -> &[W; N] {
-        let number = self.of_line.get(usize::from(line));
-        let number = number.or(self.of_line.last()).copied().unwrap_or(0);
-        self.palettes.get(usize::from(number)).unwrap_or(self.first)
+    /// Numbers are not mixed: of doubled lines and columns each pixel is the nearest one.
+    fn mix_lines(near: &[u8], _: &[u8], sent: &mut [u8]) {
+        for (pair, index) in sent.chunks_mut(2).zip(near) {
+            pair.fill(*index);
+        }
     }
 }
 
@@ -145,9 +105,7 @@ pub fn expand_indices<W: Copy, const N: usize>(indices: &[u8], palette: &[W; N],
 mod tests {
     use super::*;
     use crate::geometry::{Colour, Scale};
-    use crate::num::random::Rng;
     use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
-    use std::{vec, vec::Vec};
 
     fn all_indices<const N: usize>() {
         let scale = Scale::new(Indexed::<N>::STEPS);
@@ -179,32 +137,6 @@ mod tests {
         all_indices::<16>();
         all_indices::<2>();
         all_indices::<64>();
-    }
-
-    #[test]
-    fn lines_are_expanded_by_their_own_palette() {
-        let mut rng = Rng(5);
-        let mut palettes = [[[0u8; 3]; 256]; 3];
-        for level in palettes.as_flattened_mut().as_flattened_mut() {
-            *level = rng.below(256) as u8;
-        }
-        let of_line: Vec<u8> = (0..40).map(|_| rng.below(3) as u8).collect();
-        let mut table = PaletteTable::new(&palettes, &of_line).unwrap();
-        for line in 0..60u16 {
-            let indices: Vec<u8> = (0..97).map(|_| rng.below(256) as u8).collect();
-            let number = of_line[usize::from(line).min(39)];
-            let colour = |i: &u8| palettes[usize::from(number)][usize::from(*i)];
-            let expected: Vec<_> = indices.iter().map(colour).collect();
-            let mut out = vec![[0; 3]; 97];
-            expand_indices(&indices, table.palette(line), &mut out);
-            assert_eq!(out, expected);
-        }
-        assert!(PaletteTable::new(&palettes, &[0, 3]).is_none());
-        assert!(PaletteTable::<u16, 16>::new(&[], &[]).is_none());
-        let one = &palettes[1];
-        assert_eq!((&mut &*one).palette(9), one);
-        let mut none = PaletteTable::new(&palettes[2..], &[]).unwrap();
-        assert_eq!(none.palette(7), &palettes[2]);
     }
 
     #[test]

@@ -50,5 +50,4 @@ pub(super) fn mix_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], m
 }
 
 #[cfg(test)]
-#[path = "mix_tests.rs"]
 mod tests;

@@ -25,10 +25,11 @@ mod ordered;
 mod xrgb;
 
 pub(crate) use blend::{blend, blend_each};
-pub use format::{PixelFormat, Rgb565, Rgb565Be, Rgb565Bytes, Rgb565Le, Rgb888};
+pub(crate) use format::Rgb565Bytes;
+pub use format::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 pub use grey::{Grey8, mono_page, mono_row};
-pub use indexed::{Index4, Index8, Indexed, LinePalettes, PaletteTable, expand_indices};
-pub use mix::Mix;
+pub use indexed::{Index4, Index8, Indexed, expand_indices};
+pub(crate) use mix::Mix;
 pub(crate) use ordered::threshold;
 pub use xrgb::Xrgb8888;
 
@@ -50,158 +51,20 @@ impl MadeOf {
     }
 }
 
-/// How a pixel is made of a colour, and of other pixels.
-pub trait Pixel: PixelFormat {
-    /// What a pixel is made of.
-    const MADE_OF: MadeOf;
-
-    /// A pixel from a word of colour.
-    #[inline(always)]
-    fn of_word(word: u32) -> Self::Word {
-        Self::pack_words(word & 0xFFE0_0000 | word >> 5 & 0xFFC0, word << 21)
-    }
-
-    /// The fields of a pixel, each with four bits free above it.
-    fn widen(word: Self::Word) -> [u32; 2];
-
-    /// The pixel of fields of 16 times its steps, to the nearest step, halves up.
-    fn narrow(fields: [u32; 2]) -> Self::Word;
-
-    /// A line that is sent of a picture with half as many lines and columns: from the drawn line
-    /// that it lies in and the one on its other side, for
-    /// [`send_doubled`](crate::scan_out::send_doubled).
-    fn mix_lines(near: &[Self::Word], far: &[Self::Word], sent: &mut [Self::Word])
-    where
-        Self: Sized,
-    {
-        between::mix::<Self>(near, far, sent);
-    }
-}
-
-/// A pixel in both halves of a word: the upper bits of the three fields, each at its place in one half or the other.
-#[inline(always)]
-fn twice_565(word: u32) -> u32 {
-    let fields = word & 0xF81F_07E0;
-    fields | fields.rotate_right(16)
-}
-
-impl Pixel for Rgb565 {
-    const MADE_OF: MadeOf = MadeOf::OneWord;
-
-    #[inline(always)]
-    fn of_word(word: u32) -> u16 {
-        twice_565(word) as u16
-    }
-
-    #[inline(always)]
-    fn widen(word: u16) -> [u32; 2] {
-        between::widen_565(word)
-    }
-
-    #[inline(always)]
-    fn narrow(fields: [u32; 2]) -> u16 {
-        between::narrow_565(fields)
-    }
-}
-
-impl<const BIG: bool> Pixel for Rgb565Bytes<BIG> {
-    const MADE_OF: MadeOf = MadeOf::OneWord;
-
-    #[inline(always)]
-    fn of_word(word: u32) -> u16 {
-        let twice = twice_565(word);
-        let is_native = BIG == cfg!(target_endian = "big");
-        // Of a pixel that is there twice, the bytes between are its own swapped.
-        (if is_native { twice } else { twice >> 8 }) as u16
-    }
-
-    #[inline(always)]
-    fn widen(word: u16) -> [u32; 2] {
-        between::widen_565(if BIG {
-            u16::from_be(word)
-        } else {
-            u16::from_le(word)
-        })
-    }
-
-    #[inline(always)]
-    fn narrow(fields: [u32; 2]) -> u16 {
-        let word = between::narrow_565(fields);
-        if BIG { word.to_be() } else { word.to_le() }
-    }
-}
-
-impl Pixel for Rgb888 {
-    const MADE_OF: MadeOf = MadeOf::TwoWords;
-
-    #[inline(always)]
-    fn widen([red, green, blue]: [u8; 3]) -> [u32; 2] {
-        [u32::from(red) << 16 | u32::from(blue), green.into()]
-    }
-
-    #[inline(always)]
-    fn narrow([red_blue, green]: [u32; 2]) -> [u8; 3] {
-        let (red_blue, green) = (red_blue + 0x8_0008, green + 8);
-        [
-            (red_blue >> 20) as u8,
-            (green >> 4) as u8,
-            (red_blue >> 4) as u8,
-        ]
-    }
-}
-
-impl Pixel for Xrgb8888 {
-    const MADE_OF: MadeOf = MadeOf::TwoWords;
-
-    #[inline(always)]
-    fn widen(word: u32) -> [u32; 2] {
-        [word & 0xFF_00FF, word >> 8 & 0xFF]
-    }
-
-    #[inline(always)]
-    fn narrow([red_blue, green]: [u32; 2]) -> u32 {
-        (red_blue + 0x8_0008) >> 4 & 0xFF_00FF | (green + 8) << 4 & 0xFF00
-    }
-}
-
-impl Pixel for Grey8 {
-    const MADE_OF: MadeOf = MadeOf::TwoWords;
-
-    #[inline(always)]
-    fn widen(word: u8) -> [u32; 2] {
-        [word.into(), 0]
-    }
-
-    #[inline(always)]
-    fn narrow([grey, _]: [u32; 2]) -> u8 {
-        ((grey + 8) >> 4) as u8
-    }
-}
-
-/// Numbers are not mixed: of doubled lines and columns each pixel is the nearest one.
-impl<const N: usize> Pixel for Indexed<N> {
-    const MADE_OF: MadeOf = MadeOf::Index;
-
-    #[inline(always)]
-    fn widen(word: u8) -> [u32; 2] {
-        [word.into(), 0]
-    }
-
-    #[inline(always)]
-    fn narrow([index, _]: [u32; 2]) -> u8 {
-        (index >> 4) as u8
-    }
-
-    fn mix_lines(near: &[u8], _: &[u8], sent: &mut [u8]) {
-        for (pair, index) in sent.chunks_mut(2).zip(near) {
-            pair.fill(*index);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Kills: levels that are cut, or repeat the upper bits.
+    #[test]
+    fn levels_are_the_nearest() {
+        for word in 0..=u16::MAX {
+            let nearest = |step: u16, steps: u32| (u32::from(step) * 510 + steps) / (2 * steps);
+            let [r, g, b] = Rgb565::to_rgb8(word).map(u32::from);
+            assert_eq!((r, b), (nearest(word >> 11, 31), nearest(word & 31, 31)));
+            assert_eq!(g, nearest(word >> 5 & 63, 63));
+        }
+    }
 
     #[test]
     fn words_give_the_pixels_of_pairs() {

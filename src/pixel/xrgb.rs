@@ -1,6 +1,6 @@
 //! Eight bits a channel in a 32-bit word, for frame buffers and parallel panels (H10).
 
-use super::PixelFormat;
+use super::{MadeOf, PixelFormat};
 
 /// Red in bits 23..16, green in 15..8, blue in 7..0; the upper 8 bits are 0.
 #[derive(Clone, Copy, Debug)]
@@ -9,6 +9,7 @@ pub struct Xrgb8888;
 impl PixelFormat for Xrgb8888 {
     type Word = u32;
     const STEPS: [u16; 3] = [255; 3];
+    const MADE_OF: MadeOf = MadeOf::TwoWords;
 
     #[inline(always)]
     fn pack([r, g, b]: [u8; 3]) -> u32 {
@@ -23,6 +24,16 @@ impl PixelFormat for Xrgb8888 {
     fn to_rgb8(word: u32) -> [u8; 3] {
         let [_, r, g, b] = word.to_be_bytes();
         [r, g, b]
+    }
+
+    #[inline(always)]
+    fn widen(word: u32) -> [u32; 2] {
+        [word & 0xFF_00FF, word >> 8 & 0xFF]
+    }
+
+    #[inline(always)]
+    fn narrow([red_blue, green]: [u32; 2]) -> u32 {
+        (red_blue + 0x8_0008) >> 4 & 0xFF_00FF | (green + 8) << 4 & 0xFF00
     }
 }
 

@@ -1,19 +1,19 @@
 //! Blocks of a list, one by one: what each does to the draw call, and what is refused.
 
-use super::gather::{ListCoordinate, Refusal};
+use super::gather::Refusal;
 use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
 use super::textures::Asked;
-use crate::geometry::{Affine, Camera, Sphere};
+use crate::geometry::{Affine, Camera, Coordinate, Sphere};
 use crate::list::{
     Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
-    NoTexture, Overlay, Reason, Run, State, Step, Texture, Window, Words, read_block,
+    NoTexture, Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
 use crate::scene::Scissor;
 
-impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
+impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     /// Does one block.
     pub(super) fn execute(
         &mut self,
@@ -258,11 +258,11 @@ impl<'t, L: Look, C: ListCoordinate> Player<'_, 't, L, C> {
             true => self.names.colours(overlay.palette),
             false => Some((0, 1)),
         };
-        let colours = colours.ok_or(Reason::NoPalette(overlay.palette))?;
+        let (colours, count) = colours.ok_or(Reason::NoPalette(overlay.palette))?;
         if words.slice(overlay.at, overlay.words()).is_none() {
             return Err(Reason::Missing(Missing::TexelsInPieces));
         }
-        let is_kept = self.overlays.push(overlay, colours);
+        let is_kept = self.overlays.push(overlay, colours, count);
         is_kept.then_some(()).ok_or(Reason::Lent(Lent::Overlays))
     }
 

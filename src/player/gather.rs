@@ -22,11 +22,6 @@ use crate::geometry::{Coordinate, Faces, Mesh, QuadSplit};
 use crate::list::{Place, Slot, Strip, Words};
 pub(crate) use places::{Places, texels};
 
-/// A coordinate that lists and meshes share: `i16` (Q1.14) or `i32` (Q1.30).
-pub trait ListCoordinate: Coordinate + Place {}
-
-impl<C: Coordinate + Place> ListCoordinate for C {}
-
 /// Memory in which vertices are unpacked.
 pub(crate) struct Unpacked<'m, C> {
     pub(crate) positions: &'m mut [[C; 3]],
@@ -163,7 +158,7 @@ pub(crate) struct Gather<'m, C> {
     strip: Strip,
 }
 
-impl<'m, C: ListCoordinate> Gather<'m, C> {
+impl<'m, C: Coordinate + Place> Gather<'m, C> {
     pub(crate) fn new(memory: Unpacked<'m, C>) -> Self {
         Self {
             memory,

@@ -27,9 +27,8 @@ mod queue;
 mod state;
 mod textures;
 
-pub use gather::ListCoordinate;
 pub use lights::LightRoom;
 pub use outcome::{OnViolation, RunCounts};
 pub use play::{Player, PlayerMemory, PlayerSettings};
-pub use queue::{Command, Input, InputError, InputQueue, Refused, Source, Stalled, Stream};
+pub use queue::{Command, Input, InputError, InputQueue, Refused, Source, Stream};
 pub use textures::TextureRoom;

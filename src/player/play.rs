@@ -1,16 +1,16 @@
 //! The player: it walks a list, and halts where that says so (H12, H13, X7).
 
-use super::gather::{Gather, ListCoordinate, Unpacked};
+use super::gather::{Gather, Unpacked};
 use super::lights;
 use super::long::LongStrip;
 use super::state::State;
 use super::textures::Shelf;
 use super::{LightRoom, OnViolation, RunCounts, TextureRoom};
-use crate::event::{Event, EventSink, Notice};
-use crate::geometry::{Mesh, Screen};
+use crate::event::{Event, Notice};
+use crate::geometry::{Coordinate, Mesh, Screen};
 use crate::list::{
-    Halt, ListCommand, ListControl, ListError, Missing, OverlaySlot, OverlaySlots, Reason, Step,
-    TextureSlot, TextureSlots, Walker, Window, Words,
+    Halt, ListCommand, ListControl, ListError, Missing, OverlaySlot, OverlaySlots, Place, Reason,
+    Step, TextureSlot, TextureSlots, Walker, Window, Words,
 };
 use crate::look::Look;
 use crate::scene::{Budget, Draw, Sampling, Scene, Texture};
@@ -174,10 +174,10 @@ pub(super) struct Stage<'s, 'm, 't, L> {
     /// None where they are only looked at.
     pub(super) scene: Option<&'s mut Scene<'m, 't, L>>,
     pub(super) screen: Screen,
-    pub(super) events: &'s mut dyn EventSink,
+    pub(super) events: &'s mut dyn FnMut(Notice),
 }
 
-impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
+impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     /// Stopped; [`start`](Player::start) begins.
     #[must_use]
     pub fn new(memory: PlayerMemory<'m, 't, C>, settings: PlayerSettings<'m, 't>) -> Self {
@@ -264,7 +264,7 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
         words: impl Words<'t>,
         scene: &mut Scene<'_, 't, L>,
         budget: &mut crate::list::Budget,
-        events: &mut dyn EventSink,
+        events: &mut dyn FnMut(Notice),
     ) -> Result<Halt, ListError> {
         let screen = scene.screen();
         if scene.camera.is_none() {
@@ -398,7 +398,7 @@ impl<'m, 't, L: Look, C: ListCoordinate> Player<'m, 't, L, C> {
 
     #[cold]
     pub(super) fn notice(&self, stage: &mut Stage<'_, '_, 't, L>, event: Event, value: u32) {
-        stage.events.notice(Notice {
+        (stage.events)(Notice {
             event,
             offset: self.walker.offset(),
             value,

@@ -24,10 +24,6 @@ pub enum Command<'c, C: Coordinate = i16> {
     EndOfFrame,
 }
 
-/// The queue was full: the command, not taken.
-#[derive(Clone, Copy, Debug)]
-pub struct Stalled<'c, C: Coordinate = i16>(pub Command<'c, C>);
-
 /// The queue of one source, with room for `N - 1` commands.
 #[derive(Debug)]
 pub struct InputQueue<'c, C: Coordinate, const N: usize>(Queue<Command<'c, C>, N>);
@@ -85,8 +81,8 @@ impl<'c, C: Coordinate> Source<'_, 'c, C> {
         clippy::result_large_err,
         reason = "the command comes back whole, and there is no heap to keep it in"
     )]
-    pub fn send(&mut self, command: Command<'c, C>) -> Result<(), Stalled<'c, C>> {
-        self.producer.enqueue(command).map_err(Stalled)
+    pub fn send(&mut self, command: Command<'c, C>) -> Result<(), Command<'c, C>> {
+        self.producer.enqueue(command)
     }
 }
 

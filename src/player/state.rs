@@ -1,13 +1,13 @@
 //! The draw call that blocks of state change.
 
-use super::gather::{Gathered, ListCoordinate, Out, Places};
+use super::gather::{Gathered, Out, Places};
 use super::lights;
 use super::play::Stage;
 use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
-use crate::event::{Event, EventSink, Notice};
-use crate::geometry::{Affine, Cull, Light};
-use crate::list::{Header, Lent, Material, Reason};
+use crate::event::{Event, Notice};
+use crate::geometry::{Affine, Coordinate, Cull, Light};
+use crate::list::{Header, Lent, Material, Place, Reason};
 use crate::look::Look;
 use crate::scene::{
     Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
@@ -126,7 +126,7 @@ pub(super) struct Drawer<'d, 's, 'm, 't, L> {
     /// How far texels of blocks with PRSP may be from their places.
     budget: Budget,
     counts: &'d mut RunCounts,
-    events: &'d mut dyn EventSink,
+    events: &'d mut dyn FnMut(Notice),
     /// Of the block that is taken.
     offset: u32,
     lack: Option<Reason>,
@@ -164,7 +164,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     ///
     /// # Errors
     /// What could not be drawn.
-    pub(super) fn gather<R, C: ListCoordinate>(
+    pub(super) fn gather<R, C: Coordinate + Place>(
         mut self,
         gather: impl FnOnce(&mut Out<'_, C>) -> R,
     ) -> Result<R, Reason> {
@@ -178,7 +178,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     }
 
     /// Draws a mesh.
-    fn draw<C: ListCoordinate>(&mut self, gathered: &Gathered<'_, C>) {
+    fn draw<C: Coordinate + Place>(&mut self, gathered: &Gathered<'_, C>) {
         let places = match gathered.places {
             Places::Texels(places) => Some(places),
             Places::None => None,
@@ -295,7 +295,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
 
     #[cold]
     fn tell(&mut self, event: Event, offset: u32, value: u32) {
-        self.events.notice(Notice {
+        (self.events)(Notice {
             event,
             offset,
             value,

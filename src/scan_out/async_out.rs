@@ -5,16 +5,15 @@
 //! sink, if it has to be looked after, and every other task.
 
 use core::fmt::Debug;
-use core::marker::PhantomData;
 
 use embassy_futures::join::join;
 use embassy_futures::yield_now;
 use embedded_hal::digital::OutputPin;
 use embedded_hal_async::spi::SpiDevice;
 
-use super::dma::{ErrorType, Window};
+use super::dma::{Error, Window};
 use super::pump::{ScanError, ScanStats};
-use super::spi::{PanelError, RAMWR, window_commands};
+use super::spi::{PanelError, RAMWR, SpiPanel, Wire, window_commands};
 
 /// Takes lines, and is awaited until it is done with them: the async twin of [`LineWriter`](super::LineWriter).
 ///
@@ -23,7 +22,9 @@ use super::spi::{PanelError, RAMWR, window_commands};
     async_fn_in_trait,
     reason = "as in embedded-hal-async: executors of one core need no Send"
 )]
-pub trait AsyncLineWriter: ErrorType {
+pub trait AsyncLineWriter {
+    /// What can go wrong.
+    type Error: Error;
     /// One pixel, as the display takes it.
     type Word: Copy + 'static;
 
@@ -42,6 +43,7 @@ pub trait AsyncLineWriter: ErrorType {
 }
 
 impl<T: AsyncLineWriter + ?Sized> AsyncLineWriter for &mut T {
+    type Error = T::Error;
     type Word = T::Word;
 
     async fn open(&mut self, window: Window) -> Result<(), Self::Error> {
@@ -57,42 +59,9 @@ impl<T: AsyncLineWriter + ?Sized> AsyncLineWriter for &mut T {
     }
 }
 
-/// The panels of [`SpiSink`](super::SpiSink), on a bus of `embedded-hal-async`: its HAL has the DMA.
-#[derive(Debug)]
-pub struct AsyncSpiPanel<SPI, DC, W> {
-    spi: SPI,
-    dc: DC,
-    offset: (u16, u16),
-    word: PhantomData<fn() -> W>,
-}
-
-impl<SPI, DC, W> AsyncSpiPanel<SPI, DC, W> {
-    /// A panel that is initialised already. `dc` is low for commands and high for data.
-    pub const fn new(spi: SPI, dc: DC) -> Self {
-        Self {
-            spi,
-            dc,
-            offset: (0, 0),
-            word: PhantomData,
-        }
-    }
-
-    /// Where the panel's left top pixel is in its controller's memory, in columns and lines.
-    #[must_use]
-    pub const fn with_offset(mut self, columns: u16, lines: u16) -> Self {
-        self.offset = (columns, lines);
-        self
-    }
-
-    /// Gives bus and pin back.
-    pub fn release(self) -> (SPI, DC) {
-        (self.spi, self.dc)
-    }
-}
-
-impl<SPI: SpiDevice, DC: OutputPin, W> AsyncSpiPanel<SPI, DC, W> {
+impl<SPI: SpiDevice, DC: OutputPin> Wire<SPI, DC> {
     /// Sends a command and leaves the pin at data.
-    async fn command(
+    async fn command_async(
         &mut self,
         command: u8,
         data: &[u8],
@@ -107,26 +76,23 @@ impl<SPI: SpiDevice, DC: OutputPin, W> AsyncSpiPanel<SPI, DC, W> {
     }
 }
 
-impl<SPI: SpiDevice, DC: OutputPin, W> ErrorType for AsyncSpiPanel<SPI, DC, W> {
-    type Error = PanelError<SPI::Error, DC::Error>;
-}
-
 impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> AsyncLineWriter
-    for AsyncSpiPanel<SPI, DC, W>
+    for SpiPanel<SPI, DC, W>
 {
+    type Error = PanelError<SPI::Error, DC::Error>;
     type Word = W;
 
     async fn open(&mut self, window: Window) -> Result<(), Self::Error> {
         let commands = window_commands(window, self.offset).ok_or(PanelError::Window)?;
         for (command, data) in commands {
-            self.command(command, &data).await?;
+            self.wire.command_async(command, &data).await?;
         }
-        self.command(RAMWR, &[]).await
+        self.wire.command_async(RAMWR, &[]).await
     }
 
     async fn write(&mut self, _: Window, words: &[W]) -> Result<(), Self::Error> {
         let bytes = bytemuck::cast_slice(words);
-        self.spi.write(bytes).await.map_err(PanelError::Spi)
+        self.wire.spi.write(bytes).await.map_err(PanelError::Spi)
     }
 }
 

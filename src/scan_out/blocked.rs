@@ -7,76 +7,26 @@
 //!
 //! Who only reads the picture line by line gains nothing from blocks: [`own_memory`](crate::guide::own_memory) has figures.
 
-use core::fmt::{self, Display};
-
-use super::dma::{Error, ErrorKind, ErrorType, Window};
-use super::writer::{Blocking, LineWriter};
+use super::dma::Window;
+use super::frame_buffer::FrameBufferError;
+use super::writer::LineWriter;
 use crate::scene::Blocked;
 
-/// The memory does not hold the picture, or a rectangle is not in it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-#[non_exhaustive]
-pub enum BlockFrameError {
-    /// The picture's whole blocks need more words.
-    Words {
-        /// How many they need.
-        needed: usize,
-        /// How many were lent.
-        have: usize,
-    },
-    /// The rectangle is not in the picture.
-    Window,
-}
-
-impl Error for BlockFrameError {
-    fn kind(&self) -> ErrorKind {
-        ErrorKind::Length
-    }
-}
-
-impl Display for BlockFrameError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Words { needed, have } => {
-                write!(
-                    f,
-                    "blocks of the picture need {needed} words, there are {have}"
-                )
-            }
-            Self::Window => f.write_str("the rectangle is not in the picture"),
-        }
-    }
-}
-
-impl core::error::Error for BlockFrameError {}
-
-/// A picture of `width` x `height` words in blocks, as a writer of lines: see [`BlockFrameSink`].
+/// A picture of `width` x `height` words in blocks, as a writer of lines. The buffers of the pump lie anywhere: they
+/// are copied.
 ///
 /// Blocks lie in rows from the top, those on the right and the bottom rim are whole; inside a block row by row. A picture
 /// whose sides are powers of two, none of them below a block's, is a [texture in blocks](Blocked) as it lies.
-#[derive(Debug)]
-pub struct BlockFrame<'f, W> {
-    words: &'f mut [W],
-    width: u16,
-    height: u16,
-    block: Blocked,
-    /// The block that was written last.
-    page: Option<usize>,
-    page_changes: u32,
-}
-
-/// Picture memory in blocks. The buffers of the pump lie anywhere: they are copied.
 ///
 /// ```
-/// use scanbeam::scan_out::{BlockFrame, BlockFrameSink, Pump, Window};
+/// use scanbeam::scan_out::{BlockFrame, Blocking, Pump, Window};
 /// use scanbeam::scene::Blocked;
 ///
 /// let block = Blocked::new(1, 1).unwrap(); // 2 x 2 words
 /// let mut words = [0_u16; 8];
 /// let frame = BlockFrame::new(&mut words, 3, 2, block)?;
 /// # fn lines() -> &'static mut [u16] { Box::leak(Box::new([0; 6])) }
-/// let mut pump = Pump::new(BlockFrameSink::over(frame), [lines(), lines()]);
+/// let mut pump = Pump::new(Blocking::over(frame), [lines(), lines()]);
 /// pump.begin(Window { x: 0, y: 0, width: 3, height: 2 }, 2)?;
 /// for line in [[1, 2, 3], [4, 5, 6]] {
 ///     pump.line()?.copy_from_slice(&line);
@@ -89,7 +39,16 @@ pub struct BlockFrame<'f, W> {
 /// assert_eq!(frame.page_changes(), 2);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub type BlockFrameSink<'f, W, B = &'static mut [W]> = Blocking<BlockFrame<'f, W>, B>;
+#[derive(Debug)]
+pub struct BlockFrame<'f, W> {
+    words: &'f mut [W],
+    width: u16,
+    height: u16,
+    block: Blocked,
+    /// The block that was written last.
+    page: Option<usize>,
+    page_changes: u32,
+}
 
 impl<'f, W: Copy> BlockFrame<'f, W> {
     /// Words that a picture of so many columns and lines takes in blocks: those of all blocks that it has a part of.
@@ -108,10 +67,10 @@ impl<'f, W: Copy> BlockFrame<'f, W> {
         width: u16,
         height: u16,
         block: Blocked,
-    ) -> Result<Self, BlockFrameError> {
+    ) -> Result<Self, FrameBufferError> {
         let (needed, have) = (Self::needed(width, height, block), words.len());
         if have < needed {
-            return Err(BlockFrameError::Words { needed, have });
+            return Err(FrameBufferError::Words { needed, have });
         }
         Ok(Self {
             words,
@@ -173,25 +132,22 @@ impl<'f, W: Copy> BlockFrame<'f, W> {
     }
 }
 
-impl<W> ErrorType for BlockFrame<'_, W> {
-    type Error = BlockFrameError;
-}
-
 impl<W: Copy + 'static> LineWriter for BlockFrame<'_, W> {
+    type Error = FrameBufferError;
     type Word = W;
 
-    fn open(&mut self, window: Window) -> Result<(), BlockFrameError> {
+    fn open(&mut self, window: Window) -> Result<(), FrameBufferError> {
         let fits =
             |start: u16, len: u16, end: u16| start.checked_add(len).is_some_and(|last| last <= end);
         let across = fits(window.x, window.width, self.width);
         match across && fits(window.y, window.height, self.height) {
             true => Ok(()),
-            false => Err(BlockFrameError::Window),
+            false => Err(FrameBufferError::Window),
         }
     }
 
     /// Block by block: in each all lines of it that came.
-    fn write(&mut self, lines: Window, words: &[W]) -> Result<(), BlockFrameError> {
+    fn write(&mut self, lines: Window, words: &[W]) -> Result<(), FrameBufferError> {
         let (wide, high) = (self.block.width() as usize, self.block.height() as usize);
         let [left, width] = [lines.x, lines.width].map(usize::from);
         let [top, height] = [lines.y, lines.height].map(usize::from);
@@ -204,7 +160,7 @@ impl<W: Copy + 'static> LineWriter for BlockFrame<'_, W> {
                 for line in first..end {
                     let from = (line - top) * width + (column - left);
                     let run = words.get(from..from + (next - column));
-                    self.write_run(column, line, run.ok_or(BlockFrameError::Window)?);
+                    self.write_run(column, line, run.ok_or(FrameBufferError::Window)?);
                 }
                 column = next;
             }
@@ -310,7 +266,7 @@ mod tests {
         let mut words = [0_u8; 63];
         let short = BlockFrame::new(&mut words, 5, 8, block).map(drop);
         let (needed, have) = (64, 63);
-        assert_eq!(short, Err(BlockFrameError::Words { needed, have }));
+        assert_eq!(short, Err(FrameBufferError::Words { needed, have }));
         let mut frame = BlockFrame::new(&mut words, 4, 8, block).unwrap();
         for (x, y, width, height) in [(0, 0, 5, 1), (1, 0, 4, 1), (0, 1, 4, 8), (0xFFFF, 0, 1, 1)] {
             let window = Window {
@@ -319,7 +275,7 @@ mod tests {
                 width,
                 height,
             };
-            assert_eq!(frame.open(window), Err(BlockFrameError::Window));
+            assert_eq!(frame.open(window), Err(FrameBufferError::Window));
         }
         let few = Window {
             x: 0,
@@ -327,7 +283,7 @@ mod tests {
             width: 4,
             height: 2,
         };
-        assert_eq!(frame.write(few, &[1; 7]), Err(BlockFrameError::Window));
+        assert_eq!(frame.write(few, &[1; 7]), Err(FrameBufferError::Window));
         assert!(!frame.set_word(4, 0, 1) && !frame.set_word(0, 8, 1));
         let changes = frame.page_changes();
         assert!(frame.set_word(1, 7, 9));

@@ -9,11 +9,7 @@
 //! that is one wrong line in 3 days. It stays until it changes again or is [forgotten](ShownLines::forget_line): who
 //! forgets one line a frame, in turn, has it mended within as many frames as there are lines.
 
-/// A word of a line buffer that can be hashed.
-pub trait LineWord: Copy {
-    /// A hash of a line, never 0; the same on every target.
-    fn hash(line: &[Self]) -> u32;
-}
+use bytemuck::{NoUninit, bytes_of};
 
 /// Takes in a number: one to one for each of `hash` and `value`.
 #[inline(always)]
@@ -24,45 +20,33 @@ pub(super) fn step(hash: u32, value: u32) -> u32 {
     mixed ^ mixed >> 12
 }
 
-/// A hash that is no number for "not shown".
-#[inline(always)]
-fn some(hash: u32) -> u32 {
+/// A hash of a line by the bytes of its words, never 0; on all targets the same where these are.
+pub(super) fn hash<W: NoUninit>(line: &[W]) -> u32 {
+    let hash = match size_of::<W>() {
+        0..=2 => line.chunks(2).fold(1, |hash, pair| {
+            let pair = match pair {
+                [a, b] => number(bytes_of(a)) | number(bytes_of(b)) << 16,
+                [a] => number(bytes_of(a)),
+                _ => 0,
+            };
+            step(hash, pair)
+        }),
+        _ => line.iter().fold(1, |hash, word| {
+            let parts = bytes_of(word).chunks(4);
+            parts.fold(hash, |hash, part| step(hash, number(part)))
+        }),
+    };
     hash.max(1)
 }
 
-impl LineWord for u16 {
-    fn hash(line: &[u16]) -> u32 {
-        let pair = |pair: &[u16]| match *pair {
-            [a, b] => u32::from(a) | u32::from(b) << 16,
-            [a] => u32::from(a),
-            _ => 0,
-        };
-        some(line.chunks(2).map(pair).fold(1, step))
+/// Up to four bytes as a number, the lowest first.
+#[inline(always)]
+fn number(bytes: &[u8]) -> u32 {
+    let mut four = [0; 4];
+    if let Some(to) = four.get_mut(..bytes.len()) {
+        to.copy_from_slice(bytes);
     }
-}
-
-impl LineWord for [u8; 2] {
-    fn hash(line: &[[u8; 2]]) -> u32 {
-        let pair = |pair: &[[u8; 2]]| match *pair {
-            [[a, b], [c, d]] => u32::from_le_bytes([a, b, c, d]),
-            [[a, b]] => u32::from_le_bytes([a, b, 0, 0]),
-            _ => 0,
-        };
-        some(line.chunks(2).map(pair).fold(1, step))
-    }
-}
-
-impl LineWord for [u8; 3] {
-    fn hash(line: &[[u8; 3]]) -> u32 {
-        let word = |&[a, b, c]: &[u8; 3]| u32::from_le_bytes([a, b, c, 0]);
-        some(line.iter().map(word).fold(1, step))
-    }
-}
-
-impl LineWord for u32 {
-    fn hash(line: &[u32]) -> u32 {
-        some(line.iter().copied().fold(1, step))
-    }
+    u32::from_le_bytes(four)
 }
 
 /// What each line of the display shows, as far as it is known: 4 bytes a line, lent.
@@ -97,11 +81,11 @@ impl<'m> ShownLines<'m> {
 
     /// Whether `pixels` are other than what `line` shows, or may be; they are about to be shown then.
     #[inline]
-    pub fn replace<W: LineWord>(&mut self, line: u16, pixels: &[W]) -> bool {
+    pub fn replace<W: NoUninit>(&mut self, line: u16, pixels: &[W]) -> bool {
         let Some(shown) = self.hashes.get_mut(usize::from(line)) else {
             return true;
         };
-        let hash = W::hash(pixels);
+        let hash = hash(pixels);
         core::mem::replace(shown, hash) != hash
     }
 }
@@ -121,7 +105,7 @@ mod tests {
                     for base in [0u16, 0x8000, 0x1234] {
                         let mut line = [base; 320];
                         line[start..end].fill(colour ^ 0x0100);
-                        hashes.push(u16::hash(&line));
+                        hashes.push(hash(&line));
                     }
                 }
             }
@@ -142,7 +126,7 @@ mod tests {
                 seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 (seed >> 16) as u16
             });
-            let hash = u16::hash(&line);
+            let known = hash(&line);
             // Bit 64 is no bit.
             for a in 0..64 {
                 for b in a + 1..=64 {
@@ -153,7 +137,7 @@ mod tests {
                                 *pixel ^= 1 << (bit % 16);
                             }
                         }
-                        assert!(other != line && u16::hash(&other) != hash, "{a} {b} {c}");
+                        assert!(other != line && hash(&other) != known, "{a} {b} {c}");
                     }
                 }
             }
@@ -201,11 +185,8 @@ mod tests {
         // There is no number for this line.
         assert!(shown.replace(2, &black));
         assert!(shown.replace(2, &black));
-        assert_ne!(u32::hash(&[1, 2]), u32::hash(&[2, 1]));
-        assert_ne!(<[u8; 3]>::hash(&[[1, 2, 3]]), <[u8; 3]>::hash(&[[1, 2, 4]]));
-        assert_eq!(
-            <[u8; 2]>::hash(&[[1, 2], [3, 4]]),
-            u16::hash(&[0x0201, 0x0403])
-        );
+        assert_ne!(hash::<u32>(&[1, 2]), hash::<u32>(&[2, 1]));
+        assert_ne!(hash(&[[1u8, 2, 3]]), hash(&[[1u8, 2, 4]]));
+        assert_eq!(hash(&[[1u8, 2], [3, 4]]), hash(&[0x0201u16, 0x0403]));
     }
 }

@@ -4,12 +4,10 @@
 //! (K5), so a line that cannot be had in time is not worth drawing: it is counted and left out, the panel shows
 //! what its memory holds, and the next line is drawn in its right place. Delay is never handed down the picture.
 
-use core::ops::Range;
-
 /// A panel that reads lines by its own clock from a ring of line buffers.
 ///
-/// An interrupt of its DMA may call [`feed_line`] for the buffer that has become free, or a loop
-/// [`feed_frame`] for a whole picture.
+/// An interrupt of its DMA may call [`feed_line`] for the buffer that has become free, or a loop for all lines of a
+/// picture.
 pub trait ContinuousPanel {
     /// One pixel, as the panel takes it.
     type Word: Copy + 'static;
@@ -89,20 +87,4 @@ pub fn feed_line<C: ContinuousPanel, E>(
         Some(ticks) => Fed::Late(ticks),
         None => Fed::InTime(deadline.wrapping_sub(now)),
     })
-}
-
-/// Feeds the panel a whole picture, line by line.
-///
-/// # Errors
-/// What `draw` says; the picture ends there.
-pub fn feed_frame<C: ContinuousPanel, E>(
-    panel: &mut C,
-    lines: Range<u16>,
-    mut draw: impl FnMut(u16, &mut [C::Word]) -> Result<(), E>,
-) -> Result<FeedStats, E> {
-    let mut stats = FeedStats::default();
-    for line in lines {
-        stats.count(feed_line(panel, line, &mut draw)?);
-    }
-    Ok(stats)
 }

@@ -1,7 +1,7 @@
 //! The traits of a sink of lines, in the manner of `embedded-hal` (SPEC S5, X5).
 //!
 //! `embedded-hal` 1.0 has no DMA trait, so this is ours: `Error` with a `kind`, a non-exhaustive `ErrorKind`,
-//! an `ErrorType`, implementations for `&mut T` and for `Infallible`.
+//! implementations for `&mut T` and for `Infallible`.
 //!
 //! Buffers are *moved* in and out. A guard that borrows the buffer would be unsound, because `mem::forget` of the
 //! guard is safe and would leave the DMA reading memory that is someone else's by then. So every error hands
@@ -61,16 +61,6 @@ impl Error for Infallible {
     fn kind(&self) -> ErrorKind {
         match *self {}
     }
-}
-
-/// Names the error of a sink, once for all traits of sinks.
-pub trait ErrorType {
-    /// The sink's error.
-    type Error: Error;
-}
-
-impl<T: ErrorType + ?Sized> ErrorType for &mut T {
-    type Error = T::Error;
 }
 
 /// A rectangle of the display, in pixels. The right and bottom ends are exclusive: `x + width`, `y + height`.
@@ -143,13 +133,12 @@ impl<W: Copy + 'static> LineBuf for &'static mut [W] {
 /// #     impl Lcd { pub fn set_window(&mut self, _: core::ops::Range<u16>, _: core::ops::Range<u16>) {} pub fn wait_idle(&mut self) {} }
 /// # }
 /// use core::task::Poll;
-/// use scanbeam::scan_out::{ErrorKind, ErrorType, ScanoutDma, Window};
+/// use scanbeam::scan_out::{ErrorKind, ScanoutDma, Window};
 ///
 /// struct Sink { lcd: hal::Lcd, idle: Option<hal::Channel>, running: Option<hal::Transfer> }
 ///
-/// impl ErrorType for Sink { type Error = ErrorKind; }
-///
 /// impl ScanoutDma for Sink {
+///     type Error = ErrorKind;
 ///     type Buf = &'static mut [u16];
 ///
 ///     fn begin(&mut self, w: Window) -> Result<(), ErrorKind> {
@@ -187,7 +176,9 @@ impl<W: Copy + 'static> LineBuf for &'static mut [W] {
 ///
 /// A HAL that can only send whole buffers refuses another `len` with [`ErrorKind::Length`], and is given buffers of
 /// exactly one band and windows whose height is a multiple of it.
-pub trait ScanoutDma: ErrorType {
+pub trait ScanoutDma {
+    /// What can go wrong.
+    type Error: Error;
     /// The buffer that travels.
     type Buf: LineBuf;
 
@@ -226,6 +217,7 @@ pub trait ScanoutDma: ErrorType {
 }
 
 impl<T: ScanoutDma + ?Sized> ScanoutDma for &mut T {
+    type Error = T::Error;
     type Buf = T::Buf;
 
     fn begin(&mut self, window: Window) -> Result<(), Self::Error> {

@@ -20,10 +20,10 @@ use super::pump::{Pump, ScanError};
 ///
 /// `draw` writes a line, which counts from 0 at the top of the window; lines come in order. `memory` holds two drawn
 /// lines. `mix` makes a sent line of the drawn line that it lies in and of the one on its other side: the
-/// [`mix_lines`](crate::pixel::Pixel::mix_lines) of a pixel format, or what the panel needs instead.
+/// [`mix_lines`](crate::pixel::PixelFormat::mix_lines) of a pixel format, or what the panel needs instead.
 ///
 /// ```
-/// use scanbeam::pixel::{Pixel, Rgb565};
+/// use scanbeam::pixel::{PixelFormat, Rgb565};
 /// use scanbeam::scan_out::{Pump, ScanError, ScanoutDma, Window, send_doubled};
 ///
 /// fn grey_ramp<D>(pump: &mut Pump<D>) -> Result<(), ScanError<D::Error>>

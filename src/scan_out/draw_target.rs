@@ -2,7 +2,7 @@
 //! `embedded-graphics`).
 //!
 //! A `DrawTarget` takes colours from an iterator, one by one, so each pixel is converted and most drivers convert
-//! it back. Where the driver has raw lines, use those: `MipidsiSink` and `SpiSink` send bytes as they are.
+//! it back. Where the driver has raw lines, use those: `MipidsiLines` and `SpiPanel` send bytes as they are.
 
 use core::fmt::{self, Debug, Display};
 use core::marker::PhantomData;
@@ -11,8 +11,8 @@ use embedded_graphics_core::draw_target::DrawTarget;
 use embedded_graphics_core::geometry::{Point, Size};
 use embedded_graphics_core::primitives::Rectangle;
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
-use super::writer::{Blocking, LineWriter};
+use super::dma::{Error, ErrorKind, Window};
+use super::writer::LineWriter;
 
 /// What goes wrong on a draw target. `E` is its own error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -45,15 +45,7 @@ impl<E: Debug> Display for DrawTargetError<E> {
 
 impl<E: Debug> core::error::Error for DrawTargetError<E> {}
 
-/// A draw target as a writer of lines: see [`DrawTargetSink`].
-#[derive(Debug)]
-pub struct DrawTargetLines<T, F, W> {
-    target: T,
-    colour: F,
-    word: PhantomData<fn() -> W>,
-}
-
-/// A sink over a `DrawTarget`. Column and line 0 are its point (0, 0).
+/// A `DrawTarget` as a writer of lines. Column and line 0 are its point (0, 0).
 ///
 /// ```
 /// # struct Screen;
@@ -67,14 +59,19 @@ pub struct DrawTargetLines<T, F, W> {
 /// # }
 /// # let screen = Screen;
 /// use embedded_graphics_core::pixelcolor::{Rgb565, raw::RawU16};
-/// use scanbeam::scan_out::{DrawTargetLines, DrawTargetSink, Pump};
+/// use scanbeam::scan_out::{Blocking, DrawTargetLines, Pump};
 ///
 /// # fn buffer() -> &'static mut [u16] { Box::leak(Box::new([0; 320])) }
 /// // Words of the pixel format `Rgb565`.
 /// let lines = DrawTargetLines::new(screen, |word: u16| Rgb565::from(RawU16::new(word)));
-/// let pump = Pump::new(DrawTargetSink::over(lines), [buffer(), buffer()]);
+/// let pump = Pump::new(Blocking::over(lines), [buffer(), buffer()]);
 /// ```
-pub type DrawTargetSink<T, F, W, B = &'static mut [W]> = Blocking<DrawTargetLines<T, F, W>, B>;
+#[derive(Debug)]
+pub struct DrawTargetLines<T, F, W> {
+    target: T,
+    colour: F,
+    word: PhantomData<fn() -> W>,
+}
 
 impl<T: DrawTarget, F: FnMut(W) -> T::Color, W: Copy + 'static> DrawTargetLines<T, F, W> {
     /// A target, and what makes its colours of words.
@@ -103,16 +100,13 @@ fn rectangle(window: Window) -> Rectangle {
     Rectangle::new(corner, Size::new(window.width.into(), window.height.into()))
 }
 
-impl<T: DrawTarget<Error: Debug>, F, W> ErrorType for DrawTargetLines<T, F, W> {
-    type Error = DrawTargetError<T::Error>;
-}
-
 impl<T, F, W> LineWriter for DrawTargetLines<T, F, W>
 where
     T: DrawTarget<Error: Debug>,
     F: FnMut(W) -> T::Color,
     W: Copy + 'static,
 {
+    type Error = DrawTargetError<T::Error>;
     type Word = W;
 
     fn open(&mut self, window: Window) -> Result<(), Self::Error> {

@@ -11,8 +11,8 @@
 use core::fmt::{self, Display};
 use core::sync::atomic::{AtomicBool, Ordering};
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
-use super::writer::{Blocking, LineWriter};
+use super::dma::{Error, ErrorKind, Window};
+use super::writer::LineWriter;
 
 /// What the sink and the interrupt of the vertical blank share. Loads and stores alone: it works on any core.
 #[derive(Debug, Default)]
@@ -57,12 +57,19 @@ impl SwapFlag {
     }
 }
 
-/// Why a frame could not be filled.
+/// Why a picture in memory could not be filled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum FrameBufferError {
-    /// The rectangle is not on the display, or a frame is too short for the display.
+    /// The picture takes more words than there are.
+    Words {
+        /// How many it takes.
+        needed: usize,
+        /// How many were lent.
+        have: usize,
+    },
+    /// The rectangle is not in the picture.
     Window,
     /// No vertical blank came within the polls that were set.
     NoBlank,
@@ -71,7 +78,7 @@ pub enum FrameBufferError {
 impl Error for FrameBufferError {
     fn kind(&self) -> ErrorKind {
         match self {
-            Self::Window => ErrorKind::Length,
+            Self::Words { .. } | Self::Window => ErrorKind::Length,
             Self::NoBlank => ErrorKind::Timeout,
         }
     }
@@ -79,35 +86,29 @@ impl Error for FrameBufferError {
 
 impl Display for FrameBufferError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Window => "the rectangle is not in the frame buffer",
-            Self::NoBlank => "no vertical blank came",
-        })
+        match self {
+            Self::Words { needed, have } => {
+                write!(f, "the picture takes {needed} words, there are {have}")
+            }
+            Self::Window => f.write_str("the rectangle is not in the picture"),
+            Self::NoBlank => f.write_str("no vertical blank came"),
+        }
     }
 }
 
 impl core::error::Error for FrameBufferError {}
 
-/// Two frames of `width` x `height` words, as a writer of lines: see [`FrameBufferSink`].
-#[derive(Debug)]
-pub struct FrameBuffer<'f, W> {
-    frames: [&'f mut [W]; 2],
-    width: u16,
-    height: u16,
-    flag: &'f SwapFlag,
-    max_polls: Option<u32>,
-}
-
-/// A pair of frames, filled in turn. The buffers of the pump lie anywhere: they are copied.
+/// Two frames of `width` x `height` words, filled in turn, as a writer of lines. The buffers of the pump lie anywhere: they
+/// are copied.
 ///
 /// ```
-/// use scanbeam::scan_out::{FrameBuffer, FrameBufferSink, Pump, SwapFlag, Window};
+/// use scanbeam::scan_out::{Blocking, FrameBuffer, Pump, SwapFlag, Window};
 ///
 /// static SWAP: SwapFlag = SwapFlag::new(); // the interrupt calls SWAP.vertical_blank()
 /// let (mut first, mut second) = ([0u16; 6], [0; 6]);
 /// let frames = FrameBuffer::new([&mut first, &mut second], 3, 2, &SWAP);
 /// # fn line() -> &'static mut [u16] { Box::leak(Box::new([0; 3])) }
-/// let mut pump = Pump::new(FrameBufferSink::over(frames), [line(), line()]);
+/// let mut pump = Pump::new(Blocking::over(frames), [line(), line()]);
 /// pump.begin(Window { x: 0, y: 0, width: 3, height: 2 }, 1)?;
 /// for y in 1..=2 {
 ///     pump.line()?.fill(y);
@@ -119,7 +120,14 @@ pub struct FrameBuffer<'f, W> {
 /// assert_eq!(pump.sink().writer().shown(), [1, 1, 1, 2, 2, 2]);
 /// # Ok::<(), Box<dyn core::error::Error>>(())
 /// ```
-pub type FrameBufferSink<'f, W, B = &'static mut [W]> = Blocking<FrameBuffer<'f, W>, B>;
+#[derive(Debug)]
+pub struct FrameBuffer<'f, W> {
+    frames: [&'f mut [W]; 2],
+    width: u16,
+    height: u16,
+    flag: &'f SwapFlag,
+    max_polls: Option<u32>,
+}
 
 impl<'f, W: Copy + 'static> FrameBuffer<'f, W> {
     /// Two frames, each of `width * height` words or more, the lines one after the other. `flag` shows one of them.
@@ -170,17 +178,21 @@ impl<'f, W: Copy + 'static> FrameBuffer<'f, W> {
     }
 }
 
-impl<W> ErrorType for FrameBuffer<'_, W> {
-    type Error = FrameBufferError;
-}
-
 impl<W: Copy + 'static> LineWriter for FrameBuffer<'_, W> {
+    type Error = FrameBufferError;
     type Word = W;
 
     /// Waits for the vertical blank that the last rectangle asked for: until then its frame is not free.
     fn open(&mut self, window: Window) -> Result<(), FrameBufferError> {
         let words = usize::from(self.width) * usize::from(self.height);
-        if !self.has(window) || self.frames.iter().any(|frame| frame.len() < words) {
+        let have = self.frames[0].len().min(self.frames[1].len());
+        if have < words {
+            return Err(FrameBufferError::Words {
+                needed: words,
+                have,
+            });
+        }
+        if !self.has(window) {
             return Err(FrameBufferError::Window);
         }
         let mut polls = 0_u32;

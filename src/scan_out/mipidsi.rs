@@ -15,9 +15,9 @@ use embedded_graphics_core::geometry::OriginDimensions;
 use embedded_hal::digital::OutputPin;
 use embedded_hal::spi::SpiDevice;
 
-use super::dma::{ErrorType, Window};
+use super::dma::Window;
 use super::spi::{PanelError, Wire};
-use super::writer::{Blocking, LineWriter};
+use super::writer::LineWriter;
 
 /// Bytes that `mipidsi`'s own drawing collects before it sends them. Scan-out sends lines instead.
 const CHUNK: usize = 48;
@@ -35,14 +35,14 @@ const CHUNK: usize = 48;
 /// # impl DelayNs for Delay { fn delay_ns(&mut self, _: u32) {} }
 /// # let (spi, dc, mut delay) = (Spi, Pin, Delay);
 /// use mipidsi::{Builder, models::ILI9341Rgb565};
-/// use scanbeam::scan_out::{MipidsiLines, MipidsiSink, MipidsiWire, Pump};
+/// use scanbeam::scan_out::{Blocking, MipidsiLines, MipidsiWire, Pump};
 ///
 /// let wire = MipidsiWire::new(spi, dc);
 /// let display = Builder::new(ILI9341Rgb565, &wire).init(&mut delay).expect("the panel answers");
 /// // Words of the pixel format `Rgb565Be`, 8 lines a transfer.
 /// # fn buffer() -> &'static mut [u16] { Box::leak(vec![0; 240 * 8].into()) }
 /// let lines = MipidsiLines::<_, _, _, _, u16>::new(display, &wire);
-/// let pump = Pump::new(MipidsiSink::over(lines), [buffer(), buffer()]);
+/// let pump = Pump::new(Blocking::over(lines), [buffer(), buffer()]);
 /// ```
 #[derive(Debug)]
 pub struct MipidsiWire<SPI, DC>(RefCell<Wire<SPI, DC>>);
@@ -99,7 +99,8 @@ impl<SPI: SpiDevice, DC: OutputPin> Interface for &MipidsiWire<SPI, DC> {
     }
 }
 
-/// A display of `mipidsi` as a writer of lines: see [`MipidsiSink`].
+/// A display of `mipidsi` as a writer of lines: see [`MipidsiWire`] for how it is made. Words are in the order of the bus,
+/// for example those of `Rgb565Be`.
 pub struct MipidsiLines<'w, SPI: SpiDevice, DC: OutputPin, M, RST, W>
 where
     M: Model<ColorFormat: InterfacePixelFormat<u8>>,
@@ -109,11 +110,6 @@ where
     wire: &'w MipidsiWire<SPI, DC>,
     word: PhantomData<fn() -> W>,
 }
-
-/// A sink over a display of `mipidsi`: see [`MipidsiWire`] for how it is made. Words are in the order of the bus,
-/// for example those of `Rgb565Be`.
-pub type MipidsiSink<'w, SPI, DC, M, RST, W, B = &'static mut [W]> =
-    Blocking<MipidsiLines<'w, SPI, DC, M, RST, W>, B>;
 
 impl<'w, SPI, DC, M, RST, W> MipidsiLines<'w, SPI, DC, M, RST, W>
 where
@@ -140,16 +136,6 @@ where
     }
 }
 
-impl<SPI, DC, M, RST, W> ErrorType for MipidsiLines<'_, SPI, DC, M, RST, W>
-where
-    SPI: SpiDevice,
-    DC: OutputPin,
-    M: Model<ColorFormat: InterfacePixelFormat<u8>>,
-    RST: OutputPin,
-{
-    type Error = PanelError<SPI::Error, DC::Error>;
-}
-
 impl<SPI, DC, M, RST, W> LineWriter for MipidsiLines<'_, SPI, DC, M, RST, W>
 where
     SPI: SpiDevice,
@@ -158,6 +144,7 @@ where
     RST: OutputPin,
     W: bytemuck::NoUninit + 'static,
 {
+    type Error = PanelError<SPI::Error, DC::Error>;
     type Word = W;
 
     /// `mipidsi` adds offsets without a check, so the window must be on the display.

@@ -10,14 +10,14 @@
 //! - [`send_doubled`], which sends four pixels for each that is drawn, interpolated between.
 //! - [`feed_line`] and [`ContinuousPanel`], for panels that read on their own clock.
 //!
-//! | sink | for | feature |
+//! | writer | for | feature |
 //! |---|---|---|
-//! | [`SpiSink`] | SPI panels with MIPI commands, over `embedded-hal` 1.0 | |
-//! | [`FrameBufferSink`] | frames in memory that a controller scans, swapped without tearing | |
-//! | [`BlockFrameSink`] | a picture in memory in blocks, to be read as a texture or turned | |
-//! | `MipidsiSink` | panels that `mipidsi` 0.10 has set up | `mipidsi` |
-//! | `DrawTargetSink` | any `DrawTarget` of `embedded-graphics` | `embedded-graphics` |
-//! | `AsyncSpiPanel`, with an `AsyncPump` | SPI panels over `embedded-hal-async` | `async` |
+//! | [`SpiPanel`] | SPI panels with MIPI commands, over `embedded-hal` 1.0 | |
+//! | [`FrameBuffer`] | frames in memory that a controller scans, swapped without tearing | |
+//! | [`BlockFrame`] | a picture in memory in blocks, to be read as a texture or turned | |
+//! | `MipidsiLines` | panels that `mipidsi` 0.10 has set up | `mipidsi` |
+//! | `DrawTargetLines` | any `DrawTarget` of `embedded-graphics` | `embedded-graphics` |
+//! | [`SpiPanel`], with an `AsyncPump` | SPI panels over `embedded-hal-async` | `async` |
 //!
 //! ```text
 //!   renderer --line()/line_done()--> Pump --start(buf, len)--> ScanoutDma --> bus
@@ -43,18 +43,18 @@ mod spi;
 mod writer;
 
 #[cfg(feature = "async")]
-pub use async_out::{AsyncLineWriter, AsyncPump, AsyncSpiPanel};
-pub use blocked::{BlockFrame, BlockFrameError, BlockFrameSink};
-pub use changed::{LineWord, ShownLines};
-pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_frame, feed_line};
-pub use dma::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
+pub use async_out::{AsyncLineWriter, AsyncPump};
+pub use blocked::BlockFrame;
+pub use changed::ShownLines;
+pub use continuous::{ContinuousPanel, Fed, FeedStats, feed_line};
+pub use dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
 pub use doubled::send_doubled;
 #[cfg(feature = "embedded-graphics")]
-pub use draw_target::{DrawTargetError, DrawTargetLines, DrawTargetSink};
-pub use frame_buffer::{FrameBuffer, FrameBufferError, FrameBufferSink, SwapFlag};
+pub use draw_target::{DrawTargetError, DrawTargetLines};
+pub use frame_buffer::{FrameBuffer, FrameBufferError, SwapFlag};
 #[cfg(feature = "mipidsi")]
-pub use mipidsi::{MipidsiLines, MipidsiSink, MipidsiWire};
-pub use pump::{PUMP_BUFFERS, Pump, RunFrame, ScanError, ScanStats};
+pub use mipidsi::{MipidsiLines, MipidsiWire};
+pub use pump::{Pump, RunFrame, ScanError, ScanStats};
 pub use shown_runs::ShownRuns;
-pub use spi::{PanelError, SpiPanel, SpiSink};
+pub use spi::{PanelError, SpiPanel};
 pub use writer::{Blocking, BlockingError, LineWriter};

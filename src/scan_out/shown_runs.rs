@@ -7,7 +7,8 @@
 
 use core::ops::Range;
 
-use super::changed::{LineWord, step};
+use super::changed::{hash, step};
+use bytemuck::NoUninit;
 
 /// What each cell of the display shows, as far as it is known: 4 bytes a cell, and 4 for each of a row, lent.
 ///
@@ -78,11 +79,11 @@ impl<'m> ShownRuns<'m> {
     }
 
     /// Takes in a line of the row of cells, which begins at column `x`, the left edge of a cell.
-    pub(super) fn add_line<W: LineWord>(&mut self, x: u16, pixels: &[W]) {
+    pub(super) fn add_line<W: NoUninit>(&mut self, x: u16, pixels: &[W]) {
         let cells = pixels.chunks(self.columns.into());
         let sums = self.sums.iter_mut().skip((x / self.columns).into());
         for (sum, cell) in sums.zip(cells) {
-            *sum = step(*sum, W::hash(cell));
+            *sum = step(*sum, hash(cell));
         }
     }
 

@@ -1,10 +1,10 @@
-//! A blocking sink for SPI panels that speak MIPI DCS: ILI9341, ST7789 and their kin (SPEC S5, X5).
+//! A writer for SPI panels that speak MIPI DCS: ILI9341, ST7789 and their kin (SPEC S5, X5).
 //!
 //! `embedded-hal` has no DMA, but every HAL has its `SpiDevice`, so this is what works everywhere. The window is set
 //! once per rectangle, then only pixels go out. Pixels are words already in the order of the wire
 //! (`N = 2`: big-endian RGB565, `N = 3`: RGB888), so a line is sent as the bytes that it is, without a copy.
 //! Initialisation (orientation, pixel format, sleep out) is the display driver's: for one that is `mipidsi`'s,
-//! `MipidsiSink` takes its window too.
+//! `MipidsiLines` takes its window too.
 
 use core::fmt::{self, Debug, Display};
 use core::marker::PhantomData;
@@ -12,8 +12,8 @@ use core::marker::PhantomData;
 use embedded_hal::digital::{self, OutputPin};
 use embedded_hal::spi::{self, SpiDevice};
 
-use super::dma::{Error, ErrorKind, ErrorType, Window};
-use super::writer::{Blocking, LineWriter};
+use super::dma::{Error, ErrorKind, Window};
+use super::writer::LineWriter;
 
 /// Column address set: first and last column, inclusive.
 const CASET: u8 = 0x2A;
@@ -89,12 +89,15 @@ impl<SPI: SpiDevice, DC: OutputPin> Wire<SPI, DC> {
     }
 }
 
-/// The two commands that set a window, which is `offset` columns and lines further in the controller's memory.
+/// The two commands that set a window, which is so many columns and lines further in the controller's memory.
 /// `None` when it is empty or ends beyond 65535.
-pub(super) fn window_commands(window: Window, offset: (u16, u16)) -> Option<[(u8, [u8; 4]); 2]> {
+pub(super) fn window_commands(
+    window: Window,
+    [right, down]: [u16; 2],
+) -> Option<[(u8, [u8; 4]); 2]> {
     Some([
-        (CASET, ends(window.x, window.width, offset.0)?),
-        (RASET, ends(window.y, window.height, offset.1)?),
+        (CASET, ends(window.x, window.width, right)?),
+        (RASET, ends(window.y, window.height, down)?),
     ])
 }
 
@@ -106,55 +109,48 @@ fn ends(start: u16, len: u16, offset: u16) -> Option<[u8; 4]> {
     Some([a, b, c, d])
 }
 
-/// An SPI panel with a data/command pin, as a writer of lines: see [`SpiSink`].
+/// An SPI panel with a data/command pin, as a writer of lines: of any word `W` whose bytes in memory are in the order of
+/// the wire, such as those of `Rgb565Be` and `Rgb888`.
+///
+/// Over a bus of `embedded-hal` it is a [`LineWriter`], for [`Blocking`](super::Blocking); over one of `embedded-hal-async`,
+/// whose HAL has the DMA, an `AsyncLineWriter`. Chip select may go up between lines: the panels stay in memory write until
+/// the next command.
 #[derive(Debug)]
 pub struct SpiPanel<SPI, DC, W> {
-    wire: Wire<SPI, DC>,
+    pub(super) wire: Wire<SPI, DC>,
     /// Columns and lines to add to each window, for panels smaller than their controller's memory.
-    offset: (u16, u16),
+    pub(super) offset: [u16; 2],
     word: PhantomData<fn() -> W>,
 }
 
-/// An SPI panel that is written in `start` before it returns. A pixel is a word `W`
-/// whose bytes in memory are in the order of the wire, such as those of `Rgb565Be` and `Rgb888`.
-///
-/// Chip select may go up between lines: the panels stay in memory write until the next command.
-pub type SpiSink<SPI, DC, W> = Blocking<SpiPanel<SPI, DC, W>, &'static mut [W]>;
-
-impl<SPI, DC, W: 'static> SpiSink<SPI, DC, W> {
-    /// A sink over a panel that is initialised already. `dc` is low for commands and high for data.
+impl<SPI, DC, W> SpiPanel<SPI, DC, W> {
+    /// A panel that is initialised already. `dc` is low for commands and high for data.
     pub const fn new(spi: SPI, dc: DC) -> Self {
-        Self::over(SpiPanel {
+        Self {
             wire: Wire { spi, dc },
-            offset: (0, 0),
+            offset: [0; 2],
             word: PhantomData,
-        })
+        }
     }
 
     /// Where the panel's left top pixel is in its controller's memory, in columns and lines.
     #[must_use]
-    pub fn with_offset(self, columns: u16, lines: u16) -> Self {
-        self.map(|panel| SpiPanel {
-            offset: (columns, lines),
-            ..panel
-        })
+    pub const fn with_offset(mut self, columns: u16, lines: u16) -> Self {
+        self.offset = [columns, lines];
+        self
     }
 
-    /// Gives bus and pin back. A buffer that was sent but not polled is leaked.
+    /// Gives bus and pin back.
     pub fn release(self) -> (SPI, DC) {
-        let wire = self.into_writer().wire;
-        (wire.spi, wire.dc)
+        (self.wire.spi, self.wire.dc)
     }
-}
-
-impl<SPI: SpiDevice, DC: OutputPin, W> ErrorType for SpiPanel<SPI, DC, W> {
-    type Error = PanelError<SPI::Error, DC::Error>;
 }
 
 /// `SpiDevice` flushes before it returns, so there is nothing to wait for at the end.
 impl<SPI: SpiDevice, DC: OutputPin, W: bytemuck::NoUninit + 'static> LineWriter
     for SpiPanel<SPI, DC, W>
 {
+    type Error = PanelError<SPI::Error, DC::Error>;
     type Word = W;
 
     fn open(&mut self, window: Window) -> Result<(), Self::Error> {

@@ -8,10 +8,12 @@
 use core::fmt::{self, Display};
 use core::task::Poll;
 
-use super::dma::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
+use super::dma::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
 
 /// Takes lines and is done with them when it returns.
-pub trait LineWriter: ErrorType {
+pub trait LineWriter {
+    /// What can go wrong.
+    type Error: Error;
     /// One pixel, as the display takes it.
     type Word: Copy + 'static;
 
@@ -39,6 +41,7 @@ pub trait LineWriter: ErrorType {
 }
 
 impl<T: LineWriter + ?Sized> LineWriter for &mut T {
+    type Error = T::Error;
     type Word = T::Word;
 
     fn open(&mut self, window: Window) -> Result<(), Self::Error> {
@@ -119,15 +122,6 @@ impl<T, B> Blocking<T, B> {
     pub fn into_writer(self) -> T {
         self.writer
     }
-
-    /// The writer and the rest, for sinks with constructors of their own.
-    pub(super) fn map<U>(self, change: impl FnOnce(T) -> U) -> Blocking<U, B> {
-        Blocking {
-            writer: change(self.writer),
-            left: self.left,
-            written: self.written,
-        }
-    }
 }
 
 impl<T: LineWriter, B: LineBuf<Word = T::Word>> Blocking<T, B> {
@@ -166,11 +160,8 @@ fn below(window: Window, lines: u16) -> Window {
     }
 }
 
-impl<T: LineWriter, B> ErrorType for Blocking<T, B> {
-    type Error = BlockingError<T::Error>;
-}
-
 impl<T: LineWriter, B: LineBuf<Word = T::Word>> ScanoutDma for Blocking<T, B> {
+    type Error = BlockingError<T::Error>;
     type Buf = B;
 
     fn begin(&mut self, window: Window) -> Result<(), Self::Error> {

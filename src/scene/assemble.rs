@@ -10,11 +10,10 @@ use super::pass::{Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, ligh
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, NONE, ORIGIN, Object, Scene, Shading, Shadow, Vertex,
+    Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Shadow,
+    Vertex,
 };
-use crate::geometry::{
-    Coordinate, Cull, Faces, LightingModel, Mesh, MeshError, Tint, each_triangle, triangles,
-};
+use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use core::ops::Range;
 
 /// The lines and columns of guard space that are drawn.
@@ -56,7 +55,7 @@ impl<'t, L> Scene<'_, 't, L> {
     #[inline(always)]
     pub(super) fn is_plain<C>(&self, draw: &Draw<'_, 't, C>) -> bool {
         let master = self.master.with_shadow(draw.shadow);
-        master.applied(draw) == Some(Application::Replace) || !master.has_shading()
+        master.applied(draw) == Some(Application::Replace) || !master.has(Master::SHADING)
     }
 
     /// Draws what `file` brings of a draw call, so many triangles; in line, so that a program has no code of what its
@@ -98,7 +97,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let (model, view) = (&draw.model, camera.view());
         let lamps = draw.lights.map(|lights| Lamps::new(lights, model, view));
         let light = draw.light.filter(|_| lamps.is_none());
-        let light = light.map(|light| light.in_model(model, view));
+        let light = light.map(|light| light.in_model(model));
         let is_lit = light.is_some() || lamps.is_some() || word_of.is_some();
         let has_one = is_plain || !is_lit && draw.mesh.colours.is_empty();
         let generated = match (draw.texgen, &draw.texture) {
@@ -233,7 +232,7 @@ impl<'t, L> Scene<'_, 't, L> {
         }
         match &pass.light {
             Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
-                light_all(light, &pass.tint, &scale, mesh.normals, vertices);
+                light_all(light, &pass.tint, mesh.normals, vertices);
             }
             _ => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {
@@ -294,19 +293,11 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Files faces up to the first that has to be looked at more closely; how many it took.
-    fn file_run(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
-        match pass.cull {
-            Cull::Back => self.file_culled::<true>(faces, pass),
-            Cull::None => self.file_culled::<false>(faces, pass),
-        }
-    }
-
-    /// [`file_run`](Scene::file_run), with or without those seen from behind: two copies, since a value that is looked
-    /// at on the way takes 0.5 % of a frame of many small triangles.
     ///
-    /// A face that is seen from behind takes 33 instructions on a Cortex-M4, one that is kept about 85.
+    /// A face that is seen from behind takes 36 instructions on a Cortex-M4, one that is kept about 85.
     #[inline(never)]
-    fn file_culled<const CULLS: bool>(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
+    fn file_run(&mut self, faces: &[[u16; 3]], pass: &mut Pass<'_>) -> usize {
+        let culls = pass.cull == Cull::Back;
         let picture = self.picture();
         let (base, within) = (pass.base, pass.within);
         let first = self.objects.len();
@@ -339,7 +330,7 @@ impl<'t, L> Scene<'_, 't, L> {
             if !within && place.contains(&Vertex::OUTSIDE) {
                 break faces.len() - left;
             }
-            let Some((corner, places)) = top_first(CULLS, [i, j, k], place) else {
+            let Some((corner, places)) = top_first(culls, [i, j, k], place) else {
                 continue;
             };
             let Some(bin) = bin_of(places, &picture) else {

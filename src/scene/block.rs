@@ -6,6 +6,7 @@
 //! can be dimensioned. `host-tests` counts pages for both layouts.
 
 use super::TextureError;
+use super::texture::Sides;
 
 /// A layout of texels: block by block, rows of blocks from the top; inside a block row by row.
 ///
@@ -67,20 +68,12 @@ impl Blocked {
         self.width() + self.height() - 1
     }
 
-    /// The block on a texture of sides that are these powers of two: not larger than the texture itself.
+    /// The block on a texture of such sides: not larger than the texture itself.
     #[inline(always)]
-    pub(super) const fn within(self, log_width: u8, log_height: u8) -> Self {
+    pub(super) fn within(self, sides: Sides) -> Self {
         Self {
-            log_width: if self.log_width < log_width {
-                self.log_width
-            } else {
-                log_width
-            },
-            log_height: if self.log_height < log_height {
-                self.log_height
-            } else {
-                log_height
-            },
+            log_width: self.log_width.min(sides.log_width),
+            log_height: self.log_height.min(sides.log_height),
         }
     }
 
@@ -109,21 +102,21 @@ impl Blocked {
     /// Copies the rows of `width` by `height` texels into this layout. What is lent beyond that is not touched.
     ///
     /// # Errors
-    /// When a side is no power of two up to [`MAX_SIDE`](super::MAX_SIDE), or either slice has fewer texels.
+    /// When a side is no power of two up to [`MAX_SIDE`](super::Texture::MAX_SIDE), or either slice has fewer texels.
     pub fn arrange<W: Copy>(
         self,
         [width, height]: [u32; 2],
         rows: &[W],
         blocks: &mut [W],
     ) -> Result<(), TextureError> {
-        super::texture::check_sides(width, height)?;
-        let needed = (width * height) as usize;
+        let sides = Sides::new(width, height)?;
+        let needed = sides.texels();
         let have = rows.len().min(blocks.len());
         if have < needed {
             return Err(TextureError::Words { needed, have });
         }
-        let across = width.ilog2() as u8;
-        let block = self.within(across, height.ilog2() as u8);
+        let across = sides.log_width;
+        let block = self.within(sides);
         for (i, texel) in (0..).zip(&rows[..needed]) {
             let place = block.place(i & (width - 1), i >> across, across);
             if let Some(to) = blocks.get_mut(place as usize) {

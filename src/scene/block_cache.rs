@@ -20,6 +20,7 @@
 //! ```
 
 use super::form::Form;
+use super::texture::Sides;
 use super::{Blocked, Compressed, TexelWay, Texels, Texture};
 use core::ops::Range;
 use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
@@ -123,8 +124,8 @@ enum Slow<'m> {
 #[derive(Debug)]
 pub struct BlockCache<'m> {
     slow: Slow<'m>,
-    /// Powers of two that the sides of the texture are.
-    log_sides: [u8; 2],
+    /// Those of the texture.
+    sides: Sides,
     /// Not larger than the texture.
     block: Blocked,
     /// A power of two.
@@ -162,8 +163,7 @@ impl<'m> BlockCache<'m> {
         if matches!(slow.form, Form::Computed(..)) {
             return Err(CacheError::Computed);
         }
-        let log_sides = [slow.log_width() as u8, slow.log_height() as u8];
-        Self::of(Slow::Stored(slow.form), log_sides, layout, words)
+        Self::of(Slow::Stored(slow.form), slow.sides, layout, words)
     }
 
     /// A cache of a compressed texture, whose blocks of 4 x 4 texels are decoded once for all that are read of them. Empty
@@ -175,24 +175,22 @@ impl<'m> BlockCache<'m> {
         slow: Compressed<'m>,
         words: &'m mut [CacheWord],
     ) -> Result<Self, CacheError> {
-        let log_sides = slow.log_sides();
+        let sides = slow.sides;
         let slow = Slow::Compressed(slow, |slow, index, layout, upper, words| {
             slow.load(index, layout, upper, words)
         });
-        Self::of(slow, log_sides, Blocked::COMPRESSED, words)
+        Self::of(slow, sides, Blocked::COMPRESSED, words)
     }
 
     fn of(
         slow: Slow<'m>,
-        log_sides: [u8; 2],
+        sides: Sides,
         layout: Blocked,
         words: &'m mut [CacheWord],
     ) -> Result<Self, CacheError> {
         let have = words.len();
-        let [log_width, log_height] = log_sides;
-        let block = layout.within(log_width, log_height);
-        let texels = 1usize << (log_width + log_height);
-        let needed = (1 << block.log_texels()).max(texels >> UPPER);
+        let block = layout.within(sides);
+        let needed = (1 << block.log_texels()).max(sides.texels() >> UPPER);
         if have < needed {
             return Err(CacheError::Words { needed, have });
         }
@@ -202,7 +200,7 @@ impl<'m> BlockCache<'m> {
         words.fill_with(CacheWord::new);
         Ok(Self {
             slow,
-            log_sides,
+            sides,
             block,
             words,
             reads: AtomicU32::new(0),
@@ -219,9 +217,7 @@ impl<'m> BlockCache<'m> {
         if let Slow::Compressed(slow, _) = &self.slow {
             return slow.dressed(self);
         }
-        let [width, height] = self.log_sides.map(|log| 1 << log);
-        // Sides of a texture are those of one.
-        Texture::computed(self, width, height).unwrap_or(Texture::EMPTY)
+        Texture::asked(self, self.sides)
     }
 
     /// Copies blocks ahead of their use, those with a texel in these columns and rows that are not there, row by row of
@@ -240,8 +236,11 @@ impl<'m> BlockCache<'m> {
         rows: Range<u32>,
         most: u32,
     ) -> Result<u32, CacheError> {
-        let ends = [columns.end, rows.end].into_iter().zip(self.log_sides);
-        for (end, side) in ends.map(|(end, log)| (end, 1 << log)) {
+        let Sides {
+            log_width,
+            log_height,
+        } = self.sides;
+        for (end, side) in [(columns.end, 1 << log_width), (rows.end, 1 << log_height)] {
             if end > side {
                 return Err(CacheError::Outside { side, end });
             }
@@ -287,7 +286,7 @@ impl<'m> BlockCache<'m> {
     #[inline(always)]
     fn index(&self, [column, row]: [u16; 2]) -> u32 {
         self.block
-            .place(column.into(), row.into(), self.log_sides[0])
+            .place(column.into(), row.into(), self.sides.log_width)
     }
 
     /// The texel of an index, if it is there.

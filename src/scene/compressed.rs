@@ -41,8 +41,7 @@ const HALF: u32 = 16 << 21 | 16 << 11 | 16;
 #[derive(Clone, Copy, Debug)]
 pub struct Compressed<'t> {
     blocks: &'t [u8],
-    log_width: u8,
-    log_height: u8,
+    pub(super) sides: Sides,
     /// What a number of 5, 6 and 5 bits is as a word of the panel.
     word: fn(u16) -> u16,
     key: Option<u16>,
@@ -66,7 +65,7 @@ impl<'t> Compressed<'t> {
     /// and 21/32: the thirds of BC1, by the nearest 32nd. Else they are these two, their mean, and what is transparent.
     ///
     /// # Errors
-    /// When a side is no power of two up to [`MAX_SIDE`](super::MAX_SIDE), or too little is lent.
+    /// When a side is no power of two up to [`MAX_SIDE`](super::Texture::MAX_SIDE), or too little is lent.
     pub const fn new(
         blocks: &'t [u8],
         width: u32,
@@ -84,8 +83,7 @@ impl<'t> Compressed<'t> {
         }
         Ok(Self {
             blocks: blocks.split_at(needed).0,
-            log_width: sides.log_width,
-            log_height: sides.log_height,
+            sides,
             word,
             key: None,
         })
@@ -111,18 +109,9 @@ impl<'t> Compressed<'t> {
 
     /// A texture of its sides, with its key.
     pub(super) fn dressed<'a>(&self, texels: &'a dyn Texels) -> Texture<'a> {
-        let [width, height] = [1 << self.log_width, 1 << self.log_height];
-        // Sides of a texture are those of one.
-        let texture = Texture::computed(texels, width, height).unwrap_or(Texture::EMPTY);
-        match self.key {
-            Some(key) => texture.keyed(key),
-            None => texture,
-        }
-    }
-
-    /// The powers of two that the sides are.
-    pub(super) const fn log_sides(&self) -> [u8; 2] {
-        [self.log_width, self.log_height]
+        let mut texture = Texture::asked(texels, self.sides);
+        texture.key = self.key;
+        texture
     }
 
     /// A block by its number.
@@ -177,7 +166,7 @@ impl<'t> Compressed<'t> {
 impl Texels for Compressed<'_> {
     fn texel(&self, column: u16, row: u16) -> u16 {
         let [column, row] = [column, row].map(u32::from);
-        let across = u32::from(self.log_width.saturating_sub(2));
+        let across = u32::from(self.sides.log_width.saturating_sub(2));
         let Block { ends, indices } = self.block(((row / 4) << across) | (column / 4));
         self.shown(ends, indices >> (8 * (row % 4) + 2 * (column % 4)) & 3)
     }

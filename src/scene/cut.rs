@@ -48,7 +48,8 @@ pub(super) fn cut_all(
     });
 }
 
-/// Calls `f` with the triangles of a fan around the first corner.
+/// Calls `f` with the triangles of a fan around the first corner; out of line, since triangles are large.
+#[inline(never)]
 fn each_triangle(polygon: &[Corner], f: &mut dyn FnMut([Corner; 3])) {
     if let [first, rest @ ..] = polygon {
         for pair in rest.windows(2) {

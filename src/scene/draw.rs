@@ -237,12 +237,15 @@ impl<'t> DrawState<'t> {
 
     /// That of a call whose first triangle has this number.
     pub(crate) fn new<C>(first: u16, draw: &Draw<'_, 't, C>, master: Master) -> Self {
-        let skin = draw.texture.as_ref().filter(|_| master.has_texture());
+        let skin = draw
+            .texture
+            .as_ref()
+            .filter(|_| master.has(Master::TEXTURE));
         let texture = skin.map(|skin| skin.texture);
-        let blend = draw.blend.filter(|_| master.has_blend());
+        let blend = draw.blend.filter(|_| master.has(Master::BLEND));
         let role = Role::of(draw.shadow, master);
         let depth = role.depth(draw.depth);
-        let dithers = draw.dither && master.has_dither();
+        let dithers = draw.dither && master.has(Master::DITHER);
         let is_asked = dithers || blend.is_some_and(|blend| blend.is_translucent());
         Self {
             first,
@@ -250,7 +253,7 @@ impl<'t> DrawState<'t> {
             budget: skin.map_or(Self::EMPTY.budget, |skin| skin.budget),
             scissor: draw.scissor,
             depth: match blend {
-                _ if !master.has_depth() => DepthTest::HIDES,
+                _ if !master.has(Master::DEPTH) => DepthTest::HIDES,
                 Some(blend) if blend.is_translucent() => depth.without_write(),
                 _ => depth,
             },
@@ -261,7 +264,7 @@ impl<'t> DrawState<'t> {
             priority: draw.priority,
             late: Late::of(role, blend),
             colour: draw.colour,
-            lamps: draw.lamps.filter(|_| master.has_shading()),
+            lamps: draw.lamps.filter(|_| master.has(Master::SHADING)),
             holes: texture.and_then(|texture| Holes::of(texture, draw.application)),
             square: texture.and_then(Texture::plain_square),
         }

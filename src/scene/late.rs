@@ -23,7 +23,7 @@ impl Role {
     /// That of a call, of a volume that of the faces that are filed first.
     pub(super) fn of(shadow: Option<Shadow>, master: Master) -> Self {
         match shadow {
-            Some(shadow) if master.has_depth() => match shadow {
+            Some(shadow) if master.has(Master::DEPTH) => match shadow {
                 Shadow::Volume(light) => Self::Front(light),
                 Shadow::Lit(light) => Self::Lit(light),
                 Shadow::Shadowed(light) => Self::Shadowed(light),

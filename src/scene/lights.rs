@@ -1,47 +1,38 @@
 //! Several lights in a draw call (K10). Their code is in a program only where a call has them.
 
-use crate::geometry::{
-    Affine, Colour, LampsInModel, Lighting, LightingModel, ModelLight, Scale, Tint,
-};
+use crate::geometry::{Affine, Colour, LampsInModel, Lighting, Scale, Tint};
 use core::fmt;
 
 /// What may stand in [`Draw::lights`](super::Draw::lights): a [`Lighting`].
 ///
 /// It is named through a reference, so that a program whose draw calls have one light, or none, does not have the
 /// code of several: 13 KB on a Cortex-M4, with what makes them.
-pub trait Lights: fmt::Debug + Sync + sealed::Several {}
+pub trait Lights: fmt::Debug + Sync {
+    /// Taken to the space of a model, by the maps from there to the world and on to the camera.
+    #[doc(hidden)]
+    fn to_model(&self, model: &Affine, view: &Affine) -> LampsInModel;
 
-impl Lights for Lighting<'_> {}
+    /// The colour of a vertex in these lights there.
+    #[doc(hidden)]
+    fn colour(&self, lamps: &LampsInModel, vertex: LitVertex<'_>) -> Colour;
+}
 
-pub(super) mod sealed {
-    use super::*;
+/// A vertex that is lit, with a normal at a place in Q1.30.
+#[derive(Clone, Copy, Debug)]
+pub struct LitVertex<'a> {
+    pub(super) tint: &'a Tint,
+    pub(super) scale: &'a Scale,
+    pub(super) normal: [i16; 3],
+    pub(super) place: [i32; 3],
+}
 
-    /// What pass one asks of several lights.
-    pub trait Several {
-        /// Taken to the space of a model, by the maps from there to the world and on to the camera.
-        fn to_model(&self, model: &Affine, view: &Affine) -> LampsInModel;
-
-        /// The colour of a vertex with this normal at this place, 1 being 2^30.
-        fn colour(&self, lamps: &LampsInModel, vertex: Vertex<'_>) -> Colour;
+impl Lights for Lighting<'_> {
+    fn to_model(&self, model: &Affine, view: &Affine) -> LampsInModel {
+        self.in_model(model, view)
     }
 
-    /// A vertex that is lit.
-    #[derive(Clone, Copy)]
-    pub struct Vertex<'a> {
-        pub(in super::super) tint: &'a Tint,
-        pub(in super::super) scale: &'a Scale,
-        pub(in super::super) normal: [i16; 3],
-        pub(in super::super) place: [i32; 3],
-    }
-
-    impl Several for Lighting<'_> {
-        fn to_model(&self, model: &Affine, view: &Affine) -> LampsInModel {
-            self.in_model(model, view)
-        }
-
-        fn colour(&self, lamps: &LampsInModel, vertex: Vertex<'_>) -> Colour {
-            lamps.lit(vertex.tint, vertex.scale, vertex.normal, || vertex.place)
-        }
+    fn colour(&self, lamps: &LampsInModel, vertex: LitVertex<'_>) -> Colour {
+        lamps.lit(vertex.tint, vertex.scale, vertex.normal, vertex.place)
     }
 }
 
@@ -62,7 +53,7 @@ impl<'a> Lamps<'a> {
     }
 
     /// The colour of a vertex.
-    pub(super) fn lit(&self, vertex: sealed::Vertex<'_>) -> Colour {
+    pub(super) fn lit(&self, vertex: LitVertex<'_>) -> Colour {
         self.lights.colour(&self.in_model, vertex)
     }
 }

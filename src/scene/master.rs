@@ -15,94 +15,53 @@ use super::{Application, Draw};
 /// | blend | what is clear is opaque |
 /// | dither | the nearest step |
 /// | shadows | all that a light reaches, as if nothing were between; also where depth is off |
+///
+/// ```
+/// use scanbeam::scene::Master;
+///
+/// let late = Master::ALL.without(Master::BLEND).without(Master::DITHER);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Master(u8);
+pub struct Master(
+    /// A bit for each that is off.
+    u8,
+);
 
 impl Master {
     /// Nothing is off.
     pub const ALL: Self = Self(0);
+    /// Nothing but light and colours of corners is off, for [`without`](Self::without); likewise the others.
+    pub const SHADING: Self = Self(1);
+    /// Comparisons of depth.
+    pub const DEPTH: Self = Self(2);
+    /// Textures.
+    pub const TEXTURE: Self = Self(4);
+    /// What shines through.
+    pub const BLEND: Self = Self(8);
+    /// Dither.
+    pub const DITHER: Self = Self(16);
+    /// Shadows.
+    pub const SHADOWS: Self = Self(32);
 
-    const SHADING: u8 = 1;
-    const DEPTH: u8 = 2;
-    const TEXTURE: u8 = 4;
-    const BLEND: u8 = 8;
-    const DITHER: u8 = 16;
-    const SHADOWS: u8 = 32;
-
-    /// The same without light and colours of corners.
+    /// The same, and what is off in `off` is off as well.
     #[must_use]
-    pub const fn without_shading(self) -> Self {
-        Self(self.0 | Self::SHADING)
+    pub const fn without(self, off: Self) -> Self {
+        Self(self.0 | off.0)
     }
 
-    /// The same without comparisons of depth.
-    #[must_use]
-    pub const fn without_depth(self) -> Self {
-        Self(self.0 | Self::DEPTH)
-    }
-
-    /// The same without textures.
-    #[must_use]
-    pub const fn without_texture(self) -> Self {
-        Self(self.0 | Self::TEXTURE)
-    }
-
-    /// The same without what shines through.
-    #[must_use]
-    pub const fn without_blend(self) -> Self {
-        Self(self.0 | Self::BLEND)
-    }
-
-    /// The same without dither.
-    #[must_use]
-    pub const fn without_dither(self) -> Self {
-        Self(self.0 | Self::DITHER)
-    }
-
-    /// The same without shadows.
-    #[must_use]
-    pub const fn without_shadows(self) -> Self {
-        Self(self.0 | Self::SHADOWS)
-    }
-
-    const fn has(self, bit: u8) -> bool {
-        self.0 & bit == 0
-    }
-
-    /// Whether there is light, and corners have colours.
-    pub(super) const fn has_shading(self) -> bool {
-        self.has(Self::SHADING)
-    }
-
-    /// Whether depths are compared.
-    pub(crate) const fn has_depth(self) -> bool {
-        self.has(Self::DEPTH)
-    }
-
-    pub(super) const fn has_texture(self) -> bool {
-        self.has(Self::TEXTURE)
-    }
-
-    pub(super) const fn has_blend(self) -> bool {
-        self.has(Self::BLEND)
-    }
-
-    pub(super) const fn has_dither(self) -> bool {
-        self.has(Self::DITHER)
-    }
-
-    pub(super) const fn has_shadows(self) -> bool {
-        self.has(Self::SHADOWS)
+    /// Whether one of these is on.
+    pub(crate) const fn has(self, one: Self) -> bool {
+        self.0 & one.0 == 0
     }
 
     /// What the texture of a call does to its colours, if there is one: a decal without transparent texels hides them,
     /// and so does any without shading.
     pub(super) fn applied<C>(self, draw: &Draw<'_, '_, C>) -> Option<Application> {
-        let skin = draw.texture.as_ref().filter(|_| self.has_texture())?;
+        let skin = draw.texture.as_ref().filter(|_| self.has(Self::TEXTURE))?;
         match (draw.application, skin.texture.key()) {
             (Application::Decal, None) => Some(Application::Replace),
-            (Application::Product, _) if !self.has_shading() => Some(Application::Replace),
+            (Application::Product, _) if !self.has(Self::SHADING) => Some(Application::Replace),
             (application, _) => Some(application),
         }
     }

@@ -88,7 +88,7 @@ pub use screen::{ScreenCorner, ScreenVertex};
 pub use shadow::Shadow;
 pub use texgen::TexGen;
 pub(crate) use texture::half;
-pub use texture::{MAX_SIDE, Texture, TextureError, Wrap};
+pub use texture::{Texture, TextureError, Wrap};
 
 use crate::arena::Arena;
 use crate::event::{Event, EventSet};

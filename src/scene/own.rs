@@ -43,6 +43,7 @@ impl<L> Scene<'_, '_, L> {
     }
 
     /// A triangle within all planes; an error names the memory that is full.
+    #[inline(never)]
     pub(super) fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
         self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
     }

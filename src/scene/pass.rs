@@ -1,10 +1,10 @@
 //! What is known of a draw call while its faces are filed: how they are seen, and what falls on them (K1, K10).
 
-use super::lights::{Lamps, sealed};
+use super::lights::{Lamps, LitVertex};
 use super::project::View;
 use super::texgen::Generated;
 use super::{Full, TexturePlace, Vertex};
-use crate::geometry::{Affine, Colour, Coordinate, Cull, Light, Mesh, ModelLight, Scale, Tint};
+use crate::geometry::{Affine, Colour, Coordinate, Cull, Light, Mesh, Scale, Tint};
 
 /// What of a mesh found no room.
 #[derive(Clone, Copy, Default)]
@@ -106,19 +106,13 @@ pub(super) fn top_first(
 
 /// Colours of those vertices that triangles have, by one light and one colour.
 #[inline(never)]
-pub(super) fn light_all(
-    light: &Light,
-    tint: &Tint,
-    scale: &Scale,
-    normals: &[[i16; 3]],
-    vertices: &mut [Vertex],
-) {
+pub(super) fn light_all(light: &Light, tint: &Tint, normals: &[[i16; 3]], vertices: &mut [Vertex]) {
     let (light, tint) = (*light, *tint);
     for (vertex, &normal) in vertices.iter_mut().zip(normals) {
         if !vertex.is_used() {
             continue;
         }
-        let lit = light.lit::<i16>(&tint, scale, normal, || [0; 3]);
+        let lit = light.lit(&tint, normal);
         vertex.colour = lit.word();
     }
 }
@@ -213,13 +207,13 @@ impl Pass<'_> {
             None => self.tint,
         };
         let colour: Colour = match (normal, self.lamps, &self.light) {
-            (Some(normal), Some(lamps), _) => lamps.lit(sealed::Vertex {
+            (Some(normal), Some(lamps), _) => lamps.lit(LitVertex {
                 tint: &tint,
                 scale,
                 normal,
                 place: mesh.positions[i].map(C::to_q30),
             }),
-            (Some(normal), None, Some(light)) => light.lit::<i16>(&tint, scale, normal, || [0; 3]),
+            (Some(normal), None, Some(light)) => light.lit(&tint, normal),
             _ => tint.lit(1 << 15),
         };
         colour.word()

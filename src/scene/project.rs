@@ -67,10 +67,10 @@ impl View {
     #[inline(never)]
     pub(super) fn new(camera: &Camera, screen: Screen, model: &Affine) -> Self {
         let projection = Projection::new(camera, screen, model);
-        let (mut rows, mut offset) = (*projection.rows(), projection.offset());
-        let (near, far, near_down) = projection.range();
+        let (mut rows, mut offset) = (projection.rows, projection.offset);
+        let (near, far, near_down) = (projection.near, projection.far, projection.near_down);
         // What x and y lose, or, for long focal lengths, z.
-        let down = FOCAL_BITS - projection.power();
+        let down = FOCAL_BITS - projection.power;
         let (cross, along) = (down.clamp(0, 31), (-down).clamp(0, 31));
         for i in 0..3 {
             let shift = if i < 2 { cross } else { along };
@@ -81,7 +81,7 @@ impl View {
         let range = |v: i32| rounded(v, along).max(1);
         let centre = |axis: usize| {
             let first = [screen.left(), screen.top()][axis];
-            let from_first = projection.centre(axis) - 8 * i64::from(first);
+            let from_first = i64::from(projection.centre[axis]) - 8 * i64::from(first);
             // Less the half space that a signed quotient is taken from.
             (((from_first + 8 * i64::from(ORIGIN) - 0x8000) << 14) + (1 << 13)) as i32
         };

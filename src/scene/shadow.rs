@@ -58,14 +58,14 @@ impl Master {
         if !shadow.is_some_and(Shadow::is_volume) {
             return self;
         }
-        let dark = self.without_shading().without_texture();
-        dark.without_blend().without_dither()
+        let dark = self.without(Self::SHADING).without(Self::TEXTURE);
+        dark.without(Self::BLEND).without(Self::DITHER)
     }
 
     /// Whether a call with this shadow is left out.
     pub(super) fn leaves_out(self, shadow: Option<Shadow>) -> bool {
         let is_counted = matches!(shadow, Some(Shadow::Volume(_) | Shadow::Shadowed(_)));
-        let are_on = self.has_shadows() && self.has_depth();
+        let are_on = self.has(Self::SHADOWS) && self.has(Self::DEPTH);
         is_counted && !are_on
     }
 }

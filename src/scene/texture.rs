@@ -18,15 +18,12 @@ use super::form::{Form, Square};
 use super::{Sampling, Texels};
 use core::fmt;
 
-/// Longest side of a texture, in texels.
-pub const MAX_SIDE: u32 = 1024;
-
 /// A texture cannot be made of what was lent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[non_exhaustive]
 pub enum TextureError {
-    /// A side is not a power of two from 1 to [`MAX_SIDE`].
+    /// A side is not a power of two from 1 to [`MAX_SIDE`](Texture::MAX_SIDE).
     Side {
         /// Width asked for.
         width: u32,
@@ -73,7 +70,8 @@ impl fmt::Display for TextureError {
             Self::Side { width, height } => {
                 return write!(
                     f,
-                    "texture: {width}x{height}, where sides are powers of two from 1 to {MAX_SIDE}"
+                    "texture: {width}x{height}, where sides are powers of two from 1 to {}",
+                    Texture::MAX_SIDE
                 );
             }
             Self::Level {
@@ -113,8 +111,7 @@ pub enum Wrap {
 #[derive(Clone, Copy, Debug)]
 pub struct Texture<'t> {
     pub(crate) form: Form<'t>,
-    log_width: u8,
-    log_height: u8,
+    pub(super) sides: Sides,
     /// The power of two of both sides of a [`Square`]; else 0.
     square: u8,
     /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
@@ -130,7 +127,7 @@ pub struct Texture<'t> {
 }
 
 /// The powers of two that the sides are.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Sides {
     pub(super) log_width: u8,
     pub(super) log_height: u8,
@@ -140,8 +137,8 @@ impl Sides {
     pub(super) const fn new(width: u32, height: u32) -> Result<Self, TextureError> {
         if width.is_power_of_two()
             && height.is_power_of_two()
-            && width <= MAX_SIDE
-            && height <= MAX_SIDE
+            && width <= Texture::MAX_SIDE
+            && height <= Texture::MAX_SIDE
         {
             return Ok(Self {
                 log_width: width.trailing_zeros() as u8,
@@ -151,14 +148,9 @@ impl Sides {
         Err(TextureError::Side { width, height })
     }
 
-    const fn texels(self) -> usize {
+    pub(super) const fn texels(self) -> usize {
         1 << (self.log_width + self.log_height)
     }
-}
-
-/// Says whether sides are those of a texture.
-pub(super) fn check_sides(width: u32, height: u32) -> Result<(), TextureError> {
-    Sides::new(width, height).map(|_| ())
 }
 
 /// A constructor of textures with indices of `$bits` bits.
@@ -169,7 +161,7 @@ macro_rules! indexed {
         /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
         ///
         /// # Errors
-        /// When a side is not a power of two up to [`MAX_SIDE`], or too little is lent.
+        /// When a side is not a power of two up to [`MAX_SIDE`](Texture::MAX_SIDE), or too little is lent.
         pub const fn $name(
             bytes: &'t [u8],
             palette: &'t [u16],
@@ -195,6 +187,8 @@ macro_rules! indexed {
 }
 
 impl<'t> Texture<'t> {
+    /// Longest side of a texture, in texels.
+    pub const MAX_SIDE: u32 = 1024;
     /// A black texel, for memory that textures are to be put into.
     pub const EMPTY: Self = match Self::words(&[0], 1, 1) {
         Ok(texture) => texture,
@@ -214,8 +208,7 @@ impl<'t> Texture<'t> {
         };
         Self {
             form,
-            log_width: sides.log_width,
-            log_height: sides.log_height,
+            sides,
             square,
             spare: match longest {
                 0..=7 => 2,
@@ -235,7 +228,7 @@ impl<'t> Texture<'t> {
     /// Repeats; see [`wrapping`](Self::wrapping). What is lent beyond the need is not read.
     ///
     /// # Errors
-    /// When a side is not a power of two up to [`MAX_SIDE`], or too little is lent.
+    /// When a side is not a power of two up to [`MAX_SIDE`](Texture::MAX_SIDE), or too little is lent.
     pub const fn words(texels: &'t [u16], width: u32, height: u32) -> Result<Self, TextureError> {
         let sides = match Sides::new(width, height) {
             Ok(sides) => sides,
@@ -275,16 +268,21 @@ impl<'t> Texture<'t> {
     /// Repeats; see [`wrapping`](Self::wrapping). It has what others have: wraps, a key, levels of detail, filters.
     ///
     /// # Errors
-    /// When a side is not a power of two up to [`MAX_SIDE`].
+    /// When a side is not a power of two up to [`MAX_SIDE`](Texture::MAX_SIDE).
     pub const fn computed(
         texels: &'t dyn Texels,
         width: u32,
         height: u32,
     ) -> Result<Self, TextureError> {
         match Sides::new(width, height) {
-            Ok(sides) => Ok(Self::new(Form::Computed(texels, sides.log_width), sides)),
+            Ok(sides) => Ok(Self::asked(texels, sides)),
             Err(error) => Err(error),
         }
+    }
+
+    /// The same of known sides.
+    pub(super) const fn asked(texels: &'t dyn Texels, sides: Sides) -> Self {
+        Self::new(Form::Computed(texels, sides.log_width), sides)
     }
 
     /// The same texture with something else beyond its sides.
@@ -383,27 +381,27 @@ impl<'t> Texture<'t> {
     /// Texels a row.
     #[must_use]
     pub const fn width(&self) -> u32 {
-        1 << self.log_width
+        1 << self.sides.log_width
     }
 
     /// Rows.
     #[must_use]
     pub const fn height(&self) -> u32 {
-        1 << self.log_height
+        1 << self.sides.log_height
     }
 
     /// The power of two that the width is: 0 to 10.
     #[inline(always)]
     #[must_use]
     pub const fn log_width(&self) -> u32 {
-        self.log_width as u32
+        self.sides.log_width as u32
     }
 
     /// The power of two that the height is: 0 to 10.
     #[inline(always)]
     #[must_use]
     pub const fn log_height(&self) -> u32 {
-        self.log_height as u32
+        self.sides.log_height as u32
     }
 
     /// Whether places fit into one word: no side is above 256, and the nearest texel of this size is taken.

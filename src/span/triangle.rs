@@ -270,11 +270,36 @@ impl Triangle<'_> {
     /// The sides on `line` and below, up to the turn or the end.
     #[inline(always)]
     pub(crate) fn sides(&self, way: Way, line: i32, turn: i32) -> Sides {
-        let mut sides = self.upper_sides(way);
+        if way == Way::PLAIN {
+            return self.plain_sides(line >= turn);
+        }
+        let mut sides = self.upper_sides_of_any(way);
         if line >= turn {
-            self.turn_sides(way, &mut sides);
+            sides.turn(self, way);
         }
         sides
+    }
+
+    /// The sides of [`Way::PLAIN`] above or below the turn: which two they are is found before either is made.
+    #[inline(always)]
+    fn plain_sides(&self, is_below: bool) -> Sides {
+        let [a, b, c] = self.places();
+        let (d1, d2, d3) = (b.wrapping_sub(a), c.wrapping_sub(a), c.wrapping_sub(b));
+        let mut left = (a, across(d2), down(d2));
+        let mut right = (a, across(d1), down(d1));
+        if is_below {
+            let (dx, dy) = (across(d3), down(d3));
+            if dy > 0 {
+                right = (b, dx, dy);
+            } else {
+                left = (c, -dx, -dy);
+            }
+        }
+        let side = |(from, dx, dy)| Edge::short(from, dx, dy, ORIGIN);
+        Sides {
+            left: side(left),
+            right: side(right),
+        }
     }
 
     /// The sides above the turn.

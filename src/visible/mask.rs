@@ -234,6 +234,7 @@ impl Mask {
     }
 
     /// Whether the mask has all of `start .. end`.
+    #[inline(never)]
     pub(crate) fn has_all(&self, start: u32, end: u32) -> bool {
         let mut lack = 0;
         each_word(start, end, |word, bits| lack |= bits & !self.0[word]);
@@ -287,49 +288,33 @@ impl Mask {
         }
     }
 
-    /// Calls `run` with each run of `start .. end` that is not covered, from left to right, and covers them;
-    /// how many columns that were. `end` is below 1,024.
-    #[inline(always)]
-    pub(crate) fn cover_free(
-        &mut self,
-        start: u32,
-        end: u32,
-        mut run: impl FnMut(u32, u32),
-    ) -> u32 {
-        const COVERED: u32 = u32::MAX;
-        let (mut from, mut count) = (COVERED, 0);
-        each_word(start, end, |word, bits| {
-            let base = word as u32 * 32;
-            let mut free = bits & !self.0[word];
-            self.0[word] |= bits;
-            if free == u32::MAX {
-                from = from.min(base);
-                return;
-            }
-            if from != COVERED {
-                let more = leading_zeros(!free);
-                run(from, base + more);
-                count += base + more - from;
-                from = COVERED;
-                free &= u32::MAX >> (more & 31);
-            }
-            while free != 0 {
-                let first = leading_zeros(free);
-                let columns = leading_zeros(!(free << (first & 31)));
-                if first + columns >= 32 {
-                    from = base + first;
-                    break;
-                }
-                run(base + first, base + first + columns);
-                count += columns;
-                free &= u32::MAX >> ((first + columns) & 31);
-            }
-        });
-        if from != COVERED {
-            run(from, end);
-            count += end - from;
+    /// Covers the first run of `start .. end` that is not covered: its first column, and that after its last in the lower
+    /// half. 0 where there is none. `end` is below 1,024.
+    #[inline(never)]
+    pub(crate) fn take_run(&mut self, start: u32, end: u32) -> u32 {
+        let last = word_of(end);
+        let mut at = word_of(start);
+        let mut bits = u32::MAX >> (start & 31);
+        let mut free = bits & !self.0[at];
+        while free == 0 && at < last {
+            at += 1;
+            free = !self.0[at];
         }
-        count
+        let first = at as u32 * 32 + leading_zeros(free);
+        if first >= end {
+            return 0;
+        }
+        bits = u32::MAX >> (first & 31);
+        let mut taken = bits & self.0[at];
+        while taken == 0 && at < last {
+            self.0[at] |= bits;
+            bits = u32::MAX;
+            at += 1;
+            taken = self.0[at];
+        }
+        let after = (at as u32 * 32 + leading_zeros(taken)).min(end);
+        self.0[at] |= bits & !(u32::MAX >> (after & 31));
+        first << 16 | after
     }
 }
 
@@ -379,15 +364,22 @@ mod tests {
                 assert_eq!(whole, if is_new { mask } else { was });
                 whole = mask;
                 let mut runs = Vec::new();
-                let count = free.cover_free(start, end, |a, b| {
+                let mut at = start;
+                while at < end {
+                    let run = free.take_run(at, end);
+                    if run == 0 {
+                        break;
+                    }
+                    let (a, b) = (run >> 16, run & 0xFFFF);
                     assert!(a < b && runs.last().is_none_or(|&(_, end)| end < a));
                     runs.push((a, b));
-                });
+                    at = b;
+                }
                 let taken: Vec<usize> = runs
                     .iter()
                     .flat_map(|&(a, b)| a as usize..b as usize)
                     .collect();
-                assert_eq!((taken, count as usize), (old.clone(), old.len()));
+                assert_eq!(taken, old);
                 assert_eq!(free, mask);
                 plain[columns].fill(true);
             }

@@ -14,7 +14,7 @@ mod start;
 use core::convert::Infallible;
 use core::task::Poll;
 use embedded_hal::digital::{self, OutputPin};
-use scanbeam::scan_out::{ErrorKind, ErrorType, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{ErrorKind, Pump, ScanoutDma, Window};
 use spinner::{LINES, Spinner, WIDTH, lend, panel};
 
 /// Bytes that are printed at once.
@@ -70,11 +70,8 @@ impl Panel {
     }
 }
 
-impl ErrorType for Panel {
-    type Error = ErrorKind;
-}
-
 impl ScanoutDma for Panel {
+    type Error = ErrorKind;
     type Buf = &'static mut [u16];
 
     fn begin(&mut self, window: Window) -> Result<(), ErrorKind> {

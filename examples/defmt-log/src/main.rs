@@ -6,7 +6,7 @@
 use core::panic::PanicInfo;
 use cortex_m as _; // its critical section
 use defmt_semihosting as _;
-use scanbeam::scan_out::{Blocking, ErrorKind, ErrorType, LineWriter, Pump, Window};
+use scanbeam::scan_out::{Blocking, ErrorKind, LineWriter, Pump, Window};
 use spinner::{LINES, Spinner, WIDTH, lend};
 
 /// A display that shows nothing, and may fail at a line.
@@ -14,11 +14,8 @@ struct Glass {
     fails_at: Option<u16>,
 }
 
-impl ErrorType for Glass {
-    type Error = ErrorKind;
-}
-
 impl LineWriter for Glass {
+    type Error = ErrorKind;
     type Word = u16;
 
     fn open(&mut self, _: Window) -> Result<(), ErrorKind> {

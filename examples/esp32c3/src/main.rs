@@ -12,7 +12,7 @@ use esp_hal::gpio::{Level, Output, OutputConfig};
 use esp_hal::spi::master::{Config, Spi, SpiDma, SpiDmaTransfer};
 use esp_hal::{Blocking, clock::CpuClock, dma_tx_buffer, time::Rate};
 use panic_halt as _;
-use scanbeam::scan_out::{ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
+use scanbeam::scan_out::{ErrorKind, LineBuf, ScanoutDma, Window};
 use spinner::{LINES, WIDTH, panel};
 
 esp_bootloader_esp_idf::esp_app_desc!();
@@ -44,11 +44,8 @@ impl Panel {
     }
 }
 
-impl ErrorType for Panel {
-    type Error = ErrorKind;
-}
-
 impl ScanoutDma for Panel {
+    type Error = ErrorKind;
     type Buf = Line;
 
     fn begin(&mut self, window: Window) -> Result<(), ErrorKind> {

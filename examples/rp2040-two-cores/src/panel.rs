@@ -5,7 +5,7 @@ use embedded_hal::{delay::DelayNs, spi::SpiBus};
 use rp2040_hal::dma::{CH0, Channel, single_buffer};
 use rp2040_hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown, bank0};
 use rp2040_hal::{Timer, pac, spi};
-use scanbeam::scan_out::{ErrorKind, ErrorType, ScanoutDma, Window};
+use scanbeam::scan_out::{ErrorKind, ScanoutDma, Window};
 use spinner::dma::Line;
 
 type Wire<P> = Pin<P, FunctionSpi, PullDown>;
@@ -48,11 +48,8 @@ impl Panel {
     }
 }
 
-impl ErrorType for Panel {
-    type Error = ErrorKind;
-}
-
 impl ScanoutDma for Panel {
+    type Error = ErrorKind;
     type Buf = Line;
 
     fn begin(&mut self, window: Window) -> Result<(), ErrorKind> {

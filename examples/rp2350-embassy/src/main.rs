@@ -18,7 +18,7 @@ use embedded_hal::digital::{ErrorType, OutputPin};
 use embedded_hal_bus::spi::ExclusiveDevice;
 use panic_halt as _;
 use scanbeam::frame::draw_frame_async;
-use scanbeam::scan_out::{AsyncPump, AsyncSpiPanel, ErrorKind};
+use scanbeam::scan_out::{AsyncPump, ErrorKind, SpiPanel};
 use spinner::{LINES, Smooth, TURN, WIDTH, background, lend, panel};
 
 bind_interrupts!(struct Interrupts {
@@ -66,7 +66,7 @@ async fn main(_spawner: Spawner) {
     wake(&mut bus, &mut dc);
 
     let device = ExclusiveDevice::new(bus, WiredLow, Delay).expect("nothing selects the chip");
-    let panel = AsyncSpiPanel::<_, _, u16>::new(device, dc);
+    let panel = SpiPanel::<_, _, u16>::new(device, dc);
     let buffers = [lend!(u16, LINES * WIDTH, 0), lend!(u16, LINES * WIDTH, 0)];
     let mut pump = AsyncPump::new(panel, buffers);
     let (mut scene, mut renderer) = (spinner::scene!(Smooth), spinner::renderer!(Smooth));

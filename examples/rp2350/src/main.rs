@@ -14,7 +14,7 @@ use rp235x_hal::clocks::init_clocks_and_plls as start;
 use rp235x_hal::dma::{CH0, Channel, DMAExt, single_buffer};
 use rp235x_hal::gpio::{FunctionSioOutput, FunctionSpi, Pin, PullDown, bank0};
 use rp235x_hal::{self as hal, Clock, fugit::RateExtU32, pac};
-use scanbeam::scan_out::{ErrorKind, ErrorType, ScanoutDma, Window};
+use scanbeam::scan_out::{ErrorKind, ScanoutDma, Window};
 use spinner::dma::{Line, lines};
 use spinner::panel;
 
@@ -43,11 +43,8 @@ impl Panel {
     }
 }
 
-impl ErrorType for Panel {
-    type Error = ErrorKind;
-}
-
 impl ScanoutDma for Panel {
+    type Error = ErrorKind;
     type Buf = Line;
 
     fn begin(&mut self, window: Window) -> Result<(), ErrorKind> {

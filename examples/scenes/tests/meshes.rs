@@ -6,8 +6,7 @@ use scanbeam::mesh::QuadSplit;
 use scanbeam::{Faces, Mesh};
 use scenes::{CUBE, CUBE_QUADS, FINE_SPHERE, RIBBON, SPHERE, TEAPOT};
 
-#[allow(dead_code)]
-#[path = "../generate.rs"]
+#[path = "../generate/teapot.rs"]
 mod generate;
 
 type Point = [i16; 3];

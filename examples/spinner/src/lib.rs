@@ -16,7 +16,7 @@ use scanbeam::frame::{
 };
 use scanbeam::look::{Gouraud, Look};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma};
 use scanbeam::scene::{Draw, Memory, Scene};
 use scanbeam::{Affine, Camera, Light, Screen};
 use static_cell::ConstStaticCell;
@@ -224,7 +224,7 @@ impl Default for Spinner {
 }
 
 /// How a sink sends a command of the panel: its code and what follows it.
-pub type SendCommand<D> = fn(&mut D, (u8, &[u8])) -> Result<(), <D as ErrorType>::Error>;
+pub type SendCommand<D> = fn(&mut D, (u8, &[u8])) -> Result<(), <D as ScanoutDma>::Error>;
 
 /// Wakes the panel up, then draws and sends frames for ever. `command` has the sink send a command
 /// by [`panel::command`], `wait` waits at least so many milliseconds.

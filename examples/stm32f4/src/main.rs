@@ -7,7 +7,7 @@
 
 use core::task::Poll;
 use panic_halt as _;
-use scanbeam::scan_out::{ErrorKind, ErrorType, ScanoutDma, Window};
+use scanbeam::scan_out::{ErrorKind, ScanoutDma, Window};
 use spinner::dma::{Line, lines};
 use spinner::panel;
 use stm32f4xx_hal::dma::{MemoryToPeripheral, Stream3, StreamsTuple, Transfer, config::DmaConfig};
@@ -44,11 +44,8 @@ fn write(bytes: &[u8]) -> Result<(), ErrorKind> {
     Ok(())
 }
 
-impl ErrorType for Panel {
-    type Error = ErrorKind;
-}
-
 impl ScanoutDma for Panel {
+    type Error = ErrorKind;
     type Buf = Line;
 
     fn begin(&mut self, window: Window) -> Result<(), ErrorKind> {

@@ -15,7 +15,7 @@ use embedded_display_controller::{
 };
 use panic_halt as _;
 use scanbeam::pixel::{PixelFormat as _, Rgb565};
-use scanbeam::scan_out::{FrameBuffer, FrameBufferSink, Pump, SwapFlag};
+use scanbeam::scan_out::{Blocking, FrameBuffer, Pump, SwapFlag};
 use scanbeam::{frame::draw_frame, look::Gouraud};
 use spinner::{BACKGROUND, HEIGHT, TURN, WIDTH, lend};
 use stm32h7xx_hal::gpio::Speed;
@@ -72,7 +72,7 @@ fn main() -> ! {
 
     let frames = FrameBuffer::new(frames, WIDTH as u16, HEIGHT as u16, &SWAP);
     let lines = [lend!(u16, WIDTH, 0), lend!(u16, WIDTH, 0)];
-    let mut pump = Pump::new(FrameBufferSink::over(frames), lines);
+    let mut pump = Pump::new(Blocking::over(frames), lines);
     let (mut scene, mut renderer) = (spinner::scene!(Look), spinner::renderer!(Look));
     for turn in (0..TURN).cycle() {
         spinner::build(&mut scene, turn);

@@ -5,8 +5,8 @@
 
 use scanbeam::frame::{self, FrameError, FrameUse, LineError};
 use scanbeam::look::Look;
-use scanbeam::pixel::Pixel;
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
+use scanbeam::pixel::PixelFormat;
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use std::sync::mpsc::{SyncSender, sync_channel};
 use std::thread;
@@ -27,10 +27,10 @@ pub fn draw_frame<L, F, D, const WORDS: usize>(
     pump: &mut Pump<D>,
     background: F::Word,
     lines_per_transfer: u16,
-) -> Result<FrameUse, FrameError<<D as ErrorType>::Error>>
+) -> Result<FrameUse, FrameError<D::Error>>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
-    F: Pixel + Sync,
+    F: PixelFormat + Sync,
     D: ScanoutDma<Buf: LineBuf<Word = F::Word>>,
 {
     if let [renderer] = renderers {
@@ -65,7 +65,7 @@ where
             pump.line_done()?;
         }
         pump.finish()?;
-        Ok::<_, FrameError<<D as ErrorType>::Error>>(())
+        Ok::<_, FrameError<D::Error>>(())
     })?;
     for renderer in renderers {
         used.cache += renderer.counts();
@@ -84,7 +84,7 @@ fn draw_lines<L, F, const WORDS: usize>(
     sender: &SyncSender<Drawn<F::Word>>,
 ) where
     L: Look<Pixel = F>,
-    F: Pixel,
+    F: PixelFormat,
 {
     renderer.restart();
     for line in own {

@@ -16,7 +16,7 @@ use host_support::reference::{Shade, View};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::mesh::U1F15;
-use scanbeam::pixel::{Pixel, PixelFormat, Rgb565};
+use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scene::{Blend, DepthTest, DrawError, Lights, Shadow, ShadowLight, Skin, Texture};
 use scanbeam::{Draw, Mesh, Scene};
 use std::collections::HashMap;
@@ -230,7 +230,7 @@ impl Picture for Task<'_> {
         !self.skins.set.is_empty()
     }
 
-    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure> {
+    fn plain<F: PixelFormat + Sync>(&self) -> Result<Drawn, DrawFailure> {
         match self.phong {
             false => self.draw::<F, Gouraud<F>, Rgb565>(),
             true => self.draw::<F, Phong<F>, Rgb565>(),
@@ -239,7 +239,7 @@ impl Picture for Task<'_> {
 
     fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
     where
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
         T: PixelFormat<Word = u16>,
         Textured<F>: Look<Pixel = F, Planes: Send>,
         TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
@@ -273,7 +273,7 @@ impl Task<'_> {
     /// Draws with the look `L`, and texels that are pixels of the format `T`.
     fn draw<F, L, T>(&self) -> Result<Drawn, DrawFailure>
     where
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
         L: Look<Pixel = F, Planes: Send> + Sync,
         T: PixelFormat<Word = u16>,
     {

@@ -4,7 +4,7 @@ use super::{DrawFailure, Drawn};
 use crate::choice::PixelFormatArg;
 use host_support::image_out::Frame;
 use scanbeam::look::{Look, Textured, TexturedPhong};
-use scanbeam::pixel::{Grey8, Pixel, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888, mono_row};
+use scanbeam::pixel::{Grey8, PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888, mono_row};
 
 /// What is drawn in any format.
 pub(super) trait Picture {
@@ -12,12 +12,12 @@ pub(super) trait Picture {
     fn is_textured(&self) -> bool;
 
     /// Draws it without textures.
-    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure>;
+    fn plain<F: PixelFormat + Sync>(&self) -> Result<Drawn, DrawFailure>;
 
     /// Draws it with textures whose texels are pixels of the format `T`.
     fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
     where
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
         T: PixelFormat<Word = u16>,
         Textured<F>: Look<Pixel = F, Planes: Send>,
         TexturedPhong<F>: Look<Pixel = F, Planes: Send>;

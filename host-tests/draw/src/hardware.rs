@@ -8,7 +8,7 @@ use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use host_support::rooms::SceneRooms;
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{Pixel, Rgb565Be, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::DrawError;
 use scanbeam::stats::SpanCounts;
 use scanbeam::{Draw, Scene};
@@ -40,7 +40,7 @@ fn job(prepared: &Prepared, view: &View) -> Result<(Job, Setting), DrawFailure> 
 }
 
 /// Draws a part of a model into a scene.
-fn draw_chunk<F: Pixel>(
+fn draw_chunk<F: PixelFormat>(
     scene: &mut Scene<'_, '_, Gouraud<F>>,
     setting: &Setting,
     chunk: &Chunk,
@@ -54,7 +54,7 @@ fn draw_chunk<F: Pixel>(
     })
 }
 
-fn draw_in<F: Pixel>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure> {
+fn draw_in<F: PixelFormat>(prepared: &Prepared, view: &View) -> Result<Drawn, DrawFailure> {
     let (job, setting) = job(prepared, view)?;
     let chunks = &prepared.chunks;
     let counted: Vec<_> = chunks.iter().map(Some).collect();

@@ -6,7 +6,7 @@ use crate::{CrewSettings, DrawFailure, Drawn, Prepared, Setting, draw, draw_mode
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{Pixel, Rgb565, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scan_out::Window;
 use scanbeam::stats::SpanCounts;
 use scanbeam::{Draw, Scene};
@@ -57,7 +57,7 @@ pub fn draw_by_methods(
     }
 }
 
-fn draw_in<F: Pixel + Format>(
+fn draw_in<F: PixelFormat + Format>(
     prepared: &Prepared,
     view: &View,
     how: (Method, DepthMethod),
@@ -85,7 +85,7 @@ fn draw_in<F: Pixel + Format>(
 }
 
 /// Draws all lines of a scene over a background, so many a transfer.
-fn draw_lines<F: Pixel + Format>(
+fn draw_lines<F: PixelFormat + Format>(
     scene: &Scene<'_, '_, Gouraud<F>>,
     pump: &mut Display<F>,
     (background, lines_per_transfer): (F::Word, u16),

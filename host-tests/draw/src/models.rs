@@ -10,7 +10,7 @@ use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use scanbeam::Draw;
 use scanbeam::look::{Gouraud, Look, Textured, TexturedPhong};
-use scanbeam::pixel::{Pixel, PixelFormat};
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{Budget, Skin, Texture};
 
 /// Draws a model without textures.
@@ -84,13 +84,13 @@ impl Picture for Task<'_> {
         self.skins.is_some()
     }
 
-    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure> {
+    fn plain<F: PixelFormat + Sync>(&self) -> Result<Drawn, DrawFailure> {
         self.draw::<Gouraud<F>, F>(&[], Budget::default())
     }
 
     fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
     where
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
         T: PixelFormat<Word = u16>,
         Textured<F>: Look<Pixel = F, Planes: Send>,
         TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
@@ -109,7 +109,7 @@ impl Task<'_> {
     fn draw<L, F>(&self, textures: &[Texture<'_>], budget: Budget) -> Result<Drawn, DrawFailure>
     where
         L: Look<Pixel = F, Planes: Send> + Sync,
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
     {
         let (chunks, setting) = (&self.prepared.chunks, &self.setting);
         let is_flat = self.view.shade == Shade::Flat;

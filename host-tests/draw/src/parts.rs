@@ -11,7 +11,7 @@ use host_support::reference::View;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::frame::{FastMemory, FrameUse};
 use scanbeam::look::Look;
-use scanbeam::pixel::{Pixel, PixelFormat};
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::{DrawError, DrawState, LARGEST, Object, TexturePlace, Vertex};
 use scanbeam::stats::SpanCounts;
@@ -144,7 +144,7 @@ pub(crate) struct Took {
 
 impl Took {
     /// What a band took that was not drawn by a [`Renderer`].
-    pub(crate) fn by_other<'t, L: Look<Pixel = F>, F: Pixel>(
+    pub(crate) fn by_other<'t, L: Look<Pixel = F>, F: PixelFormat>(
         scene: &Scene<'_, 't, L>,
         pump: &Display<F>,
         spans: SpanCounts,
@@ -179,7 +179,7 @@ pub(crate) fn draw_parts<'t, L, F>(
 ) -> Result<Drawn, DrawFailure>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
-    F: Pixel + Sync,
+    F: PixelFormat + Sync,
 {
     draw_parts_by(job, counted, step, |scene, pump, lines| {
         draw_by_crew(job, scene, pump, lines)
@@ -198,7 +198,7 @@ pub(crate) fn draw_parts_by<'t, L, F>(
 ) -> Result<Drawn, DrawFailure>
 where
     L: Look<Pixel = F>,
-    F: Pixel,
+    F: PixelFormat,
 {
     let [width, height] = job.size;
     let mut parts = Parts {
@@ -239,7 +239,7 @@ fn draw_by_crew<L, F>(
 ) -> Result<Took, DrawFailure>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
-    F: Pixel + Sync,
+    F: PixelFormat + Sync,
 {
     let width = scene.screen().width();
     let slots = job.crew.slots.min(MOST_SLOTS);
@@ -302,7 +302,7 @@ impl<S, B> Parts<'_, S, B> {
     fn tile<'t, L, F>(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure>
     where
         L: Look<Pixel = F>,
-        F: Pixel,
+        F: PixelFormat,
         S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
         B: FnMut(&Scene<'_, 't, L>, &mut Display<F>, u16) -> Result<Took, DrawFailure>,
     {

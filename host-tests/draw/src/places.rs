@@ -11,7 +11,7 @@ use host_support::texture_file::TextureImage;
 use scanbeam::Draw;
 use scanbeam::look::Textured;
 use scanbeam::pixel::{PixelFormat, Rgb565};
-use scanbeam::scene::{Budget, MAX_SIDE, Skin, Texels, Texture};
+use scanbeam::scene::{Budget, Skin, Texels, Texture};
 
 /// What a pixel shows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -38,9 +38,9 @@ impl Shown {
         let Self::Texel { place, side } = self else {
             return None;
         };
-        let steps = f64::from(MAX_SIDE) / f64::from(side);
+        let steps = f64::from(Texture::MAX_SIDE) / f64::from(side);
         let off = |i: usize| {
-            let all = f64::from(MAX_SIDE);
+            let all = f64::from(Texture::MAX_SIDE);
             let middle = f64::from(place[i]) + 0.5 - want[i] * steps;
             let middle = middle - (middle / all).round() * all;
             // Anywhere on the step.
@@ -55,7 +55,7 @@ impl Shown {
         let Self::Texel { place, side } = self else {
             return false;
         };
-        let texel = place.map(|at| f64::from(u32::from(at) * side / MAX_SIDE));
+        let texel = place.map(|at| f64::from(u32::from(at) * side / Texture::MAX_SIDE));
         texel == want.map(|at| at.floor().rem_euclid(side.into()))
     }
 }
@@ -84,8 +84,8 @@ pub fn places(
     view: &View,
 ) -> Result<Vec<Shown>, DrawFailure> {
     let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
-    let steps = MAX_SIDE / side.clamp(1, MAX_SIDE);
-    let blank = Frame::new(MAX_SIDE, MAX_SIDE, vec![0; 3 << 20])
+    let steps = Texture::MAX_SIDE / side.clamp(1, Texture::MAX_SIDE);
+    let blank = Frame::new(Texture::MAX_SIDE, Texture::MAX_SIDE, vec![0; 3 << 20])
         .ok_or_else(|| bad(&"a texture has texels"))?;
     let image = TextureImage::new(&blank).map_err(|error| bad(&error))?;
     let prepared = Prepared::textured(model, &TextureSet::whole(model, image));
@@ -93,7 +93,8 @@ pub fn places(
     let budget = Budget::new(magnified as u16);
     let along = |axis: usize| -> Result<Vec<u16>, DrawFailure> {
         let axis = Axis(axis);
-        let texture = Texture::computed(&axis, MAX_SIDE, MAX_SIDE).map_err(|error| bad(&error))?;
+        let texture = Texture::computed(&axis, Texture::MAX_SIDE, Texture::MAX_SIDE)
+            .map_err(|error| bad(&error))?;
         words(&prepared, &texture, budget, view)
     };
     let white = Rgb565::from_rgb8([255; 3]);

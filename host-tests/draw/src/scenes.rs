@@ -14,7 +14,7 @@ use host_support::reference::{Cull, View};
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Look, Textured, TexturedPhong};
 use scanbeam::mesh::{Material, U1F15};
-use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::pixel::{Index8, PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{
     Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, LARGEST, Lights, Scissor, Skin,
     Texture,
@@ -203,13 +203,13 @@ impl Picture for Task<'_> {
         self.parts.are_textured()
     }
 
-    fn plain<F: Pixel + Sync>(&self) -> Result<Drawn, DrawFailure> {
+    fn plain<F: PixelFormat + Sync>(&self) -> Result<Drawn, DrawFailure> {
         self.draw::<Gouraud<F>, F>(&[])
     }
 
     fn textured<F, T>(&self) -> Result<Drawn, DrawFailure>
     where
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
         T: PixelFormat<Word = u16>,
         Textured<F>: Look<Pixel = F, Planes: Send>,
         TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
@@ -236,7 +236,7 @@ impl Task<'_> {
     fn draw<L, F>(&self, textures: &[Vec<Texture<'_>>]) -> Result<Drawn, DrawFailure>
     where
         L: Look<Pixel = F, Planes: Send> + Sync,
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
     {
         let scene = self.parts.scene;
         let lamps: Option<Vec<DirectionalLight>> = (scene.lights.iter())
@@ -278,7 +278,7 @@ impl<'t> Worn<'_, 't> {
     fn draw_all<L, F>(&self, job: &Job) -> Result<Drawn, DrawFailure>
     where
         L: Look<Pixel = F, Planes: Send> + Sync,
-        F: Pixel + Sync,
+        F: PixelFormat + Sync,
     {
         let steps = self.parts.steps();
         let chunk = |(object, chunk): (usize, usize)| -> &Chunk {

@@ -9,7 +9,7 @@ use core::panic::PanicInfo;
 use core::sync::atomic::{AtomicU16, Ordering};
 use core::task::Poll;
 use cortex_m_semihosting::{debug, hio};
-use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{Pump, ScanoutDma, Window};
 
 /// The two line buffers, one line each.
 macro_rules! buffers {
@@ -64,11 +64,8 @@ pub(crate) struct Wire {
 
 static REGISTER: AtomicU16 = AtomicU16::new(0);
 
-impl ErrorType for Wire {
-    type Error = Infallible;
-}
-
 impl ScanoutDma for Wire {
+    type Error = Infallible;
     type Buf = &'static mut [u16];
 
     fn begin(&mut self, _: Window) -> Result<(), Infallible> {

@@ -7,7 +7,7 @@ use scanbeam::frame::draw_frame;
 use scanbeam::list::ListCommand;
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{ErrorType, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
@@ -229,11 +229,8 @@ struct Emit<'e> {
     sent: Option<&'static mut [u16]>,
 }
 
-impl ErrorType for Emit<'_> {
-    type Error = Infallible;
-}
-
 impl ScanoutDma for Emit<'_> {
+    type Error = Infallible;
     type Buf = &'static mut [u16];
 
     fn begin(&mut self, _: Window) -> Result<(), Infallible> {

@@ -1,6 +1,8 @@
 //! The baked teapot's own tables, unpacked beforehand, as meshes for immediate calls.
 
-use scanbeam::list::{Instruction, Layout, State, Strip, VertexFormat, normal, read_block};
+use scanbeam::list::{
+    FieldForm, Header, Instruction, Layout, State, Strip, VertexFormat, read_block,
+};
 use scanbeam::{Affine, Draw, Faces, Light, Mesh};
 use scenes::teapot_list;
 
@@ -66,7 +68,7 @@ impl Unpacked {
                         faces: (filed, filed),
                     };
                     let out = &mut all.normals[used..used + usize::from(count)];
-                    slot.column(list, run.at, out, normal);
+                    slot.column(list, run.at, out, FieldForm::normal);
                     used += usize::from(count);
                     tables += 1;
                 }
@@ -79,7 +81,7 @@ impl Unpacked {
                         } else if let Some(face) = strip.push(index as u16, run.header.rm) {
                             all.faces[filed] = face;
                             filed += 1;
-                            if run.header.low & scanbeam::list::SEPARATE != 0 {
+                            if run.header.low & Header::SEPARATE != 0 {
                                 strip.restart();
                             }
                         }

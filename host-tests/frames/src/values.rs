@@ -5,14 +5,13 @@ use host_support::mock::HostLine;
 use scanbeam::Link;
 use scanbeam::frame::FastMemory;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{Blocking, LineWriter, Pump, Window};
 use scanbeam::scene::{Object, TexturePlace, Vertex};
 use scenes::{
     VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN, VALUES_WIDTH, Values, ValuesMemory,
 };
 use std::convert::Infallible;
 use std::error::Error;
-use std::task::Poll;
 
 /// What a display was sent, and what it shows.
 #[derive(Debug)]
@@ -23,62 +22,22 @@ pub struct Sent {
     pub shown: Vec<u16>,
     /// Its words a line.
     width: usize,
-    /// Where the next word goes: columns and lines that are open, and how many of their words have come.
-    open: (Window, usize),
-    line: Option<HostLine<u16>>,
 }
 
-impl Sent {
-    fn new((width, height): (u16, u16)) -> Self {
-        let nothing = Window {
-            x: 0,
-            y: 0,
-            width: 0,
-            height: 0,
-        };
-        Self {
-            words: Vec::new(),
-            shown: vec![0; usize::from(width) * usize::from(height)],
-            width: width.into(),
-            open: (nothing, 0),
-            line: None,
-        }
-    }
-}
-
-impl ErrorType for Sent {
+impl LineWriter for Sent {
     type Error = Infallible;
-}
+    type Word = u16;
 
-impl ScanoutDma for Sent {
-    type Buf = HostLine<u16>;
-
-    fn begin(&mut self, window: Window) -> Result<(), Infallible> {
-        self.open = (window, 0);
+    fn open(&mut self, _: Window) -> Result<(), Infallible> {
         Ok(())
     }
 
-    fn start(&mut self, mut line: Self::Buf, len: usize) -> Result<(), (Infallible, Self::Buf)> {
-        let (window, come) = &mut self.open;
-        for &word in &line.pixels()[..len] {
-            let (x, y) = (
-                *come % usize::from(window.width),
-                *come / usize::from(window.width),
-            );
-            let (x, y) = (x + usize::from(window.x), y + usize::from(window.y));
-            self.shown[y * self.width + x] = word;
-            self.words.push(word);
-            *come += 1;
+    fn write(&mut self, lines: Window, words: &[u16]) -> Result<(), Infallible> {
+        self.words.extend(words);
+        let rows = self.shown.chunks_mut(self.width).skip(lines.y.into());
+        for (row, line) in rows.zip(words.chunks(lines.width.into())) {
+            row[lines.x.into()..][..line.len()].copy_from_slice(line);
         }
-        self.line = Some(line);
-        Ok(())
-    }
-
-    fn poll(&mut self) -> Poll<Result<Option<Self::Buf>, Infallible>> {
-        Poll::Ready(Ok(self.line.take()))
-    }
-
-    fn end(&mut self) -> Result<(), Infallible> {
         Ok(())
     }
 }
@@ -114,10 +73,16 @@ pub fn values_sent(values: Values, slots: u16) -> Result<Sent, Box<dyn Error>> {
     };
     // A transfer of 3 lines at most.
     let buffer = || HostLine::new(3 * usize::from(VALUES_WIDTH));
-    let mut pump = Pump::new(Sent::new(values.size()), [buffer(), buffer()]);
+    let (width, height) = values.size();
+    let sent = Sent {
+        words: Vec::new(),
+        shown: vec![0; usize::from(width) * usize::from(height)],
+        width: width.into(),
+    };
+    let mut pump = Pump::new(Blocking::over(sent), [buffer(), buffer()]);
     let drawn = values.draw(lent, &mut pump);
     drawn.map_err(|error| format!("{values:?}: {error:?}"))?;
-    Ok(pump.release().0)
+    Ok(pump.release().0.into_writer())
 }
 
 /// What the display shows after each of them, by name.

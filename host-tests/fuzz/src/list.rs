@@ -5,7 +5,7 @@ use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::input::{LightRoom, Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListCommand, OverlaySlot, TextureSlot};
 use scanbeam::look::Textured;
-use scanbeam::overlay::{LineOverlay, ListOverlays};
+use scanbeam::overlay::ListOverlays;
 use scanbeam::pixel::Rgb565;
 use scanbeam::scene::{Draw, DrawState, Memory, Object, Scene, Texture, TexturePlace, Vertex};
 use scanbeam::{Camera, Light, Link, Screen};
@@ -117,11 +117,11 @@ fn show(scene: &Scene<'_, '_, Look>, words: &[u32], slots: &[OverlaySlot]) {
         links: &mut links,
         depth: &mut depth,
     });
-    let mut over = ListOverlays { words, slots };
+    let over = ListOverlays { words, slots };
     for y in [0, 12, 23] {
         let mut pixels = [0; 32];
         let drawn = renderer.draw_line(scene, y, &mut pixels, 0);
         drawn.expect("there is room for all");
-        LineOverlay::<Rgb565>::paint(&mut over, y, &mut pixels);
+        over.paint::<Rgb565>(y, &mut pixels);
     }
 }

@@ -18,7 +18,7 @@ use super::walker::{Segment, ZFlags, draw};
 use core::fmt;
 use scanbeam::Scene;
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{MadeOf, Pixel};
+use scanbeam::pixel::{MadeOf, PixelFormat};
 use scanbeam::scan_out::{self, LineBuf, Pump, ScanError, ScanoutDma, Window};
 use scanbeam::scene::{FiledCorner, FiledTriangle};
 
@@ -130,7 +130,7 @@ impl<'m> ModelRenderer<'m> {
     /// # Errors
     /// When there is no memory, the pixels are not a line, the line is not of the scene, or the
     /// scene has what the model does not draw.
-    pub fn draw_line<F: Pixel>(
+    pub fn draw_line<F: PixelFormat>(
         &mut self,
         scene: &Scene<'_, '_, Gouraud<F>>,
         line: u16,
@@ -145,7 +145,7 @@ impl<'m> ModelRenderer<'m> {
     ///
     /// # Errors
     /// As [`draw_line`](Self::draw_line).
-    pub fn trace_line<F: Pixel>(
+    pub fn trace_line<F: PixelFormat>(
         &mut self,
         scene: &Scene<'_, '_, Gouraud<F>>,
         line: u16,
@@ -196,7 +196,7 @@ impl<'m> ModelRenderer<'m> {
     }
 
     /// Whether a line of the scene can be drawn into so many pixels.
-    fn check<F: Pixel>(
+    fn check<F: PixelFormat>(
         &self,
         scene: &Scene<'_, '_, Gouraud<F>>,
         line: u16,
@@ -331,7 +331,7 @@ pub fn draw_model_frame<F, D>(
     lines_per_transfer: u16,
 ) -> Result<(), ModelFrameError<D::Error>>
 where
-    F: Pixel,
+    F: PixelFormat,
     D: ScanoutDma<Buf: LineBuf<Word = F::Word>>,
 {
     let lines = scene.lines();

@@ -6,7 +6,7 @@ use super::stage::{
 };
 use super::{Errors, Row};
 use scanbeam::look::Gouraud;
-use scanbeam::pixel::{Pixel, PixelFormat, Rgb565, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
 use scanbeam::scene::{LARGEST, ScreenCorner};
 use scanbeam_lab::{DepthMethod, Format};
 use scanbeam_model::{SpanWeight, divided_weight, lirp, round_to_8, widen};
@@ -138,7 +138,7 @@ impl Subject {
 
 /// The same random triangles by all methods. Those of at most 63 x 63 pixels are set up by the renderer as small if they
 /// are not thin; those that are taller than 64 as large.
-fn spans<F: Pixel + Format>(long: bool) -> Done<Vec<Errors>> {
+fn spans<F: PixelFormat + Format>(long: bool) -> Done<Vec<Errors>> {
     let mut rng = Rng::new(2);
     let mut errors = vec![Errors::default(); METHODS.len()];
     let size = if long { (LARGEST, 256) } else { (64, 64) };

@@ -3,7 +3,7 @@
 use crate::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::look::{Gouraud, Look};
 use scanbeam::mesh::ScreenVertex;
-use scanbeam::pixel::Pixel;
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::ScreenCorner;
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Renderer, Scene, Screen};
 use scanbeam_lab::{DepthMethod, Format, Method, Triangle, draw_line};
@@ -159,7 +159,7 @@ impl<'t, L: Look> Stage<'t, L> {
 }
 
 /// Draws a line by a method, over what is there.
-pub(super) fn by_method<F: Pixel + Format>(
+pub(super) fn by_method<F: PixelFormat + Format>(
     how: (Method, DepthMethod),
     scene: &Scene<'_, '_, Gouraud<F>>,
     line: u16,

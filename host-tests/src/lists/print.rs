@@ -3,10 +3,7 @@
 use super::args::DisassembleArgs;
 use super::read_list;
 use crate::stdio;
-use scanbeam::list::{
-    Flow, Header, Id, Instruction, Run, SEPARATE, SPLIT, State, VertexFormat, WIDE, long_words,
-    parameter, read_block,
-};
+use scanbeam::list::{Field, Flow, Header, Id, Instruction, Run, State, VertexFormat, read_block};
 use std::error::Error;
 use std::fmt::Write as _;
 
@@ -95,7 +92,7 @@ fn block(
         Instruction::Short(run) | Instruction::Points(run) | Instruction::Quads(run) => {
             words(text, list, run, format.words(run.header));
         }
-        Instruction::Long(run) => words(text, list, run, long_words(run.header)),
+        Instruction::Long(run) => words(text, list, run, run.header.long_words()),
         Instruction::Indexed(run) => indices(text, list, run),
         _ => {}
     }
@@ -103,12 +100,12 @@ fn block(
 
 fn parameter_name(number: u8) -> String {
     match number {
-        parameter::PLACE => "place".into(),
-        parameter::DEPTH => "depth".into(),
-        parameter::DIFFUSE => "diffuse".into(),
-        parameter::SPECULAR => "specular".into(),
-        parameter::NORMAL => "normal".into(),
-        parameter::TEXTURE => "texture".into(),
+        Field::PLACE => "place".into(),
+        Field::DEPTH => "depth".into(),
+        Field::DIFFUSE => "diffuse".into(),
+        Field::SPECULAR => "specular".into(),
+        Field::NORMAL => "normal".into(),
+        Field::TEXTURE => "texture".into(),
         n => format!("own {n}"),
     }
 }
@@ -134,7 +131,7 @@ fn run_line(name: &str, run: &Run) -> String {
     say(shade, "shade");
     say(prsp, "prsp");
     say(text, "text");
-    let separate = id == Id::Indexed && low & SEPARATE != 0;
+    let separate = id == Id::Indexed && low & Header::SEPARATE != 0;
     let stripped = matches!(id, Id::Short | Id::Long | Id::Quads | Id::Indexed);
     say(stripped && new && !separate, "new");
     say(separate, "separate");
@@ -145,8 +142,8 @@ fn run_line(name: &str, run: &Run) -> String {
         (_, true) => "fan",
     };
     say(stripped && !separate, form);
-    say(id == Id::Quads && low & SPLIT != 0, "split 1-3");
-    say(id == Id::Indexed && low & WIDE != 0, "wide");
+    say(id == Id::Quads && low & Header::SPLIT != 0, "split 1-3");
+    say(id == Id::Indexed && low & Header::WIDE != 0, "wide");
     line
 }
 
@@ -168,7 +165,7 @@ fn words(text: &mut String, list: &[u32], run: &Run, each: u32) {
 
 /// All indices; a bar ends a strip.
 fn indices(text: &mut String, list: &[u32], run: &Run) {
-    let wide = run.header.low & WIDE != 0;
+    let wide = run.header.low & Header::WIDE != 0;
     let (each, bits, none) = if wide { (2, 16, 0xFFFF) } else { (4, 8, 0xFF) };
     let mut line = String::new();
     for n in 0..u32::from(run.header.count) {

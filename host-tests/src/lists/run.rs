@@ -137,14 +137,13 @@ pub fn execute(list: &[u32], view: &View, budget: Budget) -> Result<Ran, Box<dyn
         slots: &overlays,
     };
     // Any number may be one.
-    let is_texture = |number| TextureSlots(&names).pair(number).is_ok();
     Ok(Ran {
         frame: shown(&scene, view, painted)?,
         halt,
         position: player.position(),
         events,
         counts: player.counts(),
-        is_textured: (0..=u8::MAX).any(is_texture),
+        is_textured: (0..=u8::MAX).any(|number| TextureSlots(&names).has(number)),
     })
 }
 
@@ -216,7 +215,8 @@ fn shown(
     let sink = MockFrameBuffer::new(width, height);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let background = Rgb888::from_rgb8(view.background);
-    draw_frame_overlaid(scene, &mut renderer, &mut pump, background, 1, overlays)
+    let paint = |line, pixels: &mut [[u8; 3]]| overlays.paint::<Rgb888>(line, pixels);
+    draw_frame_overlaid(scene, &mut renderer, &mut pump, background, 1, paint)
         .map_err(|error| format!("display: {error}"))?;
     let pixels = pump.sink().frame().map_err(|e| format!("display: {e:?}"))?;
     let rgb = pixels.into_iter().flat_map(Rgb888::to_rgb8).collect();

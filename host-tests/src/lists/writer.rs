@@ -3,8 +3,8 @@
 //! Nothing is written of a block that does not fit or contradicts itself.
 
 use scanbeam::list::{
-    Bounds, CameraWords, FieldForm, Flow, Head, Header, Id, LightWords, MAGIC, Matrix, Overlay,
-    Palette, SEPARATE, State, Texture, VertexFormat, WIDE, Window, long_words,
+    Bounds, CameraWords, FieldForm, Flow, Head, Header, Id, LightWords, Matrix, Overlay, Palette,
+    State, Texture, VertexFormat, Window,
 };
 
 /// Why a block was not written.
@@ -224,7 +224,7 @@ impl<'m> ListWriter<'m> {
         let need = match header.id {
             Id::Short | Id::Points | Id::Quads => self.format.words(header) * count,
             Id::Table => self.format.table_words(header, header.count),
-            Id::Long => long_words(header) * count,
+            Id::Long => header.long_words() * count,
             _ => return Err(WriteError::Place),
         };
         let have = data.len() as u32;
@@ -261,7 +261,7 @@ impl<'m> ListWriter<'m> {
         let header = Header {
             new: true,
             rm: form == Some(Form::Fan),
-            low: u8::from(wide) * WIDE + u8::from(form.is_none()) * SEPARATE,
+            low: u8::from(wide) * Header::WIDE + u8::from(form.is_none()) * Header::SEPARATE,
             ..Header::of(Id::Indexed, count)
         };
         let (a_word, bits) = if wide { (2, 16) } else { (4, 8) };
@@ -294,7 +294,7 @@ fn words_of_state(state: &State) -> (u8, u8, [u32; 13], usize) {
             table,
             triangles,
         }) => {
-            w[..4].copy_from_slice(&[MAGIC, *words, *table, *triangles]);
+            w[..4].copy_from_slice(&[Head::MAGIC, *words, *table, *triangles]);
             (0, 0, 4)
         }
         State::Format(format) => {

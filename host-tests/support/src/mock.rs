@@ -12,7 +12,7 @@ use std::collections::VecDeque;
 use std::fmt::{self, Display};
 use std::task::Poll;
 
-use scanbeam::scan_out::{Error, ErrorKind, ErrorType, LineBuf, ScanoutDma, Window};
+use scanbeam::scan_out::{Error, ErrorKind, LineBuf, ScanoutDma, Window};
 
 /// A line buffer from the host's heap.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -334,11 +334,8 @@ impl<W: Copy + 'static> MockFrameBuffer<W> {
     }
 }
 
-impl<W: Copy + 'static> ErrorType for MockFrameBuffer<W> {
-    type Error = MockError;
-}
-
 impl<W: Copy + 'static> ScanoutDma for MockFrameBuffer<W> {
+    type Error = MockError;
     type Buf = HostLine<W>;
 
     fn begin(&mut self, window: Window) -> Result<(), MockError> {

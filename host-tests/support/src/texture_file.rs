@@ -7,7 +7,7 @@
 
 use crate::image_out::{Frame, ImageError, read_image};
 use crate::model::Model;
-use scanbeam::scene::{MAX_SIDE, TextureError};
+use scanbeam::scene::{Texture, TextureError};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -65,7 +65,7 @@ impl TextureImage {
     /// # Errors
     /// A picture without pixels.
     pub fn new(frame: &Frame) -> Result<Self, TextureError> {
-        let side = |n: u32| n.next_power_of_two().min(MAX_SIDE);
+        let side = |n: u32| n.next_power_of_two().min(Texture::MAX_SIDE);
         let (width, height) = (side(frame.width()), side(frame.height()));
         if frame.width() == 0 || frame.height() == 0 {
             let (width, height) = (frame.width(), frame.height());
@@ -73,9 +73,10 @@ impl TextureImage {
         }
         let note = ((width, height) != (frame.width(), frame.height())).then(|| {
             format!(
-                "resized from {}x{} to {width}x{height}: sides of textures are powers of two up to {MAX_SIDE}",
+                "resized from {}x{} to {width}x{height}: sides of textures are powers of two up to {}",
                 frame.width(),
-                frame.height()
+                frame.height(),
+                Texture::MAX_SIDE
             )
         });
         let across = resampling(frame.width(), width);

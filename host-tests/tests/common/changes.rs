@@ -3,7 +3,7 @@
 
 use super::Rng;
 use host_tests::mock::{Fault, HostLine, MockError, MockFrameBuffer};
-use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
+use scanbeam::scan_out::{Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Window};
 
 pub type Mock = MockFrameBuffer<u16>;
 /// Lines from the top.
@@ -38,7 +38,7 @@ impl Lines<'_> {
         shown: &mut ShownRuns<'_>,
     ) -> Result<ScanStats, Failed>
     where
-        D: ScanoutDma<Buf = HostLine<u16>> + ErrorType<Error = MockError>,
+        D: ScanoutDma<Buf = HostLine<u16>, Error = MockError>,
     {
         let window = Window {
             x: 0,
@@ -76,7 +76,7 @@ pub fn pump<D: ScanoutDma<Buf = HostLine<u16>>>(sink: D, words: usize) -> Pump<D
 /// for the same display.
 pub fn recovered<D>(pump: Pump<D>, error: &Failed, words: usize) -> Pump<D>
 where
-    D: ScanoutDma<Buf = HostLine<u16>> + ErrorType<Error = MockError>,
+    D: ScanoutDma<Buf = HostLine<u16>, Error = MockError>,
 {
     match error {
         Failed::Sink(ScanError::BufferLost { .. }) => {

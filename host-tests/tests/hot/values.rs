@@ -1,9 +1,10 @@
 //! Values of draw calls, and what they mean to a reference: rectangles, functions of depth, modes of blending.
 
-use super::Corner;
+use super::{Corner, camera, draw_with};
 use crate::common::Rng;
 use scanbeam::Screen;
-use scanbeam::scene::{BlendMode, DepthFunction, Factor, Scissor, Texture, Wrap};
+use scanbeam::look::Look;
+use scanbeam::scene::{BlendMode, DepthFunction, Draw, Factor, Scene, Scissor, Texture, Wrap};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -158,6 +159,40 @@ pub static WHITE: Texture<'static> = {
         Err(_) => panic!("8 x 8 texels"),
     }
 };
+
+/// The same with holes in half of its columns.
+pub static HOLED: Texture<'static> = {
+    const KEY: u16 = 0x1234;
+    static WORDS: [u16; 64] = {
+        let mut words = [0xFFFF; 64];
+        let mut i = 0;
+        while i < 64 {
+            if i % 8 < 4 {
+                words[i] = KEY;
+            }
+            i += 1;
+        }
+        words
+    };
+    match Texture::words(&WORDS, 8, 8) {
+        Ok(texture) => texture.wrapping(Wrap::Repeat).keyed(KEY),
+        Err(_) => panic!("8 x 8 texels"),
+    }
+};
+
+/// Begins a scene, and draws the triangle of each call as it is dressed.
+pub fn draw_each<L: Look, C>(
+    scene: &mut Scene<'_, '_, L>,
+    calls: &[C],
+    corners: impl Fn(&C) -> [Corner; 3],
+    dress: impl Fn(&C, &mut Draw<'_, '_, i32>),
+) {
+    scene.begin(&camera()).expect("the rooms are large enough");
+    for call in calls {
+        let drawn = draw_with(scene, &[corners(call)], |draw| dress(call, draw));
+        drawn.expect("there is room");
+    }
+}
 
 /// The corners of any triangle of one colour, about the screen.
 pub fn some_corners(rng: &mut Rng, screen: Screen) -> [Corner; 3] {

@@ -2,9 +2,7 @@
 
 use crate::common::Rng;
 use host_tests::lists::writer::{FieldPacker, ListWriter};
-use scanbeam::list::{
-    Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat, parameter,
-};
+use scanbeam::list::{Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat};
 use scanbeam::{Affine, Faces, Mesh};
 
 pub const PLENTY: Budget = Budget {
@@ -84,9 +82,9 @@ impl Cloud {
 
     pub fn field(&self, field: Field, i: usize) -> [i32; 4] {
         match field.parameter {
-            parameter::PLACE => self.place_fields(i, field.form),
-            parameter::NORMAL => self.normal_fields(i, field.form),
-            parameter::DIFFUSE => {
+            Field::PLACE => self.place_fields(i, field.form),
+            Field::NORMAL => self.normal_fields(i, field.form),
+            Field::DIFFUSE => {
                 let [r, g, b] = self.colours[i].map(i32::from);
                 [r, g, b, 255]
             }
@@ -126,12 +124,12 @@ impl Cloud {
         let has = |p| shade && format.fields().iter().any(|f| f.parameter == p);
         Mesh {
             positions: &self.positions,
-            normals: if has(parameter::NORMAL) {
+            normals: if has(Field::NORMAL) {
                 &self.normals[..]
             } else {
                 &[]
             },
-            colours: if has(parameter::DIFFUSE) {
+            colours: if has(Field::DIFFUSE) {
                 &self.colours[..]
             } else {
                 &[]
@@ -167,18 +165,18 @@ pub fn some_format(rng: &mut Rng) -> (VertexFormat, FieldForm, FieldForm) {
     let place = rng.pick(&[FieldForm::S16x3, FieldForm::S10x3, FieldForm::S8x3]);
     let normal = rng.pick(&[FieldForm::S16x3, FieldForm::S10x3, FieldForm::S8x3]);
     let mut fields = vec![Field {
-        parameter: parameter::PLACE,
+        parameter: Field::PLACE,
         form: place,
     }];
     if rng.below(3) > 0 {
         fields.push(Field {
-            parameter: parameter::NORMAL,
+            parameter: Field::NORMAL,
             form: normal,
         });
     }
     if rng.below(3) > 0 {
         fields.push(Field {
-            parameter: parameter::DIFFUSE,
+            parameter: Field::DIFFUSE,
             form: rng.pick(&[FieldForm::U8x3, FieldForm::U8x4]),
         });
     }

@@ -157,7 +157,7 @@ fn worst(powers: &[u16], rounds: u32, seed: u64) -> (f64, u32) {
             let exact = truth.colour(colour, world, place, eye);
             let normal = n.map(|c| (c * 16_384.0).round() as i16);
             let place = p.map(|c| I2F30::from_num(c).to_bits());
-            let got = in_model.lit(&Tint::new(colour, &scale), &scale, normal, || place);
+            let got = in_model.lit(&Tint::new(colour, &scale), &scale, normal, place);
             let fields = got.fields();
             for i in 0..3 {
                 let bits = scale.fraction()[i];
@@ -242,7 +242,7 @@ fn no_colour_wraps() {
             let normal = [(); 3].map(|()| rng.about(32_768.99) as i16);
             let place = [(); 3].map(|()| rng.about(2147483647.0) as i32);
             let tint = Tint::new([255; 3], &scale);
-            let got = in_model.lit(&tint, &scale, normal, || place);
+            let got = in_model.lit(&tint, &scale, normal, place);
             assert!((0..3).all(|i| got.steps(&scale)[i] <= [31, 63, 31][i]));
             if round % 2 == 0 {
                 assert_eq!(got.steps(&scale), [31, 63, 31]);
@@ -270,12 +270,12 @@ fn a_single_matt_light_is_lamberts() {
         let lighting = Lighting::new(&lights, [level(ambient); 3], Material::default()).unwrap();
         let model = Affine::rotation_y(rng.about(3.0) as f32);
         let many = lighting.in_model(&model, &Affine::IDENTITY);
-        let one = one.in_model(&model, &Affine::IDENTITY);
+        let one = one.in_model(&model);
         for _ in 0..50 {
             let normal = rng.direction().map(|c| (c * 16_384.0).round() as i16);
             let tint = Tint::new([(); 3].map(|()| (rng.unit() * 255.99) as u8), &scale);
-            let a = one.lit(&tint, &scale, normal, || [0i16; 3]).fields();
-            let b = many.lit(&tint, &scale, normal, || [0i16; 3]).fields();
+            let a = one.lit(&tint, normal).fields();
+            let b = many.lit(&tint, &scale, normal, [0; 3]).fields();
             for i in 0..3 {
                 worst = worst.max(a[i].abs_diff(b[i]));
             }

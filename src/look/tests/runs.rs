@@ -3,7 +3,7 @@
 use super::super::fetch::packed;
 use super::super::gouraud::fields;
 use super::super::mapping::Mapping;
-use super::super::{Fill, Gouraud, Paint, Parts, Place, Textured, ThinSpan, WordOf};
+use super::super::{Fill, Gouraud, Look, Parts, Place, Textured, ThinSpan, WordOf};
 use super::triangles::{inside, some_triangle};
 use super::{FRACTION, Texels, Uv, WRAPS, draw_mapped, some_texture};
 use crate::geometry::{Faces, Mesh};
@@ -106,7 +106,7 @@ fn some_corners(rng: &mut Rng, size: u32) -> Option<[u32; 3]> {
 }
 
 /// A colour of a vertex, half a step or more from the dark.
-fn some_colour<L: Paint>(rng: &mut Rng) -> u32 {
+fn some_colour<L: Look>(rng: &mut Rng) -> u32 {
     let [red, green, blue] = fields(L::SCALE.full_word()).map(|full| {
         let half = 32;
         half + rng.below(full as u32 + 1 - half)
@@ -115,7 +115,7 @@ fn some_colour<L: Paint>(rng: &mut Rng) -> u32 {
 }
 
 /// Draws triangles of all sizes by a look, whole and in runs; how many spans of each kind were drawn.
-fn spans_of<L: Paint>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
+fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
     let mut rng = Rng(seed);
     let mut fills = [0; 4];
     let frame = Frame {

@@ -2,7 +2,7 @@
 //!
 //! On slices alone, once for strips and fans: 17 instructions a face on a Cortex-M4.
 
-use crate::list::{Header, SEPARATE, Strip};
+use crate::list::{Header, Strip};
 
 /// What indices mean.
 pub(super) struct Rules {
@@ -38,12 +38,12 @@ pub(super) struct Filled {
 impl Rules {
     /// Those of a block, with a table of so many vertices.
     pub(super) fn of(header: Header, count: u16) -> Self {
-        let wide = header.low & crate::list::WIDE != 0;
+        let wide = header.low & Header::WIDE != 0;
         Self {
             count,
             restart: if wide { 0xFFFF } else { 0xFF },
             fan: header.rm,
-            separate: header.low & SEPARATE != 0,
+            separate: header.low & Header::SEPARATE != 0,
         }
     }
 }
@@ -149,7 +149,7 @@ mod tests {
         for round in 0..400 {
             let header = Header {
                 rm: round % 2 == 0,
-                low: if round % 5 == 0 { SEPARATE } else { 0 },
+                low: if round % 5 == 0 { Header::SEPARATE } else { 0 },
                 ..Header::of(Id::Indexed, 0)
             };
             let rules = Rules::of(header, 200);

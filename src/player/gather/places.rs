@@ -3,8 +3,9 @@
 //! They are made texels of when faces are drawn, because only then it is known of which texture. A
 //! strip that goes on keeps the places that it was given.
 
-use super::{Gather, Kind, ListCoordinate};
-use crate::list::Words;
+use super::{Gather, Kind};
+use crate::geometry::Coordinate;
+use crate::list::{Place, Words};
 use core::ops::Range;
 
 /// Sides in 4.12 as texels with 8 fraction bits, on a texture with sides of these logarithms.
@@ -42,7 +43,7 @@ impl Placed {
     }
 }
 
-impl<C: ListCoordinate> Gather<'_, C> {
+impl<C: Coordinate + Place> Gather<'_, C> {
     /// The places of the vertices from which a strip may go on.
     pub(super) fn kept_places(&self) -> [[i32; 2]; 3] {
         let mut kept = [[0; 2]; 3];

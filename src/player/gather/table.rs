@@ -1,10 +1,11 @@
 //! A table of vertices, and triangles of it by index.
 
 use super::fill::{End, Rules, fill};
-use super::{Column, Gather, Kind, ListCoordinate, Out, Refusal, Table};
-use crate::list::{FieldForm, Layout, Run, VertexFormat, WIDE, Words, colour, normal};
+use super::{Column, Gather, Kind, Out, Refusal, Table};
+use crate::geometry::Coordinate;
+use crate::list::{FieldForm, Header, Layout, Place, Run, VertexFormat, Words, colour};
 
-impl<C: ListCoordinate> Gather<'_, C> {
+impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes a table: columns that cannot be used where they lie are unpacked.
     ///
     /// # Errors
@@ -70,7 +71,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
             (table.normal, layout.normal, m.normals.get_mut(..n))
         {
             self.base = n;
-            slot.column(words, at, out, normal);
+            slot.column(words, at, out, FieldForm::normal);
         }
         if let (Column::Unpacked, Some(slot), Some(out)) =
             (table.colour, layout.colour, m.colours.get_mut(..n))
@@ -127,7 +128,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
         }
         let rules = Rules::of(run.header, table.count);
         let len = u32::from(run.header.count).div_ceil(4);
-        if let (0, Some(slice)) = (run.header.low & WIDE, words.slice(run.at, len)) {
+        if let (0, Some(slice)) = (run.header.low & Header::WIDE, words.slice(run.at, len)) {
             let bytes: &[u8] = bytemuck::cast_slice(slice);
             let bytes = bytes.get(..run.header.count.into()).unwrap_or_default();
             return self.faces(words, bytes, &rules, out);
@@ -183,7 +184,7 @@ const AT_ONCE: usize = 48;
 /// Unpacks the indices of a block from one on, which is the first of a word.
 #[inline(never)]
 fn unpack<'w>(words: impl Words<'w>, run: Run, from: u16, some: &mut [u16]) {
-    let wide = run.header.low & WIDE != 0;
+    let wide = run.header.low & Header::WIDE != 0;
     let mut at = (run.at).wrapping_add(u32::from(from) / if wide { 2 } else { 4 });
     let mut next = || {
         let word = words.word(at);

@@ -1,10 +1,10 @@
 //! Short vertices: strips, fans, quads, quad strips and points.
 
-use super::{Attributes, Gather, Kind, ListCoordinate, Out, Refusal, RunFaces};
-use crate::geometry::QuadSplit;
-use crate::list::{Id, Layout, Run, SPLIT, VertexFormat, Words, colour, normal};
+use super::{Attributes, Gather, Kind, Out, Refusal, RunFaces};
+use crate::geometry::{Coordinate, QuadSplit};
+use crate::list::{Header, Id, Layout, Place, Run, VertexFormat, Words, colour};
 
-impl<C: ListCoordinate> Gather<'_, C> {
+impl<C: Coordinate + Place> Gather<'_, C> {
     /// Takes the vertices of a block of SHORT, QUADS, or POINTS of so many pixels each way.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
         if !strip || header.new {
             self.strip.restart();
         }
-        let split = match header.low & SPLIT != 0 {
+        let split = match header.low & Header::SPLIT != 0 {
             false => QuadSplit::Corner0To2,
             true => QuadSplit::Corner1To3,
         };
@@ -97,7 +97,7 @@ impl<C: ListCoordinate> Gather<'_, C> {
                 *slot = place;
             }
             if let (Some(from), Some(slot)) = (layout.normal, self.memory.normals.get_mut(to)) {
-                *slot = normal(from.form, from.field(words, at));
+                *slot = from.form.normal(from.field(words, at));
             }
             if let (Some(from), Some(slot)) = (layout.colour, self.memory.colours.get_mut(to)) {
                 *slot = colour(from.field(words, at));

@@ -23,7 +23,7 @@ pub use outcome::{ScanError, ScanStats};
 pub use runs::RunFrame;
 
 /// How many line buffers a pump holds.
-pub const PUMP_BUFFERS: usize = 2;
+const PUMP_BUFFERS: usize = 2;
 
 /// One pixel of the buffers that the sink `D` takes.
 type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
@@ -32,10 +32,10 @@ type WordOf<D> = <<D as ScanoutDma>::Buf as LineBuf>::Word;
 ///
 /// ```
 /// # use core::{convert::Infallible, task::Poll};
-/// # use scanbeam::scan_out::{ErrorType, Pump, ScanError, ScanoutDma, Window};
+/// # use scanbeam::scan_out::{Pump, ScanError, ScanoutDma, Window};
 /// # struct Null(Option<&'static mut [u16]>);
-/// # impl ErrorType for Null { type Error = Infallible; }
 /// # impl ScanoutDma for Null {
+/// #     type Error = Infallible;
 /// #     type Buf = &'static mut [u16];
 /// #     fn begin(&mut self, _: Window) -> Result<(), Infallible> { Ok(()) }
 /// #     fn start(&mut self, buf: Self::Buf, _: usize) -> Result<(), (Infallible, Self::Buf)> { self.0 = Some(buf); Ok(()) }

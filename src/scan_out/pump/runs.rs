@@ -6,10 +6,10 @@
 //! the rectangle that goes out while it is sent: no memory beyond the two buffers. Of several runs in one row of
 //! cells, all but the last are copied to the other buffer, and sent while drawing waits.
 
+use bytemuck::NoUninit;
 use core::ops::Range;
 
 use super::{LineBuf, Pump, ScanError, ScanoutDma, Window, WordOf, part};
-use crate::scan_out::changed::LineWord;
 use crate::scan_out::shown_runs::ShownRuns;
 
 /// A frame in work, of which unchanged cells are not sent: see [`Pump::begin_in_runs`].
@@ -71,7 +71,7 @@ impl<D: ScanoutDma> Pump<D> {
     }
 }
 
-impl<D: ScanoutDma<Buf: LineBuf<Word: LineWord>>> RunFrame<'_, '_, D> {
+impl<D: ScanoutDma<Buf: LineBuf<Word: NoUninit>>> RunFrame<'_, '_, D> {
     /// The words of the next line, as from [`Pump::line`].
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use super::{IndexedLook, VALUES_HEIGHT, scenes::draw_all};
 use crate::ShotError;
 use crate::{CUBE, SPHERE};
 use scanbeam::Affine;
-use scanbeam::pixel::{Index8, LinePalettes, PixelFormat, Rgb565Be};
+use scanbeam::pixel::{Index8, PixelFormat, Rgb565Be};
 use scanbeam::scene::{Draw, Scene, Shading};
 
 /// A ramp above the water and one below it, and a sky that changes from line to line.
@@ -22,10 +22,9 @@ impl Dusk {
         };
         Self([ramp([255, 190, 110]), ramp([40, 150, 210])])
     }
-}
 
-impl LinePalettes<u16, 256> for Dusk {
-    fn palette(&mut self, line: u16) -> &[u16; 256] {
+    /// The palette of a line.
+    pub(super) fn palette(&mut self, line: u16) -> &[u16; 256] {
         let high = (3 * (VALUES_HEIGHT - line.min(VALUES_HEIGHT)) / 2) as u8;
         let water = usize::from(line >= VALUES_HEIGHT / 2);
         let palette = &mut self.0[water];

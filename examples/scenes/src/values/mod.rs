@@ -49,10 +49,8 @@ use scanbeam::frame::{
 };
 use scanbeam::look::{Gouraud, Look, Phong, TexturedPhong};
 use scanbeam::overlay::Overlay;
-use scanbeam::pixel::{Index8, Pixel, PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{
-    ErrorType, LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled,
-};
+use scanbeam::pixel::{Index8, PixelFormat, Rgb565Be, expand_indices};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, ShownLines, ShownRuns, Window, send_doubled};
 use scanbeam::scene::{DrawState, Master, Memory, Object, Scene, TexturePlace, Vertex};
 use scanbeam::{Link, Screen};
 use scenes::{ball, bands, blends, dither, holes, lamps, mirror, phong, sprites, teapot, texels};
@@ -235,7 +233,7 @@ impl Values {
         self,
         lent: ValuesMemory<'_>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -313,7 +311,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<SmoothLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -333,7 +331,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<IndexedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -343,7 +341,11 @@ impl<'m> Rest<'m> {
         dusk(&mut scene)?;
         let mut renderer = Renderer::new(lines);
         let mut indices = [0; VALUES_WIDTH as usize];
-        draw_frame_indexed(&scene, &mut renderer, pump, 0, 3, &mut indices, Dusk::new())?;
+        let mut dusk = Dusk::new();
+        let expand = |line, indices: &[u8], pixels: &mut [u16]| {
+            expand_indices(indices, dusk.palette(line), pixels);
+        };
+        draw_frame_indexed(&scene, &mut renderer, pump, 0, 3, &mut indices, expand)?;
         Ok(())
     }
 
@@ -353,7 +355,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -371,7 +373,7 @@ impl<'m> Rest<'m> {
         self,
         cache: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -389,7 +391,7 @@ impl<'m> Rest<'m> {
         self,
         slots: &mut FastMemory<TexturedLook>,
         pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
     {
@@ -409,7 +411,7 @@ impl<'m> Rest<'m> {
         cache: &mut FastMemory<L>,
         pump: &mut Pump<D>,
         build: impl Fn(&mut Scene<'_, 't, L>, f32) -> Result<(), ShotError>,
-    ) -> Result<(), ValuesError<<D as ErrorType>::Error>>
+    ) -> Result<(), ValuesError<D::Error>>
     where
         L: Look<Pixel = Rgb565Be>,
         D: ScanoutDma<Buf: LineBuf<Word = u16>>,
@@ -420,15 +422,17 @@ impl<'m> Rest<'m> {
         let mut renderer = Renderer::new(lines);
         let background = background();
         if values == Values::Master {
-            let master = Master::ALL.without_shading().without_depth();
-            scene.set_master(master.without_texture().without_blend().without_dither());
+            let master = Master::ALL.without(Master::SHADING).without(Master::DEPTH);
+            let master = master.without(Master::TEXTURE).without(Master::BLEND);
+            scene.set_master(master.without(Master::DITHER));
         }
         build(&mut scene, 0.0)?;
         if values == Values::Overlay {
             let sprites = sprites();
             let overlay = Overlay::<Rgb565Be>::new(&sprites);
-            let overlay = overlay.map_err(|_| ShotError::Sprites)?;
-            draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, overlay)?;
+            let mut overlay = overlay.map_err(|_| ShotError::Sprites)?;
+            let paint = |line, pixels: &mut [u16]| overlay.paint(line, pixels);
+            draw_frame_overlaid(&scene, &mut renderer, pump, background, 1, paint)?;
             return Ok(());
         }
         if values == Values::Doubled {
@@ -458,9 +462,17 @@ impl<'m> Rest<'m> {
             build(&mut scene, moment)?;
             let renderer = &mut renderer;
             if values == Values::Lines {
-                draw_frame_changed(&scene, renderer, pump, background, 3, &mut lines, ())?;
+                draw_frame_changed(&scene, renderer, pump, background, 3, &mut lines, |_, _| {})?;
             } else {
-                draw_frame_changed_runs(&scene, renderer, pump, background, 2, &mut cells, ())?;
+                draw_frame_changed_runs(
+                    &scene,
+                    renderer,
+                    pump,
+                    background,
+                    2,
+                    &mut cells,
+                    |_, _| {},
+                )?;
             }
         }
         Ok(())

@@ -14,7 +14,7 @@ use measured::{Failure, Renderer as Measured};
 use scanbeam::frame::{FastMemory, Memory as LineMemory};
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565};
-use scanbeam::scan_out::{ErrorType, LineBuf, Pump, ScanoutDma, Window};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, Window};
 use scanbeam::scene::{DrawState, Memory, Object, Vertex};
 use scanbeam::{Link, Renderer, Scene, draw_frame};
 use scenes::{DRAWS, HEIGHT, OBJECTS, SHOTS, STACKS, Shot, VERTICES, WIDTH};
@@ -105,11 +105,8 @@ struct Display {
     sent: Option<Line>,
 }
 
-impl ErrorType for Display {
-    type Error = Infallible;
-}
-
 impl ScanoutDma for Display {
+    type Error = Infallible;
     type Buf = Line;
 
     fn begin(&mut self, _: Window) -> Result<(), Infallible> {

@@ -9,7 +9,6 @@ use crate::model::Model;
 use scanbeam::Affine;
 use scanbeam::list::{
     Bounds, Field, FieldForm, Flow, Head, Header, Id, Material, Matrix, State, VertexFormat,
-    parameter,
 };
 use std::collections::{BTreeMap, HashMap};
 use std::error::Error;
@@ -151,19 +150,19 @@ impl Plan<'_> {
 
     fn format(&self, group: &Group) -> VertexFormat {
         let mut fields = vec![Field {
-            parameter: parameter::PLACE,
+            parameter: Field::PLACE,
             form: self.grid.form,
         }];
         fields.extend(self.normal.map(|form| Field {
-            parameter: parameter::NORMAL,
+            parameter: Field::NORMAL,
             form,
         }));
         fields.extend(group.coloured.then_some(Field {
-            parameter: parameter::DIFFUSE,
+            parameter: Field::DIFFUSE,
             form: FieldForm::U8x3,
         }));
         fields.extend(group.material.texture.map(|_| Field {
-            parameter: parameter::TEXTURE,
+            parameter: Field::TEXTURE,
             form: FieldForm::U16x2,
         }));
         // A place, and each parameter once.
@@ -261,9 +260,9 @@ impl Plan<'_> {
                     uv,
                 } = vertices[v as usize];
                 let [x, y, z] = match field.parameter {
-                    parameter::PLACE => place,
-                    parameter::NORMAL => normal,
-                    parameter::TEXTURE => [i32::from(uv[0]), i32::from(uv[1]), 0],
+                    Field::PLACE => place,
+                    Field::NORMAL => normal,
+                    Field::TEXTURE => [i32::from(uv[0]), i32::from(uv[1]), 0],
                     _ => colour.map(i32::from),
                 };
                 packer.field(field.form, [x, y, z, 255]);
