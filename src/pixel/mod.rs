@@ -84,7 +84,10 @@ mod tests {
     }
 
     /// Two pixels as parts of 16, channel by channel: what `narrow` says.
-    fn mixed<P: Pixel>(of: impl Fn([u8; 3]) -> P::Word, channels: impl Fn(P::Word) -> [u8; 3]) {
+    fn mixed<P: PixelFormat>(
+        of: impl Fn([u8; 3]) -> P::Word,
+        channels: impl Fn(P::Word) -> [u8; 3],
+    ) {
         for i in 0..50_000u32 {
             let bytes = |n: u32| {
                 i.wrapping_mul(0x9E37_79B9)
