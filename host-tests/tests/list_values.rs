@@ -37,6 +37,9 @@ fn halves(low: i16, high: i16) -> u32 {
     u32::from(low as u16) | u32::from(high as u16) << 16
 }
 
+/// What a head begins with.
+const MARK: u32 = u32::from_le_bytes(*b"SCBL");
+
 const MOST: i32 = (1 << 30) - 1;
 
 /// Kills: each limit of `reader.rs` one off, or not asked for: the mark of a head, mantissas of more than 30 bits,
@@ -44,7 +47,7 @@ const MOST: i32 = (1 << 30) - 1;
 #[test]
 fn numbers_of_space_and_light_have_limits() {
     let head = block(&State::Head(Head::default()), &[]);
-    replaced(&head, 1, &[MAGIC], &[0, MAGIC + 1, MAGIC.swap_bytes()]);
+    replaced(&head, 1, &[MARK], &[0, MARK + 1, MARK.swap_bytes()]);
     let matrix = Matrix {
         linear: [0; 9],
         linear_exponent: 0,

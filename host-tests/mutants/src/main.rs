@@ -293,7 +293,9 @@ fn tried(args: &Args, court: &Court, live: &[usize]) -> Result<Vec<Tried>, Strin
     all.retain(|id, _| is_asked.contains(id));
     let mut left = live.to_vec();
     trial::shuffle(&mut left, args.seed);
-    left.retain(|id| !all.contains_key(id));
+    // What is still open stays so in the table until it was tried again with more patience.
+    let is_left = |tried: &Tried| tried.fate == Fate::Open && tried.patience < args.patience;
+    left.retain(|id| all.get(id).is_none_or(is_left));
     left.truncate(args.count.unwrap_or(left.len()));
     let seconds = if args.all {
         u64::from(u32::MAX)
@@ -379,9 +381,10 @@ const HEAD: &str = "\
 
 How many small changes of `src/` are noticed by the unit tests and the proofs.
 `.ci/mutants` tries more of them, and `cargo run -p host-mutants -- --markdown` writes this file.
+It is of the sources of its day: tests that were written for those that lived are not in it until it is measured again.
 
 `failed`: a test failed. `overflow`: arithmetic went out of its range, which is checked in tests alone.
-`by time`: a test took more than five times as long. `open`: the fastest minute of tests passed, and it counts as one that lived. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
+`by time`: a test took more than five times as long. `open`: the fastest tests passed, and it counts as one that lived. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
 The last column is of those tried without the equal ones, with the standard error of a random sample.
 
 ";

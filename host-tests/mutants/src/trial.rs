@@ -63,7 +63,7 @@ pub struct Court<'a> {
 }
 
 impl Court<'_> {
-    /// What became of mutants before, with the same sources and no more patience than now.
+    /// What became of mutants before, with the same sources.
     #[must_use]
     pub fn before(&self) -> BTreeMap<usize, Tried> {
         let text = fs::read_to_string(&self.kept).unwrap_or_default();
@@ -71,8 +71,7 @@ impl Court<'_> {
             let tried: Tried = serde_json::from_str(line).ok()?;
             Some((tried.id, tried))
         });
-        all.filter(|(_, tried)| tried.fate != Fate::Open || tried.patience >= self.patience)
-            .collect()
+        all.collect()
     }
 
     /// Tries mutants in this order, until the deadline.
