@@ -2,6 +2,7 @@
 
 use host_tests::lists::writer::ListWriter;
 use scanbeam::list::*;
+use std::sync::atomic::AtomicU32;
 
 /// A block of a list on its own, as words.
 fn block(state: &State, data: &[u32]) -> Vec<u32> {
@@ -304,4 +305,38 @@ fn cut(list: &[u32], have: usize, need: usize) {
     let reason = read.map(|_| ()).map_err(|error| error.reason);
     let (need, have) = (need as u32, have as u32);
     assert_eq!(reason, Err(Reason::Truncated { need, have }), "{list:x?}");
+}
+
+/// A block that is longer than its ring will never be there; of one that is shorter the rest may come.
+///
+/// Kills: rings are taken for larger than they are.
+#[test]
+fn blocks_longer_than_their_ring_are_refused() {
+    let matrix = Matrix {
+        linear: [1 << 29; 9],
+        linear_exponent: 1,
+        offset: [3; 3],
+        offset_exponent: 4,
+    };
+    let matrix = block(&State::Matrix(matrix), &[]);
+    let need = matrix.len() as u32;
+    for room in [8, 16, 32] {
+        let mut memory: Vec<AtomicU32> = (0..room).map(|_| AtomicU32::new(0)).collect();
+        let mut ring = ListRing::new(&mut memory);
+        let (mut writer, reader) = ring.split();
+        let read = || {
+            let read = read_block(reader.words(), 0, &VertexFormat::default());
+            read.map(|_| ()).map_err(|error| error.reason)
+        };
+        writer.append(&matrix[..8]).unwrap();
+        let want = match need > room {
+            true => Reason::TooLong { need, room },
+            false => Reason::Truncated { need, have: 8 },
+        };
+        assert_eq!(read(), Err(want));
+        match writer.append(&matrix[8..]) {
+            Ok(()) => assert_eq!(read(), Ok(())),
+            Err(full) => assert_eq!((full.need, full.free), (need - 8, 0)),
+        }
+    }
 }

@@ -89,3 +89,35 @@ impl<F: PixelFormat, C: PixelColor + Into<Rgb888>> DrawTarget for Canvas<'_, F, 
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pixel::Rgb565;
+
+    /// Kills: a canvas that fills nothing; what lies beside it, or above.
+    #[test]
+    fn rectangles_are_filled_where_the_canvas_is() {
+        for x in -7..9 {
+            for y in -6..8 {
+                for (width, height) in [(0, 3), (1, 1), (3, 2), (12, 9)] {
+                    let area = Rectangle::new(Point::new(x, y), Size::new(width, height));
+                    let (mut filled, mut dotted) = ([7u16; 23], [7u16; 23]);
+                    let colour = Rgb888::new(255, 0, 255);
+                    let origin = Point::new(-2, 1);
+                    let mut canvas = Canvas::<Rgb565>::new(&mut filled, origin, 5);
+                    assert_eq!(canvas.fill_solid(&area, colour), Ok(()));
+                    // Four lines of five pixels from (-2, 1) on; the three that are left over stay.
+                    for (i, pixel) in dotted.iter_mut().enumerate().take(20) {
+                        let at = [i as i32 % 5 - 2 - x, i as i32 / 5 + 1 - y];
+                        if (0..width as i32).contains(&at[0]) && (0..height as i32).contains(&at[1])
+                        {
+                            *pixel = 0xF81F;
+                        }
+                    }
+                    assert_eq!(filled, dotted, "{area:?}");
+                }
+            }
+        }
+    }
+}
