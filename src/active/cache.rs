@@ -91,8 +91,7 @@ pub struct CacheUse {
     pub moved_in: u32,
     /// Lines of objects that were drawn from slow memory: each line on which one without a slot has pixels.
     pub misses: u32,
-    /// Set-ups: of slots, and of objects without one, once a line, on lines with values once for each time one is drawn or
-    /// asked for its depth.
+    /// Set-ups: of slots, and of objects without one, once a line, on lines with values once for each time one is drawn.
     pub set_ups: u32,
     /// Set-ups of slots of which a side turns on a line farther down: there the record is read again.
     pub turning: u32,

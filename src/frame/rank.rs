@@ -13,7 +13,7 @@ use crate::num::take_first;
 
 /// Inserts a key among the first `count`, which rise.
 #[inline(never)]
-fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
+pub(super) fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
     insert(keys, count, key, |other| other < key);
 }
 

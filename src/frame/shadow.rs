@@ -5,7 +5,7 @@
 //! line of counts serves all lights.
 
 use super::guests::Stray;
-use super::near::insert;
+use super::rank::insert_rising;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
@@ -214,7 +214,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     let number = word as u32 * 32 + i;
                     let key = step << 24 | u32::from(slot.object) << 8 | number;
                     let keys = self.cache.order.as_flattened_mut();
-                    insert(keys, count, key, |other| other < key);
+                    insert_rising(keys, count, key);
                     count += 1;
                 }
             }

@@ -8,8 +8,9 @@
 //!
 //! No memory is lent for this: a pile lies on the stack.
 
+use super::guests::Stray;
 use super::renderer::Renderer;
-use super::rival::deepen;
+use super::rival::{Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
@@ -265,11 +266,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let object = at.object();
             let state = out.view.state(object);
             if state.is_some_and(DrawState::is_translucent) {
-                if let Some(mut alone) = self.set_up_alone(object, out) {
-                    let plane = Self::find_depth(&mut alone, out.view);
+                if let Some(stray) = Stray::of(object, out.view, out.number) {
+                    let Slope { at, step } = stray.slope::<L>(out);
                     f(Pane {
-                        span: alone.span,
-                        depth: depth_on_line::<L>(alone.drawn(), plane, alone.span, out),
+                        span: stray.span,
+                        depth: [at, step],
                         object,
                         slot: NO_SLOT,
                     });

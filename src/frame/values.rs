@@ -133,8 +133,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             let state = out.view.state(at.object());
             if state.is_some_and(DrawState::compares) {
-                if let Some(alone) = self.set_up_alone(at.object(), out) {
-                    self.over.cover(alone.span.start, alone.span.end);
+                if let Some(stray) = Stray::of(at.object(), out.view, out.number) {
+                    self.over.cover(stray.span.start, stray.span.end);
                 }
             }
             at = next(self.links, at);
