@@ -14,8 +14,7 @@ use super::tally::{cells_at, each_part, has_texels, opaque_of};
 use crate::active::next;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
-use crate::scene::DepthFunction;
-use crate::scene::{DrawState, Role};
+use crate::scene::{DepthFunction, DrawState, Role};
 use crate::stats::{SpanCounts, SpanPixels};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
 
