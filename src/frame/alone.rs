@@ -63,7 +63,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         object: u16,
         out: &Line<'_, '_, WordOf<L>>,
     ) -> Option<Alone<L::Planes>> {
-        let stray = Stray::of(object, out.view, out.number)?;
+        let stray = out.stray(object)?;
         Some(set_up_stray::<L>(&stray, &mut self.counts, out))
     }
 

@@ -276,10 +276,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
+impl<'v, W> Line<'_, 'v, W> {
+    /// What has no slot, by its number; `None` where it has no pixels on the line.
+    #[inline(always)]
+    pub(super) fn stray(&self, object: u16) -> Option<Stray<'v>> {
+        Stray::of(object, self.view, self.number)
+    }
+}
+
 impl<'v> Stray<'v> {
-    /// A triangle by its number; `None` where it has no pixels on the line.
+    /// [`Line::stray`]: one copy for lines of all words.
     #[inline(never)]
-    pub(super) fn of(object: u16, view: &View<'v>, line: u32) -> Option<Self> {
+    fn of(object: u16, view: &View<'v>, line: u32) -> Option<Self> {
         Self::on_line(view.triangle_of(object)?, object, line)
     }
 

@@ -4,7 +4,6 @@
 //! Light by light, its volumes are counted in any order, and what it falls on is drawn in order of submission. One
 //! line of counts serves all lights.
 
-use super::guests::Stray;
 use super::rank::insert_rising;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
@@ -222,8 +221,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             if let Some(state) = out.view.state(at.object()) {
                 let role = state.role();
-                if step_of(role).is_some() && Stray::of(at.object(), out.view, out.number).is_some()
-                {
+                if step_of(role).is_some() && out.stray(at.object()).is_some() {
                     lights.add(role);
                 }
             }

@@ -104,8 +104,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.cache.spilled;
         while at.is_some() {
             let object = at.object();
-            let stray =
-                Stray::of(object, out.view, out.number).filter(|stray| !stray.has_ended(out));
+            let stray = out.stray(object).filter(|stray| !stray.has_ended(out));
             if let Some(Stray { object, span, .. }) = stray {
                 let slot = None;
                 f(&Seen { object, span, slot });
@@ -208,7 +207,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         state: &DrawState<'_>,
         out: &Line<'_, '_, WordOf<L>>,
     ) {
-        let Some(stray) = Stray::of(object, out.view, out.number) else {
+        let Some(stray) = out.stray(object) else {
             return;
         };
         // What it takes to count is not counted.

@@ -8,7 +8,6 @@
 //!
 //! No memory is lent for this: a pile lies on the stack.
 
-use super::guests::Stray;
 use super::renderer::Renderer;
 use super::rival::{Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
@@ -30,8 +29,7 @@ const NO_SLOT: u16 = u16::MAX;
 #[derive(Clone, Copy)]
 struct Pane {
     span: Span,
-    /// Depth at the picture's first column, and its step.
-    depth: [u32; 2],
+    depth: Slope,
     object: u16,
     slot: u16,
 }
@@ -42,14 +40,13 @@ type Key = (u32, u16);
 impl Pane {
     const NONE: Self = Self {
         span: Span { start: 0, end: 0 },
-        depth: [0; 2],
+        depth: Slope { at: 0, step: 0 },
         object: 0,
         slot: NO_SLOT,
     };
 
     fn key(&self, column: u32) -> Key {
-        let [at, step] = self.depth;
-        (at.wrapping_add(step.wrapping_mul(column)), self.object)
+        (self.depth.at(column), self.object)
     }
 
     /// Whether this pane is behind another on all that they have in common of a stretch; `None` where they cross.
@@ -254,9 +251,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 return;
             };
             let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
+            let [at, step] = depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out);
             f(Pane {
                 span,
-                depth: depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out),
+                depth: Slope { at, step },
                 object: slot.object,
                 slot: number as u16,
             });
@@ -266,11 +264,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let object = at.object();
             let state = out.view.state(object);
             if state.is_some_and(DrawState::is_translucent) {
-                if let Some(stray) = Stray::of(object, out.view, out.number) {
-                    let Slope { at, step } = stray.slope::<L>(out);
+                if let Some(stray) = out.stray(object) {
                     f(Pane {
                         span: stray.span,
-                        depth: [at, step],
+                        depth: stray.slope::<L>(out),
                         object,
                         slot: NO_SLOT,
                     });

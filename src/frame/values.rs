@@ -5,7 +5,6 @@
 //! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
-use super::guests::Stray;
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
@@ -105,7 +104,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.cache.spilled;
         while at.is_some() {
             if out.view.has_values(at.object()) {
-                let stray = Stray::of(at.object(), out.view, out.number);
+                let stray = out.stray(at.object());
                 if stray.is_some_and(|stray| !stray.has_ended(out)) {
                     return true;
                 }
@@ -133,7 +132,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while at.is_some() {
             let state = out.view.state(at.object());
             if state.is_some_and(DrawState::compares) {
-                if let Some(stray) = Stray::of(at.object(), out.view, out.number) {
+                if let Some(stray) = out.stray(at.object()) {
                     self.over.cover(stray.span.start, stray.span.end);
                 }
             }
