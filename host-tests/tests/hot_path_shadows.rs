@@ -6,7 +6,7 @@
 use crate::common::Rng;
 use crate::hot::exact::{doubled_area, within};
 use crate::hot::values::{
-    Cut, FUNCTIONS, Function, HOLED, WHITE, blended, draw_each, passes, some_corners,
+    Cut, FUNCTIONS, Function, HOLED, PLACES, WHITE, blended, draw_each, passes, some_corners,
 };
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf};
 use crate::hot_path_depth::{bound, exact};
@@ -96,7 +96,7 @@ impl Call {
         let texture = if is_volume { &HOLED } else { &WHITE };
         let skin = Skin {
             texture,
-            places: &[[0, 0], [60 << 8, 0], [0, 40 << 8]],
+            places: &PLACES,
             budget: Budget::BALANCED,
         };
         call.texture = is_textured.then_some(skin);

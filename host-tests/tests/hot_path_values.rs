@@ -7,7 +7,8 @@ use crate::common::Rng;
 use crate::hot::exact::within;
 use crate::hot::layers::{Layer, lay_all};
 use crate::hot::values::{
-    Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, WHITE, blended, draw_each, some_corners, some_mode,
+    Cut, FUNCTIONS, Function, NEARER_OR_EQUAL, PLACES, WHITE, blended, depth_test, draw_each,
+    some_corners, some_mode,
 };
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, frame, line};
 use scanbeam::frame::LineError;
@@ -48,17 +49,13 @@ impl Call {
     fn dress(&self, call: &mut Draw<'_, '_, i32>, is_textured: bool) {
         let skin = Skin {
             texture: &WHITE,
-            places: &[[0, 0], [60 << 8, 0], [0, 40 << 8]],
+            places: &PLACES,
             budget: Budget::BALANCED,
         };
         call.texture = is_textured.then_some(skin);
         call.cull = Cull::None;
         call.scissor = self.cut.as_ref().map(Cut::scissor);
-        let [colour_if, depth_if] = self.test.map(|(function, _)| function);
-        call.depth = DepthTest {
-            colour_if,
-            depth_if,
-        };
+        call.depth = depth_test(self.test);
         call.priority = self.priority;
         call.blend = self.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
     }

@@ -38,6 +38,45 @@ fn halves(low: i16, high: i16) -> u32 {
     u32::from(low as u16) | u32::from(high as u16) << 16
 }
 
+const MATRIX: Matrix = Matrix {
+    linear: [0; 9],
+    linear_exponent: 0,
+    offset: [0; 3],
+    offset_exponent: 0,
+};
+
+const CAMERA: CameraWords = CameraWords {
+    eye: [0.0; 3],
+    at: [0.0; 3],
+    up: [0.0; 3],
+    focal: 1.0,
+    near: 1.0,
+    far: 1.0,
+};
+
+/// A palette of so many colours.
+fn palette(count: u16) -> Palette {
+    Palette {
+        number: 0,
+        count,
+        at: 0,
+    }
+}
+
+/// An overlay of one line of so many texels.
+fn overlay(width: u16) -> Overlay {
+    Overlay {
+        left: 0,
+        top: 0,
+        width,
+        height: 1,
+        form: TexelForm::Rgb565,
+        additive: false,
+        palette: 0,
+        at: 0,
+    }
+}
+
 /// What a head begins with.
 const MARK: u32 = u32::from_le_bytes(*b"SCBL");
 
@@ -49,13 +88,7 @@ const MOST: i32 = (1 << 30) - 1;
 fn numbers_of_space_and_light_have_limits() {
     let head = block(&State::Head(Head::default()), &[]);
     replaced(&head, 1, &[MARK], &[0, MARK + 1, MARK.swap_bytes()]);
-    let matrix = Matrix {
-        linear: [0; 9],
-        linear_exponent: 0,
-        offset: [0; 3],
-        offset_exponent: 0,
-    };
-    let matrix = block(&State::Matrix(matrix), &[]);
+    let matrix = block(&State::Matrix(MATRIX), &[]);
     let (good, bad) = ([MOST, -MOST], [MOST + 1, -MOST - 1, i32::MIN, i32::MAX]);
     let (good, bad) = (good.map(|m| m as u32), bad.map(|m| m as u32));
     for word in (1..=9).chain(11..=13) {
@@ -92,15 +125,7 @@ fn numbers_of_space_and_light_have_limits() {
 /// Kills: floats that are no numbers, windows without a column or a line, and bits that nothing has.
 #[test]
 fn cameras_windows_and_materials_have_limits() {
-    let camera = CameraWords {
-        eye: [0.0; 3],
-        at: [0.0; 3],
-        up: [0.0; 3],
-        focal: 1.0,
-        near: 1.0,
-        far: 1.0,
-    };
-    let camera = block(&State::Camera(camera), &[]);
+    let camera = block(&State::Camera(CAMERA), &[]);
     let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY].map(f32::to_bits);
     for word in 1..=12 {
         replaced(&camera, word, &[f32::MAX.to_bits()], &bad);
@@ -178,23 +203,10 @@ fn what_has_texels_has_limits() {
             &[block_of[1] | 15, block_of[1] | 15 << 4],
         );
     }
-    let palette = Palette {
-        number: 0,
-        count: 2,
-        at: 0,
-    };
+    let palette = palette(2);
     let palette = block(&State::Palette(palette), &[0; 2]);
     replaced(&palette, 1, &[1, 2], &[0, 257, u32::MAX]);
-    let overlay = Overlay {
-        left: 0,
-        top: 0,
-        width: 2,
-        height: 1,
-        form: TexelForm::Rgb565,
-        additive: false,
-        palette: 0,
-        at: 0,
-    };
+    let overlay = overlay(2);
     let overlay = block(&State::Overlay(overlay), &[0]);
     let bad = [halves(0, 1), halves(1, 0), halves(1025, 1), halves(1, 1025)];
     replaced(&overlay, 2, &[halves(1, 1), halves(2, 1)], &bad);
@@ -211,25 +223,10 @@ fn what_has_texels_has_limits() {
 /// Kills: a length that is not asked for before words are read.
 #[test]
 fn what_ends_within_a_block_is_refused_with_its_length() {
-    let vector = [0.0; 3];
-    let camera = CameraWords {
-        eye: vector,
-        at: vector,
-        up: vector,
-        focal: 1.0,
-        near: 1.0,
-        far: 1.0,
-    };
     let light = LightWords {
         direction: [0; 3],
         ambient: 0,
         colour: [0; 3],
-    };
-    let matrix = Matrix {
-        linear: [0; 9],
-        linear_exponent: 0,
-        offset: [0; 3],
-        offset_exponent: 0,
     };
     let window = Window {
         left: 0,
@@ -245,9 +242,9 @@ fn what_ends_within_a_block_is_refused_with_its_length() {
     };
     let states = [
         (State::Head(Head::default()), 5),
-        (State::Matrix(matrix), 14),
+        (State::Matrix(MATRIX), 14),
         (State::Light { number: 0, light }, 4),
-        (State::Camera(camera), 13),
+        (State::Camera(CAMERA), 13),
         (State::Window(window), 3),
         (State::Bounds(bounds), 7),
     ];
@@ -258,11 +255,7 @@ fn what_ends_within_a_block_is_refused_with_its_length() {
             cut(&list, have, need);
         }
     }
-    let palette = Palette {
-        number: 0,
-        count: 3,
-        at: 0,
-    };
+    let palette = palette(3);
     let texture = Texture {
         number: 0,
         log_width: 2,
@@ -273,16 +266,7 @@ fn what_ends_within_a_block_is_refused_with_its_length() {
         clamped: false,
         at: 0,
     };
-    let overlay = Overlay {
-        left: 0,
-        top: 0,
-        width: 4,
-        height: 1,
-        form: TexelForm::Rgb565,
-        additive: false,
-        palette: 0,
-        at: 0,
-    };
+    let overlay = overlay(4);
     // Their lengths are known once their first words are there.
     let known = [
         (State::Palette(palette), 2, 3),
@@ -312,13 +296,7 @@ fn cut(list: &[u32], have: usize, need: usize) {
 /// Kills: rings are taken for larger than they are.
 #[test]
 fn blocks_longer_than_their_ring_are_refused() {
-    let matrix = Matrix {
-        linear: [1 << 29; 9],
-        linear_exponent: 1,
-        offset: [3; 3],
-        offset_exponent: 4,
-    };
-    let matrix = block(&State::Matrix(matrix), &[]);
+    let matrix = block(&State::Matrix(MATRIX), &[]);
     let need = matrix.len() as u32;
     for room in [8, 16, 32] {
         let mut memory: Vec<AtomicU32> = (0..room).map(|_| AtomicU32::new(0)).collect();

@@ -9,7 +9,7 @@ mod textures;
 
 use crate::common::Rng;
 use crate::hot::shine::{V3, q14, some_direction};
-use crate::hot::values::{Cut, FUNCTIONS};
+use crate::hot::values::{Cut, FUNCTIONS, depth_test};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, line};
 use cover::Pairs;
 use reference::{Call, Light64, Range, Rounding, Skin64, World, covering, pixel};
@@ -17,7 +17,7 @@ use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::mesh::Material;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
-use scanbeam::scene::{Blend, BlendMode, DepthTest, Draw, DrawError, Factor, Scene, Shading, Skin};
+use scanbeam::scene::{Blend, BlendMode, Draw, DrawError, Factor, Scene, Shading, Skin};
 use scanbeam::{Cull, Light, Screen};
 use textures::{APPLICATIONS, BUDGETS, FORMS, WRAPS, textures};
 
@@ -396,11 +396,7 @@ fn dress(call: &Call, draw: &mut Draw<'_, '_, i32>, is_swapped: bool) {
         Shading::Smooth
     };
     draw.scissor = call.cut.as_ref().map(Cut::scissor);
-    let [colour_if, depth_if] = call.test.map(|(function, _)| function);
-    draw.depth = DepthTest {
-        colour_if,
-        depth_if,
-    };
+    draw.depth = depth_test(call.test);
     draw.blend = call.blend.map(|(mode, rgb)| Blend::new(mode).writing(rgb));
     draw.dither = call.dithers;
     draw.alphas = call.alphas.map_or(&[], |alphas| alphas.to_vec().leak());

@@ -6,7 +6,7 @@ use crate::common::Rng;
 use crate::listing::PLENTY;
 use crate::played::{Kept, drawn, drawn_in, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
-use samples::{has_alpha, levelled, make_translucent, sample, word_of};
+use samples::{has_alpha, key_of, levelled, make_translucent, sample};
 use scanbeam::input::PlayerSettings;
 use scanbeam::list::{
     FieldForm, Flow, Halt, Header, Id, Lent, ListCommand, Material, Palette, Reason, State,
@@ -104,21 +104,8 @@ fn textures_of_every_form_are_those_of_calls() {
             let prsp = seed % 2 == 0;
             let list = &sample.list(prsp)[..];
 
-            // A word that is no texel's stands for the holes.
-            let is_opaque = |texel: &&[u8; 4]| texel[3] == 255;
-            let opaque: Vec<u16> = sample
-                .texels
-                .iter()
-                .filter(is_opaque)
-                .map(|t| word_of(*t))
-                .collect();
-            let key = (0..=u16::MAX)
-                .rev()
-                .find(|word| !opaque.contains(word))
-                .unwrap();
-            let words: Vec<u16> = (sample.texels.iter())
-                .map(|texel| if texel[3] == 0 { key } else { word_of(*texel) })
-                .collect();
+            let key = key_of(sample.texels.iter());
+            let words = sample.holed(key);
             let texture = sample.texture(&words);
             let texture = if has_holes {
                 texture.keyed(key)

@@ -4,7 +4,9 @@ use super::{Corner, camera, draw_with};
 use crate::common::Rng;
 use scanbeam::Screen;
 use scanbeam::look::Look;
-use scanbeam::scene::{BlendMode, DepthFunction, Draw, Factor, Scene, Scissor, Texture, Wrap};
+use scanbeam::scene::{
+    BlendMode, DepthFunction, DepthTest, Draw, Factor, Scene, Scissor, Texture, Wrap,
+};
 use std::cmp::Ordering;
 use std::ops::Range;
 
@@ -63,6 +65,18 @@ pub const FUNCTIONS: [Function; 8] = [
     (DepthFunction::FARTHER, [false, false, true]),
     (DepthFunction::DIFFERENT, [true, false, true]),
 ];
+
+/// Where colours are seen, and where depth is kept.
+pub fn depth_test(test: [Function; 2]) -> DepthTest {
+    let [colour_if, depth_if] = test.map(|(function, _)| function);
+    DepthTest {
+        colour_if,
+        depth_if,
+    }
+}
+
+/// Where the corners of a triangle lie on a texture.
+pub const PLACES: [[i32; 2]; 3] = [[0, 0], [60 << 8, 0], [0, 40 << 8]];
 
 /// Whether a depth that compares so passes.
 pub fn passes((_, passing): Function, order: Ordering) -> bool {

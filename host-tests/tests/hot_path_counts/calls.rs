@@ -3,10 +3,11 @@
 use crate::common::Rng;
 use crate::hot::Corner;
 use crate::hot::values::{
-    Cut, FUNCTIONS, Function, HOLED, NEARER_OR_EQUAL, WHITE, some_corners, some_mode,
+    Cut, FUNCTIONS, Function, HOLED, NEARER_OR_EQUAL, PLACES, WHITE, depth_test, some_corners,
+    some_mode,
 };
 use crate::hot_path_depth::{bound, exact};
-use scanbeam::scene::{Blend, BlendMode, Budget, DepthFunction, DepthTest, Draw, Shadow, Skin};
+use scanbeam::scene::{Blend, BlendMode, Budget, DepthFunction, Draw, Shadow, Skin};
 use scanbeam::{Cull, Screen};
 use std::cmp::Ordering;
 
@@ -126,16 +127,12 @@ impl Call {
         };
         call.texture = texture.filter(|_| is_textured).map(|texture| Skin {
             texture,
-            places: &[[0, 0], [60 << 8, 0], [0, 40 << 8]],
+            places: &PLACES,
             budget: Budget::BALANCED,
         });
         call.cull = Cull::None;
         call.scissor = self.cut.as_ref().map(Cut::scissor);
-        let [colour_if, depth_if] = self.test.map(|(function, _)| function);
-        call.depth = DepthTest {
-            colour_if,
-            depth_if,
-        };
+        call.depth = depth_test(self.test);
         call.priority = self.priority;
         call.blend = self.blend.map(Blend::new);
         call.dither = self.dither;

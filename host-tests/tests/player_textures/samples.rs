@@ -147,6 +147,12 @@ impl Sample {
             .wrapping(self.wrap())
     }
 
+    /// Its texels as words of the panel, with the word of holes.
+    pub(super) fn holed(&self, key: u16) -> Vec<u16> {
+        let of = |texel: &[u8; 4]| if texel[3] == 0 { key } else { word_of(*texel) };
+        self.texels.iter().map(of).collect()
+    }
+
     /// A list that draws a quad with it, with PRSP or not.
     pub(super) fn list(&self, prsp: bool) -> Vec<u32> {
         let mut memory = vec![0; 16_384];
@@ -162,6 +168,16 @@ impl Sample {
         writer.flow(Flow::End).unwrap();
         writer.words().to_vec()
     }
+}
+
+/// A word that no opaque texel has, to stand for the holes.
+pub(super) fn key_of<'t>(texels: impl Iterator<Item = &'t [u8; 4]>) -> u16 {
+    let opaque: Vec<u16> = texels
+        .filter(|t| t[3] == 255)
+        .map(|t| word_of(*t))
+        .collect();
+    let mut words = (0..=u16::MAX).rev();
+    words.find(|word| !opaque.contains(word)).unwrap()
 }
 
 /// A texture of a form with four levels of detail, as a list has it; and each level as words of the panel, with the word of
@@ -181,19 +197,8 @@ pub(super) fn levelled(form: TexelForm, seed: u64, sides: [u8; 2]) -> (Sample, V
             }
         }
     }
-    let texels = || all.iter().flat_map(|sample| &sample.texels);
-    let opaque: Vec<u16> = texels()
-        .filter(|t| t[3] == 255)
-        .map(|t| word_of(*t))
-        .collect();
-    let key = (0..=u16::MAX)
-        .rev()
-        .find(|word| !opaque.contains(word))
-        .unwrap();
-    let of = |texel: &[u8; 4]| if texel[3] == 0 { key } else { word_of(*texel) };
-    let levels = (all.iter())
-        .map(|sample| sample.texels.iter().map(of).collect())
-        .collect();
+    let key = key_of(all.iter().flat_map(|sample| &sample.texels));
+    let levels = all.iter().map(|sample| sample.holed(key)).collect();
     let whole = Sample {
         block: TextureBlock {
             levels: 4,

@@ -22,6 +22,16 @@ fn the_mock_refuses_misuse_and_says_where() {
     pub(super) fn wait(mock: &mut Mock) {
         while !matches!(mock.poll(), Poll::Ready(Ok(None))) {}
     }
+    fn lines(y: u16, height: u16) -> Window {
+        Window { y, height, ..FULL }
+    }
+    fn after_the_second(m: &mut Mock, next: Window) -> std::result::Result<(), MockError> {
+        m.begin(lines(2, 1))?;
+        start(m, 6)?;
+        wait(m);
+        m.end()?;
+        m.begin(next)
+    }
     use ErrorKind::{Length, Sequence};
 
     refused(|m| start(m, 6), Sequence, 0); // no begin
@@ -69,46 +79,12 @@ fn the_mock_refuses_misuse_and_says_where() {
     };
     refused(missing, Sequence, 2);
     let too_many = |m: &mut Mock| {
-        m.begin(Window {
-            y: 2,
-            height: 1,
-            ..FULL
-        })?;
+        m.begin(lines(2, 1))?;
         start(m, 12)
     };
     refused(too_many, Sequence, 2);
-    let repeated = |m: &mut Mock| {
-        m.begin(Window {
-            y: 2,
-            height: 1,
-            ..FULL
-        })?;
-        start(m, 6)?;
-        wait(m);
-        m.end()?;
-        m.begin(Window {
-            y: 2,
-            height: 2,
-            ..FULL
-        })
-    };
-    refused(repeated, Sequence, 2);
-    let disordered = |m: &mut Mock| {
-        m.begin(Window {
-            y: 2,
-            height: 1,
-            ..FULL
-        })?;
-        start(m, 6)?;
-        wait(m);
-        m.end()?;
-        m.begin(Window {
-            y: 1,
-            height: 1,
-            ..FULL
-        })
-    };
-    refused(disordered, Sequence, 1);
+    refused(|m| after_the_second(m, lines(2, 2)), Sequence, 2);
+    refused(|m| after_the_second(m, lines(1, 1)), Sequence, 1);
 
     // Two at once, and no third, when it chains.
     let mut chain = mock().late_by(1).chained();
