@@ -31,9 +31,13 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
         return bless(&host);
     }
     let toolchain = Toolchain::find()?;
-    let boards = compared(&toolchain, &host, args.bench)?;
+    let is_run = |board: &&Board| args.board.as_ref().is_none_or(|name| board.name == name);
+    let asked: Vec<Board> = BOARDS.iter().filter(is_run).copied().collect();
+    let boards = compared(&toolchain, &asked, &host, args.bench)?;
     let verdict = if args.bench {
-        Record::read(&Record::path())?.judge(&toolchain.version, &figures(&boards))
+        let record = Record::read(&Record::path())?
+            .of_boards(|name| asked.iter().any(|board| board.name == name));
+        record.judge(&toolchain.version, &figures(&boards))
     } else {
         Verdict::default()
     };
@@ -77,7 +81,7 @@ fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
     let path = Record::path();
     let mut record = Record::read(&path)?;
     for toolchain in Toolchain::all()? {
-        let boards = compared(&toolchain, host, true)?;
+        let boards = compared(&toolchain, &BOARDS, host, true)?;
         if let Some(wrong) = boards.iter().find(|board| !board.matches()) {
             let name = wrong.measured.board.name;
             return Err(format!("{name}: a frame differs, so nothing is recorded").into());
@@ -91,9 +95,10 @@ fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
     Ok(false)
 }
 
-/// Runs every board.
+/// Runs boards.
 fn compared(
     toolchain: &Toolchain,
+    asked: &[Board],
     host: &BTreeMap<&str, u32>,
     bench: bool,
 ) -> Result<Vec<Compared>, Box<dyn Error>> {
@@ -104,9 +109,9 @@ fn compared(
     } else {
         &[COMPARER]
     };
-    firmware::build_all(toolchain, &BOARDS, Profile::Release, programs, &[])?;
+    firmware::build_all(toolchain, asked, Profile::Release, programs, &[])?;
     let words = if bench { &["bench"][..] } else { &[] };
-    for board in &BOARDS {
+    for board in asked {
         let measured = firmware::measure(toolchain, board, Profile::Release, words)?;
         let mut compared = Compared::new(measured, host)?;
         if bench {

@@ -246,7 +246,7 @@ fn paint<L: Look>(
     view: &View<'_>,
     run: &mut [WordOf<L>],
 ) -> u32 {
-    L::fill_holed(ink.fill, ink.planes, at, view.draws, dithers, run)
+    L::fill_opaque(ink.fill, ink.planes, at, view.draws, dithers, run)
 }
 
 /// The alphas of a run of up to 32 pixels, and what else its texels say of themselves.
@@ -308,7 +308,7 @@ fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, Word
     let fill = |at: Place, run: &mut [WordOf<L>]| {
         let draws = out.view.draws;
         if ink.dithers {
-            L::fill_dithered(ink.fill, ink.planes, at, draws, run);
+            L::fill_opaque(ink.fill, ink.planes, at, draws, true, run);
         } else {
             L::fill(ink.fill, ink.planes, at, draws, run);
         }

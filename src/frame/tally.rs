@@ -307,7 +307,7 @@ pub(super) fn opaque_of<L: Look>(
     };
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let colours = colours.get_mut(..pixels as usize).unwrap_or_default();
-    L::fill_holed(ink.fill, ink.planes, at, out.view.draws, false, colours).reverse_bits()
+    L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, false, colours).reverse_bits()
 }
 
 /// A copy of the depths that are there from a column on; what nobody has written is farthest away.

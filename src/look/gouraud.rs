@@ -378,15 +378,17 @@ impl<F: PixelFormat> Look for Gouraud<F> {
     }
 
     #[inline(never)]
-    fn fill_dithered(
+    fn fill_opaque(
         fill: Fill,
         planes: &Planes,
         place: Place,
         draws: &[DrawState<'_>],
+        dithers: bool,
         run: &mut [F::Word],
-    ) {
-        if !F::MADE_OF.is_one_word() || fill == Fill::Plain {
-            return Self::fill(fill, planes, place, draws, run);
+    ) -> u32 {
+        if !dithers || !F::MADE_OF.is_one_word() || fill == Fill::Plain {
+            Self::fill(fill, planes, place, draws, run);
+            return u32::MAX;
         }
         let Course {
             mut value, step, ..
@@ -400,5 +402,6 @@ impl<F: PixelFormat> Look for Gouraud<F> {
                 *value = value.wrapping_add(step as u32);
             }
         }
+        u32::MAX
     }
 }

@@ -83,10 +83,10 @@ pub trait Look: Sized {
         Self::fill(Fill::Plain, planes, at, draws, run);
     }
 
-    /// Colours a run of up to 32 pixels of a draw call whose texture has transparent texels, dithered or not; a bit for
-    /// each pixel that is not a hole, the first the top one.
+    /// [`fill`](Look::fill), dithered or not, where pixels have 16 bits and the look dithers. Of a draw call whose texture
+    /// has transparent texels, up to 32 pixels; a bit for each that is not a hole, the first the top one.
     #[doc(hidden)]
-    fn fill_holed(
+    fn fill_opaque(
         fill: Fill,
         planes: &Self::Planes,
         at: Place,
@@ -94,11 +94,8 @@ pub trait Look: Sized {
         dithers: bool,
         run: &mut [WordOf<Self>],
     ) -> u32 {
-        if dithers {
-            Self::fill_dithered(fill, planes, at, draws, run);
-        } else {
-            Self::fill(fill, planes, at, draws, run);
-        }
+        let _ = dithers;
+        Self::fill(fill, planes, at, draws, run);
         u32::MAX
     }
 
@@ -114,19 +111,6 @@ pub trait Look: Sized {
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Self::Planes) -> Option<Fill> {
         let _ = (triangle, planes);
         None
-    }
-
-    /// [`fill`](Look::fill), dithered where pixels have 16 bits; that of a look that does not dither.
-    #[doc(hidden)]
-    #[inline(always)]
-    fn fill_dithered(
-        fill: Fill,
-        planes: &Self::Planes,
-        at: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [WordOf<Self>],
-    ) {
-        Self::fill(fill, planes, at, draws, run);
     }
 }
 

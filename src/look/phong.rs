@@ -147,13 +147,15 @@ impl<F: PixelFormat> Look for Phong<F> {
         fill::<F>(planes, place, false, draws, run);
     }
 
-    fn fill_dithered(
+    fn fill_opaque(
         _: Fill,
         planes: &Planes,
         place: Place,
         draws: &[DrawState<'_>],
+        dithers: bool,
         run: &mut [F::Word],
-    ) {
-        fill::<F>(planes, place, true, draws, run);
+    ) -> u32 {
+        fill::<F>(planes, place, dithers, draws, run);
+        u32::MAX
     }
 }

@@ -405,19 +405,7 @@ impl<F: Texel> Look for Textured<F> {
     }
 
     #[inline(never)]
-    fn fill_dithered(
-        _: Fill,
-        planes: &Planes,
-        place: Place,
-        draws: &[DrawState<'_>],
-        run: &mut [u16],
-    ) {
-        Self::texels(planes, place, draws, run);
-        Self::shade_dithered(planes, place, run);
-    }
-
-    #[inline(never)]
-    fn fill_holed(
+    fn fill_opaque(
         fill: Fill,
         planes: &Planes,
         place: Place,
@@ -425,14 +413,11 @@ impl<F: Texel> Look for Textured<F> {
         dithers: bool,
         run: &mut [u16],
     ) -> u32 {
-        let Some(holes) = planes.holes(draws) else {
-            if dithers {
-                Self::fill_dithered(fill, planes, place, draws, run);
-            } else {
-                Self::fill(fill, planes, place, draws, run);
-            }
+        let holes = planes.holes(draws);
+        if holes.is_none() && !dithers {
+            Self::fill(fill, planes, place, draws, run);
             return u32::MAX;
-        };
+        }
         let shade = |run: &mut [u16]| {
             if dithers {
                 Self::shade_dithered(planes, place, run);
@@ -441,7 +426,7 @@ impl<F: Texel> Look for Textured<F> {
             }
         };
         Self::texels(planes, place, draws, run);
-        if holes.are_filled {
+        if let Some(holes) = holes.filter(|holes| holes.are_filled) {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());
             shade(&mut colours[..count]);
@@ -452,7 +437,7 @@ impl<F: Texel> Look for Textured<F> {
             }
             return u32::MAX;
         }
-        let opaque = holes.opaque(run);
+        let opaque = holes.map_or(u32::MAX, |holes| holes.opaque(run));
         shade(run);
         opaque
     }

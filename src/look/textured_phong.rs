@@ -81,7 +81,7 @@ fn fill<F: PixelFormat, T: Texel>(
 
 /// The same of a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
 #[inline(never)]
-fn fill_holed<F: PixelFormat, T: Texel>(
+fn fill_opaque<F: PixelFormat, T: Texel>(
     planes: &Planes,
     place: Place,
     draws: &[DrawState<'_>],
@@ -138,17 +138,7 @@ macro_rules! lit {
                 fill::<$format, $texel>(planes, place, false, draws, run);
             }
 
-            fn fill_dithered(
-                _: Fill,
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [<$format as PixelFormat>::Word],
-            ) {
-                fill::<$format, $texel>(planes, place, true, draws, run);
-            }
-
-            fn fill_holed(
+            fn fill_opaque(
                 _: Fill,
                 planes: &Planes,
                 place: Place,
@@ -156,7 +146,7 @@ macro_rules! lit {
                 dithers: bool,
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
-                fill_holed::<$format, $texel>(planes, place, draws, dithers, run)
+                fill_opaque::<$format, $texel>(planes, place, draws, dithers, run)
             }
 
             fn fill_mask(

@@ -116,7 +116,7 @@ fn fill<F: PixelFormat>(
 
 /// Colours a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
 #[inline(never)]
-fn fill_holed<F: PixelFormat>(
+fn fill_opaque<F: PixelFormat>(
     planes: &Planes,
     place: Place,
     draws: &[DrawState<'_>],
@@ -179,7 +179,7 @@ macro_rules! wide {
             }
 
             #[inline(always)]
-            fn fill_holed(
+            fn fill_opaque(
                 _: Fill,
                 planes: &Planes,
                 place: Place,
@@ -187,7 +187,7 @@ macro_rules! wide {
                 _: bool,
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
-                fill_holed::<$format>(planes, place, draws, run)
+                fill_opaque::<$format>(planes, place, draws, run)
             }
 
             fn fill_mask(

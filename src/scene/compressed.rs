@@ -9,7 +9,7 @@
 use super::block::Blocked;
 use super::block_cache::CacheWord;
 use super::texture::Sides;
-use super::{Texels, Texture, TextureError};
+use super::{TexelWay, Texels, Texture, TextureError};
 
 /// Bytes of a block.
 const BYTES: usize = 8;
@@ -48,11 +48,20 @@ pub struct Compressed<'t> {
 }
 
 /// What a block says.
+#[derive(Default)]
 struct Block {
     /// Numbers of 5, 6 and 5 bits.
     ends: [u16; 2],
     /// Two bits a texel, those of the first one lowest.
     indices: u32,
+}
+
+/// Where a texel is.
+struct Place {
+    /// The number of its block.
+    block: u32,
+    /// Bits of the block's indices below its own.
+    right: u32,
 }
 
 impl<'t> Compressed<'t> {
@@ -144,6 +153,17 @@ impl<'t> Compressed<'t> {
         }
     }
 
+    /// Where a texel is.
+    #[inline(always)]
+    fn place(&self, [column, row]: [u16; 2]) -> Place {
+        let [column, row] = [column, row].map(u32::from);
+        let across = self.sides.log_width.saturating_sub(2);
+        Place {
+            block: ((row / 4) << across) | (column / 4),
+            right: 8 * (row % 4) + 2 * (column % 4),
+        }
+    }
+
     /// Decodes the block of an index into the words of a cache, whose blocks are `layout`; the texel of that index.
     #[inline(never)]
     pub(super) fn load(&self, index: u32, layout: Blocked, upper: u32, words: &[CacheWord]) -> u16 {
@@ -165,10 +185,28 @@ impl<'t> Compressed<'t> {
 
 impl Texels for Compressed<'_> {
     fn texel(&self, column: u16, row: u16) -> u16 {
-        let [column, row] = [column, row].map(u32::from);
-        let across = u32::from(self.sides.log_width.saturating_sub(2));
-        let Block { ends, indices } = self.block(((row / 4) << across) | (column / 4));
-        self.shown(ends, indices >> (8 * (row % 4) + 2 * (column % 4)) & 3)
+        let place = self.place([column, row]);
+        let Block { ends, indices } = self.block(place.block);
+        self.shown(ends, indices >> place.right & 3)
+    }
+
+    /// A block is read once for all texels in succession that are its, and each of its colours is made once.
+    fn fetch(&self, run: &mut [u16], way: TexelWay) {
+        let (mut number, mut block) = (u32::MAX, Block::default());
+        let (mut made, mut colours) = (0, [0; 4]);
+        for (pixel, texel) in run.iter_mut().zip(way) {
+            let place = self.place(texel);
+            if place.block != number {
+                (number, made) = (place.block, 0);
+                block = self.block(number);
+            }
+            let index = block.indices >> place.right & 3;
+            if made >> index & 1 == 0 {
+                made |= 1 << index;
+                colours[index as usize] = self.shown(block.ends, index);
+            }
+            *pixel = colours[index as usize];
+        }
     }
 }
 

@@ -57,8 +57,8 @@ pub use suite::{
 };
 pub use texels::{TEXEL_SIDE, TEXELS_565};
 pub use values::{
-    IndexedLook, PhongLook, TexturedPhongLook, VALUES, VALUES_HEIGHT, VALUES_ROOM, VALUES_SHOWN,
-    VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,
+    IndexedLook, PhongLook, STONE, TexturedPhongLook, VALUES, VALUES_HEIGHT, VALUES_ROOM,
+    VALUES_SHOWN, VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,
 };
 
 use scanbeam::mesh::QuadSplit;

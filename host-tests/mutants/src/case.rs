@@ -117,19 +117,16 @@ impl Bench {
         let printed = self.scratch.join(format!("printed-{}", run.worker));
         let file = fs::File::create(&printed).map_err(told)?;
         let begun = Instant::now();
-        let mut child = self
-            .command(run.program)
+        let mut command = self.command(run.program);
+        command
             .args(["--exact", "--test-threads=1"])
             .args(run.tests)
             .env("SCANBEAM_MUTANT", run.mutant)
             .env("SCANBEAM_REACHED", &run.reached)
             .env("RUST_BACKTRACE", "0")
             .stdout(file.try_clone().map_err(told)?)
-            .stderr(file)
-            .process_group(0)
-            .spawn()
-            .map_err(told)?;
-        let status = wait(&mut child, begun + run.limit)?;
+            .stderr(file);
+        let status = ended(&mut command, run.limit)?;
         let end = match status {
             None => End::Late,
             Some(status) if status.success() => End::Passed,
@@ -157,7 +154,19 @@ fn is_reason(line: &str) -> bool {
         || line.starts_with("range ")
 }
 
-/// How the program ended; `None` when it and all that it has started had to be ended.
+/// How a program ended; `None` when it took longer than `limit`, and it and all that it has started had to be ended.
+///
+/// # Errors
+/// A program that cannot be run.
+pub fn ended(command: &mut Command, limit: Duration) -> Result<Option<ExitStatus>, String> {
+    let deadline = Instant::now() + limit;
+    let mut child = command
+        .process_group(0)
+        .spawn()
+        .map_err(|error| format!("{}: {error}", command.get_program().display()))?;
+    wait(&mut child, deadline)
+}
+
 fn wait(child: &mut Child, deadline: Instant) -> Result<Option<ExitStatus>, String> {
     let told = |error: std::io::Error| format!("a program of tests: {error}");
     let mut pause = Duration::from_millis(1);

@@ -8,6 +8,7 @@
 mod case;
 mod change;
 mod compile;
+mod firmware;
 mod known;
 mod reach;
 mod report;
@@ -20,6 +21,7 @@ mod work;
 
 use clap::Parser;
 use compile::Copy;
+use firmware::Shop;
 use reach::Case;
 use site::{Mutant, Source};
 use std::collections::{BTreeSet, HashSet};
@@ -68,6 +70,9 @@ struct Args {
     /// Tries them by unit tests alone, which are built in a third of the time.
     #[arg(long)]
     unit: bool,
+    /// Tries those that live by the firmware as well: its frames and what they cost in QEMU, on the M4.
+    #[arg(long)]
+    firmware: bool,
     /// Prints what would be tried, with the number that SCANBEAM_MUTANT takes, and tries nothing.
     #[arg(long)]
     list: bool,
@@ -76,6 +81,18 @@ struct Args {
     markdown: bool,
     /// Files whose mutants are tried, or FILE:LINE; all of src/ when none is named.
     files: Vec<String>,
+}
+
+impl Args {
+    /// Until when mutants are tried that are begun now.
+    fn deadline(&self) -> Instant {
+        let seconds = if self.all {
+            u32::MAX.into()
+        } else {
+            self.seconds
+        };
+        Instant::now() + Duration::from_secs(seconds)
+    }
 }
 
 fn main() -> ExitCode {
@@ -128,13 +145,14 @@ fn run(args: &Args) -> Result<bool, String> {
     others.retain(|name, _| GUARDED.iter().any(|folder| name.starts_with(folder)));
     let live = |id: &usize| copy.is_live(&choices, *id);
     let chosen: Vec<usize> = chosen.into_iter().filter(live).collect();
-    let found = heard(
-        args,
-        &bench,
-        &others,
-        &chosen,
-        &tree::hash(&files, is_tested),
-    )?;
+    let project = Project {
+        files: &files,
+        sources: &sources,
+        guarded: &others,
+        known: &known,
+        mutants: &mutants,
+    };
+    let found = heard(args, &bench, &project, &chosen)?;
     let dropped = choices.dropped.len();
     let constant = (0..mutants.len()).filter(|id| !live(id)).count() - dropped;
     let told = Told {
@@ -156,14 +174,25 @@ struct Found {
     left_out: Vec<Case>,
 }
 
-/// Tries mutants. `key` stands for all that is tested and all tests.
+/// What is tried.
+struct Project<'a> {
+    files: &'a Files,
+    sources: &'a [Source],
+    /// Files that a test may change.
+    guarded: &'a Files,
+    known: &'a BTreeSet<String>,
+    mutants: &'a [Mutant],
+}
+
+/// Tries mutants.
 fn heard(
     args: &Args,
     bench: &case::Bench,
-    guarded: &Files,
+    project: &Project,
     chosen: &[usize],
-    key: &str,
 ) -> Result<Found, String> {
+    // Stands for all that is tested and all tests.
+    let key = tree::hash(project.files, is_tested);
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = args.jobs.unwrap_or_else(processors);
     let by = if args.unit { "by-unit-" } else { "" };
@@ -174,15 +203,48 @@ fn heard(
     let court = Court {
         bench,
         cases: &cases,
-        guarded,
+        guarded: project.guarded,
         kept: kept("tried"),
         patience: args.patience,
         jobs,
     };
-    Ok(Found {
-        tried: tried(args, &court, chosen)?,
-        left_out,
-    })
+    let mut tried = tried(args, &court, chosen)?;
+    if args.firmware {
+        by_firmware(args, &court, project, &mut tried)?;
+    }
+    Ok(Found { tried, left_out })
+}
+
+/// Tries those that live by the firmware, for as long as mutants may be tried.
+fn by_firmware(
+    args: &Args,
+    court: &Court,
+    project: &Project,
+    tried: &mut [Tried],
+) -> Result<(), String> {
+    let name = |tried: &Tried| project.mutants[tried.id].name();
+    let is_asked = |tried: &&Tried| !tried.firmware && tried.lives();
+    let living: Vec<Tried> = (tried.iter().filter(is_asked))
+        .filter(|tried| !project.known.contains(&name(tried)))
+        .cloned()
+        .collect();
+    let mut shops = Vec::new();
+    for worker in 0..court.jobs.min(living.len()) {
+        let folder = court.bench.scratch.join(format!("firmware-{worker}"));
+        shops.push(Shop::new(&folder, project.files)?);
+    }
+    say!("{} are tried by the firmware", living.len());
+    let source = |id: usize| {
+        let file = &project.mutants[id].file;
+        project.sources.iter().find(|source| source.file == *file)
+    };
+    let heard = court.hear_firmware(&living, &shops, source, args.deadline())?;
+    for one in heard {
+        if let Some(old) = tried.iter_mut().find(|old| old.id == one.id) {
+            *old = one;
+        }
+    }
+    Ok(())
 }
 
 /// Whether what a file says may change what becomes of a mutant.
@@ -297,17 +359,12 @@ fn tried(args: &Args, court: &Court, live: &[usize]) -> Result<Vec<Tried>, Strin
     let is_left = |tried: &Tried| tried.fate == Fate::Open && tried.patience < args.patience;
     left.retain(|id| all.get(id).is_none_or(is_left));
     left.truncate(args.count.unwrap_or(left.len()));
-    let seconds = if args.all {
-        u64::from(u32::MAX)
-    } else {
-        args.seconds
-    };
     say!(
         "{} were tried before; {} are left to try",
         all.len(),
         left.len()
     );
-    let heard = court.hear(&left, Instant::now() + Duration::from_secs(seconds))?;
+    let heard = court.hear(&left, args.deadline())?;
     all.extend(heard.into_iter().map(|tried| (tried.id, tried)));
     Ok(all.into_values().collect())
 }
@@ -357,8 +414,7 @@ impl Told<'_> {
     /// Whether it does not live, or is known to. Lines that are equal share a name, so one of them may
     /// be known that is noticed.
     fn is_right(&self, tried: &Tried) -> bool {
-        let lives = matches!(tried.fate, Fate::Lived | Fate::Open | Fate::Unreached);
-        !lives || self.known.contains(&self.mutants[tried.id].name())
+        !tried.lives() || self.known.contains(&self.mutants[tried.id].name())
     }
 
     /// One that lives and is not known.
@@ -384,7 +440,7 @@ How many small changes of `src/` are noticed by the unit tests and the proofs.
 It is of the sources of its day: tests that were written for those that lived are not in it until it is measured again.
 
 `failed`: a test failed. `overflow`: arithmetic went out of its range, which is checked in tests alone.
-`by time`: a test took more than five times as long. `open`: the fastest tests passed, and it counts as one that lived. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
+`by time`: a test took more than five times as long. `by firmware`: the firmware in QEMU drew something else, or took more instructions than the record allows, and that is the only thing that noticed. `open`: the fastest tests passed, and it counts as one that lived. `equal`: it lived, and `mutants.txt` says why nothing can notice it.
 The last column is of those tried without the equal ones, with the standard error of a random sample.
 
 ";

@@ -18,6 +18,8 @@ pub struct Row {
     pub overflowed: usize,
     /// Noticed by a test that took too long.
     pub late: usize,
+    /// Noticed by the firmware alone.
+    pub dearer: usize,
     /// Lived, and nothing can notice them.
     pub equal: usize,
     /// Lived.
@@ -35,6 +37,7 @@ impl Row {
             Fate::Killed => &mut self.killed,
             Fate::Overflowed => &mut self.overflowed,
             Fate::Late => &mut self.late,
+            Fate::Dearer => &mut self.dearer,
             Fate::Lived | Fate::Open | Fate::Unreached if is_known => &mut self.equal,
             Fate::Lived => &mut self.lived,
             Fate::Open => &mut self.open,
@@ -48,6 +51,7 @@ impl Row {
         self.killed += other.killed;
         self.overflowed += other.overflowed;
         self.late += other.late;
+        self.dearer += other.dearer;
         self.equal += other.equal;
         self.lived += other.lived;
         self.open += other.open;
@@ -62,7 +66,7 @@ impl Row {
         if count == 0 {
             return None;
         }
-        let noticed = self.killed + self.overflowed + self.late;
+        let noticed = self.killed + self.overflowed + self.late + self.dearer;
         let part = noticed as f64 / count as f64;
         // Of a whole room nothing is left to chance.
         let left = 1.0 - self.tried as f64 / self.mutants.max(1) as f64;
@@ -73,7 +77,7 @@ impl Row {
         })
     }
 
-    fn cells(&self) -> [String; 10] {
+    fn cells(&self) -> [String; 11] {
         let rate = match self.rate() {
             Some(rate) => format!("{:.1} ± {:.1}", rate.percent, rate.error),
             None => "-".to_owned(),
@@ -84,6 +88,7 @@ impl Row {
             self.killed.to_string(),
             self.overflowed.to_string(),
             self.late.to_string(),
+            self.dearer.to_string(),
             self.equal.to_string(),
             self.lived.to_string(),
             self.open.to_string(),
@@ -103,13 +108,14 @@ pub struct Rate {
 }
 
 /// The heads of the columns.
-const HEADS: [&str; 11] = [
+const HEADS: [&str; 12] = [
     "room",
     "mutants",
     "tried",
     "failed",
     "overflow",
     "by time",
+    "by firmware",
     "equal",
     "lived",
     "open",
@@ -162,7 +168,7 @@ pub fn table(rows: &[(String, Row)]) -> String {
         let cells = lines.iter().map(|line| line[column].chars().count());
         cells.max().unwrap_or(0)
     };
-    let widths: [usize; 11] = std::array::from_fn(width);
+    let widths: [usize; 12] = std::array::from_fn(width);
     let mut text = String::new();
     for (number, line) in lines.iter().enumerate() {
         for (column, cell) in line.iter().enumerate() {

@@ -1,7 +1,9 @@
 //! Tries mutants by the tests that reach them.
 
 use crate::case::{Bench, End, Program, Run};
+use crate::firmware::Shop;
 use crate::reach::Case;
+use crate::site::Source;
 use crate::tree::{self, Files};
 use crate::{say, work};
 use serde::{Deserialize, Serialize};
@@ -21,6 +23,8 @@ pub enum Fate {
     Overflowed,
     /// A test took far too long.
     Late,
+    /// All tests passed, but the firmware drew something else, or at a cost that is not recorded.
+    Dearer,
     /// All tests that reach it passed.
     Lived,
     /// The fastest tests that reach it passed; there was no time for the others.
@@ -43,6 +47,17 @@ pub struct Tried {
     /// Seconds of tests that there was time for.
     #[serde(default)]
     pub patience: u64,
+    /// Whether it was tried by the firmware as well.
+    #[serde(default)]
+    pub firmware: bool,
+}
+
+impl Tried {
+    /// Whether nothing noticed it so far.
+    #[must_use]
+    pub fn lives(&self) -> bool {
+        matches!(self.fate, Fate::Lived | Fate::Open | Fate::Unreached)
+    }
 }
 
 /// What mutants are tried with.
@@ -62,7 +77,7 @@ pub struct Court<'a> {
     pub jobs: usize,
 }
 
-impl Court<'_> {
+impl<'a> Court<'a> {
     /// What became of mutants before, with the same sources.
     #[must_use]
     pub fn before(&self) -> BTreeMap<usize, Tried> {
@@ -85,12 +100,7 @@ impl Court<'_> {
                 of.entry(*id).or_default().push(case);
             }
         }
-        let told = |error: std::io::Error| format!("{}: {error}", self.kept.display());
-        let kept = fs::OpenOptions::new()
-            .create(true)
-            .append(true)
-            .open(&self.kept);
-        let kept = Mutex::new(kept.map_err(told)?);
+        let kept = self.open()?;
         work::share(self.jobs, ids.len(), |worker, at| {
             if Instant::now() >= deadline {
                 return Ok(None);
@@ -99,9 +109,7 @@ impl Court<'_> {
             let cases = of.get(&id).map_or(&[][..], Vec::as_slice);
             let tried = self.one(id, cases, worker)?;
             self.put_back()?;
-            let line = serde_json::to_string(&tried).map_err(|error| error.to_string())?;
-            let mut kept = kept.lock().map_err(|error| error.to_string())?;
-            writeln!(kept, "{line}").map_err(told)?;
+            self.keep(&kept, &tried)?;
             Ok(Some(tried))
         })
     }
@@ -149,7 +157,58 @@ impl Court<'_> {
             by: found.1,
             seconds: begun.elapsed().as_secs_f64(),
             patience: self.patience,
+            firmware: false,
         })
+    }
+
+    /// Tries mutants that live by the firmware, until the deadline.
+    ///
+    /// # Errors
+    /// Firmware that does not pass as it is, programs that cannot be run, and files that cannot be written.
+    pub fn hear_firmware(
+        &self,
+        living: &[Tried],
+        shops: &[Shop],
+        source: impl Fn(usize) -> Option<&'a Source> + Sync,
+        deadline: Instant,
+    ) -> Result<Vec<Tried>, String> {
+        let kept = self.open()?;
+        let heard = work::share(shops.len(), living.len(), |worker, at| {
+            let mut tried = living[at].clone();
+            let Some(source) = source(tried.id).filter(|_| Instant::now() < deadline) else {
+                return Ok(None);
+            };
+            let begun = Instant::now();
+            if shops[worker].one(source, tried.id)? != End::Passed {
+                tried.fate = Fate::Dearer;
+            }
+            tried.firmware = true;
+            tried.seconds += begun.elapsed().as_secs_f64();
+            self.keep(&kept, &tried)?;
+            Ok(Some(tried))
+        })?;
+        // What failed failed by the mutants.
+        shops.iter().try_for_each(Shop::passes)?;
+        Ok(heard)
+    }
+
+    fn open(&self) -> Result<Mutex<fs::File>, String> {
+        let kept = fs::OpenOptions::new()
+            .create(true)
+            .append(true)
+            .open(&self.kept);
+        kept.map(Mutex::new).map_err(|error| self.told(&error))
+    }
+
+    /// Appends what became of a mutant.
+    fn keep(&self, kept: &Mutex<fs::File>, tried: &Tried) -> Result<(), String> {
+        let line = serde_json::to_string(tried).map_err(|error| error.to_string())?;
+        let mut kept = kept.lock().map_err(|error| error.to_string())?;
+        writeln!(kept, "{line}").map_err(|error| self.told(&error))
+    }
+
+    fn told(&self, error: &std::io::Error) -> String {
+        format!("{}: {error}", self.kept.display())
     }
 
     fn put_back(&self) -> Result<(), String> {

@@ -70,6 +70,12 @@ pub fn weave(
     join(source, &text, &inserts)
 }
 
+/// The question whether a mutant is on.
+#[must_use]
+pub fn question(id: usize) -> String {
+    format!("crate::mutant::on({id})")
+}
+
 fn insert(site: &Site, number: usize, live: &dyn Fn(usize) -> bool, to: &mut Vec<Insert>) {
     let mut head = String::new();
     let mut pieces = Vec::new();
@@ -79,10 +85,11 @@ fn insert(site: &Site, number: usize, live: &dyn Fn(usize) -> bool, to: &mut Vec
     for choice in site.choices.iter().filter(|choice| live(choice.id)) {
         let start = head.len();
         let (id, text) = (choice.id, &choice.text);
+        let asked = question(id);
         head += &match site.kind {
-            Kind::Instead => format!("if crate::mutant::on({id}) {{ {text} }} else "),
-            Kind::LeftOut => format!("if !crate::mutant::on({id}) "),
-            Kind::Left => format!(" if crate::mutant::on({id}) {{ return {text}; }} "),
+            Kind::Instead => format!("if {asked} {{ {text} }} else "),
+            Kind::LeftOut => format!("if !{asked} "),
+            Kind::Left => format!(" if {asked} {{ return {text}; }} "),
         };
         pieces.push((start..head.len(), id));
     }

@@ -9,6 +9,7 @@
 //! | `depth.rs` | family `depth`: which surface is in front |
 //! | `texture.rs` | family `texture`: places by the laboratory's divisions and the renderer's budgets |
 //! | `frames.rs` | whole scenes: family `interpolation` by every method, family `frame` beside the model |
+//! | `texels.rs` | family `texels`: words, palettes and compressed blocks beside the picture that they are made of |
 //! | `rooms.rs` | frames of the rooms: doubled on their way out, places from normals |
 //! | `cost.rs` | instructions a pixel, measured on a Cortex-M4 in QEMU |
 //! | `scatter.rs` | the plots, one for each family, or for each case of a large one |
@@ -27,6 +28,7 @@ mod spans;
 mod stage;
 #[cfg(test)]
 mod tests;
+mod texels;
 mod texture;
 
 use crate::args::AccuracyArgs;
@@ -145,6 +147,7 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
     rows.extend(depth::rows()?);
     rows.extend(frames::rows()?);
     rows.extend(texture::rows()?);
+    rows.extend(texels::rows()?);
     rows.extend(rooms::rows()?);
     rows.extend(rooms::mirror_rows()?);
     Ok(rows)

@@ -31,8 +31,8 @@ pub struct FirmwareArgs {
     /// instruction with how often it ran
     #[arg(long, value_name = "NAME", requires = "profile")]
     pub function: Option<String>,
-    /// The board of a profile; m4 when nothing is said
-    #[arg(long, value_name = "BOARD", requires = "profile", value_parser = ["m4", "m3", "m0plus"])]
+    /// The board of a profile, m4 when nothing is said, or the only one that is run; all when nothing is said
+    #[arg(long, value_name = "BOARD", conflicts_with_all = ["bless", "sizes"], value_parser = ["m4", "m3", "m0plus"])]
     pub board: Option<String>,
     /// Folder for the plot of growth, made when it is not there
     #[arg(short = 'o', long = "output", value_name = "DIR", requires = "bench")]

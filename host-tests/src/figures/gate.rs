@@ -133,6 +133,15 @@ impl Record {
         );
     }
 
+    /// What is recorded of some boards.
+    #[must_use]
+    pub fn of_boards(mut self, is_of: impl Fn(&str) -> bool) -> Self {
+        for boards in self.0.values_mut() {
+            boards.retain(|name, _| is_of(name));
+        }
+        self
+    }
+
     /// The boards that any compiler was measured for, by name.
     #[must_use]
     pub fn boards(&self) -> Vec<String> {

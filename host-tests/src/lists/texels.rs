@@ -68,11 +68,7 @@ impl Texels {
         let image = &picture.image;
         let log_sides = [image.width, image.height].map(|side| side.ilog2() as u8);
         let texels = &image.levels[0];
-        let mut counts: BTreeMap<[u8; 3], u64> = BTreeMap::new();
-        for texel in texels {
-            *counts.entry(*texel).or_default() += 1;
-        }
-        let counts: Vec<([u8; 3], u64)> = counts.into_iter().collect();
+        let counts = counted(texels);
         let made = |form, colours: &[[u8; 3]]| {
             let (codes, error) = coded(&counts, form, colours);
             let code = |texel: &[u8; 3]| {
@@ -208,6 +204,23 @@ fn nearest(colours: &[[u8; 3]], rgb: [u8; 3]) -> usize {
     let distance = |(_, colour): &(usize, &[u8; 3])| squared(**colour, rgb);
     let best = colours.iter().enumerate().min_by_key(distance);
     best.map_or(0, |(at, _)| at)
+}
+
+/// Each texel by the nearest of at most so many colours, as a palette of a list has them.
+#[must_use]
+pub fn in_colours(texels: &[[u8; 3]], most: usize) -> Vec<[u8; 3]> {
+    let colours = palette(&counted(texels), most);
+    let shown = texels.iter().map(|texel| nearest(&colours, *texel));
+    shown.filter_map(|at| colours.get(at).copied()).collect()
+}
+
+/// Colours in order, and how often each is there.
+fn counted(texels: &[[u8; 3]]) -> Vec<([u8; 3], u64)> {
+    let mut counts: BTreeMap<[u8; 3], u64> = BTreeMap::new();
+    for texel in texels {
+        *counts.entry(*texel).or_default() += 1;
+    }
+    counts.into_iter().collect()
 }
 
 /// Colours, each as often as it is there, and their moments.

@@ -10,7 +10,7 @@ use scanbeam::scene::{BlockCache, CacheWord, Compressed, Sampling, Scene, Textur
 const STONE_SIDE: u32 = 64;
 
 /// Slabs of stone: made by the compressor of the host tools, whose tests make it anew and compare.
-static STONE: Compressed<'static> = match Compressed::new(
+pub static STONE: Compressed<'static> = match Compressed::new(
     include_bytes!("../../stone.bc1"),
     STONE_SIDE,
     STONE_SIDE,

@@ -38,6 +38,7 @@ use crate::ShotError;
 use crate::contours::ContourLook;
 use crate::looks::{SmoothLook, TexturedLook};
 use alpha::alpha;
+pub use compressed::STONE;
 use compressed::{cache, compressed, empty, pressed};
 use dusk::{Dusk, dusk};
 use fetched::{Slow, blocks, computed};

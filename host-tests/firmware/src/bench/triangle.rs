@@ -7,6 +7,7 @@
 //! | `filter` | the same, half of what is behind shines through |
 //! | `flat` | one colour |
 //! | `texel` | a texture as it is |
+//! | `texel_index4`, `_compressed`, `_cached` | one of 4 bits a texel: by a palette, by blocks that are decoded texel by texel, and once each by a cache |
 //! | `texel_lit`, `texel_tinted` | the same times grey, and times colours |
 //! | `leaning_fast`, `_balanced`, `_exact` | the texture on a triangle that leans back, within 1/2, 1/4 and 1/100 texel |
 //!
@@ -17,15 +18,16 @@
 use super::{LINES, Run, SHORT, WIDEST, WIDTH};
 use crate::console::Console;
 use crate::count::Counter;
+use crate::lend::lend;
 use crate::rooms::{LineRooms, Rooms, SceneRooms};
 use core::hint::black_box;
 use scanbeam::frame::FastMemory;
 use scanbeam::look::{Gouraud, Look};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb888};
-use scanbeam::scene::{Blend, Budget, Shading, Skin};
+use scanbeam::scene::{Blend, BlockCache, Budget, CacheWord, Shading, Skin, Texture};
 use scanbeam::{Camera, Cull, Draw, Faces, Mesh, Screen};
 use scanbeam_model::{ModelRenderer, PipeMemory};
-use scenes::{PLACES_F, SmoothLook, Suite, TexturedLook};
+use scenes::{PLACES_F, STONE, SmoothLook, Suite, TEXEL_SIDE_F, TexturedLook};
 
 /// A triangle as wide and as tall as said, in pixels.
 #[derive(Clone, Copy)]
@@ -42,6 +44,8 @@ enum Way {
     Filter,
     Flat,
     Texel,
+    /// Of another texture.
+    Of(&'static Texture<'static>),
     Lit,
     Tinted,
     Leaning(Budget),
@@ -75,8 +79,57 @@ const TEXTURED: [(&str, &str, Way); 6] = [
     ),
 ];
 
+/// Texels by a palette, as many as the kernel `texel` has.
+static INDEXED: Texture<'static> = {
+    const BYTES: usize = (TEXEL_SIDE_F * TEXEL_SIDE_F) as usize / 2;
+    match Texture::index4(&[0x93; BYTES], &[0xF81F; 16], TEXEL_SIDE_F, TEXEL_SIDE_F) {
+        Ok(texture) => texture,
+        Err(_) => panic!("as many bytes as the sides need"),
+    }
+};
+
+/// Words of a cache of two rows of blocks.
+const CACHED: usize = 512;
+
+/// Lends a texture for ever.
+macro_rules! kept {
+    ($type:ty, $value:expr) => {{
+        let value: $type = $value;
+        let mut value = Some(value);
+        let one = lend!(".slow", $type, 1, value.take().expect("one element"));
+        &*one.first_mut().expect("one is lent")
+    }};
+}
+
+/// The ways of 4 bits a texel.
+fn four_bits() -> [(&'static str, &'static str, Way); 3] {
+    let words = lend!(".slow", CacheWord, CACHED, CacheWord::new());
+    let cache = BlockCache::compressed(STONE, words).expect("a cache of two rows of blocks");
+    let cache: &'static BlockCache<'static> = kept!(BlockCache<'static>, cache);
+    let alone: &'static Texture<'static> = kept!(Texture<'static>, STONE.texture());
+    let cached: &'static Texture<'static> = kept!(Texture<'static>, cache.texture());
+    [
+        (
+            "texel_index4_565",
+            "texel_index4_565_large",
+            Way::Of(&INDEXED),
+        ),
+        (
+            "texel_compressed_565",
+            "texel_compressed_565_large",
+            Way::Of(alone),
+        ),
+        (
+            "texel_cached_565",
+            "texel_cached_565_large",
+            Way::Of(cached),
+        ),
+    ]
+}
+
 /// Times all ways and prints them.
 pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    let four_bits = four_bits();
     // A triangle of 64 lines is no small one: one line more than is drawn makes it that.
     for (is_small, tall) in [(true, LINES), (false, LINES + 1)] {
         for width in [WIDEST[usize::from(!is_small)], SHORT] {
@@ -88,7 +141,7 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
                 drawn::<SmoothLook>(way, size, counter, scene, lines, cache)
                     .print(name(small, large), console);
             }
-            for (small, large, way) in TEXTURED {
+            for (small, large, way) in TEXTURED.into_iter().chain(four_bits) {
                 let cache = &mut *rooms.caches.textured;
                 drawn::<TexturedLook>(way, size, counter, scene, lines, cache)
                     .print(name(small, large), console);
@@ -270,7 +323,7 @@ impl Triangle {
     }
 
     fn call(&self, way: Way) -> Draw<'_, 'static, i32> {
-        let is_tinted = !matches!(way, Way::Texel | Way::Leaning(_));
+        let is_tinted = !matches!(way, Way::Texel | Way::Of(_) | Way::Leaning(_));
         let mesh = Mesh {
             positions: &self.positions,
             normals: &[],
@@ -278,13 +331,17 @@ impl Triangle {
             faces: Faces::Triangles(&[[0, 1, 2]]),
         };
         let budget = match way {
-            Way::Texel | Way::Lit | Way::Tinted => Some(Budget::BALANCED),
+            Way::Texel | Way::Of(_) | Way::Lit | Way::Tinted => Some(Budget::BALANCED),
             Way::Leaning(budget) => Some(budget),
             _ => None,
         };
+        let texture = match way {
+            Way::Of(texture) => Some(texture),
+            _ => Suite::F.texture(),
+        };
         let skin = |budget| {
             Some(Skin {
-                texture: Suite::F.texture()?,
+                texture: texture?,
                 places: &self.places,
                 budget,
             })

@@ -122,7 +122,7 @@ fn bad_lines_are_refused_in_one_line() {
         "firmware x",
         "firmware --symbols",
         "firmware --function a",
-        "firmware --board m4",
+        "firmware --board m4 --sizes",
         "firmware --profile",
         "firmware --profile cube --board m7",
         "firmware --profile cube --sizes",
