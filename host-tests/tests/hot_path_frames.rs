@@ -196,6 +196,10 @@ fn the_display_is_right_whatever_changes_and_fails() {
                     if let Some(last) = &last {
                         let same = want.iter().zip(last).filter(|(a, b)| a == b).count();
                         assert_eq!(used.scan_out.lines_unsent as usize, same);
+                        if !by_runs {
+                            let bytes = 2 * same * usize::from(WIDTH);
+                            assert_eq!(used.scan_out.bytes_unsent, bytes as u64);
+                        }
                     }
                     unsent += used.scan_out.lines_unsent;
                     arrived += 1;

@@ -318,3 +318,16 @@ fn blocks_longer_than_their_ring_are_refused() {
         }
     }
 }
+
+/// Kills: a block without its word that switches something off.
+#[test]
+fn what_a_master_block_does_not_say_is_off() {
+    for words in [&[0][..], &[0x5A], &[0x5A, 7]] {
+        let count = if words == [0] { 0 } else { words.len() as u16 };
+        let mut list = vec![Header::of(Id::Master, count).to_word()];
+        list.extend(&words[..usize::from(count)]);
+        let read = read_block(&list[..], 0, &VertexFormat::default()).unwrap();
+        assert_eq!(read.instruction, Instruction::Master(words[0]));
+        assert_eq!(read.words, 1 + u32::from(count));
+    }
+}

@@ -251,6 +251,16 @@ fn panels_that_are_awaited() {
         })
     });
     assert_eq!(faults, operations(11));
+    // Of no lines, of no columns, and of no lines a transfer.
+    for (width, height, band) in [(6, 0, 1), (0, 7, 1), (6, 7, 0)] {
+        let window = Window {
+            width,
+            height,
+            ..FULL
+        };
+        let empty = pump.frame::<ScanError<_>>(window, band, |_, _| panic!("nothing is drawn"));
+        assert_eq!(embassy_futures::block_on(empty), Err(ScanError::Empty));
+    }
     // Given up after any number of polls, as a timeout does: the next frame is whole.
     let mut context = Context::from_waker(Waker::noop());
     for band in BANDS {

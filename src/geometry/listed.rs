@@ -131,6 +131,14 @@ mod tests {
         let huge = Affine::placed(1e28, [0.0; 3]).unwrap();
         let huge = huge.then(&huge);
         assert_eq!(Matrix::try_from(&huge), Err(MatrixRange));
+        // Kills: parts that a list has no exponent for, and are as large as 2^-128 then.
+        let tiny = Affine::placed(1e-30, [1e-30, 0.0, 0.0]).unwrap();
+        let matrix = Matrix::try_from(&tiny.then(&tiny).then(&tiny)).unwrap();
+        assert_eq!((matrix.linear, matrix.linear_exponent), ([0; 9], -128));
+        let near = Affine::placed(1.0, [1e-40, 0.0, 0.0]).unwrap();
+        let matrix = Matrix::try_from(&near).unwrap();
+        assert_eq!((matrix.offset, matrix.offset_exponent), ([0; 3], -128));
+        assert_eq!(matrix.linear, Matrix::IDENTITY.linear);
         let light = Light::new([0.3, -0.4, 2.0], 0.25).unwrap();
         assert_eq!(Light::from(LightWords::from(light)), light);
     }

@@ -238,3 +238,54 @@ impl Ends {
         pixels.min((way / step.unsigned_abs()).saturating_add(1) as usize)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+
+    /// Kills: a level that begins one unit of 1/w too early or too late, a part of a run that goes on into the next
+    /// level or ends before it, and a run without a step that is cut.
+    #[test]
+    fn runs_are_cut_where_their_level_ends() {
+        let mut rng = Rng(5);
+        let mut cut = 0;
+        for i in 0..20_000 {
+            let levels = 1 + rng.below(MOST as u32) as usize;
+            let mut at = [0; MOST];
+            let mut end = 1 << 30;
+            for place in &mut at {
+                end -= 1 + rng.below(end / 2);
+                *place = end;
+            }
+            let ends = Ends { at, levels };
+            // At an end, beside it, or anywhere, by short and long steps.
+            let near = at[rng.below(levels as u32) as usize];
+            let q = match i % 4 {
+                0 => near,
+                1 => near - rng.below(99).min(near),
+                2 => near + 1,
+                _ => rng.below(1 << 30),
+            };
+            let most = 1 + rng.below(64) as usize;
+            let room = [q, (1 << 30) - q][i / 4 % 2] / most as u32;
+            let step = rng.below(room.clamp(1, 1 << [2, 24][i / 8 % 2])) as i32;
+            let step = if i / 4 % 2 == 0 { -step } else { step };
+            let count = ends.same(q, step, most);
+            let level = |pixel: usize| ends.level(q.wrapping_add_signed(step * pixel as i32));
+            assert!((1..=most).contains(&count), "{count} of {most}");
+            assert!(
+                (0..count).all(|pixel| level(pixel) == level(0)),
+                "{q} {step}"
+            );
+            assert!(count == most || level(count) != level(0), "{q} {step}");
+            cut += u32::from(count < most);
+        }
+        assert!(cut > 1000, "{cut}");
+        let ends = Ends {
+            at: [100; MOST],
+            levels: 1,
+        };
+        assert_eq!([99, 100, 101].map(|q| ends.level(q)), [1, 0, 0]);
+    }
+}

@@ -152,7 +152,7 @@ pub const fn shift_round(value: i64, shift: i32) -> i64 {
         } else {
             value << shift
         }
-    } else if shift <= -63 {
+    } else if shift < -63 {
         0
     } else {
         // The half is added after the first part of the shift, so that it cannot overflow.
@@ -185,6 +185,9 @@ mod tests {
         assert_eq!(shift_round(i64::MAX, -62), 2);
         assert_eq!(shift_round(-3, 70), i64::MIN);
         assert_eq!(shift_round(3, -70), 0);
+        // Kills: a shift that is taken for one beyond all bits, and one that is not.
+        assert_eq!(shift_round(i64::MAX, -63), 1);
+        assert_eq!([i64::MAX, i64::MIN].map(|v| shift_round(v, -64)), [0; 2]);
         let b = Block::new([i64::MAX, -1], 0);
         assert_eq!(b.mantissa, [1 << 29, 0]);
         let b = Block::new([(1 << 30) - 1], 0);

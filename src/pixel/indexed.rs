@@ -117,6 +117,10 @@ mod tests {
             assert_eq!(Indexed::<N>::pack(steps), index);
             assert_eq!(Indexed::<N>::from_rgb8(rgb), index);
             assert_eq!(Indexed::<N>::from_rgb8(Indexed::<N>::to_rgb8(index)), index);
+            // Kills: a number that is made of another channel, fields of another unit.
+            assert_eq!(Indexed::<N>::pack([index, 0, 0]), index);
+            let fields = Indexed::<N>::widen(index).map(|field| 16 * field);
+            assert_eq!(Indexed::<N>::narrow(fields), index);
             let bits = N.ilog2();
             for low in [0, (1u32 << (32 - bits)) - 1] {
                 let word = u32::from(index) << (32 - bits) | low;

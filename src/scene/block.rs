@@ -135,6 +135,26 @@ mod tests {
     use std::vec;
     use std::vec::Vec;
 
+    /// Kills: blocks of more texels than there are, and one of none.
+    #[test]
+    fn blocks_of_pages_have_up_to_1024_texels() {
+        let sides = |bytes, bits| {
+            let block = Blocked::of_page(bytes, bits);
+            [block.width(), block.height()]
+        };
+        for (bytes, bits, want) in [
+            (0, 16, [1, 1]),
+            (32, 16, [4, 4]),
+            (64, 16, [8, 4]),
+            (1024, 8, [32, 32]),
+            (2047, 8, [32, 32]),
+            (1 << 16, 4, [32, 32]),
+            (usize::MAX, 0, [32, 32]),
+        ] {
+            assert_eq!(sides(bytes, bits), want, "{bytes} bytes of {bits} bits");
+        }
+    }
+
     /// Kills: a block that is not kept within the texture, rows of blocks by the other side's power of two.
     #[test]
     fn every_layout_is_a_permutation_whose_blocks_are_in_one_piece() {

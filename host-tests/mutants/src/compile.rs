@@ -30,6 +30,8 @@ pub struct Copy<'a> {
     pub mutants: &'a [Mutant],
     /// Whether they are tried by unit tests alone.
     pub is_unit: bool,
+    /// Those that are compiled in, where not all are.
+    pub woven: Option<HashSet<usize>>,
 }
 
 /// The programs of tests.
@@ -49,7 +51,8 @@ impl Copy<'_> {
         let is_constant = within
             .as_ref()
             .is_some_and(|name| choices.constant.contains(name));
-        !is_constant && !choices.dropped.contains(&id)
+        let is_woven = self.woven.as_ref().is_none_or(|woven| woven.contains(&id));
+        is_woven && !is_constant && !choices.dropped.contains(&id)
     }
 
     /// Leaves out what does not compile: `choices` is what was left out before.

@@ -59,7 +59,7 @@ impl Shop {
     /// # Errors
     /// Firmware that does not pass.
     pub fn passes(&self) -> Result<(), String> {
-        match self.run()? {
+        match self.run(Stdio::inherit())? {
             End::Passed => Ok(()),
             end => Err(format!("the firmware without a mutant: {end:?}")),
         }
@@ -72,12 +72,13 @@ impl Shop {
     pub fn one(&self, source: &Source, id: usize) -> Result<End, String> {
         let path = self.tree.join(&source.file);
         tree::write_one(&path, mutated(source, id).as_bytes())?;
-        let end = self.run();
+        let end = self.run(Stdio::null());
         tree::write_one(&path, source.text.as_bytes())?;
         end
     }
 
-    fn run(&self) -> Result<End, String> {
+    /// What is wrong goes to `errors`.
+    fn run(&self, errors: Stdio) -> Result<End, String> {
         let mut command = Command::new(&self.tool);
         command
             .args(["firmware", "--bench", "--json", "--board", "m4"])
@@ -85,7 +86,7 @@ impl Shop {
             .env("CARGO_TARGET_DIR", &self.build)
             .stdin(Stdio::null())
             .stdout(Stdio::null())
-            .stderr(Stdio::null());
+            .stderr(errors);
         let limit = Duration::from_secs(30) + 5 * self.usual;
         Ok(match case::ended(&mut command, limit)? {
             None => End::Late,

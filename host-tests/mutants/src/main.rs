@@ -67,23 +67,33 @@ struct Args {
     /// Mutants that are tried at the same time; as many as there are processors unless said.
     #[arg(long)]
     jobs: Option<usize>,
-    /// Tries them by unit tests alone, which are built in a third of the time.
+    /// Tries them by unit tests alone, which are built in a third of the time, and in less where files are named: then no
+    /// others are mutated.
     #[arg(long)]
     unit: bool,
     /// Tries those that live by the firmware as well: its frames and what they cost in QEMU, on the M4.
     #[arg(long)]
     firmware: bool,
+    /// Passes where at least so many percent are noticed of those that can be, and not only where no other lives than those
+    /// that are known.
+    #[arg(long, value_name = "PERCENT")]
+    least: Option<f64>,
     /// Prints what would be tried, with the number that SCANBEAM_MUTANT takes, and tries nothing.
     #[arg(long)]
     list: bool,
     /// Writes the table to host-tests/figures/mutants.md.
     #[arg(long)]
     markdown: bool,
-    /// Files whose mutants are tried, or FILE:LINE; all of src/ when none is named.
+    /// Files whose mutants are tried, or FILE:LINE, or folders; all of src/ when none is named.
     files: Vec<String>,
 }
 
 impl Args {
+    /// Whether only mutants of the files that are named are compiled in.
+    fn is_part(&self) -> bool {
+        self.unit && !self.files.is_empty()
+    }
+
     /// Until when mutants are tried that are begun now.
     fn deadline(&self) -> Instant {
         let seconds = if self.all {
@@ -125,6 +135,7 @@ fn run(args: &Args) -> Result<bool, String> {
         sources: &sources,
         mutants: &mutants,
         is_unit: args.unit,
+        woven: args.is_part().then(|| chosen.iter().copied().collect()),
     };
     let mut others = files.clone();
     others.retain(|name, _| !sources.iter().any(|source| source.file == *name));
@@ -144,6 +155,10 @@ fn run(args: &Args) -> Result<bool, String> {
     };
     others.retain(|name, _| GUARDED.iter().any(|folder| name.starts_with(folder)));
     let live = |id: &usize| copy.is_live(&choices, *id);
+    let dead = match &copy.woven {
+        Some(woven) => woven.iter().filter(|id| !live(id)).count(),
+        None => (0..mutants.len()).filter(|id| !live(id)).count(),
+    };
     let chosen: Vec<usize> = chosen.into_iter().filter(live).collect();
     let project = Project {
         files: &files,
@@ -154,7 +169,7 @@ fn run(args: &Args) -> Result<bool, String> {
     };
     let found = heard(args, &bench, &project, &chosen)?;
     let dropped = choices.dropped.len();
-    let constant = (0..mutants.len()).filter(|id| !live(id)).count() - dropped;
+    let constant = dead.saturating_sub(dropped);
     let told = Told {
         mutants: &mutants,
         known: &known,
@@ -164,7 +179,14 @@ fn run(args: &Args) -> Result<bool, String> {
         ),
     };
     let rows = report::rows(&mutants, |id| live(&id), &found.tried, &known);
-    told.tell(&rows, args.markdown.then(|| root.join(TABLE)).as_deref())
+    let only_known = told.tell(&rows, args.markdown.then(|| root.join(TABLE)).as_deref())?;
+    let Some(least) = args.least else {
+        return Ok(only_known);
+    };
+    let rate = rows.last().and_then(|(_, row)| row.rate());
+    let percent = rate.ok_or("no mutant was tried")?.percent;
+    say!("{percent:.1} % were noticed, and {least} % have to be");
+    Ok(percent >= least)
 }
 
 /// What was found.
@@ -195,7 +217,11 @@ fn heard(
     let key = tree::hash(project.files, is_tested);
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
     let jobs = args.jobs.unwrap_or_else(processors);
-    let by = if args.unit { "by-unit-" } else { "" };
+    let by = match args.unit {
+        true if args.is_part() => format!("by-unit-of-{}-", args.files.join("-").replace('/', "_")),
+        true => "by-unit-".to_owned(),
+        false => String::new(),
+    };
     let kept = |what: &str| bench.scratch.join(format!("{what}-{by}{key}.json"));
     let cases = reach::all(bench, jobs, &kept("reached"))?;
     let (cases, left_out): (Vec<Case>, Vec<Case>) =
@@ -297,7 +323,9 @@ fn check_known(known: &BTreeSet<String>, mutants: &[Mutant]) -> Result<(), Strin
 /// The mutants that are asked for.
 fn chosen(args: &Args, mutants: &[Mutant]) -> Result<Vec<usize>, String> {
     let is_of = |mutant: &Mutant, file: &str| {
-        mutant.file == file || format!("{}:{}", mutant.file, mutant.line) == file
+        let rest = mutant.file.strip_prefix(file.trim_end_matches('/'));
+        rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('/'))
+            || format!("{}:{}", mutant.file, mutant.line) == file
     };
     for file in &args.files {
         if !mutants.iter().any(|mutant| is_of(mutant, file)) {
