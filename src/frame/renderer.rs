@@ -423,6 +423,15 @@ impl<'a> View<'a> {
         DrawState::of(object, self.draws)
     }
 
+    /// The same of an object in a slot that knows how many calls have begun up to its own.
+    #[inline(never)]
+    pub(super) fn state_of<T>(&self, slot: &CacheSlot<T>) -> Option<&'a DrawState<'a>> {
+        match slot.draw.checked_sub(1) {
+            Some(at) => self.draws.get(usize::from(at)),
+            None => self.state(slot.object),
+        }
+    }
+
     /// The priority of an object's draw call, if the scene is drawn by it.
     pub(super) fn rank(&self, object: u16) -> u32 {
         if !self.ranked {

@@ -159,6 +159,7 @@ fn compare(
 }
 
 /// Calls `f` with each run of bits that are set; the top one is the pixel at `start`.
+#[inline(never)]
 pub(super) fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
     while bits != 0 {
         let skipped = leading_zeros(bits);
@@ -204,7 +205,7 @@ fn lay_by_pixel<L: Look>(
             column: from,
             line: out.number,
         };
-        let opaque = paint::<L>(ink, at, ink.dithers, out.view, new);
+        let opaque = L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, ink.dithers, new);
         let has_alphas = state.has_alphas();
         if has_alphas {
             find_alphas::<L>(ink, at, state, out.view, alphas);
@@ -235,18 +236,6 @@ fn lay_by_pixel<L: Look>(
         });
         start = end;
     }
-}
-
-/// Colours a run of up to 32 pixels, dithered or not; a bit for each that is not a hole, the first the top one.
-#[inline(never)]
-fn paint<L: Look>(
-    ink: &Ink<'_, L::Planes>,
-    at: Place,
-    dithers: bool,
-    view: &View<'_>,
-    run: &mut [WordOf<L>],
-) -> u32 {
-    L::fill_opaque(ink.fill, ink.planes, at, view.draws, dithers, run)
 }
 
 /// The alphas of a run of up to 32 pixels, and what else its texels say of themselves.
@@ -285,7 +274,7 @@ fn undither<L: Look>(
     }
     let mut plain = [WordOf::<L>::default(); MOST_TESTED];
     let plain = &mut plain[..run.len()];
-    paint::<L>(ink, at, false, view, plain);
+    L::fill_opaque(ink.fill, ink.planes, at, view.draws, false, plain);
     for ((pixel, &plain), alpha) in run.iter_mut().zip(&*plain).zip(alphas) {
         if alpha.texel.is_undithered() {
             *pixel = plain;

@@ -188,7 +188,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
                 let i = take_first(&mut others) as usize & 31;
-                let state = view.state(self.cache.slots[word][i].object);
+                let state = view.state_of(&self.cache.slots[word][i]);
                 if state.is_some_and(DrawState::is_in_vain) {
                     self.cache.spans[word][i] = 0;
                 }
@@ -204,7 +204,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while let Some(i) = self.next_with_values(word, &mut others) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                let role = out.view.state(slot.object).map(|state| state.role());
+                let role = out.view.state_of(slot).map(|state| state.role());
                 let role = role.unwrap_or_default();
                 if let Some(step) = step_of(role) {
                     lights.add(role);
@@ -260,7 +260,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         };
         let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
-        let Some(state) = out.view.state(slot.object) else {
+        let Some(state) = out.view.state_of(slot) else {
             return;
         };
         let known = Known {

@@ -178,7 +178,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             ) else {
                 return;
             };
-            let Some(state) = out.view.state(slot.object) else {
+            let Some(state) = out.view.state_of(slot) else {
                 continue;
             };
             let (drawn, span) = (Drawn::of(slot), Span::of(span));

@@ -225,7 +225,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while let Some(i) = self.next_with_values(word, &mut others) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                let state = out.view.state(slot.object);
+                let state = out.view.state_of(slot);
                 if state.is_some_and(DrawState::is_translucent) {
                     deepen::<L>(slot, out.view);
                     if let Some(place) = self.cache.order.as_flattened_mut().get_mut(count) {

@@ -65,7 +65,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             while used != 0 {
                 let i = take_first(&mut used);
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                if view.has_values(slot.object) {
+                if Flags(slot.flags).has_values() {
+                    continue;
+                }
+                slot.draw = DrawState::begun_near(slot.draw, slot.object, view.draws);
+                if view.state_of(slot).is_some_and(DrawState::has_values) {
                     slot.flags = Flags(slot.flags).with_values().0;
                     self.cache.plain[word] &= !bit(i);
                 }
@@ -123,7 +127,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let slot = &self.cache.slots[word][i];
                 let span = Span::of(self.cache.spans[word][i]);
                 let has = Flags(slot.flags).has_values() && span.start < span.end;
-                if has && out.view.state(slot.object).is_some_and(DrawState::compares) {
+                if has && out.view.state_of(slot).is_some_and(DrawState::compares) {
                     self.over.cover(span.start, span.end);
                 }
             }
@@ -152,10 +156,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         let is_compared = self.met && self.over.meets(span.start, span.end);
         let has_values = Flags(slot.flags).has_values();
-        let state = match out.view.state(slot.object) {
-            Some(state) if has_values => state,
-            _ => &DrawState::EMPTY,
-        };
+        let state = out.view.state_of(slot).filter(|_| has_values);
+        let state = state.unwrap_or(&DrawState::EMPTY);
         if is_compared {
             if state.waits() {
                 return;

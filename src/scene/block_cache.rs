@@ -236,11 +236,8 @@ impl<'m> BlockCache<'m> {
         rows: Range<u32>,
         most: u32,
     ) -> Result<u32, CacheError> {
-        let Sides {
-            log_width,
-            log_height,
-        } = self.sides;
-        for (end, side) in [(columns.end, 1 << log_width), (rows.end, 1 << log_height)] {
+        let [across, down] = [self.sides.log_width, self.sides.log_height];
+        for (end, side) in [(columns.end, 1 << across), (rows.end, 1 << down)] {
             if end > side {
                 return Err(CacheError::Outside { side, end });
             }
@@ -257,14 +254,12 @@ impl<'m> BlockCache<'m> {
         let mut loaded = 0;
         for row in rows {
             for column in columns.clone() {
-                let across = self.sides.log_width;
                 let first = self.block.place(column * width, row * height, across);
                 if self.held(first, self.upper(first)).is_none() {
                     if loaded == most {
                         return Ok(loaded);
                     }
-                    self.fill(first);
-                    add(&self.loaded, 1);
+                    self.fill(first, &self.loaded);
                     loaded += 1;
                 }
             }
@@ -297,15 +292,10 @@ impl<'m> BlockCache<'m> {
         (word >> 16 == upper).then_some(word as u16)
     }
 
-    /// Copies the block of an index that was asked for; its texel.
+    /// Copies the block of an index, and counts it; its texel.
     #[inline(never)]
-    fn fetch_block(&self, index: u32) -> u16 {
-        add(&self.misses, 1);
-        self.fill(index)
-    }
-
-    /// Copies the block of an index; its texel.
-    fn fill(&self, index: u32) -> u16 {
+    fn fill(&self, index: u32, counter: &AtomicU32) -> u16 {
+        add(counter, 1);
         let texels = 1u32 << self.block.log_texels();
         let first = index & !(texels - 1);
         let upper = self.upper(index);
@@ -337,7 +327,7 @@ impl<'m> BlockCache<'m> {
                 (last, upper) = (block, self.upper(index));
             }
             let held = self.held(index, upper);
-            *pixel = held.unwrap_or_else(|| self.fetch_block(index));
+            *pixel = held.unwrap_or_else(|| self.fill(index, &self.misses));
         }
         self.last.store(last, Relaxed);
         add(&self.page_changes, changes);
@@ -354,7 +344,7 @@ impl Texels for BlockCache<'_> {
             self.last.store(block, Relaxed);
         }
         let held = self.held(index, self.upper(index));
-        held.unwrap_or_else(|| self.fetch_block(index))
+        held.unwrap_or_else(|| self.fill(index, &self.misses))
     }
 
     fn fetch(&self, run: &mut [u16], way: TexelWay) {

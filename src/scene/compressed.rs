@@ -56,14 +56,6 @@ struct Block {
     indices: u32,
 }
 
-/// Where a texel is.
-struct Place {
-    /// The number of its block.
-    block: u32,
-    /// Bits of the block's indices below its own.
-    right: u32,
-}
-
 impl<'t> Compressed<'t> {
     /// Blocks in rows from the top, those of a texture that is no block wide or high whole; what is lent beyond them is
     /// not read. `word` makes words of the panel of numbers: [`u16::to_be`] for `Rgb565Be`, [`u16::to_le`] for
@@ -153,15 +145,12 @@ impl<'t> Compressed<'t> {
         }
     }
 
-    /// Where a texel is.
+    /// The number of a texel's block, and how many bits of the block's indices lie below its own.
     #[inline(always)]
-    fn place(&self, [column, row]: [u16; 2]) -> Place {
+    fn place(&self, [column, row]: [u16; 2]) -> [u32; 2] {
         let [column, row] = [column, row].map(u32::from);
-        let across = self.sides.log_width.saturating_sub(2);
-        Place {
-            block: ((row / 4) << across) | (column / 4),
-            right: 8 * (row % 4) + 2 * (column % 4),
-        }
+        let block = ((row / 4) << self.sides.log_width.saturating_sub(2)) | (column / 4);
+        [block, 8 * (row % 4) + 2 * (column % 4)]
     }
 
     /// Decodes the block of an index into the words of a cache, whose blocks are `layout`; the texel of that index.
@@ -185,9 +174,9 @@ impl<'t> Compressed<'t> {
 
 impl Texels for Compressed<'_> {
     fn texel(&self, column: u16, row: u16) -> u16 {
-        let place = self.place([column, row]);
-        let Block { ends, indices } = self.block(place.block);
-        self.shown(ends, indices >> place.right & 3)
+        let [number, right] = self.place([column, row]);
+        let Block { ends, indices } = self.block(number);
+        self.shown(ends, indices >> right & 3)
     }
 
     /// A block is read once for all texels in succession that are its, and each of its colours is made once.
@@ -195,12 +184,11 @@ impl Texels for Compressed<'_> {
         let (mut number, mut block) = (u32::MAX, Block::default());
         let (mut made, mut colours) = (0, [0; 4]);
         for (pixel, texel) in run.iter_mut().zip(way) {
-            let place = self.place(texel);
-            if place.block != number {
-                (number, made) = (place.block, 0);
-                block = self.block(number);
+            let [here, right] = self.place(texel);
+            if here != number {
+                (number, block, made) = (here, self.block(here), 0);
             }
-            let index = block.indices >> place.right & 3;
+            let index = block.indices >> right & 3;
             if made >> index & 1 == 0 {
                 made |= 1 << index;
                 colours[index as usize] = self.shown(block.ends, index);
