@@ -414,6 +414,56 @@ fn a_table_has_places_on_each_of_its_textures() {
     assert!(one == two);
 }
 
+/// A strip whose vertices find room a few at a time. Kills: places that are lost, or those of other vertices, where it goes
+/// on.
+#[test]
+fn strips_in_parts_have_the_places_of_whole_ones() {
+    const COUNT: u16 = 18;
+    let mut rng = Rng::new(8);
+    let block = sample(&mut rng, TexelForm::Rgb565, false).block;
+    let texels: Vec<u32> = (0..block.words()).map(|_| rng.below(u32::MAX)).collect();
+    let mut words = Vec::new();
+    let mut packer = FieldPacker::new(|w| words.push(w));
+    for i in 0..i32::from(COUNT) {
+        let y = [-9_000, 9_000][i as usize % 2] + rng.within(-2_000, 2_000);
+        packer.field(FieldForm::S16x3, [i * 1_500 - 13_000, y, 0, 0]);
+        packer.align();
+        let place = [(); 2].map(|()| rng.below(0x8000) as i32);
+        packer.field(FieldForm::U16x2, [place[0], place[1], 0, 0]);
+        packer.align();
+    }
+    let mut memory = vec![0; 2048];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.bulk(&State::Texture(block), &texels).unwrap();
+    let material = Material {
+        texture: Some(block.number),
+        two_sided: true,
+        ..Material::default()
+    };
+    writer.state(&State::Material(material)).unwrap();
+    let header = Header {
+        text: true,
+        new: true,
+        ..Header::of(Id::Short, COUNT)
+    };
+    writer.vertices(header, &words).unwrap();
+    writer.flow(Flow::End).unwrap();
+    let list = writer.words().to_vec();
+    let listed = |room: usize| {
+        let mut kept = Kept::new(room, 96);
+        drawn::<Skinned>(|scene| {
+            let mut player = kept.player::<Skinned>(PlayerSettings::default());
+            player.start(0);
+            assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
+        })
+    };
+    let whole = listed(64);
+    assert!(whole.iter().filter(|word| **word != 0).count() > 500);
+    for room in [4, 5, 7, 12] {
+        assert!(listed(room) == whole, "{room} vertices at a time");
+    }
+}
+
 /// The corners of the quad as a table.
 fn write_table(writer: &mut ListWriter<'_>) {
     let mut words = Vec::new();
