@@ -156,7 +156,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         let is_compared = self.met && self.over.meets(span.start, span.end);
         let has_values = Flags(slot.flags).has_values();
-        let state = out.view.state_of(slot).filter(|_| has_values);
+        let state = if has_values {
+            out.view.state_of(slot)
+        } else {
+            None
+        };
         let state = state.unwrap_or(&DrawState::EMPTY);
         if is_compared {
             if state.waits() {

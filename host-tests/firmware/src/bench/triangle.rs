@@ -7,7 +7,7 @@
 //! | `filter` | the same, half of what is behind shines through |
 //! | `flat` | one colour |
 //! | `texel` | a texture as it is |
-//! | `texel_index4`, `_compressed`, `_cached` | one of 4 bits a texel: by a palette, by blocks that are decoded texel by texel, and once each by a cache |
+//! | `texel_index4`, `_compressed`, `_cached` | one of 4 bits a texel: by a palette, by blocks that are decoded in each run, and by a cache of them |
 //! | `texel_lit`, `texel_tinted` | the same times grey, and times colours |
 //! | `leaning_fast`, `_balanced`, `_exact` | the texture on a triangle that leans back, within 1/2, 1/4 and 1/100 texel |
 //!
@@ -91,23 +91,17 @@ static INDEXED: Texture<'static> = {
 /// Words of a cache of two rows of blocks.
 const CACHED: usize = 512;
 
-/// Lends a texture for ever.
-macro_rules! kept {
-    ($type:ty, $value:expr) => {{
-        let value: $type = $value;
-        let mut value = Some(value);
-        let one = lend!(".slow", $type, 1, value.take().expect("one element"));
-        &*one.first_mut().expect("one is lent")
-    }};
-}
-
 /// The ways of 4 bits a texel.
 fn four_bits() -> [(&'static str, &'static str, Way); 3] {
     let words = lend!(".slow", CacheWord, CACHED, CacheWord::new());
     let cache = BlockCache::compressed(STONE, words).expect("a cache of two rows of blocks");
-    let cache: &'static BlockCache<'static> = kept!(BlockCache<'static>, cache);
-    let alone: &'static Texture<'static> = kept!(Texture<'static>, STONE.texture());
-    let cached: &'static Texture<'static> = kept!(Texture<'static>, cache.texture());
+    let rooms = lend!(".slow", Option<BlockCache<'static>>, 1, None);
+    let cache = rooms.first_mut().expect("one is lent").insert(cache);
+    let textures = lend!(".slow", Texture<'static>, 2, STONE.texture());
+    textures[1] = cache.texture();
+    let [alone, cached] = &*textures else {
+        panic!("two are lent")
+    };
     [
         (
             "texel_index4_565",
