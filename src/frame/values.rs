@@ -156,11 +156,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
         let is_compared = self.met && self.over.meets(span.start, span.end);
         let has_values = Flags(slot.flags).has_values();
-        let state = if has_values {
-            out.view.state_of(slot)
-        } else {
-            None
-        };
+        let state = has_values.then(|| out.view.state_of(slot)).flatten();
         let state = state.unwrap_or(&DrawState::EMPTY);
         if is_compared {
             if state.waits() {
