@@ -1,4 +1,5 @@
-//! What documents say and no other proof holds: shadows of meshes with edges of several faces.
+//! What documents say and no other proof holds: shadows of meshes with edges of several faces, faces on the near
+//! and the far plane.
 
 use host_tests::rooms::{self, Room};
 use scanbeam::look;
@@ -86,5 +87,51 @@ fn edges_of_several_faces_are_drawn_out_for_each() {
         let dark = |p: &Vec<Vec<[u8; 3]>>| p.iter().flatten().filter(|p| **p == [40; 3]).count();
         assert!(dark(&one_by_one) > 30, "{}", dark(&one_by_one));
         assert!(together == one_by_one, "{faces:?}");
+    }
+}
+
+/// How many pixels are drawn of a triangle, seen from 2 in front of the origin, from 1 to 3 far away.
+fn drawn(positions: [[i16; 3]; 3]) -> usize {
+    let room = Room {
+        vertices: 40,
+        places: 0,
+        objects: 40,
+        draws: 1,
+    };
+    let mut rooms = rooms::SceneRooms::new(room, 120);
+    let mut scene = rooms.scene::<look::Gouraud<Rgb888>>(Screen::new(160, 120).unwrap());
+    let camera = Camera::look_at([0.0, 0.0, 2.0], [0.0; 3], [0.0, 1.0, 0.0], 120.0, 1.0, 3.0);
+    scene.begin(&camera.unwrap()).unwrap();
+    let triangle = Draw {
+        cull: Cull::None,
+        colour: [255; 3],
+        ..Draw::new(Mesh {
+            positions: &positions,
+            normals: &[],
+            colours: &[],
+            faces: Faces::Triangles(&[[0, 1, 2]]),
+        })
+    };
+    scene.draw(&triangle).unwrap();
+    let mut lines: rooms::LineRooms<look::Gouraud<Rgb888>> =
+        rooms::LineRooms::new(room.objects, 160).with_counts();
+    let mut renderer = lines.renderer();
+    let pixels = scene.lines().map(|y| {
+        let mut line = vec![[0; 3]; 160];
+        renderer.draw_line(&scene, y, &mut line, [0; 3]).unwrap();
+        line.iter().filter(|pixel| **pixel != [0; 3]).count()
+    });
+    pixels.sum()
+}
+
+/// The nearest and the farthest distance are drawn. Kills: planes that are off.
+#[test]
+fn faces_on_the_near_and_the_far_plane_are_drawn() {
+    let one = 16_384;
+    let at = |z: i16| drawn([[0, 0, z], [15_000, 0, z], [0, 5_000, z]]);
+    // The near plane is rounded towards what is seen.
+    for (kept, dropped) in [(-one, -one - 1), (one - 1, one)] {
+        assert!(at(kept) > 200, "{kept}");
+        assert_eq!(at(dropped), 0, "{dropped}");
     }
 }

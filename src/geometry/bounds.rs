@@ -145,4 +145,24 @@ mod tests {
         let corners = [[i32::MIN; 3], [i32::MAX; 3]];
         assert_eq!(Sphere::around(&corners).radius, 3_719_550_787);
     }
+
+    /// Kills: other roundings of the steepest way and of how far it reaches.
+    #[test]
+    fn a_sphere_is_beyond_from_its_radius_on() {
+        let sphere = Sphere {
+            centre: [0; 3],
+            radius: 1 << 31,
+        };
+        // The root of (2^29 + 1)^2 + 2 is rounded up, half of that is, and 2^32 is taken as 2^30 four times.
+        for (gradient, reach) in [
+            ([1 << 29, 0, 0], (1 << 28) + 2),
+            ([0, -(1 << 29), 0], (1 << 28) + 2),
+            ([0, 0, 1 << 32], 8 * ((1 << 28) + 2)),
+        ] {
+            for slack in [0, 5] {
+                assert!(sphere.is_beyond(gradient, -reach - 1 - slack, slack));
+                assert!(!sphere.is_beyond(gradient, -reach - slack, slack));
+            }
+        }
+    }
 }

@@ -194,6 +194,41 @@ mod tests {
         assert!(made > 100_000, "{made} made, {refused} refused");
     }
 
+    /// Kills: a box whose sides are not all looked at.
+    #[test]
+    fn steep_planes_are_refused_in_large_boxes_alone() {
+        // A step of 2^29 to the right or down, and the box once wide, once high, once both.
+        let steep = 1 << 26;
+        let planes = |p, value| InverseArea::new(p).unwrap().plane(value);
+        for (far, is_made) in [(20_000, false), (8_000, true)] {
+            for (p, value) in [
+                ([(0, 0), (far, 0), (far, 1)], [0, 0, steep]),
+                ([(0, 0), (far, far), (0, 1)], [0, 0, steep]),
+                ([(0, 0), (1, far), (0, far)], [0, steep, 0]),
+            ] {
+                assert_eq!(planes(p, value).is_some(), is_made, "{p:?}");
+            }
+        }
+    }
+
+    /// Kills: numerators with fewer bits.
+    #[test]
+    fn steps_are_exact_to_a_unit() {
+        let mut rng = Rng(8);
+        let mut worst = 0f64;
+        for _ in 0..100_000 {
+            let mut corner = || (rng.below(2560) as u16, rng.below(1920) as u16);
+            let p = [corner(), corner(), corner()];
+            let v = [(); 3].map(|()| rng.below(1 << 31) as i32);
+            let Some(plane) = InverseArea::new(p).and_then(|inverse| inverse.plane(v)) else {
+                continue;
+            };
+            let step = exact(p, v, 1, 0) - exact(p, v, 0, 0);
+            worst = worst.max((f64::from(plane.dx) - step).abs());
+        }
+        assert!((1.2..=1.7).contains(&worst), "{worst}");
+    }
+
     #[test]
     fn a_constant_is_exact() {
         let inverse = InverseArea::new([(0, 0), (65_535, 1), (0, 9)]).unwrap();

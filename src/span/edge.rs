@@ -177,6 +177,16 @@ mod tests {
         }
     }
 
+    /// Kills: other places of the first column that crossing triangles may have.
+    #[test]
+    fn crossing_triangles_have_as_much_room_on_both_sides() {
+        for width in [1, 2, 319, 320, 1022, 1023] {
+            let left = Frame { width, height: 1 }.wide_left();
+            let beside = [ORIGIN - left, left + 1023 - (ORIGIN + width)];
+            assert!((0..=1).contains(&(beside[1] - beside[0])), "{beside:?}");
+        }
+    }
+
     #[test]
     fn every_kind_finds_the_same_columns() {
         let mut rng = Rng(77);

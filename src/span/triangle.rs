@@ -445,3 +445,56 @@ impl Sides {
         (of(self.left), of(self.right))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::NONE;
+
+    /// The size of a triangle with its first corner at the picture's first pixel, and the others so far from there.
+    fn size(to: [[u32; 2]; 2]) -> Size {
+        let first = 8 * ORIGIN as u32;
+        let vertices = [[0; 2], to[0], to[1]].map(|[x, y]| Vertex {
+            place: (first + y) << 16 | (first + x),
+            depth: 0,
+            colour: 0,
+        });
+        let triangle = Triangle {
+            vertex: [&vertices[0], &vertices[1], &vertices[2]],
+            object: &Object {
+                corner: [0, 1, 2],
+                next: NONE,
+            },
+            places: &[],
+            frame: Frame {
+                width: 320,
+                height: 240,
+            },
+        };
+        triangle.size(triangle.area())
+    }
+
+    /// Kills: other limits of an area, of the way to a corner, and of sides.
+    #[test]
+    fn sizes_end_where_they_say() {
+        for (to, want) in [
+            ([[223, 0], [0, 2]], Size::Tiny),
+            ([[224, 0], [0, 2]], Size::Thin),
+            ([[220, 1], [184, 2]], Size::Tiny),
+            ([[220, 1], [185, 2]], Size::Thin),
+            ([[199, 0], [0, 1]], Size::Tiny),
+            ([[200, 0], [0, 1]], Size::Thin),
+            ([[128, 0], [0, 1]], Size::Tiny),
+            ([[127, 0], [0, 1]], Size::Sharp),
+            ([[32, 0], [0, 1]], Size::Sharp),
+            ([[31, 0], [0, 1]], Size::Thin),
+            ([[256, 0], [0, 4]], Size::Small),
+            ([[341, 0], [0, 3]], Size::Thin),
+            ([[511, 0], [0, 8]], Size::Small),
+            ([[512, 0], [0, 8]], Size::Large),
+            ([[0, 512], [8, 512]], Size::Large),
+        ] {
+            assert_eq!(size(to), want, "{to:?}");
+        }
+    }
+}

@@ -110,6 +110,38 @@ fn triangles_show_the_texels_of_exact_perspective_within_the_budget() {
     assert!(worst > -0.02, "the bound is loose: {worst}");
 }
 
+/// A triangle with its right angle at the first corner, 8 pixels high and so wide, a texel a pixel; the second corner
+/// is so much nearer.
+fn right_angle(width: i32, nearer: u32) -> [Corner; 3] {
+    [[0, 0], [width, 0], [0, 512]].map(|[x, y]| Corner {
+        x: 6400 + x,
+        y: 6400 + y,
+        depth: (1 << 27) + u32::from(x > 0) * nearer,
+        texel: [x << 8, y << 8],
+    })
+}
+
+/// Kills: other sizes up to which both places go in one word, and other lengths of a run in words.
+#[test]
+fn what_a_word_is_taken_for_ends_where_its_steps_would_err_more() {
+    let words = coordinates();
+    let of = |log: u32, width: i32, nearer: u32| {
+        let side = 1 << log;
+        let texels = &words[..1 << (2 * log)];
+        let texture = Texture::words(texels, side, side).unwrap();
+        Mapping::new(&right_angle(width, nearer), &texture, Budget::FAST).unwrap()
+    };
+    for (log, pixels) in [(8, 25), (7, 50), (5, 50)] {
+        let within = of(log, 64 * pixels - 1, 0);
+        assert_eq!(within.method, Method::Word, "{log}");
+        assert_ne!(of(log, 64 * pixels, 0).method, Method::Word, "{log}");
+    }
+    for (log, pixels) in [(8, 16), (7, 32), (6, 64), (5, 64)] {
+        let mapping = of(log, 64 * 250, 1 << 22);
+        assert_eq!(mapping.quick, pixels + 1, "{log} {mapping:?}");
+    }
+}
+
 #[test]
 fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
     let words = coordinates();
