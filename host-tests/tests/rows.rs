@@ -1,9 +1,13 @@
-//! The table of requirements: every row is there once, and each file and test that it names exists.
-//! And the house of proofs: each file of it is a module, so that none is left out of the program.
+//! The table of requirements: every row is there once, each file and test that it names exists, and what shows it in QEMU,
+//! in lists and by the tool does too. And the house of proofs: each file of it is a module, so that none is left out of the program.
+
+mod damages;
+mod ways;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
+use ways::Known;
 
 /// Letters of the rows, and how many of each there are.
 const ROWS: [(char, usize); 8] = [
@@ -22,11 +26,12 @@ fn faults(table: &str, root: &Path) -> Vec<String> {
     let mut missing: BTreeSet<String> = (ROWS.iter())
         .flat_map(|&(letter, count)| (1..=count).map(move |n| format!("{letter}{n}")))
         .collect();
+    let known = Known::of(root);
     let mut faults = Vec::new();
     for line in table.lines().filter(|line| line.starts_with("| ")).skip(1) {
         let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
-        let [id, what, code, tests] = cells[..] else {
-            faults.push(format!("{line}: four cells are needed"));
+        let [id, what, code, tests, ways] = cells[..] else {
+            faults.push(format!("{line}: five cells are needed"));
             continue;
         };
         if !missing.remove(id) {
@@ -51,6 +56,8 @@ fn faults(table: &str, root: &Path) -> Vec<String> {
                 faults.push(format!("{id}: there is no test {test}"));
             }
         }
+        let is_src = |file: &&str| root.join("src").join(file).is_file();
+        faults.extend(known.faults(id, quoted(code).iter().any(is_src), ways));
     }
     faults.extend(missing.into_iter().map(|id| format!("{id}: missing")));
     faults
@@ -79,16 +86,20 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
+/// The table.
+fn rows() -> String {
+    fs::read_to_string(root().join("src/guide/rows.md")).unwrap()
+}
+
 #[test]
 fn every_row_has_its_code_and_its_tests() {
-    let table = fs::read_to_string(root().join("src/guide/rows.md")).unwrap();
-    let faults = faults(&table, &root());
+    let faults = faults(&rows(), &root());
     assert!(faults.is_empty(), "{}", faults.join("\n"));
 }
 
 #[test]
 fn what_is_wrong_in_a_table_is_found() {
-    let table = fs::read_to_string(root().join("src/guide/rows.md")).unwrap();
+    let table = rows();
     let damaged = |from: &str, to: &str| {
         assert!(table.contains(from), "{from}");
         faults(&table.replacen(from, to, 1), &root())
@@ -105,6 +116,21 @@ fn what_is_wrong_in_a_table_is_found() {
         1
     );
     assert_eq!(damaged("| M4 |", "| M5 |").len(), 2);
+}
+
+/// What the top level lacks of these names.
+fn lacks<'n>(root: &Path, names: &[&'n str]) -> Vec<&'n str> {
+    let is_there = |name: &&&str| !root.join(name).exists();
+    names.iter().filter(is_there).copied().collect()
+}
+
+/// S2: the top level has what was asked for.
+#[test]
+fn the_top_level_has_its_files_and_folders() {
+    let mut names = vec!["Cargo.toml", "src", "host-tests", "memory.x", "README.md"];
+    assert_eq!(lacks(&root(), &names), [""; 0]);
+    names.push("cellar");
+    assert_eq!(lacks(&root(), &names), ["cellar"]);
 }
 
 /// Names of files in `tests` of which `main` makes no module.

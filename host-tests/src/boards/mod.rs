@@ -41,6 +41,11 @@ use std::time::Duration;
 /// What each frame adds to the time in which an emulator has to end.
 const A_FRAME: Duration = Duration::from_secs(5);
 
+/// The folders of the examples that are run; one that several chips run comes as often.
+pub fn examples() -> impl Iterator<Item = &'static str> {
+    CHIPS.iter().map(|chip| chip.program)
+}
+
 /// Runs the boards and prints what came. Whether all that ran sent what they should.
 ///
 /// # Errors
