@@ -2,6 +2,8 @@
 
 use host_tests::frames::values_sent;
 use host_tests::say;
+use scanbeam::event::Event;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scenes::{VALUES, Values};
 use std::collections::BTreeSet;
 
@@ -12,8 +14,13 @@ fn frames_of_values_are_full_of_colours_and_the_same_with_any_slots() {
     for (name, values) in VALUES {
         let sent = values_sent(values, 64).unwrap();
         let colours: BTreeSet<u16> = sent.shown.iter().copied().collect();
-        // Without shading a call has one colour.
-        let least = if values == Values::Master { 2 } else { 20 };
+        let least = match values {
+            // Without shading a call has one colour.
+            Values::Master => 2,
+            // Yes, no, and three answers.
+            Values::Told => 5,
+            _ => 20,
+        };
         assert!(colours.len() > least, "{name}: {}", colours.len());
         for slots in [0, 5] {
             let few = values_sent(values, slots).unwrap();
@@ -46,4 +53,32 @@ fn of_a_second_frame_what_changes_is_sent_alone() {
         more.len()
     );
     assert!((pixels..more.len() / 2).contains(&cells));
+}
+
+/// A square's colour, of a picture of answers.
+fn square(picture: &[u16], number: usize) -> [u8; 3] {
+    let (column, row) = (number % 8, number / 8);
+    let at = usize::from(scenes::VALUES_WIDTH) * (17 + 17 * row) + 19 + 17 * column;
+    Rgb565Be::to_rgb8(picture[at])
+}
+
+/// What is told as squares has been told: damaged lists come to different ends, the frame of their squares had pixels and
+/// no other event, a list halted, and queues were full.
+///
+/// Kills: damages that are none, events of no frame, queues that are never full.
+#[test]
+fn answers_are_many_and_those_that_are_known_are_right() {
+    let sent = values_sent(Values::Told, 64).unwrap();
+    let (first, second) = sent.words.split_at(sent.shown.len());
+    let damaged: BTreeSet<_> = (0..48).map(|number| square(first, number)).collect();
+    say!("{} ends of 48 damaged lists", damaged.len());
+    assert!(damaged.len() > 15);
+    let told = |number: usize| square(second, number);
+    for (number, event) in Event::ALL.into_iter().enumerate() {
+        let white = [u8::from(event == Event::PixelRendered) * 255; 3];
+        assert_eq!(told(number), white, "{event:?}");
+    }
+    let [stalls, halts, lines] = [40, 41, 42].map(told);
+    assert!(stalls[0] > 0 && stalls[1..] == [0; 2], "{stalls:?}");
+    assert!(halts != [0; 3] && lines != [0; 3]);
 }

@@ -3,7 +3,7 @@
 //! Threads share the scene by reference and nothing else; what each draws comes back through a
 //! channel, and this thread sends it in order.
 
-use scanbeam::frame::{self, FrameError, FrameUse, LineError};
+use scanbeam::frame::{self, FrameError, FrameUse, Interleave, LineError};
 use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma, Window};
@@ -37,6 +37,8 @@ where
         return frame::draw_frame(scene, renderer, pump, background, lines_per_transfer);
     }
     let (width, all, count) = (scene.screen().width(), scene.lines(), renderers.len());
+    let turns =
+        |first: usize| Interleave::lines(count as u16, first as u16).unwrap_or(Interleave::ALL);
     let mut used = FrameUse {
         assembled: scene.assembled(),
         ..FrameUse::default()
@@ -46,7 +48,7 @@ where
         for (first, renderer) in renderers.iter_mut().enumerate() {
             let (sender, lines) = sync_channel(AHEAD);
             drawn.push(lines);
-            let own = scene.lines().skip(first).step_by(count);
+            let own = turns(first).of(scene.lines());
             threads.spawn(move || draw_lines(scene, renderer, own, background, &sender));
         }
         let window = Window {
@@ -57,7 +59,8 @@ where
         };
         pump.take_stats();
         pump.begin(window, lines_per_transfer)?;
-        for (line, lines) in scene.lines().zip(drawn.iter().cycle()) {
+        for line in scene.lines() {
+            let lines = &drawn[usize::from(turns(0).owner(line))];
             let arrived = lines.recv().unwrap_or(Err(LineError::Stopped { line }));
             let (pixels, is_active) = arrived.map_err(FrameError::Line)?;
             used.lines_skipped += u32::from(!is_active);

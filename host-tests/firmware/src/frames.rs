@@ -3,7 +3,7 @@
 use crate::rooms::{LINES_PER_TRANSFER, Rooms};
 use core::convert::Infallible;
 use core::task::Poll;
-use scanbeam::frame::draw_frame;
+use scanbeam::frame::{Interleave, draw_frame};
 use scanbeam::list::ListCommand;
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
@@ -135,11 +135,12 @@ impl Sent<'_, '_> {
         let mut scene = rooms.scene.scene();
         build(&mut scene).expect(LARGE);
         let mut renderers = [rooms.lines.renderer(first), rooms.second.renderer(second)];
+        let turns = Interleave::lines(2, 0).expect("the first of two");
         let background = Rgb565Be::from_rgb8(how.shot.background());
         let mut pixels = [background; WIDTH as usize];
         self.pump.sink_mut().to.begin();
         for line in scene.lines() {
-            let renderer = &mut renderers[usize::from(line % 2)];
+            let renderer = &mut renderers[usize::from(turns.owner(line))];
             let drawn = renderer.draw_line(&scene, line, &mut pixels, background);
             drawn.expect(LARGE);
             let bytes = bytemuck::cast_slice(&pixels);

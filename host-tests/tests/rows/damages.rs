@@ -55,16 +55,14 @@ const PARTS: [Damage; 10] = [
     ("K6", "no lists: the hardware model has it", "no lists"),
 ];
 
-/// Code of `src` that runs in no emulator, and a row that is known to be missing there.
-const NOT_IN_QEMU: [Damage; 4] = [
+/// Code of `src` that runs in no emulator.
+const NOT_IN_QEMU: [Damage; 2] = [
     (
         "K9",
         "QEMU `frame values_shadows`",
         "no QEMU: shadows are dark",
     ),
     ("K9", "QEMU `frame values_shadows`", "no QEMU: *not yet*"),
-    ("K17", "no QEMU: *not yet*", "no QEMU: it is hard"),
-    ("K17", "no QEMU: *not yet*", "QEMU `frame a`"),
 ];
 
 #[test]

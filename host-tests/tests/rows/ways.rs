@@ -23,9 +23,6 @@ use std::path::{Path, PathBuf};
 /// All ways, in the order of their parts.
 const WAYS: [&str; 4] = ["host", "QEMU", "lists", "tool"];
 
-/// Rows with code in `src` of which nothing runs in QEMU. A row that comes to run there leaves this list.
-const NOT_IN_QEMU: [&str; 4] = ["B3", "H14", "K17", "X7"];
-
 /// The example whose log, made in QEMU, is held against the host's, and the test that does it.
 const LOGGED: (&str, &str) = ("defmt-log", "host-tests/tests/defmt_log.rs");
 
@@ -87,11 +84,6 @@ impl Known {
         let around: String = part.split('`').step_by(2).collect();
         if names.is_empty() || part.matches('`').count() % 2 == 1 || around.trim() != way {
             return vec![format!("{id}: names are needed in {part}")];
-        }
-        if way == "QEMU" && NOT_IN_QEMU.contains(&id) {
-            return vec![format!(
-                "{id}: runs in QEMU, so NOT_IN_QEMU has it no longer"
-            )];
         }
         let is_known = |name: &str| match way {
             "QEMU" => self.is_in_qemu(name),
@@ -155,10 +147,9 @@ fn refused(id: &str, has_src: bool, part: &str) -> Option<String> {
         .split_once(": ")
         .map_or("", |(_, reason)| reason.trim());
     let is_src_in_qemu = has_src && way_of(part) == "QEMU";
-    let is_missing = NOT_IN_QEMU.contains(&id) && reason.starts_with("*not yet*");
     if reason.is_empty() {
         Some(format!("{id}: a reason is needed in {part}"))
-    } else if is_src_in_qemu && !is_missing {
+    } else if is_src_in_qemu {
         Some(format!("{id}: has code in src, which has to run in QEMU"))
     } else {
         None

@@ -24,6 +24,7 @@
 //! | `values_lines` | a ball, and what of it changes, line by line |
 //! | `values_runs` | the same in cells of 16 x 2 pixels |
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
+//! | `values_told` | what becomes of damaged lists, and what frames, lists and queues tell, as squares |
 
 mod alpha;
 mod compressed;
@@ -33,6 +34,7 @@ mod points;
 mod sampled;
 mod scenes;
 mod shadows;
+mod told;
 
 use crate::ShotError;
 use crate::contours::ContourLook;
@@ -126,10 +128,12 @@ pub enum Values {
     Runs,
     /// A frame of which four times as many pixels are sent.
     Doubled,
+    /// Answers, as squares: two frames.
+    Told,
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 21] = [
+pub const VALUES: [(&str, Values); 22] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -151,6 +155,7 @@ pub const VALUES: [(&str, Values); 21] = [
     ("values_lines", Values::Lines),
     ("values_runs", Values::Runs),
     ("values_doubled", Values::Doubled),
+    ("values_told", Values::Told),
 ];
 
 /// What such a frame is lent.
@@ -269,6 +274,7 @@ impl Values {
             Self::Blocks => rest.send_blocks(lent.textured, pump),
             Self::Compressed => rest.send_compressed(lent.textured, pump),
             Self::Shadows => rest.send_shadows(lent.smooth, pump),
+            Self::Told => rest.send_told(lent.textured, pump),
             Self::Doubled => rest.send(self, lent.smooth, pump, |scene, _| teapot(scene)),
             Self::Overlay | Self::Lines | Self::Runs => rest.send(self, lent.smooth, pump, ball),
         }
