@@ -20,7 +20,7 @@ pub use view::ViewArgs;
 use crate::lists::args::{BakeArgs, DisassembleArgs, RunListArgs};
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{ArgMatches, Args, CommandFactory, FromArgMatches, Parser, Subcommand, ValueEnum};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -138,6 +138,9 @@ pub struct DemoArgs {
     #[arg(long, value_name = "N", default_value_t = DEFAULT_DEMO_FRAMES,
         value_parser = clap::value_parser!(u32).range(1..=i64::from(MAX_DEMO_FRAMES)))]
     pub frames: u32,
+    /// What of each frame after the first is sent to the display
+    #[arg(long, value_name = "PARTS", value_enum, default_value_t)]
+    pub changed: ChangedArg,
 }
 
 impl Default for DemoArgs {
@@ -145,8 +148,21 @@ impl Default for DemoArgs {
         Self {
             output: PathBuf::from("out"),
             frames: DEFAULT_DEMO_FRAMES,
+            changed: ChangedArg::default(),
         }
     }
+}
+
+/// What is sent of a frame after another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum ChangedArg {
+    /// All of it
+    All,
+    /// Lines that change
+    #[default]
+    Lines,
+    /// Runs of cells of 16 columns and 8 lines that change
+    Runs,
 }
 
 /// Flags of `cache`.

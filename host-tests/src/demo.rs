@@ -4,18 +4,18 @@
 //! missing, repeated and disordered lines; the pictures are what arrived there. The memory lent is
 //! as small as a microcontroller's, and the tables say how much of it was used (M4, S5, K12).
 
-use crate::args::DemoArgs;
+use crate::args::{ChangedArg, DemoArgs};
 use crate::image_out::{Frame, ImageError, make_folder, write_animation, write_image, write_strip};
 use crate::mock::{HostLine, MockFrameBuffer};
 use crate::rooms::{LineRooms, Room, SceneRooms};
 use comfy_table::{Cell, CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use indicatif::{ProgressBar, ProgressStyle};
-use scanbeam::frame::{FastMemory, FrameUse, draw_frame_changed};
+use scanbeam::frame::{FastMemory, FrameUse, draw_frame_changed, draw_frame_changed_runs};
 use scanbeam::look::Gouraud;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scan_out::{Pump, ShownLines};
+use scanbeam::scan_out::{Pump, ShownLines, ShownRuns};
 use scanbeam::scene::{DrawState, Object, Vertex};
-use scanbeam::{Affine, Camera, Draw, Light, Link, Screen};
+use scanbeam::{Affine, Camera, Draw, Light, Link, Renderer, Scene, Screen, draw_frame};
 use scenes::TEAPOT;
 use std::error::Error;
 use std::f32::consts::TAU;
@@ -62,6 +62,10 @@ const FOCAL: f32 = 570.0;
 /// Towards the light: from the upper left, and a little behind the viewer.
 const LIGHT: [f32; 3] = [-0.9, 0.8, 0.55];
 const AMBIENT: f32 = 0.14;
+/// Columns and lines of a cell, of which runs are sent.
+const CELL: (u16, u16) = (16, LINES);
+/// What is kept of what is shown, by cells.
+const CELLS: usize = ShownRuns::words(WIDTH, HEIGHT, CELL.0, CELL.1);
 /// Brass.
 const COLOUR: [u8; 3] = [255, 176, 84];
 /// The turn of the first frame in radians: the spout to the right, towards the viewer.
@@ -80,7 +84,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
     let bar = ProgressBar::new(u64::from(args.frames))
         .with_style(style)
         .with_message("drawing");
-    let turn = Turn::draw(args.frames, || bar.inc(1))?;
+    let turn = Turn::draw(args.frames, args.changed, || bar.inc(1))?;
     bar.finish_and_clear();
     let pictures = turn.write(folder)?;
 
@@ -101,6 +105,36 @@ struct Turn {
     took: Vec<Took>,
 }
 
+/// What the display shows, by what can be sent alone.
+struct Shown<'m> {
+    lines: ShownLines<'m>,
+    cells: ShownRuns<'m>,
+}
+
+impl Shown<'_> {
+    /// Sends a frame, or what changes of it.
+    fn send(
+        &mut self,
+        changed: ChangedArg,
+        scene: &Scene<'_, '_, Look>,
+        renderer: &mut Renderer<'_, Look>,
+        pump: &mut Pump<MockFrameBuffer<Word>>,
+    ) -> Result<FrameUse, Box<dyn Error>> {
+        let (background, nothing) = (Rgb565Be::from_rgb8(BACKGROUND), |_, _: &mut [Word]| {});
+        let (lines, cells) = (&mut self.lines, &mut self.cells);
+        Ok(match changed {
+            ChangedArg::All => draw_frame(scene, renderer, pump, background, LINES)?,
+            ChangedArg::Lines => {
+                draw_frame_changed(scene, renderer, pump, background, LINES, lines, nothing)?
+            }
+            ChangedArg::Runs => {
+                let high = CELL.1;
+                draw_frame_changed_runs(scene, renderer, pump, background, high, cells, nothing)?
+            }
+        })
+    }
+}
+
 /// What a frame took.
 struct Took {
     frame: FrameUse,
@@ -110,8 +144,12 @@ struct Took {
 }
 
 impl Turn {
-    /// Draws `count` frames, each one the same angle on, and calls `done` after each.
-    fn draw(count: u32, mut done: impl FnMut()) -> Result<Self, Box<dyn Error>> {
+    /// Draws `count` frames, each one the same angle on, sends what changes, and calls `done` after each.
+    fn draw(
+        count: u32,
+        changed: ChangedArg,
+        mut done: impl FnMut(),
+    ) -> Result<Self, Box<dyn Error>> {
         let mut memory = SceneRooms::new(ROOM, HEIGHT);
         let mut scene = memory.scene::<Look>(Screen::new(WIDTH, HEIGHT)?);
         let mut lines: LineRooms<Look> = LineRooms::new(ROOM.objects, WIDTH);
@@ -120,11 +158,13 @@ impl Turn {
         let sink = MockFrameBuffer::new(WIDTH, HEIGHT).late_by(LATE);
         let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
 
-        let mut hashes = [0; HEIGHT as usize];
-        let mut shown = ShownLines::new(&mut hashes);
+        let (mut hashes, mut cells) = (vec![0; HEIGHT.into()], vec![0; CELLS]);
+        let mut shown = Shown {
+            lines: ShownLines::new(&mut hashes),
+            cells: ShownRuns::new(&mut cells, WIDTH, CELL.0, CELL.1),
+        };
         let camera = Camera::look_at(EYE, AT, [0.0, 1.0, 0.0], FOCAL, 0.1, 100.0)?;
         let light = Light::new(LIGHT, AMBIENT);
-        let background = Rgb565Be::from_rgb8(BACKGROUND);
         let mut turn = Self {
             frames: Vec::new(),
             took: Vec::new(),
@@ -139,15 +179,7 @@ impl Turn {
                 ..Draw::new(TEAPOT)
             })?;
             pump.sink_mut().next_frame();
-            let frame = draw_frame_changed(
-                &scene,
-                &mut renderer,
-                &mut pump,
-                background,
-                LINES,
-                &mut shown,
-                |_, _| {},
-            )?;
+            let frame = shown.send(changed, &scene, &mut renderer, &mut pump)?;
             turn.took.push(Took {
                 frame,
                 objects: scene.objects(),
@@ -354,7 +386,7 @@ mod tests {
     /// Kills: a frame that is sent whole though the display shows most of it, memory that is full or hardly used.
     #[test]
     fn a_turn_fits_the_memory_at_any_angle() {
-        let turn = Turn::draw(97, || ()).unwrap();
+        let turn = Turn::draw(97, ChangedArg::Lines, || ()).unwrap();
         assert_eq!(turn.frames.len(), 97);
         for (number, took) in turn.took.iter().enumerate() {
             let assembled = took.frame.assembled;
@@ -378,9 +410,26 @@ mod tests {
         }
     }
 
+    /// Kills: parts of a frame that are not sent though they changed, and flags that send alike.
+    #[test]
+    fn whatever_is_sent_the_display_shows_the_same() {
+        let ways = [ChangedArg::All, ChangedArg::Lines, ChangedArg::Runs];
+        let turns = ways.map(|changed| Turn::draw(5, changed, || ()).unwrap());
+        let [all, lines, runs] = &turns;
+        let words = |turn: &Turn, frame: usize| turn.took[frame].frame.scan_out.bytes_sent;
+        for frame in 0..5 {
+            assert!(all.frames[frame] == lines.frames[frame], "{frame}");
+            assert!(all.frames[frame] == runs.frames[frame], "{frame}");
+            let sent = [runs, lines, all].map(|turn| words(turn, frame));
+            let falls = frame > 0 && sent[0] < sent[1] && sent[1] < sent[2];
+            assert!(falls || sent == [320 * 240 * 2; 3], "{frame}: {sent:?}");
+            assert_eq!(falls, frame > 0);
+        }
+    }
+
     #[test]
     fn the_readme_says_how_much_memory_is_lent() {
-        let lent = Turn::draw(1, || ()).unwrap().lent();
+        let lent = Turn::draw(1, ChangedArg::Lines, || ()).unwrap().lent();
         let bytes = |rooms: &[Lent]| {
             let sum: usize = rooms.iter().map(|lent| lent.bytes()[0]).sum();
             thousands(&sum.to_string())

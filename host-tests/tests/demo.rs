@@ -24,6 +24,7 @@ fn three_frames_become_three_pictures() {
     let args = DemoArgs {
         output: output.clone(),
         frames: 3,
+        ..DemoArgs::default()
     };
     demo::run(&args).unwrap();
     let mut names: Vec<_> = std::fs::read_dir(&output)
@@ -77,6 +78,7 @@ fn the_picture_of_the_readme_is_what_the_demo_draws() {
     let args = DemoArgs {
         output: folder.path().to_path_buf(),
         frames: 1,
+        ..DemoArgs::default()
     };
     demo::run(&args).unwrap();
     let drawn = read_image(&folder.path().join("teapot.png")).unwrap();
@@ -95,6 +97,7 @@ fn a_file_in_the_way_is_said_in_one_line() {
     let args = DemoArgs {
         output: output.clone(),
         frames: 1,
+        ..DemoArgs::default()
     };
     let error = demo::run(&args).unwrap_err().to_string();
     assert!(error.contains("file: cannot be made"), "{error}");

@@ -141,8 +141,10 @@ fn every_flag_arrives() {
     let demo = DemoArgs {
         output: "d".into(),
         frames: 3,
+        changed: ChangedArg::Runs,
     };
-    assert_eq!(words("demo -o d --frames 3"), Ok(Command::Demo(demo)));
+    let said = words("demo -o d --frames 3 --changed runs");
+    assert_eq!(said, Ok(Command::Demo(demo)));
     for (name, method) in [
         ("plane", InterpArg::Plane),
         ("packed8", InterpArg::Packed8),
