@@ -9,7 +9,7 @@ use std::fs;
 use std::path::Path;
 
 /// Two triangles from -1 to 1 in x and y, in one colour.
-fn square(colour: &str) -> String {
+pub(crate) fn square(colour: &str) -> String {
     let corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)];
     let vertex = |(x, y)| format!("v {x} {y} 0 {colour}\nvn 0 0 1\n");
     let vertices: String = corners.map(vertex).concat();
@@ -18,7 +18,7 @@ fn square(colour: &str) -> String {
 }
 
 /// A folder with a red and a white square.
-fn desk() -> Desk {
+pub(crate) fn desk() -> Desk {
     let desk = Desk::new("");
     fs::write(desk.path("red.obj"), square("1 0 0")).unwrap();
     fs::write(desk.path("white.obj"), square("1 1 1")).unwrap();
@@ -26,7 +26,7 @@ fn desk() -> Desk {
 }
 
 /// A picture of 16 x 16 pixels over -1 to 1 at z = 0.
-fn scene(objects: Value) -> Value {
+pub(crate) fn scene(objects: Value) -> Value {
     json!({
         "size": [16, 16],
         "camera": { "eye": [0, 0, 4], "at": [0, 0, 0], "fov": 28.072486935852957 },
@@ -34,7 +34,7 @@ fn scene(objects: Value) -> Value {
     })
 }
 
-fn drawn(desk: &Desk, scene: &Value) -> Frame {
+pub(crate) fn drawn(desk: &Desk, scene: &Value) -> Frame {
     fs::write(desk.path("s.json"), scene.to_string()).unwrap();
     let (frame, said) = desk.told("render s.json -o o.png");
     // Models of the tests have textures where an object has one.
@@ -45,18 +45,18 @@ fn drawn(desk: &Desk, scene: &Value) -> Frame {
     frame
 }
 
-fn at(frame: &Frame, x: usize, y: usize) -> [u8; 3] {
+pub(crate) fn at(frame: &Frame, x: usize, y: usize) -> [u8; 3] {
     let at = 3 * (16 * y + x);
     frame.rgb()[at..at + 3].try_into().unwrap()
 }
 
 /// Whether each channel is within a level.
-fn near(a: [u8; 3], b: [u8; 3]) -> bool {
+pub(crate) fn near(a: [u8; 3], b: [u8; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1)
 }
 
-const RED: [u8; 3] = [255, 0, 0];
-const WHITE: [u8; 3] = [255; 3];
+pub(crate) const RED: [u8; 3] = [255, 0, 0];
+pub(crate) const WHITE: [u8; 3] = [255; 3];
 
 #[test]
 fn objects_stand_where_they_are_placed() {
@@ -336,5 +336,5 @@ fn every_object_of_the_examples_is_seen() {
             );
         }
     }
-    assert_eq!(count, 2);
+    assert_eq!(count, 3);
 }

@@ -6,11 +6,13 @@ use host_support::model::Model;
 use host_support::texture_file::{LEVELS, TextureFileError, TextureImage, of_materials};
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{self, Budget, Sampling};
+use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
 /// How texels are taken from a texture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum FilterArg {
     /// The nearest texel
     #[default]

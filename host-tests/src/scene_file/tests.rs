@@ -64,6 +64,10 @@ fn what_cannot_be_had_together_is_named() {
         ("depth", json!("nearer")),
         ("writes_depth", json!(false)),
         ("priority", json!(3)),
+        ("filter", json!("bilinear")),
+        ("levels", json!(false)),
+        ("quality", json!("exact")),
+        ("application", json!("replace")),
     ] {
         let path = format!("/objects/0/{name}");
         assert!(SceneFile::parse(&with(least(), &path, value.clone()).to_string()).is_ok());
@@ -127,6 +131,9 @@ fn what_is_out_of_range_or_unknown_is_one_line() {
         (least(), "/objects/0/depth", json!("near")),
         (least(), "/objects/0/priority", json!(256)),
         (least(), "/objects/0/cull", json!("front")),
+        (least(), "/objects/0/filter", json!("cubic")),
+        (least(), "/objects/0/quality", json!("good")),
+        (least(), "/objects/0/application", json!("modulate")),
         (
             least(),
             "/objects/0/window",

@@ -27,6 +27,16 @@ pub enum SceneFileError {
         /// What is wrong.
         error: TextureSetError,
     },
+    /// An object that asks of its pictures what they are not.
+    #[error("{}: object {number}: {reason}", file.display())]
+    Object {
+        /// The scene.
+        file: PathBuf,
+        /// Its number, from 0.
+        number: usize,
+        /// What is wrong.
+        reason: String,
+    },
 }
 
 /// An object of a scene with its model.
@@ -62,12 +72,16 @@ impl Loaded {
         let text = std::fs::read_to_string(file).map_err(|error| wrong(error.to_string()))?;
         let scene = SceneFile::parse(&text).map_err(wrong)?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        let parts: Result<Vec<Part>, SceneFileError> = scene
-            .objects
-            .iter()
-            .map(|item| Part::load(item, folder, scene.has_palettes()))
-            .collect();
-        let parts = parts?;
+        let mut parts = Vec::new();
+        for (number, item) in scene.objects.iter().enumerate() {
+            let part = Part::load(item, folder, scene.has_palettes())?;
+            part.check().map_err(|reason| SceneFileError::Object {
+                file: file.to_path_buf(),
+                number,
+                reason,
+            })?;
+            parts.push(part);
+        }
         Ok(Self { scene, parts })
     }
 
@@ -109,7 +123,16 @@ impl Part {
         Ok(Self {
             item: item.clone(),
             model,
-            textures: textures.with_levels(true),
+            textures: textures.with_levels(item.levels.unwrap_or(true)),
         })
+    }
+
+    /// Whether it has what its fields are about.
+    fn check(&self) -> Result<(), String> {
+        let of_pictures = self.item.says_of_pictures();
+        match of_pictures.filter(|_| self.textures.is_empty()) {
+            Some(field) => Err(format!("{field} needs `texture`, or pictures of materials")),
+            None => Ok(()),
+        }
     }
 }

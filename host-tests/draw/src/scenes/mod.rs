@@ -1,24 +1,22 @@
 //! Scenes of a file by draw calls: several models, each with its place, blend, depth function, priority and window, in
 //! several lights or in palettes a line.
 
+mod palettes;
+
 use crate::choice::PixelFormatArg;
 use crate::formats::{Picture, draw_in, refused};
 use crate::parts::{Job, Tile, draw_parts, room_for};
 use crate::prepared::Chunk;
-use crate::scene_file::{BlendKind, DepthKind, Item, Loaded, SceneFile};
+use crate::scene_file::{Item, Loaded, SceneFile};
 use crate::setting::{focal, unit};
 use crate::textured::Texels16;
-use crate::{CrewSettings, DrawFailure, Drawn, FilterArg, Prepared, Skins, TextureSet};
-use host_support::image_out::Frame;
-use host_support::reference::{Cull, View};
+use crate::{CrewSettings, DrawFailure, Drawn, Prepared, Skins, TextureSet};
+use host_support::reference::View;
 use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::look::{Gouraud, Look, Textured, TexturedPhong};
 use scanbeam::mesh::{Material, U1F15};
 use scanbeam::pixel::{Index8, PixelFormat, Rgb565Be, Rgb888};
-use scanbeam::scene::{
-    Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, LARGEST, Lights, Scissor, Skin,
-    Texture,
-};
+use scanbeam::scene::{Application, Budget, DrawError, Lights, Scissor, Skin, Texture};
 use scanbeam::{Affine, Camera, Draw, Scene};
 
 /// A scene in the crate's number formats.
@@ -33,6 +31,13 @@ struct Placed<'a> {
     textures: &'a TextureSet,
     prepared: Prepared,
     model: Affine,
+}
+
+impl Placed<'_> {
+    /// How far its texture places may be off.
+    fn budget(&self) -> Budget {
+        self.item.quality.map(Budget::from).unwrap_or_default()
+    }
 }
 
 impl<'a> SceneParts<'a> {
@@ -79,49 +84,24 @@ impl<'a> SceneParts<'a> {
     }
 }
 
-/// Model space to the world; `None` where that leaves the ranges of matrices.
+/// Model space to the world; `None` where that leaves the ranges of matrices. What is not said rounds nothing.
 fn placed(prepared: &Prepared, item: &Item) -> Option<Affine> {
     let single = |v: [f64; 3]| v.map(|c| c as f32);
-    let turn = single(item.turn.unwrap_or_default()).map(f32::to_radians);
-    let model = Affine::placed(prepared.scale as f32, single(prepared.centre))?
-        .then(&Affine::placed(item.scale.unwrap_or(1.0) as f32, [0.0; 3])?)
-        .then(&Affine::rotation_x(turn[0]))
-        .then(&Affine::rotation_y(turn[1]))
-        .then(&Affine::rotation_z(turn[2]));
-    let place = single(item.place.unwrap_or_default());
-    Some(model.then(&Affine::placed(1.0, place)?))
-}
-
-fn blend(item: &Item) -> Option<Blend> {
-    let alpha = item.alpha.unwrap_or(255);
-    item.blend.map(|kind| match kind {
-        BlendKind::Filter => Blend::filter(alpha),
-        BlendKind::Add => Blend::add(alpha),
-        BlendKind::Subtract => Blend::new(BlendMode::Subtract(alpha)),
-    })
-}
-
-fn depth(item: &Item) -> DepthTest {
-    let test = item
-        .depth
-        .map_or(DepthTest::HIDES, |kind| DepthTest::new(function(kind)));
-    match item.writes_depth {
-        Some(false) => test.without_write(),
-        _ => test,
+    let mut model = Affine::placed(prepared.scale as f32, single(prepared.centre))?;
+    if let Some(scale) = item.scale {
+        model = model.then(&Affine::placed(scale as f32, [0.0; 3])?);
     }
-}
-
-fn function(kind: DepthKind) -> DepthFunction {
-    match kind {
-        DepthKind::Never => DepthFunction::NEVER,
-        DepthKind::Farther => DepthFunction::FARTHER,
-        DepthKind::Equal => DepthFunction::EQUAL,
-        DepthKind::FartherOrEqual => DepthFunction::FARTHER_OR_EQUAL,
-        DepthKind::Nearer => DepthFunction::NEARER,
-        DepthKind::Different => DepthFunction::DIFFERENT,
-        DepthKind::NearerOrEqual => DepthFunction::NEARER_OR_EQUAL,
-        DepthKind::Always => DepthFunction::ALWAYS,
+    if let Some(turn) = item.turn {
+        let [x, y, z] = single(turn).map(f32::to_radians);
+        model = model
+            .then(&Affine::rotation_x(x))
+            .then(&Affine::rotation_y(y))
+            .then(&Affine::rotation_z(z));
     }
+    if let Some(place) = item.place {
+        model = model.then(&Affine::placed(1.0, single(place))?);
+    }
+    Some(model)
 }
 
 /// The window of an object, in pixels of a tile.
@@ -143,13 +123,6 @@ fn scissor(item: &Item, tile: &Tile) -> Option<Scissor> {
     })
 }
 
-fn cull(item: &Item) -> scanbeam::Cull {
-    match item.cull.map(Cull::from) {
-        Some(Cull::Back) => scanbeam::Cull::Back,
-        Some(Cull::None) | None => scanbeam::Cull::None,
-    }
-}
-
 /// Draws a scene as its file says, seen as `view` says.
 ///
 /// # Errors
@@ -167,8 +140,8 @@ pub fn draw_scene_file(
     };
     match (format, parts.scene.has_palettes()) {
         (_, false) => draw_in(&task, format),
-        (PixelFormatArg::Rgb888, true) => by_palettes::<Rgb888>(parts, &task.job),
-        (PixelFormatArg::Rgb565, true) => by_palettes::<Rgb565Be>(parts, &task.job),
+        (PixelFormatArg::Rgb888, true) => palettes::by_palettes::<Rgb888>(parts, &task.job),
+        (PixelFormatArg::Rgb565, true) => palettes::by_palettes::<Rgb565Be>(parts, &task.job),
         _ => Err(refused("scenes with palettes are drawn")),
     }
 }
@@ -214,16 +187,18 @@ impl Picture for Task<'_> {
         Textured<F>: Look<Pixel = F, Planes: Send>,
         TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
     {
-        let sets = || self.parts.parts.iter().map(|part| part.textures);
-        let texels: Vec<_> = sets().map(Texels16::of::<T>).collect();
+        let parts = &self.parts.parts;
+        let texels: Vec<_> = (parts.iter())
+            .map(|part| Texels16::of::<T>(part.textures))
+            .collect();
         let coarser: Result<Vec<_>, _> = texels.iter().map(Texels16::coarser).collect();
         let coarser = coarser?;
         let mut textures = Vec::new();
-        for ((set, texels), coarser) in sets().zip(&texels).zip(&coarser) {
+        for ((part, texels), coarser) in parts.iter().zip(&texels).zip(&coarser) {
             let skins = Skins {
-                set,
-                filter: FilterArg::Nearest,
-                budget: Budget::BALANCED,
+                set: part.textures,
+                filter: part.item.filter.unwrap_or_default(),
+                budget: part.budget(),
             };
             textures.push(texels.textures(coarser, skins)?);
         }
@@ -305,58 +280,20 @@ impl<'t> Worn<'_, 't> {
             .and_then(|texture| textures?.get(usize::from(texture)));
         scene.draw(&Draw {
             model: part.model,
-            cull: cull(part.item),
+            cull: part.item.cull(),
             lights: self.lights,
             texture: texture.map(|texture| Skin {
                 texture,
                 places: &chunk.places,
-                budget: Budget::BALANCED,
+                budget: part.budget(),
             }),
+            application: (part.item.application).map_or(Application::Product, Application::from),
             scissor: scissor(part.item, tile),
-            depth: depth(part.item),
-            blend: blend(part.item),
+            depth: part.item.depth(),
+            blend: part.item.blend(),
             dither: self.dither,
             priority: self.parts.scene.rank(part.item),
             ..Draw::new(chunk.mesh())
         })
     }
-}
-
-/// Indices, which become colours by the palette of each line.
-fn by_palettes<F: PixelFormat>(parts: &SceneParts<'_>, job: &Job) -> Result<Drawn, DrawFailure> {
-    let worn = Worn {
-        parts,
-        textures: &[],
-        lights: None,
-        dither: false,
-    };
-    let indices = Job {
-        background: Index8::colour(0),
-        ..*job
-    };
-    let mut drawn = worn.draw_all::<Gouraud<Index8>, Index8>(&indices)?;
-    let [width, height] = job.size;
-    let palettes = &parts.scene.palettes;
-    let lines = drawn.frame.rgb().chunks_exact(3 * width as usize);
-    let rgb = (0..height).zip(lines).flat_map(|(line, row)| {
-        let palette = &palettes[palette_of(parts.scene, line, height)].colours;
-        let colour = |index: u8| palette.get(usize::from(index)).copied().unwrap_or([0; 3]);
-        // An index is a level of grey.
-        row.chunks_exact(3)
-            .flat_map(move |pixel| F::to_rgb8(F::from_rgb8(colour(pixel[0]))))
-    });
-    drawn.frame = Frame::new(width, height, rgb.collect())
-        .ok_or_else(|| DrawFailure::View("the picture has another size".into()))?;
-    let word = size_of::<F::Word>();
-    // The line that is drawn has a byte a pixel; what is sent of it, a word.
-    drawn.used.scan_out.bytes_sent *= word as u64;
-    drawn.figures.line_bytes = drawn.figures.line_bytes * word + width.min(LARGEST.into()) as usize;
-    Ok(drawn)
-}
-
-/// The palette of a line of a picture of this height: of one of another height than the file's, the lines in proportion.
-fn palette_of(scene: &SceneFile, line: u32, height: u32) -> usize {
-    let line = u64::from(line) * u64::from(scene.size[1]) / u64::from(height);
-    let begun = (scene.palettes.iter()).filter(|palette| u64::from(palette.from_line) <= line);
-    begun.count() - 1
 }

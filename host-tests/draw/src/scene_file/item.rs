@@ -1,0 +1,204 @@
+//! What a scene file says of an object, and what its words are to draw calls.
+
+use crate::FilterArg;
+use scanbeam::Cull;
+use scanbeam::scene::{Application, Blend, BlendMode, Budget, DepthFunction, DepthTest};
+use serde::Deserialize;
+use std::path::PathBuf;
+
+/// A model that stands in the scene.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Item {
+    /// OBJ file, from the folder of the scene.
+    pub model: PathBuf,
+    /// Times so much,
+    pub scale: Option<f64>,
+    /// then turned about x, y and z in that order, in degrees,
+    pub turn: Option<[f64; 3]>,
+    /// then moved here.
+    pub place: Option<[f64; 3]>,
+    /// Picture for all of it in place of those of its materials, from the folder of the scene.
+    pub texture: Option<PathBuf>,
+    /// How texels are taken from its pictures.
+    pub filter: Option<FilterArg>,
+    /// Whether its pictures have levels of detail.
+    pub levels: Option<bool>,
+    /// How far texture places may be off.
+    pub quality: Option<QualityKind>,
+    /// What texels do to its colours.
+    pub application: Option<ApplicationKind>,
+    /// Which triangles are dropped by the side that they show.
+    pub cull: Option<CullSide>,
+    /// How its colour and that behind it become one.
+    pub blend: Option<BlendKind>,
+    /// How much of it there is in the blend, 0 to 255.
+    pub alpha: Option<u8>,
+    /// Where it is drawn, by depth.
+    pub depth: Option<DepthKind>,
+    /// Whether its depth is written.
+    pub writes_depth: Option<bool>,
+    /// In a scene with priorities the higher is in front; of the same the later.
+    pub priority: Option<u8>,
+    /// The part of the picture that it keeps.
+    pub window: Option<Cutout>,
+    /// Its index in a scene with palettes.
+    pub index: Option<u8>,
+}
+
+/// Sides of triangles.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum CullSide {
+    /// None is dropped.
+    None,
+    /// What shows its back.
+    Back,
+}
+
+impl From<CullSide> for Cull {
+    fn from(side: CullSide) -> Self {
+        match side {
+            CullSide::None => Self::None,
+            CullSide::Back => Self::Back,
+        }
+    }
+}
+
+/// How far texture places may be off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum QualityKind {
+    /// 1/2 texel.
+    Fast,
+    /// 1/4 texel.
+    Balanced,
+    /// 1/100 texel.
+    Exact,
+}
+
+impl From<QualityKind> for Budget {
+    fn from(quality: QualityKind) -> Self {
+        match quality {
+            QualityKind::Fast => Self::FAST,
+            QualityKind::Balanced => Self::BALANCED,
+            QualityKind::Exact => Self::EXACT,
+        }
+    }
+}
+
+/// What texels do to colours.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ApplicationKind {
+    /// Both are multiplied.
+    Product,
+    /// Texels hide them.
+    Replace,
+    /// Texels hide them where they are not transparent.
+    Decal,
+}
+
+impl From<ApplicationKind> for Application {
+    fn from(kind: ApplicationKind) -> Self {
+        match kind {
+            ApplicationKind::Product => Self::Product,
+            ApplicationKind::Replace => Self::Replace,
+            ApplicationKind::Decal => Self::Decal,
+        }
+    }
+}
+
+/// Ways to blend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum BlendKind {
+    /// What is behind shines through by 1 - alpha.
+    Filter,
+    /// Its colour times alpha is added.
+    Add,
+    /// Its colour times alpha is taken away.
+    Subtract,
+}
+
+/// Depth functions, of the surface against what is there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DepthKind {
+    /// Nowhere.
+    Never,
+    /// Where it is farther.
+    Farther,
+    /// Where it is as far.
+    Equal,
+    /// Where it is not nearer.
+    FartherOrEqual,
+    /// Where it is nearer.
+    Nearer,
+    /// Where it is not as far.
+    Different,
+    /// Where it is not farther.
+    NearerOrEqual,
+    /// Everywhere.
+    Always,
+}
+
+/// A window of the picture in pixels.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cutout {
+    /// First column.
+    pub left: u16,
+    /// First line.
+    pub top: u16,
+    /// Columns.
+    pub width: u16,
+    /// Lines.
+    pub height: u16,
+    /// Whether what is outside is kept.
+    #[serde(default)]
+    pub outside: bool,
+}
+
+impl From<DepthKind> for DepthFunction {
+    fn from(kind: DepthKind) -> Self {
+        match kind {
+            DepthKind::Never => Self::NEVER,
+            DepthKind::Farther => Self::FARTHER,
+            DepthKind::Equal => Self::EQUAL,
+            DepthKind::FartherOrEqual => Self::FARTHER_OR_EQUAL,
+            DepthKind::Nearer => Self::NEARER,
+            DepthKind::Different => Self::DIFFERENT,
+            DepthKind::NearerOrEqual => Self::NEARER_OR_EQUAL,
+            DepthKind::Always => Self::ALWAYS,
+        }
+    }
+}
+
+impl Item {
+    /// How it and what is behind it become one.
+    pub(crate) fn blend(&self) -> Option<Blend> {
+        let alpha = self.alpha.unwrap_or(255);
+        self.blend.map(|kind| match kind {
+            BlendKind::Filter => Blend::filter(alpha),
+            BlendKind::Add => Blend::add(alpha),
+            BlendKind::Subtract => Blend::new(BlendMode::Subtract(alpha)),
+        })
+    }
+
+    /// Where it is drawn, and whether its depth is kept.
+    pub(crate) fn depth(&self) -> DepthTest {
+        let test = self
+            .depth
+            .map_or(DepthTest::HIDES, |kind| DepthTest::new(kind.into()));
+        match self.writes_depth {
+            Some(false) => test.without_write(),
+            _ => test,
+        }
+    }
+
+    /// Which of its triangles are dropped.
+    pub(crate) fn cull(&self) -> Cull {
+        self.cull.map_or(Cull::None, Cull::from)
+    }
+}
