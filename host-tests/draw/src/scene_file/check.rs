@@ -1,6 +1,6 @@
 //! What a scene file may say, and what cannot be had together.
 
-use super::{Format, Item, SceneFile};
+use super::{ApplicationKind, Format, Item, SceneFile, ShadeKind};
 use crate::choice::MAX_SIDE;
 use std::path::PathBuf;
 
@@ -23,16 +23,40 @@ const APART: &[(&str, &str, &str)] = &[
     ("`levels`", "`palettes`", INDEXED),
     ("`quality`", "`palettes`", INDEXED),
     ("`application`", "`palettes`", INDEXED),
+    ("`shade`", "`palettes`", INDEXED),
     ("`blend`", "`palettes`", INDEXED),
     ("`depth`", "`palettes`", INDEXED),
     ("`writes_depth`", "`palettes`", INDEXED),
     ("`priority`", "`palettes`", INDEXED),
     ("`depth`", "`priority`", RANKED),
     ("`writes_depth`", "`priority`", RANKED),
+    (
+        "`shade` none",
+        "`specular`",
+        "what is not lit has no highlights",
+    ),
+    (
+        "`application` replace",
+        "`specular`",
+        "texels hide light there",
+    ),
+    ("`shadow`", "`blend`", "what is blended throws no shadow"),
+    (
+        "`writes_depth` false",
+        "`shadows`",
+        "they fall on what keeps its depth",
+    ),
 ];
 
 /// What an object says in vain without something else, of itself or of its scene.
-const NEEDS: &[(&str, &str)] = &[("`alpha`", "`blend`"), ("`index`", "`palettes`")];
+const NEEDS: &[(&str, &str)] = &[
+    ("`alpha`", "`blend`"),
+    ("`index`", "`palettes`"),
+    ("`shade` none", "`lights`"),
+    ("`specular`", "`lights`"),
+    ("`shininess`", "`specular`"),
+    ("`shadow`", "`shadows`"),
+];
 
 /// What an object says of its pictures.
 const OF_PICTURES: &[&str] = &["`filter`", "`levels`", "`quality`", "`application`"];
@@ -42,10 +66,11 @@ const SCENE_APART: &[(&str, &str, &str)] = &[
     ("`palettes`", "`lights`", INDEXED),
     ("`palettes`", "`dither`", INDEXED),
     ("`palettes`", "`background`", INDEXED),
+    ("`shadows`", "`priority`", "shadows are found by depth"),
 ];
 
 /// What a scene says in vain without something else.
-const SCENE_NEEDS: &[(&str, &str)] = &[("`ambient`", "`lights`")];
+const SCENE_NEEDS: &[(&str, &str)] = &[("`ambient`", "`lights`"), ("`phong`", "`lights`")];
 
 /// Words, and whether they are said.
 struct Said<'w>(&'w [(&'static str, bool)]);
@@ -91,7 +116,7 @@ impl SceneFile {
     }
 
     /// What it says itself, and whether that is said.
-    fn says(&self) -> [(&'static str, bool); 6] {
+    fn says(&self) -> [(&'static str, bool); 8] {
         [
             ("`palettes`", self.has_palettes()),
             ("`lights`", !self.lights.is_empty()),
@@ -99,6 +124,8 @@ impl SceneFile {
             ("`dither`", self.dither),
             ("`background`", self.background.is_some()),
             ("`priority`", self.has_priorities()),
+            ("`phong`", self.phong),
+            ("`shadows`", self.has_shadows()),
         ]
     }
 
@@ -132,6 +159,9 @@ impl SceneFile {
             if !lamp.colour.iter().all(within) {
                 return Err("`colour` of a light must be from 0 to 1".into());
             }
+        }
+        if self.lights.iter().filter(|lamp| lamp.shadows).count() > 1 {
+            return Err("at most one of the `lights` throws `shadows`".into());
         }
         match self.ambient.iter().all(within) {
             true => Ok(()),
@@ -174,6 +204,10 @@ impl SceneFile {
         if !item.turn.iter().chain(&item.place).all(|v| is_finite(v)) {
             return Err("`turn` and `place` must be finite".into());
         }
+        let specular = item.specular.map_or([0.0; 3], Into::into);
+        if !specular.iter().all(|level| (0.0..=1.0).contains(level)) {
+            return Err("`specular` must be from 0 to 1".into());
+        }
         if item.blend.is_some() && item.writes_depth == Some(true) {
             return Err("`blend` writes no depth: `writes_depth` cannot be true".into());
         }
@@ -193,8 +227,10 @@ impl Item {
     }
 
     /// What it says, and whether that is said.
-    fn says(&self) -> [(&'static str, bool); 11] {
-        [
+    fn says(&self) -> Vec<(&'static str, bool)> {
+        let keeps_none = self.blend.is_none() && self.writes_depth == Some(false);
+        let replaces = self.application == Some(ApplicationKind::Replace);
+        vec![
             ("`texture`", self.texture.is_some()),
             ("`filter`", self.filter.is_some()),
             ("`levels`", self.levels.is_some()),
@@ -206,6 +242,13 @@ impl Item {
             ("`writes_depth`", self.writes_depth.is_some()),
             ("`priority`", self.priority.is_some()),
             ("`index`", self.index.is_some()),
+            ("`shade`", self.shade.is_some()),
+            ("`shade` none", self.shade == Some(ShadeKind::None)),
+            ("`specular`", self.specular.is_some()),
+            ("`shininess`", self.shininess.is_some()),
+            ("`shadow`", self.shadow.is_some()),
+            ("`writes_depth` false", keeps_none),
+            ("`application` replace", replaces),
         ]
     }
 }

@@ -28,6 +28,14 @@ pub struct Item {
     pub quality: Option<QualityKind>,
     /// What texels do to its colours.
     pub application: Option<ApplicationKind>,
+    /// Whether light falls on its corners or on its faces, or it shows its colours as they are.
+    pub shade: Option<ShadeKind>,
+    /// The level of its highlights.
+    pub specular: Option<Specular>,
+    /// Their power: the higher, the smaller they are.
+    pub shininess: Option<u16>,
+    /// Whether it throws a shadow.
+    pub shadow: Option<bool>,
     /// Which triangles are dropped by the side that they show.
     pub cull: Option<CullSide>,
     /// How its colour and that behind it become one.
@@ -109,6 +117,37 @@ impl From<ApplicationKind> for Application {
     }
 }
 
+/// How light falls on surfaces.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum ShadeKind {
+    /// On corners, or on pixels in a scene where it does.
+    Gouraud,
+    /// On each face as a whole.
+    Flat,
+    /// Not at all.
+    None,
+}
+
+/// The level of highlights.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(untagged)]
+pub enum Specular {
+    /// One, 0 to 1.
+    Level(f64),
+    /// Of red, green and blue, 0 to 1 each.
+    Colour([f64; 3]),
+}
+
+impl From<Specular> for [f64; 3] {
+    fn from(specular: Specular) -> Self {
+        match specular {
+            Specular::Level(level) => [level; 3],
+            Specular::Colour(colour) => colour,
+        }
+    }
+}
+
 /// Ways to blend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -176,6 +215,9 @@ impl From<DepthKind> for DepthFunction {
 }
 
 impl Item {
+    /// The power of highlights where none is said.
+    pub(crate) const SHININESS: u16 = 32;
+
     /// How it and what is behind it become one.
     pub(crate) fn blend(&self) -> Option<Blend> {
         let alpha = self.alpha.unwrap_or(255);

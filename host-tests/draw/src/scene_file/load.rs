@@ -96,7 +96,7 @@ impl Loaded {
             let left_out = part.model.materials.iter().any(shines).then(|| {
                 let file = part.item.model.display();
                 format!(
-                    "{file}: highlights and transparency of materials are left out: say `blend`"
+                    "{file}: highlights and transparency of materials are left out: say `specular` and `blend`"
                 )
             });
             for note in of_model.chain(of_textures).chain(left_out) {

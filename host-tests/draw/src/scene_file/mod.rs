@@ -8,7 +8,9 @@ mod check;
 mod item;
 mod load;
 
-pub use item::{ApplicationKind, BlendKind, CullSide, Cutout, DepthKind, Item, QualityKind};
+pub use item::{
+    ApplicationKind, BlendKind, CullSide, Cutout, DepthKind, Item, QualityKind, ShadeKind, Specular,
+};
 pub use load::{Loaded, Part, SceneFileError};
 
 use crate::choice::PixelFormatArg;
@@ -36,6 +38,9 @@ pub struct SceneFile {
     /// Lights; without any, surfaces show their colours as they are.
     #[serde(default)]
     pub lights: Vec<Lamp>,
+    /// Whether light is reckoned at each pixel.
+    #[serde(default)]
+    pub phong: bool,
     /// Palettes, each from a line on; with them surfaces have an index instead of colours.
     #[serde(default)]
     pub palettes: Vec<Palette>,
@@ -103,6 +108,9 @@ pub struct Lamp {
     /// Its red, green and blue, 0 to 1.
     #[serde(default = "Lamp::white")]
     pub colour: [f64; 3],
+    /// Whether it throws shadows.
+    #[serde(default)]
+    pub shadows: bool,
 }
 
 impl Lamp {
@@ -142,6 +150,17 @@ impl SceneFile {
     #[must_use]
     pub fn has_priorities(&self) -> bool {
         self.objects.iter().any(|item| item.priority.is_some())
+    }
+
+    /// Whether a light throws shadows.
+    #[must_use]
+    pub fn has_shadows(&self) -> bool {
+        self.lights.iter().any(|lamp| lamp.shadows)
+    }
+
+    /// Whether an object throws a shadow.
+    pub(crate) fn casts(&self, item: &Item) -> bool {
+        self.has_shadows() && item.blend.is_none() && item.shadow != Some(false)
     }
 
     /// The priority of a draw call: where the file has any, one is above 0.

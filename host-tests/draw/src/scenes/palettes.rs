@@ -1,6 +1,6 @@
 //! Scenes of a file in palettes a line.
 
-use super::{SceneParts, Worn};
+use super::{AtPixels, SceneParts, Worn};
 use crate::parts::Job;
 use crate::scene_file::SceneFile;
 use crate::{DrawFailure, Drawn};
@@ -18,6 +18,7 @@ pub(super) fn by_palettes<F: PixelFormat>(
         parts,
         textures: &[],
         lights: None,
+        at_pixels: &AtPixels::default(),
         dither: false,
     };
     let indices = Job {
