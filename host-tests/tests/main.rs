@@ -96,6 +96,7 @@ mod scan_out_runs;
 mod scan_out_spi;
 mod scene_b;
 mod scene_files;
+mod scene_files_forms;
 mod scene_files_light;
 mod scene_files_texels;
 mod skipped;

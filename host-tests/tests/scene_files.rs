@@ -5,8 +5,9 @@ use crate::command_line::Desk;
 use crate::texture_cli::ROUNDED;
 use host_tests::image_out::{Frame, read_image, write_image};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Two triangles from -1 to 1 in x and y, in one colour.
 pub(crate) fn square(colour: &str) -> String {
@@ -39,7 +40,9 @@ pub(crate) fn drawn(desk: &Desk, scene: &Value) -> Frame {
     let (frame, said) = desk.told("render s.json -o o.png");
     // Models of the tests have textures where an object has one.
     let objects = scene["objects"].as_array().unwrap();
-    let textured = objects.iter().any(|object| object.get("texture").is_some());
+    let is_textured =
+        |object: &Value| object.get("texture").is_some() || object.get("computed").is_some();
+    let textured = objects.iter().any(is_textured);
     let is_rounded = textured && scene["format"] != "rgb565";
     assert_eq!(said, if is_rounded { ROUNDED } else { "" }, "{scene}");
     frame
@@ -215,7 +218,7 @@ fn textures_formats_and_dither_are_those_of_the_file() {
         let picture = drawn(&desk, &scene);
         let colours = (0..16).flat_map(|y| (0..6).map(move |x| (x, y)));
         let colours: Vec<[u8; 3]> = colours.map(|(x, y)| at(&picture, x, y)).collect();
-        let distinct: std::collections::BTreeSet<_> = colours.iter().collect();
+        let distinct: BTreeSet<_> = colours.iter().collect();
         (distinct.len(), colours[0])
     };
     for objects in [&textured, &plain] {
@@ -302,19 +305,56 @@ fn what_cannot_be_read_or_does_nothing_is_refused() {
     assert!(shown.status.success(), "{shown:?}");
 }
 
+/// The folder of the examples.
+fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scene-files")
+}
+
+/// The scene files in it.
+fn example_files() -> Vec<PathBuf> {
+    let entries = fs::read_dir(examples()).unwrap();
+    let files = entries.map(|entry| entry.unwrap().path());
+    let is_scene = |file: &PathBuf| {
+        file.extension()
+            .is_some_and(|extension| extension == "json")
+    };
+    files.filter(is_scene).collect()
+}
+
+/// Each field that the guide has is in an example, and each field of an example is in the guide. Kills: a field that is in
+/// no table, or in none of the files.
+#[test]
+fn the_guide_has_the_fields_of_the_examples() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/guide/scene_files.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    let rows = guide.lines().filter(|line| line.starts_with("| `"));
+    let fields: BTreeSet<&str> = rows
+        .flat_map(|row| row.split('|').nth(1).unwrap().split('`').skip(1).step_by(2))
+        .collect();
+    let mut said = BTreeSet::new();
+    for file in example_files() {
+        let scene: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+        let objects = scene["objects"].as_array().unwrap();
+        for part in objects.iter().chain([&scene]) {
+            said.extend(part.as_object().unwrap().keys().cloned());
+        }
+        for lamp in scene["lights"].as_array().into_iter().flatten() {
+            for name in lamp.as_object().unwrap().keys() {
+                assert!(guide.contains(&format!("`{name}`")), "{name}");
+            }
+        }
+    }
+    let said: BTreeSet<&str> = said.iter().map(String::as_str).collect();
+    assert_eq!(fields, said);
+}
+
 /// The examples in the repository draw, and nothing in them is in vain.
 #[test]
 fn every_object_of_the_examples_is_seen() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scene-files");
-    let mut count = 0;
-    for entry in fs::read_dir(&folder).unwrap() {
-        let file = entry.unwrap().path();
-        if file.extension().is_none_or(|extension| extension != "json") {
-            continue;
-        }
-        count += 1;
+    let files = example_files();
+    for file in &files {
         let desk = Desk::new("");
-        for entry in fs::read_dir(&folder).unwrap() {
+        for entry in fs::read_dir(examples()).unwrap() {
             let file = entry.unwrap().path();
             fs::copy(
                 &file,
@@ -322,7 +362,7 @@ fn every_object_of_the_examples_is_seen() {
             )
             .unwrap();
         }
-        let text = fs::read_to_string(&file).unwrap();
+        let text = fs::read_to_string(file).unwrap();
         let scene: Value = serde_json::from_str(&text).unwrap();
         let whole = drawn(&desk, &scene);
         for (number, _) in scene["objects"].as_array().unwrap().iter().enumerate() {
@@ -336,5 +376,5 @@ fn every_object_of_the_examples_is_seen() {
             );
         }
     }
-    assert_eq!(count, 3);
+    assert_eq!(files.len(), 5);
 }

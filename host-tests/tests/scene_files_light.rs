@@ -405,7 +405,7 @@ fn what_says_so_or_is_blended_throws_no_shadow() {
     let lit = floor_levels()[0];
     for_floor(setup, |x, y, _| {
         let behind = under.pixel(x, y).unwrap();
-        let want = behind.map(|level| ((u32::from(level) + u32::from(lit) + 1) / 2) as u8);
+        let want = behind.map(|level| (u32::from(level) + u32::from(lit)).div_ceil(2) as u8);
         (mixed.pixel(x, y).unwrap(), want)
     });
 }

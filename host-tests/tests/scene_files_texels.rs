@@ -138,3 +138,60 @@ fn what_is_said_of_pictures_needs_one() {
         assert!(line.contains(&want), "{line}");
     }
 }
+
+/// A picture of twice the size lies between the pixels of the one that is drawn, each a quarter of a pixel away from the
+/// middle of its own. Kills: a picture drawn whole, pixels repeated, the other neighbour, means of another format.
+#[test]
+fn doubled_scenes_lie_between_what_is_drawn() {
+    let desk = floor();
+    for format in ["rgb888", "rgb565"] {
+        let mut scene = with(&json!({}));
+        (scene["format"], scene["background"]) = (json!(format), json!([40, 80, 160]));
+        let drawn_at = |scene: &Value| {
+            fs::write(desk.path("s.json"), scene.to_string()).unwrap();
+            desk.told("render s.json -o o.png").0
+        };
+        scene["size"] = json!([40, 30]);
+        let half = drawn_at(&scene);
+        (scene["size"], scene["doubled"]) = (json!([80, 60]), json!(true));
+        let whole = drawn_at(&scene);
+        assert_eq!((whole.width(), whole.height()), (80, 60));
+        let steps: [f64; 3] = match format {
+            "rgb888" => [255.0; 3],
+            _ => [31.0, 63.0, 31.0],
+        };
+        for (x, y) in (0..60).flat_map(|y| (0..80).map(move |x| (x, y))) {
+            let beside = |at: u32, most: u32| match at % 2 {
+                0 => (at / 2).saturating_sub(1),
+                _ => (at / 2 + 1).min(most - 1),
+            };
+            let places = [(x / 2, 0.75), (beside(x, 40), 0.25)];
+            let lines = [(y / 2, 0.75), (beside(y, 30), 0.25)];
+            let want = [0, 1, 2].map(|i| {
+                let level = |x, y| {
+                    let level = f64::from(half.pixel(x, y).unwrap()[i]);
+                    (level * steps[i] / 255.0).round()
+                };
+                let parts = lines.iter().flat_map(|(y, down)| {
+                    let along = places.iter();
+                    along.map(move |(x, across)| level(*x, *y) * across * down)
+                });
+                // Halves up, in steps of the format.
+                let step = (parts.sum::<f64>() + 0.5).floor();
+                (step * 255.0 / steps[i]).round() as u8
+            });
+            let got = whole.pixel(x, y).unwrap();
+            let is_near = got
+                .iter()
+                .zip(want)
+                .all(|(got, want)| got.abs_diff(want) <= 1);
+            assert!(is_near, "{format} ({x}, {y}): {got:?}, not {want:?}");
+        }
+    }
+    // Of an odd size, which `view` may ask for, what fits is shown.
+    let mut scene = with(&json!({}));
+    scene["doubled"] = json!(true);
+    fs::write(desk.path("s.json"), scene.to_string()).unwrap();
+    let shown = desk.run("view s.json --frames 1 --size 15x9 --colours 256");
+    assert!(shown.status.success(), "{shown:?}");
+}

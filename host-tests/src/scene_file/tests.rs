@@ -53,6 +53,7 @@ fn what_cannot_be_had_together_is_named() {
         ("lights", light.clone()),
         ("dither", json!(true)),
         ("background", json!([1, 2, 3])),
+        ("doubled", json!(true)),
     ] {
         let line = refusal(&with(indexed.clone(), &format!("/{name}"), value));
         let both = format!("`palettes` and `{name}` cannot be had together");
@@ -69,6 +70,13 @@ fn what_cannot_be_had_together_is_named() {
         ("quality", json!("exact")),
         ("application", json!("replace")),
         ("shade", json!("flat")),
+        (
+            "computed",
+            json!({ "squares": { "size": [8, 8], "colours": [[0, 0, 0], [9, 9, 9]], "side": 2 } }),
+        ),
+        ("texels", json!("cutout")),
+        ("texel_form", json!("palette")),
+        ("reflection", json!(true)),
     ] {
         let path = format!("/objects/0/{name}");
         assert!(SceneFile::parse(&with(least(), &path, value.clone()).to_string()).is_ok());
@@ -127,7 +135,35 @@ fn lit(fields: Value) -> Value {
 /// Each of two fields is accepted alone. Kills: a line of the table left out, or of another field.
 #[test]
 fn two_fields_of_an_object_that_contradict_each_other_are_named() {
+    let squares =
+        json!({ "squares": { "size": [8, 8], "colours": [[0, 0, 0], [9, 9, 9]], "side": 2 } });
+    let computed = json!({ "computed": squares });
     for (one, other, names) in [
+        (
+            computed.clone(),
+            json!({ "texture": "t.png" }),
+            "`computed` and `texture`",
+        ),
+        (
+            computed.clone(),
+            json!({ "levels": true }),
+            "`computed` and `levels`",
+        ),
+        (
+            computed.clone(),
+            json!({ "texels": "cutout" }),
+            "`computed` and `texels`",
+        ),
+        (
+            computed,
+            json!({ "texel_form": "words" }),
+            "`computed` and `texel_form`",
+        ),
+        (
+            json!({ "texels": "alpha", "blend": "add" }),
+            json!({ "texel_form": "compressed" }),
+            "`texels` alpha and `texel_form` compressed",
+        ),
         (
             json!({ "shade": "none" }),
             json!({ "specular": 0.5 }),
@@ -163,6 +199,15 @@ fn two_fields_of_an_object_that_contradict_each_other_are_named() {
     );
     let line = refusal(&lit(json!({ "priority": 1 })));
     assert!(line.starts_with("`shadows` and `priority`"), "{line}");
+    let doubled = with(least(), "/doubled", json!(true));
+    let window = json!({ "left": 0, "top": 0, "width": 3, "height": 3 });
+    let line = refusal(&with(doubled.clone(), "/objects/0/window", window));
+    assert!(
+        line.contains("object 0: `window` and `doubled` cannot"),
+        "{line}"
+    );
+    let line = refusal(&with(doubled, "/size", json!([16, 13])));
+    assert!(line.contains("`doubled` needs an even `size`"), "{line}");
     for accepted in [
         json!({ "writes_depth": true }),
         json!({ "writes_depth": false, "blend": "add" }),
@@ -184,7 +229,10 @@ fn what_is_out_of_range_or_unknown_is_one_line() {
     let lit = lit(json!({}));
     let lights = |count| Value::from(vec![json!({ "towards": [0, 0, 1] }); count]);
     let palette = |line: u32, count| json!({ "from_line": line, "colours": vec![[0; 3]; count] });
+    let gradient = |size: [u32; 2], length: u32| json!({ "gradient": { "size": size, "from": [0, 0, 0], "to": [9, 9, 9], "length": length } });
     assert!(SceneFile::parse(&with(least(), "/lights", lights(8)).to_string()).is_ok());
+    let ramp = with(least(), "/objects/0/computed", gradient([1024, 1], 2048));
+    assert!(SceneFile::parse(&ramp.to_string()).is_ok());
     for (scene, path, value) in [
         (least(), "/size", json!([0, 4])),
         (least(), "/size", json!([4, 8193])),
@@ -220,6 +268,18 @@ fn what_is_out_of_range_or_unknown_is_one_line() {
         (least(), "/objects/0/priority", json!(256)),
         (least(), "/objects/0/cull", json!("front")),
         (least(), "/objects/0/filter", json!("cubic")),
+        (least(), "/objects/0/texels", json!("holes")),
+        (least(), "/objects/0/texel_form", json!("bytes")),
+        (least(), "/objects/0/computed", json!({})),
+        (
+            least(),
+            "/objects/0/computed",
+            json!({ "squares": { "size": [8, 8], "side": 2 } }),
+        ),
+        (least(), "/objects/0/computed", gradient([8, 9], 4)),
+        (least(), "/objects/0/computed", gradient([2048, 8], 4)),
+        (least(), "/objects/0/computed", gradient([8, 8], 3)),
+        (least(), "/objects/0/computed", gradient([8, 8], 4096)),
         (least(), "/objects/0/quality", json!("good")),
         (least(), "/objects/0/application", json!("modulate")),
         (

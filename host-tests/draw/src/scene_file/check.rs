@@ -1,6 +1,6 @@
 //! What a scene file may say, and what cannot be had together.
 
-use super::{ApplicationKind, Format, Item, SceneFile, ShadeKind};
+use super::{ApplicationKind, FormKind, Format, Item, SceneFile, ShadeKind, TexelsKind};
 use crate::choice::MAX_SIDE;
 use std::path::PathBuf;
 
@@ -16,6 +16,9 @@ const INDEXED: &str = "surfaces have an index there";
 /// Surfaces of scenes with priorities.
 const RANKED: &str = "what has priorities has no depth";
 
+/// Texels without a picture.
+const COMPUTED: &str = "there is no picture then";
+
 /// What cannot be had together, and why: a word of an object, and another or one of its scene.
 const APART: &[(&str, &str, &str)] = &[
     ("`texture`", "`palettes`", INDEXED),
@@ -23,6 +26,11 @@ const APART: &[(&str, &str, &str)] = &[
     ("`levels`", "`palettes`", INDEXED),
     ("`quality`", "`palettes`", INDEXED),
     ("`application`", "`palettes`", INDEXED),
+    ("`computed`", "`palettes`", INDEXED),
+    ("`texels`", "`palettes`", INDEXED),
+    ("`texel_form`", "`palettes`", INDEXED),
+    ("`cached`", "`palettes`", INDEXED),
+    ("`reflection`", "`palettes`", INDEXED),
     ("`shade`", "`palettes`", INDEXED),
     ("`blend`", "`palettes`", INDEXED),
     ("`depth`", "`palettes`", INDEXED),
@@ -30,6 +38,20 @@ const APART: &[(&str, &str, &str)] = &[
     ("`priority`", "`palettes`", INDEXED),
     ("`depth`", "`priority`", RANKED),
     ("`writes_depth`", "`priority`", RANKED),
+    ("`computed`", "`texture`", "an object has one of them"),
+    ("`computed`", "`levels`", COMPUTED),
+    ("`computed`", "`texels`", COMPUTED),
+    ("`computed`", "`texel_form`", COMPUTED),
+    (
+        "`window`",
+        "`doubled`",
+        "windows are in pixels of the picture",
+    ),
+    (
+        "`texels` alpha",
+        "`texel_form` compressed",
+        "blocks have holes alone",
+    ),
     (
         "`shade` none",
         "`specular`",
@@ -52,6 +74,8 @@ const APART: &[(&str, &str, &str)] = &[
 const NEEDS: &[(&str, &str)] = &[
     ("`alpha`", "`blend`"),
     ("`index`", "`palettes`"),
+    ("`texels` alpha", "`blend`"),
+    ("`cached`", "`texel_form` compressed"),
     ("`shade` none", "`lights`"),
     ("`specular`", "`lights`"),
     ("`shininess`", "`specular`"),
@@ -59,13 +83,22 @@ const NEEDS: &[(&str, &str)] = &[
 ];
 
 /// What an object says of its pictures.
-const OF_PICTURES: &[&str] = &["`filter`", "`levels`", "`quality`", "`application`"];
+const OF_PICTURES: &[&str] = &[
+    "`filter`",
+    "`levels`",
+    "`quality`",
+    "`application`",
+    "`texels`",
+    "`texel_form`",
+    "`reflection`",
+];
 
 /// What a scene cannot have together, and why.
 const SCENE_APART: &[(&str, &str, &str)] = &[
     ("`palettes`", "`lights`", INDEXED),
     ("`palettes`", "`dither`", INDEXED),
     ("`palettes`", "`background`", INDEXED),
+    ("`palettes`", "`doubled`", "indices have no mean"),
     ("`shadows`", "`priority`", "shadows are found by depth"),
 ];
 
@@ -116,7 +149,7 @@ impl SceneFile {
     }
 
     /// What it says itself, and whether that is said.
-    fn says(&self) -> [(&'static str, bool); 8] {
+    fn says(&self) -> [(&'static str, bool); 9] {
         [
             ("`palettes`", self.has_palettes()),
             ("`lights`", !self.lights.is_empty()),
@@ -125,6 +158,7 @@ impl SceneFile {
             ("`background`", self.background.is_some()),
             ("`priority`", self.has_priorities()),
             ("`phong`", self.phong),
+            ("`doubled`", self.doubled),
             ("`shadows`", self.has_shadows()),
         ]
     }
@@ -143,6 +177,9 @@ impl SceneFile {
         hold(&Said(&says), &Said(&says), SCENE_APART, SCENE_NEEDS)?;
         if self.dither && self.format != Format::Rgb565 && !self.has_palettes() {
             return Err("`dither` needs `format` rgb565".into());
+        }
+        if self.doubled && self.size.iter().any(|side| side % 2 != 0) {
+            return Err("`doubled` needs an even `size`".into());
         }
         self.check_palettes()
     }
@@ -204,6 +241,9 @@ impl SceneFile {
         if !item.turn.iter().chain(&item.place).all(|v| is_finite(v)) {
             return Err("`turn` and `place` must be finite".into());
         }
+        if let Some(computed) = &item.computed {
+            computed.check()?;
+        }
         let specular = item.specular.map_or([0.0; 3], Into::into);
         if !specular.iter().all(|level| (0.0..=1.0).contains(level)) {
             return Err("`specular` must be from 0 to 1".into());
@@ -229,6 +269,7 @@ impl Item {
     /// What it says, and whether that is said.
     fn says(&self) -> Vec<(&'static str, bool)> {
         let keeps_none = self.blend.is_none() && self.writes_depth == Some(false);
+        let is_compressed = self.texel_form == Some(FormKind::Compressed);
         let replaces = self.application == Some(ApplicationKind::Replace);
         vec![
             ("`texture`", self.texture.is_some()),
@@ -241,7 +282,15 @@ impl Item {
             ("`depth`", self.depth.is_some()),
             ("`writes_depth`", self.writes_depth.is_some()),
             ("`priority`", self.priority.is_some()),
+            ("`window`", self.window.is_some()),
             ("`index`", self.index.is_some()),
+            ("`computed`", self.computed.is_some()),
+            ("`texels`", self.texels.is_some()),
+            ("`texels` alpha", self.texels == Some(TexelsKind::Alpha)),
+            ("`texel_form`", self.texel_form.is_some()),
+            ("`texel_form` compressed", is_compressed),
+            ("`cached`", self.cached.is_some()),
+            ("`reflection`", self.reflection.is_some()),
             ("`shade`", self.shade.is_some()),
             ("`shade` none", self.shade == Some(ShadeKind::None)),
             ("`specular`", self.specular.is_some()),

@@ -2,8 +2,9 @@
 
 use crate::FilterArg;
 use scanbeam::Cull;
-use scanbeam::scene::{Application, Blend, BlendMode, Budget, DepthFunction, DepthTest};
+use scanbeam::scene::{Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Texture};
 use serde::Deserialize;
+use serde_json::Value;
 use std::path::PathBuf;
 
 /// A model that stands in the scene.
@@ -20,6 +21,16 @@ pub struct Item {
     pub place: Option<[f64; 3]>,
     /// Picture for all of it in place of those of its materials, from the folder of the scene.
     pub texture: Option<PathBuf>,
+    /// Texels that are computed, in place of a picture.
+    pub computed: Option<Computed>,
+    /// What is done with the transparency of its pictures.
+    pub texels: Option<TexelsKind>,
+    /// How its pictures lie in memory.
+    pub texel_form: Option<FormKind>,
+    /// Whether compressed pictures are read through a cache.
+    pub cached: Option<bool>,
+    /// Whether places on its pictures are made of its normals.
+    pub reflection: Option<bool>,
     /// How texels are taken from its pictures.
     pub filter: Option<FilterArg>,
     /// Whether its pictures have levels of detail.
@@ -117,6 +128,85 @@ impl From<ApplicationKind> for Application {
     }
 }
 
+/// Texels without a picture.
+#[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
+pub enum Computed {
+    /// Squares of two colours in turn.
+    Squares {
+        /// Columns and rows of texels.
+        size: [u32; 2],
+        /// The first one's square is at the upper left.
+        colours: [[u8; 3]; 2],
+        /// Texels a side of a square.
+        side: u32,
+    },
+    /// A colour that goes from one to another along the columns, and back again.
+    Gradient {
+        /// Columns and rows of texels.
+        size: [u32; 2],
+        /// The colour at the left.
+        from: [u8; 3],
+        /// The other one.
+        to: [u8; 3],
+        /// Columns from one to the other.
+        length: u32,
+    },
+}
+
+impl Computed {
+    /// Columns and rows of texels.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        match self {
+            Self::Squares { size, .. } | Self::Gradient { size, .. } => *size,
+        }
+    }
+
+    /// Why it cannot be drawn, if it cannot.
+    pub(super) fn check(&self) -> Result<(), String> {
+        let is_power = |value: u32, most: u32| value.is_power_of_two() && value <= most;
+        if !(self.size().iter()).all(|&side| is_power(side, Texture::MAX_SIDE)) {
+            let most = Texture::MAX_SIDE;
+            return Err(format!(
+                "`size` of `computed` must be powers of two up to {most}"
+            ));
+        }
+        let (name, value, most) = match self {
+            Self::Squares { side, .. } => ("side", *side, 1 << 15),
+            Self::Gradient { length, .. } => ("length", *length, 1 << 11),
+        };
+        match is_power(value, most) {
+            true => Ok(()),
+            false => Err(format!(
+                "`{name}` of `computed` must be a power of two up to {most}"
+            )),
+        }
+    }
+}
+
+/// What is done with transparency.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TexelsKind {
+    /// Texels of an alpha below 128 are holes.
+    Cutout,
+    /// The alpha of texels is one of the blend.
+    Alpha,
+}
+
+/// Forms of texels in memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FormKind {
+    /// 16 bits each.
+    Words,
+    /// 4 bits each: 16 colours.
+    Palette,
+    /// 4 bits each, in blocks of 4 x 4.
+    Compressed,
+}
+
 /// How light falls on surfaces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -131,12 +221,27 @@ pub enum ShadeKind {
 
 /// The level of highlights.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(untagged)]
+#[serde(try_from = "Value")]
 pub enum Specular {
     /// One, 0 to 1.
     Level(f64),
     /// Of red, green and blue, 0 to 1 each.
     Colour([f64; 3]),
+}
+
+impl TryFrom<Value> for Specular {
+    type Error = String;
+
+    fn try_from(value: Value) -> Result<Self, String> {
+        let channels: Option<Vec<f64>> = match &value {
+            Value::Array(channels) => channels.iter().map(Value::as_f64).collect(),
+            _ => None,
+        };
+        let colour = channels.and_then(|channels| <[f64; 3]>::try_from(channels).ok());
+        let level = value.as_f64().map(Self::Level);
+        let specular = level.or(colour.map(Self::Colour));
+        specular.ok_or_else(|| "`specular` must be a number, or three".into())
+    }
 }
 
 impl From<Specular> for [f64; 3] {

@@ -1,8 +1,10 @@
 //! The models and pictures that a scene names.
 
 use super::{Item, SceneFile};
+use crate::scenes::check;
 use crate::{TextureSet, TextureSetError};
 use host_support::model::{Model, ModelError};
+use host_support::texture_file::TextureImage;
 use std::path::{Path, PathBuf};
 
 /// Why a scene cannot be loaded.
@@ -113,11 +115,9 @@ impl Part {
     fn load(item: &Item, folder: &Path, indexed: bool) -> Result<Self, SceneFileError> {
         let file = folder.join(&item.model);
         let model = Model::load(&file)?;
-        let picture = item.texture.as_ref().map(|picture| folder.join(picture));
-        let textures = if indexed {
-            Ok(TextureSet::default())
-        } else {
-            TextureSet::load(&model, picture.as_deref())
+        let textures = match indexed {
+            true => Ok(TextureSet::default()),
+            false => Self::textures(item, folder, &model),
         };
         let textures = textures.map_err(|error| SceneFileError::Textures { file, error })?;
         Ok(Self {
@@ -127,12 +127,35 @@ impl Part {
         })
     }
 
-    /// Whether it has what its fields are about.
-    fn check(&self) -> Result<(), String> {
-        let of_pictures = self.item.says_of_pictures();
-        match of_pictures.filter(|_| self.textures.is_empty()) {
-            Some(field) => Err(format!("{field} needs `texture`, or pictures of materials")),
-            None => Ok(()),
+    /// The textures of a model: computed, of a file, or of its materials.
+    fn textures(item: &Item, folder: &Path, model: &Model) -> Result<TextureSet, TextureSetError> {
+        let set = match &item.computed {
+            Some(computed) => TextureSet::whole(model, TextureImage::blank(computed.size())),
+            None => {
+                let picture = item.texture.as_ref().map(|picture| folder.join(picture));
+                TextureSet::load_any(model, picture.as_deref())?
+            }
+        };
+        match item.reflection {
+            // Places are made of normals.
+            Some(true) => Ok(set),
+            _ => set.placed(model),
         }
+    }
+
+    /// Whether its pictures are what its fields ask of them.
+    fn check(&self) -> Result<(), String> {
+        let item = &self.item;
+        let of_pictures = item.says_of_pictures();
+        if let Some(field) = of_pictures.filter(|_| self.textures.is_empty()) {
+            return Err(format!(
+                "{field} needs `texture`, `computed`, or pictures of materials"
+            ));
+        }
+        let images = self.textures.images();
+        if item.texels.is_some() && images.iter().all(|image| image.alpha.is_none()) {
+            return Err("`texels` needs a picture in which something is transparent".into());
+        }
+        images.iter().try_for_each(|image| check(item, image))
     }
 }

@@ -9,7 +9,8 @@ mod item;
 mod load;
 
 pub use item::{
-    ApplicationKind, BlendKind, CullSide, Cutout, DepthKind, Item, QualityKind, ShadeKind, Specular,
+    ApplicationKind, BlendKind, Computed, CullSide, Cutout, DepthKind, FormKind, Item, QualityKind,
+    ShadeKind, Specular, TexelsKind,
 };
 pub use load::{Loaded, Part, SceneFileError};
 
@@ -41,6 +42,9 @@ pub struct SceneFile {
     /// Whether light is reckoned at each pixel.
     #[serde(default)]
     pub phong: bool,
+    /// Whether it is drawn at half its size and interpolated.
+    #[serde(default)]
+    pub doubled: bool,
     /// Palettes, each from a line on; with them surfaces have an index instead of colours.
     #[serde(default)]
     pub palettes: Vec<Palette>,

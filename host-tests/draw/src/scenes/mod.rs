@@ -5,21 +5,28 @@
 //! |---|---|
 //! | `placed.rs` | an object where it stands |
 //! | `light.rs` | the lights, on each object |
+//! | `store.rs` | what is in memory of pictures |
+//! | `texels.rs` | textures that read it |
 //! | `worn.rs` | the draw calls and their order |
+//! | `doubled.rs` | scenes that are drawn at half their size |
 //! | `palettes.rs` | scenes in palettes |
 
+mod doubled;
 mod light;
 mod palettes;
 mod placed;
+mod store;
+mod texels;
 mod worn;
+
+pub(crate) use store::check;
 
 use crate::choice::PixelFormatArg;
 use crate::formats::{Picture, draw_in, refused};
 use crate::parts::{Job, MOST_OBJECTS, MOST_VERTICES, room_for};
 use crate::scene_file::{Loaded, SceneFile, ShadeKind};
 use crate::setting::focal;
-use crate::textured::Texels16;
-use crate::{CrewSettings, DrawFailure, Drawn, Skins};
+use crate::{CrewSettings, DrawFailure, Drawn};
 use host_support::reference::View;
 use light::{AtPixels, SceneLights};
 use placed::Placed;
@@ -64,9 +71,15 @@ pub fn draw_scene_file(
     format: PixelFormatArg,
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure> {
+    let size = [view.width, view.height];
+    let mut view = view.clone();
+    if parts.scene.doubled {
+        (view.width, view.height) = (doubled::half(size[0]), doubled::half(size[1]));
+    }
     let task = Task {
         parts,
-        job: job(parts, view, crew)?,
+        job: job(parts, &view, crew)?,
+        size,
         dither: format == PixelFormatArg::Dithered565,
     };
     match (format, parts.scene.has_palettes()) {
@@ -120,6 +133,8 @@ fn job(parts: &SceneParts<'_>, view: &View, crew: CrewSettings) -> Result<Job, D
 struct Task<'a> {
     parts: &'a SceneParts<'a>,
     job: Job,
+    /// Columns and lines that are shown.
+    size: [u32; 2],
     dither: bool,
 }
 
@@ -142,25 +157,11 @@ impl Picture for Task<'_> {
         Textured<F>: Look<Pixel = F, Planes: Send>,
         TexturedPhong<F>: Look<Pixel = F, Planes: Send>,
     {
-        let parts = &self.parts.parts;
-        let texels: Vec<_> = (parts.iter())
-            .map(|part| Texels16::of::<T>(part.textures))
-            .collect();
-        let coarser: Result<Vec<_>, _> = texels.iter().map(Texels16::coarser).collect();
-        let coarser = coarser?;
-        let mut textures = Vec::new();
-        for ((part, texels), coarser) in parts.iter().zip(&texels).zip(&coarser) {
-            let skins = Skins {
-                set: part.textures,
-                filter: part.item.filter.unwrap_or_default(),
-                budget: part.budget(),
-            };
-            textures.push(texels.textures(coarser, skins)?);
-        }
-        match self.parts.scene.phong {
-            false => self.draw::<Textured<F>, F>(&textures),
-            true => self.draw::<TexturedPhong<F>, F>(&textures),
-        }
+        let is_phong = self.parts.scene.phong;
+        texels::with_textures::<T>(&self.parts.parts, |textures| match is_phong {
+            false => self.draw::<Textured<F>, F>(textures),
+            true => self.draw::<TexturedPhong<F>, F>(textures),
+        })
     }
 }
 
@@ -184,6 +185,10 @@ impl Task<'_> {
             at_pixels: &at_pixels,
             dither: self.dither,
         };
-        worn.draw_all::<L, F>(&self.job)
+        let drawn = worn.draw_all::<L, F>(&self.job)?;
+        match self.parts.scene.doubled {
+            true => doubled::doubled::<F>(drawn, self.size),
+            false => Ok(drawn),
+        }
     }
 }

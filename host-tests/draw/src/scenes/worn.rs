@@ -15,7 +15,8 @@ use scanbeam::light::DirectionalLight;
 use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{
-    Application, DepthTest, DrawError, Lights, Scissor, Shading, Shadow, ShadowLight, Skin, Texture,
+    Application, DepthTest, DrawError, Lights, Scissor, Shading, Shadow, ShadowLight, Skin, TexGen,
+    Texture,
 };
 use scanbeam::{Draw, Mesh, Scene};
 
@@ -199,6 +200,7 @@ impl<'t> Worn<'_, 't> {
                 places: &chunk.places,
                 budget: part.budget(),
             }),
+            texgen: item.reflection.unwrap_or(false).then_some(TexGen::SPHERE),
             application: (item.application).map_or(Application::Product, Application::from),
             scissor: scissor(item, tile),
             depth: if is_dark {
