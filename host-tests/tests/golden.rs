@@ -8,6 +8,7 @@ use host_tests::golden::{self, BLESS_VARIABLE, Pictures};
 use host_tests::image_out::{Frame, write_image};
 use host_tests::model::obj_text;
 use std::fs;
+use std::path::Path;
 
 /// Pictures that the tool draws, 160 x 120: a name, a model of [`desk`], and flags.
 ///
@@ -109,6 +110,9 @@ const RENDERS: &[(&str, &str, &str)] = &[
     ),
 ];
 
+/// The scene files of the repository.
+const SCENES: &[&str] = &["cards", "court", "dusk", "room", "yard"];
+
 /// The models, and what they need beside them.
 fn desk() -> Desk {
     let desk = Desk::new("");
@@ -167,6 +171,12 @@ fn pictures_are_those_of_the_record() {
             drawn.insert(format!("render {name}"), crc).is_none(),
             "{name} twice"
         );
+    }
+    for name in SCENES {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scene-files");
+        let (frame, _) = desk.told(&format!("render {}/{name}.json -o o.png", file.display()));
+        let crc = crc32fast::hash(frame.rgb());
+        drawn.insert(format!("scene {name}"), crc);
     }
     let bless = std::env::var_os(BLESS_VARIABLE).is_some_and(|value| !value.is_empty());
     if let Err(error) = golden::judge(&golden::path(), &drawn, bless) {

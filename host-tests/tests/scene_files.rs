@@ -5,11 +5,12 @@ use crate::command_line::Desk;
 use crate::texture_cli::ROUNDED;
 use host_tests::image_out::{Frame, read_image, write_image};
 use serde_json::{Value, json};
+use std::collections::BTreeSet;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Two triangles from -1 to 1 in x and y, in one colour.
-fn square(colour: &str) -> String {
+pub(crate) fn square(colour: &str) -> String {
     let corners = [(-1, -1), (1, -1), (1, 1), (-1, 1)];
     let vertex = |(x, y)| format!("v {x} {y} 0 {colour}\nvn 0 0 1\n");
     let vertices: String = corners.map(vertex).concat();
@@ -18,7 +19,7 @@ fn square(colour: &str) -> String {
 }
 
 /// A folder with a red and a white square.
-fn desk() -> Desk {
+pub(crate) fn desk() -> Desk {
     let desk = Desk::new("");
     fs::write(desk.path("red.obj"), square("1 0 0")).unwrap();
     fs::write(desk.path("white.obj"), square("1 1 1")).unwrap();
@@ -26,7 +27,7 @@ fn desk() -> Desk {
 }
 
 /// A picture of 16 x 16 pixels over -1 to 1 at z = 0.
-fn scene(objects: Value) -> Value {
+pub(crate) fn scene(objects: Value) -> Value {
     json!({
         "size": [16, 16],
         "camera": { "eye": [0, 0, 4], "at": [0, 0, 0], "fov": 28.072486935852957 },
@@ -34,29 +35,31 @@ fn scene(objects: Value) -> Value {
     })
 }
 
-fn drawn(desk: &Desk, scene: &Value) -> Frame {
+pub(crate) fn drawn(desk: &Desk, scene: &Value) -> Frame {
     fs::write(desk.path("s.json"), scene.to_string()).unwrap();
     let (frame, said) = desk.told("render s.json -o o.png");
     // Models of the tests have textures where an object has one.
     let objects = scene["objects"].as_array().unwrap();
-    let textured = objects.iter().any(|object| object.get("texture").is_some());
+    let is_textured =
+        |object: &Value| object.get("texture").is_some() || object.get("computed").is_some();
+    let textured = objects.iter().any(is_textured);
     let is_rounded = textured && scene["format"] != "rgb565";
     assert_eq!(said, if is_rounded { ROUNDED } else { "" }, "{scene}");
     frame
 }
 
-fn at(frame: &Frame, x: usize, y: usize) -> [u8; 3] {
+pub(crate) fn at(frame: &Frame, x: usize, y: usize) -> [u8; 3] {
     let at = 3 * (16 * y + x);
     frame.rgb()[at..at + 3].try_into().unwrap()
 }
 
 /// Whether each channel is within a level.
-fn near(a: [u8; 3], b: [u8; 3]) -> bool {
+pub(crate) fn near(a: [u8; 3], b: [u8; 3]) -> bool {
     a.iter().zip(b).all(|(a, b)| a.abs_diff(b) <= 1)
 }
 
-const RED: [u8; 3] = [255, 0, 0];
-const WHITE: [u8; 3] = [255; 3];
+pub(crate) const RED: [u8; 3] = [255, 0, 0];
+pub(crate) const WHITE: [u8; 3] = [255; 3];
 
 #[test]
 fn objects_stand_where_they_are_placed() {
@@ -215,7 +218,7 @@ fn textures_formats_and_dither_are_those_of_the_file() {
         let picture = drawn(&desk, &scene);
         let colours = (0..16).flat_map(|y| (0..6).map(move |x| (x, y)));
         let colours: Vec<[u8; 3]> = colours.map(|(x, y)| at(&picture, x, y)).collect();
-        let distinct: std::collections::BTreeSet<_> = colours.iter().collect();
+        let distinct: BTreeSet<_> = colours.iter().collect();
         (distinct.len(), colours[0])
     };
     for objects in [&textured, &plain] {
@@ -302,19 +305,56 @@ fn what_cannot_be_read_or_does_nothing_is_refused() {
     assert!(shown.status.success(), "{shown:?}");
 }
 
+/// The folder of the examples.
+fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scene-files")
+}
+
+/// The scene files in it.
+fn example_files() -> Vec<PathBuf> {
+    let entries = fs::read_dir(examples()).unwrap();
+    let files = entries.map(|entry| entry.unwrap().path());
+    let is_scene = |file: &PathBuf| {
+        file.extension()
+            .is_some_and(|extension| extension == "json")
+    };
+    files.filter(is_scene).collect()
+}
+
+/// Each field that the guide has is in an example, and each field of an example is in the guide. Kills: a field that is in
+/// no table, or in none of the files.
+#[test]
+fn the_guide_has_the_fields_of_the_examples() {
+    let guide = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src/guide/scene_files.md");
+    let guide = fs::read_to_string(guide).unwrap();
+    let rows = guide.lines().filter(|line| line.starts_with("| `"));
+    let fields: BTreeSet<&str> = rows
+        .flat_map(|row| row.split('|').nth(1).unwrap().split('`').skip(1).step_by(2))
+        .collect();
+    let mut said = BTreeSet::new();
+    for file in example_files() {
+        let scene: Value = serde_json::from_str(&fs::read_to_string(file).unwrap()).unwrap();
+        let objects = scene["objects"].as_array().unwrap();
+        for part in objects.iter().chain([&scene]) {
+            said.extend(part.as_object().unwrap().keys().cloned());
+        }
+        for lamp in scene["lights"].as_array().into_iter().flatten() {
+            for name in lamp.as_object().unwrap().keys() {
+                assert!(guide.contains(&format!("`{name}`")), "{name}");
+            }
+        }
+    }
+    let said: BTreeSet<&str> = said.iter().map(String::as_str).collect();
+    assert_eq!(fields, said);
+}
+
 /// The examples in the repository draw, and nothing in them is in vain.
 #[test]
 fn every_object_of_the_examples_is_seen() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scene-files");
-    let mut count = 0;
-    for entry in fs::read_dir(&folder).unwrap() {
-        let file = entry.unwrap().path();
-        if file.extension().is_none_or(|extension| extension != "json") {
-            continue;
-        }
-        count += 1;
+    let files = example_files();
+    for file in &files {
         let desk = Desk::new("");
-        for entry in fs::read_dir(&folder).unwrap() {
+        for entry in fs::read_dir(examples()).unwrap() {
             let file = entry.unwrap().path();
             fs::copy(
                 &file,
@@ -322,7 +362,7 @@ fn every_object_of_the_examples_is_seen() {
             )
             .unwrap();
         }
-        let text = fs::read_to_string(&file).unwrap();
+        let text = fs::read_to_string(file).unwrap();
         let scene: Value = serde_json::from_str(&text).unwrap();
         let whole = drawn(&desk, &scene);
         for (number, _) in scene["objects"].as_array().unwrap().iter().enumerate() {
@@ -336,5 +376,5 @@ fn every_object_of_the_examples_is_seen() {
             );
         }
     }
-    assert_eq!(count, 2);
+    assert_eq!(files.len(), 5);
 }

@@ -7,7 +7,7 @@
 use super::formats::{Picture, draw_in};
 use super::parts::{Job, MOST_OBJECTS, MOST_VERTICES, Tile, draw_parts, room_for, tiles};
 use super::prepared::{Chunk, Prepared, ShadowMesh, colour8};
-use super::setting::unit;
+use super::setting::{level, unit};
 use super::textured::Texels16;
 use super::{CrewSettings, DrawFailure, Drawn, Setting, Skins};
 use crate::choice::PixelFormatArg;
@@ -75,9 +75,9 @@ impl Looks {
 
     /// Where no material is in force.
     fn plain(specular: Option<(f64, u16)>) -> Self {
-        let (level, shininess) = specular.unwrap_or((0.0, 1));
+        let (ks, shininess) = specular.unwrap_or((0.0, 1));
         Self {
-            specular: [self::level(level); 3],
+            specular: [level(ks); 3],
             shininess,
             alpha: 255,
             colour: [255; 3],
@@ -93,12 +93,8 @@ impl Looks {
     }
 }
 
-fn level(value: f64) -> U1F15 {
-    U1F15::from_bits((value.clamp(0.0, 1.99) * 32_768.0).round() as u16)
-}
-
 /// The colour of a triangle whose corners have one, 8 bits a channel.
-fn colour_of(model: &Model, triangle: usize) -> Option<[u8; 3]> {
+pub(crate) fn colour_of(model: &Model, triangle: usize) -> Option<[u8; 3]> {
     let colours = model.triangles[triangle].map(|i| colour8(model.vertices[i as usize].colour));
     let [a, b, c] = colours;
     (a == b && b == c).then_some(a)

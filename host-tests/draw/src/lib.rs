@@ -32,6 +32,7 @@ use host_support::image_out::Frame;
 use host_support::mock::{HostLine, MockError, MockFrameBuffer};
 use scanbeam::frame::{FrameError, FrameUse};
 use scanbeam::scan_out::Pump;
+use scanbeam::scene::CacheReads;
 use scanbeam::stats::SpanCounts;
 use serde_json::json;
 
@@ -148,6 +149,8 @@ pub struct Drawn {
     pub figures: Figures,
     /// What is left out.
     pub overfull: Option<Overfull>,
+    /// What caches of texels did, all together; `None` where there are none.
+    pub texels: Option<CacheReads>,
 }
 
 impl Drawn {
@@ -194,6 +197,13 @@ impl Drawn {
                 "line_bytes": figures.line_bytes,
             },
         });
+        if let Some(texels) = &self.texels {
+            all["texel_cache"] = json!({
+                "reads": texels.reads,
+                "page_changes": texels.page_changes,
+                "misses": texels.misses,
+            });
+        }
         if let Some(spans) = &self.spans {
             all["spans"] = json!(spans.spans);
             all["spans_hidden"] = json!(spans.spans_hidden);

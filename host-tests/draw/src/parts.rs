@@ -227,6 +227,7 @@ where
         spans: parts.spans,
         figures: parts.figures,
         overfull: parts.overfull,
+        texels: None,
     })
 }
 

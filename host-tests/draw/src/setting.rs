@@ -2,6 +2,7 @@
 
 use crate::{DrawFailure, Prepared};
 use host_support::reference::{Cull, Shade, View};
+use scanbeam::mesh::U1F15;
 use scanbeam::scene::Shading;
 use scanbeam::{Affine, Camera, Light};
 
@@ -91,4 +92,9 @@ pub(crate) fn focal(view: &View) -> f32 {
 pub(crate) fn unit(v: [f64; 3]) -> [f32; 3] {
     let largest = v.iter().fold(0.0f64, |m, c| m.max(c.abs()));
     v.map(|c| (c / largest) as f32)
+}
+
+/// A level of light, 0 to below 2.
+pub(crate) fn level(value: f64) -> U1F15 {
+    U1F15::from_bits((value.clamp(0.0, 1.99) * 32_768.0).round() as u16)
 }

@@ -6,11 +6,13 @@ use host_support::model::Model;
 use host_support::texture_file::{LEVELS, TextureFileError, TextureImage, of_materials};
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{self, Budget, Sampling};
+use serde::Deserialize;
 use std::collections::BTreeSet;
 use std::path::Path;
 
 /// How texels are taken from a texture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum FilterArg {
     /// The nearest texel
     #[default]
@@ -46,7 +48,12 @@ impl TextureSet {
     /// # Errors
     /// A picture that cannot be read; a model without texture places.
     pub fn load(model: &Model, file: Option<&Path>) -> Result<Self, TextureSetError> {
-        let set = match file {
+        Self::load_any(model, file)?.placed(model)
+    }
+
+    /// The same, whether or not the model has texture places.
+    pub(crate) fn load_any(model: &Model, file: Option<&Path>) -> Result<Self, TextureSetError> {
+        Ok(match file {
             Some(file) => Self::whole(model, TextureImage::load(file)?),
             None => {
                 let mut set = Self::default();
@@ -61,12 +68,16 @@ impl TextureSet {
                 set.of_triangle = model.triangle_materials.iter().map(number).collect();
                 set
             }
-        };
+        })
+    }
+
+    /// The set, unless its model has no texture places.
+    pub(crate) fn placed(self, model: &Model) -> Result<Self, TextureSetError> {
         let placeless = model.vertices.iter().all(|v| v.uv == [0.0; 2]);
-        if placeless && !model.vertices.is_empty() && !set.is_empty() {
-            return Err(TextureSetError::NoPlaces);
+        match placeless && !model.vertices.is_empty() && !self.is_empty() {
+            true => Err(TextureSetError::NoPlaces),
+            false => Ok(self),
         }
-        Ok(set)
     }
 
     /// One texture for all triangles.
@@ -96,6 +107,11 @@ impl TextureSet {
     pub fn notes(&self) -> impl Iterator<Item = &str> {
         let notes = self.images.iter().filter_map(|image| image.note.as_deref());
         notes.collect::<BTreeSet<_>>().into_iter()
+    }
+
+    /// Its pictures, by their numbers.
+    pub(crate) fn images(&self) -> &[TextureImage] {
+        &self.images
     }
 
     /// The texture of a triangle.

@@ -5,6 +5,7 @@
 
 mod effects;
 mod page;
+mod scene_files;
 #[cfg(test)]
 mod tests;
 
@@ -42,6 +43,7 @@ pub fn run(args: &ReportArgs) -> Result<(), Box<dyn Error>> {
     shots(&mut page)?;
     errors(&mut page)?;
     effects::effects(&mut page)?;
+    scene_files::scene_files(&mut page)?;
     accuracy_plots(&mut page)?;
     cache(&mut page)?;
     costs(&mut page)?;

@@ -1,5 +1,6 @@
 use super::effects::effects;
 use super::page::{Page, escaped, marked_up};
+use super::scene_files::{files, scene_files};
 use super::{cache, errors, memory, shots};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -26,12 +27,18 @@ fn no_picture_is_missing() {
     shots(&mut page).unwrap();
     errors(&mut page).unwrap();
     effects(&mut page).unwrap();
+    scene_files(&mut page).unwrap();
     cache(&mut page).unwrap();
     memory(&mut page);
     let page = page.finish();
     let sources = values(&page, " src");
-    // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, and 19 by draw calls.
-    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 19);
+    // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, 19 by draw calls,
+    // and the scene files, each named.
+    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 19 + 5);
+    for file in files().unwrap() {
+        let name = file.file_name().unwrap().to_str().unwrap();
+        assert!(page.contains(&format!("<code>{name}</code>: ")), "{name}");
+    }
     for source in sources {
         let data = source.strip_prefix("data:image/png;base64,").unwrap();
         let png = STANDARD.decode(data).unwrap();

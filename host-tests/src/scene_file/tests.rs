@@ -53,6 +53,7 @@ fn what_cannot_be_had_together_is_named() {
         ("lights", light.clone()),
         ("dither", json!(true)),
         ("background", json!([1, 2, 3])),
+        ("doubled", json!(true)),
     ] {
         let line = refusal(&with(indexed.clone(), &format!("/{name}"), value));
         let both = format!("`palettes` and `{name}` cannot be had together");
@@ -64,6 +65,18 @@ fn what_cannot_be_had_together_is_named() {
         ("depth", json!("nearer")),
         ("writes_depth", json!(false)),
         ("priority", json!(3)),
+        ("filter", json!("bilinear")),
+        ("levels", json!(false)),
+        ("quality", json!("exact")),
+        ("application", json!("replace")),
+        ("shade", json!("flat")),
+        (
+            "computed",
+            json!({ "squares": { "size": [8, 8], "colours": [[0, 0, 0], [9, 9, 9]], "side": 2 } }),
+        ),
+        ("texels", json!("cutout")),
+        ("texel_form", json!("palette")),
+        ("reflection", json!(true)),
     ] {
         let path = format!("/objects/0/{name}");
         assert!(SceneFile::parse(&with(least(), &path, value.clone()).to_string()).is_ok());
@@ -83,6 +96,23 @@ fn what_cannot_be_had_together_is_named() {
     assert!(SceneFile::parse(&ranked.to_string()).is_ok());
     for (path, value, what) in [
         ("/objects/0/index", json!(1), "`index` needs `palettes`"),
+        (
+            "/objects/0/shade",
+            json!("none"),
+            "`shade` none needs `lights`",
+        ),
+        (
+            "/objects/0/specular",
+            json!(0.5),
+            "`specular` needs `lights`",
+        ),
+        (
+            "/objects/0/shininess",
+            json!(9),
+            "`shininess` needs `specular`",
+        ),
+        ("/objects/0/shadow", json!(true), "`shadow` needs `shadows`"),
+        ("/phong", json!(true), "`phong` needs `lights`"),
         ("/objects/0/alpha", json!(1), "`alpha` needs `blend`"),
         ("/ambient", json!(0.5), "`ambient` needs `lights`"),
         ("/dither", json!(true), "`dither` needs `format` rgb565"),
@@ -92,12 +122,117 @@ fn what_cannot_be_had_together_is_named() {
     }
 }
 
+/// A scene with a light that throws shadows, and fields of its object.
+fn lit(fields: Value) -> Value {
+    let light = json!([{ "towards": [0, 0, 1], "shadows": true }]);
+    let mut scene = with(least(), "/lights", light);
+    for (name, value) in fields.as_object().unwrap() {
+        scene["objects"][0][name] = value.clone();
+    }
+    scene
+}
+
+/// Each of two fields is accepted alone. Kills: a line of the table left out, or of another field.
+#[test]
+fn two_fields_of_an_object_that_contradict_each_other_are_named() {
+    let squares =
+        json!({ "squares": { "size": [8, 8], "colours": [[0, 0, 0], [9, 9, 9]], "side": 2 } });
+    let computed = json!({ "computed": squares });
+    for (one, other, names) in [
+        (
+            computed.clone(),
+            json!({ "texture": "t.png" }),
+            "`computed` and `texture`",
+        ),
+        (
+            computed.clone(),
+            json!({ "levels": true }),
+            "`computed` and `levels`",
+        ),
+        (
+            computed.clone(),
+            json!({ "texels": "cutout" }),
+            "`computed` and `texels`",
+        ),
+        (
+            computed,
+            json!({ "texel_form": "words" }),
+            "`computed` and `texel_form`",
+        ),
+        (
+            json!({ "texels": "alpha", "blend": "add" }),
+            json!({ "texel_form": "compressed" }),
+            "`texels` alpha and `texel_form` compressed",
+        ),
+        (
+            json!({ "shade": "none" }),
+            json!({ "specular": 0.5 }),
+            "`shade` none and `specular`",
+        ),
+        (
+            json!({ "application": "replace" }),
+            json!({ "specular": 0.5 }),
+            "`application` replace and `specular`",
+        ),
+        (
+            json!({ "shadow": false }),
+            json!({ "blend": "add" }),
+            "`shadow` and `blend`",
+        ),
+    ] {
+        let mut both = one.clone();
+        both.as_object_mut()
+            .unwrap()
+            .extend(other.as_object().unwrap().clone());
+        for alone in [one, other] {
+            let scene = lit(alone);
+            assert!(SceneFile::parse(&scene.to_string()).is_ok(), "{scene}");
+        }
+        let line = refusal(&lit(both));
+        let both = format!("object 0: {names} cannot be had together");
+        assert!(line.starts_with(&both), "{line}");
+    }
+    let line = refusal(&lit(json!({ "writes_depth": false })));
+    assert!(
+        line.contains("`writes_depth` false and `shadows`"),
+        "{line}"
+    );
+    let line = refusal(&lit(json!({ "priority": 1 })));
+    assert!(line.starts_with("`shadows` and `priority`"), "{line}");
+    let doubled = with(least(), "/doubled", json!(true));
+    let window = json!({ "left": 0, "top": 0, "width": 3, "height": 3 });
+    let line = refusal(&with(doubled.clone(), "/objects/0/window", window));
+    assert!(
+        line.contains("object 0: `window` and `doubled` cannot"),
+        "{line}"
+    );
+    let line = refusal(&with(doubled, "/size", json!([16, 13])));
+    assert!(line.contains("`doubled` needs an even `size`"), "{line}");
+    for accepted in [
+        json!({ "writes_depth": true }),
+        json!({ "writes_depth": false, "blend": "add" }),
+        json!({ "depth": "always" }),
+    ] {
+        let scene = lit(accepted);
+        assert!(SceneFile::parse(&scene.to_string()).is_ok(), "{scene}");
+    }
+    let mut two = lit(json!({}));
+    let second = json!({ "towards": [1, 0, 0], "shadows": true });
+    two["lights"].as_array_mut().unwrap().push(second);
+    assert!(refusal(&two).contains("at most one of the `lights` throws `shadows`"));
+    two["lights"][0]["shadows"] = json!(false);
+    assert!(SceneFile::parse(&two.to_string()).is_ok());
+}
+
 #[test]
 fn what_is_out_of_range_or_unknown_is_one_line() {
-    let lit = with(least(), "/lights", json!([{ "towards": [0, 0, 1] }]));
+    let lit = lit(json!({}));
     let lights = |count| Value::from(vec![json!({ "towards": [0, 0, 1] }); count]);
     let palette = |line: u32, count| json!({ "from_line": line, "colours": vec![[0; 3]; count] });
+    let gradient = |size: [u32; 2], length: u32| json!({ "gradient": { "size": size, "from": [0, 0, 0], "to": [9, 9, 9], "length": length } });
     assert!(SceneFile::parse(&with(least(), "/lights", lights(8)).to_string()).is_ok());
+    let ramp = with(least(), "/objects/0/computed", gradient([1024, 1], 2048));
+    assert!(SceneFile::parse(&ramp.to_string()).is_ok());
     for (scene, path, value) in [
         (least(), "/size", json!([0, 4])),
         (least(), "/size", json!([4, 8193])),
@@ -111,6 +246,11 @@ fn what_is_out_of_range_or_unknown_is_one_line() {
         (least(), "/camera/tilt", json!(1)),
         (least(), "/lights", lights(9)),
         (lit.clone(), "/ambient", json!(1.5)),
+        (lit.clone(), "/objects/0/specular", json!(1.5)),
+        (lit.clone(), "/objects/0/specular", json!([0, 0, -1])),
+        (lit.clone(), "/objects/0/specular", json!([0, 0])),
+        (lit.clone(), "/objects/0/shininess", json!(65536)),
+        (lit.clone(), "/objects/0/shade", json!("phong")),
         (lit.clone(), "/lights/0/towards", json!([0, 0, 0])),
         (lit.clone(), "/lights/0/towards", json!([1e39, 0, 0])),
         (lit, "/lights/0/colour", json!([0, 0, 1.1])),
@@ -127,6 +267,21 @@ fn what_is_out_of_range_or_unknown_is_one_line() {
         (least(), "/objects/0/depth", json!("near")),
         (least(), "/objects/0/priority", json!(256)),
         (least(), "/objects/0/cull", json!("front")),
+        (least(), "/objects/0/filter", json!("cubic")),
+        (least(), "/objects/0/texels", json!("holes")),
+        (least(), "/objects/0/texel_form", json!("bytes")),
+        (least(), "/objects/0/computed", json!({})),
+        (
+            least(),
+            "/objects/0/computed",
+            json!({ "squares": { "size": [8, 8], "side": 2 } }),
+        ),
+        (least(), "/objects/0/computed", gradient([8, 9], 4)),
+        (least(), "/objects/0/computed", gradient([2048, 8], 4)),
+        (least(), "/objects/0/computed", gradient([8, 8], 3)),
+        (least(), "/objects/0/computed", gradient([8, 8], 4096)),
+        (least(), "/objects/0/quality", json!("good")),
+        (least(), "/objects/0/application", json!("modulate")),
         (
             least(),
             "/objects/0/window",

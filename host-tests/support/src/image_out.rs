@@ -333,12 +333,35 @@ fn encode_ppm(frame: &Frame) -> Vec<u8> {
     bytes
 }
 
+/// A picture with what it says of its transparency.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Cutout {
+    /// Its colours.
+    pub frame: Frame,
+    /// The alpha of each pixel, 255 for opaque; `None` where all are.
+    pub alpha: Option<Vec<u8>>,
+}
+
+impl From<Frame> for Cutout {
+    fn from(frame: Frame) -> Self {
+        Self { frame, alpha: None }
+    }
+}
+
 /// Reads a PNG (any colour type; transparency is dropped; of an animation the first frame), a JPEG, or a binary PPM of
 /// 8 bits, by the extension.
 ///
 /// # Errors
 /// Unknown extension, missing file, malformed or oversized picture.
 pub fn read_image(path: &Path) -> Result<Frame, ImageError> {
+    Ok(read_cutout(path)?.frame)
+}
+
+/// The same, with the transparency of a PNG.
+///
+/// # Errors
+/// As [`read_image`].
+pub fn read_cutout(path: &Path) -> Result<Cutout, ImageError> {
     let extension = path.extension().map(|text| text.to_ascii_lowercase());
     let jpeg = extension.is_some_and(|text| text == "jpg" || text == "jpeg");
     let format = match jpeg {
@@ -349,8 +372,8 @@ pub fn read_image(path: &Path) -> Result<Frame, ImageError> {
         std::fs::read(path).map_err(|error| ImageError::new(path, cannot("read", &error)))?;
     match format {
         Some(ImageFormat::Png) => decode_png(&bytes),
-        Some(ImageFormat::Ppm) => decode_ppm(&bytes),
-        None => decode_jpeg(&bytes),
+        Some(ImageFormat::Ppm) => decode_ppm(&bytes).map(Cutout::from),
+        None => decode_jpeg(&bytes).map(Cutout::from),
     }
     .map_err(|reason| ImageError::new(path, reason))
 }
@@ -362,7 +385,7 @@ pub fn read_image(path: &Path) -> Result<Frame, ImageError> {
 pub fn decode_image(bytes: &[u8]) -> Result<Frame, String> {
     match bytes {
         [0xFF, 0xD8, ..] => decode_jpeg(bytes),
-        _ => decode_png(bytes),
+        _ => Ok(decode_png(bytes)?.frame),
     }
 }
 
@@ -379,7 +402,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<Frame, String> {
         .ok_or_else(|| "is not a good JPEG: wrong length".into())
 }
 
-fn decode_png(bytes: &[u8]) -> Result<Frame, String> {
+fn decode_png(bytes: &[u8]) -> Result<Cutout, String> {
     let malformed = |error: png::DecodingError| format!("is not a good PNG: {error}");
     let mut decoder = png::Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(png::Transformations::normalize_to_color8());
@@ -389,6 +412,12 @@ fn decode_png(bytes: &[u8]) -> Result<Frame, String> {
     let mut data = vec![0; reader.output_buffer_size().ok_or("is too large")?];
     let info = reader.next_frame(&mut data).map_err(malformed)?;
     data.truncate(info.buffer_size());
+    let last = |channels| data.iter().skip(channels - 1).step_by(channels).copied();
+    let alpha: Option<Vec<u8>> = match info.color_type {
+        png::ColorType::Rgba => Some(last(4).collect()),
+        png::ColorType::GrayscaleAlpha => Some(last(2).collect()),
+        _ => None,
+    };
     let rgb = match info.color_type {
         png::ColorType::Rgb => data,
         png::ColorType::Rgba => data
@@ -399,7 +428,11 @@ fn decode_png(bytes: &[u8]) -> Result<Frame, String> {
         png::ColorType::GrayscaleAlpha => data.chunks_exact(2).flat_map(|p| [p[0]; 3]).collect(),
         png::ColorType::Indexed => return Err("is not a good PNG: no palette".into()),
     };
-    Frame::new(width, height, rgb).ok_or_else(|| "is not a good PNG: wrong length".into())
+    let frame = Frame::new(width, height, rgb);
+    Ok(Cutout {
+        frame: frame.ok_or("is not a good PNG: wrong length")?,
+        alpha: alpha.filter(|alpha| alpha.iter().any(|alpha| *alpha < 255)),
+    })
 }
 
 fn decode_ppm(bytes: &[u8]) -> Result<Frame, String> {

@@ -5,6 +5,7 @@
 #[macro_use]
 pub mod stdio;
 
+pub mod compress;
 pub mod image_out;
 pub mod mock;
 pub mod model;

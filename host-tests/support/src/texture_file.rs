@@ -5,7 +5,7 @@
 //! a pixel; both in `f64`, once, on the host. Rows are those of the picture, from its top: the
 //! place (0, 0) of OBJ, the lower left corner, is the last row.
 
-use crate::image_out::{Frame, ImageError, read_image};
+use crate::image_out::{Cutout, Frame, ImageError, read_cutout};
 use crate::model::Model;
 use scanbeam::scene::{Texture, TextureError};
 use std::collections::BTreeMap;
@@ -39,6 +39,8 @@ pub struct TextureImage {
     pub height: u32,
     /// Texels of each level, 8 bits a channel, rows from the top: the picture, then three averages.
     pub levels: [Vec<[u8; 3]>; LEVELS],
+    /// Alphas of the picture's texels, where not all are opaque.
+    pub alpha: Option<Vec<u8>>,
     /// What was done to the picture, for the user.
     pub note: Option<String>,
 }
@@ -49,8 +51,8 @@ impl TextureImage {
     /// # Errors
     /// When the file cannot be read or is no PNG or PPM.
     pub fn load(path: &Path) -> Result<Self, TextureFileError> {
-        let frame = read_image(path)?;
-        let mut made = Self::new(&frame).map_err(|error| TextureFileError::Texture {
+        let picture = read_cutout(path)?;
+        let mut made = Self::of(&picture).map_err(|error| TextureFileError::Texture {
             file: path.to_path_buf(),
             error,
         })?;
@@ -65,6 +67,15 @@ impl TextureImage {
     /// # Errors
     /// A picture without pixels.
     pub fn new(frame: &Frame) -> Result<Self, TextureError> {
+        Self::of(&frame.clone().into())
+    }
+
+    /// The same, with its alphas.
+    ///
+    /// # Errors
+    /// A picture without pixels.
+    pub fn of(picture: &Cutout) -> Result<Self, TextureError> {
+        let frame = &picture.frame;
         let side = |n: u32| n.next_power_of_two().min(Texture::MAX_SIDE);
         let (width, height) = (side(frame.width()), side(frame.height()));
         if frame.width() == 0 || frame.height() == 0 {
@@ -79,38 +90,66 @@ impl TextureImage {
                 Texture::MAX_SIDE
             )
         });
-        let across = resampling(frame.width(), width);
-        let down = resampling(frame.height(), height);
-        let pixel = |x: usize, y: usize| {
-            frame
-                .pixel(x as u32, y as u32)
-                .unwrap_or_default()
-                .map(f64::from)
-        };
-        let mut full = Vec::with_capacity(width as usize * height as usize);
-        for rows in &down {
-            for columns in &across {
-                let mut sum = [0.0; 3];
-                for (y, dy) in rows {
-                    for (x, dx) in columns {
-                        for (sum, level) in sum.iter_mut().zip(pixel(*x, *y)) {
-                            *sum += level * dx * dy;
-                        }
-                    }
-                }
-                full.push(sum.map(|level| (level + 0.5) as u8));
-            }
-        }
+        let (from, to) = ([frame.width(), frame.height()], [width, height]);
+        let full = resized(from, to, |x, y| {
+            frame.pixel(x as u32, y as u32).unwrap_or_default()
+        });
+        let alpha = picture.alpha.as_ref().map(|alpha| {
+            let at = |x: usize, y: usize| alpha.get(y * from[0] as usize + x).copied();
+            let texels = resized(from, to, |x, y| [at(x, y).unwrap_or(255)]);
+            texels.into_iter().flatten().collect()
+        });
         let mut made = Self {
             width,
             height,
             levels: [full, Vec::new(), Vec::new(), Vec::new()],
+            alpha,
             note,
         };
         for level in 1..LEVELS {
             made.levels[level] = halved(&made.levels[level - 1], made.sides(level - 1));
         }
         Ok(made)
+    }
+
+    /// One of these sides, which are powers of two, that stands for texels without a picture.
+    #[must_use]
+    pub fn blank([width, height]: [u32; 2]) -> Self {
+        Self {
+            width,
+            height,
+            levels: std::array::from_fn(|_| Vec::new()),
+            alpha: None,
+            note: None,
+        }
+    }
+
+    /// The same levels with alphas, as many as are asked for: of four texels the mean of the alphas, and of the colours by
+    /// their alphas, so that what is not seen of a picture is not seen in its levels.
+    #[must_use]
+    pub fn levels_with_alpha(&self, count: usize) -> Vec<Vec<[u8; 4]>> {
+        let with = |(texel, [r, g, b]): (usize, &[u8; 3])| {
+            let alpha = self.alpha.as_ref().and_then(|alpha| alpha.get(texel));
+            [*r, *g, *b, alpha.copied().unwrap_or(255)]
+        };
+        let full = self.levels[0].iter().enumerate().map(with);
+        let mut levels: Vec<Vec<[u8; 4]>> = vec![full.collect()];
+        for level in 1..count.min(LEVELS) {
+            let above = fours(self.sides(level - 1)).map(|four| {
+                let four = four.map(|at| levels[level - 1][at].map(u32::from));
+                let alpha: u32 = four.iter().map(|texel| texel[3]).sum();
+                let weight = |texel: &[u32; 4]| if alpha == 0 { 1 } else { texel[3] };
+                let all: u32 = four.iter().map(weight).sum();
+                let mean = |i: usize| {
+                    let sum: u32 = four.iter().map(|texel| texel[i] * weight(texel)).sum();
+                    ((2 * sum + all) / (2 * all)) as u8
+                };
+                [mean(0), mean(1), mean(2), ((alpha + 2) >> 2) as u8]
+            });
+            let below = above.collect();
+            levels.push(below);
+        }
+        levels
     }
 
     /// Columns and lines of a level.
@@ -127,25 +166,55 @@ impl TextureImage {
     }
 }
 
-/// The level below one with these sides: of two by two texels the mean, halves up; of one column or line, of two.
-fn halved(above: &[[u8; 3]], sides: [u32; 2]) -> Vec<[u8; 3]> {
+/// The pixels of a picture of another size: of each channel what falls on them, rounded.
+fn resized<const N: usize>(
+    from: [u32; 2],
+    to: [u32; 2],
+    pixel: impl Fn(usize, usize) -> [u8; N],
+) -> Vec<[u8; N]> {
+    let [across, down] = [0, 1].map(|axis| resampling(from[axis], to[axis]));
+    let mut all = Vec::with_capacity(across.len() * down.len());
+    for rows in &down {
+        for columns in &across {
+            let mut sum = [0.0; N];
+            for (y, dy) in rows {
+                for (x, dx) in columns {
+                    for (sum, level) in sum.iter_mut().zip(pixel(*x, *y)) {
+                        *sum += f64::from(level) * dx * dy;
+                    }
+                }
+            }
+            all.push(sum.map(|level| (level + 0.5) as u8));
+        }
+    }
+    all
+}
+
+/// For each texel of the level below one with these sides, the four of that: of one column or line, two, each twice.
+fn fours(sides: [u32; 2]) -> impl Iterator<Item = [usize; 4]> {
     let [width, height] = sides.map(|side| side as usize);
     let [columns, lines] = [width, height].map(|side| (side / 2).max(1));
-    let mean = |i: usize| {
+    // Twice the place where the side is halved, and the texel beside it.
+    let at = |place: usize, step: usize, side: usize| match side {
+        1 => place,
+        _ => 2 * place + step,
+    };
+    (0..columns * lines).map(move |i| {
         let (x, y) = (i % columns, i / columns);
-        // Twice the place where the side is halved, and the texel beside it.
-        let at = |place: usize, step: usize, side: usize| match side {
-            1 => place,
-            _ => 2 * place + step,
-        };
-        let four = [(0, 0), (1, 0), (0, 1), (1, 1)]
-            .map(|(dx, dy)| above[at(y, dy, height) * width + at(x, dx, width)]);
+        [(0, 0), (1, 0), (0, 1), (1, 1)]
+            .map(|(dx, dy)| at(y, dy, height) * width + at(x, dx, width))
+    })
+}
+
+/// The level below one with these sides: of four texels the mean, halves up.
+fn halved(above: &[[u8; 3]], sides: [u32; 2]) -> Vec<[u8; 3]> {
+    let mean = |four: [usize; 4]| {
         [0, 1, 2].map(|c| {
-            let sum: u16 = four.iter().map(|texel| u16::from(texel[c])).sum();
+            let sum: u16 = four.iter().map(|at| u16::from(above[*at][c])).sum();
             ((sum + 2) >> 2) as u8
         })
     };
-    (0..columns * lines).map(mean).collect()
+    fours(sides).map(mean).collect()
 }
 
 /// For each of `to` places, which of `from` places count, and by how much; the parts add up to 1.
@@ -283,6 +352,44 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Kills: alphas that are dropped, or not resized; what is clear in the levels; other levels of what is opaque.
+    #[test]
+    fn levels_with_alpha_show_what_is_seen() {
+        let opaque = TextureImage::new(&frame(16, 8)).expect("it is a picture");
+        for (level, texels) in opaque.levels_with_alpha(LEVELS).iter().enumerate() {
+            let plain = opaque.levels[level]
+                .iter()
+                .map(|[r, g, b]| [*r, *g, *b, 255]);
+            assert!(plain.eq(texels.iter().copied()), "level {level}");
+        }
+        // Red where it is clear; columns of 0, 255, 100, 200, and again.
+        let alphas = [0, 255, 100, 200];
+        let rgb = (0..8 * 4).flat_map(|i| match i % 4 {
+            0 => [255, 0, 0],
+            n => [0, 40 * n as u8, 0],
+        });
+        let picture = Cutout {
+            frame: Frame::new(8, 4, rgb.collect()).expect("it is legal"),
+            alpha: Some((0..8 * 4).map(|i| alphas[i % 4]).collect()),
+        };
+        let made = TextureImage::of(&picture).expect("it is a picture");
+        let levels = made.levels_with_alpha(2);
+        assert_eq!(levels.len(), 2);
+        assert_eq!(levels[0][..2], [[255, 0, 0, 0], [0, 40, 0, 255]]);
+        // (80 x 100 + 120 x 200) / 300.
+        assert_eq!(levels[1][..2], [[0, 40, 0, 128], [0, 107, 0, 150]]);
+        let wide = Cutout {
+            frame: Frame::new(3, 1, vec![9; 9]).expect("it is legal"),
+            alpha: Some(vec![0, 0, 255]),
+        };
+        let alpha = TextureImage::of(&wide).expect("it is a picture").alpha;
+        let alpha = alpha.expect("it is not opaque");
+        assert!(
+            alpha.len() == 4 && alpha[0] == 0 && alpha[3] > 200,
+            "{alpha:?}"
+        );
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! The models and pictures that a scene names.
 
 use super::{Item, SceneFile};
+use crate::scenes::check;
 use crate::{TextureSet, TextureSetError};
 use host_support::model::{Model, ModelError};
+use host_support::texture_file::TextureImage;
 use std::path::{Path, PathBuf};
 
 /// Why a scene cannot be loaded.
@@ -26,6 +28,16 @@ pub enum SceneFileError {
         file: PathBuf,
         /// What is wrong.
         error: TextureSetError,
+    },
+    /// An object that asks of its pictures what they are not.
+    #[error("{}: object {number}: {reason}", file.display())]
+    Object {
+        /// The scene.
+        file: PathBuf,
+        /// Its number, from 0.
+        number: usize,
+        /// What is wrong.
+        reason: String,
     },
 }
 
@@ -62,12 +74,16 @@ impl Loaded {
         let text = std::fs::read_to_string(file).map_err(|error| wrong(error.to_string()))?;
         let scene = SceneFile::parse(&text).map_err(wrong)?;
         let folder = file.parent().unwrap_or(Path::new(""));
-        let parts: Result<Vec<Part>, SceneFileError> = scene
-            .objects
-            .iter()
-            .map(|item| Part::load(item, folder, scene.has_palettes()))
-            .collect();
-        let parts = parts?;
+        let mut parts = Vec::new();
+        for (number, item) in scene.objects.iter().enumerate() {
+            let part = Part::load(item, folder, scene.has_palettes())?;
+            part.check().map_err(|reason| SceneFileError::Object {
+                file: file.to_path_buf(),
+                number,
+                reason,
+            })?;
+            parts.push(part);
+        }
         Ok(Self { scene, parts })
     }
 
@@ -82,7 +98,7 @@ impl Loaded {
             let left_out = part.model.materials.iter().any(shines).then(|| {
                 let file = part.item.model.display();
                 format!(
-                    "{file}: highlights and transparency of materials are left out: say `blend`"
+                    "{file}: highlights and transparency of materials are left out: say `specular` and `blend`"
                 )
             });
             for note in of_model.chain(of_textures).chain(left_out) {
@@ -99,17 +115,47 @@ impl Part {
     fn load(item: &Item, folder: &Path, indexed: bool) -> Result<Self, SceneFileError> {
         let file = folder.join(&item.model);
         let model = Model::load(&file)?;
-        let picture = item.texture.as_ref().map(|picture| folder.join(picture));
-        let textures = if indexed {
-            Ok(TextureSet::default())
-        } else {
-            TextureSet::load(&model, picture.as_deref())
+        let textures = match indexed {
+            true => Ok(TextureSet::default()),
+            false => Self::textures(item, folder, &model),
         };
         let textures = textures.map_err(|error| SceneFileError::Textures { file, error })?;
         Ok(Self {
             item: item.clone(),
             model,
-            textures: textures.with_levels(true),
+            textures: textures.with_levels(item.levels.unwrap_or(true)),
         })
+    }
+
+    /// The textures of a model: computed, of a file, or of its materials.
+    fn textures(item: &Item, folder: &Path, model: &Model) -> Result<TextureSet, TextureSetError> {
+        let set = match &item.computed {
+            Some(computed) => TextureSet::whole(model, TextureImage::blank(computed.size())),
+            None => {
+                let picture = item.texture.as_ref().map(|picture| folder.join(picture));
+                TextureSet::load_any(model, picture.as_deref())?
+            }
+        };
+        match item.reflection {
+            // Places are made of normals.
+            Some(true) => Ok(set),
+            _ => set.placed(model),
+        }
+    }
+
+    /// Whether its pictures are what its fields ask of them.
+    fn check(&self) -> Result<(), String> {
+        let item = &self.item;
+        let of_pictures = item.says_of_pictures();
+        if let Some(field) = of_pictures.filter(|_| self.textures.is_empty()) {
+            return Err(format!(
+                "{field} needs `texture`, `computed`, or pictures of materials"
+            ));
+        }
+        let images = self.textures.images();
+        if item.texels.is_some() && images.iter().all(|image| image.alpha.is_none()) {
+            return Err("`texels` needs a picture in which something is transparent".into());
+        }
+        images.iter().try_for_each(|image| check(item, image))
     }
 }
