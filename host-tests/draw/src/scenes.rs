@@ -70,6 +70,26 @@ impl<'a> SceneParts<'a> {
         self.parts.iter().any(|part| !part.textures.is_empty())
     }
 
+    /// What the file says.
+    pub(crate) fn scene(&self) -> &'a SceneFile {
+        self.scene
+    }
+
+    /// The textures of each object.
+    pub(crate) fn textures(&self) -> impl Iterator<Item = &'a TextureSet> {
+        self.parts.iter().map(|part| part.textures)
+    }
+
+    /// All parts of all objects in order: the object's number, what the file says of it, where it stands, and the part.
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = (usize, &Item, &Affine, &Chunk)> {
+        let of = |(object, chunk): (usize, usize)| {
+            let part = &self.parts[object];
+            let chunk = &part.prepared.chunks[chunk];
+            (object, part.item, &part.model, chunk)
+        };
+        self.steps().into_iter().map(of)
+    }
+
     /// All parts of all objects, by their numbers, in order.
     fn steps(&self) -> Vec<(usize, usize)> {
         let of = |(number, part): (usize, &Placed<'_>)| {
@@ -101,7 +121,7 @@ fn blend(item: &Item) -> Option<Blend> {
     })
 }
 
-fn depth(item: &Item) -> DepthTest {
+pub(crate) fn depth(item: &Item) -> DepthTest {
     let test = item
         .depth
         .map_or(DepthTest::HIDES, |kind| DepthTest::new(function(kind)));
