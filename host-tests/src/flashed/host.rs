@@ -124,7 +124,7 @@ pub(super) fn settle(words: &mut [u32], objects: &[usize]) -> Result<Shown, Box<
 }
 
 /// Lends the player of a list twice as much of what it had too little of.
-fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Error>> {
+pub(super) fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Error>> {
     let (head, mut reader) = Head::read(words)?;
     let list = List::read(&mut reader)?;
     let mut room = list.room;

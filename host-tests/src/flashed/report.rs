@@ -71,7 +71,10 @@ pub(super) fn print(
 /// Prints a row of the table.
 fn row<T: Display>(name: &str, cells: [T; 8], verdict: &str) {
     let [a, b, c, d, e, f, g, h] = cells;
-    say!("{name:7} {a:>12} {b:>10} {c:>11} {d:>10} {e:>5} {f:>10} {g:>10} {h:>12}  {verdict}");
+    let row = format!(
+        "{name:7} {a:>12} {b:>10} {c:>11} {d:>10} {e:>5} {f:>10} {g:>10} {h:>12}  {verdict}"
+    );
+    say!("{}", row.trim_end());
 }
 
 /// All of it as JSON.
