@@ -101,26 +101,13 @@ pub(super) fn settle(words: &mut [u32], objects: &[usize]) -> Result<Shown, Box<
             drawn => break drawn?,
         }
     };
-    let mut room = first.head.room;
-    loop {
-        Head { room, ..first.head }.write(words);
-        match frame(words, objects, room) {
-            // What is on its way takes room too.
-            Err(Refused::Full(_)) if room != MOST => {
-                let more = |count: u32, most: u32| (count + count / 8 + 16).min(most);
-                room = Room {
-                    vertices: more(room.vertices, MOST.vertices),
-                    objects: more(room.objects, MOST.objects),
-                    draws: more(room.draws, MOST.draws),
-                };
-            }
-            drawn => {
-                let mut drawn = drawn?;
-                drawn.head.room = room;
-                return Ok(drawn);
-            }
-        }
-    }
+    // At no time does it take more than in the end: vertices that find no room are those of meshes that are not kept.
+    first.head.write(words);
+    let drawn = frame(words, objects, first.head.room)?;
+    Ok(Shown {
+        head: first.head,
+        ..drawn
+    })
 }
 
 /// Lends the player of a list twice as much of what it had too little of.
