@@ -12,6 +12,7 @@ mod tests;
 mod view;
 
 pub use crate::choice::{DEFAULT_SLOTS, DepthArg, InterpArg, MAX_SIDE, PixelFormatArg};
+pub(crate) use bench::is_list;
 pub use bench::{BenchArgs, BoardsArgs, BudgetsArgs, FirmwareArgs};
 pub use picture::{PictureArgs, ShadeArg, Size};
 pub use render::{Method, QualityArg, RenderArgs, SwitchArg};
@@ -67,7 +68,7 @@ pub enum Command {
     Cache(CacheArgs),
     /// Measure every method's error and cost against the f64 reference
     Accuracy(AccuracyArgs),
-    /// Run the Cortex-M firmware in QEMU and compare its frames with the host's
+    /// Run the Cortex-M firmware in QEMU and compare its frames, or those of a scene file, with the host's
     Firmware(FirmwareArgs),
     /// Run the examples for boards in emulators, and judge what arrives at the panel
     Boards(BoardsArgs),
@@ -254,10 +255,10 @@ where
         Command::Bake(bake) => bake.check(),
         Command::Compress(compress) => compress.check(),
         Command::RunList(list) => list.check(),
+        Command::Firmware(firmware) => firmware.check(),
         Command::Demo(_)
         | Command::Cache(_)
         | Command::Accuracy(_)
-        | Command::Firmware(_)
         | Command::Boards(_)
         | Command::Budgets(_)
         | Command::Bench(_)

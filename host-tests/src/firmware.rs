@@ -13,6 +13,7 @@
 //! | file | there |
 //! |---|---|
 //! | `output.rs` | what the firmware prints, read line by line |
+//! | `qemu.rs` | a program run in QEMU |
 //! | `sections.rs` | what memory its ELF takes |
 //! | `symbols.rs` | its functions |
 //! | `profile.rs` | where a frame's instructions go |
@@ -20,6 +21,7 @@
 
 mod output;
 pub mod profile;
+mod qemu;
 mod sections;
 mod symbols;
 #[cfg(test)]
@@ -27,19 +29,18 @@ mod tests;
 mod toolchain;
 
 pub use output::{CountCheck, FrameResult, GrowthRun, KernelRun, LinesRun, Output, UnitRun};
+pub use qemu::run;
+pub(crate) use qemu::{Handed, finish, run_handed, run_words};
 pub use sections::{Section, Sections};
 pub use symbols::{Symbol, Symbols};
 pub(crate) use toolchain::clean_command;
 pub use toolchain::{Source, Toolchain};
 
-use std::{
-    env,
-    io::{self, Read},
-    path::{Path, PathBuf},
-    process::{Child, Command, ExitStatus, Stdio},
-    thread,
-    time::{Duration, Instant},
-};
+use std::env;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::process::{ExitStatus, Stdio};
+use std::time::Duration;
 
 /// Names the toolchain to use, `rustup` or `debian`; unset or empty: the first that is complete.
 pub const TOOLCHAIN_VARIABLE: &str = "SCANBEAM_TOOLCHAIN";
@@ -138,7 +139,10 @@ pub enum FirmwareError {
         stderr: String,
     },
     /// QEMU is not installed.
-    #[error("{QEMU} is not installed: run `apt-get install qemu-system-arm`")]
+    #[error(
+        "{} is not installed: run `apt-get install qemu-system-arm`",
+        qemu::QEMU
+    )]
     NoQemu,
     /// The firmware did not end in time.
     #[error("the firmware on {machine} was stopped after {seconds} s; it had printed:\n{printed}")]
@@ -205,8 +209,6 @@ pub enum FirmwareError {
         source: io::Error,
     },
 }
-
-const QEMU: &str = "qemu-system-arm";
 
 fn io_error(what: impl Into<String>) -> impl FnOnce(io::Error) -> FirmwareError {
     let what = what.into();
@@ -335,125 +337,6 @@ impl Package {
         }
         Ok(self.target)
     }
-}
-
-/// Runs an ELF to its end and gives the lines that it printed.
-///
-/// One instruction is 1 ns of the machine's time (`-icount shift=0`), so a run is the same every
-/// time, also in what it counts.
-///
-/// # Errors
-///
-/// [`FirmwareError::NoQemu`], [`FirmwareError::Timeout`] and [`FirmwareError::Failed`].
-pub fn run(board: &Board, elf: &Path, timeout: Duration) -> Result<Vec<String>, FirmwareError> {
-    run_words(board, elf, timeout, &[], Path::new("."))
-}
-
-/// As [`run`], with words for a program that asks for them, the first its own name, and the folder
-/// in which it finds its files. No word may hold a space or a comma.
-///
-/// # Errors
-///
-/// As [`run`].
-pub(crate) fn run_words(
-    board: &Board,
-    elf: &Path,
-    timeout: Duration,
-    words: &[&str],
-    folder: &Path,
-) -> Result<Vec<String>, FirmwareError> {
-    run_in(QEMU, board, elf, timeout, words, folder)
-}
-
-fn run_in(
-    qemu: &str,
-    board: &Board,
-    elf: &Path,
-    timeout: Duration,
-    words: &[&str],
-    folder: &Path,
-) -> Result<Vec<String>, FirmwareError> {
-    let mut semihosting = String::from("enable=on,target=native");
-    semihosting.extend(words.iter().map(|word| format!(",arg={word}")));
-    let child = Command::new(qemu)
-        .current_dir(folder)
-        .args(["-machine", board.machine, "-cpu", board.cpu])
-        .args(["-icount", "shift=0"])
-        .args(["-display", "none", "-monitor", "none", "-serial", "none"])
-        .args(["-semihosting-config", &semihosting, "-kernel"])
-        .arg(elf)
-        .stdin(Stdio::null())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => FirmwareError::NoQemu,
-            _ => io_error(qemu)(error),
-        })?;
-    let ended = finish(child, timeout).map_err(io_error(qemu))?;
-    match ended.status {
-        Some(status) if status.success() => Ok(ended.printed.lines().map(str::to_owned).collect()),
-        Some(status) => Err(FirmwareError::Failed {
-            machine: board.machine,
-            status,
-            printed: ended.printed + &ended.said,
-        }),
-        None => Err(FirmwareError::Timeout {
-            machine: board.machine,
-            seconds: timeout.as_secs(),
-            printed: ended.printed + &ended.said,
-        }),
-    }
-}
-
-/// How a child ended.
-pub(crate) struct Ended {
-    /// `None`: it was stopped, because it took too long.
-    pub(crate) status: Option<ExitStatus>,
-    /// What it wrote to stdout.
-    pub(crate) printed: String,
-    /// What it wrote to stderr.
-    pub(crate) said: String,
-}
-
-/// Waits for a child whose output is piped, and stops it when it takes longer than `timeout`.
-///
-/// # Errors
-///
-/// What the system says.
-pub(crate) fn finish(mut child: Child, timeout: Duration) -> io::Result<Ended> {
-    let started = Instant::now();
-    let stdout = child.stdout.take().map(collect);
-    let stderr = child.stderr.take().map(collect);
-    let status = loop {
-        match child.try_wait()? {
-            Some(status) => break Some(status),
-            None if started.elapsed() >= timeout => {
-                child.kill()?;
-                child.wait()?;
-                break None;
-            }
-            None => thread::sleep(Duration::from_millis(5)),
-        }
-    };
-    let text = |pipe: Option<thread::JoinHandle<String>>| {
-        pipe.and_then(|pipe| pipe.join().ok()).unwrap_or_default()
-    };
-    Ok(Ended {
-        status,
-        printed: text(stdout),
-        said: text(stderr),
-    })
-}
-
-/// Reads a pipe to its end beside the waiting, so that a full pipe never stops the child.
-fn collect(mut pipe: impl Read + Send + 'static) -> thread::JoinHandle<String> {
-    thread::spawn(move || {
-        let mut bytes = Vec::new();
-        // What came before an error is still worth showing.
-        let _ = pipe.read_to_end(&mut bytes);
-        String::from_utf8_lossy(&bytes).into_owned()
-    })
 }
 
 /// A firmware that was built and run.

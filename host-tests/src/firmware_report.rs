@@ -8,7 +8,7 @@ use crate::firmware::{
 };
 use crate::frames::{FrameCounts, host_counts, host_frames};
 use crate::image_out::{make_folder, write_atomically, write_image};
-use crate::{profile_report, sizes};
+use crate::{flashed, profile_report, sizes};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -20,6 +20,9 @@ use std::path::Path;
 /// # Errors
 /// When the firmware cannot be built or run, or did not say what it should.
 pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
+    if let Some(scene) = &args.scene {
+        return flashed::run(scene, args);
+    }
     if args.sizes {
         return sizes::run(args).map(|()| true);
     }
@@ -31,8 +34,7 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
         return bless(&host);
     }
     let toolchain = Toolchain::find()?;
-    let is_run = |board: &&Board| args.board.as_ref().is_none_or(|name| board.name == name);
-    let asked: Vec<Board> = BOARDS.iter().filter(is_run).copied().collect();
+    let asked = args.boards();
     let boards = compared(&toolchain, &asked, &host, args.bench)?;
     let verdict = if args.bench {
         let record = Record::read(&Record::path())?

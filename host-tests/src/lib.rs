@@ -19,6 +19,7 @@ pub mod demo;
 pub mod figures;
 pub mod firmware;
 pub mod firmware_report;
+pub mod flashed;
 pub mod golden;
 pub mod lists;
 pub mod memory_model;

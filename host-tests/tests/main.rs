@@ -28,6 +28,7 @@ mod depth_methods;
 mod effects;
 mod findings;
 mod findings_textures;
+mod flashed;
 mod formats;
 mod frame_events;
 mod frames;

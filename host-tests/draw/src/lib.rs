@@ -5,6 +5,7 @@ mod counted;
 pub mod crew;
 mod depth;
 mod effects;
+mod flash;
 mod formats;
 mod hardware;
 mod interp;
@@ -19,6 +20,7 @@ mod textured;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
+pub use flash::flash_words;
 pub use hardware::{ModelLines, draw_model, trace_model_line};
 pub use interp::{draw_by, draw_by_methods};
 pub use models::{draw, draw_prepared, draw_textured};

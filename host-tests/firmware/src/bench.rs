@@ -21,6 +21,8 @@ mod methods;
 mod triangle;
 mod units;
 
+pub(crate) use lines::Listed;
+
 use crate::console::Console;
 use crate::count::Counter;
 use crate::rooms::Rooms;

@@ -47,7 +47,7 @@ pub(crate) const fn lines_of(frame: Frame) -> u16 {
 #[inline(never)]
 pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Receives) {
     let buffers = rooms.buffers.take().expect("the last frame gave them back");
-    let mut pump = Pump::new(Emit { to, sent: None }, buffers);
+    let mut pump = Pump::new(Emit::new(to), buffers);
     let mut sent = Sent {
         lines,
         pump: &mut pump,
@@ -225,9 +225,16 @@ impl Sent<'_, '_> {
 }
 
 /// A sink that is done as soon as it starts.
-struct Emit<'e> {
+pub(crate) struct Emit<'e> {
     to: &'e mut dyn Receives,
     sent: Option<&'static mut [u16]>,
+}
+
+impl<'e> Emit<'e> {
+    /// It hands on what it is sent.
+    pub(crate) fn new(to: &'e mut dyn Receives) -> Self {
+        Self { to, sent: None }
+    }
 }
 
 impl ScanoutDma for Emit<'_> {

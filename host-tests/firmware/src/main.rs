@@ -17,6 +17,7 @@
 //! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
 //! give the same number of bytes. Kernels, units, lines and growth are there where the host says `bench`;
 //! `costs` are those of lines one after the other, from the `first` of this row on. Exit code 0 only if everything held.
+//! Where the host says `scene`, there is one frame, of the words that it has laid into flash, with its lines and figures.
 #![no_std]
 #![no_main]
 
@@ -25,10 +26,12 @@ mod bench_depth;
 mod bench_texture;
 mod console;
 mod count;
+mod flashed;
 mod frames;
 mod lend;
 mod listed;
 mod profile;
+mod rest;
 mod rooms;
 mod unpacked;
 
@@ -47,7 +50,7 @@ use rooms::Rooms;
 use scanbeam::list::ListCommand;
 use scenes::{Frame, SHEETS, Sheet, frames};
 
-static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+pub(crate) static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
 #[entry]
 fn main() -> ! {
@@ -57,6 +60,10 @@ fn main() -> ! {
     }
     let peripherals = Peripherals::take().expect("main runs once");
     let mut counter = Counter::start(peripherals.SYST);
+    if profile::asks_scene() {
+        flashed::run(&counter, &mut console);
+        console::exit(true);
+    }
     let mut all_hold = true;
 
     for check in count::check(&mut counter) {

@@ -60,6 +60,12 @@ pub(crate) fn asks_bench() -> bool {
     words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("bench"))
 }
 
+/// Whether the host asks for the scene that it has laid into flash: `qemu-firmware scene`.
+pub(crate) fn asks_scene() -> bool {
+    let mut line = [0; WORDS];
+    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("scene"))
+}
+
 /// The words that the host hands over; `None` where there are none, or too many.
 fn words(line: &mut [u8; WORDS]) -> Option<&str> {
     let mut block = [line.as_mut_ptr() as usize, line.len()];

@@ -1,11 +1,18 @@
 //! Flags of what measures speed.
 
+use super::is_scene;
+use crate::firmware::{BOARDS, Board};
 use clap::Args;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Flags of `firmware`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
 pub struct FirmwareArgs {
+    /// Instead of the test scenes: a scene file, .json, or a list that `bake` has made, .list
+    #[arg(value_name = "SCENE.json", conflicts_with_all = [
+        "bench", "bless", "sizes", "markdown", "symbols", "profile", "function", "output",
+    ])]
+    pub scene: Option<PathBuf>,
     /// Print the figures as JSON
     #[arg(long)]
     pub json: bool,
@@ -37,6 +44,30 @@ pub struct FirmwareArgs {
     /// Folder for the plot of growth, made when it is not there
     #[arg(short = 'o', long = "output", value_name = "DIR", requires = "bench")]
     pub output: Option<PathBuf>,
+}
+
+impl FirmwareArgs {
+    /// What flags alone cannot say.
+    pub(super) fn check(&self) -> Result<(), String> {
+        match &self.scene {
+            Some(file) if !is_scene(file) && !is_list(file) => {
+                Err("SCENE.json must be a scene file, .json, or a list, .list".into())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// The boards that are run.
+    pub(crate) fn boards(&self) -> Vec<Board> {
+        let is_run = |board: &&Board| self.board.as_ref().is_none_or(|name| board.name == name);
+        BOARDS.iter().filter(is_run).copied().collect()
+    }
+}
+
+/// Whether a file is a list.
+pub(crate) fn is_list(file: &Path) -> bool {
+    file.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case("list"))
 }
 
 /// Flags of `budgets`.

@@ -58,6 +58,24 @@ fn defaults_are_those_of_the_design() {
     );
 }
 
+/// Kills: a scene that is not taken, and one without the flags that go with it.
+#[test]
+fn firmware_takes_a_scene() {
+    for (line, json, board) in [
+        ("firmware s.json", false, None),
+        ("firmware S.JSON --json", true, None),
+        ("firmware l.list --board m3 --json", true, Some("m3")),
+    ] {
+        let Ok(Command::Firmware(args)) = words(line) else {
+            panic!("{line}");
+        };
+        let file = args.scene.as_ref().and_then(|file| file.to_str());
+        assert_eq!(file, line.split(' ').nth(1), "{line}");
+        assert_eq!((args.json, args.board.as_deref()), (json, board), "{line}");
+        assert_eq!(args.boards().len(), if board.is_some() { 1 } else { 3 });
+    }
+}
+
 #[test]
 fn boards_are_run_as_asked() {
     let plain = BoardsArgs {

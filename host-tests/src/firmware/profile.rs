@@ -5,10 +5,8 @@
 //! the firmware does before and after the frame lies outside its two marks
 //! (`host-tests/firmware/src/profile.rs`).
 
-use super::{
-    Board, COMPARER, FirmwareError, Profile, QEMU, Symbol, Symbols, Toolchain, build, collect,
-    io_error,
-};
+use super::qemu::{QEMU, collect};
+use super::{Board, COMPARER, FirmwareError, Profile, Symbol, Symbols, Toolchain, build, io_error};
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -1,5 +1,6 @@
 //! What cargo, QEMU and the firmware do when all is well, and when not.
 
+use super::qemu::run_in;
 use super::toolchain::is_of_outer_build;
 use super::*;
 
@@ -34,13 +35,17 @@ fn outer_build_does_not_leak_into_the_inner_one() {
 
 #[test]
 fn missing_qemu_is_named() {
+    let handed = Handed {
+        words: &[],
+        folder: Path::new("."),
+        laid: None,
+    };
     let error = run_in(
         "no-such-qemu",
         &M4,
         Path::new("none"),
         Duration::ZERO,
-        &[],
-        Path::new("."),
+        &handed,
     )
     .expect_err("there is no such program");
     assert!(matches!(error, FirmwareError::NoQemu));

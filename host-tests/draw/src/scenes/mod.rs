@@ -24,16 +24,17 @@ pub(crate) use store::check;
 use crate::choice::PixelFormatArg;
 use crate::formats::{Picture, draw_in, refused};
 use crate::parts::{Job, MOST_OBJECTS, MOST_VERTICES, room_for};
-use crate::scene_file::{Loaded, SceneFile, ShadeKind};
+use crate::prepared::Chunk;
+use crate::scene_file::{Item, Loaded, SceneFile, ShadeKind};
 use crate::setting::focal;
-use crate::{CrewSettings, DrawFailure, Drawn};
+use crate::{CrewSettings, DrawFailure, Drawn, TextureSet};
 use host_support::reference::View;
 use light::{AtPixels, SceneLights};
 use placed::Placed;
-use scanbeam::Camera;
 use scanbeam::look::{Gouraud, Look, Phong, Textured, TexturedPhong};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::Texture;
+use scanbeam::{Affine, Camera};
 use worn::Worn;
 
 /// A scene in the crate's number formats.
@@ -58,6 +59,24 @@ impl<'a> SceneParts<'a> {
     #[must_use]
     pub fn are_textured(&self) -> bool {
         self.parts.iter().any(|part| !part.textures.is_empty())
+    }
+
+    /// What the file says.
+    pub(crate) fn scene(&self) -> &'a SceneFile {
+        self.scene
+    }
+
+    /// The textures of each object.
+    pub(crate) fn textures(&self) -> impl Iterator<Item = &'a TextureSet> {
+        self.parts.iter().map(|part| part.textures)
+    }
+
+    /// All parts of all objects in order: the object's number, what the file says of it, where it stands, and the part.
+    pub(crate) fn pieces(&self) -> impl Iterator<Item = (usize, &Item, &Affine, &Chunk)> {
+        self.parts.iter().enumerate().flat_map(|(object, part)| {
+            let chunks = part.prepared.chunks.iter();
+            chunks.map(move |chunk| (object, part.item, &part.model, chunk))
+        })
     }
 }
 

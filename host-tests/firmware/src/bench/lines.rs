@@ -47,7 +47,7 @@ fn measure(name: &str, frame: Frame, counter: &Counter, console: &mut Console, r
 }
 
 /// Numbers with commas between them.
-struct Listed<'a, F>(&'a [u32], F);
+pub(crate) struct Listed<'a, F>(pub(crate) &'a [u32], pub(crate) F);
 
 impl<F: Fn(u32) -> u64> fmt::Display for Listed<'_, F> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

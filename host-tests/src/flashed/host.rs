@@ -1,0 +1,345 @@
+//! The words of a scene drawn on this machine, and what memory they need.
+
+use super::too_large;
+use crate::rooms::{self, LineRooms, SceneRooms};
+use scanbeam::input::{LightRoom, Player, PlayerMemory, TextureRoom};
+use scanbeam::list::{Lent, ListCommand, Reason, TextureSlot};
+use scanbeam::look::Look;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scene::{DrawError, DrawState, Object, Texture, TexturePlace, Vertex};
+use scanbeam::{Camera, Link, Scene, Screen};
+use scene_flash::{
+    CallMemory, Calls, Counts, FlashError, Head, Kind, List, ListRoom, PlayError, Room,
+};
+use scenes::{IndexedLook, SmoothLook, TexturedLook};
+use std::error::Error;
+
+/// The first address behind the slow memory of the boards: see `memory.x`.
+pub(super) const SLOW_END: u64 = 0x2200_0000;
+/// Bytes of it.
+const SLOW_BYTES: usize = 16 << 20;
+/// What a scene can hold, whatever it is lent.
+const MOST: Room = Room {
+    vertices: 1 << 16,
+    objects: Link::CACHED as u32,
+    draws: 1 << 16,
+};
+
+/// A frame as this machine draws it.
+#[derive(Debug)]
+pub(super) struct Shown {
+    /// What is drawn, and how.
+    pub(super) head: Head,
+    /// Words of the panel.
+    pub(super) pixels: Vec<u16>,
+    /// Triangles that were submitted; those that were filed are in the head's room.
+    pub(super) triangles: u32,
+    /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
+    pub(super) slow_bytes: usize,
+}
+
+impl Shown {
+    /// The checksum that the firmware has of the same bytes.
+    pub(super) fn crc(&self) -> u32 {
+        let bytes: Vec<u8> = self.pixels.iter().flat_map(|w| w.to_le_bytes()).collect();
+        crc32fast::hash(&bytes)
+    }
+}
+
+/// Why a frame was not drawn.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum Refused {
+    /// The scene had no room.
+    #[error("{0}: boards draw a picture as one scene, which holds no more")]
+    Full(String),
+    /// The player had none.
+    #[error("{0}")]
+    Lent(Lent, String),
+    /// Anything else.
+    #[error("{0}")]
+    Other(String),
+}
+
+fn other(error: impl std::fmt::Display) -> Refused {
+    Refused::Other(error.to_string())
+}
+
+impl From<FlashError> for Refused {
+    fn from(error: FlashError) -> Self {
+        other(error)
+    }
+}
+
+impl From<PlayError> for Refused {
+    fn from(error: PlayError) -> Self {
+        match error {
+            PlayError::Begin(error) => other(error),
+            PlayError::List(error) => match error.reason {
+                Reason::Lent(lent) => Self::Lent(lent, error.to_string()),
+                _ => other(error),
+            },
+            PlayError::Halted(halt, at) => {
+                let at = 4 * u64::from(at);
+                Self::Other(format!(
+                    "halted at offset {at:#x}, before its end: {halt:?}"
+                ))
+            }
+            PlayError::Full(count) => Self::Full(format!("{count} triangles find no room")),
+        }
+    }
+}
+
+/// Draws a scene with as much memory as there can be, then with as little as it takes, which is written into its words.
+/// `objects` are those of the file that the draw calls are of, by their numbers.
+///
+/// # Errors
+/// When it cannot be drawn, or not whole.
+pub(super) fn settle(words: &mut [u32], objects: &[usize]) -> Result<Shown, Box<dyn Error>> {
+    let first = loop {
+        match frame(words, objects, MOST) {
+            Err(Refused::Lent(lent, why)) => grow(words, lent, why)?,
+            drawn => break drawn?,
+        }
+    };
+    // At no time does it take more than in the end: vertices that find no room are those of meshes that are not kept.
+    first.head.write(words);
+    let drawn = frame(words, objects, first.head.room)?;
+    Ok(Shown {
+        head: first.head,
+        ..drawn
+    })
+}
+
+/// Lends the player of a list twice as much of what it had too little of.
+pub(super) fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Error>> {
+    let (head, mut reader) = Head::read(words)?;
+    let list = List::read(&mut reader)?;
+    let mut room = list.room;
+    let slot = match lent {
+        Lent::Vertices | Lent::Places => &mut room.table,
+        Lent::Indices => &mut room.indices,
+        Lent::Names => &mut room.names,
+        Lent::Textures => &mut room.textures,
+        Lent::Texels => &mut room.texels,
+        Lent::Levels => &mut room.levels,
+        Lent::Overlays => return Err("overlays, which boards do not draw".into()),
+        _ => return Err(why.into()),
+    };
+    *slot = slot.saturating_mul(2).max(4);
+    let needed = slow_bytes(&head) + list_bytes(&room);
+    if needed > SLOW_BYTES {
+        return Err(too_large(needed as u64, SLOW_BYTES as u64).into());
+    }
+    let room = List { room, ..list }.to_words();
+    words[Head::WORDS..Head::WORDS + room.len()].copy_from_slice(&room);
+    Ok(())
+}
+
+/// What a scene of the head's room is lent, and its renderer.
+fn slow_bytes(head: &Head) -> usize {
+    let place = if head.kind.is_textured() {
+        size_of::<TexturePlace>()
+    } else {
+        0
+    };
+    let room = [head.room.vertices, head.room.objects, head.room.draws].map(|n| n as usize);
+    room[0] * (size_of::<Vertex>() + place)
+        + room[1] * (size_of::<Object>() + size_of::<Link>())
+        + room[2] * size_of::<DrawState<'_>>()
+        + usize::from(head.size[1]) * size_of::<u16>()
+}
+
+/// What a player is lent.
+fn list_bytes(room: &ListRoom) -> usize {
+    let of = |count: u32, bytes: usize| (count as usize).saturating_mul(bytes);
+    let texture = size_of::<Texture<'_>>();
+    [
+        of(
+            room.table,
+            2 * size_of::<[i16; 3]>() + 4 + size_of::<[i32; 2]>(),
+        ),
+        of(room.indices, 2),
+        of(room.names, size_of::<TextureSlot>()),
+        of(room.textures, size_of::<TextureRoom<'_>>()),
+        of(room.texels, 2),
+        of(room.levels, texture),
+        size_of::<LightRoom>(),
+    ]
+    .into_iter()
+    .fold(0, usize::saturating_add)
+}
+
+/// Draws a frame in so much memory.
+pub(super) fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Shown, Refused> {
+    let (head, mut reader) = Head::read(words)?;
+    if matches!(head.kind, Kind::ListSmooth | Kind::ListTextured) {
+        let list = List::read(&mut reader)?;
+        return match head.kind {
+            Kind::ListTextured => played::<TexturedLook>(&head, &list, room),
+            _ => played::<SmoothLook>(&head, &list, room),
+        };
+    }
+    let counts = Counts::read(&mut reader)?;
+    let [lights, palettes, textures, levels, calls] = counts.to_words().map(|n| n as usize);
+    let mut lights = vec![Calls::DARK; lights];
+    let mut lighting = None;
+    let mut palettes = vec![(0, &[][..]); palettes];
+    let mut textures = vec![Texture::EMPTY; textures];
+    let mut levels = vec![Texture::EMPTY; levels];
+    let mut draws = vec![Calls::EMPTY; calls];
+    let lent = CallMemory {
+        lights: &mut lights,
+        lighting: &mut lighting,
+        palettes: &mut palettes,
+        textures: &mut textures,
+        levels: &mut levels,
+        calls: &mut draws,
+    };
+    let calls = Calls::read(&mut reader, lent)?;
+    let background = Rgb565Be::from_rgb8(head.background);
+    match head.kind {
+        Kind::Textured => called::<TexturedLook>(&head, &calls, objects, room, background),
+        Kind::Indexed => {
+            let mut shown = called::<IndexedLook>(&head, &calls, objects, room, 0);
+            if let Ok((shown, indices)) = &mut shown {
+                let lines = (0..).zip(indices.chunks(head.size[0].into()));
+                let colour = |(line, row): (u16, &[u8])| {
+                    let palette = calls.palette(line);
+                    let of = |index: &u8| palette.get(usize::from(*index)).copied();
+                    row.iter().filter_map(of).collect::<Vec<u16>>()
+                };
+                shown.pixels = lines.flat_map(colour).collect();
+            }
+            return shown.map(|(shown, _)| shown);
+        }
+        _ => called::<SmoothLook>(&head, &calls, objects, room, background),
+    }
+    .map(|(shown, pixels)| Shown { pixels, ..shown })
+}
+
+/// A picture, and the words of its pixels.
+type Drawn<L> = (Shown, Vec<<<L as Look>::Pixel as PixelFormat>::Word>);
+/// A word of a look's pixels.
+type Word<L> = <<L as Look>::Pixel as PixelFormat>::Word;
+
+/// Draws calls.
+fn called<'t, L: Look>(
+    head: &Head,
+    calls: &Calls<'t>,
+    objects: &[usize],
+    room: Room,
+    background: Word<L>,
+) -> Result<Drawn<L>, Refused> {
+    drawn::<L>(head, room, background, |scene, camera| {
+        scene.begin(camera).map_err(other)?;
+        for (draw, object) in calls.draws.iter().zip(objects) {
+            scene.draw(draw).map_err(|error| {
+                let said = format!("object {object}: {error}");
+                match error {
+                    DrawError::Full { .. } => Refused::Full(said),
+                    _ => Refused::Other(said),
+                }
+            })?;
+        }
+        Ok(calls.draws.len() as u32)
+    })
+}
+
+/// Plays a list.
+fn played<L: Look<Pixel = Rgb565Be>>(
+    head: &Head,
+    list: &List<'_>,
+    room: Room,
+) -> Result<Shown, Refused> {
+    let [table, indices, names, textures, texels, levels] = [
+        list.room.table,
+        list.room.indices,
+        list.room.names,
+        list.room.textures,
+        list.room.texels,
+        list.room.levels,
+    ]
+    .map(|count| count as usize);
+    let names: Vec<TextureSlot> = (0..names).map(|_| TextureSlot::new()).collect();
+    let places = if textures > 0 { table } else { 0 };
+    let mut textures: Vec<_> = (0..textures).map(|_| TextureRoom::EMPTY).collect();
+    let (mut positions, mut normals) = (vec![[0; 3]; table], vec![[0; 3]; table]);
+    let (mut colours, mut alphas) = (vec![[0; 3]; table], vec![0; table]);
+    let (mut places, mut indices) = (vec![[0; 2]; places], vec![0; indices]);
+    let (mut texels, mut levels) = (vec![0; texels], vec![Texture::EMPTY; levels]);
+    let mut lights = LightRoom::new();
+    let memory = PlayerMemory {
+        positions: &mut positions,
+        normals: &mut normals,
+        colours: &mut colours,
+        indices: &mut indices,
+        places: &mut places,
+        alphas: &mut alphas,
+        names: &names,
+        textures: &mut textures,
+        texels: &mut texels,
+        levels: &mut levels,
+        overlays: &[],
+        lights: Some(&mut lights),
+    };
+    let mut player = Player::<L>::new(memory, list.settings());
+    let background = Rgb565Be::from_rgb8(head.background);
+    let done = drawn::<L>(head, room, background, |scene, camera| {
+        let played = list.play(&mut player, ListCommand::Start(0), camera, scene);
+        let counts = played.map_err(Refused::from)?;
+        Ok(counts.draws.max(1))
+    });
+    let (shown, pixels) = done?;
+    let slow_bytes = shown.slow_bytes + list_bytes(&list.room);
+    Ok(Shown {
+        pixels,
+        slow_bytes,
+        ..shown
+    })
+}
+
+/// Draws what `build` makes, which says how many draw calls that was.
+fn drawn<'t, L: Look>(
+    head: &Head,
+    room: Room,
+    background: Word<L>,
+    build: impl FnOnce(&mut Scene<'_, 't, L>, &Camera) -> Result<u32, Refused>,
+) -> Result<Drawn<L>, Refused> {
+    let [width, height] = head.size;
+    let screen = Screen::new(width, height).map_err(other)?;
+    let camera = head.camera().map_err(other)?;
+    let vertices = room.vertices as usize;
+    let lent = rooms::Room {
+        vertices,
+        places: if head.kind.is_textured() { vertices } else { 0 },
+        objects: room.objects as usize,
+        draws: room.draws as usize,
+    };
+    let mut memory = SceneRooms::new(lent, height);
+    let mut scene = memory.scene::<L>(screen);
+    let draws = build(&mut scene, &camera)?;
+    let mut lines = LineRooms::<L>::new(scene.objects(), width);
+    let mut renderer = lines.renderer();
+    let mut pixels = Vec::new();
+    let mut line = vec![background; width.into()];
+    for y in scene.lines() {
+        let drawn = renderer.draw_line(&scene, y, &mut line, background);
+        drawn.map_err(other)?;
+        pixels.extend_from_slice(&line);
+    }
+    let head = Head {
+        room: Room {
+            vertices: scene.vertices() as u32,
+            objects: scene.objects() as u32,
+            draws,
+        },
+        ..*head
+    };
+    let shown = Shown {
+        head,
+        pixels: Vec::new(),
+        triangles: scene.assembled().triangles,
+        slow_bytes: slow_bytes(&Head { room, ..head }),
+    };
+    Ok((shown, pixels))
+}

@@ -1,0 +1,186 @@
+//! `firmware SCENE.json`: what a scene costs on the boards, before there is any firmware of it.
+//!
+//! ```text
+//! scene file -> draw calls in words -> drawn here ------------------> checksum, memory that it needs
+//! list       -> the list in words              -> flash of the board -> checksum, instructions
+//! ```
+//! The words are drawn by the same calls here and there (`scene_flash`). What is drawn here of a scene file is held
+//! against the picture of `render`, so that nothing of the file is left out.
+//!
+//! | file | there |
+//! |---|---|
+//! | `host.rs` | the words drawn here, and what memory they need |
+//! | `list.rs` | a list as words |
+//! | `report.rs` | what was measured, as a table and as JSON |
+
+mod host;
+mod list;
+mod report;
+#[cfg(test)]
+mod tests;
+
+use crate::args::{FirmwareArgs, PixelFormatArg, is_list};
+use crate::draw::{self, CrewSettings, SceneParts};
+use crate::firmware::{
+    self, Board, COMPARER, Handed, Measured, Output, Profile, Sections, Toolchain,
+};
+use crate::scene_file::{Format, Loaded};
+use host::Shown;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scene_flash::{FLASH_AT, FLASH_BYTES};
+use std::error::Error;
+use std::path::Path;
+
+/// A scene as the boards have it.
+struct Flashed {
+    words: Vec<u32>,
+    shown: Shown,
+    /// What is not as in the files.
+    notes: Vec<String>,
+}
+
+/// Draws a scene on the boards that are asked for, and compares; `false` when a frame differs.
+///
+/// # Errors
+/// When the scene cannot be read or drawn here, or is too large for the boards; when the firmware cannot be built or run.
+pub fn run(file: &Path, args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
+    let flashed = Flashed::load(file)?;
+    let toolchain = Toolchain::find()?;
+    let boards = flashed.measure(&toolchain, &args.boards(), file)?;
+    report::print(file, &flashed, &toolchain, &boards, args.json)?;
+    for note in &flashed.notes {
+        tell!("note: {note}");
+    }
+    Ok(boards.iter().all(|board| flashed.matches(board)))
+}
+
+impl Flashed {
+    fn load(file: &Path) -> Result<Self, Box<dyn Error>> {
+        match is_list(file) {
+            true => Self::of_list(file),
+            false => Self::of_scene(file),
+        }
+    }
+
+    fn of_scene(file: &Path) -> Result<Self, Box<dyn Error>> {
+        let loaded = Loaded::load(file)?;
+        let mut notes = loaded.notes();
+        if loaded.scene.format == Format::Rgb888 {
+            notes.push("boards are sent 16 bits a pixel: `format` is rgb565 there".into());
+        }
+        let flashed = Self::of_loaded(&loaded, notes);
+        flashed.map_err(|error| format!("{}: {error}", file.display()).into())
+    }
+
+    fn of_loaded(loaded: &Loaded, notes: Vec<String>) -> Result<Self, Box<dyn Error>> {
+        let parts = SceneParts::new(loaded)?;
+        let (mut words, objects) = draw::flash_words(&parts)?;
+        fits_flash(&words)?;
+        let shown = host::settle(&mut words, &objects)?;
+        let format = loaded.scene.in_format(PixelFormatArg::Rgb565);
+        let view = loaded.scene.view();
+        let drawn = draw::draw_scene_file(&parts, &view, format, CrewSettings::default())?;
+        is_as_rendered(&shown.pixels, drawn.frame.rgb())?;
+        Ok(Self {
+            words,
+            shown,
+            notes,
+        })
+    }
+
+    fn of_list(file: &Path) -> Result<Self, Box<dyn Error>> {
+        let mut words = list::words(&crate::lists::read_list(file)?);
+        let shown = fits_flash(&words).and_then(|()| host::settle(&mut words, &[]));
+        let shown = shown.map_err(|error| format!("{}: {error}", file.display()))?;
+        Ok(Self {
+            words,
+            shown,
+            notes: Vec::new(),
+        })
+    }
+
+    fn flash_bytes(&self) -> usize {
+        size_of_val(&self.words[..])
+    }
+
+    /// Whether a board drew what was drawn here.
+    fn matches(&self, board: &Measured) -> bool {
+        let frames = &board.output.frames;
+        frames.iter().all(|frame| frame.crc == self.shown.crc()) && frames.len() == 1
+    }
+
+    /// Builds the firmware for boards and runs it with the scene in its flash.
+    fn measure(
+        &self,
+        toolchain: &Toolchain,
+        boards: &[Board],
+        file: &Path,
+    ) -> Result<Vec<Measured>, Box<dyn Error>> {
+        const LAID: &str = "scene.flash";
+        let folder = tempfile::tempdir()?;
+        let bytes: Vec<u8> = self.words.iter().flat_map(|w| w.to_le_bytes()).collect();
+        std::fs::write(folder.path().join(LAID), bytes)?;
+        let built = firmware::build_all(toolchain, boards, Profile::Release, &[COMPARER], &[])?;
+        let mut measured = Vec::new();
+        for board in boards {
+            let elf = built.join(board.target).join("release").join(COMPARER);
+            let sections = Sections::read(&elf)?;
+            self.fits(&sections, file)?;
+            let handed = Handed {
+                words: &[COMPARER, "scene"],
+                folder: folder.path(),
+                laid: Some((LAID, FLASH_AT)),
+            };
+            let said = firmware::run_handed(board, &elf, &handed)?;
+            measured.push(Measured {
+                board: *board,
+                sections,
+                output: Output::parse(&said)?,
+            });
+        }
+        Ok(measured)
+    }
+
+    /// Whether there is slow memory for it, behind that of the firmware's own scenes, and its code ends before it.
+    fn fits(&self, sections: &Sections, file: &Path) -> Result<(), String> {
+        let code_end = sections.rodata.address + sections.rodata.bytes + sections.data.bytes;
+        if code_end > u64::from(FLASH_AT) {
+            return Err(format!("the firmware's code ends at {code_end:#x}"));
+        }
+        let slow = sections.slow;
+        let left = host::SLOW_END.saturating_sub(slow.address + slow.bytes);
+        let needed = self.shown.slow_bytes as u64;
+        match needed > left {
+            true => Err(too_large(needed, left)).map_err(|e| format!("{}: {e}", file.display())),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Whether there is flash for so many words.
+fn fits_flash(words: &[u32]) -> Result<(), Box<dyn Error>> {
+    let bytes = size_of_val(words);
+    match bytes > FLASH_BYTES {
+        true => Err(format!(
+            "needs {bytes} bytes of flash, the emulated boards have {FLASH_BYTES}"
+        )
+        .into()),
+        false => Ok(()),
+    }
+}
+
+/// Whether words of a panel show what `render` draws of the same file.
+fn is_as_rendered(pixels: &[u16], rgb: &[u8]) -> Result<(), String> {
+    let own = pixels.iter().copied().flat_map(Rgb565Be::to_rgb8);
+    match own.zip(rgb).filter(|(a, b)| a != *b).count() {
+        0 if 3 * pixels.len() == rgb.len() => Ok(()),
+        differ => Err(format!(
+            "boards would not draw what `render` draws: {differ} levels of pixels differ"
+        )),
+    }
+}
+
+/// What is refused.
+fn too_large(needed: u64, have: u64) -> String {
+    format!("needs {needed} bytes of slow memory, the emulated boards have {have}")
+}

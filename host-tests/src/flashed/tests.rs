@@ -1,0 +1,362 @@
+//! Scenes as boards have them: nothing of a file is left out, they take as little memory as they can, and boards draw the
+//! same bits.
+
+use super::host::{frame, grow, settle};
+use super::*;
+use crate::firmware::{BOARDS, M4};
+use crate::image_out::{Frame, write_image};
+use scanbeam::list::Lent;
+use scene_flash::Kind;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+use tempfile::TempDir;
+
+type Tried = Result<(), Box<dyn Error>>;
+
+/// A file of the examples.
+fn example(name: &str) -> PathBuf {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples");
+    examples.join(name)
+}
+
+/// The words of a scene.
+fn loaded(folder: &TempDir, scene: &Value) -> Result<Flashed, Box<dyn Error>> {
+    let file = folder.path().join("s.json");
+    std::fs::write(&file, scene.to_string())?;
+    Flashed::load(&file)
+}
+
+/// A textured pane behind a cube behind a pane that is blended, each over some of the one before it.
+fn scene() -> Value {
+    let file = |name: &str| json!(example("scene-files").join(name));
+    json!({
+        "size": [64, 48],
+        "format": "rgb565",
+        "background": [24, 32, 48],
+        "camera": { "eye": [0, 0, 6], "at": [0, 0, 0], "fov": 45 },
+        "ambient": 0.3,
+        "lights": [{ "towards": [1, 2, 2], "colour": [0.8, 0.75, 0.7] }],
+        "objects": [
+            { "model": file("pane.obj"), "texture": file("tiles.png"), "scale": 2, "place": [0, 0, -1] },
+            { "model": file("cube.obj"), "turn": [20, 30, 0] },
+            { "model": file("pane.obj"), "place": [0.5, 0, 2], "blend": "filter", "alpha": 100 }
+        ]
+    })
+}
+
+/// Kills: a value that the words leave out or mistake (a blend for another, the window's other side, a function's bits,
+/// the functions of colour and depth for each other, an ambient light of its own, a texture of another object, the second
+/// light): `load` fails where the picture is another than that of `render`.
+#[test]
+fn all_that_a_file_says_is_in_the_words() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let plain = loaded(&folder, &scene())?.shown.pixels;
+    let window = |outside: bool| json!({ "left": 30, "top": 9, "width": 9, "height": 30, "outside": outside });
+    // Another one than that of the first object.
+    let frame = Frame::new(4, 4, vec![250; 48]).ok_or("sides")?;
+    write_image(&folder.path().join("white.png"), &frame)?;
+    let second = json!([{ "towards": [1, 2, 2] }, { "towards": [-1, 0, 1], "colour": [0, 0, 1] }]);
+    // Of an object, by its number, or of the scene.
+    let changes = [
+        (Some(2), "blend", json!("add")),
+        (Some(2), "blend", json!("subtract")),
+        (Some(2), "alpha", json!(200)),
+        (Some(1), "depth", json!("never")),
+        (Some(2), "depth", json!("farther")),
+        (Some(1), "depth", json!("farther_or_equal")),
+        (Some(0), "depth", json!("farther")),
+        (Some(1), "writes_depth", json!(false)),
+        (Some(0), "priority", json!(3)),
+        (Some(1), "window", window(false)),
+        (Some(1), "window", window(true)),
+        (Some(2), "texture", json!("white.png")),
+        (Some(0), "turn", json!([0, 40, 15])),
+        (None, "dither", json!(true)),
+        (None, "ambient", json!(0.9)),
+        (None, "lights", second),
+        (None, "background", json!([200, 0, 0])),
+        (None, "size", json!([63, 47])),
+    ];
+    for (object, key, value) in changes {
+        let mut other = scene();
+        match object {
+            Some(number) => other["objects"][number][key] = value.clone(),
+            None => other[key] = value.clone(),
+        }
+        let said = format!("{key} {value}");
+        let shown = loaded(&folder, &other).map_err(|error| format!("{said}: {error}"))?;
+        assert!(shown.shown.pixels != plain, "{said}");
+    }
+    // What shows its back is dropped.
+    let mut turned = scene();
+    turned["objects"][2]["turn"] = json!([0, 180, 0]);
+    let seen = loaded(&folder, &turned)?.shown.pixels;
+    turned["objects"][2]["cull"] = json!("back");
+    assert!(loaded(&folder, &turned)?.shown.pixels != seen);
+    Ok(())
+}
+
+/// Kills: memory that is lent in full, memory for vertices of which nothing is kept in the end, and a draw call without a
+/// state.
+#[test]
+fn a_scene_takes_as_little_memory_as_it_can() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let mut scene = scene();
+    // Some of it is behind the eye.
+    scene["objects"][0]["scale"] = json!(40);
+    scene["objects"][0]["turn"] = json!([-90, 0, 0]);
+    let seen = loaded(&folder, &scene)?.shown.head.room;
+    // The last one shows its back.
+    scene["objects"][2]["turn"] = json!([0, 180, 0]);
+    scene["objects"][2]["cull"] = json!("back");
+    let flashed = loaded(&folder, &scene)?;
+    let room = flashed.shown.head.room;
+    assert_eq!((room.draws, room.objects), (3, seen.objects - 2));
+    assert!(room.vertices <= seen.vertices + 2, "{room:?} {seen:?}");
+    let drawn = |room| frame(&flashed.words, &[0, 1, 2], room);
+    assert!(drawn(room)?.pixels == flashed.shown.pixels);
+    for (vertices, objects, draws) in [(4, 0, 0), (0, 1, 0), (0, 0, 1)] {
+        let less = scene_flash::Room {
+            vertices: room.vertices - vertices,
+            objects: room.objects - objects,
+            draws: room.draws - draws,
+        };
+        let error = drawn(less)
+            .map(|_| ())
+            .expect_err("there is too little room");
+        let error = error.to_string();
+        assert!(error.contains("object "), "{error}");
+    }
+    Ok(())
+}
+
+/// Kills: a field that boards leave out without a word, and one that is refused where it says what is so anyway.
+#[test]
+fn what_boards_do_not_draw_is_refused_by_its_name() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let squares =
+        json!({ "squares": { "size": [8, 8], "side": 2, "colours": [[0, 0, 0], [9, 9, 9]] } });
+    // Of an object, by its number, or of the scene; then what is drawn.
+    let changes = [
+        (None, "phong", json!(true), Some(json!(false))),
+        (None, "doubled", json!(true), Some(json!(false))),
+        (Some(1), "computed", squares, None),
+        (Some(0), "texels", json!("cutout"), None),
+        (
+            Some(0),
+            "texel_form",
+            json!("palette"),
+            Some(json!("words")),
+        ),
+        (Some(0), "reflection", json!(true), Some(json!(false))),
+        (Some(0), "filter", json!("bilinear"), Some(json!("nearest"))),
+        (Some(0), "quality", json!("exact"), Some(json!("balanced"))),
+        (
+            Some(0),
+            "application",
+            json!("replace"),
+            Some(json!("product")),
+        ),
+        (Some(1), "shade", json!("flat"), Some(json!("gouraud"))),
+        (Some(1), "specular", json!(0.5), None),
+    ];
+    for (object, field, refused, drawn) in changes {
+        let with = |value: &Value| {
+            let mut scene = scene();
+            if field == "texels" {
+                scene["objects"][0]["texture"] = json!(example("scene-files/star.png"));
+            }
+            match object {
+                Some(number) => scene["objects"][number][field] = value.clone(),
+                None => scene[field] = value.clone(),
+            }
+            loaded(&folder, &scene)
+        };
+        let said = with(&refused).map(|_| ()).expect_err(field).to_string();
+        let of = object.map_or(String::new(), |number| format!("object {number}: "));
+        let end = format!("s.json: {of}`{field}` is not drawn on boards");
+        assert!(said.ends_with(&end), "{said}");
+        drawn.map_or(Ok(()), |value| with(&value).map(|_| ()))?;
+    }
+    let mut shadows = scene();
+    shadows["lights"][0]["shadows"] = json!(true);
+    let said = loaded(&folder, &shadows).map(|_| ()).expect_err("shadows");
+    assert!(
+        said.to_string().contains("`shadows` is not drawn"),
+        "{said}"
+    );
+    Ok(())
+}
+
+/// Kills: a list that is cut off or does not end and is drawn as far as it goes, errors of lists without their place, a
+/// player that is lent as much as before, and overlays that are left out.
+#[test]
+fn lists_that_boards_cannot_draw_are_refused() -> Tried {
+    let list = crate::lists::read_list(&example("scenes/crate.list"))?;
+    let refused = |list: &[u32]| {
+        let done = settle(&mut list::words(list), &[]);
+        done.map(|_| ()).expect_err("it is refused").to_string()
+    };
+    for length in [1, 5, list.len() / 2, list.len() - 1] {
+        let said = refused(&list[..length]);
+        let told = ["halted at offset", "list: offset"];
+        assert!(
+            told.iter().any(|words| said.contains(words)),
+            "{length}: {said}"
+        );
+    }
+    // A JUMP to itself, which no budget sees the end of.
+    let round = [1 << 24 | 5 << 16, 0];
+    assert!(refused(&round).contains("halted at offset 0x0"));
+    // OVERLAY of 1 x 1 pixels of 16 bits, and END.
+    let overlay = [
+        7 << 28 | 1 << 24 | 10 << 16,
+        0,
+        1 | 1 << 16,
+        5,
+        0xF800,
+        1 << 24,
+    ];
+    assert_eq!(refused(&overlay), "overlays, which boards do not draw");
+    // With too little for its textures at first.
+    let mut words = list::words(&list);
+    let (head, mut reader) = scene_flash::Head::read(&words)?;
+    let given = scene_flash::List::read(&mut reader)?;
+    let mut room = given.room;
+    (room.textures, room.texels, room.levels) = (1, 1, 0);
+    let tight = scene_flash::List { room, ..given }.to_words();
+    let from = scene_flash::Head::WORDS;
+    words[from..from + tight.len()].copy_from_slice(&tight);
+    let shown = settle(&mut words, &[])?;
+    assert_eq!(shown.head.kind, head.kind);
+    let mut roomy = list::words(&list);
+    assert!(settle(&mut roomy, &[])?.pixels == shown.pixels);
+    Ok(())
+}
+
+/// Kills: another scene than the one that lies in flash, a board that draws nothing, calls that are left out, palettes in
+/// another order, a list that is looked at in each frame, figures that are not of the scene, and code that reaches to where
+/// the scene lies.
+#[test]
+fn boards_draw_what_this_machine_draws() -> Tried {
+    let toolchain = Toolchain::find()?;
+    for (file, kind, asked) in [
+        ("scene-files/room.json", Kind::Textured, &BOARDS[..]),
+        ("scene-files/dusk.json", Kind::Indexed, &BOARDS[1..]),
+        ("scenes/teapot.list", Kind::ListSmooth, &[M4][..]),
+        ("scenes/crate.list", Kind::ListTextured, &[M4][..]),
+    ] {
+        let file = example(file);
+        let flashed = Flashed::load(&file)?;
+        assert_eq!(flashed.shown.head.kind, kind);
+        let boards = flashed.measure(&toolchain, asked, &file)?;
+        assert_eq!(boards.len(), asked.len());
+        for board in &boards {
+            let name = format!("{} on {}", file.display(), board.board.name);
+            assert!(flashed.matches(board), "{name}");
+            let (frame, lines) = (&board.output.frames[0], &board.output.lines[0]);
+            assert_eq!(lines.costs.len(), 240, "{name}");
+            assert!(lines.pass_one > 4000, "{name}: {}", lines.pass_one);
+            if kind == Kind::ListSmooth {
+                // It was looked at once, before: that takes as long again.
+                assert!(lines.pass_one < 450_000, "{name}: {}", lines.pass_one);
+            }
+            // Each line may be a tick off.
+            let sum = lines.pass_one + lines.costs.iter().sum::<u64>();
+            let apart = sum.abs_diff(frame.instructions);
+            assert!(
+                apart <= frame.instructions / 10,
+                "{name}: {sum} of {}",
+                frame.instructions
+            );
+            let figure = |name: &str| board.output.figures[name] as usize;
+            let here = flashed.shown.slow_bytes;
+            assert!(
+                (here / 2..=here + 64).contains(&figure("slow_bytes")),
+                "{name}: {here}"
+            );
+            assert_eq!(figure("line_bytes"), 2 * 2 * 320, "{name}");
+            assert!(
+                (4 * 320..16 << 10).contains(&figure("fast_bytes")),
+                "{name}"
+            );
+        }
+    }
+    Ok(())
+}
+
+/// Kills: a board whose frame has other bits, or that has drawn none, and is said to match.
+#[test]
+fn another_checksum_is_told() -> Tried {
+    let mut flashed = Flashed::load(&example("scene-files/dusk.json"))?;
+    let frame = |crc| format!("frame scene=scene crc={crc:08x} instructions=1");
+    let board = |lines: &[String]| -> Result<Measured, Box<dyn Error>> {
+        Ok(Measured {
+            board: M4,
+            sections: Sections::default(),
+            output: Output::parse(lines)?,
+        })
+    };
+    let drawn = board(&[frame(flashed.shown.crc()), "done frames=1".into()])?;
+    assert!(flashed.matches(&drawn));
+    assert!(!flashed.matches(&board(&["done frames=0".into()])?));
+    flashed.shown.pixels[0] ^= 1;
+    assert!(!flashed.matches(&drawn));
+    Ok(())
+}
+
+/// Kills: a picture that is not held against that of `render`, or of which the end is not.
+#[test]
+fn a_picture_that_is_not_that_of_render_is_told() {
+    let words = [Rgb565Be::from_rgb8([8, 4, 0]); 2];
+    let rgb: Vec<u8> = words
+        .iter()
+        .flat_map(|word| Rgb565Be::to_rgb8(*word))
+        .collect();
+    assert_eq!(is_as_rendered(&words, &rgb), Ok(()));
+    let mut other = rgb.clone();
+    other[5] ^= 1;
+    let said = is_as_rendered(&words, &other).unwrap_err();
+    assert!(said.contains("1 levels of pixels differ"), "{said}");
+    assert!(is_as_rendered(&words[..1], &rgb).is_err());
+    assert!(is_as_rendered(&words, &rgb[..3]).is_err());
+}
+
+/// Kills: memory that is asked for and not there, of the boards and of a player whose memory grows, and code that reaches
+/// to where the scene lies.
+#[test]
+fn what_boards_have_no_memory_for_is_refused_with_how_much_it_is() -> Tried {
+    use crate::firmware::Section;
+    let file = Path::new("s.json");
+    let flashed = Flashed::load(&example("scene-files/dusk.json"))?;
+    let needed = flashed.shown.slow_bytes as u64;
+    let with_slow = |left: u64| Sections {
+        slow: Section {
+            address: 0x2100_0000,
+            bytes: (16 << 20) - left,
+        },
+        ..Sections::default()
+    };
+    assert_eq!(flashed.fits(&with_slow(needed), file), Ok(()));
+    let left = needed - 1;
+    let want =
+        format!("s.json: needs {needed} bytes of slow memory, the emulated boards have {left}");
+    assert_eq!(flashed.fits(&with_slow(left), file), Err(want));
+    let code = Sections {
+        rodata: Section {
+            address: u64::from(FLASH_AT) - 8,
+            bytes: 9,
+        },
+        ..with_slow(needed)
+    };
+    assert!(flashed.fits(&code, file).is_err());
+    let list = crate::lists::read_list(&example("scenes/crate.list"))?;
+    let mut words = list::words(&list);
+    let grown = (0..32).find_map(|_| grow(&mut words, Lent::Texels, String::new()).err());
+    let said = grown.map(|error| error.to_string()).unwrap_or_default();
+    assert!(
+        said.contains("bytes of slow memory, the emulated boards have 16777216"),
+        "{said}"
+    );
+    Ok(())
+}
