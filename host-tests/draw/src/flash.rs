@@ -145,6 +145,87 @@ struct Call<'a> {
     priority: u8,
 }
 
+impl Call<'_> {
+    /// Refuses what boards do not draw.
+    fn is_drawn(&self) -> Result<(), String> {
+        // As above. All that is not looked at here is in the call, in its code, or in its words.
+        let Item {
+            model: _,
+            scale: _,
+            turn: _,
+            place: _,
+            texture: _,
+            computed,
+            texels,
+            texel_form,
+            cached,
+            reflection: _,
+            // In the words of its textures.
+            filter: _,
+            // Its pictures have them or not.
+            levels: _,
+            quality: _,
+            application: _,
+            shade: _,
+            specular,
+            // Of no use without highlights, and without shadows.
+            shininess: _,
+            shadow: _,
+            cull: _,
+            blend: _,
+            alpha: _,
+            depth: _,
+            writes_depth: _,
+            priority: _,
+            window: _,
+            index: _,
+        } = self.item;
+        refuse(&[
+            ("computed", computed.is_some()),
+            ("texels", texels.is_some()),
+            (
+                "texel_form",
+                texel_form.is_some_and(|form| form != FormKind::Words),
+            ),
+            ("cached", *cached == Some(true)),
+            ("specular", specular.is_some()),
+        ])
+    }
+
+    /// Its first word.
+    fn code(&self) -> u32 {
+        let item = self.item;
+        let flag = |is: bool, bit: u32| if is { bit } else { 0 };
+        let quality = item.quality.map_or(0, |kind| match kind {
+            QualityKind::Balanced => 0,
+            QualityKind::Fast => code::FAST,
+            QualityKind::Exact => code::EXACT,
+        });
+        let application = item.application.map_or(0, |kind| match kind {
+            ApplicationKind::Product => 0,
+            ApplicationKind::Replace => code::REPLACE,
+            ApplicationKind::Decal => code::DECAL,
+        });
+        let blend = item.blend.map_or(0, |kind| match kind {
+            BlendKind::Filter => code::FILTER,
+            BlendKind::Add => code::ADD,
+            BlendKind::Subtract => code::SUBTRACT,
+        });
+        flag(item.cull == Some(CullSide::Back), code::CULL_BACK)
+            | flag(item.window.is_some(), code::WINDOW)
+            | flag(item.window.is_some_and(|cut| cut.outside), code::OUTSIDE)
+            | flag(self.dither, code::DITHER)
+            | blend << code::BLEND
+            | u32::from(item.alpha.unwrap_or(255)) << code::ALPHA
+            | u32::from(self.priority) << code::PRIORITY
+            | quality << code::QUALITY
+            | application << code::APPLICATION
+            | flag(item.shade == Some(ShadeKind::Flat), code::FLAT)
+            | flag(item.shade == Some(ShadeKind::None), code::UNLIT)
+            | flag(item.reflection == Some(true), code::REFLECTION)
+    }
+}
+
 /// Words, as `scene_flash` reads them.
 struct Words(Vec<u32>);
 
@@ -194,12 +275,16 @@ impl Words {
     /// The textures of all objects; the number of the first one of each.
     fn textures(&mut self, parts: &SceneParts<'_>, counts: &mut Counts) -> Vec<u32> {
         let mut first = Vec::new();
-        for set in parts.textures() {
+        for (item, set) in parts.textures() {
+            let mixed = match item.filter {
+                Some(FilterArg::Bilinear) => code::MIXED,
+                Some(FilterArg::Nearest) | None => 0,
+            };
             first.push(counts.textures);
             for levels in Texels16::of::<Rgb565Be>(set).levels() {
                 counts.textures += 1;
                 counts.levels += levels.len() as u32 - 1;
-                self.push(levels.len() as u32);
+                self.push(levels.len() as u32 | mixed);
                 for ([width, height], texels) in levels {
                     self.push(width | height << 16);
                     self.halves(texels.iter().copied());
@@ -211,86 +296,15 @@ impl Words {
 
     /// A draw call.
     fn call(&mut self, call: &Call<'_>) -> Result<(), String> {
-        // As above. Where it stands, its textures, its index and its priority are in the call already.
-        let Item {
-            model: _,
-            scale: _,
-            turn: _,
-            place: _,
-            texture: _,
-            computed,
-            texels,
-            texel_form,
-            cached,
-            reflection,
-            filter,
-            // Its pictures have them or not.
-            levels: _,
-            quality,
-            application,
-            shade,
-            specular,
-            // Of no use without highlights, and without shadows.
-            shininess: _,
-            shadow: _,
-            cull,
-            blend,
-            alpha,
-            depth: _,
-            writes_depth: _,
-            priority: _,
-            window,
-            index: _,
-        } = call.item;
-        refuse(&[
-            ("computed", computed.is_some()),
-            ("texels", texels.is_some()),
-            (
-                "texel_form",
-                texel_form.is_some_and(|form| form != FormKind::Words),
-            ),
-            ("cached", *cached == Some(true)),
-            ("reflection", *reflection == Some(true)),
-            (
-                "filter",
-                filter.is_some_and(|filter| filter != FilterArg::Nearest),
-            ),
-            (
-                "quality",
-                quality.is_some_and(|quality| quality != QualityKind::Balanced),
-            ),
-            (
-                "application",
-                application.is_some_and(|kind| kind != ApplicationKind::Product),
-            ),
-            (
-                "shade",
-                shade.is_some_and(|shade| shade != ShadeKind::Gouraud),
-            ),
-            ("specular", specular.is_some()),
-        ])?;
-        let flag = |is: bool, bit: u32| if is { bit } else { 0 };
-        let blend = blend.map_or(0, |kind| match kind {
-            BlendKind::Filter => code::FILTER,
-            BlendKind::Add => code::ADD,
-            BlendKind::Subtract => code::SUBTRACT,
-        });
-        self.push(
-            flag(*cull == Some(CullSide::Back), code::CULL_BACK)
-                | flag(window.is_some(), code::WINDOW)
-                | flag(window.is_some_and(|cut| cut.outside), code::OUTSIDE)
-                | flag(call.dither, code::DITHER)
-                | blend << code::BLEND
-                | u32::from(alpha.unwrap_or(255)) << code::ALPHA
-                | u32::from(call.priority) << code::PRIORITY,
-        );
+        call.is_drawn()?;
+        self.push(call.code());
         let test = call.item.depth();
         if call.texture > u32::from(u16::MAX) {
             return Err("`texture`: boards have at most 65,535".into());
         }
         self.push(bits(test.colour_if) | bits(test.depth_if) << 8 | call.texture << 16);
         let range = |first: u16, count: u16| [first, first.saturating_add(count)];
-        let window = window.map_or([[0; 2]; 2], |cut| {
+        let window = call.item.window.map_or([[0; 2]; 2], |cut| {
             [range(cut.left, cut.width), range(cut.top, cut.height)]
         });
         self.halves(window.into_iter().flatten());

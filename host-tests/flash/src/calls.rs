@@ -3,7 +3,7 @@
 //! 1. [`Counts`]: 5 words,
 //! 2. the light from everywhere: 1 word, and lights: 3 words each,
 //! 3. palettes: the first line and 256 words of the panel each,
-//! 4. textures: a word of how many levels, and of each the sides and its words of the panel,
+//! 4. textures: a word of how many levels and how texels are taken, and of each the sides and its words of the panel,
 //! 5. calls: see [`Calls::read`].
 
 use crate::reader::{FlashError, Reader};
@@ -11,7 +11,8 @@ use scanbeam::light::{DirectionalLight, Lighting};
 use scanbeam::list::Matrix;
 use scanbeam::mesh::{I2F14, Material, U1F15};
 use scanbeam::scene::{
-    Blend, BlendMode, Budget, DepthFunction, DepthTest, Sampling, Scissor, Skin, Texture,
+    Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Sampling, Scissor, Shading,
+    Skin, TexGen, Texture,
 };
 use scanbeam::{Affine, Cull, Draw, Faces, Mesh};
 
@@ -37,6 +38,26 @@ pub mod code {
     pub const ALPHA: u32 = 8;
     /// The lowest bit of the priority.
     pub const PRIORITY: u32 = 16;
+    /// The lowest bit of the quality, 0 for balanced.
+    pub const QUALITY: u32 = 24;
+    /// Places may be off by half a texel.
+    pub const FAST: u32 = 1;
+    /// By a hundredth.
+    pub const EXACT: u32 = 2;
+    /// The lowest bit of the application, 0 for the product.
+    pub const APPLICATION: u32 = 26;
+    /// Texels hide colours.
+    pub const REPLACE: u32 = 1;
+    /// They do where they are not transparent.
+    pub const DECAL: u32 = 2;
+    /// Light falls on each face as a whole.
+    pub const FLAT: u32 = 1 << 28;
+    /// No light falls on it.
+    pub const UNLIT: u32 = 1 << 29;
+    /// Places on its texture are made of normals.
+    pub const REFLECTION: u32 = 1 << 30;
+    /// Of a texture, beside how many levels it has: its texels are mixed.
+    pub const MIXED: u32 = 1 << 16;
 }
 
 /// How many there are of what.
@@ -153,13 +174,7 @@ impl<'t> Calls<'t> {
         let lighting: &'t Option<Lighting<'t>> = lent.lighting;
         let textures: &'t [Texture<'t>] = lent.textures;
         for slot in lent.calls.iter_mut() {
-            *slot = Draw {
-                lights: match lighting {
-                    Some(lighting) => Some(lighting),
-                    None => None,
-                },
-                ..call(reader, textures)?
-            };
+            *slot = call(reader, textures, lighting.as_ref())?;
         }
         Ok(Self {
             draws: lent.calls,
@@ -191,7 +206,9 @@ fn textures<'t>(
     mut levels: &'t mut [Texture<'t>],
 ) -> Result<(), FlashError> {
     for slot in slots {
-        let count = (reader.word()? as usize).checked_sub(1);
+        let taken = reader.word()?;
+        let count = (taken & (code::MIXED - 1)).checked_sub(1);
+        let count = count.map(|count| count as usize);
         let count = count.ok_or(reader.bad())?;
         let first = level(reader)?;
         let (own, rest) = core::mem::take(&mut levels)
@@ -201,7 +218,11 @@ fn textures<'t>(
             *coarser = level(reader)?;
         }
         levels = rest;
-        let sampled = first.sampled(Sampling::NEAREST, own);
+        let sampling = match taken & code::MIXED {
+            0 => Sampling::NEAREST,
+            _ => Sampling::LINEAR,
+        };
+        let sampled = first.sampled(sampling, own);
         *slot = sampled.map_err(|_| reader.bad())?;
     }
     Ok(())
@@ -231,16 +252,10 @@ fn function(bits: u32) -> DepthFunction {
 fn call<'t>(
     reader: &mut Reader<'t>,
     textures: &'t [Texture<'t>],
+    lighting: Option<&'t Lighting<'t>>,
 ) -> Result<Draw<'t, 't, i32>, FlashError> {
     let first = reader.word()?;
     let has = |bit: u32| first & bit != 0;
-    let alpha = (first >> code::ALPHA) as u8;
-    let blend = match first >> code::BLEND & 3 {
-        code::FILTER => Some(Blend::filter(alpha)),
-        code::ADD => Some(Blend::add(alpha)),
-        code::SUBTRACT => Some(Blend::new(BlendMode::Subtract(alpha))),
-        _ => None,
-    };
     let second = reader.word()?;
     let texture = (second >> 16).checked_sub(1);
     let texture = texture.map(|number| textures.get(number as usize).ok_or(reader.bad()));
@@ -259,17 +274,22 @@ fn call<'t>(
         Some(_) => reader.table(vertices)?,
         None => &[],
     };
+    let skin = texture.map(|texture| Skin {
+        texture,
+        places,
+        budget: match first >> code::QUALITY & 3 {
+            code::FAST => Budget::FAST,
+            code::EXACT => Budget::EXACT,
+            _ => Budget::BALANCED,
+        },
+    });
     Ok(Draw {
         model: Affine::from(&matrix),
-        cull: match has(code::CULL_BACK) {
-            true => Cull::Back,
-            false => Cull::None,
+        texture: skin,
+        lights: match lighting {
+            Some(lighting) if first & code::UNLIT == 0 => Some(lighting),
+            _ => None,
         },
-        texture: texture.map(|texture| Skin {
-            texture,
-            places,
-            budget: Budget::BALANCED,
-        }),
         scissor: has(code::WINDOW).then(|| match has(code::OUTSIDE) {
             true => Scissor::outside(columns, lines),
             false => Scissor::inside(columns, lines),
@@ -278,11 +298,39 @@ fn call<'t>(
             colour_if: function(second),
             depth_if: function(second >> 8),
         },
-        blend,
+        ..coded(first, mesh)
+    })
+}
+
+/// What the first word of a call says of a mesh.
+fn coded<'t>(first: u32, mesh: Mesh<'t, i32>) -> Draw<'t, 't, i32> {
+    let has = |bit: u32| first & bit != 0;
+    let alpha = (first >> code::ALPHA) as u8;
+    Draw {
+        cull: match has(code::CULL_BACK) {
+            true => Cull::Back,
+            false => Cull::None,
+        },
+        shading: match has(code::FLAT) {
+            true => Shading::Flat,
+            false => Shading::Smooth,
+        },
+        texgen: has(code::REFLECTION).then_some(TexGen::SPHERE),
+        application: match first >> code::APPLICATION & 3 {
+            code::REPLACE => Application::Replace,
+            code::DECAL => Application::Decal,
+            _ => Application::Product,
+        },
+        blend: match first >> code::BLEND & 3 {
+            code::FILTER => Some(Blend::filter(alpha)),
+            code::ADD => Some(Blend::add(alpha)),
+            code::SUBTRACT => Some(Blend::new(BlendMode::Subtract(alpha))),
+            _ => None,
+        },
         dither: has(code::DITHER),
         priority: (first >> code::PRIORITY) as u8,
         ..Draw::new(mesh)
-    })
+    }
 }
 
 fn matrix(reader: &mut Reader<'_>) -> Result<Matrix, FlashError> {

@@ -66,9 +66,9 @@ impl<'a> SceneParts<'a> {
         self.scene
     }
 
-    /// The textures of each object.
-    pub(crate) fn textures(&self) -> impl Iterator<Item = &'a TextureSet> {
-        self.parts.iter().map(|part| part.textures)
+    /// The textures of each object, and what the file says of it.
+    pub(crate) fn textures(&self) -> impl Iterator<Item = (&'a Item, &'a TextureSet)> {
+        self.parts.iter().map(|part| (part.item, part.textures))
     }
 
     /// All parts of all objects in order: the object's number, what the file says of it, where it stands, and the part.
