@@ -64,7 +64,6 @@ fn all_that_a_file_says_is_in_the_words() -> Tried {
         (Some(0), "reflection", json!(true)),
         (Some(0), "filter", json!("bilinear")),
         (Some(0), "application", json!("replace")),
-        (Some(1), "shade", json!("flat")),
         (Some(1), "shade", json!("none")),
         (Some(1), "depth", json!("never")),
         (Some(2), "depth", json!("farther")),
@@ -92,6 +91,12 @@ fn all_that_a_file_says_is_in_the_words() -> Tried {
         let shown = loaded(&folder, &other).map_err(|error| format!("{said}: {error}"))?;
         assert!(shown.shown.pixels != plain, "{said}");
     }
+    // A cube is as flat as it can be.
+    let mut round = scene();
+    round["objects"][1]["model"] = json!(example("scene-files/ball.obj"));
+    let smooth = loaded(&folder, &round)?.shown.pixels;
+    round["objects"][1]["shade"] = json!("flat");
+    assert!(loaded(&folder, &round)?.shown.pixels != smooth);
     // What shows its back is dropped.
     let mut turned = scene();
     turned["objects"][2]["turn"] = json!([0, 180, 0]);
