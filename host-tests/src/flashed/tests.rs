@@ -258,8 +258,8 @@ fn boards_draw_what_this_machine_draws() -> Tried {
             assert_eq!(lines.costs.len(), 240, "{name}");
             assert!(lines.pass_one > 4000, "{name}: {}", lines.pass_one);
             if kind == Kind::ListSmooth {
-                // It was looked at once, before: that takes as long again.
-                assert!(lines.pass_one < 450_000, "{name}: {}", lines.pass_one);
+                // It was looked at once, before: that takes 87,000 more.
+                assert!(lines.pass_one < 400_000, "{name}: {}", lines.pass_one);
             }
             // Each line may be a tick off.
             let sum = lines.pass_one + lines.costs.iter().sum::<u64>();
