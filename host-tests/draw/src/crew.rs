@@ -59,8 +59,9 @@ where
         };
         pump.take_stats();
         pump.begin(window, lines_per_transfer)?;
+        let first = turns(0);
         for line in scene.lines() {
-            let lines = &drawn[usize::from(turns(0).owner(line))];
+            let lines = &drawn[usize::from(first.owner(line))];
             let arrived = lines.recv().unwrap_or(Err(LineError::Stopped { line }));
             let (pixels, is_active) = arrived.map_err(FrameError::Line)?;
             used.lines_skipped += u32::from(!is_active);

@@ -8,12 +8,11 @@ use crate::scene_file::{
     ApplicationKind, BlendKind, CullSide, FormKind, Item, Lamp, Palette, QualityKind, SceneFile,
     ShadeKind,
 };
-use crate::scenes::SceneParts;
-use crate::setting::{focal, unit};
+use crate::scenes::{self, SceneParts, directional};
+use crate::setting::focal;
 use crate::textured::Texels16;
 use host_support::reference::View;
 use scanbeam::Affine;
-use scanbeam::light::DirectionalLight;
 use scanbeam::list::{CameraWords, Matrix};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{DepthFunction, LARGEST};
@@ -34,7 +33,7 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
         dither,
         background,
         camera: _,
-        ambient,
+        ambient: _,
         lights,
         phong,
         doubled,
@@ -56,7 +55,7 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
         calls: parts.pieces().count() as u32,
         ..Counts::default()
     };
-    words.push((ambient.unwrap_or(0.2) * 32_768.0).round() as u32);
+    words.push(scenes::ambient(parts.scene()).to_bits().into());
     for lamp in lights {
         words.lamp(lamp)?;
     }
@@ -86,7 +85,7 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
         size,
         background: background.unwrap_or_default(),
         room: Room::default(),
-        camera: camera(&parts.scene().view()),
+        camera: camera_words(&parts.scene().view()),
     };
     let length = Head::WORDS + counts.to_words().len() + words.0.len();
     let head = head.to_words(u32::try_from(length).unwrap_or(u32::MAX));
@@ -113,8 +112,9 @@ fn sides(size: [u32; 2]) -> Result<[u16; 2], DrawFailure> {
     )))
 }
 
-/// As [`draw_scene_file`](crate::draw_scene_file) sees it.
-fn camera(view: &View) -> CameraWords {
+/// The camera of a view, as [`draw_scene_file`](crate::draw_scene_file) has it.
+#[must_use]
+pub fn camera_words(view: &View) -> CameraWords {
     let [eye, at, up] = [view.eye, view.at, view.up].map(|v| v.map(|c| c as f32));
     CameraWords {
         eye,
@@ -250,14 +250,14 @@ impl Words {
     }
 
     fn lamp(&mut self, lamp: &Lamp) -> Result<(), DrawFailure> {
+        // Its direction and its colour are in the light.
         let Lamp {
-            towards,
-            colour,
+            towards: _,
+            colour: _,
             // None has them: they are refused before.
             shadows: _,
         } = lamp;
-        let light = DirectionalLight::new(unit(*towards), colour.map(|c| c as f32));
-        let light = light.ok_or_else(|| DrawFailure::View("a light has no direction".into()))?;
+        let light = directional(lamp)?;
         let direction = light.direction.map(|c| c.to_bits() as u16);
         let colour = light.colour.map(|c| c.to_bits());
         self.halves(direction.into_iter().chain(colour));

@@ -20,7 +20,7 @@ mod textured;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
-pub use flash::flash_words;
+pub use flash::{camera_words, flash_words};
 pub use hardware::{ModelLines, draw_model, trace_model_line};
 pub use interp::{draw_by, draw_by_methods};
 pub use models::{draw, draw_prepared, draw_textured};

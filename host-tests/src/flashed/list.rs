@@ -1,7 +1,8 @@
 //! A list as words of a scene.
 
+use crate::draw::camera_words;
 use crate::reference::View;
-use scanbeam::list::{CameraWords, Flow, Instruction, State, Texture, VertexFormat, read_block};
+use scanbeam::list::{Flow, Instruction, State, Texture, VertexFormat, read_block};
 use scene_flash::{Head, Kind, List, ListRoom, Room};
 
 /// Vertices and indices that a player has at least.
@@ -12,8 +13,6 @@ const BUDGET: u32 = 1 << 24;
 /// The words of a list, which is seen as `run-list` does when nothing is said.
 pub(super) fn words(list: &[u32]) -> Vec<u32> {
     let view = View::default();
-    let [eye, at, up] = [view.eye, view.at, view.up].map(|v| v.map(|c| c as f32));
-    let focal = f64::from(view.height) / 2.0 / (view.fov.to_radians() / 2.0).tan();
     let (room, is_textured) = room(list);
     let written = List { room, words: list }.to_words();
     let head = Head {
@@ -24,14 +23,7 @@ pub(super) fn words(list: &[u32]) -> Vec<u32> {
         size: [view.width as u16, view.height as u16],
         background: view.background,
         room: Room::default(),
-        camera: CameraWords {
-            eye,
-            at,
-            up,
-            focal: focal as f32,
-            near: view.near as f32,
-            far: view.far as f32,
-        },
+        camera: camera_words(&view),
     };
     let length = Head::WORDS + written.len() + list.len();
     [&head.to_words(length as u32)[..], &written, list].concat()

@@ -82,9 +82,7 @@ impl Rest<'_> {
         scene.begin(&camera).map_err(ShotError::Begin)?;
         player.command(ListCommand::Start(from));
         let (mut answer, mut budget) = (Answer::default(), Budget::of(4096));
-        let mut hear = |notice: Notice| {
-            flags.raise(notice.event);
-        };
+        let mut hear = |notice: Notice| flags.raise(notice.event);
         loop {
             let run = player.run(list, &mut scene, &mut budget, &mut hear);
             answer.add_events(flags.take());
@@ -286,7 +284,7 @@ impl Rows {
         let ((mut first, one), (mut second, other)) = (upper.split(0), lower.split(1));
         let mut input = Input::new([one, other]);
         let mut stalls = 0;
-        // Both sources say as much as fits, then the scene takes one command of each.
+        // Both sources say as much as fits, then the scene takes one command.
         let (mut said, mut is_over) = ([0; 2], false);
         while !is_over {
             for (number, source) in [&mut first, &mut second].into_iter().enumerate() {

@@ -4,7 +4,7 @@
 use super::Placed;
 use crate::DrawFailure;
 use crate::parts::{Job, tiles};
-use crate::scene_file::{Item, SceneFile, ShadeKind};
+use crate::scene_file::{Item, Lamp, SceneFile, ShadeKind};
 use crate::setting::{level, unit};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::mesh::{Material, U1F15};
@@ -16,6 +16,20 @@ pub(super) enum Side {
     Lit,
     /// In its shadow.
     Dark,
+}
+
+/// A light of a scene in the crate's number formats.
+///
+/// # Errors
+/// When it has no direction.
+pub(crate) fn directional(lamp: &Lamp) -> Result<DirectionalLight, DrawFailure> {
+    let light = DirectionalLight::new(unit(lamp.towards), lamp.colour.map(|c| c as f32));
+    light.ok_or_else(|| DrawFailure::View("a light has no direction".into()))
+}
+
+/// The light from everywhere in a scene.
+pub(crate) fn ambient(scene: &SceneFile) -> U1F15 {
+    level(scene.ambient.unwrap_or(0.2))
 }
 
 /// The lights of a scene.
@@ -34,9 +48,7 @@ impl SceneLights {
         }
         let (mut all, mut in_shadow) = (Vec::new(), Vec::new());
         for lamp in &scene.lights {
-            let colour = lamp.colour.map(|c| c as f32);
-            let light = DirectionalLight::new(unit(lamp.towards), colour)
-                .ok_or_else(|| DrawFailure::View("a light has no direction".into()))?;
+            let light = directional(lamp)?;
             all.push(light);
             if !lamp.shadows {
                 in_shadow.push(light);
@@ -45,7 +57,7 @@ impl SceneLights {
         Ok(Some(Self {
             all,
             in_shadow,
-            ambient: [level(scene.ambient.unwrap_or(0.2)); 3],
+            ambient: [ambient(scene); 3],
         }))
     }
 

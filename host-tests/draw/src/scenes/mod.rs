@@ -19,6 +19,7 @@ mod store;
 mod texels;
 mod worn;
 
+pub(crate) use light::{ambient, directional};
 pub(crate) use store::check;
 
 use crate::choice::PixelFormatArg;

@@ -114,17 +114,30 @@ fn of(item: &Item) -> &'static str {
     }
 }
 
-/// A word that stands for no texel.
-fn free(words: impl Iterator<Item = u16>) -> Result<u16, String> {
+/// The word of holes, where there may be any: one that stands for none of the texels that are seen.
+fn key<'t, T: PixelFormat<Word = u16>>(
+    texels: impl Iterator<Item = &'t Rgba>,
+    has_holes: bool,
+) -> Result<Option<u16>, String> {
+    if !has_holes {
+        return Ok(None);
+    }
     let mut taken = vec![false; 1 << 16];
-    words.for_each(|word| taken[usize::from(word)] = true);
+    for texel in texels.filter(|texel| !is_hole(**texel)) {
+        taken[usize::from(word::<T>(*texel, None))] = true;
+    }
     let free = (0..=u16::MAX).find(|&word| !taken[usize::from(word)]);
-    free.ok_or_else(|| "its picture has all colours, and none is left for holes".into())
+    let free = free.ok_or("its picture has all colours, and none is left for holes")?;
+    Ok(Some(free))
 }
 
-/// The word of a texel's colour.
-fn word<T: PixelFormat<Word = u16>>([r, g, b, _]: Rgba) -> u16 {
-    T::from_rgb8([r, g, b])
+/// The word of a texel's colour, or of holes.
+fn word<T: PixelFormat<Word = u16>>(texel: Rgba, key: Option<u16>) -> u16 {
+    let [r, g, b, _] = texel;
+    match key.filter(|_| is_hole(texel)) {
+        Some(key) => key,
+        None => T::from_rgb8([r, g, b]),
+    }
 }
 
 /// What a mask says of a texel.
@@ -205,15 +218,8 @@ impl Held {
         levels: &[Vec<Rgba>],
         has_holes: bool,
     ) -> Result<Self, String> {
-        let seen = levels.iter().flatten().filter(|texel| !is_hole(**texel));
-        let key = match has_holes {
-            true => Some(free(seen.map(|texel| word::<T>(*texel)))?),
-            false => None,
-        };
-        let in_word = |texel: &Rgba| match key.filter(|_| is_hole(*texel)) {
-            Some(key) => key,
-            None => word::<T>(*texel),
-        };
+        let key = key::<T>(levels.iter().flatten(), has_holes)?;
+        let in_word = |texel: &Rgba| word::<T>(*texel, key);
         let made = (levels.iter().enumerate()).map(|(number, texels)| Level {
             sides: image.sides(number),
             store: Store::Words(texels.iter().map(in_word).collect()),
@@ -236,15 +242,8 @@ impl Held {
         palette: &[Rgba],
         has_holes: bool,
     ) -> Result<Self, String> {
-        let seen = palette.iter().filter(|texel| !is_hole(**texel));
-        let key = match has_holes {
-            true => Some(free(seen.map(|texel| word::<T>(*texel)))?),
-            false => None,
-        };
-        let in_word = |texel: &Rgba| match key.filter(|_| is_hole(*texel)) {
-            Some(key) => key,
-            None => word::<T>(*texel),
-        };
+        let key = key::<T>(palette.iter(), has_holes)?;
+        let in_word = |texel: &Rgba| word::<T>(*texel, key);
         let mut words: Vec<u16> = palette.iter().map(in_word).collect();
         let mut masks: Vec<u16> = palette.iter().copied().map(mask_word).collect();
         words.resize(COLOURS, 0);

@@ -4,14 +4,12 @@
 //! what throws one and the same surfaces again as they are without that light (K9); last what is blended, which throws no
 //! shadow and gets none.
 
-use super::light::{AtPixels, SceneLights, Side};
+use super::light::{AtPixels, SceneLights, Side, directional};
 use super::{Placed, SceneParts};
 use crate::parts::{Job, Tile, draw_parts};
 use crate::prepared::Chunk;
 use crate::scene_file::{Item, ShadeKind};
-use crate::setting::unit;
 use crate::{DrawFailure, Drawn};
-use scanbeam::light::DirectionalLight;
 use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{
@@ -79,8 +77,7 @@ impl SceneParts<'_> {
         let Some(lamp) = self.scene.lights.iter().find(|lamp| lamp.shadows) else {
             return Ok(vec![None; self.parts.len()]);
         };
-        let light = DirectionalLight::new(unit(lamp.towards), [1.0; 3])
-            .ok_or_else(|| DrawFailure::View("a light has no direction".into()))?;
+        let light = directional(lamp)?;
         let opaque = self.parts.iter().filter(|part| part.item.blend.is_none());
         let of = |(number, part): (usize, &Placed<'_>)| {
             if part.shadows.is_empty() {
