@@ -2,21 +2,21 @@
 //! [`draw_scene_file`](crate::draw_scene_file) makes of it, for a display of 16 bits.
 
 use crate::DrawFailure;
-use crate::FilterArg;
-use crate::prepared::Chunk;
+use crate::prepared::{Chunk, ShadowMesh};
 use crate::scene_file::{
-    ApplicationKind, BlendKind, CullSide, FormKind, Item, Lamp, Palette, QualityKind, SceneFile,
-    ShadeKind,
+    ApplicationKind, BlendKind, CullSide, Item, Palette, QualityKind, SceneFile, ShadeKind,
 };
-use crate::scenes::{self, SceneParts, directional};
+use crate::scenes::{self, SceneParts, Side, Step, TextureWords, What, directional, material};
 use crate::setting::focal;
-use crate::textured::Texels16;
+use crate::words::Words;
 use host_support::reference::View;
 use scanbeam::Affine;
-use scanbeam::list::{CameraWords, Matrix};
+use scanbeam::light::DirectionalLight;
+use scanbeam::list::CameraWords;
+use scanbeam::mesh::Material;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::{DepthFunction, LARGEST};
-use scene_flash::{Counts, Head, Kind, Room, code};
+use scanbeam::scene::{DepthFunction, DepthTest, LARGEST, ShadowLight};
+use scene_flash::{Counts, Head, Kind, LightCounts, Room, code};
 use std::cmp::Ordering;
 
 /// The words of a scene that is seen as its file says. They say nothing of the memory that it needs. Also the
@@ -34,71 +34,73 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
         background,
         camera: _,
         ambient: _,
-        lights,
+        lights: _,
         phong,
         doubled,
         palettes,
         objects: _,
     } = parts.scene();
-    let shadows = parts.scene().has_shadows();
-    refuse(&[
-        ("phong", *phong),
-        ("doubled", *doubled),
-        ("shadows", shadows),
-    ])
-    .map_err(DrawFailure::View)?;
-    let size = sides(*size)?;
-    let mut words = Words(Vec::new());
-    let mut counts = Counts {
-        lights: lights.len() as u32,
-        palettes: palettes.len() as u32,
-        calls: parts.pieces().count() as u32,
-        ..Counts::default()
+    let textures = TextureWords::of::<Rgb565Be>(parts.textures())?;
+    let steps = parts.steps();
+    let shadows = parts.shadow_lights()?;
+    let lit = Lit::new(parts, &steps)?;
+    let volume = |step: &Step| match step.what {
+        What::Volume(number) => parts.shadow(step.object, number),
+        What::Part(_) | What::InShadow(_) => None,
     };
+    let volumes: Vec<&ShadowMesh> = steps.iter().filter_map(volume).collect();
+    let counts = Counts {
+        lights: lit.counts(*phong),
+        textures: textures.counts,
+        palettes: palettes.len() as u32,
+        calls: steps.len() as u32,
+        volumes: volumes.len() as u32,
+        thrown: volumes
+            .iter()
+            .map(|mesh| mesh.faces.len() as u32)
+            .max()
+            .unwrap_or(0),
+    };
+    let mut words = Words::default();
     words.push(scenes::ambient(parts.scene()).to_bits().into());
-    for lamp in lights {
-        words.lamp(lamp)?;
-    }
-    palettes.iter().for_each(|palette| words.palette(palette));
-    let first = words.textures(parts, &mut counts);
-    for (object, item, model, chunk) in parts.pieces() {
-        let texture = chunk
-            .texture
-            .map_or(0, |number| first[object] + u32::from(number) + 1);
-        let call = Call {
-            item,
-            model,
-            chunk,
-            texture,
-            dither: *dither,
-            priority: parts.scene().rank(item),
+    lit.write(&mut words);
+    palettes
+        .iter()
+        .for_each(|palette| write_palette(&mut words, palette));
+    words.append(textures.words.all().iter().copied());
+    for step in &steps {
+        let written = match volume(step) {
+            Some(mesh) => {
+                let light = shadows[step.object].as_ref();
+                light.map_or(Ok(()), |light| {
+                    write_volume(&mut words, mesh, parts.model(step.object), light)
+                })
+            }
+            None => Call::new(parts, step, &textures, &lit, *dither).write(&mut words),
         };
-        let written = words.call(&call);
-        written.map_err(|why| DrawFailure::View(format!("object {object}: {why}")))?;
+        written.map_err(|why| DrawFailure::View(format!("object {}: {why}", step.object)))?;
     }
     let head = Head {
-        kind: match (palettes.is_empty(), parts.are_textured()) {
-            (false, _) => Kind::Indexed,
-            (true, true) => Kind::Textured,
-            (true, false) => Kind::Smooth,
+        kind: match (palettes.is_empty(), parts.are_textured(), phong) {
+            (false, ..) => Kind::Indexed,
+            (true, true, false) => Kind::Textured,
+            (true, false, false) => Kind::Smooth,
+            (true, true, true) => Kind::TexturedPhong,
+            (true, false, true) => Kind::Phong,
         },
-        size,
+        size: sides(*size)?.map(|side| if *doubled { side / 2 } else { side }),
+        doubled: *doubled,
         background: background.unwrap_or_default(),
         room: Room::default(),
-        camera: camera_words(&parts.scene().view()),
+        camera: camera_words(&parts.drawn_view()),
     };
-    let length = Head::WORDS + counts.to_words().len() + words.0.len();
+    let length = Head::WORDS + Counts::WORDS + words.all().len();
     let head = head.to_words(u32::try_from(length).unwrap_or(u32::MAX));
-    let objects = parts.pieces().map(|(object, ..)| object).collect();
-    Ok(([&head[..], &counts.to_words(), &words.0].concat(), objects))
-}
-
-/// Refuses the first field that is said, of those that boards do not draw.
-fn refuse(fields: &[(&str, bool)]) -> Result<(), String> {
-    match fields.iter().find(|(_, is_said)| *is_said) {
-        Some((name, _)) => Err(format!("`{name}` is not drawn on boards")),
-        None => Ok(()),
-    }
+    let objects = steps.iter().map(|step| step.object).collect();
+    Ok((
+        [&head[..], &counts.to_words(), words.all()].concat(),
+        objects,
+    ))
 }
 
 /// Columns and lines that boards draw.
@@ -134,42 +136,170 @@ fn bits(function: DepthFunction) -> u32 {
     })
 }
 
+/// The lights of a scene, and what falls of them on its surfaces.
+struct Lit {
+    /// Those of what is in their light, then those of what is in the shadow.
+    lights: Vec<DirectionalLight>,
+    /// How many are the former.
+    in_light: usize,
+    /// Without those that throw shadows, and of what material.
+    surfaces: Vec<(Side, Material)>,
+}
+
+impl Lit {
+    fn new(parts: &SceneParts<'_>, steps: &[Step]) -> Result<Self, DrawFailure> {
+        let lamps = &parts.scene().lights;
+        let all = lamps
+            .iter()
+            .chain(lamps.iter().filter(|lamp| !lamp.shadows));
+        let lights: Vec<_> = all.map(directional).collect::<Result<_, _>>()?;
+        let mut lit = Self {
+            lights,
+            in_light: lamps.len(),
+            surfaces: Vec::new(),
+        };
+        for step in steps {
+            let surface = lit.surface(parts.item(step.object), step);
+            if let Some(surface) = surface.filter(|surface| !lit.surfaces.contains(surface)) {
+                lit.surfaces.push(surface);
+            }
+        }
+        Ok(lit)
+    }
+
+    /// What light falls on, unless it is none.
+    fn surface(&self, item: &Item, step: &Step) -> Option<(Side, Material)> {
+        let is_lit = self.in_light > 0 && item.shade != Some(ShadeKind::None);
+        let side = match step.what {
+            What::Part(_) => Side::Lit,
+            What::InShadow(_) => Side::Dark,
+            What::Volume(_) => return None,
+        };
+        is_lit.then(|| (side, material(item)))
+    }
+
+    /// The number of a surface, plus 1, or 0.
+    fn number(&self, item: &Item, step: &Step) -> u32 {
+        let surface = self.surface(item, step);
+        let at = surface.and_then(|own| self.surfaces.iter().position(|one| *one == own));
+        at.map_or(0, |at| at as u32 + 1)
+    }
+
+    fn counts(&self, phong: bool) -> LightCounts {
+        let lightings = self.surfaces.len() as u32;
+        LightCounts {
+            lights: self.lights.len() as u32,
+            lightings,
+            lamps: if phong { lightings } else { 0 },
+        }
+    }
+
+    fn write(&self, words: &mut Words) {
+        for light in &self.lights {
+            let direction = light.direction.map(|c| c.to_bits() as u16);
+            let colour = light.colour.map(|c| c.to_bits());
+            words.halves(direction.into_iter().chain(colour));
+        }
+        for (side, material) in &self.surfaces {
+            let (first, end) = match side {
+                Side::Lit => (0, self.in_light),
+                Side::Dark => (self.in_light, self.lights.len()),
+            };
+            let [r, g, b] = material.specular.map(|level| level.to_bits());
+            let range = [first, end - first].map(|n| n as u16);
+            words.halves(range.into_iter().chain([r, g, b, material.shininess]));
+        }
+    }
+}
+
+fn write_palette(words: &mut Words, palette: &Palette) {
+    let Palette { from_line, colours } = palette;
+    words.push(*from_line);
+    let colours = colours.iter().copied();
+    let all = colours.chain(std::iter::repeat([0; 3])).take(256);
+    words.halves(all.map(Rgb565Be::from_rgb8));
+}
+
+/// The shadow of an object.
+fn write_volume(
+    words: &mut Words,
+    mesh: &ShadowMesh,
+    model: &Affine,
+    light: &ShadowLight,
+) -> Result<(), String> {
+    words.push(code::VOLUME);
+    let direction = light.direction.map(|c| c.to_bits() as u16);
+    words.halves(direction.into_iter().chain([light.reach.into()]));
+    words.append([mesh.positions.len() as u32, mesh.faces.len() as u32]);
+    words.matrix(model)?;
+    words.append(mesh.positions.iter().flatten().map(|c| *c as u32));
+    words.halves(mesh.faces.iter().flatten().copied());
+    Ok(())
+}
+
 /// A part of an object.
 struct Call<'a> {
     item: &'a Item,
     model: &'a Affine,
     chunk: &'a Chunk,
+    colour: [u8; 3],
     /// Its number plus 1, or 0.
     texture: u32,
+    /// The number of what falls on it, plus 1, or 0.
+    lit: u32,
+    in_shadow: bool,
+    phong: bool,
     dither: bool,
     priority: u8,
 }
 
-impl Call<'_> {
-    /// Refuses what boards do not draw.
-    fn is_drawn(&self) -> Result<(), String> {
-        // As above. All that is not looked at here is in the call, in its code, or in its words.
+impl<'a> Call<'a> {
+    fn new(
+        parts: &'a SceneParts<'_>,
+        step: &Step,
+        textures: &TextureWords,
+        lit: &Lit,
+        dither: bool,
+    ) -> Self {
+        let (item, chunk) = (parts.item(step.object), parts.chunk(step));
+        let first = textures.first[step.object];
+        Self {
+            item,
+            model: parts.model(step.object),
+            chunk,
+            colour: parts.colour(step.object, chunk.look),
+            texture: (chunk.texture).map_or(0, |number| first + u32::from(number) + 1),
+            lit: lit.number(item, step),
+            in_shadow: matches!(step.what, What::InShadow(_)),
+            phong: parts.scene().phong,
+            dither,
+            priority: parts.scene().rank(item),
+        }
+    }
+
+    /// Its first word.
+    fn code(&self) -> u32 {
+        // As above. All that is not looked at here is in the matrix, in its textures, or in what falls on it.
+        let item = self.item;
         let Item {
             model: _,
             scale: _,
             turn: _,
             place: _,
             texture: _,
-            computed,
-            texels,
-            texel_form,
-            cached,
+            computed: _,
+            texels: _,
+            texel_form: _,
+            cached: _,
             reflection: _,
-            // In the words of its textures.
             filter: _,
-            // Its pictures have them or not.
             levels: _,
             quality: _,
             application: _,
             shade: _,
-            specular,
-            // Of no use without highlights, and without shadows.
+            specular: _,
             shininess: _,
+            // It has volumes or not.
             shadow: _,
             cull: _,
             blend: _,
@@ -178,23 +308,9 @@ impl Call<'_> {
             writes_depth: _,
             priority: _,
             window: _,
+            // Its colours are indices.
             index: _,
-        } = self.item;
-        refuse(&[
-            ("computed", computed.is_some()),
-            ("texels", texels.is_some()),
-            (
-                "texel_form",
-                texel_form.is_some_and(|form| form != FormKind::Words),
-            ),
-            ("cached", *cached == Some(true)),
-            ("specular", specular.is_some()),
-        ])
-    }
-
-    /// Its first word.
-    fn code(&self) -> u32 {
-        let item = self.item;
+        } = item;
         let flag = |is: bool, bit: u32| if is { bit } else { 0 };
         let quality = item.quality.map_or(0, |kind| match kind {
             QualityKind::Balanced => 0,
@@ -221,116 +337,42 @@ impl Call<'_> {
             | quality << code::QUALITY
             | application << code::APPLICATION
             | flag(item.shade == Some(ShadeKind::Flat), code::FLAT)
-            | flag(item.shade == Some(ShadeKind::None), code::UNLIT)
+            | flag(self.in_shadow, code::SHADOWED)
             | flag(item.reflection == Some(true), code::REFLECTION)
     }
-}
 
-/// Words, as `scene_flash` reads them.
-struct Words(Vec<u32>);
-
-impl Words {
-    fn push(&mut self, word: u32) {
-        self.0.push(word);
-    }
-
-    /// Bytes, padded to a word.
-    fn bytes(&mut self, bytes: impl Iterator<Item = u8>) {
-        let bytes: Vec<u8> = bytes.collect();
-        self.0.extend(bytes.chunks(4).map(|four| {
-            let mut word = [0; 4];
-            word[..four.len()].copy_from_slice(four);
-            u32::from_le_bytes(word)
-        }));
-    }
-
-    /// Numbers of 16 bits, padded to a word.
-    fn halves(&mut self, halves: impl Iterator<Item = u16>) {
-        self.bytes(halves.flat_map(u16::to_le_bytes));
-    }
-
-    fn lamp(&mut self, lamp: &Lamp) -> Result<(), DrawFailure> {
-        // Its direction and its colour are in the light.
-        let Lamp {
-            towards: _,
-            colour: _,
-            // None has them: they are refused before.
-            shadows: _,
-        } = lamp;
-        let light = directional(lamp)?;
-        let direction = light.direction.map(|c| c.to_bits() as u16);
-        let colour = light.colour.map(|c| c.to_bits());
-        self.halves(direction.into_iter().chain(colour));
-        Ok(())
-    }
-
-    fn palette(&mut self, palette: &Palette) {
-        let Palette { from_line, colours } = palette;
-        self.push(*from_line);
-        let colours = colours.iter().copied();
-        let all = colours.chain(std::iter::repeat([0; 3])).take(256);
-        self.halves(all.map(Rgb565Be::from_rgb8));
-    }
-
-    /// The textures of all objects; the number of the first one of each.
-    fn textures(&mut self, parts: &SceneParts<'_>, counts: &mut Counts) -> Vec<u32> {
-        let mut first = Vec::new();
-        for (item, set) in parts.textures() {
-            let mixed = match item.filter {
-                Some(FilterArg::Bilinear) => code::MIXED,
-                Some(FilterArg::Nearest) | None => 0,
-            };
-            first.push(counts.textures);
-            for levels in Texels16::of::<Rgb565Be>(set).levels() {
-                counts.textures += 1;
-                counts.levels += levels.len() as u32 - 1;
-                self.push(levels.len() as u32 | mixed);
-                for ([width, height], texels) in levels {
-                    self.push(width | height << 16);
-                    self.halves(texels.iter().copied());
-                }
-            }
-        }
-        first
-    }
-
-    /// A draw call.
-    fn call(&mut self, call: &Call<'_>) -> Result<(), String> {
-        call.is_drawn()?;
-        self.push(call.code());
-        let test = call.item.depth();
-        if call.texture > u32::from(u16::MAX) {
+    /// Its words.
+    fn write(&self, words: &mut Words) -> Result<(), String> {
+        words.push(self.code());
+        let test = match self.in_shadow {
+            true => DepthTest::HIDES,
+            false => self.item.depth(),
+        };
+        if self.texture > u32::from(u16::MAX) {
             return Err("`texture`: boards have at most 65,535".into());
         }
-        self.push(bits(test.colour_if) | bits(test.depth_if) << 8 | call.texture << 16);
+        words.push(bits(test.colour_if) | bits(test.depth_if) << 8 | self.texture << 16);
+        words.colour(self.colour);
+        words.push(self.lit);
         let range = |first: u16, count: u16| [first, first.saturating_add(count)];
-        let window = call.item.window.map_or([[0; 2]; 2], |cut| {
+        let window = self.item.window.map_or([[0; 2]; 2], |cut| {
             [range(cut.left, cut.width), range(cut.top, cut.height)]
         });
-        self.halves(window.into_iter().flatten());
-        let mesh = call.chunk.mesh();
-        self.push(mesh.positions.len() as u32);
-        self.push(call.chunk.faces.len() as u32);
-        self.matrix(call.model)?;
-        let positions = mesh.positions.iter().flatten();
-        self.0.extend(positions.map(|c| *c as u32));
-        self.halves(mesh.normals.iter().flatten().map(|c| *c as u16));
-        self.bytes(mesh.colours.iter().flatten().copied());
-        self.halves(call.chunk.faces.iter().flatten().copied());
-        if call.texture > 0 {
-            let places = call.chunk.places.iter().flatten();
-            self.0.extend(places.map(|c| *c as u32));
+        words.halves(window.into_iter().flatten());
+        let mesh = self.chunk.mesh();
+        let colours = if self.phong { &[] } else { mesh.colours };
+        let tables = [self.chunk.faces.len(), mesh.normals.len(), colours.len()];
+        words.push(mesh.positions.len() as u32);
+        words.append(tables.map(|count| count as u32));
+        words.matrix(self.model)?;
+        words.append(mesh.positions.iter().flatten().map(|c| *c as u32));
+        words.halves(mesh.normals.iter().flatten().map(|c| *c as u16));
+        words.bytes(colours.iter().flatten().copied());
+        words.halves(self.chunk.faces.iter().flatten().copied());
+        if self.texture > 0 {
+            let places = self.chunk.places.iter().flatten();
+            words.append(places.map(|c| *c as u32));
         }
-        Ok(())
-    }
-
-    fn matrix(&mut self, model: &Affine) -> Result<(), String> {
-        let matrix = Matrix::try_from(model);
-        let matrix = matrix.map_err(|_| "`scale` and `place` are too large".to_owned())?;
-        self.0.extend(matrix.linear.map(|c| c as u32));
-        let exponents = [matrix.linear_exponent, matrix.offset_exponent];
-        self.halves(exponents.into_iter().map(|e| e as u16));
-        self.0.extend(matrix.offset.map(|c| c as u32));
         Ok(())
     }
 }

@@ -17,6 +17,7 @@ pub mod scene_file;
 mod scenes;
 mod setting;
 mod textured;
+mod words;
 
 pub use depth::draw_by_depth;
 pub use effects::{Effects, draw_effects};
@@ -25,7 +26,7 @@ pub use hardware::{ModelLines, draw_model, trace_model_line};
 pub use interp::{draw_by, draw_by_methods};
 pub use models::{draw, draw_prepared, draw_textured};
 pub use prepared::Prepared;
-pub use scenes::{SceneParts, draw_scene_file};
+pub use scenes::{SceneParts, Twice, draw_scene_file, twice};
 pub use setting::Setting;
 pub use textured::{FilterArg, Skins, TextureSet, TextureSetError};
 

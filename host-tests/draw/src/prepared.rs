@@ -19,8 +19,8 @@ pub struct Prepared {
 /// What throws a shadow.
 #[derive(Default)]
 pub(super) struct ShadowMesh {
-    positions: Vec<[i32; 3]>,
-    faces: Vec<[u16; 3]>,
+    pub(super) positions: Vec<[i32; 3]>,
+    pub(super) faces: Vec<[u16; 3]>,
 }
 
 impl ShadowMesh {

@@ -181,14 +181,6 @@ impl Texels16 {
         Self(set.images.iter().map(levels).collect())
     }
 
-    /// The levels of each picture: sides and words.
-    pub(super) fn levels<'s>(&'s self) -> impl Iterator<Item = Vec<([u32; 2], &'s [u16])>> {
-        let of = |level: &'s Level| (level.sides, &level.words[..]);
-        self.0
-            .iter()
-            .map(move |levels| levels.iter().map(of).collect())
-    }
-
     /// The levels below each picture.
     pub(super) fn coarser(&self) -> Result<Vec<Vec<scene::Texture<'_>>>, DrawFailure> {
         let below = self.0.iter().map(|levels| levels.iter().skip(1));

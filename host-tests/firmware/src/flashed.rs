@@ -8,16 +8,17 @@ use crate::frames::{Emit, Receives};
 use crate::rest::Regions;
 use crate::rooms::{LineRooms, Rooms, SceneRooms};
 use core::hint::black_box;
-use scanbeam::frame::{FastMemory, draw_frame, draw_frame_indexed};
+use scanbeam::frame::{FastMemory, FrameError, Memory, Renderer, draw_frame, draw_frame_indexed};
 use scanbeam::input::{LightRoom, Player, PlayerMemory, TextureRoom};
 use scanbeam::list::{ListCommand, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be, expand_indices};
-use scanbeam::scan_out::Pump;
-use scanbeam::scene::{DrawState, Object, Texture, TexturePlace, Vertex};
+use scanbeam::scan_out::{Pump, Window, send_doubled};
+use scanbeam::scene::{CacheWord, DrawState, Object, ShadowEdge, Texture, TexturePlace, Vertex};
 use scanbeam::{Camera, Link, Scene, Screen};
 use scene_flash::{
-    CallMemory, Calls, Counts, FLASH_AT, FLASH_BYTES, Head, Kind, List, ListRoom, Reader,
+    CACHED, CallMemory, Calls, Counts, FLASH_AT, FLASH_BYTES, Head, Kind, Level, LightMemory,
+    Lights, List, ListRoom, Reader, Sheet, TextureMemory, VolumeMemory,
 };
 
 const GOOD: &str = "the host has drawn it";
@@ -38,6 +39,14 @@ pub(crate) fn run(counter: &Counter, console: &mut Console) {
     match head.kind {
         Kind::Smooth => by_calls(stage, reader, regions, caches.smooth, (counter, console)),
         Kind::Textured => by_calls(stage, reader, regions, caches.textured, (counter, console)),
+        Kind::Phong => by_calls(stage, reader, regions, caches.lit, (counter, console)),
+        Kind::TexturedPhong => by_calls(
+            stage,
+            reader,
+            regions,
+            caches.lit_texels,
+            (counter, console),
+        ),
         Kind::Indexed => by_indices(stage, reader, regions, caches.indexed, (counter, console)),
         Kind::ListSmooth => by_list(stage, reader, regions, caches.smooth, (counter, console)),
         Kind::ListTextured => by_list(stage, reader, regions, caches.textured, (counter, console)),
@@ -54,6 +63,10 @@ struct Stage {
     screen: Screen,
     scene: SceneRooms,
     lines: LineRooms,
+    /// Counts of shadows on a line, where there are any.
+    counts: &'static mut [u8],
+    /// Two lines that are drawn, where others are sent.
+    drawn: [&'static mut [u16]; 2],
     buffers: Option<[&'static mut [u16]; 2]>,
     background: u16,
 }
@@ -64,7 +77,9 @@ impl Stage {
         let [vertices, objects, draws] =
             [head.room.vertices, head.room.objects, head.room.draws].map(|count| count as usize);
         let places = if head.kind.is_textured() { vertices } else { 0 };
-        let (slow, dma) = (&mut regions.slow, &mut regions.dma);
+        let drawn = if head.doubled { width } else { 0 };
+        let sent = head.sent()[0];
+        let (slow, fast, dma) = (&mut regions.slow, &mut regions.fast, &mut regions.dma);
         let scene = SceneRooms {
             vertices: slow.lend(vertices, || Vertex::EMPTY),
             places: slow.lend(places, || TexturePlace::EMPTY),
@@ -74,7 +89,7 @@ impl Stage {
         };
         let lines = LineRooms {
             links: slow.lend(objects, || Link::EMPTY),
-            depth: regions.fast.lend(width.into(), || 0),
+            depth: fast.lend(width.into(), || 0),
         };
         Self {
             head: *head,
@@ -82,12 +97,14 @@ impl Stage {
             screen: Screen::new(width, height).expect(GOOD),
             scene,
             lines,
-            buffers: Some([0; 2].map(|_| dma.lend(width.into(), || 0))),
+            counts: &mut [],
+            drawn: [0; 2].map(|_| fast.lend(drawn.into(), || 0)),
+            buffers: Some([0; 2].map(|_| dma.lend(sent.into(), || 0))),
             background: Rgb565Be::from_rgb8(head.background),
         }
     }
 
-    /// Draws a frame of what `build` makes, a line a transfer.
+    /// Draws a frame of what `build` makes, a line a transfer; lines and columns doubled if the scene says so.
     fn frame<L: Look<Pixel = Rgb565Be>>(
         &mut self,
         cache: &mut FastMemory<L>,
@@ -96,39 +113,91 @@ impl Stage {
     ) {
         let mut scene = self.scene.sized(self.screen);
         build(&self.camera, &mut scene);
-        let mut renderer = self.lines.renderer(cache);
+        let memory = Memory {
+            cache,
+            links: self.lines.links,
+            depth: self.lines.depth,
+        };
+        let mut renderer = match self.counts.is_empty() {
+            true => Renderer::new(memory),
+            false => Renderer::with_shadows(memory, self.counts),
+        };
         let mut pump = Pump::new(Emit::new(to), self.buffers.take().expect("they came back"));
-        draw_frame(&scene, &mut renderer, &mut pump, self.background, 1).expect(GOOD);
+        if self.head.doubled {
+            let [width, height] = self.head.size;
+            let window = Window {
+                x: 0,
+                y: 0,
+                width,
+                height,
+            };
+            let drawn = self.drawn.each_mut().map(|line| &mut line[..]);
+            let draw = |line, pixels: &mut [u16]| {
+                let drawn = renderer.draw_line(&scene, line, pixels, self.background);
+                drawn.map(|_| ()).map_err(FrameError::Line)
+            };
+            send_doubled(&mut pump, window, 1, drawn, Rgb565Be::mix_lines, draw).expect(GOOD);
+        } else {
+            draw_frame(&scene, &mut renderer, &mut pump, self.background, 1).expect(GOOD);
+        }
         if let (_, [Some(a), Some(b)]) = pump.release() {
             self.buffers = Some([a, b]);
         }
     }
 }
 
-/// Makes a scene of calls.
-fn build<L: Look>(calls: &Calls<'static>, camera: &Camera, scene: &mut Scene<'_, 'static, L>) {
-    scene.begin(camera).expect(GOOD);
-    for draw in calls.draws {
-        scene.draw(draw).expect(GOOD);
+/// Calls, and what shadow volumes are made in.
+struct Called {
+    calls: Calls<'static>,
+    memory: VolumeMemory<'static>,
+}
+
+impl Called {
+    /// Makes a scene of them.
+    fn build<L: Look>(&mut self, camera: &Camera, scene: &mut Scene<'_, 'static, L>) {
+        scene.begin(camera).expect(GOOD);
+        self.calls.draw(scene, &mut self.memory).expect(GOOD);
     }
 }
 
 /// Reads the calls. Their values take no memory of the scene: a firmware makes them as it goes.
-fn read_calls(mut reader: Reader<'static>, regions: &mut Regions) -> Calls<'static> {
+fn read_calls(stage: &mut Stage, mut reader: Reader<'static>, regions: &mut Regions) -> Called {
     let counts = Counts::read(&mut reader).expect(GOOD);
-    let [lights, palettes, textures, levels, calls] = counts.to_words().map(|count| count as usize);
+    let (lights, textures) = (counts.lights, counts.textures);
+    let caches = CACHED * textures.caches as usize;
     let slow = &mut regions.slow;
     let before = slow.lent;
     let lent = CallMemory {
-        lights: slow.lend(lights, || Calls::DARK),
-        lighting: slow.one(|| None),
-        palettes: slow.lend(palettes, || (0, &[][..])),
-        textures: slow.lend(textures, || Texture::EMPTY),
-        levels: slow.lend(levels, || Texture::EMPTY),
-        calls: slow.lend(calls, || Calls::EMPTY),
+        lights: LightMemory {
+            lights: slow.lend(lights.lights as usize, || Lights::DARK),
+            lightings: slow.lend(lights.lightings as usize, || None),
+            lamps: slow.lend(lights.lamps as usize, || None),
+        },
+        textures: TextureMemory {
+            sheets: slow.lend(textures.textures as usize, || Sheet::EMPTY),
+            levels: slow.lend(textures.levels as usize, || Level::EMPTY),
+            textures: slow.lend(textures.textures as usize, || Texture::EMPTY),
+            others: slow.lend(textures.others as usize, || Texture::EMPTY),
+            cached: regions.fast.lend(caches, CacheWord::new),
+        },
+        palettes: slow.lend(counts.palettes as usize, || (0, &[][..])),
+        calls: slow.lend(counts.calls as usize, || Calls::EMPTY),
     };
     slow.lent = before;
-    Calls::read(&mut reader, lent).expect(GOOD)
+    let thrown = counts.thrown as usize;
+    let memory = VolumeMemory {
+        edges: slow.lend(3 * thrown, ShadowEdge::default),
+        positions: slow.lend(6 * thrown, || [0; 3]),
+        faces: slow.lend(6 * thrown, || [0; 3]),
+    };
+    if counts.volumes > 0 {
+        stage.counts = regions.fast.lend(stage.head.size[0].into(), || 0);
+    }
+    let calls = Calls::read::<Rgb565Be>(&mut reader, lent, &stage.camera, stage.screen);
+    Called {
+        calls: calls.expect(GOOD),
+        memory,
+    }
 }
 
 #[inline(never)]
@@ -139,10 +208,10 @@ fn by_calls<L: Look<Pixel = Rgb565Be>>(
     cache: &mut FastMemory<L>,
     tell: Tell<'_>,
 ) {
-    let calls = read_calls(reader, &mut regions);
+    let mut called = read_calls(&mut stage, reader, &mut regions);
     let head = stage.head;
     measure(&head, (tell.0, &mut *tell.1), &mut |to| {
-        stage.frame(cache, to, &mut |camera, scene| build(&calls, camera, scene));
+        stage.frame(cache, to, &mut |camera, scene| called.build(camera, scene));
     });
     figures(&regions, FastMemory::<L>::SLOT_BYTES, tell.1);
 }
@@ -155,17 +224,17 @@ fn by_indices(
     cache: &mut FastMemory<scenes::IndexedLook>,
     tell: Tell<'_>,
 ) {
-    let calls = read_calls(reader, &mut regions);
+    let mut called = read_calls(&mut stage, reader, &mut regions);
     let indices = regions.fast.lend(stage.head.size[0].into(), || 0);
     let head = stage.head;
     measure(&head, (tell.0, &mut *tell.1), &mut |to| {
         let mut scene = stage.scene.sized(stage.screen);
-        build(&calls, &stage.camera, &mut scene);
+        called.build(&stage.camera, &mut scene);
         let mut renderer = stage.lines.renderer(cache);
         let buffers = stage.buffers.take().expect("they came back");
         let mut pump = Pump::new(Emit::new(to), buffers);
         let expand = |line, indices: &[u8], pixels: &mut [u16]| {
-            if let Ok(palette) = calls.palette(line).try_into() {
+            if let Ok(palette) = called.calls.palette(line).try_into() {
                 expand_indices::<u16, 256>(indices, palette, pixels);
             }
         };
@@ -255,7 +324,7 @@ fn measure(head: &Head, tell: Tell<'_>, frame: &mut dyn FnMut(&mut dyn Receives)
         at: 0,
     };
     frame(&mut clock);
-    let lines = clock.ticks.get(..head.size[1].into()).unwrap_or_default();
+    let lines = clock.ticks.get(..head.sent()[1].into()).unwrap_or_default();
     let instructions = |ticks: u32| u64::from(ticks) * INSTRUCTIONS_PER_TICK;
     for (row, costs) in lines.chunks(ROW).enumerate() {
         console.line(format_args!(

@@ -1,20 +1,26 @@
 //! Draw calls in words, behind the head:
 //!
-//! 1. [`Counts`]: 5 words,
-//! 2. the light from everywhere: 1 word, and lights: 3 words each,
+//! 1. [`Counts`]: 11 words,
+//! 2. lights: see [`Lights`],
 //! 3. palettes: the first line and 256 words of the panel each,
-//! 4. textures: a word of how many levels and how texels are taken, and of each the sides and its words of the panel,
+//! 4. textures: see [`Textures`],
 //! 5. calls: see [`Calls::read`].
 
+use crate::lights::{LightCounts, LightMemory, Lights};
 use crate::reader::{FlashError, Reader};
-use scanbeam::light::{DirectionalLight, Lighting};
+use crate::textures::{TextureCounts, TextureMemory, Textures, colour};
 use scanbeam::list::Matrix;
-use scanbeam::mesh::{I2F14, Material, U1F15};
+use scanbeam::look::Look;
+use scanbeam::mesh::I2F14;
+use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{
-    Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Sampling, Scissor, Shading,
-    Skin, TexGen, Texture,
+    Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, Scissor, Shading,
+    Shadow, ShadowEdge, ShadowLight, ShadowMemory, Skin, TexGen,
 };
-use scanbeam::{Affine, Cull, Draw, Faces, Mesh};
+use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Scene, Screen};
+
+/// The number of the light that throws shadows.
+const LIGHT: u8 = 0;
 
 /// How values of a call are written.
 pub mod code {
@@ -52,55 +58,85 @@ pub mod code {
     pub const DECAL: u32 = 2;
     /// Light falls on each face as a whole.
     pub const FLAT: u32 = 1 << 28;
-    /// No light falls on it.
-    pub const UNLIT: u32 = 1 << 29;
+    /// It is seen where the light that throws shadows does not fall.
+    pub const SHADOWED: u32 = 1 << 29;
     /// Places on its texture are made of normals.
     pub const REFLECTION: u32 = 1 << 30;
-    /// Of a texture, beside how many levels it has: its texels are mixed.
-    pub const MIXED: u32 = 1 << 16;
+    /// It is a shadow volume, which has nothing of the above.
+    pub const VOLUME: u32 = 1 << 31;
 }
 
 /// How many there are of what.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Counts {
     /// Lights.
-    pub lights: u32,
+    pub lights: LightCounts,
+    /// Textures.
+    pub textures: TextureCounts,
     /// Palettes.
     pub palettes: u32,
-    /// Textures.
-    pub textures: u32,
-    /// Levels of detail below the first, of all textures.
-    pub levels: u32,
     /// Draw calls.
     pub calls: u32,
+    /// Shadow volumes among them.
+    pub volumes: u32,
+    /// Triangles of the largest of these.
+    pub thrown: u32,
 }
 
 impl Counts {
+    /// How many words they take.
+    pub const WORDS: usize = 11;
+
     /// What is behind the head.
     ///
     /// # Errors
     /// When it ends too early.
     pub fn read(reader: &mut Reader<'_>) -> Result<Self, FlashError> {
-        let [lights, palettes, textures, levels, calls] = reader.array()?;
+        let [lights, lightings, lamps] = reader.array()?;
+        let [textures, levels, others, caches] = reader.array()?;
+        let [palettes, calls, volumes, thrown] = reader.array()?;
         Ok(Self {
-            lights,
+            lights: LightCounts {
+                lights,
+                lightings,
+                lamps,
+            },
+            textures: TextureCounts {
+                textures,
+                levels,
+                others,
+                caches,
+            },
             palettes,
-            textures,
-            levels,
             calls,
+            volumes,
+            thrown,
         })
     }
 
     /// Its words.
     #[must_use]
-    pub fn to_words(self) -> [u32; 5] {
+    pub fn to_words(self) -> [u32; Self::WORDS] {
+        let (lights, textures) = (self.lights, self.textures);
         [
-            self.lights,
+            lights.lights,
+            lights.lightings,
+            lights.lamps,
+            textures.textures,
+            textures.levels,
+            textures.others,
+            textures.caches,
             self.palettes,
-            self.textures,
-            self.levels,
             self.calls,
+            self.volumes,
+            self.thrown,
         ]
+    }
+
+    /// States that calls take in a scene, at most: a volume takes two, and two more where the near plane cuts it.
+    #[must_use]
+    pub fn states(&self) -> u32 {
+        self.calls + 3 * self.volumes
     }
 }
 
@@ -110,24 +146,39 @@ pub type Palette<'t> = (u32, &'t [u16]);
 /// What calls are read into: as many of each as [`Counts`] says.
 pub struct CallMemory<'t> {
     /// Lights.
-    pub lights: &'t mut [DirectionalLight],
-    /// What falls from them.
-    pub lighting: &'t mut Option<Lighting<'t>>,
+    pub lights: LightMemory<'t>,
+    /// Textures.
+    pub textures: TextureMemory<'t>,
     /// Palettes.
     pub palettes: &'t mut [Palette<'t>],
-    /// Textures.
-    pub textures: &'t mut [Texture<'t>],
-    /// Levels below them.
-    pub levels: &'t mut [Texture<'t>],
     /// Calls.
-    pub calls: &'t mut [Draw<'t, 't, i32>],
+    pub calls: &'t mut [Call<'t>],
+}
+
+/// What draws something.
+#[derive(Clone, Copy, Debug)]
+pub enum Call<'t> {
+    /// A mesh.
+    Mesh(Draw<'t, 't, i32>),
+    /// The shadow of one.
+    Volume(Mesh<'t, i32>, Affine, ShadowLight),
+}
+
+/// What shadow volumes are made in: as much as the largest of them needs.
+pub struct VolumeMemory<'m> {
+    /// Three for each triangle.
+    pub edges: &'m mut [ShadowEdge],
+    /// Six for each triangle.
+    pub positions: &'m mut [[i32; 3]],
+    /// Six for each triangle.
+    pub faces: &'m mut [[u16; 3]],
 }
 
 /// Draw calls, and the palettes that their indices have.
 #[derive(Clone, Copy, Debug)]
 pub struct Calls<'t> {
     /// One after the other.
-    pub draws: &'t [Draw<'t, 't, i32>],
+    pub calls: &'t [Call<'t>],
     /// In the order of their lines.
     pub palettes: &'t [Palette<'t>],
 }
@@ -142,44 +193,65 @@ const NOTHING: Draw<'static, 'static, i32> = Draw::new(Mesh {
 
 impl<'t> Calls<'t> {
     /// A call for memory that is to be lent.
-    pub const EMPTY: Draw<'t, 't, i32> = NOTHING;
+    pub const EMPTY: Call<'t> = Call::Mesh(NOTHING);
 
-    /// A light for memory that is to be lent.
-    pub const DARK: DirectionalLight = DirectionalLight {
-        direction: [I2F14::ZERO; 3],
-        colour: [U1F15::ZERO; 3],
-    };
-
-    /// All that is behind the counts. A call is: its first word, by `code`; a word of the functions of colour and depth, and
-    /// the number of its texture, plus 1, in the upper half; the window's columns and lines; vertices and triangles; a
-    /// MATRIX of lists; places, normals, colours, triangles and, with a texture, places on it.
+    /// All that is behind the counts, for pixels of the format `T`. A call is: its first word, by `code`; a word of the
+    /// functions of colour and depth, and the number of its texture, plus 1, in the upper half; a word of its colour, and
+    /// one of the number of what falls on it, plus 1; the window's columns and lines; vertices and triangles, and normals
+    /// and colours of vertices; a MATRIX of lists; places, normals, colours, triangles and, with a texture, places on it.
+    /// A volume is: its first word; the light's direction and how far it is drawn out; vertices and triangles; a MATRIX;
+    /// places and triangles.
     ///
     /// # Errors
     /// When words cannot be, or less is lent than they need.
-    pub fn read(reader: &mut Reader<'t>, lent: CallMemory<'t>) -> Result<Self, FlashError> {
-        let ambient = U1F15::from_bits(reader.word()? as u16);
-        for slot in lent.lights.iter_mut() {
-            *slot = light(reader)?;
-        }
-        let lights: &'t [DirectionalLight] = lent.lights;
-        let matt = Material::default();
-        *lent.lighting = match lights {
-            [] => None,
-            lights => Some(Lighting::new(lights, [ambient; 3], matt).ok_or(FlashError::Lent)?),
-        };
+    pub fn read<T: PixelFormat<Word = u16>>(
+        reader: &mut Reader<'t>,
+        lent: CallMemory<'t>,
+        camera: &Camera,
+        screen: Screen,
+    ) -> Result<Self, FlashError> {
+        let lights = Lights::read(reader, lent.lights, camera, screen)?;
         for slot in lent.palettes.iter_mut() {
             *slot = (reader.word()?, reader.table(256)?);
         }
-        textures(reader, lent.textures, lent.levels)?;
-        let lighting: &'t Option<Lighting<'t>> = lent.lighting;
-        let textures: &'t [Texture<'t>] = lent.textures;
+        let textures = Textures::read::<T>(reader, lent.textures)?;
         for slot in lent.calls.iter_mut() {
-            *slot = call(reader, textures, lighting.as_ref())?;
+            let first = reader.word()?;
+            *slot = match first & code::VOLUME {
+                0 => Call::Mesh(call(reader, first, &textures, &lights)?),
+                _ => volume(reader)?,
+            };
         }
         Ok(Self {
-            draws: lent.calls,
+            calls: lent.calls,
             palettes: lent.palettes,
         })
+    }
+
+    /// Draws them into a scene that has begun.
+    ///
+    /// # Errors
+    /// What the scene says of a call, and the call's number.
+    pub fn draw<L: Look>(
+        &self,
+        scene: &mut Scene<'_, 't, L>,
+        memory: &mut VolumeMemory<'_>,
+    ) -> Result<(), (usize, DrawError)> {
+        for (number, call) in self.calls.iter().enumerate() {
+            let drawn = match call {
+                Call::Mesh(draw) => scene.draw(draw),
+                Call::Volume(mesh, model, light) => {
+                    let memory = ShadowMemory {
+                        edges: memory.edges,
+                        positions: memory.positions,
+                        faces: memory.faces,
+                    };
+                    scene.draw_shadow(mesh, model, light, memory)
+                }
+            };
+            drawn.map_err(|error| (number, error))?;
+        }
+        Ok(())
     }
 
     /// The palette of a line.
@@ -189,49 +261,6 @@ impl<'t> Calls<'t> {
         let last = self.palettes.iter().rev().find(begun);
         last.map_or(&[], |palette| palette.1)
     }
-}
-
-fn light(reader: &mut Reader<'_>) -> Result<DirectionalLight, FlashError> {
-    let ([x, y], [z, r], [g, b]) = (reader.halves()?, reader.halves()?, reader.halves()?);
-    Ok(DirectionalLight {
-        direction: [x, y, z].map(|bits| I2F14::from_bits(bits as i16)),
-        colour: [r, g, b].map(U1F15::from_bits),
-    })
-}
-
-/// Textures with the levels below them.
-fn textures<'t>(
-    reader: &mut Reader<'t>,
-    slots: &mut [Texture<'t>],
-    mut levels: &'t mut [Texture<'t>],
-) -> Result<(), FlashError> {
-    for slot in slots {
-        let taken = reader.word()?;
-        let count = (taken & (code::MIXED - 1)).checked_sub(1);
-        let count = count.map(|count| count as usize);
-        let count = count.ok_or(reader.bad())?;
-        let first = level(reader)?;
-        let (own, rest) = core::mem::take(&mut levels)
-            .split_at_mut_checked(count)
-            .ok_or(FlashError::Lent)?;
-        for coarser in own.iter_mut() {
-            *coarser = level(reader)?;
-        }
-        levels = rest;
-        let sampling = match taken & code::MIXED {
-            0 => Sampling::NEAREST,
-            _ => Sampling::LINEAR,
-        };
-        let sampled = first.sampled(sampling, own);
-        *slot = sampled.map_err(|_| reader.bad())?;
-    }
-    Ok(())
-}
-
-fn level<'t>(reader: &mut Reader<'t>) -> Result<Texture<'t>, FlashError> {
-    let [width, height] = reader.halves()?.map(u32::from);
-    let words = reader.table(width as usize * height as usize)?;
-    Texture::words(words, width, height).map_err(|_| reader.bad())
 }
 
 /// The function with these bits.
@@ -251,23 +280,25 @@ fn function(bits: u32) -> DepthFunction {
 
 fn call<'t>(
     reader: &mut Reader<'t>,
-    textures: &'t [Texture<'t>],
-    lighting: Option<&'t Lighting<'t>>,
+    first: u32,
+    textures: &Textures<'t>,
+    lights: &Lights<'t>,
 ) -> Result<Draw<'t, 't, i32>, FlashError> {
-    let first = reader.word()?;
     let has = |bit: u32| first & bit != 0;
     let second = reader.word()?;
     let texture = (second >> 16).checked_sub(1);
-    let texture = texture.map(|number| textures.get(number as usize).ok_or(reader.bad()));
+    let texture = texture.map(|number| textures.all.get(number as usize).ok_or(reader.bad()));
     let texture = texture.transpose()?;
+    let colour = colour(reader)?;
+    let falls = lights.on(reader.word()? as u16).ok_or(reader.bad())?;
     let ([left, right], [top, bottom]) = (reader.halves()?, reader.halves()?);
     let (columns, lines) = (left..right, top..bottom);
-    let [vertices, faces] = reader.array::<2>()?.map(|count| count as usize);
+    let [vertices, faces, normals, colours] = reader.array()?.map(|count| count as usize);
     let matrix = matrix(reader)?;
     let mesh = Mesh {
         positions: reader.table(vertices)?,
-        normals: reader.table(vertices)?,
-        colours: reader.table(vertices)?,
+        normals: reader.table(normals)?,
+        colours: reader.table(colours)?,
         faces: Faces::Triangles(reader.table(faces)?),
     };
     let places = match texture {
@@ -286,10 +317,9 @@ fn call<'t>(
     Ok(Draw {
         model: Affine::from(&matrix),
         texture: skin,
-        lights: match lighting {
-            Some(lighting) if first & code::UNLIT == 0 => Some(lighting),
-            _ => None,
-        },
+        colour,
+        lights: falls.at_corners.map(|lighting| lighting as _),
+        lamps: falls.at_pixels,
         scissor: has(code::WINDOW).then(|| match has(code::OUTSIDE) {
             true => Scissor::outside(columns, lines),
             false => Scissor::inside(columns, lines),
@@ -298,8 +328,27 @@ fn call<'t>(
             colour_if: function(second),
             depth_if: function(second >> 8),
         },
+        shadow: has(code::SHADOWED).then_some(Shadow::Shadowed(LIGHT)),
         ..coded(first, mesh)
     })
+}
+
+fn volume<'t>(reader: &mut Reader<'t>) -> Result<Call<'t>, FlashError> {
+    let ([x, y], [z, reach]) = (reader.halves()?, reader.halves()?);
+    let light = ShadowLight {
+        light: LIGHT,
+        direction: [x, y, z].map(|bits| I2F14::from_bits(bits as i16)),
+        reach: reach as u8,
+    };
+    let [vertices, faces] = reader.array()?.map(|count| count as usize);
+    let matrix = matrix(reader)?;
+    let mesh = Mesh {
+        positions: reader.table(vertices)?,
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(reader.table(faces)?),
+    };
+    Ok(Call::Volume(mesh, Affine::from(&matrix), light))
 }
 
 /// What the first word of a call says of a mesh.

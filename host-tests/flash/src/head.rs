@@ -22,22 +22,31 @@ pub enum Kind {
     ListSmooth,
     /// A list with textures.
     ListTextured,
+    /// Draw calls that are lit at each pixel.
+    Phong,
+    /// The same, some with textures.
+    TexturedPhong,
 }
 
 impl Kind {
     /// By their codes.
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 7] = [
         Self::Smooth,
         Self::Textured,
         Self::Indexed,
         Self::ListSmooth,
         Self::ListTextured,
+        Self::Phong,
+        Self::TexturedPhong,
     ];
 
     /// Whether it is drawn by the look of textures.
     #[must_use]
     pub const fn is_textured(self) -> bool {
-        matches!(self, Self::Textured | Self::ListTextured)
+        matches!(
+            self,
+            Self::Textured | Self::ListTextured | Self::TexturedPhong
+        )
     }
 }
 
@@ -57,8 +66,10 @@ pub struct Room {
 pub struct Head {
     /// How it is drawn.
     pub kind: Kind,
-    /// Columns and lines.
+    /// Columns and lines that are drawn.
     pub size: [u16; 2],
+    /// Whether twice as many of both are sent.
+    pub doubled: bool,
     /// Colour where nothing is drawn.
     pub background: [u8; 3],
     /// What it has to be lent.
@@ -84,7 +95,7 @@ impl Head {
             length,
             self.kind as u32,
             width | height << 16,
-            u32::from_le_bytes([r, g, b, 0]),
+            u32::from_le_bytes([r, g, b, self.doubled.into()]),
             self.room.vertices,
             self.room.objects,
             self.room.draws,
@@ -122,14 +133,15 @@ impl Head {
         let code = reader.word()? as usize;
         let kind = *Kind::ALL.get(code).ok_or(reader.bad())?;
         let size = reader.halves()?;
-        let [r, g, b, _] = reader.word()?.to_le_bytes();
+        let [r, g, b, doubled] = reader.word()?.to_le_bytes();
         let [vertices, objects, draws] = reader.array()?;
-        let mut place = || Ok(reader.array::<3>()?.map(f32::from_bits));
+        let mut place = || reader.array::<3>().map(|words| words.map(f32::from_bits));
         let (eye, at, up) = (place()?, place()?, place()?);
         let [focal, near, far] = place()?;
         let head = Self {
             kind,
             size,
+            doubled: doubled != 0,
             background: [r, g, b],
             room: Room {
                 vertices,
@@ -146,6 +158,13 @@ impl Head {
             },
         };
         Ok((head, reader))
+    }
+
+    /// Columns and lines that are sent.
+    #[must_use]
+    pub fn sent(&self) -> [u16; 2] {
+        self.size
+            .map(|side| side.saturating_mul(1 + u16::from(self.doubled)))
     }
 
     /// The camera.

@@ -4,7 +4,7 @@
 //!
 //! | kind | what follows |
 //! |---|---|
-//! | smooth, textured, indexed | draw calls: see `calls.rs` |
+//! | draw calls | lights, palettes, textures and draw calls: see `calls.rs`, `lights.rs` and `textures.rs` |
 //! | a list | an instruction list, and what its player is lent: see `list.rs` |
 //!
 //! Tables of a mesh are read where they lie. An instruction list alone would not do: it has no depth functions, no
@@ -14,10 +14,14 @@
 
 mod calls;
 mod head;
+mod lights;
 mod list;
 mod reader;
+mod textures;
 
-pub use calls::{CallMemory, Calls, Counts, Palette, code};
+pub use calls::{Call, CallMemory, Calls, Counts, Palette, VolumeMemory, code};
 pub use head::{FLASH_AT, FLASH_BYTES, Head, Kind, Room};
+pub use lights::{LightCounts, LightMemory, Lights};
 pub use list::{List, ListRoom, PlayError};
 pub use reader::{FlashError, Reader};
+pub use textures::{CACHED, Level, Sheet, TextureCounts, TextureMemory, Textures, form};

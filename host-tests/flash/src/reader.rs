@@ -1,6 +1,7 @@
 //! Words one after the other, and tables among them.
 
 use core::fmt;
+use scanbeam::scene::TextureError;
 
 /// Why words are no scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,6 +12,14 @@ pub enum FlashError {
     Word(usize),
     /// Less is lent than they need.
     Lent,
+    /// A texture cannot be made of them.
+    Texture(TextureError),
+}
+
+impl From<TextureError> for FlashError {
+    fn from(error: TextureError) -> Self {
+        Self::Texture(error)
+    }
 }
 
 impl fmt::Display for FlashError {
@@ -18,6 +27,7 @@ impl fmt::Display for FlashError {
         match self {
             Self::Ends(at) => write!(f, "the words of the scene end at {at}"),
             Self::Word(at) => write!(f, "word {at} of the scene cannot be"),
+            Self::Texture(error) => error.fmt(f),
             Self::Lent => f.write_str("less is lent than the scene needs"),
         }
     }

@@ -1,17 +1,22 @@
 //! The words of a scene drawn on this machine, and what memory they need.
 
 use super::too_large;
+use crate::draw::twice;
 use crate::rooms::{self, LineRooms, SceneRooms};
 use scanbeam::input::{LightRoom, Player, PlayerMemory, TextureRoom};
+use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::list::{Lent, ListCommand, Reason, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::{DrawError, DrawState, Object, Texture, TexturePlace, Vertex};
+use scanbeam::scene::{
+    CacheWord, DrawError, DrawState, Object, ShadowEdge, Texture, TexturePlace, Vertex,
+};
 use scanbeam::{Camera, Link, Scene, Screen};
 use scene_flash::{
-    CallMemory, Calls, Counts, FlashError, Head, Kind, List, ListRoom, PlayError, Room,
+    CACHED, Call, CallMemory, Calls, Counts, FlashError, Head, Kind, Level, LightMemory, Lights,
+    List, ListRoom, Palette, PlayError, Room, Sheet, TextureMemory, VolumeMemory,
 };
-use scenes::{IndexedLook, SmoothLook, TexturedLook};
+use scenes::{IndexedLook, PhongLook, SmoothLook, TexturedLook, TexturedPhongLook};
 use std::error::Error;
 
 /// The first address behind the slow memory of the boards: see `memory.x`.
@@ -32,6 +37,8 @@ pub(super) struct Shown {
     pub(super) head: Head,
     /// Words of the panel.
     pub(super) pixels: Vec<u16>,
+    /// Draw calls.
+    pub(super) calls: u32,
     /// Triangles that were submitted; those that were filed are in the head's room.
     pub(super) triangles: u32,
     /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
@@ -180,41 +187,86 @@ pub(super) fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Show
         };
     }
     let counts = Counts::read(&mut reader)?;
-    let [lights, palettes, textures, levels, calls] = counts.to_words().map(|n| n as usize);
-    let mut lights = vec![Calls::DARK; lights];
-    let mut lighting = None;
-    let mut palettes = vec![(0, &[][..]); palettes];
-    let mut textures = vec![Texture::EMPTY; textures];
-    let mut levels = vec![Texture::EMPTY; levels];
-    let mut draws = vec![Calls::EMPTY; calls];
-    let lent = CallMemory {
-        lights: &mut lights,
-        lighting: &mut lighting,
-        palettes: &mut palettes,
-        textures: &mut textures,
-        levels: &mut levels,
-        calls: &mut draws,
+    let mut lent = Owned::new(&counts);
+    let (camera, screen) = (head.camera().map_err(other)?, screen(&head)?);
+    let calls = Calls::read::<Rgb565Be>(&mut reader, lent.lend(), &camera, screen)?;
+    let called = Called {
+        head,
+        calls,
+        counts,
+        objects,
     };
-    let calls = Calls::read(&mut reader, lent)?;
-    let background = Rgb565Be::from_rgb8(head.background);
     match head.kind {
-        Kind::Textured => called::<TexturedLook>(&head, &calls, objects, room, background),
+        Kind::Textured => called.coloured::<TexturedLook>(room),
+        Kind::TexturedPhong => called.coloured::<TexturedPhongLook>(room),
+        Kind::Phong => called.coloured::<PhongLook>(room),
         Kind::Indexed => {
-            let mut shown = called::<IndexedLook>(&head, &calls, objects, room, 0);
-            if let Ok((shown, indices)) = &mut shown {
-                let lines = (0..).zip(indices.chunks(head.size[0].into()));
-                let colour = |(line, row): (u16, &[u8])| {
-                    let palette = calls.palette(line);
-                    let of = |index: &u8| palette.get(usize::from(*index)).copied();
-                    row.iter().filter_map(of).collect::<Vec<u16>>()
-                };
-                shown.pixels = lines.flat_map(colour).collect();
-            }
-            return shown.map(|(shown, _)| shown);
+            let (shown, indices) = called.draw::<IndexedLook>(room, 0)?;
+            let lines = (0..).zip(indices.chunks(head.size[0].into()));
+            let colour = |(line, row): (u16, &[u8])| {
+                let palette = calls.palette(line);
+                let of = |index: &u8| palette.get(usize::from(*index)).copied();
+                row.iter().filter_map(of).collect::<Vec<u16>>()
+            };
+            let pixels = lines.flat_map(colour).collect();
+            Ok(Shown { pixels, ..shown })
         }
-        _ => called::<SmoothLook>(&head, &calls, objects, room, background),
+        Kind::Smooth | Kind::ListSmooth | Kind::ListTextured => called.coloured::<SmoothLook>(room),
     }
-    .map(|(shown, pixels)| Shown { pixels, ..shown })
+}
+
+/// What calls are read into.
+struct Owned<'t> {
+    lights: Vec<DirectionalLight>,
+    lightings: Vec<Option<Lighting<'t>>>,
+    lamps: Vec<Option<PixelLamps>>,
+    sheets: Vec<Sheet<'t>>,
+    levels: Vec<Level<'t>>,
+    textures: Vec<Texture<'t>>,
+    others: Vec<Texture<'t>>,
+    cached: Vec<CacheWord>,
+    palettes: Vec<Palette<'t>>,
+    calls: Vec<Call<'t>>,
+}
+
+impl<'t> Owned<'t> {
+    fn new(counts: &Counts) -> Self {
+        let (lights, textures) = (counts.lights, counts.textures);
+        let many = |count: u32| 0..count;
+        Self {
+            lights: vec![Lights::DARK; lights.lights as usize],
+            lightings: many(lights.lightings).map(|_| None).collect(),
+            lamps: many(lights.lamps).map(|_| None).collect(),
+            sheets: vec![Sheet::EMPTY; textures.textures as usize],
+            levels: many(textures.levels).map(|_| Level::EMPTY).collect(),
+            textures: vec![Texture::EMPTY; textures.textures as usize],
+            others: vec![Texture::EMPTY; textures.others as usize],
+            cached: (0..CACHED * textures.caches as usize)
+                .map(|_| CacheWord::new())
+                .collect(),
+            palettes: vec![(0, &[][..]); counts.palettes as usize],
+            calls: vec![Calls::EMPTY; counts.calls as usize],
+        }
+    }
+
+    fn lend(&'t mut self) -> CallMemory<'t> {
+        CallMemory {
+            lights: LightMemory {
+                lights: &mut self.lights,
+                lightings: &mut self.lightings,
+                lamps: &mut self.lamps,
+            },
+            textures: TextureMemory {
+                sheets: &mut self.sheets,
+                levels: &mut self.levels,
+                textures: &mut self.textures,
+                others: &mut self.others,
+                cached: &mut self.cached,
+            },
+            palettes: &mut self.palettes,
+            calls: &mut self.calls,
+        }
+    }
 }
 
 /// A picture, and the words of its pixels.
@@ -222,27 +274,79 @@ type Drawn<L> = (Shown, Vec<<<L as Look>::Pixel as PixelFormat>::Word>);
 /// A word of a look's pixels.
 type Word<L> = <<L as Look>::Pixel as PixelFormat>::Word;
 
-/// Draws calls.
-fn called<'t, L: Look>(
-    head: &Head,
-    calls: &Calls<'t>,
-    objects: &[usize],
-    room: Room,
-    background: Word<L>,
-) -> Result<Drawn<L>, Refused> {
-    drawn::<L>(head, room, background, |scene, camera| {
-        scene.begin(camera).map_err(other)?;
-        for (draw, object) in calls.draws.iter().zip(objects) {
-            scene.draw(draw).map_err(|error| {
-                let said = format!("object {object}: {error}");
-                match error {
-                    DrawError::Full { .. } => Refused::Full(said),
-                    _ => Refused::Other(said),
-                }
-            })?;
-        }
-        Ok(calls.draws.len() as u32)
-    })
+/// Draw calls, and what they are of.
+struct Called<'o, 't> {
+    head: Head,
+    calls: Calls<'t>,
+    counts: Counts,
+    objects: &'o [usize],
+}
+
+impl<'t> Called<'_, 't> {
+    /// Draws colours.
+    fn coloured<L: Look<Pixel = Rgb565Be>>(&self, room: Room) -> Result<Shown, Refused> {
+        let background = Rgb565Be::from_rgb8(self.head.background);
+        let (shown, pixels) = self.draw::<L>(room, background)?;
+        let pixels = match self.head.doubled {
+            true => {
+                twice::<Rgb565Be>(&pixels, self.head.size[0])
+                    .map_err(other)?
+                    .words
+            }
+            false => pixels,
+        };
+        Ok(Shown { pixels, ..shown })
+    }
+
+    /// Draws them over a background.
+    fn draw<L: Look>(&self, room: Room, background: Word<L>) -> Result<Drawn<L>, Refused> {
+        let thrown = self.counts.thrown as usize;
+        let mut memory = VolumeMemory {
+            edges: &mut vec![ShadowEdge::default(); 3 * thrown],
+            positions: &mut vec![[0; 3]; 6 * thrown],
+            faces: &mut vec![[0; 3]; 6 * thrown],
+        };
+        let has_shadows = self.counts.volumes > 0;
+        let drawn = drawn::<L>(
+            &self.head,
+            room,
+            (background, has_shadows),
+            |scene, camera| {
+                scene.begin(camera).map_err(other)?;
+                let drawn = self.calls.draw(scene, &mut memory);
+                drawn.map_err(|(call, error)| {
+                    let said = match self.objects.get(call) {
+                        Some(object) => format!("object {object}: {error}"),
+                        None => error.to_string(),
+                    };
+                    match error {
+                        DrawError::Full { .. } => Refused::Full(said),
+                        _ => Refused::Other(said),
+                    }
+                })?;
+                Ok(self.counts.states())
+            },
+        );
+        let (shown, pixels) = drawn?;
+        let slow_bytes = shown.slow_bytes + thrown * VOLUME_BYTES;
+        Ok((
+            Shown {
+                slow_bytes,
+                ..shown
+            },
+            pixels,
+        ))
+    }
+}
+
+/// Bytes that a triangle takes which throws a shadow, while its volume is made.
+const VOLUME_BYTES: usize =
+    3 * size_of::<ShadowEdge>() + 6 * size_of::<[i32; 3]>() + 6 * size_of::<[u16; 3]>();
+
+/// The screen of what is drawn.
+fn screen(head: &Head) -> Result<Screen, Refused> {
+    let [width, height] = head.size;
+    Screen::new(width, height).map_err(other)
 }
 
 /// Plays a list.
@@ -284,7 +388,7 @@ fn played<L: Look<Pixel = Rgb565Be>>(
     };
     let mut player = Player::<L>::new(memory, list.settings());
     let background = Rgb565Be::from_rgb8(head.background);
-    let done = drawn::<L>(head, room, background, |scene, camera| {
+    let done = drawn::<L>(head, room, (background, false), |scene, camera| {
         let played = list.play(&mut player, ListCommand::Start(0), camera, scene);
         let counts = played.map_err(Refused::from)?;
         Ok(counts.draws.max(1))
@@ -298,15 +402,16 @@ fn played<L: Look<Pixel = Rgb565Be>>(
     })
 }
 
-/// Draws what `build` makes, which says how many draw calls that was.
+/// Draws what `build` makes, which says how many states of draw calls that has, over a background, with shadows or
+/// without.
 fn drawn<'t, L: Look>(
     head: &Head,
     room: Room,
-    background: Word<L>,
+    (background, has_shadows): (Word<L>, bool),
     build: impl FnOnce(&mut Scene<'_, 't, L>, &Camera) -> Result<u32, Refused>,
 ) -> Result<Drawn<L>, Refused> {
     let [width, height] = head.size;
-    let screen = Screen::new(width, height).map_err(other)?;
+    let screen = screen(head)?;
     let camera = head.camera().map_err(other)?;
     let vertices = room.vertices as usize;
     let lent = rooms::Room {
@@ -319,6 +424,9 @@ fn drawn<'t, L: Look>(
     let mut scene = memory.scene::<L>(screen);
     let draws = build(&mut scene, &camera)?;
     let mut lines = LineRooms::<L>::new(scene.objects(), width);
+    if has_shadows {
+        lines = lines.with_counts();
+    }
     let mut renderer = lines.renderer();
     let mut pixels = Vec::new();
     let mut line = vec![background; width.into()];
@@ -338,6 +446,7 @@ fn drawn<'t, L: Look>(
     let shown = Shown {
         head,
         pixels: Vec::new(),
+        calls: draws,
         triangles: scene.assembled().triangles,
         slow_bytes: slow_bytes(&Head { room, ..head }),
     };

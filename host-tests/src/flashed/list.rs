@@ -21,6 +21,7 @@ pub(super) fn words(list: &[u32]) -> Vec<u32> {
             false => Kind::ListSmooth,
         },
         size: [view.width as u16, view.height as u16],
+        doubled: false,
         background: view.background,
         room: Room::default(),
         camera: camera_words(&view),

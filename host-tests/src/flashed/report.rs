@@ -22,13 +22,13 @@ pub(super) fn print(
         return Ok(());
     }
     let shown = &flashed.shown;
-    let [width, height] = shown.head.size;
+    let [width, height] = shown.head.sent();
     say!("{}", toolchain.version);
     say!(
         "{}: {width} x {height}, {}, {} draw calls of {} triangles; models and textures take {} bytes of flash",
         file.display(),
         kind(shown.head.kind),
-        shown.head.room.draws,
+        shown.calls,
         shown.triangles,
         flashed.flash_bytes()
     );
@@ -84,9 +84,9 @@ fn report(file: &Path, flashed: &Flashed, toolchain: &Toolchain, boards: &[Measu
     json!({
         "scene": file.display().to_string(),
         "toolchain": toolchain.version,
-        "size": shown.head.size,
+        "size": shown.head.sent(),
         "kind": kind(shown.head.kind),
-        "draw_calls": room.draws,
+        "draw_calls": shown.calls,
         "triangles": shown.triangles,
         "objects": room.objects,
         "vertices": room.vertices,
@@ -100,6 +100,8 @@ fn kind(kind: Kind) -> &'static str {
         Kind::Smooth => "smooth colours",
         Kind::Textured => "textures",
         Kind::Indexed => "palettes",
+        Kind::Phong => "colours lit at each pixel",
+        Kind::TexturedPhong => "textures lit at each pixel",
         Kind::ListSmooth => "a list of smooth colours",
         Kind::ListTextured => "a list with textures",
     }

@@ -11,7 +11,7 @@ use scanbeam::mesh::{Material, U1F15};
 
 /// Where a surface is, for the light that throws shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Side {
+pub(crate) enum Side {
     /// In its light, or nothing throws shadows.
     Lit,
     /// In its shadow.
@@ -30,6 +30,15 @@ pub(crate) fn directional(lamp: &Lamp) -> Result<DirectionalLight, DrawFailure> 
 /// The light from everywhere in a scene.
 pub(crate) fn ambient(scene: &SceneFile) -> U1F15 {
     level(scene.ambient.unwrap_or(0.2))
+}
+
+/// What an object is made of.
+pub(crate) fn material(item: &Item) -> Material {
+    Material {
+        specular: item.specular.map_or([0.0; 3], Into::into).map(level),
+        shininess: item.shininess.unwrap_or(Item::SHININESS),
+        ..Material::default()
+    }
 }
 
 /// The lights of a scene.
@@ -63,16 +72,11 @@ impl SceneLights {
 
     /// On an object, unless it is not lit.
     pub(super) fn on(&self, item: &Item, side: Side) -> Option<Lighting<'_>> {
-        let material = Material {
-            specular: item.specular.map_or([0.0; 3], Into::into).map(level),
-            shininess: item.shininess.unwrap_or(Item::SHININESS),
-            ..Material::default()
-        };
         let lights = match side {
             Side::Lit => &self.all,
             Side::Dark => &self.in_shadow,
         };
-        let lighting = Lighting::new(lights, self.ambient, material);
+        let lighting = Lighting::new(lights, self.ambient, material(item));
         lighting.filter(|_| item.shade != Some(ShadeKind::None))
     }
 

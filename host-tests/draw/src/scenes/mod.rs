@@ -19,13 +19,16 @@ mod store;
 mod texels;
 mod worn;
 
-pub(crate) use light::{ambient, directional};
+pub use doubled::{Twice, twice};
+pub(crate) use light::{Side, ambient, directional, material};
 pub(crate) use store::check;
+pub(crate) use texels::TextureWords;
+pub(crate) use worn::{Step, What};
 
 use crate::choice::PixelFormatArg;
 use crate::formats::{Picture, draw_in, refused};
 use crate::parts::{Job, MOST_OBJECTS, MOST_VERTICES, room_for};
-use crate::prepared::Chunk;
+use crate::prepared::{Chunk, ShadowMesh};
 use crate::scene_file::{Item, Loaded, SceneFile, ShadeKind};
 use crate::setting::focal;
 use crate::{CrewSettings, DrawFailure, Drawn, TextureSet};
@@ -72,13 +75,47 @@ impl<'a> SceneParts<'a> {
         self.parts.iter().map(|part| (part.item, part.textures))
     }
 
-    /// All parts of all objects in order: the object's number, what the file says of it, where it stands, and the part.
-    pub(crate) fn pieces(&self) -> impl Iterator<Item = (usize, &Item, &Affine, &Chunk)> {
-        self.parts.iter().enumerate().flat_map(|(object, part)| {
-            let chunks = part.prepared.chunks.iter();
-            chunks.map(move |chunk| (object, part.item, &part.model, chunk))
-        })
+    /// What the file says of an object.
+    pub(crate) fn item(&self, object: usize) -> &'a Item {
+        self.parts[object].item
     }
+
+    /// Where an object stands.
+    pub(crate) fn model(&self, object: usize) -> &Affine {
+        &self.parts[object].model
+    }
+
+    /// The colour of an object's parts with a look.
+    pub(crate) fn colour(&self, object: usize, look: u16) -> [u8; 3] {
+        self.parts[object].colour(look)
+    }
+
+    /// The part of an object that a step draws; the first one of a volume.
+    pub(crate) fn chunk(&self, step: &Step) -> &Chunk {
+        let chunks = &self.parts[step.object].prepared.chunks;
+        match step.what {
+            What::Part(number) | What::InShadow(number) => &chunks[number],
+            What::Volume(_) => &chunks[0],
+        }
+    }
+
+    /// What throws a shadow of an object.
+    pub(crate) fn shadow(&self, object: usize, number: usize) -> Option<&ShadowMesh> {
+        self.parts[object].shadows.get(number)
+    }
+
+    /// The view of what is drawn.
+    pub(crate) fn drawn_view(&self) -> View {
+        drawn_view(self.scene, self.scene.view())
+    }
+}
+
+/// The view of what is drawn of a scene that is seen so.
+fn drawn_view(scene: &SceneFile, mut view: View) -> View {
+    if scene.doubled {
+        (view.width, view.height) = (doubled::half(view.width), doubled::half(view.height));
+    }
+    view
 }
 
 /// Draws a scene as its file says, seen as `view` says.
@@ -92,10 +129,7 @@ pub fn draw_scene_file(
     crew: CrewSettings,
 ) -> Result<Drawn, DrawFailure> {
     let size = [view.width, view.height];
-    let mut view = view.clone();
-    if parts.scene.doubled {
-        (view.width, view.height) = (doubled::half(size[0]), doubled::half(size[1]));
-    }
+    let view = drawn_view(parts.scene, view.clone());
     let task = Task {
         parts,
         job: job(parts, &view, crew)?,
@@ -187,7 +221,7 @@ impl Picture for Task<'_> {
 
 impl Task<'_> {
     /// Draws surfaces in several lights, with the textures of each object.
-    fn draw<L, F>(&self, textures: &[Vec<Texture<'_>>]) -> Result<Drawn, DrawFailure>
+    fn draw<L, F>(&self, textures: &[&[Texture<'_>]]) -> Result<Drawn, DrawFailure>
     where
         L: Look<Pixel = F, Planes: Send> + Sync,
         F: PixelFormat + Sync,

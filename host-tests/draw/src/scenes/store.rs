@@ -5,7 +5,7 @@ use crate::scene_file::{Computed, FormKind, Item, TexelsKind};
 use host_support::compress::{Blocks, Texel};
 use host_support::texture_file::{LEVELS, TextureImage};
 use scanbeam::pixel::PixelFormat;
-use scanbeam::scene::{Checker, Gradient, MaskTexel, Sampling};
+use scanbeam::scene::{Checker, Gradient, MaskTexel};
 use std::collections::BTreeSet;
 
 /// Colours of a palette.
@@ -28,7 +28,7 @@ pub(super) struct Held {
     /// The word of holes.
     pub(super) key: Option<u16>,
     /// How texels are taken, if not the nearest of this size.
-    pub(super) sampling: Option<Sampling>,
+    pub(super) filter: Option<FilterArg>,
     /// Whether blocks are read through a cache.
     pub(super) is_cached: bool,
 }
@@ -165,9 +165,9 @@ impl Held {
             mask_palette: Vec::new(),
             has_mask: item.texels == Some(TexelsKind::Alpha),
             key: None,
-            sampling: match item.filter {
-                Some(FilterArg::Bilinear) => Some(Sampling::LINEAR),
-                Some(FilterArg::Nearest) | None => has_levels.then_some(Sampling::NEAREST),
+            filter: match item.filter {
+                Some(FilterArg::Bilinear) => Some(FilterArg::Bilinear),
+                Some(FilterArg::Nearest) | None => has_levels.then_some(FilterArg::Nearest),
             },
             is_cached: item.cached == Some(true),
         };

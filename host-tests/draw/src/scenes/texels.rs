@@ -1,152 +1,105 @@
-//! The texels of a scene's objects, in the form that each of them says: words, a palette, compressed blocks read as they
-//! are or through a cache, or computed; with holes, or with alphas in a mask.
-//!
-//! A texture borrows its texels, its levels and its mask, so they are made one after the other: what is in memory
-//! ([`Held`]), what reads it ([`Reader`]), the levels below, the texture.
+//! The texels of a scene's objects, in the form that each of them says, as words that `scene_flash` reads: words of
+//! pixels, a palette, compressed blocks read as they are or through a cache, or computed; with holes, or with alphas in a
+//! mask.
 
 use super::Placed;
 use super::store::{Held, Level, Store};
-use crate::{DrawFailure, Drawn};
-use scanbeam::pixel::{PixelFormat, Rgb565};
-use scanbeam::scene::{BlockCache, CacheReads, CacheWord, Compressed, Texture, TextureError};
+use crate::scene_file::Item;
+use crate::words::Words;
+use crate::{DrawFailure, Drawn, FilterArg, TextureSet};
+use scanbeam::pixel::PixelFormat;
+use scanbeam::scene::{CacheReads, CacheWord, Texture};
+use scene_flash::{CACHED, Reader, Sheet, TextureCounts, TextureMemory, Textures, form};
 
-/// Texels in the cache of a level: 2 KB.
-const CACHED: usize = 512;
-
-/// What reads a level.
-enum Reader<'h> {
-    /// Nothing else than a texture.
-    Stored,
-    Compressed(Compressed<'h>),
-    Cached(BlockCache<'h>),
+/// The textures of objects in words.
+#[derive(Default)]
+pub(crate) struct TextureWords {
+    pub(crate) words: Words,
+    pub(crate) counts: TextureCounts,
+    /// The number of the first one of each object.
+    pub(crate) first: Vec<u32>,
 }
 
-impl<'h> Reader<'h> {
-    /// What reads a level, through this cache if it has words.
-    fn new<T: PixelFormat<Word = u16>>(
-        level: &'h Level,
-        key: Option<u16>,
-        fast: &'h mut [CacheWord],
+impl TextureWords {
+    /// Those of all objects, whose texels are pixels of the format `T`.
+    ///
+    /// # Errors
+    /// Pictures that cannot be had in the form that is asked for.
+    pub(crate) fn of<'i, T: PixelFormat<Word = u16>>(
+        objects: impl Iterator<Item = (&'i Item, &'i TextureSet)>,
     ) -> Result<Self, DrawFailure> {
-        let Store::Blocks(bytes) = &level.store else {
-            return Ok(Self::Stored);
-        };
-        let [width, height] = level.sides;
-        let word = |number| T::from_rgb8(Rgb565::to_rgb8(number));
-        let mut blocks = Compressed::new(bytes, width, height, word).map_err(bad)?;
-        if let Some(key) = key {
-            blocks = blocks.keyed(key);
+        let mut all = Self::default();
+        for (number, (item, set)) in objects.enumerate() {
+            all.first.push(all.counts.textures);
+            for image in set.images() {
+                let held = Held::new::<T>(item, image);
+                let held =
+                    held.map_err(|why| DrawFailure::View(format!("object {number}: {why}")))?;
+                all.texture(&held);
+            }
         }
-        if fast.is_empty() {
-            return Ok(Self::Compressed(blocks));
+        Ok(all)
+    }
+
+    fn texture(&mut self, held: &Held) {
+        let flag = |is: bool, bit: u32| if is { bit } else { 0 };
+        let levels = held.levels.len() as u32;
+        let is_mixed = held.filter == Some(FilterArg::Bilinear);
+        let stored = held.levels.first().map_or(0, |level| match level.store {
+            Store::Words(_) => 0,
+            Store::Indices(_) => form::INDICES,
+            Store::Blocks(_) => form::BLOCKS,
+            Store::Checker(_) => form::CHECKER,
+            Store::Gradient(_) => form::GRADIENT,
+        });
+        self.words.push(
+            levels
+                | flag(held.filter.is_some(), form::LEVELLED)
+                | flag(is_mixed, form::MIXED)
+                | flag(held.key.is_some(), form::KEYED)
+                | flag(held.has_mask, form::MASKED)
+                | flag(held.is_cached, form::CACHED)
+                | stored << form::SHIFT,
+        );
+        held.key
+            .iter()
+            .for_each(|key| self.words.push((*key).into()));
+        if stored == form::INDICES {
+            self.words.halves(held.palette.iter().copied());
+            let masks = held.mask_palette.iter().filter(|_| held.has_mask);
+            self.words.halves(masks.copied());
         }
-        let cache = BlockCache::compressed(blocks, fast);
-        let cache = cache.map_err(|error| DrawFailure::View(error.to_string()))?;
-        Ok(Self::Cached(cache))
+        held.levels.iter().for_each(|level| self.level(level));
+        let below = levels.saturating_sub(1);
+        self.counts.textures += 1;
+        self.counts.levels += levels;
+        self.counts.others += below + if held.has_mask { 1 + below } else { 0 };
+        self.counts.caches += if held.is_cached { levels } else { 0 };
     }
 
-    /// What its cache did.
-    fn reads(&self) -> Option<CacheReads> {
-        match self {
-            Self::Cached(cache) => Some(cache.reads()),
-            Self::Stored | Self::Compressed(_) => None,
-        }
-    }
-}
-
-/// Levels below a picture, and below its mask.
-struct Below<'h> {
-    texels: Vec<Texture<'h>>,
-    mask: Vec<Texture<'h>>,
-}
-
-impl Held {
-    /// What reads its levels, through caches if there are words for them.
-    fn readers<'h, T: PixelFormat<Word = u16>>(
-        &'h self,
-        fast: &'h mut [Vec<CacheWord>],
-    ) -> Result<Vec<Reader<'h>>, DrawFailure> {
-        let levels = self.levels.iter().zip(fast);
-        levels
-            .map(|(level, fast)| Reader::new::<T>(level, self.key, fast))
-            .collect()
-    }
-
-    /// A level that is read so.
-    fn level<'h>(
-        &'h self,
-        number: usize,
-        reader: &'h Reader<'h>,
-    ) -> Result<Texture<'h>, TextureError> {
-        let level = &self.levels[number];
+    fn level(&mut self, level: &Level) {
+        let words = &mut self.words;
         let [width, height] = level.sides;
-        let texture = match (&level.store, reader) {
-            (_, Reader::Compressed(blocks)) => return Ok(blocks.texture()),
-            (_, Reader::Cached(cache)) => return Ok(cache.texture()),
-            (Store::Words(words), _) => Texture::words(words, width, height),
-            (Store::Indices(bytes), _) => Texture::index4(bytes, &self.palette, width, height),
-            (Store::Checker(texels), _) => Texture::computed(texels, width, height),
-            (Store::Gradient(texels), _) => Texture::computed(texels, width, height),
-            // They have a reader.
-            (Store::Blocks(_), Reader::Stored) => Ok(Texture::EMPTY),
-        }?;
-        Ok(match self.key {
-            Some(key) => texture.keyed(key),
-            None => texture,
-        })
-    }
-
-    /// What the texels of a level say beside their colours.
-    fn mask_level(&self, number: usize) -> Result<Texture<'_>, TextureError> {
-        let level = &self.levels[number];
-        let [width, height] = level.sides;
+        words.push(width | height << 16);
         match &level.store {
-            Store::Indices(bytes) => Texture::index4(bytes, &self.mask_palette, width, height),
-            _ => Texture::words(&level.mask, width, height),
+            Store::Words(texels) => words.halves(texels.iter().copied()),
+            Store::Indices(bytes) => words.bytes(bytes.iter().copied()),
+            Store::Blocks(bytes) => {
+                words.push(bytes.len() as u32);
+                words.bytes(bytes.iter().copied());
+            }
+            Store::Checker(squares) => {
+                words.halves(squares.colours.into_iter());
+                words.push(squares.log_side.into());
+            }
+            Store::Gradient(gradient) => {
+                words.colour(gradient.from);
+                words.colour(gradient.to);
+                words.push(gradient.log_length.into());
+            }
         }
+        words.halves(level.mask.iter().copied());
     }
-
-    fn below<'h>(&'h self, readers: &'h [Reader<'h>]) -> Result<Below<'h>, TextureError> {
-        let numbers = 1..self.levels.len();
-        let texels = numbers.clone().map(|i| self.level(i, &readers[i]));
-        let mask = numbers.filter(|_| self.has_mask);
-        Ok(Below {
-            texels: texels.collect::<Result<_, _>>()?,
-            mask: mask.map(|i| self.mask_level(i)).collect::<Result<_, _>>()?,
-        })
-    }
-
-    fn mask<'h>(&'h self, below: &'h Below<'h>) -> Result<Option<Texture<'h>>, TextureError> {
-        if !self.has_mask {
-            return Ok(None);
-        }
-        let mask = self.mask_level(0)?;
-        Ok(Some(match self.sampling {
-            Some(sampling) => mask.sampled(sampling, &below.mask)?,
-            None => mask,
-        }))
-    }
-
-    fn texture<'h>(
-        &'h self,
-        reader: &'h Reader<'h>,
-        below: &'h Below<'h>,
-        mask: Option<&'h Texture<'h>>,
-    ) -> Result<Texture<'h>, TextureError> {
-        let mut texture = self.level(0, reader)?;
-        if let Some(sampling) = self.sampling {
-            texture = texture.sampled(sampling, &below.texels)?;
-        }
-        match mask {
-            Some(mask) => texture.masked(mask),
-            None => Ok(texture),
-        }
-    }
-}
-
-/// What a texture is refused by.
-fn bad(error: TextureError) -> DrawFailure {
-    DrawFailure::View(error.to_string())
 }
 
 /// Draws with the textures of all parts, whose texels are pixels of the format `T`.
@@ -155,43 +108,31 @@ fn bad(error: TextureError) -> DrawFailure {
 /// Those of `draw`, and of pictures that cannot be had in the form that is asked for.
 pub(super) fn with_textures<T: PixelFormat<Word = u16>>(
     parts: &[Placed<'_>],
-    draw: impl FnOnce(&[Vec<Texture<'_>>]) -> Result<Drawn, DrawFailure>,
+    draw: impl FnOnce(&[&[Texture<'_>]]) -> Result<Drawn, DrawFailure>,
 ) -> Result<Drawn, DrawFailure> {
-    let mut held: Vec<(usize, Held)> = Vec::new();
-    for (number, part) in parts.iter().enumerate() {
-        for image in part.textures.images() {
-            let made = Held::new::<T>(part.item, image);
-            let made = made.map_err(|why| DrawFailure::View(format!("object {number}: {why}")))?;
-            held.push((number, made));
-        }
-    }
-    let words = |is_cached: bool| {
-        let count = if is_cached { CACHED } else { 0 };
-        (0..count).map(|_| CacheWord::new()).collect::<Vec<_>>()
-    };
-    let mut fast: Vec<Vec<Vec<CacheWord>>> = (held.iter())
-        .map(|(_, held)| held.levels.iter().map(|_| words(held.is_cached)).collect())
+    let objects = parts.iter().map(|part| (part.item, part.textures));
+    let laid = TextureWords::of::<T>(objects)?;
+    let counts = laid.counts;
+    let mut cached: Vec<CacheWord> = (0..CACHED * counts.caches as usize)
+        .map(|_| CacheWord::new())
         .collect();
-    let readers: Vec<Vec<Reader<'_>>> = (held.iter().zip(&mut fast))
-        .map(|((_, held), fast)| held.readers::<T>(fast))
-        .collect::<Result<_, _>>()?;
-    let below: Vec<Below<'_>> = (held.iter().zip(&readers))
-        .map(|((_, held), readers)| held.below(readers).map_err(bad))
-        .collect::<Result<_, _>>()?;
-    let masks: Vec<Option<Texture<'_>>> = (held.iter().zip(&below))
-        .map(|((_, held), below)| held.mask(below).map_err(bad))
-        .collect::<Result<_, _>>()?;
-    let mut textures: Vec<Vec<Texture<'_>>> = parts.iter().map(|_| Vec::new()).collect();
-    for (i, (part, held)) in held.iter().enumerate() {
-        let texture = held.texture(&readers[i][0], &below[i], masks[i].as_ref());
-        textures[*part].push(texture.map_err(bad)?);
-    }
-    let mut drawn = draw(&textures)?;
-    drawn.texels = readers
-        .iter()
-        .flatten()
-        .filter_map(Reader::reads)
-        .reduce(sum);
+    let mut levels: Vec<_> = (0..counts.levels)
+        .map(|_| scene_flash::Level::EMPTY)
+        .collect();
+    let lent = TextureMemory {
+        sheets: &mut vec![Sheet::EMPTY; counts.textures as usize],
+        levels: &mut levels,
+        textures: &mut vec![Texture::EMPTY; counts.textures as usize],
+        others: &mut vec![Texture::EMPTY; counts.others as usize],
+        cached: &mut cached,
+    };
+    let textures = Textures::read::<T>(&mut Reader::new(laid.words.all(), 0), lent);
+    let textures = textures.map_err(|error| DrawFailure::View(error.to_string()))?;
+    let ends = laid.first.iter().skip(1).copied().chain([counts.textures]);
+    let of = |(first, end): (&u32, u32)| &textures.all[*first as usize..end as usize];
+    let by_object: Vec<&[Texture<'_>]> = laid.first.iter().zip(ends).map(of).collect();
+    let mut drawn = draw(&by_object)?;
+    drawn.texels = textures.reads().reduce(sum);
     Ok(drawn)
 }
 

@@ -23,14 +23,14 @@ const LIGHT: u8 = 0;
 
 /// What is drawn in one step: something of an object, by its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Step {
-    object: usize,
-    what: What,
+pub(crate) struct Step {
+    pub(crate) object: usize,
+    pub(crate) what: What,
 }
 
 /// What of an object is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum What {
+pub(crate) enum What {
     /// A part of it, in the light.
     Part(usize),
     /// A part again, as it is in the shadow.
@@ -41,7 +41,7 @@ enum What {
 
 impl SceneParts<'_> {
     /// All that is drawn, in order.
-    fn steps(&self) -> Vec<Step> {
+    pub(crate) fn steps(&self) -> Vec<Step> {
         let of = |is: &dyn Fn(&Placed<'_>) -> bool,
                   count: &dyn Fn(&Placed<'_>) -> usize,
                   what: fn(usize) -> What| {
@@ -73,7 +73,7 @@ impl SceneParts<'_> {
     }
 
     /// The light that throws shadows, by the number of an object that does; none of others.
-    fn shadow_lights(&self) -> Result<Vec<Option<ShadowLight>>, DrawFailure> {
+    pub(crate) fn shadow_lights(&self) -> Result<Vec<Option<ShadowLight>>, DrawFailure> {
         let Some(lamp) = self.scene.lights.iter().find(|lamp| lamp.shadows) else {
             return Ok(vec![None; self.parts.len()]);
         };
@@ -119,7 +119,7 @@ fn scissor(item: &Item, tile: &Tile) -> Option<Scissor> {
 pub(super) struct Worn<'s, 't> {
     pub(super) parts: &'s SceneParts<'s>,
     /// The textures of each object.
-    pub(super) textures: &'t [Vec<Texture<'t>>],
+    pub(super) textures: &'t [&'t [Texture<'t>]],
     /// Those that fall on corners.
     pub(super) lights: Option<&'s SceneLights>,
     pub(super) at_pixels: &'t AtPixels,
