@@ -310,6 +310,7 @@ impl<'a> Call<'a> {
             window: _,
             // Its colours are indices.
             index: _,
+            source: _,
         } = item;
         let flag = |is: bool, bit: u32| if is { bit } else { 0 };
         let quality = item.quality.map_or(0, |kind| match kind {
@@ -353,7 +354,8 @@ impl<'a> Call<'a> {
         }
         words.push(bits(test.colour_if) | bits(test.depth_if) << 8 | self.texture << 16);
         words.colour(self.colour);
-        words.push(self.lit);
+        let source = self.item.source.map_or(0, |source| u32::from(source) + 1);
+        words.push(self.lit | source << 16);
         let range = |first: u16, count: u16| [first, first.saturating_add(count)];
         let window = self.item.window.map_or([[0; 2]; 2], |cut| {
             [range(cut.left, cut.width), range(cut.top, cut.height)]

@@ -155,8 +155,8 @@ struct Called {
 impl Called {
     /// Makes a scene of them.
     fn build<L: Look>(&mut self, camera: &Camera, scene: &mut Scene<'_, 'static, L>) {
-        scene.begin(camera).expect(GOOD);
-        self.calls.draw(scene, &mut self.memory).expect(GOOD);
+        let drawn = self.calls.draw(camera, scene, &mut self.memory);
+        drawn.expect(GOOD);
     }
 }
 

@@ -8,14 +8,15 @@
 
 use crate::lights::{LightCounts, LightMemory, Lights};
 use crate::reader::{FlashError, Reader};
+use crate::sources;
 use crate::textures::{TextureCounts, TextureMemory, Textures, colour};
 use scanbeam::list::Matrix;
 use scanbeam::look::Look;
 use scanbeam::mesh::I2F14;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{
-    Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, Scissor, Shading,
-    Shadow, ShadowEdge, ShadowLight, ShadowMemory, Skin, TexGen,
+    Application, BeginError, Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError,
+    Scissor, Shading, Shadow, ShadowEdge, ShadowLight, ShadowMemory, Skin, TexGen,
 };
 use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Scene, Screen};
 
@@ -160,8 +161,19 @@ pub struct CallMemory<'t> {
 pub enum Call<'t> {
     /// A mesh.
     Mesh(Draw<'t, 't, i32>),
+    /// The same, which one of the [`SOURCES`] says.
+    Said(u8, Draw<'t, 't, i32>),
     /// The shadow of one.
     Volume(Mesh<'t, i32>, Affine, ShadowLight),
+}
+
+/// What a scene refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CallError {
+    /// To be begun.
+    Begin(BeginError),
+    /// A call, by its number.
+    Draw(usize, DrawError),
 }
 
 /// What shadow volumes are made in: as much as the largest of them needs.
@@ -197,7 +209,7 @@ impl<'t> Calls<'t> {
 
     /// All that is behind the counts, for pixels of the format `T`. A call is: its first word, by `code`; a word of the
     /// functions of colour and depth, and the number of its texture, plus 1, in the upper half; a word of its colour, and
-    /// one of the number of what falls on it, plus 1; the window's columns and lines; vertices and triangles, and normals
+    /// one of the number of what falls on it, plus 1, and of its source, plus 1, in the upper half; the window's columns and lines; vertices and triangles, and normals
     /// and colours of vertices; a MATRIX of lists; places, normals, colours, triangles and, with a texture, places on it.
     /// A volume is: its first word; the light's direction and how far it is drawn out; vertices and triangles; a MATRIX;
     /// places and triangles.
@@ -218,7 +230,7 @@ impl<'t> Calls<'t> {
         for slot in lent.calls.iter_mut() {
             let first = reader.word()?;
             *slot = match first & code::VOLUME {
-                0 => Call::Mesh(call(reader, first, &textures, &lights)?),
+                0 => call(reader, first, &textures, &lights)?,
                 _ => volume(reader)?,
             };
         }
@@ -228,18 +240,23 @@ impl<'t> Calls<'t> {
         })
     }
 
-    /// Draws them into a scene that has begun.
+    /// Begins a scene and draws them: directly, or, where one is said by a source, all through queues.
     ///
     /// # Errors
-    /// What the scene says of a call, and the call's number.
+    /// What the scene says, and of which call.
     pub fn draw<L: Look>(
         &self,
+        camera: &Camera,
         scene: &mut Scene<'_, 't, L>,
         memory: &mut VolumeMemory<'_>,
-    ) -> Result<(), (usize, DrawError)> {
+    ) -> Result<(), CallError> {
+        if self.calls.iter().any(|call| matches!(call, Call::Said(..))) {
+            return sources::draw(self.calls, camera, scene);
+        }
+        scene.begin(camera).map_err(CallError::Begin)?;
         for (number, call) in self.calls.iter().enumerate() {
             let drawn = match call {
-                Call::Mesh(draw) => scene.draw(draw),
+                Call::Mesh(draw) | Call::Said(_, draw) => scene.draw(draw),
                 Call::Volume(mesh, model, light) => {
                     let memory = ShadowMemory {
                         edges: memory.edges,
@@ -249,7 +266,7 @@ impl<'t> Calls<'t> {
                     scene.draw_shadow(mesh, model, light, memory)
                 }
             };
-            drawn.map_err(|error| (number, error))?;
+            drawn.map_err(|error| CallError::Draw(number, error))?;
         }
         Ok(())
     }
@@ -283,14 +300,15 @@ fn call<'t>(
     first: u32,
     textures: &Textures<'t>,
     lights: &Lights<'t>,
-) -> Result<Draw<'t, 't, i32>, FlashError> {
+) -> Result<Call<'t>, FlashError> {
     let has = |bit: u32| first & bit != 0;
     let second = reader.word()?;
     let texture = (second >> 16).checked_sub(1);
     let texture = texture.map(|number| textures.all.get(number as usize).ok_or(reader.bad()));
     let texture = texture.transpose()?;
     let colour = colour(reader)?;
-    let falls = lights.on(reader.word()? as u16).ok_or(reader.bad())?;
+    let [lit, source] = reader.halves()?;
+    let falls = lights.on(lit).ok_or(reader.bad())?;
     let ([left, right], [top, bottom]) = (reader.halves()?, reader.halves()?);
     let (columns, lines) = (left..right, top..bottom);
     let [vertices, faces, normals, colours] = reader.array()?.map(|count| count as usize);
@@ -314,7 +332,7 @@ fn call<'t>(
             _ => Budget::BALANCED,
         },
     });
-    Ok(Draw {
+    let draw = Draw {
         model: Affine::from(&matrix),
         texture: skin,
         colour,
@@ -330,6 +348,10 @@ fn call<'t>(
         },
         shadow: has(code::SHADOWED).then_some(Shadow::Shadowed(LIGHT)),
         ..coded(first, mesh)
+    };
+    Ok(match source.checked_sub(1) {
+        Some(source) => Call::Said(source as u8, draw),
+        None => Call::Mesh(draw),
     })
 }
 

@@ -17,11 +17,13 @@ mod head;
 mod lights;
 mod list;
 mod reader;
+mod sources;
 mod textures;
 
-pub use calls::{Call, CallMemory, Calls, Counts, Palette, VolumeMemory, code};
+pub use calls::{Call, CallError, CallMemory, Calls, Counts, Palette, VolumeMemory, code};
 pub use head::{FLASH_AT, FLASH_BYTES, Head, Kind, Room};
 pub use lights::{LightCounts, LightMemory, Lights};
 pub use list::{List, ListRoom, PlayError};
 pub use reader::{FlashError, Reader};
+pub use sources::SOURCES;
 pub use textures::{CACHED, Level, Sheet, TextureCounts, TextureMemory, Textures, form};

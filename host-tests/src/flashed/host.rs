@@ -13,8 +13,8 @@ use scanbeam::scene::{
 };
 use scanbeam::{Camera, Link, Scene, Screen};
 use scene_flash::{
-    CACHED, Call, CallMemory, Calls, Counts, FlashError, Head, Kind, Level, LightMemory, Lights,
-    List, ListRoom, Palette, PlayError, Room, Sheet, TextureMemory, VolumeMemory,
+    CACHED, Call, CallError, CallMemory, Calls, Counts, FlashError, Head, Kind, Level, LightMemory,
+    Lights, List, ListRoom, Palette, PlayError, Room, Sheet, TextureMemory, VolumeMemory,
 };
 use scenes::{IndexedLook, PhongLook, SmoothLook, TexturedLook, TexturedPhongLook};
 use std::error::Error;
@@ -312,9 +312,12 @@ impl<'t> Called<'_, 't> {
             room,
             (background, has_shadows),
             |scene, camera| {
-                scene.begin(camera).map_err(other)?;
-                let drawn = self.calls.draw(scene, &mut memory);
-                drawn.map_err(|(call, error)| {
+                let drawn = self.calls.draw(camera, scene, &mut memory);
+                drawn.map_err(|error| {
+                    let (call, error) = match error {
+                        CallError::Begin(error) => return other(error),
+                        CallError::Draw(call, error) => (call, error),
+                    };
                     let said = match self.objects.get(call) {
                         Some(object) => format!("object {object}: {error}"),
                         None => error.to_string(),

@@ -214,6 +214,46 @@ fn textures_of_all_forms_highlights_shadows_and_doubled_pictures_are_in_the_word
     Ok(())
 }
 
+/// Kills: queues that are drained in another order than that of their sources, one that loses what finds no room, and a
+/// call that is named by another one's number.
+#[test]
+fn calls_come_in_the_order_of_their_sources() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let pane = |x: f64, alpha: u8, source: Value| {
+        json!({ "model": example("scene-files").join("pane.obj"),
+        "place": [x, 0, 0], "blend": "filter", "alpha": alpha, "source": source })
+    };
+    let of = |objects: Vec<Value>| {
+        let mut all = scene();
+        all["objects"] = json!(objects);
+        loaded(&folder, &all)
+    };
+    // Of a source that says more than a queue has room for, and of two before it.
+    let with = |sources: [Value; 6], order: [usize; 6]| {
+        let panes = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5].map(|x| (x, 60 + (200.0 * x) as u8));
+        of(order
+            .map(|i| pane(panes[i].0, panes[i].1, sources[i].clone()))
+            .to_vec())
+    };
+    let numbers = [3, 0, 3, 3, 1, 3].map(Value::from);
+    let said = with(numbers, [0, 1, 2, 3, 4, 5])?;
+    let none = [(); 6].map(|()| Value::Null);
+    let direct = with(none.clone(), [1, 4, 0, 2, 3, 5])?;
+    assert!(said.shown.pixels == direct.shown.pixels);
+    assert_eq!(said.shown.head, direct.shown.head);
+    let as_it_stands = with(none, [0, 1, 2, 3, 4, 5])?;
+    assert!(said.shown.pixels != as_it_stands.shown.pixels);
+    // The third of them all finds no room.
+    let room = scene_flash::Room {
+        objects: 5,
+        ..said.shown.head.room
+    };
+    let error = frame(&said.words, &[10, 11, 12, 13, 14, 15], room);
+    let error = error.map(|_| ()).expect_err("too little").to_string();
+    assert!(error.starts_with("object 12: "), "{error}");
+    Ok(())
+}
+
 /// Kills: a picture that is drawn in part where one scene does not hold it.
 #[test]
 fn what_is_larger_than_a_board_draws_is_refused() -> Tried {

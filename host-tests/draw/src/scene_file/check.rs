@@ -2,6 +2,7 @@
 
 use super::{ApplicationKind, FormKind, Format, Item, SceneFile, ShadeKind, TexelsKind};
 use crate::choice::MAX_SIDE;
+use scene_flash::SOURCES;
 use std::path::PathBuf;
 
 /// Most objects of a scene.
@@ -63,6 +64,11 @@ const APART: &[(&str, &str, &str)] = &[
         "texels hide light there",
     ),
     ("`shadow`", "`blend`", "what is blended throws no shadow"),
+    (
+        "`source`",
+        "`shadows`",
+        "shadow volumes come through no queue",
+    ),
     (
         "`writes_depth` false",
         "`shadows`",
@@ -251,6 +257,12 @@ impl SceneFile {
         if item.blend.is_some() && item.writes_depth == Some(true) {
             return Err("`blend` writes no depth: `writes_depth` cannot be true".into());
         }
+        if item
+            .source
+            .is_some_and(|source| usize::from(source) >= SOURCES)
+        {
+            return Err(format!("`source` must be below {SOURCES}"));
+        }
         if item.window.is_some_and(|w| w.width == 0 || w.height == 0) {
             return Err("`window` has no pixels".into());
         }
@@ -284,6 +296,7 @@ impl Item {
             ("`priority`", self.priority.is_some()),
             ("`window`", self.window.is_some()),
             ("`index`", self.index.is_some()),
+            ("`source`", self.source.is_some()),
             ("`computed`", self.computed.is_some()),
             ("`texels`", self.texels.is_some()),
             ("`texels` alpha", self.texels == Some(TexelsKind::Alpha)),

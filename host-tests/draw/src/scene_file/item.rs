@@ -63,6 +63,8 @@ pub struct Item {
     pub window: Option<Cutout>,
     /// Its index in a scene with palettes.
     pub index: Option<u8>,
+    /// Which of the input queues its draw calls come through.
+    pub source: Option<u8>,
 }
 
 /// Sides of triangles.
@@ -322,6 +324,11 @@ impl From<DepthKind> for DepthFunction {
 impl Item {
     /// The power of highlights where none is said.
     pub(crate) const SHININESS: u16 = 32;
+
+    /// The input queue that its draw calls come through, where any do.
+    pub(crate) fn source(&self) -> u8 {
+        self.source.unwrap_or(0)
+    }
 
     /// How it and what is behind it become one.
     pub(crate) fn blend(&self) -> Option<Blend> {

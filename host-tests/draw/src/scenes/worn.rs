@@ -1,6 +1,6 @@
 //! The draw calls of a scene, and their order.
 //!
-//! Without shadows they come as the file has them. With shadows first comes what is opaque, then the shadow volumes of
+//! Without shadows they come as the file has them, one source after the other. With shadows first comes what is opaque, then the shadow volumes of
 //! what throws one and the same surfaces again as they are without that light (K9); last what is blended, which throws no
 //! shadow and gets none.
 
@@ -57,7 +57,10 @@ impl SceneParts<'_> {
         };
         let chunks = |part: &Placed<'_>| part.prepared.chunks.len();
         if !self.scene.has_shadows() {
-            return of(&|_| true, &chunks, What::Part);
+            let mut steps = of(&|_| true, &chunks, What::Part);
+            // One source after the other, each in order.
+            steps.sort_by_key(|step| self.parts[step.object].item.source());
+            return steps;
         }
         let is_opaque = |part: &Placed<'_>| part.item.blend.is_none();
         // What is not lit is the same in the shadow.
