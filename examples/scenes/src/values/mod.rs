@@ -30,6 +30,7 @@ mod alpha;
 mod compressed;
 mod dusk;
 mod fetched;
+mod kept;
 mod points;
 mod sampled;
 mod scenes;

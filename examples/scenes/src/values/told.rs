@@ -1,12 +1,14 @@
 //! What there is no picture of, as pictures of squares: the colour of each is an answer. The first shows what becomes of
 //! damaged lists (X7); the second which events the first had (H14), where a list halts (H12), which lines renderers have
-//! (B3), and how often a queue was full. Squares come through two queues (K17).
+//! (B3), how often a queue was full, and what `kept.rs` has. Squares come through two queues (K17).
 
+use super::kept::KEPT;
 use super::{DRAWS, Rest, VALUES_HEIGHT, ValuesError, background, values_screen};
 use crate::{
     CRATE_INDICES, CRATE_TABLE, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, ShotError,
     TexturedLook,
 };
+use core::ops::Range;
 use core::task::Poll;
 use scanbeam::event::{Event, EventFlags, EventSet, Notice};
 use scanbeam::frame::{FastMemory, Interleave, Memory as LineMemory, Renderer, draw_frame};
@@ -15,7 +17,7 @@ use scanbeam::list::{Budget, Flow, Halt, Header, Id, ListCommand, TextureSlot};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma};
 use scanbeam::scene::{Draw, DrawState, Memory, Scene};
-use scanbeam::{Camera, Cull, Faces, Mesh};
+use scanbeam::{Camera, CameraError, Cull, Faces, Mesh};
 
 /// Squares a row.
 const COLUMNS: usize = 8;
@@ -26,15 +28,18 @@ const WORDS: usize = 640;
 /// Commands that a queue holds, and one more.
 const HELD: usize = 3;
 
+/// Answers of the last row that are not of `kept.rs`.
+const TOLD: usize = COLUMNS - KEPT;
+
 /// The answers that a picture shows.
 type Answers = [u32; COLUMNS * ROWS];
 
 /// Values one after the other, as one.
 #[derive(Default)]
-struct Answer(u32);
+pub(super) struct Answer(pub(super) u32);
 
 impl Answer {
-    fn add(&mut self, value: u32) {
+    pub(super) fn add(&mut self, value: u32) {
         let mixed = (self.0 ^ value).wrapping_mul(0x9E37_79B1);
         self.0 = mixed ^ mixed >> 15;
     }
@@ -45,8 +50,12 @@ impl Answer {
 }
 
 impl Rest<'_> {
-    /// An empty scene.
-    fn scene<'a, 't>(&'a mut self, draws: &'a mut [DrawState<'t>]) -> Scene<'a, 't, TexturedLook> {
+    /// Memory of a scene, and of a renderer.
+    pub(super) fn stage<'a, 't>(
+        &'a mut self,
+        draws: &'a mut [DrawState<'t>],
+        cache: &'a mut FastMemory<TexturedLook>,
+    ) -> (Memory<'a, 't>, LineMemory<'a, TexturedLook>) {
         let memory = Memory {
             vertices: self.vertices,
             places: self.places,
@@ -54,14 +63,26 @@ impl Rest<'_> {
             bins: self.bins,
             draws,
         };
-        Scene::new(values_screen(), memory)
+        let lines = LineMemory {
+            cache,
+            links: self.links,
+            depth: self.depth,
+        };
+        (memory, lines)
     }
 
     /// What becomes of a list that begins at a word: where it halts each time, what it told, and what the scene has of it.
     fn answer(&mut self, list: &[u32], from: u32) -> Result<u32, ShotError> {
         let flags = EventFlags::new(EventSet::ALL);
         let mut draws = [const { DrawState::EMPTY }; DRAWS];
-        let mut scene = self.scene(&mut draws);
+        let memory = Memory {
+            vertices: self.vertices,
+            places: self.places,
+            objects: self.objects,
+            bins: self.bins,
+            draws: &mut draws,
+        };
+        let mut scene = Scene::<TexturedLook>::new(values_screen(), memory);
         let (mut positions, mut normals) = ([[0; 3]; CRATE_TABLE], [[0; 3]; CRATE_TABLE]);
         let (mut places, mut indices) = ([[0; 2]; CRATE_TABLE], [0; CRATE_INDICES]);
         let names = [const { TextureSlot::new() }; PLAYED_NAMES];
@@ -134,19 +155,14 @@ impl Rest<'_> {
 
     /// Where a list halts that interrupts, pauses, asks for what stands before, and jumps.
     fn halting(&mut self) -> Result<u32, ShotError> {
-        let header = |flow: Flow| {
-            let (what, argument) = flow.code();
-            let count = u16::from_be_bytes([what, argument]);
-            Header::of(Id::Flow, count).to_word().to_le()
-        };
         let words = [
-            header(Flow::Interrupt(42)),
-            header(Flow::Pause),
-            header(Flow::Jump(5)),
+            flow(Flow::Interrupt(42)),
+            flow(Flow::Pause),
+            flow(Flow::Jump(5)),
             5_u32.to_le(),
-            header(Flow::Pause),
-            header(Flow::Sync),
-            header(Flow::End),
+            flow(Flow::Pause),
+            flow(Flow::Sync),
+            flow(Flow::End),
         ];
         self.answer(&words, 0)
     }
@@ -163,20 +179,9 @@ impl Rest<'_> {
     {
         let rows = Rows::new(answers);
         let mut draws = [const { DrawState::EMPTY }; DRAWS];
-        let memory = Memory {
-            vertices: self.vertices,
-            places: self.places,
-            objects: self.objects,
-            bins: self.bins,
-            draws: &mut draws,
-        };
+        let (memory, lines) = self.stage(&mut draws, cache);
         let mut scene = Scene::<TexturedLook>::new(values_screen(), memory);
         let stalls = rows.feed(&mut scene)?;
-        let lines = LineMemory {
-            cache,
-            links: self.links,
-            depth: self.depth,
-        };
         let mut renderer = Renderer::new(lines).counting();
         let used = draw_frame(&scene, &mut renderer, pump, background(), 3)?;
         Ok(Shown {
@@ -207,8 +212,9 @@ impl Rest<'_> {
             of.of(0..VALUES_HEIGHT)
                 .for_each(|line| lines.add(u32::from(line)));
         }
-        let last = [shown.stalls << 20, self.halting()?, lines.0];
-        answers[COLUMNS * (ROWS - 1)..][..3].copy_from_slice(&last);
+        let last = &mut answers[COLUMNS * (ROWS - 1)..];
+        last[..TOLD].copy_from_slice(&[shown.stalls << 20, self.halting()?, lines.0]);
+        last[TOLD..].copy_from_slice(&self.kept(cache, &Rows::new(&damaged))?);
         self.show(cache, pump, &answers)?;
         Ok(())
     }
@@ -221,11 +227,28 @@ struct Shown {
     stalls: u32,
 }
 
+/// What sees all squares, with a focal length in pixels.
+fn camera(focal: f32) -> Result<Camera, CameraError> {
+    let eye = [0.0, 0.0, 1.0];
+    Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], focal, 0.1, 9.0)
+}
+
 /// Corners of a row.
 const CORNERS: usize = 4 * COLUMNS;
 
+/// The header of a block, as it lies in memory.
+pub(super) fn header(id: Id, count: u16) -> u32 {
+    Header::of(id, count).to_word().to_le()
+}
+
+/// A FLOW block without words of its own.
+pub(super) fn flow(flow: Flow) -> u32 {
+    let (what, argument) = flow.code();
+    header(Id::Flow, u16::from_be_bytes([what, argument]))
+}
+
 /// The squares of a picture.
-struct Rows {
+pub(super) struct Rows {
     positions: [[[i16; 3]; CORNERS]; ROWS],
     colours: [[[u8; 3]; CORNERS]; ROWS],
     faces: [[u16; 4]; COLUMNS],
@@ -275,10 +298,26 @@ impl Rows {
         }))
     }
 
+    /// Submits all rows for some lines of a picture of 64 x 48.
+    pub(super) fn submit<'t>(
+        &'t self,
+        scene: &mut Scene<'_, 't, TexturedLook>,
+        lines: Range<u16>,
+    ) -> Result<(), ShotError> {
+        let camera = camera(56.0)?;
+        scene.begin_lines(&camera, lines)?;
+        for row in 0..ROWS {
+            let (source, n) = (row / (ROWS / 2), row % (ROWS / 2));
+            if let Some(Command::Draw(draw)) = self.command(source, n + 1 - source, camera) {
+                scene.draw(&draw)?;
+            }
+        }
+        Ok(())
+    }
+
     /// Submits all rows through two queues, the upper half by the first; how often one was full.
     fn feed<'t>(&'t self, scene: &mut Scene<'_, 't, TexturedLook>) -> Result<u32, ShotError> {
-        let eye = [0.0, 0.0, 1.0];
-        let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 140.0, 0.1, 9.0)?;
+        let camera = camera(140.0)?;
         let mut queues = [const { InputQueue::<i16, HELD>::new() }; 2];
         let [upper, lower] = &mut queues;
         let ((mut first, one), (mut second, other)) = (upper.split(0), lower.split(1));
