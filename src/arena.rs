@@ -101,4 +101,15 @@ mod tests {
         arena.clear();
         assert!(arena.as_slice().is_empty());
     }
+
+    /// Kills: places beyond those that indices have.
+    #[test]
+    fn is_no_longer_than_indices_reach() {
+        let mut memory = [(); Arena::<()>::LIMIT + 2];
+        let mut arena = Arena::new(&mut memory);
+        let last = (0..Arena::<()>::LIMIT).map_while(|_| arena.push(())).last();
+        assert_eq!((last, arena.push(())), (Some(u16::MAX), None));
+        assert_eq!(arena.append(1), None);
+        assert_eq!(arena.len(), 1 << 16);
+    }
 }

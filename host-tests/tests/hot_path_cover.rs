@@ -128,7 +128,7 @@ fn giants_of_the_whole_guard_band_cover_what_the_rule_says() {
 }
 
 /// Beyond the guard band triangles are cut: nothing of the picture changes but by a unit beside edges that were
-/// cut.
+/// cut. Pieces take the vertices that they have.
 #[test]
 fn triangles_cut_at_the_guard_band_cover_what_they_did() {
     let mut rng = Rng::new(309);
@@ -150,6 +150,8 @@ fn triangles_cut_at_the_guard_band_cover_what_they_did() {
         scene.begin(&camera()).unwrap();
         draw(&mut scene, &corners(&[triangle]), Cull::None).unwrap();
         cut += scene.assembled().clipped;
+        // Those of the mesh, if it is kept, and of pieces.
+        assert_eq!(scene.vertices() % 3, 0, "{triangle:?}");
         for (y, line) in (0..).zip(frame(&scene, rng.pick(&[0, 4]), false, [0; 3])) {
             for (x, pixel) in (0..).zip(line) {
                 // Doubled areas with the pixel, over the lengths of sides: distances to the sides.

@@ -138,7 +138,8 @@ fn what_lies_over_a_frame_is_sent_with_it() {
     }
 }
 
-/// Kills: changes of the overlay that are not told, lines that count as shown after a fault, lines sent for nothing.
+/// Kills: changes of the overlay that are not told, lines that count as shown after a fault, lines sent for nothing, lines
+/// that count as skipped where something is active.
 #[test]
 fn the_display_is_right_whatever_changes_and_fails() {
     let mut rng = Rng::new(1_902);
@@ -162,6 +163,12 @@ fn the_display_is_right_whatever_changes_and_fails() {
             let want = content.picture(&scene, true);
             let mut lent = LineRooms::fitting(&scene, 4, true);
             let mut renderer = lent.renderer();
+            let mut is_empty = |line: u16| {
+                let mut pixels = [0; WIDTH as usize];
+                let drawn = renderer.draw_line(&scene, line, &mut pixels, BACKGROUND);
+                !drawn.expect("there is memory")
+            };
+            let skipped = scene.lines().filter(|line| is_empty(*line)).count();
             let mut overlay = Overlay::<Rgb565Be>::new(&content.bars).expect("they are sorted");
             sink.sink_mut().clear_fault();
             if rng.below(4) == 0 {
@@ -193,6 +200,7 @@ fn the_display_is_right_whatever_changes_and_fails() {
                 Ok(used) => {
                     let shown: Vec<_> = want.concat().into_iter().map(Some).collect();
                     assert_eq!(sink.sink().shown(), shown);
+                    assert_eq!(used.lines_skipped as usize, skipped);
                     if let Some(last) = &last {
                         let same = want.iter().zip(last).filter(|(a, b)| a == b).count();
                         assert_eq!(used.scan_out.lines_unsent as usize, same);

@@ -250,6 +250,33 @@ fn what_cannot_be_drawn_on_the_screen_is_said() {
     });
 }
 
+/// Kills: triangles on the screen that are counted as culled where they are filed, and not where they have no line.
+#[test]
+fn triangles_of_the_screen_without_lines_are_counted() {
+    let corner = |(x, y)| ScreenCorner {
+        vertex: ScreenVertex {
+            x,
+            y,
+            ..ScreenVertex::default()
+        },
+        texel: [0; 2],
+    };
+    let seen = [(0, 0), (0, 400), (400, 0)].map(corner);
+    // Between the middles of two lines.
+    let thin = [(0, 5), (0, 6), (400, 5)].map(corner);
+    for (triangles, culled) in [
+        (&[seen, seen][..], 0),
+        (&[thin, seen, thin], 2),
+        (&[thin], 1),
+    ] {
+        drawn::<Smooth>(|scene| {
+            scene.draw_screen(&Draw::new(NO_MESH), triangles).unwrap();
+            assert_eq!(scene.assembled().culled, culled);
+            assert_eq!(scene.objects() + culled as usize, triangles.len());
+        });
+    }
+}
+
 #[test]
 fn points_of_lists_are_those_of_calls() {
     for seed in 0..60 {

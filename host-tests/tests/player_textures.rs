@@ -414,6 +414,59 @@ fn a_table_has_places_on_each_of_its_textures() {
     assert!(one == two);
 }
 
+/// Kills: vertices that come one by one and are put where the places of the table are.
+#[test]
+fn what_is_drawn_between_leaves_a_table_its_places() {
+    let mut rng = Rng::new(9);
+    let block = sample(&mut rng, TexelForm::Rgb565, false).block;
+    let texels: Vec<u32> = (0..block.words()).map(|_| rng.below(u32::MAX)).collect();
+    let [one, two] = [false, true].map(|again| {
+        let mut memory = vec![0; 2048];
+        let mut writer = ListWriter::new(&mut memory);
+        writer.bulk(&State::Texture(block), &texels).unwrap();
+        write_table(&mut writer);
+        let material = Material {
+            texture: Some(block.number),
+            two_sided: true,
+            ..Material::default()
+        };
+        writer.state(&State::Material(material)).unwrap();
+        let indexed = |writer: &mut ListWriter<'_>, face: [u16; 3]| {
+            let face = face.map(Some).into_iter();
+            writer.indexed(None, false, face).unwrap();
+        };
+        indexed(&mut writer, [0, 1, 2]);
+        let header = Header {
+            text: true,
+            new: true,
+            ..Header::of(Id::Short, 3)
+        };
+        let mut words = Vec::new();
+        let mut packer = FieldPacker::new(|w| words.push(w));
+        for ([x, y], [u, v]) in CORNERS.into_iter().zip(SIDES).take(3) {
+            packer.field(FieldForm::S16x3, [x / 4, y / 4, 0, 0]);
+            packer.align();
+            packer.field(FieldForm::U16x2, [9_000 - v, u, 0, 0]);
+            packer.align();
+        }
+        writer.vertices(header, &words).unwrap();
+        if again {
+            write_table(&mut writer);
+        }
+        indexed(&mut writer, [0, 2, 3]);
+        writer.flow(Flow::End).unwrap();
+        let list = writer.words().to_vec();
+        let mut kept = Kept::new(64, 96);
+        drawn::<Skinned>(|scene| {
+            let mut player = kept.player::<Skinned>(PlayerSettings::default());
+            player.start(0);
+            assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
+        })
+    });
+    assert!(one.iter().filter(|word| **word != 0).count() > 500);
+    assert!(one == two);
+}
+
 /// A strip whose vertices find room a few at a time. Kills: places that are lost, or those of other vertices, where it goes
 /// on.
 #[test]

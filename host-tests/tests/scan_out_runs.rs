@@ -185,6 +185,39 @@ fn runs_are_packed_into_rectangles() {
     assert_eq!(stats, want);
 }
 
+/// A frame that was sent whole is closed once: one in runs can follow. Kills: a rectangle that counts as open when its frame
+/// is done.
+#[test]
+fn a_frame_in_runs_follows_a_whole_one() {
+    let sink = Recorder {
+        mock: Mock::new(32, 12),
+        windows: Vec::new(),
+    };
+    let mut pump = Pump::new(sink, buffers(32 * 4));
+    let window = Window {
+        x: 0,
+        y: 0,
+        width: 32,
+        height: 12,
+    };
+    pump.begin(window, 4).unwrap();
+    for _ in 0..12 {
+        pump.line().unwrap().fill(3);
+        pump.line_done().unwrap();
+    }
+    pump.finish().unwrap();
+    pump.sink_mut().mock.next_frame();
+    let mut words = vec![0; ShownRuns::words(32, 12, 8, 1)];
+    let mut shown = ShownRuns::new(&mut words, 32, 8, 1);
+    let picture = vec![vec![7u16; 32]; 12];
+    let source = Lines {
+        picture: &picture,
+        fails_at: None,
+    };
+    source.send(&mut pump, 4, &mut shown).unwrap();
+    assert_eq!(pump.sink().windows.len(), 4);
+}
+
 /// A window off the grid of cells is refused before anything is sent.
 #[test]
 fn a_window_that_does_not_begin_at_a_cell_is_refused() {
