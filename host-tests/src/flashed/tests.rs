@@ -1,6 +1,8 @@
 //! Scenes as boards have them: nothing of a file is left out, they take as little memory as they can, and boards draw the
 //! same bits.
 
+mod lists;
+
 use super::host::{frame, grow, settle};
 use super::*;
 use crate::firmware::{BOARDS, M4};
@@ -266,103 +268,54 @@ fn what_is_larger_than_a_board_draws_is_refused() -> Tried {
     Ok(())
 }
 
-/// Kills: a list that is cut off or does not end and is drawn as far as it goes, errors of lists without their place, a
-/// player that is lent as much as before, and overlays that are left out.
-#[test]
-fn lists_that_boards_cannot_draw_are_refused() -> Tried {
-    let list = crate::lists::read_list(&example("scenes/crate.list"))?;
-    let refused = |list: &[u32]| {
-        let done = settle(&mut list::words(list), &[]);
-        done.map(|_| ()).expect_err("it is refused").to_string()
-    };
-    for length in [1, 5, list.len() / 2, list.len() - 1] {
-        let said = refused(&list[..length]);
-        let told = ["halted at offset", "list: offset"];
+/// Draws a file on boards, which have to draw what this machine does; what pass one takes on each.
+///
+/// Kills: another scene than the one that lies in flash, a board that draws nothing, calls that are left out, palettes in
+/// another order, figures that are not of the scene, and code that reaches to where the scene lies.
+fn drawn_on(file: &str, kind: Kind, asked: &[Board]) -> Result<Vec<u64>, Box<dyn Error>> {
+    let toolchain = Toolchain::find()?;
+    let file = example(file);
+    let flashed = Flashed::load(&file)?;
+    assert_eq!(flashed.shown.head.kind, kind);
+    let boards = flashed.measure(&toolchain, asked, &file)?;
+    assert_eq!(boards.len(), asked.len());
+    for board in &boards {
+        let name = format!("{} on {}", file.display(), board.board.name);
+        assert!(flashed.matches(board), "{name}");
+        let (frame, lines) = (&board.output.frames[0], &board.output.lines[0]);
+        assert_eq!(lines.costs.len(), 240, "{name}");
+        assert!(lines.pass_one > 4000, "{name}: {}", lines.pass_one);
+        // Each line may be a tick off.
+        let sum = lines.pass_one + lines.costs.iter().sum::<u64>();
+        let apart = sum.abs_diff(frame.instructions);
         assert!(
-            told.iter().any(|words| said.contains(words)),
-            "{length}: {said}"
+            apart <= frame.instructions / 10,
+            "{name}: {sum} of {}",
+            frame.instructions
+        );
+        let figure = |name: &str| board.output.figures[name] as usize;
+        let here = flashed.shown.slow_bytes;
+        assert!(
+            (here / 2..=here + 64).contains(&figure("slow_bytes")),
+            "{name}: {here}"
+        );
+        assert_eq!(figure("line_bytes"), 2 * 2 * 320, "{name}");
+        assert!(
+            (4 * 160..20 << 10).contains(&figure("fast_bytes")),
+            "{name}"
         );
     }
-    // A JUMP to itself, which no budget sees the end of.
-    let round = [1 << 24 | 5 << 16, 0];
-    assert!(refused(&round).contains("halted at offset 0x0"));
-    // OVERLAY of 1 x 1 pixels of 16 bits, and END.
-    let overlay = [
-        7 << 28 | 1 << 24 | 10 << 16,
-        0,
-        1 | 1 << 16,
-        5,
-        0xF800,
-        1 << 24,
-    ];
-    assert_eq!(refused(&overlay), "overlays, which boards do not draw");
-    // With too little for its textures at first.
-    let mut words = list::words(&list);
-    let (head, mut reader) = scene_flash::Head::read(&words)?;
-    let given = scene_flash::List::read(&mut reader)?;
-    let mut room = given.room;
-    (room.textures, room.texels, room.levels) = (1, 1, 0);
-    let tight = scene_flash::List { room, ..given }.to_words();
-    let from = scene_flash::Head::WORDS;
-    words[from..from + tight.len()].copy_from_slice(&tight);
-    let shown = settle(&mut words, &[])?;
-    assert_eq!(shown.head.kind, head.kind);
-    let mut roomy = list::words(&list);
-    assert!(settle(&mut roomy, &[])?.pixels == shown.pixels);
-    Ok(())
+    let passes = boards.iter().map(|board| board.output.lines[0].pass_one);
+    Ok(passes.collect())
 }
 
-/// Kills: another scene than the one that lies in flash, a board that draws nothing, calls that are left out, palettes in
-/// another order, a list that is looked at in each frame, figures that are not of the scene, and code that reaches to where
-/// the scene lies.
 #[test]
 fn boards_draw_what_this_machine_draws() -> Tried {
-    let toolchain = Toolchain::find()?;
-    for (file, kind, asked) in [
-        ("scene-files/room.json", Kind::Textured, &BOARDS[..]),
-        ("scene-files/dusk.json", Kind::Indexed, &BOARDS[1..]),
-        ("scene-files/court.json", Kind::TexturedPhong, &[M4][..]),
-        ("scene-files/yard.json", Kind::Textured, &BOARDS[2..]),
-        ("scene-files/cards.json", Kind::Textured, &[M4][..]),
-        ("scenes/teapot.list", Kind::ListSmooth, &[M4][..]),
-        ("scenes/crate.list", Kind::ListTextured, &[M4][..]),
-    ] {
-        let file = example(file);
-        let flashed = Flashed::load(&file)?;
-        assert_eq!(flashed.shown.head.kind, kind);
-        let boards = flashed.measure(&toolchain, asked, &file)?;
-        assert_eq!(boards.len(), asked.len());
-        for board in &boards {
-            let name = format!("{} on {}", file.display(), board.board.name);
-            assert!(flashed.matches(board), "{name}");
-            let (frame, lines) = (&board.output.frames[0], &board.output.lines[0]);
-            assert_eq!(lines.costs.len(), 240, "{name}");
-            assert!(lines.pass_one > 4000, "{name}: {}", lines.pass_one);
-            if kind == Kind::ListSmooth {
-                // It was looked at once, before: that takes 87,000 more.
-                assert!(lines.pass_one < 400_000, "{name}: {}", lines.pass_one);
-            }
-            // Each line may be a tick off.
-            let sum = lines.pass_one + lines.costs.iter().sum::<u64>();
-            let apart = sum.abs_diff(frame.instructions);
-            assert!(
-                apart <= frame.instructions / 10,
-                "{name}: {sum} of {}",
-                frame.instructions
-            );
-            let figure = |name: &str| board.output.figures[name] as usize;
-            let here = flashed.shown.slow_bytes;
-            assert!(
-                (here / 2..=here + 64).contains(&figure("slow_bytes")),
-                "{name}: {here}"
-            );
-            assert_eq!(figure("line_bytes"), 2 * 2 * 320, "{name}");
-            assert!(
-                (4 * 160..20 << 10).contains(&figure("fast_bytes")),
-                "{name}"
-            );
-        }
-    }
+    drawn_on("scene-files/room.json", Kind::Textured, &BOARDS)?;
+    drawn_on("scene-files/dusk.json", Kind::Indexed, &BOARDS[1..])?;
+    drawn_on("scene-files/court.json", Kind::TexturedPhong, &[M4])?;
+    drawn_on("scene-files/yard.json", Kind::Textured, &BOARDS[2..])?;
+    drawn_on("scene-files/cards.json", Kind::Textured, &[M4])?;
     Ok(())
 }
 
