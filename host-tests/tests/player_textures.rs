@@ -59,6 +59,17 @@ fn draw_quad_again(writer: &mut ListWriter<'_>, prsp: bool) {
     writer.vertices(header, &words).unwrap();
 }
 
+/// What a list draws, with memory for so many vertices.
+fn listed(list: &[u32], room: usize) -> Vec<u16> {
+    let list = list.to_vec();
+    let mut kept = Kept::new(room, 96);
+    drawn::<Skinned>(|scene| {
+        let mut player = kept.player::<Skinned>(PlayerSettings::default());
+        player.start(0);
+        assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
+    })
+}
+
 /// The same by a call, with texels that are words of the panel.
 fn call_quad(texture: &Texture<'_>, budget: Budget) -> Vec<u16> {
     call_quad_as(texture, budget, |_| {})
@@ -402,13 +413,7 @@ fn a_table_has_places_on_each_of_its_textures() {
                 .unwrap();
         }
         writer.flow(Flow::End).unwrap();
-        let list = writer.words().to_vec();
-        let mut kept = Kept::new(64, 96);
-        drawn::<Skinned>(|scene| {
-            let mut player = kept.player::<Skinned>(PlayerSettings::default());
-            player.start(0);
-            assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
-        })
+        listed(writer.words(), 64)
     });
     assert!(one.iter().filter(|word| **word != 0).count() > 500);
     assert!(one == two);
@@ -455,13 +460,7 @@ fn what_is_drawn_between_leaves_a_table_its_places() {
         }
         indexed(&mut writer, [0, 2, 3]);
         writer.flow(Flow::End).unwrap();
-        let list = writer.words().to_vec();
-        let mut kept = Kept::new(64, 96);
-        drawn::<Skinned>(|scene| {
-            let mut player = kept.player::<Skinned>(PlayerSettings::default());
-            player.start(0);
-            assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
-        })
+        listed(writer.words(), 64)
     });
     assert!(one.iter().filter(|word| **word != 0).count() > 500);
     assert!(one == two);
@@ -501,19 +500,11 @@ fn strips_in_parts_have_the_places_of_whole_ones() {
     };
     writer.vertices(header, &words).unwrap();
     writer.flow(Flow::End).unwrap();
-    let list = writer.words().to_vec();
-    let listed = |room: usize| {
-        let mut kept = Kept::new(room, 96);
-        drawn::<Skinned>(|scene| {
-            let mut player = kept.player::<Skinned>(PlayerSettings::default());
-            player.start(0);
-            assert_eq!(played(&mut player, &list[..], scene, PLENTY), Ok(Halt::End));
-        })
-    };
-    let whole = listed(64);
+    let list = writer.words();
+    let whole = listed(list, 64);
     assert!(whole.iter().filter(|word| **word != 0).count() > 500);
     for room in [4, 5, 7, 12] {
-        assert!(listed(room) == whole, "{room} vertices at a time");
+        assert!(listed(list, room) == whole, "{room} vertices at a time");
     }
 }
 
