@@ -3,7 +3,7 @@
 use crate::common::Rng;
 use crate::listing::{Cloud, PLENTY, some_format, unrolled};
 use crate::played::{Kept, drawn, played};
-use host_tests::lists::writer::{Form, ListWriter};
+use host_tests::lists::writer::{FieldPacker, Form, ListWriter};
 use scanbeam::input::PlayerSettings;
 use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, State};
 use scanbeam::look::Gouraud;
@@ -105,6 +105,45 @@ fn quads_and_quad_strips_are_those_of_meshes() {
             );
         }
     }
+}
+
+/// Kills: memory for vertices that a table takes which is used where it lies.
+#[test]
+fn a_table_that_is_used_where_it_lies_takes_no_memory() {
+    let mut rng = Rng::new(77);
+    let mut fields = |form: FieldForm, count: usize| {
+        let mut words = Vec::new();
+        let mut packer = FieldPacker::new(|word| words.push(word));
+        for _ in 0..count {
+            let place = [(); 2].map(|()| rng.within(-16_000, 16_000));
+            packer.field(form, [place[0], place[1], 0, 0]);
+            if count == 3 {
+                packer.align();
+            }
+        }
+        packer.align();
+        words
+    };
+    let table = fields(FieldForm::S16x3, 40);
+    let run = fields(FieldForm::S16x3, 3);
+    let mut memory = vec![0; 512];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.vertices(Header::of(Id::Table, 40), &table).unwrap();
+    let header = Header {
+        new: true,
+        ..Header::of(Id::Short, 3)
+    };
+    writer.vertices(header, &run).unwrap();
+    let face = [7u16, 22, 39].map(Some);
+    writer.indexed(None, false, face.into_iter()).unwrap();
+    writer.flow(Flow::End).unwrap();
+    let call = Draw {
+        cull: Cull::None,
+        ..some_call(&mut Rng::new(1))
+    };
+    let small = listed(writer.words(), call, (4, 9));
+    assert!(small == listed(writer.words(), call, (100, 100)));
+    assert!(small.iter().filter(|word| **word != 0).count() > 100);
 }
 
 #[test]

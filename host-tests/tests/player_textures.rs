@@ -13,7 +13,7 @@ use scanbeam::list::{
     TexelForm, Texture as TextureBlock,
 };
 use scanbeam::look::Textured;
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Xrgb8888};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Xrgb8888};
 use scanbeam::scene::{Blend, Budget, Draw, Sampling, Shading, Skin, Texture};
 use scanbeam::{Cull, Faces, Light, Mesh};
 
@@ -250,6 +250,34 @@ fn a_texture_is_made_once_for_each_palette() {
         assert_eq!(error.reason, Reason::Lent(Lent::Texels));
         assert_eq!(scene.objects(), 0);
     });
+}
+
+/// Kills: texels that are copied where they are words of the panel already, and some that are not and are used as they lie.
+#[test]
+fn texels_of_the_panel_are_used_where_they_lie() {
+    let sample = sample(&mut Rng::new(11), TexelForm::Rgb565, false);
+    let list = &sample.list(true)[..];
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player_with::<Textured<Rgb565>>(PlayerSettings::default(), 2, 0);
+    let seen = drawn_in::<Rgb565, Textured<Rgb565>>(|scene| {
+        player.start(0);
+        assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+    });
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player_with::<Skinned>(PlayerSettings::default(), 2, 0);
+    drawn::<Skinned>(|scene| {
+        player.start(0);
+        let error = played(&mut player, list, scene, PLENTY).unwrap_err();
+        assert_eq!(error.reason, Reason::Lent(Lent::Texels));
+    });
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Skinned>(PlayerSettings::default());
+    let copied = drawn::<Skinned>(|scene| {
+        player.start(0);
+        assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
+    });
+    assert!(seen.iter().filter(|word| **word != 0).count() > 500);
+    assert!(seen.into_iter().map(u16::to_be).eq(copied));
 }
 
 /// Pixels of 32 bits are made of the texels that panels of 16 bits get. Kills: texels that are cut, black, or in the

@@ -12,6 +12,7 @@ use scanbeam::scan_out::{Pump, ScanError, ScanStats, ScanoutDma, ShownRuns, Wind
 struct Recorder {
     mock: Mock,
     windows: Vec<Window>,
+    ends: usize,
 }
 
 impl ScanoutDma for Recorder {
@@ -32,6 +33,7 @@ impl ScanoutDma for Recorder {
     }
 
     fn end(&mut self) -> Result<(), MockError> {
+        self.ends += 1;
         self.mock.end()
     }
 
@@ -76,6 +78,7 @@ fn the_display_is_right_and_sent_what_changed_alone() {
         let sink = Recorder {
             mock,
             windows: Vec::new(),
+            ends: 0,
         };
         let mut pump = changes::pump(sink, words);
         let mut words_shown = vec![3; ShownRuns::words(width, height, columns, lines)];
@@ -143,6 +146,7 @@ fn runs_are_packed_into_rectangles() {
     let sink = Recorder {
         mock: Mock::new(width, height).late_by(1),
         windows: Vec::new(),
+        ends: 0,
     };
     let mut pump = Pump::new(sink, buffers(32 * 4));
     let mut words = vec![0; ShownRuns::words(width, height, 8, 1)];
@@ -192,6 +196,7 @@ fn a_frame_in_runs_follows_a_whole_one() {
     let sink = Recorder {
         mock: Mock::new(32, 12),
         windows: Vec::new(),
+        ends: 0,
     };
     let mut pump = Pump::new(sink, buffers(32 * 4));
     let window = Window {
@@ -215,7 +220,7 @@ fn a_frame_in_runs_follows_a_whole_one() {
         fails_at: None,
     };
     source.send(&mut pump, 4, &mut shown).unwrap();
-    assert_eq!(pump.sink().windows.len(), 4);
+    assert_eq!((pump.sink().windows.len(), pump.sink().ends), (4, 4));
 }
 
 /// A window off the grid of cells is refused before anything is sent.
