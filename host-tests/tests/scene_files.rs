@@ -102,14 +102,66 @@ fn objects_stand_where_they_are_placed() {
     }
 }
 
+/// A blend by factors.
+fn factors(source: Value, destination: Value) -> Value {
+    json!({ "factors": { "source": source, "destination": destination } })
+}
+
+/// Kills: channels that are written and are not to be, in another order, or of opaque surfaces or blended ones alone.
+#[test]
+fn surfaces_are_written_by_channels() {
+    let desk = desk();
+    for (channels, blend, want) in [
+        ([false, true, false], Value::Null, [255, 255, 0]),
+        ([true, false, false], Value::Null, [255, 0, 0]),
+        ([false, false, true], json!("add"), [255, 0, 255]),
+        ([true; 3], json!("subtract"), [0; 3]),
+        ([false, true, true], json!("subtract"), [255, 0, 0]),
+    ] {
+        let above = json!({ "model": "white.obj", "place": [0, 0, 0.1], "blend": blend, "channels": channels });
+        let picture = drawn(&desk, &scene(json!([{ "model": "red.obj" }, above])));
+        assert!(
+            near(at(&picture, 8, 8), want),
+            "{channels:?} {blend}: {:?}",
+            at(&picture, 8, 8)
+        );
+    }
+}
+
 #[test]
 fn surfaces_blend_as_they_say() {
     let desk = desk();
     for (blend, alpha, want) in [
-        ("filter", 128, [255, 128, 128]),
-        ("add", 64, [255, 64, 64]),
-        ("subtract", 51, [204, 0, 0]),
-        ("filter", 255, WHITE),
+        (json!("filter"), json!(128), [255, 128, 128]),
+        (json!("add"), json!(64), [255, 64, 64]),
+        (json!("subtract"), json!(51), [204, 0, 0]),
+        (json!("filter"), json!(255), WHITE),
+        (json!("half"), Value::Null, [255, 128, 128]),
+        (
+            factors(json!("destination"), json!("zero")),
+            Value::Null,
+            [255, 0, 0],
+        ),
+        (
+            factors(json!("inverse_destination"), json!("zero")),
+            Value::Null,
+            [0, 255, 255],
+        ),
+        (
+            factors(json!({ "constant": 51 }), json!("one")),
+            Value::Null,
+            [255, 51, 51],
+        ),
+        (
+            factors(json!("one"), json!({ "constant": 51 })),
+            Value::Null,
+            WHITE,
+        ),
+        (
+            factors(json!("zero"), json!({ "constant": 51 })),
+            Value::Null,
+            [51, 0, 0],
+        ),
     ] {
         let clear =
             json!({ "model": "white.obj", "place": [0, 0, 0.1], "blend": blend, "alpha": alpha });

@@ -4,7 +4,8 @@
 use crate::DrawFailure;
 use crate::prepared::{Chunk, ShadowMesh};
 use crate::scene_file::{
-    ApplicationKind, BlendKind, CullSide, Item, Palette, QualityKind, SceneFile, ShadeKind,
+    ApplicationKind, BlendKind, CullSide, FactorKind, Item, Palette, QualityKind, SceneFile,
+    ShadeKind,
 };
 use crate::scenes::{self, SceneParts, Side, Step, TextureWords, What, directional, material};
 use crate::setting::focal;
@@ -237,6 +238,20 @@ fn write_volume(
     Ok(())
 }
 
+/// What a colour is multiplied by.
+fn factor(kind: FactorKind) -> u32 {
+    let constant = |part: u8| code::CONSTANT | u32::from(part) << 8;
+    match kind {
+        FactorKind::Zero => constant(0),
+        FactorKind::One => constant(255),
+        FactorKind::Constant(part) => constant(part),
+        FactorKind::Destination => code::DESTINATION,
+        FactorKind::InverseDestination => code::INVERSE_DESTINATION,
+        FactorKind::TextureAlpha => code::TEXTURE_ALPHA,
+        FactorKind::InverseTextureAlpha => code::INVERSE_TEXTURE_ALPHA,
+    }
+}
+
 /// A part of an object.
 struct Call<'a> {
     item: &'a Item,
@@ -304,6 +319,7 @@ impl<'a> Call<'a> {
             cull: _,
             blend: _,
             alpha: _,
+            channels: _,
             depth: _,
             writes_depth: _,
             priority: _,
@@ -323,23 +339,40 @@ impl<'a> Call<'a> {
             ApplicationKind::Replace => code::REPLACE,
             ApplicationKind::Decal => code::DECAL,
         });
-        let blend = item.blend.map_or(0, |kind| match kind {
-            BlendKind::Filter => code::FILTER,
-            BlendKind::Add => code::ADD,
-            BlendKind::Subtract => code::SUBTRACT,
-        });
         flag(item.cull == Some(CullSide::Back), code::CULL_BACK)
             | flag(item.window.is_some(), code::WINDOW)
             | flag(item.window.is_some_and(|cut| cut.outside), code::OUTSIDE)
             | flag(self.dither, code::DITHER)
-            | blend << code::BLEND
-            | u32::from(item.alpha.unwrap_or(255)) << code::ALPHA
             | u32::from(self.priority) << code::PRIORITY
             | quality << code::QUALITY
             | application << code::APPLICATION
             | flag(item.shade == Some(ShadeKind::Flat), code::FLAT)
             | flag(self.in_shadow, code::SHADOWED)
             | flag(item.reflection == Some(true), code::REFLECTION)
+    }
+
+    /// How it and what is behind it become one.
+    fn blend(&self) -> [u32; 2] {
+        let item = self.item;
+        let (mode, factors) = match item.blend {
+            None if item.channels.is_none() => return [0; 2],
+            None => (code::REPLACES, [0; 2]),
+            Some(BlendKind::Filter) => (code::FILTER, [0; 2]),
+            Some(BlendKind::Half) => (code::HALF, [0; 2]),
+            Some(BlendKind::Add) => (code::ADD, [0; 2]),
+            Some(BlendKind::Subtract) => (code::SUBTRACT, [0; 2]),
+            Some(BlendKind::Factors {
+                source,
+                destination,
+            }) => (code::FACTORS, [source, destination].map(factor)),
+        };
+        let [red, green, blue] = item.channels.unwrap_or([true; 3]).map(u32::from);
+        let channels = red | green << 1 | blue << 2;
+        let alpha = u32::from(item.alpha.unwrap_or(255));
+        [
+            mode | channels << code::CHANNELS | alpha << code::ALPHA,
+            factors[0] | factors[1] << 16,
+        ]
     }
 
     /// Its words.
@@ -353,6 +386,7 @@ impl<'a> Call<'a> {
             return Err("`texture`: boards have at most 65,535".into());
         }
         words.push(bits(test.colour_if) | bits(test.depth_if) << 8 | self.texture << 16);
+        words.append(self.blend());
         words.colour(self.colour);
         let source = self.item.source.map_or(0, |source| u32::from(source) + 1);
         words.push(self.lit | source << 16);

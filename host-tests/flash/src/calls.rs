@@ -15,7 +15,7 @@ use scanbeam::look::Look;
 use scanbeam::mesh::I2F14;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{
-    Application, BeginError, Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError,
+    Application, BeginError, Blend, BlendMode, Budget, DepthFunction, DepthTest, DrawError, Factor,
     Scissor, Shading, Shadow, ShadowEdge, ShadowLight, ShadowMemory, Skin, TexGen,
 };
 use scanbeam::{Affine, Camera, Cull, Draw, Faces, Mesh, Scene, Screen};
@@ -33,16 +33,32 @@ pub mod code {
     pub const OUTSIDE: u32 = 4;
     /// It is dithered.
     pub const DITHER: u32 = 8;
-    /// What is behind shines through: where the blend is, 0 for none.
+    /// In the word of the blend, which is 0 for none: what is behind shines through.
     pub const FILTER: u32 = 1;
     /// It is added.
     pub const ADD: u32 = 2;
     /// It is taken away.
     pub const SUBTRACT: u32 = 3;
-    /// The lowest bit of the blend.
-    pub const BLEND: u32 = 4;
+    /// Half of each is taken.
+    pub const HALF: u32 = 4;
+    /// Both are multiplied by what the next word says.
+    pub const FACTORS: u32 = 5;
+    /// It hides what is behind.
+    pub const REPLACES: u32 = 6;
+    /// The lowest bit of the channels that are written, red first.
+    pub const CHANNELS: u32 = 4;
     /// The lowest bit of the alpha.
     pub const ALPHA: u32 = 8;
+    /// A factor, of which the source's is in the lower half: its upper byte.
+    pub const CONSTANT: u32 = 0;
+    /// The colour that is there.
+    pub const DESTINATION: u32 = 1;
+    /// 1 less that.
+    pub const INVERSE_DESTINATION: u32 = 2;
+    /// The texel's alpha.
+    pub const TEXTURE_ALPHA: u32 = 3;
+    /// 1 less that.
+    pub const INVERSE_TEXTURE_ALPHA: u32 = 4;
     /// The lowest bit of the priority.
     pub const PRIORITY: u32 = 16;
     /// The lowest bit of the quality, 0 for balanced.
@@ -161,7 +177,7 @@ pub struct CallMemory<'t> {
 pub enum Call<'t> {
     /// A mesh.
     Mesh(Draw<'t, 't, i32>),
-    /// The same, which one of the [`SOURCES`] says.
+    /// The same, which one of the [`SOURCES`](crate::SOURCES) says.
     Said(u8, Draw<'t, 't, i32>),
     /// The shadow of one.
     Volume(Mesh<'t, i32>, Affine, ShadowLight),
@@ -208,7 +224,7 @@ impl<'t> Calls<'t> {
     pub const EMPTY: Call<'t> = Call::Mesh(NOTHING);
 
     /// All that is behind the counts, for pixels of the format `T`. A call is: its first word, by `code`; a word of the
-    /// functions of colour and depth, and the number of its texture, plus 1, in the upper half; a word of its colour, and
+    /// functions of colour and depth, and the number of its texture, plus 1, in the upper half; two words of its blend; a word of its colour, and
     /// one of the number of what falls on it, plus 1, and of its source, plus 1, in the upper half; the window's columns and lines; vertices and triangles, and normals
     /// and colours of vertices; a MATRIX of lists; places, normals, colours, triangles and, with a texture, places on it.
     /// A volume is: its first word; the light's direction and how far it is drawn out; vertices and triangles; a MATRIX;
@@ -306,6 +322,7 @@ fn call<'t>(
     let texture = (second >> 16).checked_sub(1);
     let texture = texture.map(|number| textures.all.get(number as usize).ok_or(reader.bad()));
     let texture = texture.transpose()?;
+    let blend = blend(reader)?;
     let colour = colour(reader)?;
     let [lit, source] = reader.halves()?;
     let falls = lights.on(lit).ok_or(reader.bad())?;
@@ -346,6 +363,7 @@ fn call<'t>(
             colour_if: function(second),
             depth_if: function(second >> 8),
         },
+        blend,
         shadow: has(code::SHADOWED).then_some(Shadow::Shadowed(LIGHT)),
         ..coded(first, mesh)
     };
@@ -373,10 +391,40 @@ fn volume<'t>(reader: &mut Reader<'t>) -> Result<Call<'t>, FlashError> {
     Ok(Call::Volume(mesh, Affine::from(&matrix), light))
 }
 
+/// How a call and what is behind it become one.
+fn blend(reader: &mut Reader<'_>) -> Result<Option<Blend>, FlashError> {
+    let word = reader.word()?;
+    let factors = reader.halves()?.map(|half| {
+        let [kind, part] = half.to_le_bytes();
+        match kind.into() {
+            code::DESTINATION => Factor::Destination,
+            code::INVERSE_DESTINATION => Factor::InverseDestination,
+            code::TEXTURE_ALPHA => Factor::TextureAlpha,
+            code::INVERSE_TEXTURE_ALPHA => Factor::InverseTextureAlpha,
+            _ => Factor::Constant(part),
+        }
+    });
+    let alpha = (word >> code::ALPHA) as u8;
+    let mode = match word & 15 {
+        0 => return Ok(None),
+        code::FILTER => BlendMode::Filter(alpha),
+        code::ADD => BlendMode::Add(alpha),
+        code::SUBTRACT => BlendMode::Subtract(alpha),
+        code::HALF => BlendMode::Half,
+        code::FACTORS => BlendMode::Factors {
+            source: factors[0],
+            destination: factors[1],
+        },
+        code::REPLACES => BlendMode::Replace,
+        _ => return Err(reader.bad()),
+    };
+    let rgb = [0, 1, 2].map(|bit| word >> (code::CHANNELS + bit) & 1 != 0);
+    Ok(Some(Blend::new(mode).writing(rgb)))
+}
+
 /// What the first word of a call says of a mesh.
 fn coded<'t>(first: u32, mesh: Mesh<'t, i32>) -> Draw<'t, 't, i32> {
     let has = |bit: u32| first & bit != 0;
-    let alpha = (first >> code::ALPHA) as u8;
     Draw {
         cull: match has(code::CULL_BACK) {
             true => Cull::Back,
@@ -391,12 +439,6 @@ fn coded<'t>(first: u32, mesh: Mesh<'t, i32>) -> Draw<'t, 't, i32> {
             code::REPLACE => Application::Replace,
             code::DECAL => Application::Decal,
             _ => Application::Product,
-        },
-        blend: match first >> code::BLEND & 3 {
-            code::FILTER => Some(Blend::filter(alpha)),
-            code::ADD => Some(Blend::add(alpha)),
-            code::SUBTRACT => Some(Blend::new(BlendMode::Subtract(alpha))),
-            _ => None,
         },
         dither: has(code::DITHER),
         priority: (first >> code::PRIORITY) as u8,

@@ -63,6 +63,18 @@ fn all_that_a_file_says_is_in_the_words() -> Tried {
         (Some(2), "blend", json!("add")),
         (Some(2), "blend", json!("subtract")),
         (Some(2), "alpha", json!(200)),
+        (Some(1), "blend", json!("half")),
+        (
+            Some(1),
+            "blend",
+            json!({ "factors": { "source": "one", "destination": "destination" } }),
+        ),
+        (
+            Some(1),
+            "blend",
+            json!({ "factors": { "source": { "constant": 90 }, "destination": "inverse_destination" } }),
+        ),
+        (Some(1), "channels", json!([true, false, true])),
         (Some(0), "reflection", json!(true)),
         (Some(0), "filter", json!("bilinear")),
         (Some(0), "application", json!("replace")),

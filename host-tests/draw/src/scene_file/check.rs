@@ -1,6 +1,6 @@
 //! What a scene file may say, and what cannot be had together.
 
-use super::{ApplicationKind, FormKind, Format, Item, SceneFile, ShadeKind, TexelsKind};
+use super::{ApplicationKind, BlendKind, FormKind, Format, Item, SceneFile, ShadeKind, TexelsKind};
 use crate::choice::MAX_SIDE;
 use scene_flash::SOURCES;
 use std::path::PathBuf;
@@ -34,6 +34,7 @@ const APART: &[(&str, &str, &str)] = &[
     ("`reflection`", "`palettes`", INDEXED),
     ("`shade`", "`palettes`", INDEXED),
     ("`blend`", "`palettes`", INDEXED),
+    ("`channels`", "`palettes`", INDEXED),
     ("`depth`", "`palettes`", INDEXED),
     ("`writes_depth`", "`palettes`", INDEXED),
     ("`priority`", "`palettes`", INDEXED),
@@ -64,6 +65,14 @@ const APART: &[(&str, &str, &str)] = &[
         "texels hide light there",
     ),
     ("`shadow`", "`blend`", "what is blended throws no shadow"),
+    (
+        "`channels`",
+        "`shadows`",
+        "surfaces in shadow are drawn whole",
+    ),
+    ("`alpha`", "`blend` half", "it takes half of each"),
+    ("`alpha`", "`blend` factors", "they say how much is taken"),
+    ("`texels` alpha", "`blend` half", "it takes half of each"),
     (
         "`source`",
         "`shadows`",
@@ -282,6 +291,7 @@ impl Item {
     fn says(&self) -> Vec<(&'static str, bool)> {
         let keeps_none = self.blend.is_none() && self.writes_depth == Some(false);
         let is_compressed = self.texel_form == Some(FormKind::Compressed);
+        let has_factors = matches!(self.blend, Some(BlendKind::Factors { .. }));
         let replaces = self.application == Some(ApplicationKind::Replace);
         vec![
             ("`texture`", self.texture.is_some()),
@@ -290,7 +300,10 @@ impl Item {
             ("`quality`", self.quality.is_some()),
             ("`application`", self.application.is_some()),
             ("`blend`", self.blend.is_some()),
+            ("`blend` half", self.blend == Some(BlendKind::Half)),
+            ("`blend` factors", has_factors),
             ("`alpha`", self.alpha.is_some()),
+            ("`channels`", self.channels.is_some()),
             ("`depth`", self.depth.is_some()),
             ("`writes_depth`", self.writes_depth.is_some()),
             ("`priority`", self.priority.is_some()),

@@ -2,7 +2,9 @@
 
 use crate::FilterArg;
 use scanbeam::Cull;
-use scanbeam::scene::{Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Texture};
+use scanbeam::scene::{
+    Application, Blend, BlendMode, Budget, DepthFunction, DepthTest, Factor, Texture,
+};
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::PathBuf;
@@ -53,6 +55,8 @@ pub struct Item {
     pub blend: Option<BlendKind>,
     /// How much of it there is in the blend, 0 to 255.
     pub alpha: Option<u8>,
+    /// Whether red, green and blue are written.
+    pub channels: Option<[bool; 3]>,
     /// Where it is drawn, by depth.
     pub depth: Option<DepthKind>,
     /// Whether its depth is written.
@@ -257,14 +261,76 @@ impl From<Specular> for [f64; 3] {
 
 /// Ways to blend.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(rename_all = "lowercase", deny_unknown_fields)]
 pub enum BlendKind {
     /// What is behind shines through by 1 - alpha.
     Filter,
+    /// Half of each.
+    Half,
     /// Its colour times alpha is added.
     Add,
     /// Its colour times alpha is taken away.
     Subtract,
+    /// The sum of both, each multiplied by something.
+    Factors {
+        /// What its colour is multiplied by.
+        source: FactorKind,
+        /// What that behind it is.
+        destination: FactorKind,
+    },
+}
+
+impl BlendKind {
+    /// The mode, of so much alpha.
+    fn mode(self, alpha: u8) -> BlendMode {
+        match self {
+            Self::Filter => BlendMode::Filter(alpha),
+            Self::Half => BlendMode::Half,
+            Self::Add => BlendMode::Add(alpha),
+            Self::Subtract => BlendMode::Subtract(alpha),
+            Self::Factors {
+                source,
+                destination,
+            } => BlendMode::Factors {
+                source: source.into(),
+                destination: destination.into(),
+            },
+        }
+    }
+}
+
+/// What a colour is multiplied by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FactorKind {
+    /// Nothing of it is taken.
+    Zero,
+    /// All of it.
+    One,
+    /// A number of 255ths.
+    Constant(u8),
+    /// The colour behind.
+    Destination,
+    /// 1 less that.
+    InverseDestination,
+    /// The alpha of the texel.
+    TextureAlpha,
+    /// 1 less that.
+    InverseTextureAlpha,
+}
+
+impl From<FactorKind> for Factor {
+    fn from(kind: FactorKind) -> Self {
+        match kind {
+            FactorKind::Zero => Self::ZERO,
+            FactorKind::One => Self::ONE,
+            FactorKind::Constant(part) => Self::Constant(part),
+            FactorKind::Destination => Self::Destination,
+            FactorKind::InverseDestination => Self::InverseDestination,
+            FactorKind::TextureAlpha => Self::TextureAlpha,
+            FactorKind::InverseTextureAlpha => Self::InverseTextureAlpha,
+        }
+    }
 }
 
 /// Depth functions, of the surface against what is there.
@@ -332,12 +398,11 @@ impl Item {
 
     /// How it and what is behind it become one.
     pub(crate) fn blend(&self) -> Option<Blend> {
-        let alpha = self.alpha.unwrap_or(255);
-        self.blend.map(|kind| match kind {
-            BlendKind::Filter => Blend::filter(alpha),
-            BlendKind::Add => Blend::add(alpha),
-            BlendKind::Subtract => Blend::new(BlendMode::Subtract(alpha)),
-        })
+        let mode = self.blend.map(|kind| kind.mode(self.alpha.unwrap_or(255)));
+        match self.channels {
+            Some(rgb) => Some(Blend::new(mode.unwrap_or(BlendMode::Replace)).writing(rgb)),
+            None => mode.map(Blend::new),
+        }
     }
 
     /// Where it is drawn, and whether its depth is kept.

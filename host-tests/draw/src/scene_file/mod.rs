@@ -9,8 +9,8 @@ mod item;
 mod load;
 
 pub use item::{
-    ApplicationKind, BlendKind, Computed, CullSide, Cutout, DepthKind, FormKind, Item, QualityKind,
-    ShadeKind, Specular, TexelsKind,
+    ApplicationKind, BlendKind, Computed, CullSide, Cutout, DepthKind, FactorKind, FormKind, Item,
+    QualityKind, ShadeKind, Specular, TexelsKind,
 };
 pub use load::{Loaded, Part, SceneFileError};
 
