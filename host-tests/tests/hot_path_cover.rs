@@ -107,6 +107,20 @@ fn each_triangle_alone_covers_what_the_rule_says() {
     }
 }
 
+/// Half squares of 64 pixels, of which all corners are 512 units apart or in line. Kills: 512 units that count as fewer.
+#[test]
+fn half_squares_of_64_pixels_cover_what_the_rule_says() {
+    let mut rng = Rng::new(312);
+    let mut bench = Bench::new();
+    let screen = screens()[3];
+    for round in 0..400 {
+        let (x, y) = (rng.within(-40, 2_000), rng.within(-40, 1_400));
+        let square = [(x, y), (x, y + 512), (x + 512, y + 512), (x + 512, y)];
+        let triangle = [1, 2, 3].map(|k| square[(round + k) % 4]);
+        bench.check(screen, &[triangle], Cull::None, &[4, 0]);
+    }
+}
+
 /// Corners at the very ends of the guard band, all of them and some.
 #[test]
 fn giants_of_the_whole_guard_band_cover_what_the_rule_says() {
