@@ -116,3 +116,40 @@ impl Shares {
         ])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Rise, Shares};
+    use crate::num::random::Rng;
+    use crate::scene::ORIGIN;
+
+    /// Kills: a value at the picture's first pixel of which the highest bits are lost, where the steps to it are more than
+    /// 32 bits hold.
+    #[test]
+    fn values_far_from_the_corner_keep_all_bits() {
+        let mut rng = Rng(78);
+        let mut far = 0;
+        for _ in 0..20_000 {
+            let mut within = |count: u32| rng.below(count);
+            let (x, y) = (
+                8 * ORIGIN as u32 + within(8_000),
+                8 * ORIGIN as u32 + within(8_000),
+            );
+            // Thin ones rise most.
+            let (right, down) = (1 + within(198), 1 + within(2));
+            let place = [y << 16 | x, y << 16 | (x + right), (y + down) << 16 | x];
+            let area = right * down;
+            let [e1, e2] = [(); 2].map(|()| within(2 << 10) as i32 - (1 << 10));
+            if area < 128 {
+                continue;
+            }
+            let shares = Shares::new(area, place).cut::<6>();
+            let Rise { at, dx, dy } = shares.rise::<6, 6>(e1, e2);
+            let way = |d: i32, to: i32| i64::from(d) * i64::from(to);
+            let exact = 4 - way(dx, shares.x) - way(dy, shares.y);
+            assert_eq!(at, (exact >> 3) as i32, "{place:x?} {e1} {e2}");
+            far += u32::from(i32::try_from(exact).is_err());
+        }
+        assert!(far > 100, "{far}");
+    }
+}
