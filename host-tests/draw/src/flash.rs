@@ -16,7 +16,7 @@ use scanbeam::light::DirectionalLight;
 use scanbeam::list::CameraWords;
 use scanbeam::mesh::Material;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::{DepthFunction, DepthTest, LARGEST, ShadowLight};
+use scanbeam::scene::{DepthFunction, LARGEST, ShadowLight};
 use scene_flash::{Counts, Head, Kind, LightCounts, Room, code};
 use std::cmp::Ordering;
 
@@ -45,11 +45,7 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
     let steps = parts.steps();
     let shadows = parts.shadow_lights()?;
     let lit = Lit::new(parts, &steps)?;
-    let volume = |step: &Step| match step.what {
-        What::Volume(number) => parts.shadow(step.object, number),
-        What::Part(_) | What::InShadow(_) => None,
-    };
-    let volumes: Vec<&ShadowMesh> = steps.iter().filter_map(volume).collect();
+    let volumes: Vec<&ShadowMesh> = steps.iter().filter_map(|step| parts.volume(step)).collect();
     let counts = Counts {
         lights: lit.counts(*phong),
         textures: textures.counts,
@@ -70,17 +66,18 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
         .for_each(|palette| write_palette(&mut words, palette));
     words.append(textures.words.all().iter().copied());
     for step in &steps {
-        let written = match volume(step) {
-            Some(mesh) => {
-                let light = shadows[step.object].as_ref();
-                light.map_or(Ok(()), |light| {
-                    write_volume(&mut words, mesh, parts.model(step.object), light)
-                })
+        let call = Call::new(parts, step, &textures, &lit, *dither);
+        let written = match (call, parts.volume(step), &shadows[step.object]) {
+            (Some(call), ..) => call.write(&mut words),
+            (None, Some(mesh), Some(light)) => {
+                write_volume(&mut words, mesh, parts.model(step.object), light)
             }
-            None => Call::new(parts, step, &textures, &lit, *dither).write(&mut words),
+            (None, ..) => Err("its shadow has no light".into()),
         };
         written.map_err(|why| DrawFailure::View(format!("object {}: {why}", step.object)))?;
     }
+    check_sides(*size)?;
+    let view = parts.drawn_view();
     let head = Head {
         kind: match (palettes.is_empty(), parts.are_textured(), phong) {
             (false, ..) => Kind::Indexed,
@@ -89,11 +86,11 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
             (true, true, true) => Kind::TexturedPhong,
             (true, false, true) => Kind::Phong,
         },
-        size: sides(*size)?.map(|side| if *doubled { side / 2 } else { side }),
+        size: [view.width, view.height].map(|side| side as u16),
         doubled: *doubled,
         background: background.unwrap_or_default(),
         room: Room::default(),
-        camera: camera_words(&parts.drawn_view()),
+        camera: camera_words(&view),
     };
     let length = Head::WORDS + Counts::WORDS + words.all().len();
     let head = head.to_words(u32::try_from(length).unwrap_or(u32::MAX));
@@ -104,10 +101,10 @@ pub fn flash_words(parts: &SceneParts<'_>) -> Result<(Vec<u32>, Vec<usize>), Dra
     ))
 }
 
-/// Columns and lines that boards draw.
-fn sides(size: [u32; 2]) -> Result<[u16; 2], DrawFailure> {
+/// Refuses more columns and lines than boards show.
+fn check_sides(size: [u32; 2]) -> Result<(), DrawFailure> {
     if size.iter().all(|side| *side <= u32::from(LARGEST)) {
-        return Ok(size.map(|side| side as u16));
+        return Ok(());
     }
     let [width, height] = size;
     Err(DrawFailure::View(format!(
@@ -170,13 +167,9 @@ impl Lit {
 
     /// What light falls on, unless it is none.
     fn surface(&self, item: &Item, step: &Step) -> Option<(Side, Material)> {
+        let is_seen = !matches!(step.what, What::Volume(_));
         let is_lit = self.in_light > 0 && item.shade != Some(ShadeKind::None);
-        let side = match step.what {
-            What::Part(_) => Side::Lit,
-            What::InShadow(_) => Side::Dark,
-            What::Volume(_) => return None,
-        };
-        is_lit.then(|| (side, material(item)))
+        (is_seen && is_lit).then(|| (step.side(), material(item)))
     }
 
     /// The number of a surface, plus 1, or 0.
@@ -262,34 +255,35 @@ struct Call<'a> {
     texture: u32,
     /// The number of what falls on it, plus 1, or 0.
     lit: u32,
-    in_shadow: bool,
+    side: Side,
     phong: bool,
     dither: bool,
     priority: u8,
 }
 
 impl<'a> Call<'a> {
+    /// What a step draws, unless it is a volume.
     fn new(
         parts: &'a SceneParts<'_>,
         step: &Step,
         textures: &TextureWords,
         lit: &Lit,
         dither: bool,
-    ) -> Self {
-        let (item, chunk) = (parts.item(step.object), parts.chunk(step));
+    ) -> Option<Self> {
+        let (item, chunk) = (parts.item(step.object), parts.chunk(step)?);
         let first = textures.first[step.object];
-        Self {
+        Some(Self {
             item,
             model: parts.model(step.object),
             chunk,
             colour: parts.colour(step.object, chunk.look),
             texture: (chunk.texture).map_or(0, |number| first + u32::from(number) + 1),
             lit: lit.number(item, step),
-            in_shadow: matches!(step.what, What::InShadow(_)),
+            side: step.side(),
             phong: parts.scene().phong,
             dither,
             priority: parts.scene().rank(item),
-        }
+        })
     }
 
     /// Its first word.
@@ -347,7 +341,7 @@ impl<'a> Call<'a> {
             | quality << code::QUALITY
             | application << code::APPLICATION
             | flag(item.shade == Some(ShadeKind::Flat), code::FLAT)
-            | flag(self.in_shadow, code::SHADOWED)
+            | flag(self.side == Side::Dark, code::SHADOWED)
             | flag(item.reflection == Some(true), code::REFLECTION)
     }
 
@@ -378,10 +372,7 @@ impl<'a> Call<'a> {
     /// Its words.
     fn write(&self, words: &mut Words) -> Result<(), String> {
         words.push(self.code());
-        let test = match self.in_shadow {
-            true => DepthTest::HIDES,
-            false => self.item.depth(),
-        };
+        let test = self.side.depth(self.item);
         if self.texture > u32::from(u16::MAX) {
             return Err("`texture`: boards have at most 65,535".into());
         }

@@ -26,11 +26,11 @@ impl<'c> Producer<'_, 'c> {
     /// Says all that there is room for.
     fn say(&mut self) {
         while let Some((call, rest)) = self.calls.split_first() {
-            let own = Some(self.source.id());
-            if let Some(draw) = said(call).filter(|_| call.source() == own) {
-                if self.source.send(Command::Draw(*draw)).is_err() {
-                    return;
-                }
+            let own = call
+                .said()
+                .filter(|(source, _)| *source == self.source.id());
+            if own.is_some_and(|(_, draw)| self.source.send(Command::Draw(*draw)).is_err()) {
+                return;
             }
             self.calls = rest;
         }
@@ -38,20 +38,12 @@ impl<'c> Producer<'_, 'c> {
     }
 }
 
-/// What a call draws, if it may come through a queue.
-fn said<'a, 'c>(call: &'a Call<'c>) -> Option<&'a Draw<'c, 'c, i32>> {
-    match call {
-        Call::Said(_, draw) | Call::Mesh(draw) => Some(draw),
-        Call::Volume(..) => None,
-    }
-}
-
-impl Call<'_> {
-    /// Who says it.
-    fn source(&self) -> Option<u8> {
+impl<'c> Call<'c> {
+    /// Who says it, and what it draws, if it may come through a queue.
+    fn said(&self) -> Option<(u8, &Draw<'c, 'c, i32>)> {
         match self {
-            Self::Said(source, _) => Some(*source),
-            Self::Mesh(_) => Some(0),
+            Self::Said(source, draw) => Some((*source, draw)),
+            Self::Mesh(draw) => Some((0, draw)),
             Self::Volume(..) => None,
         }
     }

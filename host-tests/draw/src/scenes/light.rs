@@ -8,6 +8,7 @@ use crate::scene_file::{Item, Lamp, SceneFile, ShadeKind};
 use crate::setting::{level, unit};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::mesh::{Material, U1F15};
+use scanbeam::scene::DepthTest;
 
 /// Where a surface is, for the light that throws shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,6 +17,16 @@ pub(crate) enum Side {
     Lit,
     /// In its shadow.
     Dark,
+}
+
+impl Side {
+    /// Where an object is drawn that is there: what is in the shadow is drawn again, over itself.
+    pub(crate) fn depth(self, item: &Item) -> DepthTest {
+        match self {
+            Self::Lit => item.depth(),
+            Self::Dark => DepthTest::HIDES,
+        }
+    }
 }
 
 /// A light of a scene in the crate's number formats.

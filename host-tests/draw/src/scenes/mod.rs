@@ -90,18 +90,22 @@ impl<'a> SceneParts<'a> {
         self.parts[object].colour(look)
     }
 
-    /// The part of an object that a step draws; the first one of a volume.
-    pub(crate) fn chunk(&self, step: &Step) -> &Chunk {
-        let chunks = &self.parts[step.object].prepared.chunks;
+    /// The part of an object that a step draws, unless it is a volume.
+    pub(crate) fn chunk(&self, step: &Step) -> Option<&Chunk> {
         match step.what {
-            What::Part(number) | What::InShadow(number) => &chunks[number],
-            What::Volume(_) => &chunks[0],
+            What::Part(number) | What::InShadow(number) => {
+                self.parts[step.object].prepared.chunks.get(number)
+            }
+            What::Volume(_) => None,
         }
     }
 
-    /// What throws a shadow of an object.
-    pub(crate) fn shadow(&self, object: usize, number: usize) -> Option<&ShadowMesh> {
-        self.parts[object].shadows.get(number)
+    /// What throws the shadow that a step draws, if it is a volume.
+    pub(crate) fn volume(&self, step: &Step) -> Option<&ShadowMesh> {
+        match step.what {
+            What::Volume(number) => self.parts[step.object].shadows.get(number),
+            What::Part(_) | What::InShadow(_) => None,
+        }
     }
 
     /// The view of what is drawn.

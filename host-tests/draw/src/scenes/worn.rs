@@ -13,8 +13,7 @@ use crate::{DrawFailure, Drawn};
 use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scene::{
-    Application, DepthTest, DrawError, Lights, Scissor, Shading, Shadow, ShadowLight, Skin, TexGen,
-    Texture,
+    Application, DrawError, Lights, Scissor, Shading, Shadow, ShadowLight, Skin, TexGen, Texture,
 };
 use scanbeam::{Draw, Mesh, Scene};
 
@@ -37,6 +36,16 @@ pub(crate) enum What {
     InShadow(usize),
     /// A shadow volume.
     Volume(usize),
+}
+
+impl Step {
+    /// Where it is, for the light that throws shadows.
+    pub(crate) fn side(&self) -> Side {
+        match self.what {
+            What::InShadow(_) => Side::Dark,
+            What::Part(_) | What::Volume(_) => Side::Lit,
+        }
+    }
 }
 
 impl SceneParts<'_> {
@@ -138,16 +147,10 @@ impl<'t> Worn<'_, 't> {
     {
         let steps = self.parts.steps();
         let shadows = self.parts.shadow_lights()?;
-        let chunk = |step: &Step| match step.what {
-            What::Part(number) | What::InShadow(number) => {
-                self.parts.parts[step.object].prepared.chunks.get(number)
-            }
-            What::Volume(_) => None,
-        };
         // Volumes, and what is drawn again, are none of the scene's triangles.
         let is_first = |step: &Step| matches!(step.what, What::Part(_));
         let counted: Vec<_> = (steps.iter())
-            .map(|step| chunk(step).filter(|_| is_first(step)))
+            .map(|step| self.parts.chunk(step).filter(|_| is_first(step)))
             .collect();
         draw_parts::<L, F>(job, &counted, |scene, tile, number, instead| {
             let step = &steps[number];
@@ -155,12 +158,8 @@ impl<'t> Worn<'_, 't> {
             if let (What::Volume(mesh), Some(light)) = (step.what, &shadows[step.object]) {
                 return part.shadows[mesh].draw(scene, &part.model, light);
             }
-            let side = match step.what {
-                What::InShadow(_) => Side::Dark,
-                _ => Side::Lit,
-            };
-            match instead.or(chunk(step)) {
-                Some(chunk) => self.draw(scene, tile, (step.object, chunk, side)),
+            match instead.or(self.parts.chunk(step)) {
+                Some(chunk) => self.draw(scene, tile, (step.object, chunk, step.side())),
                 None => Ok(()),
             }
         })
@@ -203,11 +202,7 @@ impl<'t> Worn<'_, 't> {
             texgen: item.reflection.unwrap_or(false).then_some(TexGen::SPHERE),
             application: (item.application).map_or(Application::Product, Application::from),
             scissor: scissor(item, tile),
-            depth: if is_dark {
-                DepthTest::HIDES
-            } else {
-                item.depth()
-            },
+            depth: side.depth(item),
             blend: item.blend(),
             shadow: is_dark.then_some(Shadow::Shadowed(LIGHT)),
             dither: self.dither,
