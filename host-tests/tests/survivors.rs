@@ -90,8 +90,9 @@ fn edges_of_several_faces_are_drawn_out_for_each() {
     }
 }
 
-/// How many pixels are drawn of a triangle, seen from 2 in front of the origin, from 1 to 3 far away.
-fn drawn(positions: [[i16; 3]; 3]) -> usize {
+/// How many pixels are drawn of a triangle, seen from 2 in front of the origin, from 1 to 3 far away, 160 pixels being as
+/// wide there as 160 / `focal` of the distance.
+fn drawn(positions: [[i16; 3]; 3], focal: f32) -> usize {
     let room = Room {
         vertices: 40,
         places: 0,
@@ -100,7 +101,7 @@ fn drawn(positions: [[i16; 3]; 3]) -> usize {
     };
     let mut rooms = rooms::SceneRooms::new(room, 120);
     let mut scene = rooms.scene::<look::Gouraud<Rgb888>>(Screen::new(160, 120).unwrap());
-    let camera = Camera::look_at([0.0, 0.0, 2.0], [0.0; 3], [0.0, 1.0, 0.0], 120.0, 1.0, 3.0);
+    let camera = Camera::look_at([0.0, 0.0, 2.0], [0.0; 3], [0.0, 1.0, 0.0], focal, 1.0, 3.0);
     scene.begin(&camera.unwrap()).unwrap();
     let triangle = Draw {
         cull: Cull::None,
@@ -124,14 +125,22 @@ fn drawn(positions: [[i16; 3]; 3]) -> usize {
     pixels.sum()
 }
 
-/// The nearest and the farthest distance are drawn. Kills: planes that are off.
+/// The nearest and the farthest distance are drawn, also of a face whose corners are all far beyond the picture. Kills:
+/// planes that are off.
 #[test]
 fn faces_on_the_near_and_the_far_plane_are_drawn() {
     let one = 16_384;
-    let at = |z: i16| drawn([[0, 0, z], [15_000, 0, z], [0, 5_000, z]]);
+    let at = |z: i16| drawn([[0, 0, z], [15_000, 0, z], [0, 5_000, z]], 120.0);
+    let all = |z: i16| {
+        drawn(
+            [[-32_768, -32_768, z], [32_767, -32_768, z], [0, 32_767, z]],
+            9_000.0,
+        )
+    };
     // The near plane is rounded towards what is seen.
     for (kept, dropped) in [(-one, -one - 1), (one - 1, one)] {
         assert!(at(kept) > 200, "{kept}");
         assert_eq!(at(dropped), 0, "{dropped}");
+        assert_eq!([all(kept), all(dropped)], [160 * 120, 0], "{kept}");
     }
 }

@@ -3,13 +3,14 @@
 use crate::colours::Colours;
 use crate::depth::{DepthMethod, Depths, resolve, words};
 use crate::format::Format;
+use crate::kept::{ColourPlanes, Kept, Span};
 use crate::lines::{Triangle, draw_line};
 use crate::method::Method;
 use crate::perspective::{Homogeneous, PerspectiveSpan, Stride};
 use scanbeam::pixel::{Rgb565, Rgb888};
 
 /// What [`bits`] must be.
-pub const BITS: u32 = 0x3A21_1B8E;
+pub const BITS: u32 = 0x8303_6625;
 
 /// Pixels of a line.
 const WIDTH: usize = 61;
@@ -95,6 +96,9 @@ pub fn bits() -> u32 {
             places(stride, pixels, &mut sum);
         }
     }
+    for every in [1, 3] {
+        TRIANGLES.iter().for_each(|t| kept(t, every, &mut sum));
+    }
     let (mut cells, mut pixels) = ([0; WIDTH], [0; WIDTH]);
     for (at, step) in [(1 << 30, 1 << 20), (0x4100_0000, 0), (1 << 25, 1 << 25)] {
         let colours = Colours {
@@ -118,6 +122,18 @@ fn lines<F: Format>(how: (Method, DepthMethod), sum: &mut Sum) {
             sum.add(u32::from_le_bytes([red, green, blue, 0]));
         }
         cells.into_iter().for_each(|cell| sum.add(cell));
+    }
+}
+
+fn kept(triangle: &Triangle, every: u16, sum: &mut Sum) {
+    let (planes, mut kept) = (ColourPlanes::new::<Rgb565>(triangle), Kept::new(every));
+    for line in 0..30 {
+        if let Some(span) = Span::of(triangle, line) {
+            let Colours { at, step } = kept.of_span::<Rgb565>(&planes, &span);
+            at.into_iter()
+                .chain(step)
+                .for_each(|value| sum.add(value as u32));
+        }
     }
 }
 

@@ -36,6 +36,16 @@ impl Colours {
         Self { at, ..self }
     }
 
+    /// Whether no channel leaves its range within so many pixels, at least 1, where none has left it at the first.
+    #[inline(always)]
+    #[must_use]
+    pub fn stay<F: Format>(&self, pixels: u32) -> bool {
+        (0..3).all(|i| {
+            let last = i64::from(self.at[i]) + i64::from(self.step[i]) * i64::from(pixels - 1);
+            (0..i64::from(F::STEPS[i] + 1) << FRACTION).contains(&last)
+        })
+    }
+
     /// From the same place on in steps of several pixels.
     #[inline(always)]
     #[must_use]

@@ -9,6 +9,7 @@
 //! | `colours.rs` | colours along a span: values and steps | P3 |
 //! | `method.rs` | which method takes colours from pixel to pixel, and the choice by a budget | X2 |
 //! | `paint.rs` | each method's loop | K6, K7, P3 |
+//! | `kept.rs` | colours of spans that are kept from line to line | P3 |
 //! | `lirp.rs` | LIRP from end to end of a span | K6, K7 |
 //! | `depth.rs` | what is kept of 1/w, and lines of it | H2, K8 |
 //! | `reciprocal.rs`, `perspective.rs` | texture places along spans | H4, H5, K18 |
@@ -26,6 +27,7 @@ pub mod bits;
 pub mod colours;
 pub mod depth;
 pub mod format;
+pub mod kept;
 pub mod lines;
 mod lirp;
 pub mod method;

@@ -99,6 +99,30 @@ impl Triangle {
         ]
     }
 
+    /// Whether a line's span has another side than that of the line before: a corner lies between their middles.
+    #[must_use]
+    pub fn turns(&self, line: u16) -> bool {
+        let y = 8 * i32::from(line) + 4;
+        self.place.iter().any(|p| (y - 8..y).contains(&p[1]))
+    }
+
+    /// Channels at the middle of the picture's first pixel, and what each next column and line has more, rounded. Values
+    /// beyond 32 bits wrap.
+    #[must_use]
+    pub(crate) fn planes<F: Format>(&self) -> [[i32; 3]; 3] {
+        let first = self.weights(0, 0);
+        let more = |next: [i64; 4]| {
+            let [a, b, c] = [0, 1, 2].map(|i| next[i] - first[i]);
+            [a, b, c, first[3]]
+        };
+        [first, more(self.weights(1, 0)), more(self.weights(0, 1))].map(|weights| {
+            [0, 1, 2].map(|i| {
+                let steps = u32::from(F::STEPS[i]) << FRACTION;
+                Self::at(weights, self.colour.map(|c| c[i].into()), steps, 255)
+            })
+        })
+    }
+
     /// Colours and 1/w along a span that is not empty.
     #[must_use]
     pub fn course<F: Format>(&self, span: &Range<i32>, line: u16) -> (Colours, Depths) {

@@ -2,6 +2,7 @@
 
 mod choice;
 mod depths;
+mod kept;
 mod lirp;
 mod methods;
 mod places;

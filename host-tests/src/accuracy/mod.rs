@@ -5,6 +5,7 @@
 //! | `stage.rs` | triangles whose corners lie on chosen places of the screen, and who draws them |
 //! | `methods.rs` | the renderer and the laboratory's interpolation methods by name |
 //! | `spans.rs` | family `interpolation`: colour along spans, by all of them |
+//! | `kept.rs` | family `lines`: the same of colours that are taken anew on some lines alone |
 //! | `coverage.rs` | family `coverage`: which pixels a triangle has |
 //! | `depth.rs` | family `depth`: which surface is in front |
 //! | `texture.rs` | family `texture`: places by the laboratory's divisions and the renderer's budgets |
@@ -21,6 +22,7 @@ mod cost;
 mod coverage;
 mod depth;
 mod frames;
+mod kept;
 mod methods;
 mod rooms;
 mod scatter;
@@ -65,6 +67,8 @@ pub struct Row {
     pub per_pixel: Option<f64>,
     /// Instructions a span beside its pixels; of the renderer with what finds it.
     pub per_span: Option<f64>,
+    /// What costs are compared by: a pixel's instructions, with its part of a span where all of its likes know that.
+    pub cost: Option<f64>,
     /// Whether nothing in its family, case and unit is better in one and not worse in the other
     /// of cost and largest error. Only of what has a cost.
     pub on_frontier: bool,
@@ -116,6 +120,7 @@ impl Row {
             kernel,
             per_pixel: None,
             per_span: None,
+            cost: None,
             on_frontier: false,
         }
     }
@@ -143,6 +148,7 @@ impl Row {
 /// When something cannot be drawn, which means that this module lends too little memory.
 pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
     let mut rows = spans::rows()?;
+    rows.extend(kept::rows());
     rows.extend(coverage::rows()?);
     rows.extend(depth::rows()?);
     rows.extend(frames::rows()?);
@@ -156,28 +162,34 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
 /// Instructions a pixel that are not told apart: ticks of the counter, and where code lies.
 const EQUAL_COST: f64 = 0.1;
 
-/// Pixels of a span, by which its entry counts for each: spans of the teapot have 2.8 in the mean, those of the sphere 5.4.
+/// Pixels of a span, by which what it takes counts for each: spans of the teapot have 2.8 in the mean, those of the sphere 5.4.
 const SPAN: f64 = 4.0;
 
-/// Marks the rows that are on the frontier of cost and largest error among their likes. Where all of them know what a span
-/// takes, a pixel's part of it is in the cost.
+/// Fills in what costs are compared by, and marks the rows that are on the frontier of it and largest error among their
+/// likes.
 pub fn mark_frontier(rows: &mut [Row]) {
     let alike = |a: &Row, b: &Row| (a.family, a.case, a.unit) == (b.family, b.case, b.unit);
-    let cost = |row: &Row, of: &Row| {
-        let mut likes = rows
-            .iter()
-            .filter(|r| alike(r, of) && r.per_pixel.is_some());
-        let spans = likes.all(|r| r.per_span.is_some());
-        let part = row.per_span.filter(|_| spans).unwrap_or(0.0) / SPAN;
-        row.per_pixel.map(|pixel| pixel + part)
-    };
+    let costs: Vec<Option<f64>> = rows
+        .iter()
+        .map(|row| {
+            let mut likes = rows
+                .iter()
+                .filter(|r| alike(r, row) && r.per_pixel.is_some());
+            let spans = likes.all(|r| r.per_span.is_some());
+            let part = row.per_span.filter(|_| spans).unwrap_or(0.0) / SPAN;
+            row.per_pixel.map(|pixel| pixel + part)
+        })
+        .collect();
+    for (row, cost) in rows.iter_mut().zip(costs) {
+        row.cost = cost;
+    }
     let on: Vec<bool> = rows
         .iter()
         .map(|row| {
-            cost(row, row).is_some_and(|this| {
+            row.cost.is_some_and(|this| {
                 !rows.iter().any(|other| {
                     alike(row, other)
-                        && cost(other, row).is_some_and(|c| {
+                        && other.cost.is_some_and(|c| {
                             c <= this + EQUAL_COST
                                 && other.max <= row.max
                                 && (c < this - EQUAL_COST || other.max < row.max)

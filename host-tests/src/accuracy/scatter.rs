@@ -9,7 +9,7 @@ const MOST_CASES: usize = 2;
 /// Plots of all that has a cost, by name: one for each family, or, where it has many cases, for
 /// each of them.
 pub(super) fn plots(rows: &[Row]) -> Vec<(String, Scatter)> {
-    let costed: Vec<&Row> = rows.iter().filter(|row| row.per_pixel.is_some()).collect();
+    let costed: Vec<&Row> = rows.iter().filter(|row| row.cost.is_some()).collect();
     let mut plots = Vec::new();
     for family in distinct(costed.iter().map(|row| row.family)) {
         let of: Vec<&Row> = costed
@@ -55,14 +55,14 @@ fn plot(title: &str, rows: &[&Row]) -> Scatter {
     let dots = rows.iter().map(|row| Dot {
         name: row.method.to_owned(),
         group: groups.iter().position(|g| *g == row.case).unwrap_or(0),
-        x: row.per_pixel.unwrap_or(0.0),
+        x: row.cost.unwrap_or(0.0),
         y: row.max,
         marked: row.on_frontier,
     });
     let unit = rows.first().map_or("", |row| row.unit);
     Scatter {
         title: format!("{title} (framed and joined: the frontier)"),
-        x_name: "instructions a pixel, Cortex-M4".into(),
+        x_name: "instructions a pixel, with its part of a span of 4 where spans are told apart, Cortex-M4".into(),
         y_name: format!("largest error, {unit}"),
         dots: dots.collect(),
         groups: groups.into_iter().map(str::to_owned).collect(),

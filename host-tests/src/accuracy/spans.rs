@@ -14,9 +14,9 @@ use std::error::Error;
 use std::ops::RangeInclusive;
 
 const FAMILY: &str = "interpolation";
-const UNIT: &str = "levels";
+pub(super) const UNIT: &str = "levels";
 /// Cases by format, short spans first.
-const CASES: [[&str; 2]; 2] = [
+pub(super) const CASES: [[&str; 2]; 2] = [
     [
         "RGB565, spans of 1 to 63 pixels",
         "RGB565, spans of 1 to 1016 pixels",
@@ -93,14 +93,14 @@ fn blends(bits: u32, long: bool) -> Errors {
 }
 
 /// A triangle that is drawn by all methods, and the colours of its corners.
-struct Subject {
-    places: [Place; 3],
-    colours: [[u8; 3]; 3],
+pub(super) struct Subject {
+    pub(super) places: [Place; 3],
+    pub(super) colours: [[u8; 3]; 3],
 }
 
 impl Subject {
     /// None if chance made it thin.
-    fn random(rng: &mut Rng, long: bool) -> Option<Self> {
+    pub(super) fn random(rng: &mut Rng, long: bool) -> Option<Self> {
         let places = triangle(rng, long)?;
         let reach = if rng.unit() < 0.5 { 16 } else { 255 };
         let colour = [(); 3].map(|()| rng.within(0, 255));
@@ -114,7 +114,7 @@ impl Subject {
     }
 
     /// The columns or lines of a picture that it may have pixels on.
-    fn extent(&self, axis: fn(&Place) -> i32, size: u16) -> RangeInclusive<i32> {
+    pub(super) fn extent(&self, axis: fn(&Place) -> i32, size: u16) -> RangeInclusive<i32> {
         let all = self.places.each_ref().map(axis);
         let (low, high) = all
             .iter()
@@ -123,7 +123,12 @@ impl Subject {
     }
 
     /// The errors of a line.
-    fn compare<F: PixelFormat>(&self, line: i32, pixels: &[F::Word], errors: &mut Errors) {
+    pub(super) fn compare<F: PixelFormat>(
+        &self,
+        line: i32,
+        pixels: &[F::Word],
+        errors: &mut Errors,
+    ) {
         let columns = self.extent(|p| p.0, pixels.len() as u16);
         for column in columns.filter(|&column| covers(self.places, column, line)) {
             let shown = F::to_rgb8(pixels[column as usize]);

@@ -89,8 +89,8 @@ fn two_equations_tell_pixels_from_spans() {
     assert!(Costs::from_output(&output, [10, 5]).is_err());
 }
 
-/// The largest error that each method may have; a row that is not here is a method without a
-/// bound. Levels are beyond the rounding of the method's own format.
+/// The largest error that each method may have, and has to half of it at least: a bound that is far off could not fail. A
+/// row that is not here is a method without a bound. Levels are beyond the rounding of the method's own format.
 ///
 /// Of interpolation methods that is their own bound (see `scanbeam_lab::Method`); in scenes, whose corners are read back
 /// in 8 bits, half a level more, and what light errs. The renderer anchors packed colours every 16
@@ -99,7 +99,7 @@ fn two_equations_tell_pixels_from_spans() {
 /// Block-fix cannot tell two surfaces apart in `1 - d s` of the cases, where they are `d` apart and the
 /// significand is `s` of its 2^14 steps: 2^11 and more at a triangle's nearest corner, less at others.
 /// Over triangles like these that is 54 % at 0.01 %, and from 48 to 61 % in batches.
-const BOUNDS: [(&str, &str, &str, f64); 71] = [
+const BOUNDS: [(&str, &str, &str, f64); 76] = [
     // Beside edges a pixel may be of the triangle next to it, or of the background.
     (
         "frame",
@@ -117,21 +117,41 @@ const BOUNDS: [(&str, &str, &str, f64); 71] = [
     ("frame", "teapot, 320 x 240, away", "160 x 120", 46.0),
     ("texture", "teapot that reflects", "", 2.2),
     ("interpolation", "", "circuit: LIRP, 10-bit", 0.6),
-    ("interpolation", "", "circuit: LIRP, 12-bit", 0.4),
+    ("interpolation", "", "circuit: LIRP, 12-bit", 0.3),
     ("interpolation", "", "circuit: LIRP, 16-bit", 0.3),
     ("interpolation", "RGB565, scenes", "renderer", 2.19),
     ("interpolation", "RGB565", "renderer", 2.19),
     ("interpolation", "RGB888, scenes", "renderer", 0.5),
-    ("interpolation", "RGB888", "renderer", 0.2),
-    // Steps of a span are anything up to its whole range.
-    ("interpolation", "RGB565, scenes", "half", 9.0),
-    ("interpolation", "RGB888, scenes", "half", 9.0),
-    ("interpolation", "RGB565, scenes", "quarter", 21.0),
-    ("interpolation", "RGB888, scenes", "quarter", 21.0),
-    ("interpolation", "", "half", 64.0),
-    ("interpolation", "", "quarter", 96.0),
-    // What 8 bits cut off, and in scenes what corners are off.
-    ("interpolation", "", "LIRP, packed", 2.1),
+    ("interpolation", "RGB888", "renderer", 0.12),
+    // Steps of a span are anything up to its whole range, so these and kept colours are held to be what they are.
+    ("interpolation", "RGB565, scenes", "half", 4.2),
+    ("interpolation", "RGB888, scenes", "half", 5.7),
+    ("interpolation", "RGB565, scenes", "quarter", 10.0),
+    ("interpolation", "RGB888, scenes", "quarter", 12.3),
+    ("interpolation", "", "half", 52.0),
+    ("interpolation", "", "quarter", 76.0),
+    ("lines", "", "colours on every line", 2.19),
+    (
+        "lines",
+        "RGB565, spans of 1 to 63",
+        "colours on every 2nd line",
+        73.0,
+    ),
+    (
+        "lines",
+        "RGB565, spans of 1 to 63",
+        "colours on every 3rd line",
+        78.0,
+    ),
+    (
+        "lines",
+        "RGB565, spans of 1 to 63",
+        "colours on every 8th line",
+        188.0,
+    ),
+    ("lines", "", "", 107.0),
+    // What 8 bits cut off.
+    ("interpolation", "", "LIRP, packed", 1.6),
     ("interpolation", "", "auto, fast", 4.0),
     (
         "interpolation",
@@ -140,49 +160,49 @@ const BOUNDS: [(&str, &str, &str, f64); 71] = [
         1.5 + 0.6,
     ),
     ("interpolation", "", "auto, balanced", 1.5),
-    ("interpolation", "RGB565, scenes", "packed8", 1.16 + 0.6),
-    ("interpolation", "RGB565, scenes", "packed16", 2.19 + 0.6),
+    ("interpolation", "RGB565, scenes", "packed8", 1.16),
+    ("interpolation", "RGB565, scenes", "packed16", 2.19),
     ("interpolation", "RGB565, scenes", "", 0.6),
     ("interpolation", "RGB888, scenes", "", 0.6),
     // A unit of 2^-20 step each 2 pixels.
-    ("interpolation", "", "plane", 0.01),
-    ("interpolation", "", "auto, exact", 0.01),
+    ("interpolation", "", "plane", 0.0015),
+    ("interpolation", "", "auto, exact", 0.0015),
     ("interpolation", "RGB565", "packed8", 1.16),
     ("interpolation", "RGB565", "packed16", 2.19),
     ("interpolation", "RGB888", "packed", 0.05),
     // A unit of W in the middle.
     ("interpolation", "", "LIRP, 10 bits", 0.25),
     ("interpolation", "", "LIRP, 12 bits", 0.07),
-    ("interpolation", "", "LIRP, 16 bits", 0.01),
+    ("interpolation", "", "LIRP, 16 bits", 0.009),
     ("coverage", "corners on the 1/8 grid", "", 0.0),
-    ("coverage", "corners anywhere", "", 120.0),
+    ("coverage", "corners anywhere", "", 92.0),
     ("depth", "order", "32-bit 1/w", 0.0),
     // Ties go to the later: within a step of 16 bits that is the farther here.
     ("depth", "order, 1 % apart", "16-bit", 0.0),
-    ("depth", "order, 0.1 % apart", "16-bit 1/w and", 10.0),
+    ("depth", "order, 0.1 % apart", "16-bit 1/w and", 6.0),
     ("depth", "order, 0.1 % apart", "16-bit block-fix", 14.0),
     ("depth", "order, 0.01 % apart", "16-bit", 90.0),
-    ("depth", "order, 1 % apart", "hardware model", 1.0),
-    ("depth", "order, 0.1 % apart", "hardware model", 50.0),
-    ("depth", "order, 0.01 % apart", "hardware model", 80.0),
+    ("depth", "order, 1 % apart", "hardware model", 0.2),
+    ("depth", "order, 0.1 % apart", "hardware model", 33.0),
+    ("depth", "order, 0.01 % apart", "hardware model", 60.0),
     ("depth", "format alone", "32-bit", 0.0),
     ("depth", "format alone, 1 % apart", "", 0.0),
     ("depth", "format alone, 0.1 % apart", "22-bit", 0.0),
-    ("depth", "format alone, 0.1 % apart", "", 2.0),
-    ("depth", "format alone, 0.01 % apart", "22-bit", 3.0),
-    ("depth", "format alone, 0.01 % apart", "block-fix", 65.0),
-    ("depth", "format alone, 0.01 % apart", "", 40.0),
+    ("depth", "format alone, 0.1 % apart", "", 0.8),
+    ("depth", "format alone, 0.01 % apart", "22-bit", 0.0),
+    ("depth", "format alone, 0.01 % apart", "block-fix", 60.0),
+    ("depth", "format alone, 0.01 % apart", "", 29.0),
     // Budgets are the API's; what keeps none is only held to be what it is. Of scenes corners are rounded too.
     ("texture", "texels chosen", "every pixel", 0.1),
     ("texture", "texels chosen", "exact", 2.5),
-    ("texture", "texels chosen", "", 100.0),
+    ("texture", "texels chosen", "", 94.5),
     ("texture", "sphere, ground, quad", "exact", 0.01 + 0.125),
     ("texture", "", "exact", 1.0 / 32.0),
-    ("texture", "", "every pixel", 0.01),
+    ("texture", "", "every pixel", 0.003),
     ("texture", "", "balanced", 0.25),
     ("texture", "", "fast", 0.5),
-    ("texture", "triangles 208 pixels wide", "every 2nd", 0.25),
-    ("texture", "triangles 208 pixels wide", "", 40.0),
+    ("texture", "triangles 208 pixels wide", "every 2nd", 0.06),
+    ("texture", "triangles 208 pixels wide", "", 29.0),
     ("texture", "", "", 64.0),
     // Of pictures that stay as they are: half a step of 5 bits, and what was measured beyond that.
     ("texels", "", "words", 4.2),
@@ -193,7 +213,7 @@ const BOUNDS: [(&str, &str, &str, f64); 71] = [
     ("texels", "teapot", "", 9.0),
     ("frame", "", "planes, RGB888", 0.5),
     ("frame", "", "planes, RGB565", 2.2),
-    ("frame", "", "hardware model", 2.0),
+    ("frame", "", "hardware model", 1.6),
 ];
 
 /// What is asked for less costs no more: a pixel, and a span of 32 pixels with its entry.
@@ -240,16 +260,25 @@ fn a_cheaper_quality_is_not_dearer(rows: &[Row]) {
 #[test]
 fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
     let mut rows = measure().unwrap();
+    let mut most = [0.0f64; BOUNDS.len()];
     for row in &rows {
-        let fits = |b: &&(&str, &str, &str, f64)| {
+        let fits = |b: &(&str, &str, &str, f64)| {
             row.family == b.0 && row.case.starts_with(b.1) && row.method.starts_with(b.2)
         };
-        let (_, _, _, bound) = BOUNDS.iter().find(fits).expect(row.method);
-        assert!(row.max <= *bound, "{row:?}: above {bound}");
+        let which = BOUNDS.iter().position(fits).expect(row.method);
+        let bound = BOUNDS[which].3;
+        assert!(row.max <= bound, "{row:?}: above {bound}");
+        most[which] = most[which].max(row.max);
         assert!(row.mean <= row.max && row.samples > 1000, "{row:?}");
         // A few pixels may lift the mean above what all but a thousandth keep.
         assert!(row.p999.is_none_or(|p| p <= row.max), "{row:?}");
     }
+    let far: Vec<_> = BOUNDS
+        .iter()
+        .zip(most)
+        .filter(|(bound, most)| *most < 0.5 * bound.3)
+        .collect();
+    assert!(far.is_empty(), "less than half of them measured: {far:?}");
     let (costs, note) = Costs::measured().unwrap();
     assert_eq!(note, None, "QEMU and a compiler for it are needed here");
     costs.fill(&mut rows).unwrap();
@@ -258,6 +287,7 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
         ("interpolation", "RGB565, spans of 1 to 63", RENDERER, 7.0),
         ("interpolation", "RGB565, spans of 1 to 1016", RENDERER, 9.0),
         ("interpolation", "RGB565, scenes", RENDERER, 14.0),
+        ("lines", "", "colours on every line", 7.0),
         ("coverage", "", "exact edges", 4.0),
         ("depth", "order", "32-bit 1/w, large", 14.0),
         ("frame", "", "planes, RGB565", 320.0),
@@ -284,6 +314,10 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
     for row in rows.iter().filter(of_24) {
         assert!(row.per_pixel.is_some_and(|cost| cost < 9.0), "{row:?}");
     }
+    // Colours that are kept err more, and cost more as well.
+    let kept = |row: &&Row| row.family == "lines" && !row.method.ends_with("every line");
+    assert_eq!(rows.iter().filter(kept).count(), 6);
+    assert!(rows.iter().filter(kept).all(|row| !row.on_frontier));
     a_cheaper_quality_is_not_dearer(&rows);
     for row in &rows {
         let json = row.to_json();
@@ -305,10 +339,13 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
     for row in rows.iter().filter(|row| row.per_pixel.is_some()) {
         assert!(text.contains(row.method), "{row:?}");
         let drawn = plots.iter().any(|(_, plot)| {
-            let here = plot.dots.iter().find(|dot| dot.name == row.method);
-            plot.groups.iter().any(|group| group == row.case)
-                && here.is_some_and(|dot| Some(dot.x) == row.per_pixel)
-                && plot.to_svg().contains(row.method)
+            let mut dots = plot.dots.iter();
+            let here = dots.any(|dot| {
+                plot.groups[dot.group] == row.case
+                    && dot.name == row.method
+                    && Some(dot.x) == row.cost
+            });
+            here && plot.to_svg().contains(row.method)
         });
         assert!(drawn, "{row:?}");
     }

@@ -3,6 +3,9 @@
 //! Names: method, pixel format, `_large` for spans of up to 320 pixels in place of 63, `_depth` where each span is drawn
 //! before another one that it hides: a pixel is one of both. Both widths are large, one twice the other: what differs is
 //! pixels alone, and what a method takes to begin and to end counts for the span.
+//!
+//! `kept1` to `kept8` are `packed16` with what it takes to have the span's colours, from planes on every line, or on every
+//! second, third and eighth.
 
 use super::{LINES, Run, WIDEST, WIDTH};
 use crate::console::Console;
@@ -13,7 +16,8 @@ use scanbeam::pixel::{Rgb565, Rgb888};
 use scanbeam_lab::bits::{BITS, bits};
 use scanbeam_lab::depth::{Depths, resolve, words};
 use scanbeam_lab::format::FRACTION;
-use scanbeam_lab::{Colours, Format, Method, paint};
+use scanbeam_lab::kept::{ColourPlanes, Kept, Span};
+use scanbeam_lab::{Colours, Format, Method, Triangle, paint};
 use scanbeam_model::BlockFix16;
 
 const METHODS: [(&str, Method); 12] = [
@@ -30,6 +34,9 @@ const METHODS: [(&str, Method); 12] = [
     ("auto_balanced", Method::BALANCED),
     ("auto_exact", Method::EXACT),
 ];
+
+/// Lines after which colours are taken anew.
+const KEPT: [(&str, u16); 4] = [("kept1", 1), ("kept2", 2), ("kept3", 3), ("kept8", 8)];
 
 /// Spans of a triangle but for its first line's.
 const SPANS: usize = LINES as usize - 1;
@@ -59,6 +66,9 @@ pub(super) fn run(counter: &Counter, console: &mut Console) {
                 print("565", "", plain::<Rgb565>(how, &of_565, counter));
                 print("888", "", plain::<Rgb888>(how, &of_888, counter));
                 print("565", "_depth", hidden(how, &of_565, counter));
+            }
+            for (name, every) in KEPT {
+                kept(every, width, counter).print(format_args!("{name}_565{size}"), console);
             }
             block_fixed(&of_565, counter).print(format_args!("block_fix_565{size}"), console);
             worded(&of_565, counter).print(format_args!("word_565{size}"), console);
@@ -111,6 +121,48 @@ fn plain<F: Format>(method: Method, spans: &[(Colours, usize); SPANS], counter: 
     timed::<F>(spans, counter, |lines, colours, pixels| {
         paint::<F>(method, colours, &mut lines.pixels[..pixels], &mut || true);
     })
+}
+
+/// Those of a right triangle that is so wide at its top, each of a pixel at least; colours are taken on every line without
+/// asking whether there are some.
+#[inline(never)]
+fn kept(every: u16, width: i32, counter: &Counter) -> Run {
+    let triangle = Triangle {
+        place: [[0, 0], [8 * width, 0], [0, 8 * i32::from(LINES)]],
+        depth: [1; 3],
+        colour: [[255, 0, 30], [0, 200, 60], [90, 255, 255]],
+    };
+    let spans: [Span; SPANS] = core::array::from_fn(|line| {
+        let line = line as u16;
+        Span::of(&triangle, line).unwrap_or(Span {
+            column: 0,
+            pixels: 1,
+            line,
+            turns: false,
+        })
+    });
+    let planes = ColourPlanes::new::<Rgb565>(&triangle);
+    let mut pixels = [0; WIDTH as usize];
+    let mut painted = |colours: &Colours, span: &Span| {
+        let run = &mut pixels[..span.pixels as usize];
+        paint::<Rgb565>(Method::Packed16, colours, run, &mut || true);
+    };
+    let instructions = counter.finely(|| {
+        let mut kept = Kept::new(every);
+        for span in black_box(&spans) {
+            let colours = if every == 1 {
+                planes.at(span.column, span.line)
+            } else {
+                kept.of_span::<Rgb565>(&planes, span)
+            };
+            painted(&colours, span);
+        }
+    });
+    Run {
+        instructions,
+        spans: SPANS as u32,
+        pixels: spans.iter().map(|span| span.pixels).sum(),
+    }
 }
 
 /// 1/w of what is in front and of what is behind.

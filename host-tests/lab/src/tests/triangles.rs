@@ -12,7 +12,7 @@ use std::vec::Vec;
 const WIDTH: i32 = 48;
 const HEIGHT: u16 = 36;
 
-fn random(rng: &mut Rng) -> Triangle {
+pub(super) fn random(rng: &mut Rng) -> Triangle {
     loop {
         let size = [20, 100, 400][rng.below(3) as usize];
         let base = [(); 2].map(|()| rng.below(400) as i32 - 40);
@@ -42,7 +42,7 @@ fn covers(place: [[i32; 2]; 3], column: i32, line: u16) -> bool {
 }
 
 /// What is linear between the corners, at a pixel's centre.
-fn plane(place: [[i32; 2]; 3], values: [f64; 3], column: i32, line: u16) -> f64 {
+pub(super) fn plane(place: [[i32; 2]; 3], values: [f64; 3], column: i32, line: u16) -> f64 {
     let [a, b, c] = place.map(|p| p.map(f64::from));
     let (x, y) = (
         f64::from(8 * column + 4),
