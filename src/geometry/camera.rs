@@ -1,7 +1,7 @@
 //! The screen and the camera: what stays the same for a whole frame.
 
 use super::transform::{Affine, inverse_sqrt};
-use crate::num::{Block, GUARD_CENTRE};
+use crate::num::{Block, GUARD_CENTRE, divide_signed};
 
 /// The size of the picture, 1 to 8192 pixels each way (K3).
 ///
@@ -226,8 +226,8 @@ impl Camera {
         }
         let shift = pixels.map(|p| (p * 8.0 + if p < 0.0 { -0.5 } else { 0.5 }) as i32);
         // In focal lengths, of which `one` is one: below 2^32.
-        let [focal] = self.focal.mantissa.map(i64::from);
-        let [x, y] = shift.map(|s| (i64::from(s) << 44) / focal);
+        let [focal] = self.focal.mantissa;
+        let [x, y] = shift.map(|s| divide_signed(i64::from(s) << 44, focal as u32));
         let one = 1i64 << (14 + self.focal.exponent);
         if x.abs().max(y.abs()) > one << 6 {
             return Err(CameraError::Shift);

@@ -4,7 +4,7 @@
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
 //! and no float is touched after set-up.
 
-use crate::num::{Block, I2F14, divide, root, shift_round};
+use crate::num::{Block, I2F14, divide_signed, root, shift_round};
 use micromath::F32Ext;
 
 /// An affine map `p -> linear p + offset`.
@@ -204,14 +204,15 @@ impl Affine {
         // The scale squared: the mean of the rows, times 3.
         let square: i64 = m.iter().map(|c| c * c / 4).sum();
         let (along, square) = (Block::new(along, 0), Block::new([square], 0));
-        let divisor = i64::from(square.mantissa[0]);
+        // No square is below 0.
+        let divisor = square.mantissa[0] as u32;
         if divisor == 0 {
             return Block::ZERO;
         }
-        // 12 / 4 of the scale squared is 3 of them.
+        // 12 / 4 of the scale squared is 3 of them. Below 2^31: the divisor has 30 bits, and what is divided up to 60.
         let ratio = along
             .mantissa
-            .map(|c| ((-3 * i64::from(c)) << 30) / (4 * divisor));
+            .map(|c| divide_signed((-3 * i64::from(c)) << 28, divisor));
         let exponent =
             along.exponent - square.exponent + self.offset.exponent - self.linear.exponent;
         Block::new(ratio, exponent)
@@ -226,14 +227,8 @@ pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
     if length == 0 {
         return [I2F14::ZERO; 3];
     }
-    let mut unit = [I2F14::ZERO; 3];
-    for (unit, c) in unit.iter_mut().zip(v) {
-        // No component is longer than the whole.
-        let part = divide(c.unsigned_abs() << 15, length as u32) as i32;
-        let part = if c < 0 { -part } else { part };
-        *unit = I2F14::from_bits(((part + 1) >> 1) as i16);
-    }
-    unit
+    // No component is longer than the whole.
+    v.map(|c| I2F14::from_bits(((divide_signed(c << 15, length as u32) + 1) >> 1) as i16))
 }
 
 /// `v` (each below 2^32 in magnitude) with 30 bits in its largest, and its length then.
@@ -243,19 +238,19 @@ fn with_length(v: [i64; 3]) -> ([i64; 3], i64) {
     let bits = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();
     // 30 bits each: the sum of squares fits 62 bits, and the root has 30 of its own.
     let shift = bits.leading_zeros() as i32 - 34;
-    let mut square = 0;
-    let v = v.map(|c| {
-        let c = shift_round(c, shift);
-        square += c * c;
-        c
-    });
+    let v = v.map(|c| shift_round(c, shift));
+    let square: i64 = v.iter().map(|c| c * c).sum();
     (v, root(square.unsigned_abs()).into())
 }
 
 /// The unit vector along `v` in Q1.30, 2^-28 off at most; `None` for zero.
 fn unit_q30(v: [i64; 3]) -> Option<[i64; 3]> {
     let (v, length) = with_length(v);
-    (length != 0).then(|| v.map(|c| ((c << 31).div_euclid(length) + 1) >> 1))
+    let of = |c: i64| {
+        let down = if c < 0 { length - 1 } else { 0 };
+        (divide_signed((c << 31) - down, length as u32) + 1) >> 1
+    };
+    (length != 0).then(|| v.map(of))
 }
 
 /// The scalar product of two vectors in Q1.30 of length up to 1.

@@ -36,6 +36,13 @@ pub fn divide(number: u64, by: u32) -> u32 {
     quotient
 }
 
+/// [`divide`] of a number with a sign, rounded towards 0.
+#[must_use]
+pub fn divide_signed(number: i64, by: u32) -> i64 {
+    let quotient = i64::from(divide(number.unsigned_abs(), by));
+    if number < 0 { -quotient } else { quotient }
+}
+
 /// The root of a square, rounded down.
 #[inline(never)]
 #[must_use]
@@ -97,6 +104,12 @@ mod tests {
             let want = number.checked_div(by.into()).unwrap_or(u64::MAX);
             let want = u32::try_from(want).unwrap_or(u32::MAX);
             assert_eq!(divide(number, by), want, "{number} {by}");
+            // Of half of it, which has room for a sign.
+            if want != u32::MAX {
+                let half = (number >> 1) as i64;
+                assert_eq!(divide_signed(half, by), half / i64::from(by));
+                assert_eq!(divide_signed(-half, by), -half / i64::from(by));
+            }
             whole += u32::from(want != u32::MAX);
         }
         assert!(whole > 100_000, "{whole}");
