@@ -242,7 +242,9 @@ impl Ends {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::look::mapping::{Corner, Mapping};
     use crate::num::random::Rng;
+    use crate::scene::Budget;
 
     /// Kills: a level that begins one unit of 1/w too early or too late, a part of a run that goes on into the next
     /// level or ends before it, and a run without a step that is cut.
@@ -287,5 +289,75 @@ mod tests {
             levels: 1,
         };
         assert_eq!([99, 100, 101].map(|q| ends.level(q)), [1, 0, 0]);
+    }
+
+    /// Tells the place of each pixel, in units of 1/128 texel of the finest level.
+    fn told(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
+        let level = 8 - texture.log_width();
+        for (i, word) in (0..).zip(run) {
+            let at = way.at.u.wrapping_add(way.step.u.wrapping_mul(i));
+            *word = (at << level >> 12) as u16;
+        }
+    }
+
+    /// The first and the last pixel of a span have exact places, whatever levels lie between. Kills: the last part of a
+    /// span that has levels is reckoned to an end beyond it.
+    #[test]
+    fn ends_of_spans_of_several_levels_are_exact() {
+        const TEXELS: &[u16] = &[0; 1 << 16];
+        let level =
+            |log: u32| Texture::words(&TEXELS[..1 << (2 * log)], 1 << log, 1 << log).unwrap();
+        let coarser = [7, 6, 5, 4].map(level);
+        let texture = level(8).sampled(Sampling::NEAREST, &coarser).unwrap();
+        let mut cut = 0;
+        for far in 2..40 {
+            let corner = |x: i32, y: i32, depth, texel| Corner {
+                x: 64 * x,
+                y: 64 * y,
+                depth,
+                texel,
+            };
+            let corners = [
+                corner(0, 0, 1 << 30, [0, 0]),
+                corner(300, 0, (1 << 30) / far, [256 << 14, 0]),
+                corner(0, 200, 1 << 30, [0, 256 << 14]),
+            ];
+            let mapping = Mapping::new(&corners, &texture, Budget::FAST).unwrap();
+            for (line, end) in [(3, 290), (50, 220), (90, 161)] {
+                let span = SampledSpan {
+                    texture: &texture,
+                    budget: Budget::FAST,
+                    words: Words::Numbers,
+                    method: mapping.method,
+                    steps: 16,
+                    base: mapping.base,
+                    planes: &mapping.planes,
+                    line,
+                    columns: 0..end,
+                    column: 0,
+                };
+                let mut run = [0; 300];
+                let run = &mut run[..end as usize];
+                span.perspective(run, told);
+                let value = |plane: usize, column| {
+                    let place = Place {
+                        span: 0,
+                        end,
+                        column,
+                        line,
+                    };
+                    word_at(&mapping.planes[plane], place)
+                };
+                for (column, &shown) in [(0, &run[0]), (end - 1, &run[run.len() - 1])] {
+                    let [s, t] = [0, 1].map(|plane| value(plane, column) as i32);
+                    let q = value(2, column);
+                    let want = Homogeneous { q, s, t }.place().u >> 12;
+                    let off = i32::from(shown as i16) - i32::from(want as i16);
+                    assert!(off.abs() <= 16, "{far} {line} {column}: {shown} {want}");
+                }
+                cut += u32::from(value(2, 0) / value(2, end - 1) >= 2);
+            }
+        }
+        assert!(cut > 90, "{cut}");
     }
 }
