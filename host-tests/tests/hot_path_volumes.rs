@@ -166,6 +166,16 @@ fn memory_that_is_too_short_is_named_and_nothing_is_drawn() {
         assert_eq!(done, Err(DrawError::Shadow(expected)));
     }
     assert_eq!((scene.objects(), scene.vertices()), (0, 0));
+    // Two positions and two faces an edge. Kills: room for one more is asked for.
+    let mut least = |which: usize| {
+        (0..1_000).find(|&room| {
+            let mut rooms = [1_000; 3];
+            rooms[which] = room;
+            scene.begin(&camera()).unwrap();
+            throw(&mut scene, body, light, rooms).is_ok()
+        })
+    };
+    assert_eq!(least(1), least(2));
     // One state for two sides.
     let mut memory = SceneRooms::new(20_000, 8_000, 54, 1);
     let mut scene = memory.scene::<L>(screen());
@@ -183,6 +193,16 @@ fn memory_that_is_too_short_is_named_and_nothing_is_drawn() {
     // The state is free again.
     let call = Draw::new(world.floor.mesh(&LIT));
     scene.draw(&call).unwrap();
+    // Kills: states of draw calls before it are taken back as well. Two states, of which the floor has one.
+    let mut memory = SceneRooms::new(20_000, 8_000, 54, 2);
+    let mut scene = memory.scene::<L>(screen());
+    scene.begin(&camera()).unwrap();
+    scene.draw(&call).unwrap();
+    let floor = scene.objects();
+    assert!(throw(&mut scene, body, light, [1_000; 3]).is_err());
+    assert_eq!(scene.objects(), floor);
+    scene.draw(&call).unwrap();
+    assert!(scene.draw(&call).is_err(), "there are three states");
 }
 
 /// A triangle in the picture, whatever it is drawn as.

@@ -185,6 +185,7 @@ fn a_baked_model_is_drawn_and_printed() {
     let ran = run::execute(&baked.words, &view, Budget::of(1 << 20)).unwrap();
     assert_eq!((ran.halt, ran.events), (Halt::End, vec![]));
     assert_eq!(ran.counts.triangles as usize, baked.triangles);
+    assert!(!ran.is_textured);
     let bright = ran.frame.rgb().iter().filter(|c| **c > 100).count();
     assert!(bright > 10_000, "{bright}");
     // A smaller budget: the list halts, and what stands before is drawn.

@@ -97,6 +97,7 @@ fn a_baked_sheet_looks_like_the_model() {
     };
     let ran = run::execute(&baked.words, &view, Budget::of(1 << 20)).unwrap();
     assert_eq!((ran.halt, ran.events), (Halt::End, vec![]));
+    assert!(ran.is_textured);
     let set = TextureSet::load(&model, None).unwrap();
     let skins = Skins {
         set: &set,

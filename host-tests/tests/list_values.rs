@@ -331,3 +331,37 @@ fn what_a_master_block_does_not_say_is_off() {
         assert_eq!(read.words, 1 + u32::from(count));
     }
 }
+
+/// Kills: of parted triangles, those that are not whole are let in, or those that go on from other blocks.
+#[test]
+fn parted_triangles_are_whole_and_begin_anew() {
+    let whole = Header {
+        new: true,
+        low: Header::SEPARATE,
+        ..Header::of(Id::Indexed, 6)
+    };
+    let read = |header: Header| {
+        let list = [header.to_word().to_le(), 0, 0];
+        let read = read_block(&list[..], 0, &VertexFormat::default());
+        read.map(|_| ()).map_err(|error| error.reason)
+    };
+    assert_eq!(read(whole), Ok(()));
+    for (header, reason) in [
+        (Header { count: 4, ..whole }, Some(4)),
+        (Header { count: 5, ..whole }, Some(5)),
+        (Header { rm: true, ..whole }, None),
+        (
+            Header {
+                new: false,
+                ..whole
+            },
+            None,
+        ),
+    ] {
+        let want = match reason {
+            Some(count) => Reason::Count(count),
+            None => Reason::Reserved(header.to_word()),
+        };
+        assert_eq!(read(header), Err(want), "{header:?}");
+    }
+}

@@ -3,12 +3,13 @@
 use crate::listing::{PLENTY, triangle};
 use crate::played::lists::{after_a_triangle, draw_textured, texture};
 use crate::played::{Kept, drawn, played};
+use host_tests::lists::writer::ListWriter;
 use scanbeam::Light;
 use scanbeam::event::{Event, Notice};
 use scanbeam::input::{OnViolation, Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{
-    CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListError, ListRing,
-    Material, Missing, Overlay, Palette, Reason, State, TexelForm, VertexFormat, Window,
+    Budget, CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListError,
+    ListRing, Material, Missing, Overlay, Palette, Reason, State, TexelForm, VertexFormat, Window,
 };
 use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::Rgb565Be;
@@ -348,7 +349,13 @@ fn a_ring_is_played_as_it_grows() {
     let mut player = kept.player::<Smooth>(PlayerSettings::default());
     let got = drawn::<Smooth>(|scene| {
         player.start(0);
-        for block in &triangles {
+        // Kills: a block that is not whole yet is malformed.
+        let (first, rest) = triangles[0].split_at(triangles[0].len() - 1);
+        writer.append(first).unwrap();
+        let words = reader.words();
+        assert_eq!(played(&mut player, words, scene, PLENTY), Ok(Halt::Waiting));
+        writer.append(rest).unwrap();
+        for block in &triangles[1..] {
             while writer.append(block).is_err() {
                 let words = reader.words();
                 assert_eq!(played(&mut player, words, scene, PLENTY), Ok(Halt::Waiting));
@@ -364,4 +371,43 @@ fn a_ring_is_played_as_it_grows() {
         assert_eq!(error.offset, 4 * whole.len() as u32);
     });
     assert!(got == want);
+}
+
+/// Kills: no event, or another value.
+#[test]
+fn what_is_malformed_is_an_event_without_a_value() {
+    let mut list = triangle(0);
+    list.push(0x0200_0000u32.to_le());
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Smooth>(PlayerSettings::default());
+    let mut told = Vec::new();
+    drawn::<Smooth>(|scene| {
+        player.start(0);
+        let tell = &mut |notice: Notice| told.push((notice.event, notice.value));
+        let mut budget = PLENTY;
+        assert!(player.run(&list[..], scene, &mut budget, tell).is_err());
+    });
+    assert_eq!(told, [(Event::Malformed, 0)]);
+}
+
+/// Kills: blocks without vertices that cost some.
+#[test]
+fn what_has_no_vertices_costs_none() {
+    let mut memory = [0; 64];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.state(&State::PointSize(2)).unwrap();
+    writer.flow(Flow::End).unwrap();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Smooth>(PlayerSettings::default());
+    let budget = Budget {
+        vertices: 0,
+        ..PLENTY
+    };
+    drawn::<Smooth>(|scene| {
+        player.start(0);
+        assert_eq!(
+            played(&mut player, writer.words(), scene, budget),
+            Ok(Halt::End)
+        );
+    });
 }

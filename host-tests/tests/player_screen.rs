@@ -372,7 +372,12 @@ fn points_are_squares_of_pixels_where_they_project_to() {
             positions: &[point],
             ..NO_MESH
         };
-        let got = drawn::<Smooth>(|scene| scene.draw_points(&Draw::new(mesh), size).unwrap());
+        let got = drawn::<Smooth>(|scene| {
+            scene.draw_points(&Draw::new(mesh), size).unwrap();
+            // One triangle covers a pixel, two a square.
+            let triangles = if size == 1 { 1 } else { 2 };
+            assert_eq!(scene.assembled().triangles, triangles);
+        });
         for (n, pixel) in (0..).zip(&got) {
             let at = [n % i64::from(WIDTH), n / i64::from(WIDTH)];
             let within = |k: usize| (first[k]..first[k] + i64::from(size)).contains(&at[k]);

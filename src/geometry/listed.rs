@@ -117,6 +117,25 @@ impl Camera {
 mod tests {
     use super::*;
 
+    /// Kills: a focal length that does not grow with the picture.
+    #[test]
+    fn a_focal_length_is_of_240_lines() {
+        let words = CameraWords {
+            eye: [0.0, 1.0, 4.0],
+            at: [0.0; 3],
+            up: [0.0, 1.0, 0.0],
+            focal: 300.0,
+            near: 0.5,
+            far: 50.0,
+        };
+        for (lines, focal) in [(120, 150.0), (240, 300.0), (480, 600.0)] {
+            let of = |focal| Camera::look_at(words.eye, words.at, words.up, focal, 0.5, 50.0);
+            let listed = Camera::listed(&words, lines).unwrap();
+            let want = of(focal).unwrap();
+            assert_eq!(std::format!("{listed:?}"), std::format!("{want:?}"));
+        }
+    }
+
     #[test]
     fn maps_and_lights_come_back() {
         for k in 0..40 {

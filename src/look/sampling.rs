@@ -242,6 +242,7 @@ impl Ends {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::look::fetch::FRACTION;
     use crate::look::mapping::{Corner, Mapping};
     use crate::num::random::Rng;
     use crate::scene::Budget;
@@ -291,12 +292,12 @@ mod tests {
         assert_eq!([99, 100, 101].map(|q| ends.level(q)), [1, 0, 0]);
     }
 
-    /// Tells the place of each pixel, in units of 1/128 texel of the finest level.
+    /// Tells the place of each pixel, with the base, in units of 1/128 texel of the finest level.
     fn told(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
         let level = 8 - texture.log_width();
         for (i, word) in (0..).zip(run) {
             let at = way.at.u.wrapping_add(way.step.u.wrapping_mul(i));
-            *word = (at << level >> 12) as u16;
+            *word = ((at << level >> 12) + (way.base[0] << (level + 7))) as u16;
         }
     }
 
@@ -351,7 +352,7 @@ mod tests {
                 for (column, &shown) in [(0, &run[0]), (end - 1, &run[run.len() - 1])] {
                     let [s, t] = [0, 1].map(|plane| value(plane, column) as i32);
                     let q = value(2, column);
-                    let want = Homogeneous { q, s, t }.place().u >> 12;
+                    let want = (Homogeneous { q, s, t }.place().u >> 12) + (mapping.base[0] << 7);
                     let off = i32::from(shown as i16) - i32::from(want as i16);
                     assert!(off.abs() <= 16, "{far} {line} {column}: {shown} {want}");
                 }
@@ -359,5 +360,42 @@ mod tests {
             }
         }
         assert!(cut > 90, "{cut}");
+    }
+
+    /// Tells the level of each pixel.
+    fn level_told(run: &mut [u16], texture: &Texture<'_>, _: Way, _: Words) {
+        run.fill(8 - texture.log_width() as u16);
+    }
+
+    /// Kills: a texture that is seen from its edge, or all of whose places lie on a line, is taken coarser than it is.
+    #[test]
+    fn places_on_a_line_have_the_finest_level() {
+        const TEXELS: &[u16] = &[0; 1 << 16];
+        let level =
+            |log: u32| Texture::words(&TEXELS[..1 << (2 * log)], 1 << log, 1 << log).unwrap();
+        let coarser = [7, 6].map(level);
+        let texture = level(8).sampled(Sampling::NEAREST, &coarser).unwrap();
+        for (across, down, want) in [
+            ([4, 0], [0, 0], 0),
+            ([4, 0], [0, 4], 2),
+            ([1, 0], [0, 1], 0),
+        ] {
+            let [u, v] = [0, 1].map(|i| [0, across[i] << FRACTION, down[i] << FRACTION]);
+            let span = SampledSpan {
+                texture: &texture,
+                budget: Budget::FAST,
+                words: Words::Numbers,
+                method: Method::Wide,
+                steps: 1,
+                base: [0; 2],
+                planes: &[u, v, [0; 3]],
+                line: 0,
+                columns: 0..9,
+                column: 0,
+            };
+            let mut run = [9; 9];
+            draw(&span, &mut run, level_told);
+            assert_eq!(run, [want; 9], "{across:?} {down:?}");
+        }
     }
 }

@@ -240,3 +240,57 @@ impl<T: ScanoutDma + ?Sized> ScanoutDma for &mut T {
         T::chains(self)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Refuses all that it is asked for.
+    struct Refuses;
+
+    impl ScanoutDma for Refuses {
+        type Error = ErrorKind;
+        type Buf = &'static mut [u16];
+
+        fn begin(&mut self, _: Window) -> Result<(), ErrorKind> {
+            Err(ErrorKind::Sequence)
+        }
+
+        fn start(&mut self, buf: Self::Buf, _: usize) -> Result<(), (ErrorKind, Self::Buf)> {
+            Err((ErrorKind::Length, buf))
+        }
+
+        fn poll(&mut self) -> Poll<Result<Option<Self::Buf>, ErrorKind>> {
+            Poll::Ready(Err(ErrorKind::Bus))
+        }
+
+        fn end(&mut self) -> Result<(), ErrorKind> {
+            Err(ErrorKind::Other)
+        }
+
+        fn chains(&self) -> bool {
+            true
+        }
+    }
+
+    /// What a borrowed sink says. Kills: an answer that is not the sink's.
+    fn said<D: ScanoutDma<Error = ErrorKind, Buf = &'static mut [u16]>>(mut sink: D) {
+        let window = Window {
+            x: 0,
+            y: 0,
+            width: 1,
+            height: 1,
+        };
+        assert_eq!(sink.begin(window), Err(ErrorKind::Sequence));
+        let started = sink.start(&mut [], 0).map_err(|(error, _)| error);
+        assert_eq!(started, Err(ErrorKind::Length));
+        assert!(matches!(sink.poll(), Poll::Ready(Err(ErrorKind::Bus))));
+        assert_eq!(sink.end(), Err(ErrorKind::Other));
+        assert!(sink.chains());
+    }
+
+    #[test]
+    fn a_borrowed_sink_is_the_sink() {
+        said(&mut Refuses);
+    }
+}
