@@ -114,6 +114,7 @@ fn run(scenes: &[Scene<'_, 'static, L>], run: &Run) -> (Vec<Sent>, u32) {
     let words = usize::from(WIDTH * run.per_transfer);
     let mut pump = Pump::new(sink, [HostLine::new(words), HostLine::new(words)]);
     let (asked, waits) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let woken = AtomicUsize::new(0);
     let wait = || {
         std::thread::yield_now();
         waits.fetch_add(1, Ordering::Relaxed) < PATIENCE
@@ -138,7 +139,10 @@ fn run(scenes: &[Scene<'_, 'static, L>], run: &Run) -> (Vec<Sent>, u32) {
         let (mut renderer, mut frames) = (near.renderer(), Vec::new());
         for (number, scene) in scenes.iter().enumerate() {
             while asked.load(Ordering::Acquire) <= number && wait() {}
-            let peer = Peer { wait, wake: &|| () };
+            let wake = || {
+                woken.fetch_add(1, Ordering::Relaxed);
+            };
+            let peer = Peer { wait, wake: &wake };
             let sent = draw_frame_shared(
                 scene,
                 &mut renderer,
@@ -150,6 +154,8 @@ fn run(scenes: &[Scene<'_, 'static, L>], run: &Run) -> (Vec<Sent>, u32) {
             );
             let shown = pump.sink().frame();
             frames.push(sent.map(|_| shown.expect("a frame that was sent is whole")));
+            // Each frame's end is told. Kills: answers that wake nobody.
+            assert!(woken.swap(0, Ordering::Relaxed) > 0, "frame {number}");
         }
         (frames, helps.join().expect("the worker was not given up"))
     })
