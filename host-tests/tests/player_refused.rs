@@ -10,6 +10,7 @@ use scanbeam::input::{OnViolation, Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{
     Budget, CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListError,
     ListRing, Material, Missing, Overlay, Palette, Reason, State, TexelForm, VertexFormat, Window,
+    Words,
 };
 use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::Rgb565Be;
@@ -373,11 +374,8 @@ fn a_ring_is_played_as_it_grows() {
     assert!(got == want);
 }
 
-/// Kills: no event, or another value.
-#[test]
-fn what_is_malformed_is_an_event_without_a_value() {
-    let mut list = triangle(0);
-    list.push(0x0200_0000u32.to_le());
+/// The events of a list that is refused, with their values.
+fn events<'t>(list: impl Words<'t>) -> Vec<(Event, u32)> {
     let mut kept = Kept::new(64, 96);
     let mut player = kept.player::<Smooth>(PlayerSettings::default());
     let mut told = Vec::new();
@@ -385,9 +383,22 @@ fn what_is_malformed_is_an_event_without_a_value() {
         player.start(0);
         let tell = &mut |notice: Notice| told.push((notice.event, notice.value));
         let mut budget = PLENTY;
-        assert!(player.run(&list[..], scene, &mut budget, tell).is_err());
+        assert!(player.run(list, scene, &mut budget, tell).is_err());
     });
-    assert_eq!(told, [(Event::Malformed, 0)]);
+    told
+}
+
+/// In place a list is looked at before it is drawn, in a ring while it is. Kills: no event, or another value.
+#[test]
+fn what_is_malformed_is_an_event_without_a_value() {
+    let mut list = triangle(0);
+    list.push(0x0200_0000u32.to_le());
+    assert_eq!(events(&list[..]), [(Event::Malformed, 0)]);
+    let mut memory: Vec<AtomicU32> = (0..64).map(|_| AtomicU32::new(0)).collect();
+    let mut ring = ListRing::new(&mut memory);
+    let (mut writer, reader) = ring.split();
+    writer.append(&list).unwrap();
+    assert_eq!(events(reader.words()).last(), Some(&(Event::Malformed, 0)));
 }
 
 /// Kills: blocks without vertices that cost some.

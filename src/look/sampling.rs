@@ -362,12 +362,14 @@ mod tests {
         assert!(cut > 90, "{cut}");
     }
 
-    /// Tells the level of each pixel.
-    fn level_told(run: &mut [u16], texture: &Texture<'_>, _: Way, _: Words) {
-        run.fill(8 - texture.log_width() as u16);
+    /// Tells the level of each pixel, and the base in texels of the finest level.
+    fn level_told(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
+        let level = 8 - texture.log_width();
+        run.fill((way.base[0] << level) as u16 + level as u16);
     }
 
-    /// Kills: a texture that is seen from its edge, or all of whose places lie on a line, is taken coarser than it is.
+    /// Kills: a texture that is seen from its edge, or all of whose places lie on a line, is taken coarser than it is; a base
+    /// that is not in texels of the level.
     #[test]
     fn places_on_a_line_have_the_finest_level() {
         const TEXELS: &[u16] = &[0; 1 << 16];
@@ -387,7 +389,7 @@ mod tests {
                 words: Words::Numbers,
                 method: Method::Wide,
                 steps: 1,
-                base: [0; 2],
+                base: [64; 2],
                 planes: &[u, v, [0; 3]],
                 line: 0,
                 columns: 0..9,
@@ -395,7 +397,7 @@ mod tests {
             };
             let mut run = [9; 9];
             draw(&span, &mut run, level_told);
-            assert_eq!(run, [want; 9], "{across:?} {down:?}");
+            assert_eq!(run, [64 + want; 9], "{across:?} {down:?}");
         }
     }
 }
