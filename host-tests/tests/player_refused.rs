@@ -388,7 +388,7 @@ fn events<'t>(list: impl Words<'t>) -> Vec<(Event, u32)> {
     told
 }
 
-/// In place a list is looked at before it is drawn, in a ring while it is. Kills: no event, or another value.
+/// In place and in a ring. Kills: no event, or another value.
 #[test]
 fn what_is_malformed_is_an_event_without_a_value() {
     let mut list = triangle(0);
