@@ -1,8 +1,8 @@
 //! Numbers that a block cannot have are refused, and named with the word that they stand in (H13).
 
+use crate::listing::ring_memory;
 use host_tests::lists::writer::ListWriter;
 use scanbeam::list::*;
-use std::sync::atomic::AtomicU32;
 
 /// A block of a list on its own, as words.
 fn block(state: &State, data: &[u32]) -> Vec<u32> {
@@ -299,7 +299,7 @@ fn blocks_longer_than_their_ring_are_refused() {
     let matrix = block(&State::Matrix(MATRIX), &[]);
     let need = matrix.len() as u32;
     for room in [8, 16, 32] {
-        let mut memory: Vec<AtomicU32> = (0..room).map(|_| AtomicU32::new(0)).collect();
+        let mut memory = ring_memory(room);
         let mut ring = ListRing::new(&mut memory);
         let (mut writer, reader) = ring.split();
         let read = || {

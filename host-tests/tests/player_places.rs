@@ -1,7 +1,7 @@
 //! Lists with places of 32 bits that are played into the rooms: what the same calls draw (H11).
 
 use crate::common::Rng;
-use crate::listing::{PLENTY, unrolled};
+use crate::listing::{PLENTY, ring_memory, unrolled};
 use crate::played::{Kept, begun, drawn, played};
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::event::Notice;
@@ -15,7 +15,6 @@ use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Draw, Scene};
 use scanbeam::{Affine, Cull, Faces, Light, Mesh};
 use scenes::Played;
-use std::sync::atomic::AtomicU32;
 
 type Smooth = Gouraud<Rgb565Be>;
 
@@ -219,7 +218,7 @@ fn places_of_32_bits_are_what_the_same_calls_draw() {
             assert!(got == want, "seed {seed}, {room:?}");
         }
         // Through a ring tables are unpacked.
-        let mut ring: Vec<AtomicU32> = (0..8192).map(|_| AtomicU32::new(0)).collect();
+        let mut ring = ring_memory(8192);
         let mut ring = ListRing::new(&mut ring);
         let (mut into, from) = ring.split();
         into.append(list).unwrap();

@@ -1,6 +1,6 @@
 //! What a player refuses, and that nothing of such a list is drawn (H13, X7).
 
-use crate::listing::{PLENTY, triangle};
+use crate::listing::{PLENTY, ring_memory, triangle};
 use crate::played::lists::{after_a_triangle, draw_textured, texture};
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::ListWriter;
@@ -16,7 +16,6 @@ use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Draw, Scissor};
 use scenes::Played;
-use std::sync::atomic::AtomicU32;
 
 type Smooth = Gouraud<Rgb565Be>;
 type Skinned = Textured<Rgb565Be>;
@@ -343,7 +342,7 @@ fn a_ring_is_played_as_it_grows() {
         );
         assert!(scene.objects() > 20);
     });
-    let mut memory: Vec<AtomicU32> = (0..64).map(|_| AtomicU32::new(0)).collect();
+    let mut memory = ring_memory(64);
     let mut ring = ListRing::new(&mut memory);
     let (mut writer, mut reader) = ring.split();
     let mut kept = Kept::new(64, 96);
@@ -394,7 +393,7 @@ fn what_is_malformed_is_an_event_without_a_value() {
     let mut list = triangle(0);
     list.push(0x0200_0000u32.to_le());
     assert_eq!(events(&list[..]), [(Event::Malformed, 0)]);
-    let mut memory: Vec<AtomicU32> = (0..64).map(|_| AtomicU32::new(0)).collect();
+    let mut memory = ring_memory(64);
     let mut ring = ListRing::new(&mut memory);
     let (mut writer, reader) = ring.split();
     writer.append(&list).unwrap();

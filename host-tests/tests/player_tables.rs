@@ -1,7 +1,7 @@
 //! Quads, strips of quads and tables of lists that are played: what the same calls draw (H11, H16, K2, K15).
 
 use crate::common::Rng;
-use crate::listing::{Cloud, PLENTY, some_format, unrolled};
+use crate::listing::{Cloud, PLENTY, ring_memory, some_format, unrolled};
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{FieldPacker, Form, ListWriter};
 use scanbeam::input::PlayerSettings;
@@ -11,7 +11,6 @@ use scanbeam::mesh::QuadSplit;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Draw, Shading};
 use scanbeam::{Affine, Cull, Faces, Light, Mesh};
-use std::sync::atomic::AtomicU32;
 
 type Smooth = Gouraud<Rgb565Be>;
 
@@ -204,7 +203,7 @@ fn tables_are_indexed_meshes() {
             );
         }
         // In a ring nothing lies as bytes. Kills: indices behind the last whole word of them are left out.
-        let mut memory: Vec<AtomicU32> = (0..4096).map(|_| AtomicU32::new(0)).collect();
+        let mut memory = ring_memory(4096);
         let mut ring = ListRing::new(&mut memory);
         let (mut appended, reader) = ring.split();
         appended.append(list).unwrap();

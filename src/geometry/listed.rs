@@ -129,9 +129,9 @@ mod tests {
             far: 50.0,
         };
         for (lines, focal) in [(120, 150.0), (240, 300.0), (480, 600.0)] {
-            let of = |focal| Camera::look_at(words.eye, words.at, words.up, focal, 0.5, 50.0);
+            let CameraWords { near, far, .. } = words;
             let listed = Camera::listed(&words, lines).unwrap();
-            let want = of(focal).unwrap();
+            let want = Camera::look_at(words.eye, words.at, words.up, focal, near, far).unwrap();
             assert_eq!(std::format!("{listed:?}"), std::format!("{want:?}"));
         }
     }

@@ -292,9 +292,20 @@ mod tests {
         assert_eq!([99, 100, 101].map(|q| ends.level(q)), [1, 0, 0]);
     }
 
+    /// A texture of so many texels a side, as a power of two.
+    fn square(log: u32) -> Texture<'static> {
+        const TEXELS: &[u16] = &[0; 1 << 16];
+        Texture::words(&TEXELS[..1 << (2 * log)], 1 << log, 1 << log).unwrap()
+    }
+
+    /// Which level of a texture of 256 texels a side it is.
+    fn level_below(texture: &Texture<'_>) -> u32 {
+        8 - texture.log_width()
+    }
+
     /// Tells the place of each pixel, with the base, in units of 1/128 texel of the finest level.
     fn told(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
-        let level = 8 - texture.log_width();
+        let level = level_below(texture);
         for (i, word) in (0..).zip(run) {
             let at = way.at.u.wrapping_add(way.step.u.wrapping_mul(i));
             *word = ((at << level >> 12) + (way.base[0] << (level + 7))) as u16;
@@ -305,11 +316,8 @@ mod tests {
     /// span that has levels is reckoned to an end beyond it.
     #[test]
     fn ends_of_spans_of_several_levels_are_exact() {
-        const TEXELS: &[u16] = &[0; 1 << 16];
-        let level =
-            |log: u32| Texture::words(&TEXELS[..1 << (2 * log)], 1 << log, 1 << log).unwrap();
-        let coarser = [7, 6, 5, 4].map(level);
-        let texture = level(8).sampled(Sampling::NEAREST, &coarser).unwrap();
+        let coarser = [7, 6, 5, 4].map(square);
+        let texture = square(8).sampled(Sampling::NEAREST, &coarser).unwrap();
         let mut cut = 0;
         for far in 2..40 {
             let corner = |x: i32, y: i32, depth, texel| Corner {
@@ -364,7 +372,7 @@ mod tests {
 
     /// Tells the level of each pixel, and the base in texels of the finest level.
     fn level_told(run: &mut [u16], texture: &Texture<'_>, way: Way, _: Words) {
-        let level = 8 - texture.log_width();
+        let level = level_below(texture);
         run.fill((way.base[0] << level) as u16 + level as u16);
     }
 
@@ -372,11 +380,8 @@ mod tests {
     /// that is not in texels of the level.
     #[test]
     fn places_on_a_line_have_the_finest_level() {
-        const TEXELS: &[u16] = &[0; 1 << 16];
-        let level =
-            |log: u32| Texture::words(&TEXELS[..1 << (2 * log)], 1 << log, 1 << log).unwrap();
-        let coarser = [7, 6].map(level);
-        let texture = level(8).sampled(Sampling::NEAREST, &coarser).unwrap();
+        let coarser = [7, 6].map(square);
+        let texture = square(8).sampled(Sampling::NEAREST, &coarser).unwrap();
         for (across, down, want) in [
             ([4, 0], [0, 0], 0),
             ([4, 0], [0, 4], 2),

@@ -74,7 +74,7 @@ impl Triangle {
     }
 
     /// What is linear between the corners at a pixel, times `scale / whole`, rounded.
-    fn at(weights: [i64; 4], values: [u32; 3], scale: u32, whole: u32) -> i32 {
+    fn at(weights: [i64; 4], values: [u32; 3], (scale, whole): (u32, u32)) -> i32 {
         let sum = (0..3).fold(0, |sum, i| {
             sum + i128::from(weights[i]) * i128::from(values[i])
         });
@@ -89,9 +89,9 @@ impl Triangle {
         last: [i64; 4],
         pixels: i32,
         values: [u32; 3],
-        (scale, whole): (u32, u32),
+        scale: (u32, u32),
     ) -> [i32; 2] {
-        let [from, to] = [first, last].map(|w| i64::from(Self::at(w, values, scale, whole)));
+        let [from, to] = [first, last].map(|w| i64::from(Self::at(w, values, scale)));
         let steps = i64::from(pixels - 1).max(1);
         [
             from as i32,
@@ -117,10 +117,16 @@ impl Triangle {
         };
         [first, more(self.weights(1, 0)), more(self.weights(0, 1))].map(|weights| {
             [0, 1, 2].map(|i| {
-                let steps = u32::from(F::STEPS[i]) << FRACTION;
-                Self::at(weights, self.colour.map(|c| c[i].into()), steps, 255)
+                let (values, scale) = self.channel::<F>(i);
+                Self::at(weights, values, scale)
             })
         })
+    }
+
+    /// A channel at the corners, and what [`at`](Self::at) takes to have it in units of [`Colours`].
+    fn channel<F: Format>(&self, i: usize) -> ([u32; 3], (u32, u32)) {
+        let steps = u32::from(F::STEPS[i]) << FRACTION;
+        (self.colour.map(|c| c[i].into()), (steps, 255))
     }
 
     /// Colours and 1/w along a span that is not empty.
@@ -132,8 +138,8 @@ impl Triangle {
         );
         let along = |values, scale| Self::along(first, last, span.end - span.start, values, scale);
         let channels = [0, 1, 2].map(|i| {
-            let steps = u32::from(F::STEPS[i]) << FRACTION;
-            along(self.colour.map(|c| c[i].into()), (steps, 255))
+            let (values, scale) = self.channel::<F>(i);
+            along(values, scale)
         });
         let colours = Colours {
             at: channels.map(|[at, _]| at + (1 << (FRACTION - 1))),

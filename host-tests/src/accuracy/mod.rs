@@ -162,7 +162,8 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
 /// Instructions a pixel that are not told apart: ticks of the counter, and where code lies.
 const EQUAL_COST: f64 = 0.1;
 
-/// Pixels of a span, by which what it takes counts for each: spans of the teapot have 2.8 in the mean, those of the sphere 5.4.
+/// Pixels of a span, by which what it takes counts for each: spans of the teapot have 2.8 in the mean, those of the sphere
+/// 5.4.
 const SPAN: f64 = 4.0;
 
 /// Fills in what costs are compared by, and marks the rows that are on the frontier of it and largest error among their

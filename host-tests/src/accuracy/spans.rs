@@ -114,7 +114,7 @@ impl Subject {
     }
 
     /// The columns or lines of a picture that it may have pixels on.
-    pub(super) fn extent(&self, axis: fn(&Place) -> i32, size: u16) -> RangeInclusive<i32> {
+    fn extent(&self, axis: fn(&Place) -> i32, size: u16) -> RangeInclusive<i32> {
         let all = self.places.each_ref().map(axis);
         let (low, high) = all
             .iter()

@@ -4,12 +4,18 @@ use crate::common::Rng;
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use scanbeam::list::{Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat};
 use scanbeam::{Affine, Faces, Mesh};
+use std::sync::atomic::AtomicU32;
 
 pub const PLENTY: Budget = Budget {
     instructions: 1 << 20,
     vertices: 1 << 24,
     jumps: 1 << 10,
 };
+
+/// Memory of a ring of so many words.
+pub fn ring_memory(words: u32) -> Vec<AtomicU32> {
+    (0..words).map(|_| AtomicU32::new(0)).collect()
+}
 
 /// Vertices whose numbers every form of a format can hold.
 pub struct Cloud {

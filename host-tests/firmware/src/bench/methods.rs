@@ -38,6 +38,9 @@ const METHODS: [(&str, Method); 12] = [
 /// Lines after which colours are taken anew.
 const KEPT: [(&str, u16); 4] = [("kept1", 1), ("kept2", 2), ("kept3", 3), ("kept8", 8)];
 
+/// Colours of a triangle's corners: at the left of its top, at the right of it, and below.
+const ENDS: [[u8; 3]; 3] = [[255, 0, 30], [0, 200, 60], [90, 255, 255]];
+
 /// Spans of a triangle but for its first line's.
 const SPANS: usize = LINES as usize - 1;
 
@@ -78,9 +81,9 @@ pub(super) fn run(counter: &Counter, console: &mut Console) {
 
 /// The spans of a triangle that is so wide at its top. The slope of colours is that of the widest.
 fn spans<F: Format>(width: i32, widest: i32) -> [(Colours, usize); SPANS] {
-    let ends = [[255, 0, 30], [0, 200, 60], [90, 255, 255]];
     let level = |corner: usize, i: usize| {
-        i64::from(F::STEPS[i]) * (ends[corner][i] << FRACTION) / 255 + (1 << (FRACTION - 1))
+        i64::from(F::STEPS[i]) * (i64::from(ENDS[corner][i]) << FRACTION) / 255
+            + (1 << (FRACTION - 1))
     };
     core::array::from_fn(|line| {
         let left = LINES as i32 - 1 - line as i32;
@@ -130,7 +133,7 @@ fn kept(every: u16, width: i32, counter: &Counter) -> Run {
     let triangle = Triangle {
         place: [[0, 0], [8 * width, 0], [0, 8 * i32::from(LINES)]],
         depth: [1; 3],
-        colour: [[255, 0, 30], [0, 200, 60], [90, 255, 255]],
+        colour: ENDS,
     };
     let spans: [Span; SPANS] = core::array::from_fn(|line| {
         let line = line as u16;

@@ -10,10 +10,10 @@ use scanbeam::pixel::{Rgb565, Rgb888};
 /// Lines of the test triangles' picture.
 const LINES: u16 = 60;
 
-/// What planes differ from one pixel to another, in steps of a channel, and those steps at the first one.
-fn steps<F: Format>(triangle: &Triangle, channel: usize, at: &Span, column: i32) -> f64 {
+/// A channel at a column of a span's line, in steps of the format.
+fn steps<F: Format>(triangle: &Triangle, channel: usize, span: &Span, column: i32) -> f64 {
     let values = triangle.colour.map(|c| f64::from(c[channel]));
-    plane(triangle.place, values, column, at.line) * f64::from(F::STEPS[channel]) / 255.0
+    plane(triangle.place, values, column, span.line) * f64::from(F::STEPS[channel]) / 255.0
 }
 
 /// Holds a triangle's spans, each kept for so many lines, against f64; how many were kept, and how many taken anew since
