@@ -205,6 +205,56 @@ fn memory_that_is_too_short_is_named_and_nothing_is_drawn() {
     assert!(scene.draw(&call).is_err(), "there are three states");
 }
 
+/// Kills: an error that counts triangles where the call counted them already.
+#[test]
+fn what_closes_a_shadow_at_the_near_plane_needs_states_of_its_own() {
+    let mut closed = 0;
+    let worlds = (0..24).flat_map(|seed| {
+        [From::Behind, From::Beside].map(|from| world(&mut Rng::new(seed), 1, from))
+    });
+    for world in worlds {
+        let body = world.bodies.last().unwrap();
+        let done = [2, 3, 4].map(|states| {
+            let mut memory = SceneRooms::new(20_000, 8_000, 54, states);
+            let mut scene = memory.scene::<L>(screen());
+            scene.begin(&camera()).unwrap();
+            let done = throw(&mut scene, body, &world.lights[0], [1_000; 3]);
+            assert_eq!(scene.assembled().dropped, 0);
+            done
+        });
+        let full = Err(DrawError::Full {
+            memory: Full::Draws,
+            triangles: 0,
+            first_face: 0,
+        });
+        if done[0].is_err() {
+            assert_eq!(done, [full, full, Ok(())]);
+            closed += 1;
+        } else {
+            assert_eq!(done, [Ok(()); 3]);
+        }
+    }
+    assert!(closed > 4, "{closed}");
+}
+
+/// Kills: faces of the far side that are cut where none is.
+#[test]
+fn volumes_within_the_planes_are_not_cut() {
+    let world = world(&mut Rng::new(2), 1, From::Above);
+    let body = &world.bodies[0];
+    let mut memory = rooms(screen());
+    let mut scene = memory.scene::<L>(screen());
+    scene.begin(&camera()).unwrap();
+    let call = Draw {
+        model: body.model(),
+        shadow: Some(Shadow::Volume(0)),
+        ..Draw::new(body.mesh(&WHITE))
+    };
+    scene.draw(&call).unwrap();
+    assert!(scene.objects() > 0);
+    assert_eq!(scene.assembled().clipped, 0);
+}
+
 /// A triangle in the picture, whatever it is drawn as.
 fn triangle<'a>(mesh: Mesh<'a>, shadow: Option<Shadow>, priority: u8) -> Draw<'a, 'static> {
     Draw {

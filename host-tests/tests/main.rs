@@ -84,6 +84,7 @@ mod player_overlays;
 mod player_places;
 mod player_refused;
 mod player_screen;
+mod player_strips;
 mod player_tables;
 mod player_textures;
 mod player_told;

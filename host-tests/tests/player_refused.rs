@@ -10,7 +10,6 @@ use scanbeam::input::{OnViolation, Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{
     Budget, CameraWords, Field, FieldForm, Flow, Halt, Header, Id, Lent, LightWords, ListError,
     ListRing, Material, Missing, Overlay, Palette, Reason, State, TexelForm, VertexFormat, Window,
-    Words,
 };
 use scanbeam::look::{Gouraud, Look, Phong, Textured};
 use scanbeam::pixel::Rgb565Be;
@@ -373,31 +372,43 @@ fn a_ring_is_played_as_it_grows() {
     assert!(got == want);
 }
 
-/// The events of a list that is refused, with their values.
-fn events<'t>(list: impl Words<'t>) -> Vec<(Event, u32)> {
+/// In place, in a ring that is looked at as a whole, and behind what was drawn of one. Kills: no event, or another value.
+#[test]
+fn what_is_malformed_is_an_event_without_a_value() {
+    let bad = [0x0200_0000u32.to_le()];
+    let list = [&triangle(0)[..], &bad].concat();
     let mut kept = Kept::new(64, 96);
     let mut player = kept.player::<Smooth>(PlayerSettings::default());
     let mut told = Vec::new();
-    drawn::<Smooth>(|scene| {
-        player.start(0);
-        let tell = &mut |notice: Notice| told.push((notice.event, notice.value));
-        let mut budget = PLENTY;
-        assert!(player.run(list, scene, &mut budget, tell).is_err());
-    });
-    told
-}
-
-/// In place and in a ring. Kills: no event, or another value.
-#[test]
-fn what_is_malformed_is_an_event_without_a_value() {
-    let mut list = triangle(0);
-    list.push(0x0200_0000u32.to_le());
-    assert_eq!(events(&list[..]), [(Event::Malformed, 0)]);
     let mut memory = ring_memory(64);
     let mut ring = ListRing::new(&mut memory);
     let (mut writer, reader) = ring.split();
-    writer.append(&list).unwrap();
-    assert_eq!(events(reader.words()).last(), Some(&(Event::Malformed, 0)));
+    drawn::<Smooth>(|scene| {
+        let tell = &mut |notice: Notice| told.push((notice.event, notice.value));
+        let budget = &mut PLENTY.clone();
+        player.start(0);
+        assert!(player.run(&list[..], scene, budget, tell).is_err());
+        writer.append(&list).unwrap();
+        player.start(0);
+        assert!(player.run(reader.words(), scene, budget, tell).is_err());
+    });
+    assert_eq!(told, [(Event::Malformed, 0); 2]);
+    told.clear();
+    let mut memory = ring_memory(64);
+    let mut ring = ListRing::new(&mut memory);
+    let (mut writer, reader) = ring.split();
+    drawn::<Smooth>(|scene| {
+        let tell = &mut |notice: Notice| told.push((notice.event, notice.value));
+        let budget = &mut PLENTY.clone();
+        player.start(0);
+        writer.append(&triangle(0)).unwrap();
+        let halt = player.run(reader.words(), scene, budget, tell);
+        assert_eq!(halt, Ok(Halt::Waiting));
+        writer.append(&bad).unwrap();
+        assert!(player.run(reader.words(), scene, budget, tell).is_err());
+        assert!(scene.objects() > 0, "what stands before it was drawn");
+    });
+    assert_eq!(told.last(), Some(&(Event::Malformed, 0)));
 }
 
 /// Kills: blocks without vertices that cost some.

@@ -253,6 +253,32 @@ fn a_texture_is_made_once_for_each_palette() {
     });
 }
 
+/// Kills: masks of alphas for a palette without any, which take as much memory again.
+#[test]
+fn a_palette_without_alphas_takes_a_word_a_colour() {
+    let one = sample(&mut Rng::new(5), TexelForm::Index8, false);
+    let colours: Vec<u32> = one.colours.iter().map(|c| c | 0xFF00_0000).collect();
+    let mut memory = vec![0; 4096];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.bulk(&State::Texture(one.block), &one.words).unwrap();
+    let palette = Palette {
+        number: 2,
+        count: 256,
+        at: 0,
+    };
+    writer.bulk(&State::Palette(palette), &colours).unwrap();
+    draw_quad(&mut writer, 1, false);
+    writer.flow(Flow::End).unwrap();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player_with::<Skinned>(PlayerSettings::default(), 1, 256);
+    let picture = drawn::<Skinned>(|scene| {
+        player.start(0);
+        let halt = played(&mut player, writer.words(), scene, PLENTY);
+        assert_eq!(halt, Ok(Halt::End));
+    });
+    assert!(picture.iter().filter(|word| **word != 0).count() > 500);
+}
+
 /// Kills: texels that are copied where they are words of the panel already, and some that are not and are used as they lie.
 #[test]
 fn texels_of_the_panel_are_used_where_they_lie() {

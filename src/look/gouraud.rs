@@ -405,3 +405,19 @@ impl<F: PixelFormat> Look for Gouraud<F> {
         u32::MAX
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::is_flat;
+
+    /// Kills: a field that may change by more, or less, than the others.
+    #[test]
+    fn a_quarter_of_the_range_is_flat_in_each_field() {
+        for (level, flat) in [(0, true), (510, true), (514, false), (2047, false)] {
+            for light in [level << 21, level, level >> 1 << 11] {
+                assert_eq!(is_flat([0, 0, light]), flat, "{light:#x}");
+                assert_eq!(is_flat([light, 0, light]), flat, "{light:#x}");
+            }
+        }
+    }
+}

@@ -49,7 +49,7 @@ impl<'m, 't> State<'m, 't> {
             material,
             point_size: 1,
             texture: None,
-            is_stale: true,
+            is_stale: false,
         };
         state.cut(settings, None);
         state

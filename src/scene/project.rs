@@ -314,6 +314,30 @@ mod tests {
         assert!(worst_depth < 3e-5, "{worst_depth}");
     }
 
+    /// Kills: points on a plane that lie beyond it, or one unit beyond it that do not.
+    #[test]
+    fn planes_belong_to_what_is_seen() {
+        let screen = Screen::new(320, 240).unwrap();
+        let (o, ahead, up) = ([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
+        let camera = Camera::look_at(o, ahead, up, 200.0, 0.1, 2.0).unwrap();
+        let view = View::new(&camera, screen, &Affine::IDENTITY);
+        let at = |x: i32, y: i32, z: i32| view.beyond(Point { x, y, z });
+        assert_eq!([at(0, 0, view.near), at(0, 0, view.far)], [0, 0]);
+        let outside = [at(0, 0, view.near - 1), at(0, 0, view.far + 1)];
+        assert_eq!(outside, [beyond::NEAR, beyond::FAR]);
+        let z = view.near * 2;
+        let side = guard(z);
+        for (x, y, plane) in [
+            (1, 0, beyond::RIGHT),
+            (-1, 0, beyond::LEFT),
+            (0, 1, beyond::BOTTOM),
+            (0, -1, beyond::TOP),
+        ] {
+            assert_eq!(at(x * side, y * side, z), 0);
+            assert_eq!(at(x * (side + 1), y * (side + 1), z), plane);
+        }
+    }
+
     #[test]
     fn cameras_that_are_shifted_see_the_same_from_another_middle() {
         let screen = Screen::new(320, 240).unwrap();

@@ -47,9 +47,9 @@ fn drawn(faces: &[[u16; 3]]) -> (Result<(), DrawError>, [Vertex; 24], Assembled)
         None,
     );
     let assembled = scene.assembled();
-    if done.is_err() {
-        assert_eq!((scene.objects(), scene.vertices()), (0, 0));
-    }
+    let is_kept = done.is_ok() && assembled.culled < faces.len() as u32;
+    assert_eq!(scene.objects() > 0, is_kept);
+    assert_eq!(scene.vertices() > 0, is_kept);
     (done, vertices, assembled)
 }
 
@@ -73,4 +73,11 @@ fn an_index_beyond_the_mesh_is_an_error_also_behind_a_face_that_was_cut() {
     let (done, _, _) = drawn(&[[0, 1, 2], [0, 2, 4], [0, 1, 7]]);
     let index = MeshError::Index { face: 2 };
     assert_eq!(done, Err(DrawError::Mesh(index)));
+}
+
+/// Kills: vertices of a mesh that stay where none of its faces is seen.
+#[test]
+fn a_mesh_that_is_not_seen_leaves_no_vertices() {
+    let (done, _, assembled) = drawn(&[[2, 6, 5]]);
+    assert_eq!((done, assembled.culled), (Ok(()), 1));
 }
