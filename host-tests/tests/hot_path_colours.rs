@@ -218,3 +218,31 @@ fn large_triangles_are_a_step_from_exact() {
     large::<Gouraud<Rgb565>>(330, STEP);
     large::<Gouraud<Rgb888>>(331, LEVEL);
 }
+
+/// Kills: a colour that counts as even along a line where one channel changes across alone, or down alone.
+#[test]
+fn one_channel_that_changes_along_one_axis_is_a_step_from_exact() {
+    let mut seen = Seen::default();
+    let screen = Screen::new(96, 96).unwrap();
+    let mut rooms = SceneRooms::new(3, 1, 96, 1);
+    for size in [100, 300, 500, 700] {
+        for channel in 0..3 {
+            for bright in 0..3 {
+                let places = [(8, 8), (8 + size, 8), (8, 8 + size)];
+                let corner = |k: usize| {
+                    let mut colour = [0, 100, 0];
+                    colour[channel] = if k == bright { 255 } else { 0 };
+                    Corner {
+                        at: places[k],
+                        w: 1.0,
+                        colour,
+                    }
+                };
+                let one = [[0, 1, 2].map(corner)];
+                check::<Gouraud<Rgb565>>(&mut rooms, (screen, 4), &one, STEP, &mut seen);
+                check::<Gouraud<Rgb888>>(&mut rooms, (screen, 4), &one, LEVEL, &mut seen);
+            }
+        }
+    }
+    assert!(seen.pixels > 50_000, "{seen:?}");
+}

@@ -8,12 +8,14 @@ use crate::hot::exact::{doubled_area, within};
 use crate::hot::values::{
     Cut, FUNCTIONS, Function, HOLED, PLACES, WHITE, blended, draw_each, passes, some_corners,
 };
-use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf};
+use crate::hot::{
+    Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, position, scale,
+};
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{Blend, BlendMode, Budget, DepthTest, Draw, Scene, Shadow, Skin};
-use scanbeam::{Cull, Screen};
+use scanbeam::{Affine, Cull, Faces, Mesh, Screen};
 use std::cmp::Ordering;
 
 const BACKGROUND: [u8; 3] = [40, 0, 120];
@@ -385,4 +387,56 @@ fn many_volumes_over_each_other_are_counted() {
         }
     }
     assert!(tally.left_out == 0 && tally.shadowed > 2_000, "{tally:?}");
+}
+
+/// The first lines of calls behind so many objects that lie below them.
+fn first_lines(calls: &[Call], below: usize) -> Vec<Vec<[u8; 3]>> {
+    let screen = Screen::new(70, 60).unwrap();
+    let objects = below + calls.len();
+    let mut rooms = SceneRooms::new(3 * calls.len() + 3, objects, 60, 2 * calls.len() + 1);
+    let mut scene = rooms.scene::<Gouraud<Rgb888>>(screen);
+    scene.begin(&camera()).unwrap();
+    let corner = |at| Corner {
+        at,
+        w: 2.0,
+        colour: [9; 3],
+    };
+    let low = [(80, 400), (120, 400), (80, 440)].map(corner);
+    let scale = scale(screen, &low);
+    let positions = low.map(|c| position(screen, c.at, c.w, scale));
+    let faces = vec![[0, 1, 2]; below];
+    let mesh = Mesh {
+        positions: &positions,
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&faces),
+    };
+    let call = Draw {
+        model: Affine::placed(scale as f32, [0.0; 3]).unwrap(),
+        cull: Cull::None,
+        ..Draw::new(mesh)
+    };
+    scene.draw(&call).unwrap();
+    assert_eq!(scene.objects(), below);
+    for call in calls {
+        draw_with(&mut scene, &[call.corners], |draw| call.dress(draw, false)).unwrap();
+    }
+    let mut rooms = LineRooms::fitting(&scene, 128, true);
+    let mut renderer = rooms.with_shadows();
+    let line = |y| {
+        let mut pixels = vec![[0; 3]; screen.width().into()];
+        Gouraud::<Rgb888>::draw_line(&mut renderer, &scene, y, &mut pixels, BACKGROUND).unwrap();
+        pixels
+    };
+    (0..30).map(line).collect()
+}
+
+/// Kills: numbers of objects that run into what comes before them where it is sorted what is seen again.
+#[test]
+fn what_comes_late_in_a_scene_is_seen_again_as_well() {
+    let mut rng = Rng::new(1_903);
+    for _ in 0..12 {
+        let calls = Call::some(&mut rng, Screen::new(70, 30).unwrap(), 12);
+        assert!(first_lines(&calls, 40_000) == first_lines(&calls, 1));
+    }
 }

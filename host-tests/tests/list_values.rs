@@ -365,3 +365,14 @@ fn parted_triangles_are_whole_and_begin_anew() {
         assert_eq!(read(header), Err(want), "{header:?}");
     }
 }
+
+/// Kills: points without a size.
+#[test]
+fn points_have_a_size() {
+    for (size, is_good) in [(0, false), (1, true), (255, true)] {
+        let list = block(&State::PointSize(size), &[]);
+        let read = read_block(&list[..], 0, &VertexFormat::default());
+        let is_refused = read.is_err_and(|error| matches!(error.reason, Reason::Count(_)));
+        assert_eq!(is_refused, !is_good, "{size}");
+    }
+}

@@ -432,3 +432,26 @@ fn what_has_no_vertices_costs_none() {
         );
     });
 }
+
+/// Kills: a list that goes on where its settings do not fit the look.
+#[test]
+fn what_does_not_fit_the_settings_stops_the_list() {
+    let mut kept = Kept::new(64, 96);
+    let settings = PlayerSettings {
+        draw: Draw {
+            light: Light::new([0.0, 0.0, 1.0], 0.2),
+            ..PlayerSettings::default().draw
+        },
+        ..PlayerSettings::default()
+    };
+    let mut player = kept.player::<Phong<Rgb565Be>>(settings);
+    let list = &triangle(0)[..];
+    drawn::<Phong<Rgb565Be>>(|scene| {
+        player.start(0);
+        let error = played(&mut player, list, scene, PLENTY).unwrap_err();
+        assert_eq!(error.reason, Reason::Missing(Missing::LightAtVertices));
+        let again = played(&mut player, list, scene, PLENTY);
+        assert_eq!(again, Ok(Halt::Stopped));
+        assert_eq!(scene.objects(), 0);
+    });
+}

@@ -101,6 +101,8 @@ fn listed(writer: &mut ListWriter<'_>) -> Vec<u16> {
     let mut kept = Kept::new(64, 96);
     let mut player = kept.player::<Smooth>(settings);
     let list: &'static [u32] = Vec::leak(writer.words().to_vec());
+    // Kills: a player that stands behind the first word before it is started.
+    assert_eq!(player.position(), 0);
     drawn::<Smooth>(|scene| {
         player.start(0);
         assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
@@ -184,4 +186,28 @@ fn vertices_on_the_screen_stand_between_others() {
         });
         assert!(got == want, "seed {seed}");
     }
+}
+
+/// Kills: a draw call for vertices that make no triangle.
+#[test]
+fn two_vertices_on_the_screen_are_no_call() {
+    let mut memory = vec![0; 64];
+    let mut writer = ListWriter::new(&mut memory);
+    let header = Header {
+        new: true,
+        ..Header::of(Id::Long, 2)
+    };
+    writer.vertices(header, &[0; 2]).unwrap();
+    writer.flow(Flow::End).unwrap();
+    let mut kept = Kept::new(64, 96);
+    let mut player = kept.player::<Smooth>(PlayerSettings::default());
+    drawn::<Smooth>(|scene| {
+        player.start(0);
+        assert_eq!(
+            played(&mut player, writer.words(), scene, PLENTY),
+            Ok(Halt::End)
+        );
+    });
+    let counts = player.counts();
+    assert_eq!((counts.vertices, counts.draws), (2, 0));
 }

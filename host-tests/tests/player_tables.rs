@@ -5,7 +5,7 @@ use crate::listing::{Cloud, PLENTY, ring_memory, some_format, unrolled};
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{FieldPacker, Form, ListWriter};
 use scanbeam::input::PlayerSettings;
-use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, ListRing, State, Words};
+use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, ListRing, Reason, State, Words};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::QuadSplit;
 use scanbeam::pixel::Rgb565Be;
@@ -218,5 +218,43 @@ fn tables_are_indexed_meshes() {
         }) {
             assert!(listed(list, call, (4, 9)) == want);
         }
+    }
+}
+
+/// Kills: the first index that a table does not have, far along in a strip.
+#[test]
+fn strips_of_tables_end_at_the_last_vertex() {
+    let mut rng = Rng::new(3);
+    let (format, place, normal) = some_format(&mut rng);
+    let cloud = Cloud::random(&mut rng, 40, place, normal);
+    for (index, wide, form) in [
+        (39, false, Form::Strip),
+        (40, false, Form::Strip),
+        (40, true, Form::Strip),
+        (40, false, Form::Fan),
+    ] {
+        let mut memory = vec![0; 4096];
+        let mut writer = ListWriter::new(&mut memory);
+        writer.state(&State::Format(format)).unwrap();
+        let header = Header {
+            shade: true,
+            ..Header::of(Id::Table, 40)
+        };
+        let words = cloud.columns(&format, header);
+        writer.vertices(header, &words).unwrap();
+        let order = [0, 1, 2, 3, 4, 5, index, 6].map(Some);
+        writer.indexed(Some(form), wide, order.into_iter()).unwrap();
+        writer.flow(Flow::End).unwrap();
+        let mut kept = Kept::new(64, 96);
+        let mut player = kept.player::<Smooth>(PlayerSettings::default());
+        drawn::<Smooth>(|scene| {
+            player.start(0);
+            let done = played(&mut player, writer.words(), scene, PLENTY);
+            let refused = Reason::Index { index, count: 40 };
+            match index {
+                40 => assert_eq!(done.unwrap_err().reason, refused),
+                _ => assert_eq!(done, Ok(Halt::End)),
+            }
+        });
     }
 }

@@ -14,8 +14,9 @@ use scanbeam::list::{
     TexelForm, Texture as TextureBlock,
 };
 use scanbeam::look::Textured;
+use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Xrgb8888};
-use scanbeam::scene::{Blend, Budget, Draw, Sampling, Shading, Skin, Texture};
+use scanbeam::scene::{Blend, Budget, Draw, Sampling, ScreenCorner, Shading, Skin, Texture};
 use scanbeam::{Cull, Faces, Light, Mesh};
 
 type Skinned = Textured<Rgb565Be>;
@@ -251,6 +252,64 @@ fn a_texture_is_made_once_for_each_palette() {
         assert_eq!(error.reason, Reason::Lent(Lent::Texels));
         assert_eq!(scene.objects(), 0);
     });
+}
+
+/// Kills: places down a texture that are half as far.
+#[test]
+fn vertices_on_the_screen_have_places_on_a_texture() {
+    let mut rng = Rng::new(21);
+    let sample = sample(&mut rng, TexelForm::Rgb565, false);
+    let places = [[40, 30], [700, 60], [60, 540], [690, 500u32]];
+    let corners = places.map(|place| (place, [(); 2].map(|()| rng.below(1 << 14))));
+    let mut memory = vec![0; 4096];
+    let mut writer = ListWriter::new(&mut memory);
+    writer
+        .bulk(&State::Texture(sample.block), &sample.words)
+        .unwrap();
+    let material = Material {
+        texture: Some(1),
+        two_sided: true,
+        ..Material::default()
+    };
+    writer.state(&State::Material(material)).unwrap();
+    let header = Header {
+        text: true,
+        new: true,
+        ..Header::of(Id::Long, 4)
+    };
+    let words = corners.map(|([x, y], [u, v])| [y << 16 | x, v << 16 | u]);
+    writer.vertices(header, words.as_flattened()).unwrap();
+    writer.flow(Flow::End).unwrap();
+    let words = sample.holed(0);
+    let texture = sample.texture(&words);
+    let [w, h] = [texture.width(), texture.height()];
+    let of = |i: usize| {
+        let ([x, y], [u, v]) = corners[i];
+        ScreenCorner {
+            vertex: ScreenVertex {
+                x: x as i16,
+                y: y as i16,
+                depth: 1 << 31,
+                colour: [255; 3],
+            },
+            texel: [(u * w) as i32 >> 4, (v * h) as i32 >> 4],
+        }
+    };
+    let want = drawn::<Skinned>(|scene| {
+        let call = Draw {
+            cull: Cull::None,
+            texture: Some(Skin {
+                texture: &texture,
+                places: &[],
+                budget: Budget::FAST,
+            }),
+            ..PlayerSettings::default().draw
+        };
+        let faces = [[0, 1, 2], [2, 1, 3]];
+        scene.draw_screen(&call, &faces.map(|f| f.map(of))).unwrap();
+    });
+    assert!(want.iter().filter(|word| **word != 0).count() > 500);
+    assert!(listed(writer.words(), 8) == want);
 }
 
 /// Kills: masks of alphas for a palette without any, which take as much memory again.

@@ -6,6 +6,7 @@ use std::task::{Context, Poll, Waker};
 
 use crate::glass::{Broken, Bus, Glass, Nothing, Pin, Sent, Shared, Target};
 use embedded_graphics_core::pixelcolor::{Rgb565, raw::RawU16};
+use mipidsi::interface::Interface as _;
 use mipidsi::models::ILI9341Rgb565;
 use mipidsi::options::{Orientation, Rotation};
 use scanbeam::scan_out::{
@@ -192,6 +193,11 @@ fn panels_of_mipidsi() {
     let display = pump.sink_mut().writer_mut().display_mut();
     display.set_pixel(300, 200, Rgb565::new(31, 0, 1)).unwrap();
     assert_eq!(glass.borrow().shown[200 * 320 + 300], Some(0xF801));
+    // Kills: one byte that is left is not sent.
+    let mut wire = &wire;
+    wire.send_command(0, &[]).unwrap();
+    wire.send_pixels([[0xAB]]).unwrap();
+    assert_eq!(glass.borrow().sent.last(), Some(&data(&[0xAB])));
 }
 
 #[test]

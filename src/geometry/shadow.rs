@@ -240,3 +240,21 @@ impl Extrusion {
         Ok(&mut edges[..kept])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Kills: other limits of how far a shadow reaches.
+    #[test]
+    fn shadows_reach_a_power_of_two_of_1_to_12() {
+        for (said, reach) in [(0, 1), (1, 1), (2, 2), (12, 12), (13, 12), (255, 12)] {
+            let light = ShadowLight {
+                light: 0,
+                direction: [I2F14::ZERO, I2F14::ONE, I2F14::ZERO],
+                reach: said,
+            };
+            assert_eq!(Extrusion::new(&light, &Affine::IDENTITY).reach, reach);
+        }
+    }
+}

@@ -67,3 +67,29 @@ pub(super) fn shade_at(course: &Course, pixels: u32) -> [Shade; 2] {
     };
     [shade, step]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Course, STEEP, shade_at};
+
+    /// Kills: a shade that is just steep counts as one that is not.
+    #[test]
+    fn a_pixel_alone_in_a_steep_shade_has_that_of_its_place() {
+        let alone = |step: i32, pixels: u32| {
+            let course = Course {
+                value: [1 << 28; 3],
+                step: [step, 0, 0],
+                packed: 0,
+            };
+            shade_at(&course, pixels)[0].red_blue
+        };
+        let steep = STEEP << 15;
+        for step in [steep, steep + 1, i32::MAX, -steep - 1, i32::MIN] {
+            assert_eq!(alone(step, 1), alone(0, 1), "{step}");
+            assert_ne!(alone(step, 2), alone(0, 1), "{step}");
+        }
+        for step in [steep - 1, -steep] {
+            assert_ne!(alone(step, 1), alone(0, 1), "{step}");
+        }
+    }
+}

@@ -119,5 +119,8 @@ mod tests {
                 }
             }
         }
+        let mut pixels = [7; 4];
+        let none = Canvas::<Rgb565>::new(&mut pixels, Point::zero(), 0);
+        assert_eq!(none.area.size, Size::zero());
     }
 }

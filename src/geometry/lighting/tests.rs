@@ -283,3 +283,38 @@ fn a_single_matt_light_is_lamberts() {
     }
     assert!(worst <= 1, "{worst}");
 }
+
+/// Kills: a light that grazes a surface counts as one behind it.
+#[test]
+fn a_light_that_grazes_a_surface_shines_in_it() {
+    let shines = |sine: i32| {
+        let mut lamps = [Lamp::default(); Lighting::MAX_LIGHTS];
+        lamps[0] = Lamp {
+            towards: [sine, 1 << 30, 0],
+            diffuse: [1 << 15; 3],
+            specular: [1 << 15; 3],
+        };
+        let base = Shine {
+            factor: [0; 3],
+            more: [0; 3],
+        };
+        let lamps = Lamps {
+            lamps,
+            count: 1,
+            shiny: true,
+            shininess: 1,
+            base,
+        };
+        lamps.shine([1 << 14, 0, 0], || [0, -1 << 15, 0]).more[0]
+    };
+    assert_eq!([-1, 0].map(shines), [0; 2]);
+    assert!((32_000..=1 << 15).contains(&shines(1)), "{}", shines(1));
+}
+
+/// Kills: vectors of one unit that are none.
+#[test]
+fn any_vector_fills_fifteen_bits() {
+    assert_eq!(fifteen_bits([1, 0, -1]), [1 << 14, 0, -1 << 14]);
+    assert_eq!(fifteen_bits([0, i32::MAX, 1]), [0, 1 << 15, 0]);
+    assert_eq!(fifteen_bits([0; 3]), [0; 3]);
+}
