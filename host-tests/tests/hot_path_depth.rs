@@ -454,3 +454,26 @@ fn last_of_equals<L: Smooth>(seed: u64) {
     }
     assert!(pixels > 50_000, "{pixels}");
 }
+
+/// Kills: one place too many in the order of slots before there is one.
+#[test]
+fn all_slots_may_meet_on_the_first_line() {
+    let mut rng = Rng::new(91);
+    let screen = Screen::new(200, 3).unwrap();
+    let triangles: Vec<_> = (0..128)
+        .map(|i| {
+            let left = rng.within(0, 1_000);
+            [(left, -10), (left + 500, -10), (left + 200, 90)].map(|at| Corner {
+                at,
+                w: rng.between(1.0, 3.0),
+                colour: colour(i % 64),
+            })
+        })
+        .collect();
+    with_scene::<L, _>(screen, &triangles, |scene| {
+        let want = frame(scene, 0, true, [0; 3]);
+        for slots in [32, 127, 128] {
+            assert!(frame(scene, slots, true, [0; 3]) == want, "{slots} slots");
+        }
+    });
+}

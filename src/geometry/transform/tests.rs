@@ -323,7 +323,7 @@ fn components_of_units_are_rounded_alike_on_both_sides() {
         let v = [0; 3].map(|_: u8| (rng.signed() * 1e9) as i64);
         let (near, length) = with_length(v);
         let exact = near.map(|c| (i128::from(c) << 31).div_euclid(length.max(1).into()));
-        let rounded = exact.map(|c| (c + 1 >> 1) as i64);
+        let rounded = exact.map(|c| ((c + 1) >> 1) as i64);
         assert_eq!(unit_q30(v), (length > 0).then_some(rounded), "{v:?}");
     }
 }
