@@ -274,7 +274,6 @@ impl<D: ScanoutDma> Pump<D> {
         while self.in_flight > 0 {
             self.wait_home_apart().map_err(|error| self.fail(error))?;
         }
-        self.put_back_filling();
         self.window = None;
         self.open = false;
         let closed = self.dma.end();
@@ -432,10 +431,7 @@ impl<D: ScanoutDma> Pump<D> {
     fn fail(&mut self, error: ScanError<D::Error>) -> ScanError<D::Error> {
         match error {
             // A wait has just been in vain. `begin` and `release` will wait again.
-            ScanError::Timeout { .. } => {
-                self.put_back_filling();
-                self.window = None;
-            }
+            ScanError::Timeout { .. } => self.window = None,
             // The first error is the one that tells; a second one shows again in `begin`.
             _ => {
                 let _ = self.recover();
