@@ -226,9 +226,9 @@ fn one_channel_that_changes_along_one_axis_is_a_step_from_exact() {
     let screen = Screen::new(96, 96).unwrap();
     let mut rooms = SceneRooms::new(3, 1, 96, 1);
     for size in [100, 300, 500, 700] {
+        let places = [(8, 8), (8 + size, 8), (8, 8 + size)];
         for channel in 0..3 {
             for bright in 0..3 {
-                let places = [(8, 8), (8 + size, 8), (8, 8 + size)];
                 let corner = |k: usize| {
                     let mut colour = [0, 100, 0];
                     colour[channel] = if k == bright { 255 } else { 0 };

@@ -9,7 +9,7 @@ use crate::hot::values::{
     Cut, FUNCTIONS, Function, HOLED, PLACES, WHITE, blended, draw_each, passes, some_corners,
 };
 use crate::hot::{
-    Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, position, scale,
+    Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, line, position, scale,
 };
 use crate::hot_path_depth::{bound, exact};
 use scanbeam::look::{Gouraud, Textured};
@@ -277,10 +277,7 @@ fn lines<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, step: usize) -> Vec<Ve
     for offset in (0..step).rev() {
         for y in scene.lines().skip(offset).step_by(step) {
             let background = L::Format::from_rgb8(BACKGROUND);
-            let mut pixels =
-                vec![L::Format::from_rgb8([90, 200, 10]); scene.screen().width().into()];
-            L::draw_line(&mut renderer, scene, y, &mut pixels, background).unwrap();
-            picture[usize::from(y)] = pixels;
+            picture[usize::from(y)] = line(&mut renderer, scene, y, background);
         }
     }
     picture
@@ -423,12 +420,9 @@ fn first_lines(calls: &[Call], below: usize) -> Vec<Vec<[u8; 3]>> {
     }
     let mut rooms = LineRooms::fitting(&scene, 128, true);
     let mut renderer = rooms.with_shadows();
-    let line = |y| {
-        let mut pixels = vec![[0; 3]; screen.width().into()];
-        Gouraud::<Rgb888>::draw_line(&mut renderer, &scene, y, &mut pixels, BACKGROUND).unwrap();
-        pixels
-    };
-    (0..30).map(line).collect()
+    (0..30)
+        .map(|y| line(&mut renderer, &scene, y, BACKGROUND))
+        .collect()
 }
 
 /// Kills: numbers of objects that run into what comes before them where it is sorted what is seen again.

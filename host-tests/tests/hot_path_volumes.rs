@@ -2,7 +2,7 @@
 //! refused. The worlds, and what rays say of them, are those of `shadow_world`.
 
 use crate::common::Rng;
-use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf};
+use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf, line};
 use crate::shadow_world::{ADDS, Body, DARK, From, LIT, WHITE, World, camera, many, screen, world};
 use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Phong, Textured};
@@ -77,14 +77,11 @@ fn rooms(screen: Screen) -> SceneRooms {
 fn lines<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, step: usize) -> Vec<Vec<WordOf<L>>> {
     let mut lines = LineRooms::fitting(scene, slots, true);
     let mut renderer = lines.with_shadows();
-    let width = usize::from(scene.screen().width());
     let mut picture = vec![Vec::new(); scene.lines().len()];
     let black = L::Format::from_rgb8([0; 3]);
     for offset in 0..step {
         for y in scene.lines().skip(offset).step_by(step) {
-            let mut pixels = vec![L::Format::from_rgb8([9, 200, 9]); width];
-            L::draw_line(&mut renderer, scene, y, &mut pixels, black).unwrap();
-            picture[usize::from(y)] = pixels;
+            picture[usize::from(y)] = line(&mut renderer, scene, y, black);
         }
     }
     picture

@@ -1,8 +1,10 @@
 //! Strips of lists that other blocks stand behind: all that was gathered of them is drawn, and nothing else (H7, H11).
 
 use crate::common::Rng;
+use crate::hot::NO_MESH;
 use crate::listing::{Cloud, PLENTY, some_format, unrolled};
 use crate::played::{HEIGHT, Kept, WIDTH, drawn, played};
+use crate::player_tables::listed;
 use host_tests::lists::writer::ListWriter;
 use scanbeam::input::PlayerSettings;
 use scanbeam::list::{Flow, Halt, Header, Id, State, VertexFormat};
@@ -88,25 +90,10 @@ fn some(rng: &mut Rng, count: u32) -> Vec<u16> {
     (0..count).map(|_| rng.below(COUNT) as u16).collect()
 }
 
-/// What a list draws.
-fn listed(writer: &mut ListWriter<'_>) -> Vec<u16> {
+/// What a list draws that ends here.
+fn ended(writer: &mut ListWriter<'_>) -> Vec<u16> {
     writer.flow(Flow::End).unwrap();
-    let settings = PlayerSettings {
-        draw: Draw {
-            cull: Cull::None,
-            ..PlayerSettings::default().draw
-        },
-        ..PlayerSettings::default()
-    };
-    let mut kept = Kept::new(64, 96);
-    let mut player = kept.player::<Smooth>(settings);
-    let list: &'static [u32] = Vec::leak(writer.words().to_vec());
-    // Kills: a player that stands behind the first word before it is started.
-    assert_eq!(player.position(), 0);
-    drawn::<Smooth>(|scene| {
-        player.start(0);
-        assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
-    })
+    listed(writer.words(), call(NO_MESH), (64, 96))
 }
 
 /// Kills: vertices of a strip that are points as well; quads of other corners than theirs.
@@ -123,7 +110,7 @@ fn quads_and_points_are_no_part_of_a_strip() {
             vertices.write(&mut writer, Id::Short, true, &first);
             vertices.write(&mut writer, between, false, &second);
             vertices.write(&mut writer, Id::Short, true, &third);
-            let got = listed(&mut writer);
+            let got = ended(&mut writer);
             let want = drawn::<Smooth>(|scene| {
                 vertices.strip(scene, &first);
                 if between == Id::Quads {
@@ -169,7 +156,7 @@ fn vertices_on_the_screen_stand_between_others() {
         });
         writer.vertices(header, words.as_flattened()).unwrap();
         vertices.write(&mut writer, Id::Short, true, &second);
-        let got = listed(&mut writer);
+        let got = ended(&mut writer);
         let want = drawn::<Smooth>(|scene| {
             vertices.strip(scene, &first);
             let triangle = corners.map(|vertex| ScreenCorner {

@@ -5,7 +5,9 @@ use crate::listing::{Cloud, PLENTY, ring_memory, some_format, unrolled};
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::{FieldPacker, Form, ListWriter};
 use scanbeam::input::PlayerSettings;
-use scanbeam::list::{FieldForm, Flow, Halt, Header, Id, ListRing, Reason, State, Words};
+use scanbeam::list::{
+    FieldForm, Flow, Halt, Header, Id, ListRing, Reason, State, VertexFormat, Words,
+};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::QuadSplit;
 use scanbeam::pixel::Rgb565Be;
@@ -27,7 +29,7 @@ fn some_call(rng: &mut Rng) -> Draw<'static, 'static> {
 }
 
 /// What a list draws, with memory for so many vertices and indices.
-fn listed<'t>(
+pub fn listed<'t>(
     list: impl Words<'t>,
     draw: Draw<'static, 'static>,
     (vertices, indices): (usize, usize),
@@ -38,10 +40,22 @@ fn listed<'t>(
     };
     let mut kept = Kept::new(vertices, indices);
     let mut player = kept.player::<Smooth>(settings);
+    // Kills: a player that stands behind the first word before it is started.
+    assert_eq!(player.position(), 0);
     drawn::<Smooth>(|scene| {
         player.start(0);
         assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
     })
+}
+
+/// Writes a cloud as a table.
+fn write_table(writer: &mut ListWriter<'_>, cloud: &Cloud, format: &VertexFormat) {
+    let header = Header {
+        shade: true,
+        ..Header::of(Id::Table, cloud.positions.len() as u16)
+    };
+    let words = cloud.columns(format, header);
+    writer.vertices(header, &words).unwrap();
 }
 
 #[test]
@@ -157,13 +171,7 @@ fn tables_are_indexed_meshes() {
         let mut memory = vec![0; 4096];
         let mut writer = ListWriter::new(&mut memory);
         writer.state(&State::Format(format)).unwrap();
-        let header = Header {
-            shade: true,
-            ..Header::of(Id::Table, count as u16)
-        };
-        writer
-            .vertices(header, &cloud.columns(&format, header))
-            .unwrap();
+        write_table(&mut writer, &cloud, &format);
         let mut faces = Vec::new();
         for _ in 0..1 + rng.below(4) {
             let form = rng.pick(&[None, Some(Form::Strip), Some(Form::Fan)]);
@@ -236,12 +244,7 @@ fn strips_of_tables_end_at_the_last_vertex() {
         let mut memory = vec![0; 4096];
         let mut writer = ListWriter::new(&mut memory);
         writer.state(&State::Format(format)).unwrap();
-        let header = Header {
-            shade: true,
-            ..Header::of(Id::Table, 40)
-        };
-        let words = cloud.columns(&format, header);
-        writer.vertices(header, &words).unwrap();
+        write_table(&mut writer, &cloud, &format);
         let order = [0, 1, 2, 3, 4, 5, index, 6].map(Some);
         writer.indexed(Some(form), wide, order.into_iter()).unwrap();
         writer.flow(Flow::End).unwrap();

@@ -30,14 +30,19 @@ const CORNERS: [[i32; 2]; 4] = [
 ];
 const SIDES: [[i32; 2]; 4] = [[0, 9_000], [11_000, 9_000], [11_000, 0], [0, 0]];
 
-/// A quad with the texture of a number, with PRSP or not.
-fn draw_quad(writer: &mut ListWriter<'_>, number: u8, prsp: bool) {
+/// A material with the texture of a number, seen from both sides.
+fn wear(writer: &mut ListWriter<'_>, number: u8) {
     let material = Material {
         texture: Some(number),
         two_sided: true,
         ..Material::default()
     };
     writer.state(&State::Material(material)).unwrap();
+}
+
+/// A quad with the texture of a number, with PRSP or not.
+fn draw_quad(writer: &mut ListWriter<'_>, number: u8, prsp: bool) {
+    wear(writer, number);
     draw_quad_again(writer, prsp);
 }
 
@@ -266,12 +271,7 @@ fn vertices_on_the_screen_have_places_on_a_texture() {
     writer
         .bulk(&State::Texture(sample.block), &sample.words)
         .unwrap();
-    let material = Material {
-        texture: Some(1),
-        two_sided: true,
-        ..Material::default()
-    };
-    writer.state(&State::Material(material)).unwrap();
+    wear(&mut writer, sample.block.number);
     let header = Header {
         text: true,
         new: true,
@@ -315,25 +315,12 @@ fn vertices_on_the_screen_have_places_on_a_texture() {
 /// Kills: masks of alphas for a palette without any, which take as much memory again.
 #[test]
 fn a_palette_without_alphas_takes_a_word_a_colour() {
-    let one = sample(&mut Rng::new(5), TexelForm::Index8, false);
-    let colours: Vec<u32> = one.colours.iter().map(|c| c | 0xFF00_0000).collect();
-    let mut memory = vec![0; 4096];
-    let mut writer = ListWriter::new(&mut memory);
-    writer.bulk(&State::Texture(one.block), &one.words).unwrap();
-    let palette = Palette {
-        number: 2,
-        count: 256,
-        at: 0,
-    };
-    writer.bulk(&State::Palette(palette), &colours).unwrap();
-    draw_quad(&mut writer, 1, false);
-    writer.flow(Flow::End).unwrap();
+    let list = &sample(&mut Rng::new(5), TexelForm::Index8, false).list(false)[..];
     let mut kept = Kept::new(64, 96);
     let mut player = kept.player_with::<Skinned>(PlayerSettings::default(), 1, 256);
     let picture = drawn::<Skinned>(|scene| {
         player.start(0);
-        let halt = played(&mut player, writer.words(), scene, PLENTY);
-        assert_eq!(halt, Ok(Halt::End));
+        assert_eq!(played(&mut player, list, scene, PLENTY), Ok(Halt::End));
     });
     assert!(picture.iter().filter(|word| **word != 0).count() > 500);
 }

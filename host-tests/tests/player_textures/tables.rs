@@ -27,12 +27,7 @@ fn a_table_has_places_on_each_of_its_textures() {
             if number == 1 || again {
                 write_table(&mut writer);
             }
-            let material = Material {
-                texture: Some(number),
-                two_sided: true,
-                ..Material::default()
-            };
-            writer.state(&State::Material(material)).unwrap();
+            wear(&mut writer, number);
             writer
                 .indexed(None, false, face.map(Some).into_iter())
                 .unwrap();
@@ -55,12 +50,7 @@ fn what_is_drawn_between_leaves_a_table_its_places() {
         let mut writer = ListWriter::new(&mut memory);
         writer.bulk(&State::Texture(block), &texels).unwrap();
         write_table(&mut writer);
-        let material = Material {
-            texture: Some(block.number),
-            two_sided: true,
-            ..Material::default()
-        };
-        writer.state(&State::Material(material)).unwrap();
+        wear(&mut writer, block.number);
         let indexed = |writer: &mut ListWriter<'_>, face: [u16; 3]| {
             let face = face.map(Some).into_iter();
             writer.indexed(None, false, face).unwrap();
@@ -112,12 +102,7 @@ fn strips_in_parts_have_the_places_of_whole_ones() {
     let mut memory = vec![0; 2048];
     let mut writer = ListWriter::new(&mut memory);
     writer.bulk(&State::Texture(block), &texels).unwrap();
-    let material = Material {
-        texture: Some(block.number),
-        two_sided: true,
-        ..Material::default()
-    };
-    writer.state(&State::Material(material)).unwrap();
+    wear(&mut writer, block.number);
     let header = Header {
         text: true,
         new: true,

@@ -62,7 +62,7 @@ pub struct Pump<D: ScanoutDma> {
     dma: D,
     /// Buffers that are home and not being filled, in no order.
     idle: [Option<D::Buf>; PUMP_BUFFERS],
-    /// The buffer of the band that is being filled.
+    /// The buffer of the band that is being filled; what a frame left there is put back as the next one begins.
     filling: Option<D::Buf>,
     /// First lines of the bands that the sink has, oldest first; `in_flight` of them count.
     flights: [u16; PUMP_BUFFERS],
