@@ -1,4 +1,4 @@
-//! A triangle in a slot of the cache: 68 bytes with smooth colours.
+//! A triangle in a slot of the cache: 64 bytes with smooth colours.
 
 use crate::look::Fill;
 use crate::span::{Sides, Way};

@@ -88,9 +88,15 @@ impl Affine {
             }
         }
         let moved = next.linear_times(self.offset);
+        // What turns or scales alone moves nothing.
+        let offset = if next.offset.is_zero() {
+            moved
+        } else {
+            add(moved, next.offset)
+        };
         Self {
             linear: Block::new(linear, next.linear.exponent + self.linear.exponent - 30),
-            offset: add(moved, next.offset),
+            offset,
         }
     }
 

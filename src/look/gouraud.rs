@@ -23,8 +23,43 @@ use core::marker::PhantomData;
 pub struct Gouraud<F>(PhantomData<F>);
 
 /// What a triangle keeps of its colours. Plain: one word at the picture's first pixel, its steps across and
-/// down. Small: the same of red and blue, then of green, then the packed step. Wide: the same of red, green and blue.
-pub type Planes = [u32; 9];
+/// down. Small: the same of red and blue, then of green, then the packed step. Wide: see [`keep_wide`].
+pub type Planes = [u32; 8];
+
+/// Bits of a plane's value at the first pixel that [`Fill::Wide`] has for others: what is left has 11 fraction bits and more.
+const LENT: u32 = (1 << 10) - 1;
+
+/// Keeps three planes, each a value at the picture's first pixel and its steps across and down, in eight words: the
+/// last step down lies in the lowest bits of the values.
+#[inline(always)]
+fn keep_wide(of: [[u32; 3]; 3], planes: &mut Planes) {
+    let [[red, rx, ry], [green, gx, gy], [blue, bx, by]] = of;
+    let lent = |value: u32, bits: u32| value & !LENT | bits & LENT;
+    *planes = [
+        lent(red, by >> 22),
+        rx,
+        ry,
+        lent(green, by >> 12),
+        gx,
+        gy,
+        lent(blue, by >> 2),
+        bx,
+    ];
+}
+
+/// Three planes of [`Fill::Wide`] at a place, and their steps across.
+#[inline(always)]
+pub(super) fn wide_at(planes: &Planes, place: Place) -> [[u32; 3]; 2] {
+    let [red, rx, ry, green, gx, gy, blue, bx] = *planes;
+    let by = red << 22 | (green & LENT) << 12 | (blue & LENT) << 2;
+    let at = |value: u32, across: u32, down: u32| {
+        value
+            .wrapping_add(across.wrapping_mul(place.column))
+            .wrapping_add(down.wrapping_mul(place.line))
+    };
+    let value = [at(red, rx, ry), at(green, gx, gy), at(blue, bx, by)];
+    [value, [rx, gx, bx]]
+}
 
 /// Red, green and blue of a word of colour: 11, 11 and 10 bits.
 #[inline(always)]
@@ -92,7 +127,7 @@ impl<F: PixelFormat> Gouraud<F> {
             }
             mean[i] = (low + high) >> 1;
         }
-        *planes = [0; 9];
+        *planes = [0; 8];
         if F::MADE_OF.is_one_word() {
             planes[0] = ((mean[0] << 21) | (mean[2] << 11) | mean[1]) as u32;
             return Some(Fill::Plain);
@@ -205,13 +240,10 @@ pub(super) fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
             packed: planes[6],
         };
     }
-    let step = [planes[1] as i32, planes[4] as i32, planes[7] as i32];
+    let [value, step] = wide_at(planes, place);
+    let step = step.map(|step| step as i32);
     Course {
-        value: [
-            at(planes, 0, place),
-            at(planes, 3, place),
-            at(planes, 6, place),
-        ],
+        value,
         step,
         packed: packed_step(step, [20, 20, 21]),
     }
@@ -256,15 +288,14 @@ fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
         return false;
     };
     let corners = triangle.vertex.map(|v| wide_fields(v.colour));
-    for i in 0..3 {
+    let mut three = [[0; 3]; 3];
+    for (i, to) in three.iter_mut().enumerate() {
         let Some(plane) = area.plane(corners.map(|c| c[i] as i32)) else {
             return false;
         };
-        let plane = triangle.in_picture(plane);
-        if let Some(three) = planes.get_mut(3 * i..3 * i + 3) {
-            three.copy_from_slice(&plane);
-        }
+        *to = triangle.in_picture(plane);
     }
+    keep_wide(three, planes);
     true
 }
 
@@ -293,12 +324,12 @@ pub(super) fn wide_shades(triangle: &Triangle<'_>, planes: &mut Planes) -> Fill 
 /// Planes of a thin triangle on one line, for [`Fill::Wide`].
 pub(super) fn thin_shades(span: &ThinSpan<'_>, planes: &mut Planes) {
     let corners = span.triangle.vertex.map(|v| wide_fields(v.colour));
-    for i in 0..3 {
+    let mut three = [[0; 3]; 3];
+    for (i, to) in three.iter_mut().enumerate() {
         let [at, step] = span.line(corners.map(|c| i64::from(c[i])));
-        if let Some(three) = planes.get_mut(3 * i..3 * i + 3) {
-            three.copy_from_slice(&[at, step, 0]);
-        }
+        *to = [at, step, 0];
     }
+    keep_wide(three, planes);
 }
 
 /// Whether no field changes by more than a quarter of its range from the first corner on.
@@ -335,7 +366,7 @@ fn packed_step(step: [i32; 3], below: [u32; 3]) -> u32 {
 impl<F: PixelFormat> Look for Gouraud<F> {
     type Pixel = F;
     type Planes = Planes;
-    const EMPTY: Planes = [0; 9];
+    const EMPTY: Planes = [0; 8];
     const TEXTURED: bool = false;
     const SCALE: Scale = Scale::new(F::STEPS);
 
@@ -408,7 +439,9 @@ impl<F: PixelFormat> Look for Gouraud<F> {
 
 #[cfg(test)]
 mod tests {
-    use super::is_flat;
+    use super::{is_flat, keep_wide, wide_at};
+    use crate::look::Place;
+    use crate::num::random::Rng;
 
     /// Kills: a field that may change by more, or less, than the others.
     #[test]
@@ -419,5 +452,39 @@ mod tests {
                 assert_eq!(is_flat([light, 0, light]), flat, "{light:#x}");
             }
         }
+    }
+    /// Kills: a word or a bit in the place of another, and bits that are lent from what is multiplied.
+    #[test]
+    fn nine_words_in_eight_are_planes_with_eleven_bits_fewer() {
+        let mut rng = Rng(5);
+        let mut most = 0;
+        for _ in 0..20_000 {
+            let of: [[u32; 3]; 3] = [(); 3].map(|()| [(); 3].map(|()| rng.bits()));
+            let mut planes = [0; 8];
+            keep_wide(of, &mut planes);
+            let (column, line) = (rng.below(1023), rng.below(1023));
+            let [value, step] = wide_at(
+                &planes,
+                Place {
+                    span: 0,
+                    end: 1023,
+                    column,
+                    line,
+                },
+            );
+            for i in 0..3 {
+                let [at, across, down] = of[i];
+                assert_eq!(step[i], across);
+                let moved = across
+                    .wrapping_mul(column)
+                    .wrapping_add(down.wrapping_mul(line));
+                let off = value[i].wrapping_sub(at.wrapping_add(moved)) as i32;
+                // A field's unit is 2^20, or 2^21: below 1/200 of it.
+                let limit = if i == 2 { 1023 + 3 * 1023 } else { 1023 };
+                assert!(off.abs() <= limit, "{off} of {i}");
+                most = most.max(off.abs());
+            }
+        }
+        assert!(most > 3500, "{most}");
     }
 }

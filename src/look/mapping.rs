@@ -54,11 +54,20 @@ pub struct Mapping {
     /// How many pixels of a span are drawn with exact places at its ends alone: that, or none where the texture or the
     /// budget does not allow places in one word.
     pub quick: u8,
-    /// Whole texels to the right and down that come on top of what the planes give.
-    pub base: [i32; 2],
+    /// What comes on top of what the planes give, to the right and down, in steps of [`GRAIN`] texels.
+    pub base: [i16; 2],
     /// Value at the picture's first pixel, step to the right, step down: u or u/w or both of u and v
     /// in a word, then v or v/w, then 1/w.
     pub planes: [[u32; 3]; 3],
+}
+
+/// Texels of a step of a base, as a power of two: places have 18 bits before the point.
+const GRAIN: u32 = 3;
+
+/// A base in texels.
+#[inline(always)]
+pub fn texels_of(base: [i16; 2]) -> [i32; 2] {
+    base.map(|steps| i32::from(steps) << GRAIN)
 }
 
 /// Spans of a mapping that are drawn at one go.
@@ -78,7 +87,7 @@ pub struct Values {
     /// [`Method::Wide`] or [`Method::Perspective`].
     pub method: Method,
     /// As in [`Mapping`].
-    pub base: [i32; 2],
+    pub base: [i16; 2],
     /// Of each plane, the values at the corners.
     pub of: [[i32; 3]; 3],
     /// On each axis, the least and the most of the places at the corners, as in [`Uv`].
@@ -124,9 +133,10 @@ impl Values {
             let [low, high] = ways[axis];
             let first = corners[0].texel[axis];
             let middle = first.wrapping_add((low + high) >> 1) >> 14;
-            let grain = 1 << log.min(8);
-            base[axis] = middle.wrapping_add(grain >> 1) & -grain;
-            let least = first.wrapping_add(low).wrapping_sub(base[axis] << 14);
+            let grain = 1 << log.clamp(GRAIN, 8);
+            let near = middle.wrapping_add(grain >> 1) & -grain;
+            base[axis] = (near >> GRAIN) as i16;
+            let least = first.wrapping_add(low).wrapping_sub(near << 14);
             // Below 2,177 texels, 19 fraction bits. 32 bits do not hold a rise of 4,096, so that it is 2^-14 less.
             for (value, corner) in of[axis].iter_mut().zip(corners) {
                 let rise = corner.texel[axis].wrapping_sub(first.wrapping_add(low));
@@ -323,7 +333,7 @@ impl Mapping {
             t: t as i32,
         };
         Perspective {
-            base: self.base,
+            base: texels_of(self.base),
             at: of(q, s, t),
             step: of(dq, ds, dt),
         }
@@ -344,7 +354,7 @@ impl Mapping {
                 };
                 let [u, v] = [0, 1].map(|i| word_at(&self.planes[i], place.first()));
                 let way = Way {
-                    base: self.base,
+                    base: texels_of(self.base),
                     at: uv(u, v),
                     step: uv(self.planes[0][1], self.planes[1][1]),
                 };
@@ -375,7 +385,7 @@ impl Mapping {
             words,
             method: self.method,
             steps: self.reach.line,
-            base: self.base,
+            base: texels_of(self.base),
             planes: &self.planes,
             line: place.line,
             columns: place.span..place.end,

@@ -11,7 +11,7 @@
 //!
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye.
 
-use super::gouraud::{Planes as Three, at, dithered, thin_shades, wide_shades};
+use super::gouraud::{Planes as Three, dithered, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::{Affine, Scale, unit_normal};
 use crate::pixel::{PixelFormat, threshold};
@@ -47,11 +47,6 @@ pub(crate) fn word_of(turn: &Affine, normal: Option<[i16; 3]>) -> u32 {
     eleven(x) << 21 | ten << 11 | eleven(y)
 }
 
-/// The planes' values at a place.
-fn values(planes: &Three, place: Place) -> [u32; 3] {
-    [0, 3, 6].map(|plane| at(planes, plane, place))
-}
-
 /// A pixel of channels of 16.16 steps and one half, raised by so many of 32 parts of a step.
 fn pixel<F: PixelFormat>(channels: [i32; 3], parts: i32) -> F::Word {
     let sixteen = |i: usize| {
@@ -79,7 +74,7 @@ pub(super) fn light<F: PixelFormat>(
 ) {
     // What is dithered is dithered in 16 bits.
     let dithers = dithers && F::MADE_OF.is_one_word();
-    let mut value = values(planes, place);
+    let [mut value, steps] = wide_at(planes, place);
     for (pixel, column) in run.iter_mut().zip(place.column..) {
         let [x, y, z] = value.map(|v| v.wrapping_sub(MIDDLE) as i32);
         let at = [column, place.line];
@@ -94,8 +89,8 @@ pub(super) fn light<F: PixelFormat>(
             0
         };
         *pixel = self::pixel::<F>(lit, parts);
-        for (i, value) in value.iter_mut().enumerate() {
-            *value = value.wrapping_add(planes[3 * i + 1]);
+        for (value, step) in value.iter_mut().zip(steps) {
+            *value = value.wrapping_add(step);
         }
     }
 }
@@ -119,7 +114,7 @@ impl<F: PixelFormat> Look for Phong<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = Planes {
-        normal: [0; 9],
+        normal: [0; 8],
         object: 0,
     };
     const TEXTURED: bool = false;

@@ -243,7 +243,7 @@ impl Ends {
 mod tests {
     use super::*;
     use crate::look::fetch::FRACTION;
-    use crate::look::mapping::{Corner, Mapping};
+    use crate::look::mapping::{Corner, Mapping, texels_of};
     use crate::num::random::Rng;
     use crate::scene::Budget;
 
@@ -339,7 +339,7 @@ mod tests {
                     words: Words::Numbers,
                     method: mapping.method,
                     steps: 16,
-                    base: mapping.base,
+                    base: texels_of(mapping.base),
                     planes: &mapping.planes,
                     line,
                     columns: 0..end,
@@ -360,7 +360,8 @@ mod tests {
                 for (column, &shown) in [(0, &run[0]), (end - 1, &run[run.len() - 1])] {
                     let [s, t] = [0, 1].map(|plane| value(plane, column) as i32);
                     let q = value(2, column);
-                    let want = (Homogeneous { q, s, t }.place().u >> 12) + (mapping.base[0] << 7);
+                    let want = (Homogeneous { q, s, t }.place().u >> 12)
+                        + (texels_of(mapping.base)[0] << 7);
                     let off = i32::from(shown as i16) - i32::from(want as i16);
                     assert!(off.abs() <= 16, "{far} {line} {column}: {shown} {want}");
                 }

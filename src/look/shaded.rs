@@ -3,7 +3,7 @@
 //! A vertex has three parameters where other looks have its colour. What transforms, lights, clips, sorts and walks knows
 //! nothing of them but their number: each has a plane with 20 fraction bits, and a pixel its exact value.
 
-use super::gouraud::{Planes, at, thin_shades, wide_shades};
+use super::gouraud::{Planes, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
@@ -80,7 +80,7 @@ const HALF: u16 = 1 << 7;
 impl<S: Shader> Look for Shaded<S> {
     type Pixel = S::Pixel;
     type Planes = Planes;
-    const EMPTY: Planes = [0; 9];
+    const EMPTY: Planes = [0; 8];
     const TEXTURED: bool = false;
     /// Fields have 3 and 2 bits below a level, whatever the pixels are.
     const SCALE: Scale = Scale::new([255; 3]);
@@ -108,13 +108,13 @@ impl<S: Shader> Look for Shaded<S> {
         _: &[DrawState<'_>],
         run: &mut [<S::Pixel as PixelFormat>::Word],
     ) {
-        let mut value = [0, 3, 6].map(|plane| at(planes, plane, place));
+        let [mut value, steps] = wide_at(planes, place);
         for (pixel, column) in run.iter_mut().zip(place.column as u16..) {
             // Planes have 31 bits.
             let parameters = value.map(|value| ((value >> 15) as u16).saturating_sub(HALF));
             *pixel = S::pixel(parameters, [column, place.line as u16]);
-            for (i, value) in value.iter_mut().enumerate() {
-                *value = value.wrapping_add(planes[3 * i + 1]);
+            for (value, step) in value.iter_mut().zip(steps) {
+                *value = value.wrapping_add(step);
             }
         }
     }

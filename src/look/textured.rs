@@ -312,7 +312,7 @@ impl<F: Texel> Look for Textured<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = Planes {
-        shade: [0; 9],
+        shade: [0; 8],
         mapping: Mapping::EMPTY,
         draw: 0,
         shaded: None,

@@ -52,6 +52,13 @@ impl<const N: usize> Block<N> {
         })
     }
 
+    /// Whether all are 0.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_zero(&self) -> bool {
+        self.mantissa.iter().fold(0, |bits, m| bits | m) == 0
+    }
+
     /// The number at `i` times 2^`shift`, rounded to an integer.
     #[must_use]
     pub fn scaled(&self, i: usize, shift: i32) -> i64 {
@@ -94,16 +101,16 @@ fn normalise(value: &[i64], mantissa: &mut [i32]) -> Option<i32> {
 #[inline(never)]
 fn shift_all(value: &[i64], shift: i32, mantissa: &mut [i32]) -> u32 {
     let mut bits = 0;
+    // With a bit more below, by which it is rounded. To the right it is by 33 at most, and what is left has 32 bits: a
+    // shift needs no more than two registers.
+    let (up, down) = ((shift + 1).max(0), (-shift - 1).max(0));
     for (i, m) in mantissa.iter_mut().enumerate() {
         let Some(&v) = value.get(i) else {
             break;
         };
-        *m = if shift >= 0 {
-            (v as i32) << shift
-        } else {
-            // Any shift is by 34 at most.
-            (((v >> (-shift - 1)) + 1) >> 1) as i32
-        };
+        let v = if down >= 32 { v >> 32 } else { v };
+        let twice = ((v >> (down & 31)) as i32) << up;
+        *m = (twice >> 1) + (twice & 1);
         bits |= m.unsigned_abs();
     }
     bits
@@ -192,5 +199,16 @@ mod tests {
         assert_eq!(b.mantissa, [1 << 29, 0]);
         let b = Block::new([(1 << 30) - 1], 0);
         assert!(b.mantissa[0] < 1 << 30);
+        // Kills: each way of shifting by another count, and rounding of what has 31 bits.
+        for places in 30..=62 {
+            let (most, least) = ((1i64 << places) - 1, -(1i64 << places));
+            let half = 1i64 << (places - 30) >> 1;
+            for v in [most, least, most / 3, least / 7] {
+                let b = Block::new([v, (1 << places) - half], 0);
+                let all =
+                    [v, (1 << places) - half].map(|v| shift_round(v, b.exponent.wrapping_neg()));
+                assert_eq!(b.mantissa.map(i64::from), all, "{v} of {places}");
+            }
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! Whole triangles: their texels against exact perspective, and what is refused.
 
-use super::super::mapping::{Corner, Mapping, Method, Values, is_affine};
+use super::super::mapping::{Corner, Mapping, Method, Values, is_affine, texels_of};
 use super::{WRAPS, coordinates, draw_mapped, off};
 use crate::look::Place;
 use crate::num::random::Rng;
-use crate::scene::{Budget, Texture};
+use crate::scene::{Budget, Texture, Wrap};
 use crate::span::Frame;
 use std::vec::Vec;
 
@@ -108,6 +108,43 @@ fn triangles_show_the_texels_of_exact_perspective_within_the_budget() {
     }
     assert!(methods.iter().all(|&n| n > 100), "{methods:?}");
     assert!(worst > -0.02, "the bound is loose: {worst}");
+}
+
+/// Kills: a base that has no room for the farthest places, in which a clamped texture is another than one that repeats.
+#[test]
+fn the_far_end_of_a_clamped_texture_is_reached_and_stays_beyond_it() {
+    const LAST: u16 = (Texture::MAX_SIDE - 1) as u16;
+    let words: Vec<u16> = (0..=LAST).collect();
+    let texture = Texture::words(&words, Texture::MAX_SIDE, 1).unwrap();
+    let texture = texture.wrapping(Wrap::Clamp);
+    for (first, want) in [
+        (i32::from(LAST) - 300, None),
+        (-3900, Some(0)),
+        (6000, Some(LAST)),
+        (65_000, Some(LAST)),
+        (98_000, Some(LAST)),
+        (-66_000, Some(0)),
+        (-131_000, Some(0)),
+    ] {
+        let corners = right_angle(512, 1 << 20).map(|corner| Corner {
+            texel: [(first << 14) + corner.texel[0] * 30, 0],
+            ..corner
+        });
+        let mapping = Mapping::new(&corners, &texture, Budget::EXACT).unwrap();
+        let mut run = [0; 7];
+        draw_mapped(
+            &mapping,
+            &mut run,
+            span(100, 7, 100),
+            &texture,
+            Budget::EXACT,
+        );
+        for (x, &got) in (100..).zip(&run) {
+            let [u, _] = inside(&corners, x, 100).unwrap();
+            let want = want.unwrap_or(u as u16);
+            assert!(got.abs_diff(want) <= 1, "{first} {x}: {got} {want}");
+        }
+    }
 }
 
 /// A triangle with its right angle at the first corner, 8 pixels high and so wide, a texel a pixel; the second corner
@@ -229,7 +266,8 @@ fn corners_share_an_exponent() {
             .place();
             for (axis, got) in [place.u, place.v].into_iter().enumerate() {
                 let got = f64::from(got) / f64::from(1 << 19);
-                let want = f64::from(corner.texel[axis]) / 16_384.0 - f64::from(values.base[axis]);
+                let want = f64::from(corner.texel[axis]) / 16_384.0
+                    - f64::from(texels_of(values.base)[axis]);
                 // The reciprocal's, and a unit of u/w, of which 1/w has the fewest at the farthest corner.
                 let bound = want.abs() / 32_768.0 + 2.0 * 2048.0 / f64::from(q[i]) + 0.001;
                 assert!((got - want).abs() <= bound, "{corners:?}: {got} {want}");
@@ -288,7 +326,7 @@ fn any_numbers_are_drawn_without_a_panic() {
         for method in [Method::Word, Method::Wide, Method::Perspective] {
             mapping.method = method;
             mapping.planes = [(); 3].map(|()| [bits(), bits(), bits()]);
-            mapping.base = [bits() as i32, bits() as i32];
+            mapping.base = [bits() as i16, bits() as i16];
             draw_mapped(&mapping, &mut run[..pixels], at, &texture, budget);
         }
     }
