@@ -66,6 +66,7 @@ mod list_bake_textures;
 mod list_fuzz;
 mod list_values;
 mod list_words;
+mod meshlets;
 mod model_clusters;
 mod model_pipe;
 mod model_scenes;

@@ -36,17 +36,21 @@ impl Sphere {
     /// twice that of the smallest, and rounded up. To be made once for a mesh.
     #[must_use]
     pub fn around<C: Coordinate>(positions: &[[C; 3]]) -> Self {
+        Self::of(positions.iter().map(|p| p.map(C::to_q30)))
+    }
+
+    /// The same of points in Q1.30.
+    pub(super) fn of(points: impl Iterator<Item = [i32; 3]> + Clone) -> Self {
         let (mut low, mut high) = ([i32::MAX; 3], [i32::MIN; 3]);
-        for position in positions {
-            for (i, c) in position.map(C::to_q30).into_iter().enumerate() {
+        for point in points.clone() {
+            for (i, c) in point.into_iter().enumerate() {
                 (low[i], high[i]) = (low[i].min(c), high[i].max(c));
             }
         }
         let middle = |i: usize| ((i64::from(low[i]) + i64::from(high[i])) >> 1) as i32;
         let centre = [0, 1, 2].map(middle);
         let mut most = 0;
-        for position in positions {
-            let p = position.map(C::to_q30);
+        for p in points {
             // Half a box and a unit: at most 2^31, so the sum of three squares is below 2^64.
             let square = |i: usize| u64::from(p[i].abs_diff(centre[i])).pow(2);
             most = most.max(square(0) + square(1) + square(2));

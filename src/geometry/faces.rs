@@ -27,6 +27,8 @@ pub enum MeshError {
     },
     /// A quad strip has an odd number of indices, or two.
     StripLength,
+    /// Meshlets are of other faces, or of more vertices than there are.
+    Meshlets,
 }
 
 /// How many triangles there are.

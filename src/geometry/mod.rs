@@ -1,7 +1,7 @@
 //! What is drawn, where it stands, and how it is lit: meshes, transforms, cameras, lights, colours, shadow volumes (K1, K2, K9, K10).
 //!
 //! `mesh` and `faces` are what the application hands in; `transform`, `camera` and `project` are where it stands;
-//! `light`, `lighting` and `pixel_lamps` are how it is lit; `colour` is a colour in one word; `bounds` is a sphere around a mesh; `shadow`
+//! `light`, `lighting` and `pixel_lamps` are how it is lit; `colour` is a colour in one word; `bounds` is a sphere around a mesh, `meshlet` are its parts; `shadow`
 //! draws the silhouette of a mesh out away from a light. Pass one itself is [`scene`](crate::scene).
 
 mod bounds;
@@ -12,6 +12,7 @@ mod light;
 mod lighting;
 mod listed;
 mod mesh;
+mod meshlet;
 mod pixel_lamps;
 mod project;
 mod shadow;
@@ -27,6 +28,8 @@ pub use light::Light;
 pub(crate) use lighting::LampsInModel;
 pub use lighting::{DirectionalLight, Lighting, Material};
 pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
+pub(crate) use meshlet::Eye;
+pub use meshlet::{CutError, Meshlet, Meshlets};
 pub use pixel_lamps::PixelLamps;
 pub(crate) use pixel_lamps::unit_normal;
 pub(crate) use project::Projection;

@@ -170,22 +170,39 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// Files the faces of a mesh, and lights its vertices.
     #[inline(never)]
-    fn file<C: Coordinate>(
+    pub(super) fn file<C: Coordinate>(
         &mut self,
         is_flat: bool,
         mesh: &Mesh<'_, C>,
         pass: &mut Pass<'_>,
     ) -> Result<(), DrawError> {
         let before = self.objects.len();
-        if is_flat {
-            self.file_flat(mesh, pass);
-        } else if let Err(error) = self.file_faces(mesh, pass) {
+        if !is_flat {
+            let filed = self.file_faces(mesh, 0..usize::MAX, pass);
+            return self.close(filed, before, mesh, pass);
+        }
+        self.file_flat(mesh, pass);
+        if self.objects.len() == before {
+            self.vertices.truncate(pass.base);
+        }
+        Ok(())
+    }
+
+    /// Lights the vertices of faces that are filed, or takes all back, where the mesh turned out to contradict itself.
+    pub(super) fn close<C: Coordinate>(
+        &mut self,
+        filed: Result<(), MeshError>,
+        before: usize,
+        mesh: &Mesh<'_, C>,
+        pass: &Pass<'_>,
+    ) -> Result<(), DrawError> {
+        if let Err(error) = filed {
             self.forget_from(before, pass.base);
             return Err(DrawError::Mesh(error));
         }
         if self.objects.len() == before {
             self.vertices.truncate(pass.base);
-        } else if !is_flat {
+        } else {
             self.light(mesh, pass);
         }
         Ok(())
@@ -193,26 +210,42 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// Takes all vertices of a mesh into memory, if there is room for them.
     fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &mut Pass<'_>) {
-        let count = mesh.positions.len();
-        let end = pass.base + count;
-        let has_room = pass.texels.is_none() || self.places.len() >= end;
-        let records = alpha::records(pass.alphas.len());
-        let all = has_room.then(|| self.vertices.append(count + records));
-        let Some((vertices, records)) = all.flatten().and_then(|v| v.split_at_mut_checked(count))
-        else {
+        if !self.reserve(mesh.positions.len(), pass) {
             return;
-        };
-        if !pass.alphas.is_empty() {
-            alpha::keep(pass.alphas, records);
         }
-        pass.shared = count;
+        let range = pass.base..pass.base + pass.shared;
         let (view, positions) = (&pass.view, mesh.positions);
-        let places = self.places.get_mut(pass.base..end).unwrap_or_default();
+        let places = self.places.get_mut(range.clone()).unwrap_or_default();
+        let vertices = self
+            .vertices
+            .as_mut_slice()
+            .get_mut(range)
+            .unwrap_or_default();
         pass.within = match (pass.texels, pass.generated) {
             (None, _) => project_all(view, positions, vertices),
             (_, Some(generated)) => project_generated(generated, view, positions, vertices, places),
             (Some(texels), _) => project_textured(view, positions, texels, vertices, places),
         };
+    }
+
+    /// Room for so many vertices, with their alphas and texture places; whether there is any.
+    pub(super) fn reserve(&mut self, count: usize, pass: &mut Pass<'_>) -> bool {
+        if pass.texels.is_some() && self.places.len() < pass.base + count {
+            return false;
+        }
+        let records = alpha::records(pass.alphas.len());
+        let Some(records) = self
+            .vertices
+            .append(count + records)
+            .and_then(|v| v.get_mut(count..))
+        else {
+            return false;
+        };
+        if !pass.alphas.is_empty() {
+            alpha::keep(pass.alphas, records);
+        }
+        pass.shared = count;
+        true
     }
 
     /// The vertices of the mesh, if they are in memory.
@@ -252,10 +285,11 @@ impl<'t, L> Scene<'_, 't, L> {
         }
     }
 
-    /// Files all faces of a mesh.
-    fn file_faces<C: Coordinate>(
+    /// Files faces of a mesh: these, where they are triangles, and else all.
+    pub(super) fn file_faces<C: Coordinate>(
         &mut self,
         mesh: &Mesh<'_, C>,
+        range: Range<usize>,
         pass: &mut Pass<'_>,
     ) -> Result<(), MeshError> {
         let Faces::Triangles(faces) = mesh.faces else {
@@ -267,7 +301,9 @@ impl<'t, L> Scene<'_, 't, L> {
             });
             return Ok(());
         };
-        let mut from = 0;
+        // What is before them is skipped, so that a face has its number.
+        let faces = faces.get(..range.end).unwrap_or(faces);
+        let mut from = range.start;
         while from < faces.len() {
             if pass.shared > 0 {
                 let rest = faces.get(from..).unwrap_or_default();

@@ -131,6 +131,9 @@ impl fmt::Display for DrawError {
             Self::Mesh(MeshError::StripLength) => {
                 f.write_str("mesh: a quad strip needs an even number of indices, and not two")
             }
+            Self::Mesh(MeshError::Meshlets) => {
+                f.write_str("mesh: the parts are not those of its triangles and vertices")
+            }
             Self::Light => f.write_str(
                 "scene: the light is for pixels and the look of the scene for corners, or the other way",
             ),

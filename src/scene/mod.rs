@@ -6,6 +6,7 @@
 //! | `draw` | what a draw call says, and what of it is kept: once a call, never once a triangle |
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
+//! | `meshlets` | meshes in parts, of which what is turned away is left out |
 //! | `own` | triangles with vertices of their own |
 //! | `check` | what is wrong with a draw call |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
@@ -46,6 +47,7 @@ mod form;
 mod late;
 mod lights;
 mod master;
+mod meshlets;
 mod own;
 mod pass;
 mod project;

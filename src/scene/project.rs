@@ -261,6 +261,40 @@ pub(super) fn project_textured<C: Coordinate>(
     all
 }
 
+/// [`project_all`] of the listed vertices that wait for it, with what `placed` does with the finer places of each; whether
+/// all of them lie within the planes.
+#[inline(never)]
+pub(super) fn project_listed<C: Coordinate>(
+    view: &View,
+    list: &[u16],
+    positions: &[[C; 3]],
+    vertices: &mut [Vertex],
+    mut placed: impl FnMut(usize, [i32; 2]),
+) -> bool {
+    let view = *view;
+    let mut all = true;
+    for &i in list {
+        let i = usize::from(i);
+        let (Some(vertex), Some(&position)) = (vertices.get_mut(i), positions.get(i)) else {
+            continue;
+        };
+        if !vertex.is_waiting() {
+            continue;
+        }
+        let p = view.point(position);
+        if view.is_within(p) {
+            let on = view.project(p);
+            *vertex = Vertex::unused(on.place, on.depth);
+            placed(i, on.fine);
+        } else {
+            *vertex = view.outside(p.x, p.y, p.z);
+            placed(i, [0; 2]);
+            all = false;
+        }
+    }
+    all
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

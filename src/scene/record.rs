@@ -32,6 +32,19 @@ impl Vertex {
     const UNUSED: u32 = 0;
     const USED: u32 = 1;
 
+    /// A vertex that is not transformed yet: it has to be clipped, and lies beyond no plane.
+    pub(super) const WAITING: Self = Self {
+        place: Self::OUTSIDE,
+        depth: 0,
+        colour: Self::UNUSED,
+    };
+
+    /// Whether a vertex is not transformed yet.
+    #[inline(always)]
+    pub(super) fn is_waiting(self) -> bool {
+        self.place == Self::OUTSIDE && self.depth == 0
+    }
+
     /// A vertex on the screen, which no triangle has used.
     #[inline(always)]
     pub(super) fn unused(place: u32, depth: u32) -> Self {

@@ -1,8 +1,8 @@
 //! The frames that are drawn on the host and on every target, by name.
 
 use crate::{
-    PLAYED, Played, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, Suite, VALUES, VARIANTS, Values,
-    Variant,
+    IN_PARTS, PLAYED, Played, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, Suite, VALUES,
+    VARIANTS, Values, Variant,
 };
 
 /// What a frame is.
@@ -10,6 +10,8 @@ use crate::{
 pub enum Frame {
     /// A scene of the suite, with 64 slots and one line a transfer, as it is measured.
     Suite(Suite),
+    /// A scene of the suite whose mesh is drawn in parts.
+    InParts(Suite),
     /// A small frame of what few draw calls have.
     Values(Values),
     /// A list that is played.
@@ -22,10 +24,11 @@ pub enum Frame {
     Model(Shot),
 }
 
-/// Every frame, in the order in which they are drawn: the suite, what few draw calls have, lists, all other shots,
+/// Every frame, in the order in which they are drawn: the suite, and of it what is drawn in parts, what few draw calls have, lists, all other shots,
 /// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, and one by the hardware model.
 pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
     let suite = SUITE.map(|suite| (suite.name(), Frame::Suite(suite)));
+    let parts = IN_PARTS.map(|(name, suite)| (name, Frame::InParts(suite)));
     let values = VALUES.map(|(name, values)| (name, Frame::Values(values)));
     let played = PLAYED.map(|(name, played)| (name, Frame::Played(played)));
     let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
@@ -33,6 +36,7 @@ pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
     let shots = shots.chain(STRESS).map(Variant::of).chain(VARIANTS);
     suite
         .into_iter()
+        .chain(parts)
         .chain(values)
         .chain(played)
         .chain(shots.map(|how| (how.name, Frame::Shot(how))))

@@ -21,6 +21,7 @@
 
 mod contours;
 mod frames;
+mod in_parts;
 mod lamps;
 mod listed;
 mod looks;
@@ -37,6 +38,7 @@ mod values;
 
 pub use contours::{CONTOURED, ContourLook, Contours};
 pub use frames::{Frame, frames};
+pub use in_parts::{CutMemory, IN_PARTS, InParts};
 pub use lamps::{lamplit_teapot, teapot_lamps};
 pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
 pub use looks::{SmoothLook, TexturedLook};

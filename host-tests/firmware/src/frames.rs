@@ -37,7 +37,7 @@ impl<F: FnMut(&[u8])> Receives for F {
 /// Lines that a transfer of a frame takes.
 pub(crate) const fn lines_of(frame: Frame) -> u16 {
     match frame {
-        Frame::Suite(_) | Frame::Played(_) => SUITE_LINES,
+        Frame::Suite(_) | Frame::InParts(_) | Frame::Played(_) => SUITE_LINES,
         _ => LINES_PER_TRANSFER,
     }
 }
@@ -58,6 +58,11 @@ pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Rec
         }
         Frame::Suite(suite) => {
             sent.smooth(rooms, suite.background(), &|scene| suite.build(scene));
+        }
+        Frame::InParts(suite) => {
+            rooms.prepare(frame);
+            let cut = rooms.cut_of(suite).expect("it was cut");
+            sent.smooth(rooms, suite.background(), &|scene| cut.build(scene));
         }
         Frame::B(how) => {
             let background = Shot::Sphere.background();

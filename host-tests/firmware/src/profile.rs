@@ -44,6 +44,7 @@ pub(crate) fn asked(console: &mut Console) -> Option<bool> {
         return Some(false);
     };
     let mut rooms = Rooms::take();
+    rooms.prepare(frame);
     let mut bytes = 0;
     scanbeam_profile_begin();
     draw(frame, lines_of(frame), &mut rooms, &mut |line: &[u8]| {

@@ -6,13 +6,14 @@ use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::input::{Player, PlayerMemory, TextureRoom};
 use scanbeam::list::TextureSlot;
 use scanbeam::look::Look;
+use scanbeam::mesh::Meshlet;
 use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
 use scanbeam::{Link, Scene, Screen};
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, ContourLook, DRAWS, HEIGHT, Hits, IndexedLook, LIST_INDICES,
-    LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, PhongLook,
-    Played, Sheet, Shot, SmoothLook, TexturedLook, TexturedPhongLook, VALUES_SHOWN, VERTICES,
-    WIDTH,
+    CRATE_INDICES, CRATE_TABLE, ContourLook, CutMemory, DRAWS, Frame, HEIGHT, Hits, IN_PARTS,
+    InParts, IndexedLook, LIST_INDICES, LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES,
+    PLAYED_TEXELS, PLAYED_TEXTURES, PhongLook, Played, Sheet, Shot, SmoothLook, Suite,
+    TexturedLook, TexturedPhongLook, VALUES_SHOWN, VERTICES, WIDTH,
 };
 
 /// Lines that one transfer takes, at most.
@@ -92,6 +93,9 @@ pub(crate) struct Caches {
     pub(crate) banded: &'static mut FastMemory<ContourLook>,
 }
 
+/// Meshes in parts, as many as there are frames of them; each cut once.
+pub(crate) type Cuts = [Option<(Suite, InParts<'static>)>; IN_PARTS.len()];
+
 /// What frames are drawn with.
 pub(crate) struct Rooms {
     pub(crate) scene: SceneRooms,
@@ -101,6 +105,9 @@ pub(crate) struct Rooms {
     pub(crate) caches: Caches,
     /// Depth and colour of two lines each, for the hardware model: external RAM.
     pub(crate) model: [&'static mut [u64]; 4],
+    pub(crate) cuts: Cuts,
+    /// Where meshes are cut that are not yet.
+    cutting: CutMemory<'static>,
     /// What a display shows.
     pub(crate) shown: &'static mut [u32],
     pub(crate) teapot: Player<'static, 'static, SmoothLook>,
@@ -158,11 +165,36 @@ impl Rooms {
                 lend!(".slow", u64, WIDTH as usize, 0),
                 lend!(".slow", u64, WIDTH as usize, 0),
             ],
+            cuts: [None; IN_PARTS.len()],
+            cutting: CutMemory {
+                faces: lend!(".slow", [u16; 3], CutMemory::FACES, [0; 3]),
+                parts: lend!(".slow", Meshlet, CutMemory::PARTS, Meshlet::EMPTY),
+                vertices: lend!(".slow", u16, CutMemory::VERTICES, 0),
+            },
             shown: lend!(".slow", u32, VALUES_SHOWN, 0),
             teapot: Player::new(teapot_memory(), Played::settings()),
             wood: Player::new(crate_memory(), Played::settings()),
             buffers: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
+    }
+
+    /// Does what a frame needs once, before it is drawn.
+    pub(crate) fn prepare(&mut self, frame: Frame) {
+        let Frame::InParts(suite) = frame else {
+            return;
+        };
+        if self.cut_of(suite).is_some() {
+            return;
+        }
+        let free = self.cuts.iter_mut().find(|cut| cut.is_none());
+        let cut = InParts::new(suite, &mut self.cutting);
+        *free.expect("a frame each") = Some((suite, cut.expect("the rooms are large enough")));
+    }
+
+    /// The mesh of a scene in parts, if it was cut.
+    pub(crate) fn cut_of(&self, suite: Suite) -> Option<InParts<'static>> {
+        let mut cuts = self.cuts.iter().flatten();
+        cuts.find(|(of, _)| *of == suite).map(|(_, cut)| *cut)
     }
 
     /// Draws the sheet of a seed, without depth.

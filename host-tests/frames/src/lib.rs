@@ -11,12 +11,13 @@ use host_support::image_out::Frame as Picture;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::Scene;
 use scanbeam::look::Look;
+use scanbeam::mesh::Meshlet;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{Assembled, Shading};
 use scanbeam::stats::SpanCounts;
 use scenes::{
-    DRAWS, Frame, HEIGHT, OBJECTS, PhongLook, SceneB, Shot, ShotError, SmoothLook, Suite,
-    TexturedLook, VERTICES, WIDTH, frames, lamplit_teapot, teapot_lamps,
+    CutMemory, DRAWS, Frame, HEIGHT, InParts, OBJECTS, PhongLook, SceneB, Shot, ShotError,
+    SmoothLook, Suite, TexturedLook, VERTICES, WIDTH, frames, lamplit_teapot, teapot_lamps,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -78,6 +79,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
     for (name, frame) in frames() {
         let crc = match frame {
             Frame::Suite(suite) => suite_frame(suite)?.crc(),
+            Frame::InParts(suite) => in_parts_frame(suite)?.crc(),
             Frame::Values(values) => crc(&values_sent(values, 64)?.words),
             Frame::Played(played) => played_frame(played)?.crc(),
             Frame::B(scene) => scene_b_frame(scene)?.crc(),
@@ -115,6 +117,7 @@ pub fn host_counts() -> Result<BTreeMap<&'static str, FrameCounts>, Box<dyn Erro
     for (name, frame) in frames() {
         let drawn = match frame {
             Frame::Suite(suite) => suite_frame(suite)?,
+            Frame::InParts(suite) => in_parts_frame(suite)?,
             Frame::Shot(how) if how.shot.name() == name => shot_frame(how.shot, how.shading)?,
             Frame::B(scene) => scene_b_frame(scene)?,
             _ => continue,
@@ -135,6 +138,26 @@ pub fn suite_frame(suite: Suite) -> Result<Drawn, Box<dyn Error>> {
     } else {
         drawn::<SmoothLook>(background, |scene| said(suite.name(), suite.build(scene)))
     }
+}
+
+/// A scene of the suite whose mesh is drawn in parts.
+///
+/// # Errors
+/// When it does not fit the memory that it asks for.
+pub fn in_parts_frame(suite: Suite) -> Result<Drawn, Box<dyn Error>> {
+    let (mut faces, mut parts) = (
+        vec![[0; 3]; CutMemory::FACES],
+        vec![Meshlet::EMPTY; CutMemory::PARTS],
+    );
+    let mut vertices = vec![0; CutMemory::VERTICES];
+    let mut memory = CutMemory {
+        faces: &mut faces,
+        parts: &mut parts,
+        vertices: &mut vertices,
+    };
+    let cut = InParts::new(suite, &mut memory)?;
+    let name = suite.name();
+    drawn::<SmoothLook>(suite.background(), |scene| said(name, cut.build(scene)))
 }
 
 /// A shot, with colours of faces from there.

@@ -1,0 +1,138 @@
+//! Draw calls of meshes in parts: what is turned away, or beside the picture, is not looked at (X3, M4).
+//!
+//! Vertices are transformed as the first part that has them is drawn.
+
+use super::WordOfNormal;
+use super::check::check_alphas;
+use super::pass::Pass;
+use super::project::project_listed;
+use super::{Draw, DrawError, Scene, Shading, Shadow, TexturePlace, Vertex};
+use crate::geometry::{
+    Camera, Coordinate, Cull, Eye, Mesh, MeshError, Meshlet, Meshlets, triangles,
+};
+
+/// What tells which parts are seen.
+struct Seen<'a, 't, C> {
+    camera: Camera,
+    draw: &'a Draw<'a, 't, C>,
+    /// None where faces are seen from behind too, or normals do not tell.
+    eye: Option<Eye>,
+}
+
+impl<'t, L> Scene<'_, 't, L> {
+    /// [`assemble`](Self::assemble) of a mesh in parts.
+    ///
+    /// # Errors
+    /// As that, and where the parts are of another mesh.
+    pub(crate) fn assemble_meshlets<C: Coordinate>(
+        &mut self,
+        draw: &Draw<'_, 't, C>,
+        meshlets: &Meshlets<'_>,
+        textured: bool,
+        word_of: Option<WordOfNormal>,
+    ) -> Result<(), DrawError> {
+        let mesh = Mesh {
+            faces: meshlets.faces(),
+            ..draw.mesh
+        };
+        let draw = &Draw { mesh, ..*draw };
+        if mesh.positions.len() < meshlets.end() {
+            return Err(DrawError::Mesh(MeshError::Meshlets));
+        }
+        let Some(camera) = self.camera else {
+            return Err(DrawError::NotBegun);
+        };
+        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
+        let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
+        if is_volume || is_flat || draw.texgen.is_some() {
+            return self.assemble(draw, textured, word_of);
+        }
+        check_alphas(draw.alphas, mesh.positions.len())?;
+        let eye = match draw.cull {
+            Cull::Back => Eye::new(&draw.model, camera.view()),
+            Cull::None => None,
+        };
+        let seen = Seen { camera, draw, eye };
+        self.assemble_by(
+            draw,
+            textured,
+            word_of,
+            triangles(mesh.faces),
+            |scene, pass| {
+                if !scene.reserve(mesh.positions.len(), pass) {
+                    return scene.file(false, &mesh, pass);
+                }
+                let before = scene.objects.len();
+                let filed = scene.file_meshlets(&seen, meshlets, pass);
+                scene.close(filed, before, &mesh, pass)
+            },
+        )
+    }
+
+    /// Files the faces of all parts that may be seen.
+    fn file_meshlets<C: Coordinate>(
+        &mut self,
+        seen: &Seen<'_, 't, C>,
+        meshlets: &Meshlets<'_>,
+        pass: &mut Pass<'_>,
+    ) -> Result<(), MeshError> {
+        let mesh = &seen.draw.mesh;
+        self.shared(pass).fill(Vertex::WAITING);
+        // All of those that are transformed.
+        pass.within = true;
+        let (mut from, mut listed) = (0, meshlets.vertices());
+        for part in meshlets.parts() {
+            let end = from + usize::from(part.faces);
+            let (list, rest) = listed.split_at(usize::from(part.vertices).min(listed.len()));
+            listed = rest;
+            if self.is_unseen(seen, part, pass.within) {
+                self.assembled.triangles_skipped += u32::from(part.faces);
+                pass.culled += u32::from(part.faces);
+            } else {
+                self.transform(mesh.positions, list, pass);
+                self.file_faces(mesh, from..end, pass)?;
+            }
+            from = end;
+        }
+        Ok(())
+    }
+
+    /// Transforms the listed vertices of a mesh that are not yet.
+    fn transform<C: Coordinate>(
+        &mut self,
+        positions: &[[C; 3]],
+        list: &[u16],
+        pass: &mut Pass<'_>,
+    ) {
+        let view = &pass.view;
+        let kept = pass.base..pass.base + pass.shared;
+        let places = self.places.get_mut(kept.clone()).unwrap_or_default();
+        let vertices = self.vertices.as_mut_slice().get_mut(kept);
+        let vertices = vertices.unwrap_or_default();
+        pass.within &= match pass.texels {
+            None => project_listed(view, list, positions, vertices, |_, _| {}),
+            Some(texels) => project_listed(view, list, positions, vertices, |i, fine| {
+                if let (Some(place), Some(&texel)) = (places.get_mut(i), texels.get(i)) {
+                    *place = TexturePlace::of_mesh(texel, fine);
+                }
+            }),
+        };
+    }
+
+    /// Whether nothing of a part can be seen. While all was within the planes, the rest is not held against the picture.
+    fn is_unseen<C: Coordinate>(
+        &self,
+        seen: &Seen<'_, 't, C>,
+        part: &Meshlet,
+        all_within: bool,
+    ) -> bool {
+        if seen.eye.is_some_and(|eye| eye.is_behind(part)) {
+            return true;
+        }
+        let model = &seen.draw.model;
+        !all_within
+            && part
+                .sphere
+                .is_outside(&seen.camera, self.screen, &self.lines, model)
+    }
+}
