@@ -2,7 +2,7 @@
 
 use crate::args::FirmwareArgs;
 use crate::figures::gate::{Record, Verdict};
-use crate::figures::{Bench, Figure, Size, growth, suite};
+use crate::figures::{Bench, Figure, Size, goals, growth, suite};
 use crate::firmware::{
     self, BOARDS, Board, COMPARER, DEFAULT_TIMEOUT, Measured, Profile, Sections, Toolchain,
 };
@@ -93,6 +93,7 @@ fn bless(host: &BTreeMap<&str, u32>) -> Result<bool, Box<dyn Error>> {
         tell!("recorded: {}", toolchain.version);
     }
     suite::write(&record)?;
+    goals::write(&record)?;
     tell!("{} is new: look at what changed in it", path.display());
     Ok(false)
 }

@@ -54,7 +54,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     }
 
     /// Draws a mesh in parts, as [`draw`](Scene::draw) does, and looks neither at parts whose faces are all seen from
-    /// behind nor at the vertices that they alone have: some 60 instructions a part on a Cortex-M4. Once a vertex lay
+    /// behind nor at the vertices that they alone have: some 50 instructions a part on a Cortex-M4. Once a vertex lay
     /// beyond the planes of the view, parts that lie beside the picture are not looked at either.
     /// [`Assembled`](crate::scene::Assembled) counts the triangles that are skipped, among the culled too.
     ///

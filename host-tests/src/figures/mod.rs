@@ -4,9 +4,11 @@
 //! |---|---|
 //! | `gate.rs` | the record of figures, and what is slower than it |
 //! | `growth.rs` | cost against triangles, as a plot |
+//! | `goals.rs` | figures beside what was wanted |
 //! | `suite.rs` | the suite beside the best of others, as a table |
 
 pub mod gate;
+pub mod goals;
 pub mod growth;
 pub mod suite;
 
