@@ -5,12 +5,11 @@
 //! picture is not the one that this machine draws. Records are what the types take; they are the same on all cores.
 
 use crate::args::FirmwareArgs;
-use crate::bench::table::{between, page};
+use crate::bench::table::{page, rewrite};
 use crate::firmware::{
     self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain,
 };
 use crate::frames::{lamplit_frame, shot_frame, suite_frame};
-use crate::image_out::write_atomically;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::Link;
 use scanbeam::frame::FastMemory;
@@ -286,10 +285,7 @@ fn text(sizes: &[ProgramSize]) -> Table {
 /// # Errors
 /// When there are no markers, or the file cannot be read or written.
 pub(crate) fn write(path: &Path, sizes: &[ProgramSize]) -> Result<(), Box<dyn Error>> {
-    let text = std::fs::read_to_string(path)?;
-    let new = between(&text, MARKERS, &markdown(sizes))?;
-    write_atomically(path, new.as_bytes())?;
-    Ok(())
+    rewrite(path, MARKERS, &markdown(sizes))
 }
 
 fn markdown(sizes: &[ProgramSize]) -> String {
@@ -307,6 +303,7 @@ fn markdown(sizes: &[ProgramSize]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::table::between;
     use crate::firmware::Section;
 
     #[test]

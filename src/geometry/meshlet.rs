@@ -80,12 +80,12 @@ pub enum CutError {
         /// Index of the face.
         face: u32,
     },
-    /// There are more parts than memory: one for 11 faces suffices always, one for 50 most often.
+    /// There are more parts than memory: one for 11 faces suffices always.
     Parts {
         /// How many there is room for.
         have: usize,
     },
-    /// There are more entries of vertices than memory: three for a face suffice always, one most often.
+    /// There are more entries of vertices than memory: three for a face suffice always.
     Vertices {
         /// How many there is room for.
         have: usize,
@@ -142,7 +142,7 @@ impl<'a> Meshlets<'a> {
         })
     }
 
-    /// Parts that were cut before, of tables in flash, say. They are looked at once, here: some 100 instructions a face.
+    /// Parts that were cut before, of tables in flash, say. All faces are looked at here, and not when they are drawn.
     ///
     /// # Errors
     /// Where parts have not as many faces and vertices as there are, or a face has a vertex that its part has not.

@@ -1,7 +1,6 @@
 //! Scenes of the suite whose mesh is drawn in parts, so that what is turned away is not looked at.
 
 use crate::{ShotError, Suite};
-use core::mem::take;
 use scanbeam::look::Look;
 use scanbeam::mesh::{CutError, Meshlet, Meshlets};
 use scanbeam::{Faces, Scene};
@@ -33,18 +32,11 @@ impl CutMemory<'_> {
     pub const VERTICES: usize = Self::FACES / 2 * 3;
 }
 
-/// The first of a slice, which has the rest from then on; all where it has no more.
-fn first<'m, T>(all: &mut &'m mut [T], count: usize) -> &'m mut [T] {
-    let slice = take(all);
-    let (some, rest) = slice.split_at_mut(count.min(slice.len()));
-    *all = rest;
-    some
-}
-
 /// A scene of one mesh, cut.
 #[derive(Clone, Copy, Debug)]
 pub struct InParts<'m> {
-    suite: Suite,
+    /// The scene.
+    pub suite: Suite,
     meshlets: Meshlets<'m>,
 }
 
@@ -59,12 +51,14 @@ impl<'m> InParts<'m> {
             Faces::Triangles(faces) => faces,
             _ => &[],
         };
-        let faces = first(&mut memory.faces, from.len());
+        let faces = memory.faces.split_off_mut(..from.len());
+        let faces = faces.unwrap_or_default();
         for (to, face) in faces.iter_mut().zip(from) {
             *to = *face;
         }
-        let parts = first(&mut memory.parts, from.len() / 16);
-        let vertices = first(&mut memory.vertices, from.len() / 2 * 3);
+        let parts = memory.parts.split_off_mut(..from.len() / 16);
+        let vertices = memory.vertices.split_off_mut(..from.len() / 2 * 3);
+        let (parts, vertices) = (parts.unwrap_or_default(), vertices.unwrap_or_default());
         let meshlets = Meshlets::cut(mesh.positions, faces, parts, vertices)?;
         Ok(Self { suite, meshlets })
     }

@@ -60,8 +60,7 @@ pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Rec
             sent.smooth(rooms, suite.background(), &|scene| suite.build(scene));
         }
         Frame::InParts(suite) => {
-            rooms.prepare(frame);
-            let cut = rooms.cut_of(suite).expect("it was cut");
+            let cut = rooms.in_parts(suite);
             sent.smooth(rooms, suite.background(), &|scene| cut.build(scene));
         }
         Frame::B(how) => {

@@ -8,7 +8,7 @@ use crate::frames::{draw, lines_of};
 use crate::rooms::Rooms;
 use core::hint::black_box;
 use cortex_m_semihosting::nr;
-use scenes::frames;
+use scenes::{Frame, frames};
 
 /// Bytes that the words may have.
 const WORDS: usize = 128;
@@ -44,7 +44,10 @@ pub(crate) fn asked(console: &mut Console) -> Option<bool> {
         return Some(false);
     };
     let mut rooms = Rooms::take();
-    rooms.prepare(frame);
+    if let Frame::InParts(suite) = frame {
+        // It is cut once, which is not the frame's.
+        rooms.in_parts(suite);
+    }
     let mut bytes = 0;
     scanbeam_profile_begin();
     draw(frame, lines_of(frame), &mut rooms, &mut |line: &[u8]| {

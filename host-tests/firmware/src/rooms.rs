@@ -10,10 +10,10 @@ use scanbeam::mesh::Meshlet;
 use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
 use scanbeam::{Link, Scene, Screen};
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, ContourLook, CutMemory, DRAWS, Frame, HEIGHT, Hits, IN_PARTS,
-    InParts, IndexedLook, LIST_INDICES, LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES,
-    PLAYED_TEXELS, PLAYED_TEXTURES, PhongLook, Played, Sheet, Shot, SmoothLook, Suite,
-    TexturedLook, TexturedPhongLook, VALUES_SHOWN, VERTICES, WIDTH,
+    CRATE_INDICES, CRATE_TABLE, ContourLook, CutMemory, DRAWS, HEIGHT, Hits, IN_PARTS, InParts,
+    IndexedLook, LIST_INDICES, LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES, PLAYED_TEXELS,
+    PLAYED_TEXTURES, PhongLook, Played, Sheet, Shot, SmoothLook, Suite, TexturedLook,
+    TexturedPhongLook, VALUES_SHOWN, VERTICES, WIDTH,
 };
 
 /// Lines that one transfer takes, at most.
@@ -93,9 +93,6 @@ pub(crate) struct Caches {
     pub(crate) banded: &'static mut FastMemory<ContourLook>,
 }
 
-/// Meshes in parts, as many as there are frames of them; each cut once.
-pub(crate) type Cuts = [Option<(Suite, InParts<'static>)>; IN_PARTS.len()];
-
 /// What frames are drawn with.
 pub(crate) struct Rooms {
     pub(crate) scene: SceneRooms,
@@ -105,7 +102,8 @@ pub(crate) struct Rooms {
     pub(crate) caches: Caches,
     /// Depth and colour of two lines each, for the hardware model: external RAM.
     pub(crate) model: [&'static mut [u64]; 4],
-    pub(crate) cuts: Cuts,
+    /// Meshes in parts, each cut once.
+    cuts: [Option<InParts<'static>>; IN_PARTS.len()],
     /// Where meshes are cut that are not yet.
     cutting: CutMemory<'static>,
     /// What a display shows.
@@ -178,23 +176,16 @@ impl Rooms {
         }
     }
 
-    /// Does what a frame needs once, before it is drawn.
-    pub(crate) fn prepare(&mut self, frame: Frame) {
-        let Frame::InParts(suite) = frame else {
-            return;
-        };
-        if self.cut_of(suite).is_some() {
-            return;
+    /// The mesh of a scene in parts, which it is cut into where it was not.
+    pub(crate) fn in_parts(&mut self, suite: Suite) -> InParts<'static> {
+        let mut cuts = self.cuts.iter().flatten();
+        if let Some(cut) = cuts.find(|cut| cut.suite == suite) {
+            return *cut;
         }
         let free = self.cuts.iter_mut().find(|cut| cut.is_none());
-        let cut = InParts::new(suite, &mut self.cutting);
-        *free.expect("a frame each") = Some((suite, cut.expect("the rooms are large enough")));
-    }
-
-    /// The mesh of a scene in parts, if it was cut.
-    pub(crate) fn cut_of(&self, suite: Suite) -> Option<InParts<'static>> {
-        let mut cuts = self.cuts.iter().flatten();
-        cuts.find(|(of, _)| *of == suite).map(|(_, cut)| *cut)
+        let cut = InParts::new(suite, &mut self.cutting).expect("the rooms are large enough");
+        *free.expect("a frame each") = Some(cut);
+        cut
     }
 
     /// Draws the sheet of a seed, without depth.

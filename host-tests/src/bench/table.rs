@@ -80,9 +80,13 @@ fn boards_text(rows: &[Row]) -> String {
 
 /// Rewrites what stands between the markers of a file.
 pub(super) fn write(path: &Path, rows: &[Row]) -> Result<(), Box<dyn Error>> {
-    let text = std::fs::read_to_string(path)?;
     let record = Record::read(&Record::path())?;
-    let new = between(&text, MARKERS, &markdown(rows, &record))?;
+    rewrite(path, MARKERS, &markdown(rows, &record))
+}
+
+/// Writes a file anew, with something else between its markers.
+pub(crate) fn rewrite(path: &Path, markers: [&str; 2], inner: &str) -> Result<(), Box<dyn Error>> {
+    let new = between(&std::fs::read_to_string(path)?, markers, inner)?;
     write_atomically(path, new.as_bytes())?;
     Ok(())
 }

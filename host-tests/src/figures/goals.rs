@@ -4,12 +4,10 @@
 //! the record has.
 
 use super::gate::Record;
-use crate::bench::table::between;
+use crate::bench::table::rewrite;
 use crate::firmware::{BOARDS, workspace};
-use crate::image_out::write_atomically;
 use std::error::Error;
 use std::fmt::Write as _;
-use std::path::PathBuf;
 
 /// What stands before and after the table.
 const MARKERS: [&str; 2] = [
@@ -123,24 +121,19 @@ fn markdown(record: &Record) -> String {
     out
 }
 
-fn path() -> PathBuf {
-    workspace().join("host-tests/figures/goals.md")
-}
-
 /// Writes the tables anew.
 ///
 /// # Errors
 /// When the file has no markers, or cannot be read or written.
 pub fn write(record: &Record) -> Result<(), Box<dyn Error>> {
-    let text = std::fs::read_to_string(path())?;
-    let new = between(&text, MARKERS, &markdown(record))?;
-    write_atomically(&path(), new.as_bytes())?;
-    Ok(())
+    let path = workspace().join("host-tests/figures/goals.md");
+    rewrite(&path, MARKERS, &markdown(record))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::table::between;
 
     /// Kills: a figure of another name, board or unit, and a file that was not written anew.
     #[test]

@@ -4,9 +4,8 @@
 //! record has.
 
 use super::gate::Record;
-use crate::bench::table::between;
+use crate::bench::table::rewrite;
 use crate::firmware::{BOARDS, workspace};
-use crate::image_out::write_atomically;
 use scenes::{SUITE, Suite};
 use std::error::Error;
 use std::fmt::Write as _;
@@ -104,16 +103,13 @@ fn markdown(record: &Record) -> String {
 /// # Errors
 /// When the README has no markers, or cannot be read or written.
 pub fn write(record: &Record) -> Result<(), Box<dyn Error>> {
-    let readme = workspace().join("README.md");
-    let text = std::fs::read_to_string(&readme)?;
-    let new = between(&text, MARKERS, &markdown(record))?;
-    write_atomically(&readme, new.as_bytes())?;
-    Ok(())
+    rewrite(&workspace().join("README.md"), MARKERS, &markdown(record))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::bench::table::between;
 
     #[test]
     fn the_readme_has_what_is_recorded() {
