@@ -9,7 +9,7 @@ use crate::bench::table::{page, rewrite};
 use crate::firmware::{
     self, BOARDS, Board, DEFAULT_TIMEOUT, Profile, Sections, Symbol, Symbols, Toolchain,
 };
-use crate::frames::{lamplit_frame, shot_frame, suite_frame};
+use crate::frames::{lamplit_frame, shot_frame, suite_frame, untextured_frame};
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::Link;
 use scanbeam::frame::FastMemory;
@@ -30,7 +30,7 @@ const MARKERS: [&str; 2] = [
 /// What the table says.
 const INTRO: &str = "What a program takes, in bytes: its code on each core, its constants (M4 / M3 / M0+; the teapot is 27,672 of them, and 20,604 where no normals are looked at), and the fast RAM for 320 pixels a line with 64 slots and two buffers of one line.
 Then its records: a vertex with its place on a texture, an object with its link, a slot of the cache, a pixel of depth.
-Every row is a firmware that draws the teapot, or a textured sphere, built with `opt-level = 3`; `plain` is without the code for values that few draw calls have, and looks in one program share much of theirs.";
+Every row is a firmware that draws the teapot, or a textured sphere, built with `opt-level = 3`; `plain` is without the code for values that few draw calls have; `all looks` is one look whose draw calls are smooth or textured, lit at vertices or at pixels.";
 
 /// A program, before it is built.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -41,7 +41,7 @@ pub struct Program {
     pub binary: &'static str,
     /// Features of the package.
     pub features: &'static [&'static str],
-    /// Bytes of a slot; of the largest where there are several looks.
+    /// Bytes of a slot.
     slot: usize,
     /// Bytes of a vertex's place on a texture.
     place: usize,
@@ -89,6 +89,7 @@ pub fn pictures() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
             shot_frame(Shot::Teapot, Shading::Flat)?.crc(),
         ),
         ("teapot_lamplit", lamplit_frame()?.crc()),
+        ("teapot_untextured", untextured_frame()?.crc()),
         ("b", suite_frame(Suite::B)?.crc()),
     ]))
 }

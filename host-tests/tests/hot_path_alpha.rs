@@ -7,6 +7,7 @@ mod sampled;
 
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
+use crate::hot::shine::even_light;
 use crate::hot::{Corner, NO_MESH, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::mesh::ScreenVertex;
@@ -370,12 +371,13 @@ fn what_does_not_fit_is_refused() {
 #[test]
 fn light_at_pixels_has_alpha_at_vertices() {
     let mut rng = Rng::new(90);
+    let light = even_light();
     let mut pixels = 0;
     for _ in 0..60 {
         let corners = triangle(&mut rng, [255; 3]);
         let alphas = leak((0..3).map(|_| rng.below(256) as u8).collect());
         let lines = picture::<Phong<Rgb888>>(corners, BLACK, |draw| {
-            (draw.mesh.colours, draw.alphas) = (&[], alphas);
+            (draw.mesh.colours, draw.alphas, draw.lamps) = (&[], alphas, light);
             draw.blend = Some(Blend::ALPHA);
         });
         each_place(&corners, |x, y| {

@@ -3,6 +3,7 @@
 
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
+use crate::hot::shine::even_light;
 use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
@@ -21,7 +22,7 @@ const OFF: f64 = 0.2;
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Lit {
     AtCorners,
-    /// From the call, which is not lit here.
+    /// From the call, in light that leaves it as it is.
     AtPixels,
 }
 
@@ -69,6 +70,7 @@ fn each_pixel<L: Smooth>(
 {
     let mut rng = Rng::new(seed);
     let screen = Screen::new(48, 24).expect("a screen");
+    let light = even_light();
     for _ in 0..200 {
         let corners = triangle(&mut rng, lit == Lit::AtPixels);
         let mut rooms = SceneRooms::of_triangles(1, screen);
@@ -77,7 +79,7 @@ fn each_pixel<L: Smooth>(
         draw_with(&mut scene, &[corners], |draw| {
             (draw.cull, draw.dither) = (Cull::None, dither);
             if lit == Lit::AtPixels {
-                (draw.mesh.colours, draw.colour) = (&[], corners[0].colour);
+                (draw.mesh.colours, draw.colour, draw.lamps) = (&[], corners[0].colour, light);
             }
             draw.texture = texture.map(|texture| Skin {
                 texture,

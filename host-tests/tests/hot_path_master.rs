@@ -3,6 +3,7 @@
 //! The reference is a scene without the switch, whose calls do not ask.
 
 use crate::common::Rng;
+use crate::hot::shine::even_light;
 use crate::hot::values::{FUNCTIONS, some_mode};
 use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
@@ -214,6 +215,7 @@ fn what_is_switched_off_is_as_if_nobody_had_asked() {
 #[test]
 fn a_switch_lasts_and_leaves_refusals_as_they_are() {
     let mut rng = Rng::new(1_923);
+    let light = even_light();
     let screen = Screen::new(48, 20).expect("a screen");
     let corners = [(0, 0), (300, 0), (0, 150)].map(|at| Corner {
         at,
@@ -226,7 +228,7 @@ fn a_switch_lasts_and_leaves_refusals_as_they_are() {
     for _ in 0..2 {
         scene.begin(&camera()).expect("the rooms are large enough");
         let lit = draw_with(&mut scene, &[corners], |draw| {
-            draw.light = Light::new([0.0, 0.0, 1.0], 0.5);
+            (draw.light, draw.lamps) = (Light::new([0.0, 0.0, 1.0], 0.5), light);
         });
         assert_eq!(lit, Err(DrawError::Light));
         let textured = draw_with(&mut scene, &[corners], |draw| {

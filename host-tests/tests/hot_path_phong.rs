@@ -4,6 +4,8 @@
 //! across and down and 1/1000 ahead, more where corners differ and what is between them is short; what that does to
 //! the level is the bound, and what rounding does.
 
+mod mixed;
+
 use crate::common::Rng;
 use crate::hot::exact::{weights, within};
 use crate::hot::shine::{V3, dot, q14, some_direction, unit};

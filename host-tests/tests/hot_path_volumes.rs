@@ -2,6 +2,7 @@
 //! refused. The worlds, and what rays say of them, are those of `shadow_world`.
 
 use crate::common::Rng;
+use crate::hot::shine::even_light;
 use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf, line};
 use crate::shadow_world::{ADDS, Body, DARK, From, LIT, WHITE, World, camera, many, screen, world};
 use scanbeam::frame::LineError;
@@ -389,6 +390,7 @@ fn shadows_can_be_switched_off() {
 #[test]
 fn light_at_pixels_has_shadows() {
     let world = world(&mut Rng::new(6), 1, From::Above);
+    let light = even_light();
     let mut memory = rooms(screen());
     let mut scene = memory.scene::<Phong<Rgb888>>(screen());
     scene.begin(&camera()).unwrap();
@@ -398,6 +400,7 @@ fn light_at_pixels_has_shadows() {
                 model: body.model(),
                 cull: Cull::None,
                 colour,
+                lamps: light,
                 shadow,
                 ..Draw::new(Mesh {
                     colours: &[],

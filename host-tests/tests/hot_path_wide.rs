@@ -2,8 +2,10 @@
 //! what stretches farther is white, counted once, and told.
 
 use crate::common::Rng;
+use crate::hot::shine::even_light;
 use crate::hot::{LineRooms, NO_MESH, SceneRooms, Smooth, camera, line};
 use scanbeam::event::Event;
+use scanbeam::light::PixelLamps;
 use scanbeam::look::{Textured, TexturedPhong};
 use scanbeam::mesh::ScreenVertex;
 use scanbeam::pixel::{Rgb565, Rgb888};
@@ -169,7 +171,7 @@ fn wide_triangles_are_counted_once() {
 }
 
 /// The pieces of triangles of a mesh that the near plane cuts, and that are still too wide, count each.
-fn cut<L: Smooth>(normals: &[[i16; 3]]) -> u32 {
+fn cut<L: Smooth>(normals: &[[i16; 3]], lamps: Option<&'static PixelLamps>) -> u32 {
     let screen = Screen::new(SIDE, SIDE).unwrap();
     let mut rooms = SceneRooms::new(99, 99, 64, 9);
     let mut scene = rooms.scene::<L>(screen);
@@ -189,7 +191,10 @@ fn cut<L: Smooth>(normals: &[[i16; 3]]) -> u32 {
         colours: &[],
         faces: Faces::Triangles(&faces),
     };
-    let call = textured(mesh, &places, Budget::FAST);
+    let call = Draw {
+        lamps,
+        ..textured(mesh, &places, Budget::FAST)
+    };
     scene.draw(&call).unwrap();
     let counts = scene.assembled();
     assert_eq!(counts.clipped, 1);
@@ -204,7 +209,10 @@ fn cut<L: Smooth>(normals: &[[i16; 3]]) -> u32 {
 /// Kills: counts where a call has no texture in place of where it has one.
 #[test]
 fn pieces_of_what_is_cut_are_counted() {
-    assert_eq!(cut::<Textured<Rgb565>>(&[]), 2);
-    assert_eq!(cut::<Textured<Rgb888>>(&[]), 2);
-    assert_eq!(cut::<TexturedPhong<Rgb888>>(&[[0, 0, 127 << 8]; 3]), 2);
+    assert_eq!(cut::<Textured<Rgb565>>(&[], None), 2);
+    assert_eq!(cut::<Textured<Rgb888>>(&[], None), 2);
+    assert_eq!(
+        cut::<TexturedPhong<Rgb888>>(&[[0, 0, 127 << 8]; 3], even_light()),
+        2
+    );
 }

@@ -1,5 +1,6 @@
 //! What a player refuses, and that nothing of such a list is drawn (H13, X7).
 
+use crate::hot::shine::even_light;
 use crate::listing::{PLENTY, ring_memory, triangle};
 use crate::played::lists::{after_a_triangle, draw_textured, texture};
 use crate::played::{Kept, drawn, played};
@@ -40,18 +41,38 @@ fn said<'t, L: Look<Pixel = Rgb565Be>>(
     result
 }
 
+/// Settings of light at pixels.
+fn lit() -> PlayerSettings<'static, 'static> {
+    let settings = PlayerSettings::default();
+    PlayerSettings {
+        draw: Draw {
+            lamps: even_light(),
+            ..settings.draw
+        },
+        ..settings
+    }
+}
+
 /// Refused by a look, as this block at this offset.
 fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: Reason) {
+    refused_with::<L>(PlayerSettings::default(), list, at, block, reason);
+}
+
+/// The same with settings.
+fn refused_with<L: Look<Pixel = Rgb565Be>>(
+    settings: PlayerSettings<'static, 'static>,
+    list: &[u32],
+    at: u32,
+    block: Id,
+    reason: Reason,
+) {
     let list = Vec::leak(list.to_vec());
     let error = ListError {
         offset: at,
         block: Some(block),
         reason,
     };
-    assert_eq!(
-        said::<L>(list, PlayerSettings::default(), 64, 8, 4096),
-        Err(error)
-    );
+    assert_eq!(said::<L>(list, settings, 64, 8, 4096), Err(error));
     assert!(error.to_string().contains(&format!("{at:#x}")), "{error}");
 }
 
@@ -76,7 +97,7 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         })
     };
     let (list, at) = long;
-    refused::<Phong<Rgb565Be>>(&list, at, Id::Long, Reason::Missing(LightAtVertices));
+    refused_with::<Phong<Rgb565Be>>(lit(), &list, at, Id::Long, Reason::Missing(LightAtVertices));
     let overlay = Overlay {
         left: 0,
         top: 0,
@@ -105,7 +126,13 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
     );
     refused::<Smooth>(&list, at, Id::State, Reason::Missing(Lights));
     let (list, at) = state(State::Light { number: 0, light }, &[]);
-    refused::<Phong<Rgb565Be>>(&list, at, Id::State, Reason::Missing(LightAtVertices));
+    refused_with::<Phong<Rgb565Be>>(
+        lit(),
+        &list,
+        at,
+        Id::State,
+        Reason::Missing(LightAtVertices),
+    );
     let shiny = Material {
         specular: [1, 0, 0],
         ..Material::default()
@@ -142,7 +169,13 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         writer.vertices(header, &vec![0; words as usize]).unwrap();
         0
     });
-    refused::<Phong<Rgb565Be>>(&list, at, Id::Table, Reason::Missing(LightAtVertices));
+    refused_with::<Phong<Rgb565Be>>(
+        lit(),
+        &list,
+        at,
+        Id::Table,
+        Reason::Missing(LightAtVertices),
+    );
 }
 
 #[test]
@@ -230,6 +263,7 @@ fn what_memory_scene_or_settings_do_not_allow_is_refused() {
     let lit = PlayerSettings {
         draw: Draw {
             light: Light::new([0.0, 1.0, 0.0], 0.1),
+            lamps: even_light(),
             ..settings.draw
         },
         ..settings
@@ -429,13 +463,14 @@ fn what_has_no_vertices_costs_none() {
     });
 }
 
-/// Kills: a list that goes on where its settings do not fit the look.
+/// Kills: a list that goes on where its settings do not fit each other.
 #[test]
 fn what_does_not_fit_the_settings_stops_the_list() {
     let mut kept = Kept::new(64, 96);
     let settings = PlayerSettings {
         draw: Draw {
             light: Light::new([0.0, 0.0, 1.0], 0.2),
+            lamps: even_light(),
             ..PlayerSettings::default().draw
         },
         ..PlayerSettings::default()

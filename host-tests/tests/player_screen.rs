@@ -3,6 +3,7 @@
 
 use crate::common::Rng;
 use crate::hot::NO_MESH;
+use crate::hot::shine::even_light;
 use crate::listing::{Cloud, PLENTY, in_blocks, some_format, unrolled};
 use crate::played::lists::after_a_triangle;
 use crate::played::{HEIGHT, Kept, WIDTH, drawn, played};
@@ -230,7 +231,13 @@ fn what_cannot_be_drawn_on_the_screen_is_said() {
     let corners = [[ScreenCorner::default(); 3]];
     drawn::<Phong<Rgb565Be>>(|scene| {
         assert_eq!(
-            scene.draw_screen(&Draw::new(NO_MESH), &corners),
+            scene.draw_screen(
+                &Draw {
+                    lamps: even_light(),
+                    ..Draw::new(NO_MESH)
+                },
+                &corners
+            ),
             Err(DrawError::Light)
         );
     });

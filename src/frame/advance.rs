@@ -4,7 +4,7 @@ use super::renderer::{Renderer, View};
 use super::slot::Flags;
 use crate::active::{Change, next};
 use crate::link::Link;
-use crate::look::Look;
+use crate::look::{Look, Primitive};
 use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object};
 use crate::span::{Way, end_line};
@@ -179,14 +179,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return 0;
         }
         let planes = &mut kept.item.planes;
-        let fill = L::set_up(
-            &triangle,
-            number,
-            entry.size(),
-            entry.area,
-            view.draws,
-            planes,
-        );
+        let of = Primitive {
+            triangle: &triangle,
+            object: number,
+            size: entry.size(),
+            area: entry.area,
+            draws: view.draws,
+        };
+        let fill = L::set_up(&of, planes);
         let flags = Flags::new(fill, entry.way());
         kept.object = number;
         kept.flags = flags.0;

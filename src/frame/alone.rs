@@ -6,7 +6,7 @@ use super::slot::Flags;
 use super::spans::{Drawn, Line, Span, colour};
 use super::thin::depth_plane;
 use crate::active::CacheUse;
-use crate::look::{Look, WordOf};
+use crate::look::{Look, Primitive, WordOf};
 use crate::span::Way;
 
 /// A triangle without a slot, set up for one line.
@@ -44,7 +44,14 @@ pub(super) fn set_up_stray<L: Look>(
     let area = triangle.area();
     let size = triangle.size(area);
     let mut planes = L::EMPTY;
-    let fill = L::set_up(triangle, *object, size, area, out.view.draws, &mut planes);
+    let of = Primitive {
+        triangle,
+        object: *object,
+        size,
+        area,
+        draws: out.view.draws,
+    };
+    let fill = L::set_up(&of, &mut planes);
     counts.set_ups += 1;
     Alone {
         planes,

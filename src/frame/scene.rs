@@ -3,7 +3,7 @@
 use crate::geometry::{Coordinate, Meshlets, Screen, Sphere, triangles};
 use crate::look::Look;
 use crate::pixel::{MadeOf, PixelFormat};
-use crate::scene::{Draw, DrawError, FiledTriangle, Memory, Scene, ScreenCorner, Shadow};
+use crate::scene::{Draw, DrawError, Memory, Scene, ScreenCorner, Shadow};
 
 impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// A scene for pictures of this size. Nothing is drawn before it is [begun](Scene::begin).
@@ -80,7 +80,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// of the camera that the scene was begun with.
     ///
     /// # Errors
-    /// As [`draw`](Scene::draw); [`DrawError::Light`] where the look is lit at pixels.
+    /// As [`draw`](Scene::draw); [`DrawError::Light`] where the call has lamps.
     pub fn draw_screen(
         &mut self,
         draw: &Draw<'_, 't>,
@@ -89,7 +89,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
             return Err(DrawError::Indices);
         }
-        if L::LIT_AT_PIXELS.is_some() {
+        if draw.lamps.is_some() {
             return Err(DrawError::Light);
         }
         self.assemble_screen(draw, triangles, L::TEXTURED)
@@ -112,43 +112,5 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
             return Err(DrawError::Indices);
         }
         self.assemble_points(draw, size, L::TEXTURED, L::LIT_AT_PIXELS)
-    }
-
-    /// The triangles that pass one has filed, in order of submission: pieces of those that were cut, none that is culled
-    /// or found no room, those of shadow volumes too. All corners lie on the screen, or beside it.
-    ///
-    /// ```
-    /// use scanbeam::look::Gouraud;
-    /// use scanbeam::mesh::ScreenVertex;
-    /// use scanbeam::pixel::Rgb565;
-    /// use scanbeam::scene::{Draw, DrawState, Memory, Object, Scene, ScreenCorner, Vertex};
-    /// use scanbeam::{Camera, Faces, Mesh, Screen};
-    ///
-    /// let (mut vertices, mut objects) = ([Vertex::EMPTY; 3], [Object::EMPTY; 1]);
-    /// let (mut bins, mut draws) = ([0; 48], [DrawState::EMPTY; 1]);
-    /// let memory = Memory {
-    ///     vertices: &mut vertices, places: &mut [], objects: &mut objects, bins: &mut bins, draws: &mut draws,
-    /// };
-    /// let mut scene = Scene::<Gouraud<Rgb565>>::new(Screen::new(64, 48)?, memory);
-    /// scene.begin(&Camera::look_at([0.0, 0.0, 1.0], [0.0; 3], [0.0, 1.0, 0.0], 64.0, 0.1, 10.0)?)?;
-    /// let corner = |x, y, colour| ScreenCorner {
-    ///     vertex: ScreenVertex { x, y, depth: 1 << 30, colour },
-    ///     ..ScreenCorner::default()
-    /// };
-    /// let (red, blue) = ([255, 0, 0], [0, 0, 255]);
-    /// let empty = Mesh { positions: &[], normals: &[], colours: &[], faces: Faces::Triangles(&[]) };
-    /// scene.draw_screen(&Draw::new(empty), &[[corner(80, 8, red), corner(0, 40, blue), corner(160, 90, blue)]])?;
-    /// let triangle = scene.triangles().next().unwrap();
-    /// let [top, right, left] = triangle.corners;
-    /// // Clockwise from the topmost corner on.
-    /// assert_eq!([(top.x, top.y), (right.x, right.y), (left.x, left.y)], [(80, 8), (160, 90), (0, 40)]);
-    /// assert_eq!((top.colour, left.colour, triangle.call), (red, blue, 0));
-    /// // From line 1, whose middle is 12 units down, to line 10 at 84.
-    /// assert_eq!(triangle.lines(), 1..11);
-    /// # Ok::<(), Box<dyn std::error::Error>>(())
-    /// ```
-    #[must_use]
-    pub fn triangles(&self) -> impl DoubleEndedIterator<Item = FiledTriangle> + ExactSizeIterator {
-        self.filed(L::LIT_AT_PIXELS.is_some())
     }
 }

@@ -97,7 +97,7 @@ pub enum Missing {
     Lights,
     /// Highlights.
     Highlights,
-    /// Lights and colours at vertices, in a scene whose look is lit at pixels.
+    /// Lights and colours at vertices, where the settings have lamps.
     LightAtVertices,
     /// A window, where what is drawn is cut in another way already.
     SecondScissor,
@@ -134,9 +134,7 @@ impl core::fmt::Display for Missing {
             Self::FinePlaces => "places of 32 bits in memory for those of 16",
             Self::Lights => "coloured lights, or several",
             Self::Highlights => "highlights",
-            Self::LightAtVertices => {
-                "lights and colours at vertices in a scene whose look is lit at pixels"
-            }
+            Self::LightAtVertices => "lights and colours at vertices where pixels are lit",
             Self::SecondScissor => "a window where there is another scissor",
         })
     }

@@ -11,7 +11,7 @@
 
 use super::course::{Course, anchor, each_packed, each_part};
 use super::ramp::{self, Packed, Pair};
-use super::{Fill, Look, Place, ThinSpan};
+use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, Vertex};
@@ -371,19 +371,12 @@ impl<F: PixelFormat> Look for Gouraud<F> {
     const SCALE: Scale = Scale::new(F::STEPS);
 
     #[inline(always)]
-    fn set_up(
-        triangle: &Triangle<'_>,
-        _: u16,
-        size: Size,
-        area: u32,
-        _: &[DrawState<'_>],
-        planes: &mut Planes,
-    ) -> Fill {
-        if size == Size::Tiny && F::MADE_OF.is_one_word() {
-            Self::packed_planes(triangle.vertex, area, planes);
+    fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+        if of.size == Size::Tiny && F::MADE_OF.is_one_word() {
+            Self::packed_planes(of.triangle.vertex, of.area, planes);
             return Fill::Plain;
         }
-        Self::other_planes(triangle, size, area, planes)
+        Self::other_planes(of.triangle, of.size, of.area, planes)
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {

@@ -41,18 +41,11 @@ pub trait Look: Sized {
     #[doc(hidden)]
     const SCALE: Scale;
 
-    /// The planes of a triangle; `area` and `size` are its own, `object` its number.
+    /// The planes of a triangle.
     #[doc(hidden)]
-    fn set_up(
-        triangle: &Triangle<'_>,
-        object: u16,
-        size: Size,
-        area: u32,
-        draws: &[DrawState<'_>],
-        planes: &mut Self::Planes,
-    ) -> Fill;
+    fn set_up(of: &Primitive<'_>, planes: &mut Self::Planes) -> Fill;
 
-    /// The planes of a thin triangle on one line, of the kind [`Fill::Wide`].
+    /// The planes of a thin triangle on one line, of the kind [`Fill::Wide`], where there were none.
     #[doc(hidden)]
     fn set_up_thin(
         span: &ThinSpan<'_>,
@@ -152,6 +145,16 @@ impl Place {
     pub fn pixels(self) -> u32 {
         self.end.wrapping_sub(self.span)
     }
+}
+
+/// A triangle that is set up, with its number, and what draw calls say.
+#[derive(Debug)]
+pub struct Primitive<'a> {
+    pub triangle: &'a Triangle<'a>,
+    pub object: u16,
+    pub size: Size,
+    pub area: u32,
+    pub draws: &'a [DrawState<'a>],
 }
 
 /// A span of a thin triangle: the parts that its corners have in its first pixel and in its last.

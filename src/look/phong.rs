@@ -9,26 +9,28 @@
 //! | a vertex's normal | 11, 11 and 10 bits: 1/2000 of its length, 1/1000 along the way ahead |
 //! | a thin triangle | exact at both ends of each span, linear between |
 //!
-//! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye.
+//! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye. A call without
+//! lamps is drawn as [`Gouraud`] draws it, bit for bit.
 
-use super::gouraud::{Planes as Three, dithered, thin_shades, wide_at, wide_shades};
-use super::{Fill, Look, Place, ThinSpan};
-use crate::geometry::{Affine, Scale, unit_normal};
+use super::gouraud::{Gouraud, Planes as Three, dithered, thin_shades, wide_at, wide_shades};
+use super::{Fill, Look, Place, Primitive, ThinSpan};
+use crate::geometry::{Affine, PixelLamps, Scale, unit_normal};
 use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, WordOfNormal};
-use crate::span::{Size, Triangle};
+use crate::span::Triangle;
 use core::marker::PhantomData;
 
 /// The look of light at each pixel, in the pixel format `F`; what shines is
-/// [`Draw::lamps`](crate::scene::Draw::lamps).
+/// [`Draw::lamps`](crate::scene::Draw::lamps), and a call without them is drawn as [`Gouraud`] draws it.
 #[derive(Clone, Copy, Debug)]
 pub struct Phong<F>(PhantomData<F>);
 
-/// What a triangle keeps: its normal, and its number.
+/// What a triangle keeps: its normal or its colour, and the number of its draw state.
 #[derive(Clone, Copy, Debug)]
 pub struct Planes {
-    normal: Three,
-    object: u16,
+    of: Three,
+    draw: u16,
+    is_lit: bool,
 }
 
 /// A normal of length 1 in a field of 11 bits, which has 1024 in its middle; in one of 10 bits it is half of that.
@@ -56,16 +58,31 @@ fn pixel<F: PixelFormat>(channels: [i32; 3], parts: i32) -> F::Word {
     F::pack_words(sixteen(0) << 16 | sixteen(2), sixteen(1) << 16)
 }
 
-/// The call's colour in 16.16 steps of the format.
-pub(super) fn steps_of<F: PixelFormat>(state: &DrawState<'_>) -> [u32; 3] {
-    let steps = |i: usize| u32::from(state.colour[i]) * u32::from(F::STEPS[i]);
-    [0, 1, 2].map(|i| ((steps(i) << 16) + 127) / 255)
+/// What shines on the pixels of a draw call, and the colour that it falls on.
+pub(super) struct Shine<'t> {
+    lamps: &'t PixelLamps,
+    colour: [u8; 3],
+}
+
+impl<'t> Shine<'t> {
+    /// That of the draw call of this number; none where the call has no lamps.
+    #[inline(always)]
+    pub(super) fn of(draw: u16, draws: &[DrawState<'t>]) -> Option<Self> {
+        let DrawState { lamps, colour, .. } = *draws.get(usize::from(draw))?;
+        lamps.map(|lamps| Self { lamps, colour })
+    }
+
+    /// The call's colour in 16.16 steps of the format.
+    pub(super) fn steps<F: PixelFormat>(&self) -> [u32; 3] {
+        let steps = |i: usize| u32::from(self.colour[i]) * u32::from(F::STEPS[i]);
+        [0, 1, 2].map(|i| ((steps(i) << 16) + 127) / 255)
+    }
 }
 
 /// Lights a run of pixels from a place on, dithered or not; `own` is the colour of each, in 16.16 steps and one half.
 #[inline(always)]
 pub(super) fn light<F: PixelFormat>(
-    state: &DrawState<'_>,
+    shine: &Shine<'_>,
     planes: &Three,
     place: Place,
     dithers: bool,
@@ -78,11 +95,7 @@ pub(super) fn light<F: PixelFormat>(
     for (pixel, column) in run.iter_mut().zip(place.column..) {
         let [x, y, z] = value.map(|v| v.wrapping_sub(MIDDLE) as i32);
         let at = [column, place.line];
-        let colour = own();
-        let lit = match state.lamps {
-            Some(lamps) => lamps.lit(unit_normal([x, y, z]), at, colour, F::STEPS),
-            None => colour,
-        };
+        let lit = shine.lamps.lit(unit_normal([x, y, z]), at, own(), F::STEPS);
         let parts = if dithers {
             threshold(column, place.line)
         } else {
@@ -95,18 +108,27 @@ pub(super) fn light<F: PixelFormat>(
     }
 }
 
-/// Colours a run of pixels from a place on, dithered or not.
+/// Lights a run of pixels from a place on, dithered or not.
 #[inline(never)]
-fn fill<F: PixelFormat>(
+fn lit<F: PixelFormat>(
     planes: &Planes,
     place: Place,
     dithers: bool,
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
-    if let Some(state) = DrawState::of(planes.object, draws) {
-        let colour = steps_of::<F>(state).map(|steps| steps as i32 + (1 << 15));
-        light::<F>(state, &planes.normal, place, dithers, run, || colour);
+    if let Some(shine) = Shine::of(planes.draw, draws) {
+        let colour = shine.steps::<F>().map(|steps| steps as i32 + (1 << 15));
+        light::<F>(&shine, &planes.of, place, dithers, run, || colour);
+    }
+}
+
+impl Planes {
+    /// Says whose triangle they are; whether it is lit at pixels.
+    fn begin(&mut self, object: u16, draws: &[DrawState<'_>]) -> bool {
+        self.draw = DrawState::number_of(object, draws);
+        self.is_lit = Shine::of(self.draw, draws).is_some();
+        self.is_lit
     }
 }
 
@@ -114,43 +136,55 @@ impl<F: PixelFormat> Look for Phong<F> {
     type Pixel = F;
     type Planes = Planes;
     const EMPTY: Planes = Planes {
-        normal: [0; 8],
-        object: 0,
+        of: [0; 8],
+        draw: 0,
+        is_lit: false,
     };
     const TEXTURED: bool = false;
     const LIT_AT_PIXELS: Option<WordOfNormal> = Some(word_of);
     const SCALE: Scale = Scale::new(F::STEPS);
 
-    fn set_up(
-        triangle: &Triangle<'_>,
-        object: u16,
-        _: Size,
-        _: u32,
-        _: &[DrawState<'_>],
-        planes: &mut Planes,
-    ) -> Fill {
-        planes.object = object;
-        wide_shades(triangle, &mut planes.normal)
+    fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+        if planes.begin(of.object, of.draws) {
+            return wide_shades(of.triangle, &mut planes.of);
+        }
+        Gouraud::<F>::set_up(of, &mut planes.of)
     }
 
-    fn set_up_thin(span: &ThinSpan<'_>, object: u16, _: &[DrawState<'_>], planes: &mut Planes) {
-        planes.object = object;
-        thin_shades(span, &mut planes.normal);
+    fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], planes: &mut Planes) {
+        planes.begin(object, draws);
+        thin_shades(span, &mut planes.of);
     }
 
-    fn fill(_: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
-        fill::<F>(planes, place, false, draws, run);
+    // No triangle that is lit is plain.
+    #[inline(always)]
+    fn fill_plain(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
+        Gouraud::<F>::fill_plain(&planes.of, at, draws, run);
+    }
+
+    fn fill(fill: Fill, planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
+        if planes.is_lit {
+            return lit::<F>(planes, at, false, draws, run);
+        }
+        Gouraud::<F>::fill(fill, &planes.of, at, draws, run);
+    }
+
+    fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {
+        Gouraud::<F>::set_up_dithered(triangle, &mut planes.of)
     }
 
     fn fill_opaque(
-        _: Fill,
+        fill: Fill,
         planes: &Planes,
-        place: Place,
+        at: Place,
         draws: &[DrawState<'_>],
         dithers: bool,
         run: &mut [F::Word],
     ) -> u32 {
-        fill::<F>(planes, place, dithers, draws, run);
-        u32::MAX
+        if planes.is_lit {
+            lit::<F>(planes, at, dithers, draws, run);
+            return u32::MAX;
+        }
+        Gouraud::<F>::fill_opaque(fill, &planes.of, at, draws, dithers, run)
     }
 }

@@ -4,11 +4,10 @@
 //! nothing of them but their number: each has a plane with 20 fraction bits, and a pixel its exact value.
 
 use super::gouraud::{Planes, thin_shades, wide_at, wide_shades};
-use super::{Fill, Look, Place, ThinSpan};
+use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
 use crate::scene::DrawState;
-use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
 
 /// What makes a pixel of three parameters that are linear between vertices.
@@ -85,15 +84,8 @@ impl<S: Shader> Look for Shaded<S> {
     /// Fields have 3 and 2 bits below a level, whatever the pixels are.
     const SCALE: Scale = Scale::new([255; 3]);
 
-    fn set_up(
-        triangle: &Triangle<'_>,
-        _: u16,
-        _: Size,
-        _: u32,
-        _: &[DrawState<'_>],
-        planes: &mut Planes,
-    ) -> Fill {
-        wide_shades(triangle, planes)
+    fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+        wide_shades(of.triangle, planes)
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {

@@ -12,11 +12,12 @@
 use super::fetch::copy_from;
 use super::gouraud::{Planes as Shades, course, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values, word_at};
+use super::phong::Shine;
 use super::shades::{shade_at, shade_planes, small_shade};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
-use super::{Fill, Look, Place, ThinSpan};
+use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::scene::{Budget, DrawState, Holes, ORIGIN, Texture, TexturePlace, Vertex, Words};
 use crate::span::{Size, Triangle, across, down};
@@ -80,6 +81,12 @@ impl Planes {
         draws.get(usize::from(self.draw))
     }
 
+    /// What shines on the triangle's pixels, if anything does.
+    #[inline(always)]
+    pub(super) fn shine<'t>(&self, draws: &[DrawState<'t>]) -> Option<Shine<'t>> {
+        Shine::of(self.draw, draws)
+    }
+
     /// The planes of the shade.
     pub(super) fn shades(&self) -> &Shades {
         &self.shade
@@ -94,16 +101,6 @@ impl Planes {
 const SHADE_RUN: u32 = 64;
 
 impl<F: Texel> Textured<F> {
-    /// The draw state of an object: that of the last call that began at it or before.
-    #[inline(always)]
-    fn draw_of(object: u16, draws: &[DrawState<'_>]) -> u16 {
-        if draws.len() < 2 {
-            return 0;
-        }
-        let after = draws.partition_point(|draw| draw.first <= object);
-        after.saturating_sub(1) as u16
-    }
-
     /// The corners as a mapping wants them: fine places from the centre of the picture's first pixel.
     #[inline(always)]
     fn corners(triangle: &Triangle<'_>) -> [Corner; 3] {
@@ -159,6 +156,43 @@ impl<F: Texel> Textured<F> {
             return Some(Fill::Small);
         }
         Some(wide_shades(triangle, planes))
+    }
+
+    /// [`set_up`](Look::set_up) of values in registers.
+    #[inline(never)]
+    fn set_up_all(
+        triangle: &Triangle<'_>,
+        object: u16,
+        size: Size,
+        area: u32,
+        draws: &[DrawState<'_>],
+        planes: &mut Planes,
+    ) -> Fill {
+        planes.draw = DrawState::number_of(object, draws);
+        planes.shaded = Self::set_up_shade(triangle, size, area, &mut planes.shade);
+        planes.mapped = false;
+        planes.mapping.quick = 0;
+        planes.mapping.reach = Reach::NONE;
+        let mut is_plain = false;
+        let mut thin = planes.shaded == Some(Fill::Thin);
+        let state = draws.get(usize::from(planes.draw));
+        if let Some((texture, budget)) = state.and_then(DrawState::texture) {
+            let places = triangle.textures();
+            let near = Self::near(triangle, &places);
+            if let Some(plane) = near.word_plane(texture, budget) {
+                planes.mapping.method = Method::Word;
+                planes.mapping.planes[0] = plane;
+                planes.mapped = true;
+                is_plain = state.and_then(DrawState::square).is_some();
+            } else {
+                thin |= Self::set_up_mapping(triangle, texture, budget, planes);
+            }
+        }
+        match planes.shaded {
+            _ if thin => Fill::Thin,
+            None | Some(Fill::Small) if is_plain => Fill::Plain,
+            _ => Fill::Wide,
+        }
     }
 
     /// The mapping of a triangle that [`Near`] does not serve; whether the triangle is too thin for planes.
@@ -321,45 +355,13 @@ impl<F: Texel> Look for Textured<F> {
     const TEXTURED: bool = true;
     const SCALE: Scale = Scale::SHADE;
 
-    #[inline(never)]
-    fn set_up(
-        triangle: &Triangle<'_>,
-        object: u16,
-        size: Size,
-        area: u32,
-        draws: &[DrawState<'_>],
-        planes: &mut Planes,
-    ) -> Fill {
-        planes.draw = Self::draw_of(object, draws);
-        planes.shaded = Self::set_up_shade(triangle, size, area, &mut planes.shade);
-        planes.mapped = false;
-        planes.mapping.quick = 0;
-        planes.mapping.reach = Reach::NONE;
-        let mut is_plain = false;
-        let mut thin = planes.shaded == Some(Fill::Thin);
-        let state = draws.get(usize::from(planes.draw));
-        if let Some((texture, budget)) = state.and_then(DrawState::texture) {
-            let places = triangle.textures();
-            let near = Self::near(triangle, &places);
-            if let Some(plane) = near.word_plane(texture, budget) {
-                planes.mapping.method = Method::Word;
-                planes.mapping.planes[0] = plane;
-                planes.mapped = true;
-                is_plain = state.and_then(DrawState::square).is_some();
-            } else {
-                thin |= Self::set_up_mapping(triangle, texture, budget, planes);
-            }
-        }
-        match planes.shaded {
-            _ if thin => Fill::Thin,
-            None | Some(Fill::Small) if is_plain => Fill::Plain,
-            _ => Fill::Wide,
-        }
+    #[inline(always)]
+    fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+        Self::set_up_all(of.triangle, of.object, of.size, of.area, of.draws, planes)
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], planes: &mut Planes) {
-        *planes = Self::EMPTY;
-        planes.draw = Self::draw_of(object, draws);
+        planes.draw = DrawState::number_of(object, draws);
         thin_shades(span, &mut planes.shade);
         planes.shaded = Some(Fill::Wide);
         let state = draws.get(usize::from(planes.draw));

@@ -1,24 +1,23 @@
 //! Texels lit at each pixel: [`Phong`](super::Phong) with a texture (K10, H8).
 //!
 //! Texels are those of [`Textured`] in the same format: of 16 bits. A span's texels are fetched as for that look, some at
-//! a time; each times the draw call's colour is the colour that light falls on in its pixel.
+//! a time; each times the draw call's colour is the colour that light falls on in its pixel. A call without lamps is
+//! drawn as [`Textured`] draws it, bit for bit.
 
 use super::gouraud::wide_shades;
-use super::phong::{light, steps_of, word_of};
+use super::phong::{Shine, light, word_of};
 use super::textured::{Planes, Textured};
 use super::textured_wide::{each_holed, each_texels};
 use super::tint::Texel;
-use super::{Fill, Look, Place, ThinSpan};
+use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, WordOfNormal};
-use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
 
 /// The look of textures lit at each pixel, in the pixel format `F`; texels are as for [`Textured`], and what shines is
-/// [`Draw::lamps`](crate::scene::Draw::lamps).
-///
-/// [`Replace`](crate::scene::Application::Replace) is texels that no light falls on.
+/// [`Draw::lamps`](crate::scene::Draw::lamps). A call without them is drawn as [`Textured`] draws it, and so is
+/// [`Replace`](crate::scene::Application::Replace), texels that no light falls on.
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedPhong<F>(PhantomData<F>);
 
@@ -31,34 +30,29 @@ fn times(texel: [u8; 3], colour: [u32; 3]) -> [i32; 3] {
     })
 }
 
-/// Sets a triangle up: a vertex's colour is its normal, and the planes of the shade are the normal's.
-fn set_up<T: Texel>(
-    triangle: &Triangle<'_>,
-    object: u16,
-    size: Size,
-    area: u32,
-    draws: &[DrawState<'_>],
-    planes: &mut Planes,
-) -> Fill {
-    match Textured::<T>::set_up(triangle, object, size, area, draws, planes) {
+/// Sets a triangle up; of one that is lit a vertex's colour is its normal, and the planes of the shade are the normal's.
+fn set_up<T: Texel>(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+    let fill = Textured::<T>::set_up(of, planes);
+    // The planes of small triangles have too few bits.
+    match fill {
         Fill::Thin => Fill::Thin,
-        // The planes of small triangles have too few bits.
-        _ => wide_shades(triangle, planes.shades_mut()),
+        _ if planes.shine(of.draws).is_some() => wide_shades(of.triangle, planes.shades_mut()),
+        _ => fill,
     }
 }
 
 /// Lights pixels by their texels, which are words of `T`, dithered or not; those without one by white.
 fn lit<F: PixelFormat, T: Texel>(
-    state: &DrawState<'_>,
+    shine: &Shine<'_>,
     planes: &Planes,
     place: Place,
     dithers: bool,
     texels: &[u16],
     run: &mut [F::Word],
 ) {
-    let colour = steps_of::<F>(state);
+    let colour = shine.steps::<F>();
     let mut texels = texels.iter();
-    light::<F>(state, planes.shades(), place, dithers, run, || {
+    light::<F>(shine, planes.shades(), place, dithers, run, || {
         let texel = texels.next().map_or([255; 3], |&texel| T::to_rgb8(texel));
         times(texel, colour)
     });
@@ -66,34 +60,34 @@ fn lit<F: PixelFormat, T: Texel>(
 
 #[inline(never)]
 fn fill<F: PixelFormat, T: Texel>(
+    shine: &Shine<'_>,
     planes: &Planes,
     place: Place,
     dithers: bool,
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
-    if let Some(state) = planes.state(draws) {
-        each_texels::<_, T>(planes, place, draws, run, |place, texels, run| {
-            lit::<F, T>(state, planes, place, dithers, texels, run);
-        });
-    }
+    each_texels::<_, T>(planes, place, draws, run, |place, texels, run| {
+        lit::<F, T>(shine, planes, place, dithers, texels, run);
+    });
 }
 
-/// The same of a run of up to 32 pixels whose texture has transparent texels; a bit for each that is not a hole.
+/// The same of a run of up to 32 pixels whose texture may have transparent texels; a bit for each that is not a hole.
 #[inline(never)]
 fn fill_opaque<F: PixelFormat, T: Texel>(
+    shine: &Shine<'_>,
     planes: &Planes,
     place: Place,
-    draws: &[DrawState<'_>],
     dithers: bool,
+    draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) -> u32 {
-    let (Some(state), Some(holes)) = (planes.state(draws), planes.holes(draws)) else {
-        fill::<F, T>(planes, place, dithers, draws, run);
+    let Some(holes) = planes.holes(draws) else {
+        fill::<F, T>(shine, planes, place, dithers, draws, run);
         return u32::MAX;
     };
     each_holed::<F, T>(planes, place, draws, holes, run, |place, texels, run| {
-        lit::<F, T>(state, planes, place, dithers, texels, run);
+        lit::<F, T>(shine, planes, place, dithers, texels, run);
     })
 }
 
@@ -103,59 +97,65 @@ macro_rules! lit {
         impl Look for TexturedPhong<$format> {
             type Pixel = $format;
             type Planes = Planes;
-            const EMPTY: Planes = Textured::<$texel>::EMPTY;
+            const EMPTY: Planes = Textured::<$format>::EMPTY;
             const TEXTURED: bool = true;
             const LIT_AT_PIXELS: Option<WordOfNormal> = Some(word_of);
-            const SCALE: Scale = Scale::new(<$format as PixelFormat>::STEPS);
+            const SCALE: Scale = Textured::<$format>::SCALE;
 
-            fn set_up(
-                triangle: &Triangle<'_>,
-                object: u16,
-                size: Size,
-                area: u32,
-                draws: &[DrawState<'_>],
-                planes: &mut Planes,
-            ) -> Fill {
-                set_up::<$texel>(triangle, object, size, area, draws, planes)
+            fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+                set_up::<$texel>(of, planes)
             }
 
-            fn set_up_thin(
-                span: &ThinSpan<'_>,
-                object: u16,
-                draws: &[DrawState<'_>],
-                planes: &mut Planes,
-            ) {
-                Textured::<$texel>::set_up_thin(span, object, draws, planes);
+            fn set_up_thin(of: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], to: &mut Planes) {
+                Textured::<$texel>::set_up_thin(of, object, draws, to);
             }
 
-            fn fill(
-                _: Fill,
+            // No triangle that is lit is plain.
+            #[inline(always)]
+            fn fill_plain(
                 planes: &Planes,
                 place: Place,
                 draws: &[DrawState<'_>],
                 run: &mut [<$format as PixelFormat>::Word],
             ) {
-                fill::<$format, $texel>(planes, place, false, draws, run);
+                Textured::<$format>::fill_plain(planes, place, draws, run);
+            }
+
+            fn fill(
+                fill: Fill,
+                planes: &Planes,
+                place: Place,
+                draws: &[DrawState<'_>],
+                run: &mut [<$format as PixelFormat>::Word],
+            ) {
+                match planes.shine(draws) {
+                    Some(shine) => {
+                        self::fill::<$format, $texel>(&shine, planes, place, false, draws, run)
+                    }
+                    None => Textured::<$format>::fill(fill, planes, place, draws, run),
+                }
             }
 
             fn fill_opaque(
-                _: Fill,
+                fill: Fill,
                 planes: &Planes,
                 place: Place,
                 draws: &[DrawState<'_>],
                 dithers: bool,
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
-                fill_opaque::<$format, $texel>(planes, place, draws, dithers, run)
+                match planes.shine(draws) {
+                    Some(shine) => fill_opaque::<$format, $texel>(
+                        &shine, planes, place, dithers, draws, run,
+                    ),
+                    None => {
+                        Textured::<$format>::fill_opaque(fill, planes, place, draws, dithers, run)
+                    }
+                }
             }
 
-            fn fill_mask(
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [u16],
-            ) {
-                Textured::<$texel>::fill_mask(planes, place, draws, run);
+            fn fill_mask(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+                Textured::<$texel>::fill_mask(planes, at, draws, run);
             }
         }
     )+};

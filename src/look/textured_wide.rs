@@ -6,11 +6,10 @@
 
 use super::textured::{Planes, Textured};
 use super::tint::{Shade, Texel};
-use super::{Fill, Look, Place, ThinSpan};
+use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, Holes};
-use crate::span::{Size, Triangle};
 
 /// The look that fetches texels.
 type Texels = Textured<Rgb565>;
@@ -147,24 +146,12 @@ macro_rules! wide {
             const SCALE: Scale = Texels::SCALE;
 
             #[inline(always)]
-            fn set_up(
-                triangle: &Triangle<'_>,
-                object: u16,
-                size: Size,
-                area: u32,
-                draws: &[DrawState<'_>],
-                planes: &mut Planes,
-            ) -> Fill {
-                Texels::set_up(triangle, object, size, area, draws, planes)
+            fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+                Texels::set_up(of, planes)
             }
 
-            fn set_up_thin(
-                span: &ThinSpan<'_>,
-                object: u16,
-                draws: &[DrawState<'_>],
-                planes: &mut Planes,
-            ) {
-                Texels::set_up_thin(span, object, draws, planes);
+            fn set_up_thin(of: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], to: &mut Planes) {
+                Texels::set_up_thin(of, object, draws, to);
             }
 
             #[inline(always)]
@@ -190,13 +177,8 @@ macro_rules! wide {
                 fill_opaque::<$format>(planes, place, draws, run)
             }
 
-            fn fill_mask(
-                planes: &Planes,
-                place: Place,
-                draws: &[DrawState<'_>],
-                run: &mut [u16],
-            ) {
-                Texels::fill_mask(planes, place, draws, run);
+            fn fill_mask(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+                Texels::fill_mask(planes, at, draws, run);
             }
         }
     )+};

@@ -314,7 +314,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     ) -> Result<Halt, ListError> {
         let draw = &self.settings.draw;
         let at_vertices = draw.light.is_some() || draw.lights.is_some();
-        if L::LIT_AT_PIXELS.is_some() && at_vertices {
+        if draw.lamps.is_some() && at_vertices {
             return Err(self.unfit(Reason::Missing(Missing::LightAtVertices)));
         }
         let begin = self.walker.clone();

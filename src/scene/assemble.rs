@@ -84,9 +84,9 @@ impl<'t, L> Scene<'_, 't, L> {
         let master = self.master.with_shadow(draw.shadow);
         let mut state = DrawState::new(self.objects.len() as u16, draw, master);
         let is_replaced = master.applied(draw) == Some(Application::Replace);
-        if word_of.is_some() && is_replaced {
-            state.replace_light();
-        }
+        // Texels that are seen as they are have no light.
+        state.lamps = state.lamps.filter(|_| !is_replaced);
+        let word_of = word_of.filter(|_| state.lamps.is_some());
         if self.draws.push(state).is_none() {
             return Err(self.lose_call(submitted));
         }

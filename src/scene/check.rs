@@ -29,7 +29,7 @@ pub(super) fn check_draw<C: Coordinate>(
     };
     check_mesh(mesh, below).map_err(DrawError::Mesh)?;
     let at_corners = draw.light.is_some() || draw.lights.is_some() || !mesh.colours.is_empty();
-    if lit_at_pixels && at_corners || !lit_at_pixels && draw.lamps.is_some() {
+    if draw.lamps.is_some() && (at_corners || !lit_at_pixels) {
         return Err(DrawError::Light);
     }
     match draw.texture {

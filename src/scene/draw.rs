@@ -23,8 +23,8 @@ pub struct Draw<'a, 't, C = i16> {
     pub light: Option<Light>,
     /// Several lights and the material that they fall on, in place of the one: a [`Lighting`](crate::light::Lighting).
     pub lights: Option<&'a dyn Lights>,
-    /// What shines on pixels, for [`Phong`](crate::look::Phong) and [`TexturedPhong`](crate::look::TexturedPhong) alone,
-    /// which refuse the other two and colours of corners. It is what the camera sees: to be made anew when that moves, and the scene with it.
+    /// What shines on pixels, for [`Phong`](crate::look::Phong) and [`TexturedPhong`](crate::look::TexturedPhong) alone, in
+    /// place of the other two and of colours of corners. It is what the camera sees: to be made anew when that moves, and the scene with it.
     pub lamps: Option<&'t PixelLamps>,
     /// Where a face's colour comes from.
     pub shading: Shading,
@@ -270,16 +270,19 @@ impl<'t> DrawState<'t> {
         }
     }
 
-    /// Says that texels are seen as they are, where light falls on pixels.
-    #[inline(always)]
-    pub(super) fn replace_light(&mut self) {
-        (self.colour, self.lamps) = ([255; 3], None);
-    }
-
     /// The state of an object: that of the last call that began at it or before.
     #[inline(never)]
     pub(crate) fn of(object: u16, draws: &[Self]) -> Option<&Self> {
         draws.get(Self::begun(object, draws).checked_sub(1)?)
+    }
+
+    /// The number of the state of an object.
+    #[inline(always)]
+    pub(crate) fn number_of(object: u16, draws: &[Self]) -> u16 {
+        if draws.len() < 2 {
+            return 0;
+        }
+        Self::begun(object, draws).saturating_sub(1) as u16
     }
 
     /// How many calls began at an object or before.

@@ -66,11 +66,41 @@ impl<'t, L> Scene<'_, 't, L> {
         self.draws.as_slice().get(usize::from(call))
     }
 
-    /// [`triangles`](Self::triangles) of a look whose vertices have colours, or of one whose pixels are lit.
-    pub(crate) fn filed(
-        &self,
-        lit_at_pixels: bool,
-    ) -> impl DoubleEndedIterator<Item = FiledTriangle> + ExactSizeIterator {
+    /// The triangles that pass one has filed, in order of submission: pieces of those that were cut, none that is culled
+    /// or found no room, those of shadow volumes too. All corners lie on the screen, or beside it.
+    ///
+    /// ```
+    /// use scanbeam::look::Gouraud;
+    /// use scanbeam::mesh::ScreenVertex;
+    /// use scanbeam::pixel::Rgb565;
+    /// use scanbeam::scene::{Draw, DrawState, Memory, Object, Scene, ScreenCorner, Vertex};
+    /// use scanbeam::{Camera, Faces, Mesh, Screen};
+    ///
+    /// let (mut vertices, mut objects) = ([Vertex::EMPTY; 3], [Object::EMPTY; 1]);
+    /// let (mut bins, mut draws) = ([0; 48], [DrawState::EMPTY; 1]);
+    /// let memory = Memory {
+    ///     vertices: &mut vertices, places: &mut [], objects: &mut objects, bins: &mut bins, draws: &mut draws,
+    /// };
+    /// let mut scene = Scene::<Gouraud<Rgb565>>::new(Screen::new(64, 48)?, memory);
+    /// scene.begin(&Camera::look_at([0.0, 0.0, 1.0], [0.0; 3], [0.0, 1.0, 0.0], 64.0, 0.1, 10.0)?)?;
+    /// let corner = |x, y, colour| ScreenCorner {
+    ///     vertex: ScreenVertex { x, y, depth: 1 << 30, colour },
+    ///     ..ScreenCorner::default()
+    /// };
+    /// let (red, blue) = ([255, 0, 0], [0, 0, 255]);
+    /// let empty = Mesh { positions: &[], normals: &[], colours: &[], faces: Faces::Triangles(&[]) };
+    /// scene.draw_screen(&Draw::new(empty), &[[corner(80, 8, red), corner(0, 40, blue), corner(160, 90, blue)]])?;
+    /// let triangle = scene.triangles().next().unwrap();
+    /// let [top, right, left] = triangle.corners;
+    /// // Clockwise from the topmost corner on.
+    /// assert_eq!([(top.x, top.y), (right.x, right.y), (left.x, left.y)], [(80, 8), (160, 90), (0, 40)]);
+    /// assert_eq!((top.colour, left.colour, triangle.call), (red, blue, 0));
+    /// // From line 1, whose middle is 12 units down, to line 10 at 84.
+    /// assert_eq!(triangle.lines(), 1..11);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    #[must_use]
+    pub fn triangles(&self) -> impl DoubleEndedIterator<Item = FiledTriangle> + ExactSizeIterator {
         let (vertices, draws) = (self.vertices.as_slice(), self.draws.as_slice());
         let objects = self.objects.as_slice().iter().enumerate();
         objects.map(move |(number, Object { corner, .. })| {
@@ -82,7 +112,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 let vertex = vertices.get(at).unwrap_or(&Vertex::EMPTY);
                 let place = self.places.get(at).filter(|_| state.texture.is_some());
                 self.filed_corner(vertex, place.copied().unwrap_or_default(), || {
-                    lit_at_pixels.then_some(state.colour)
+                    state.lamps.is_some().then_some(state.colour)
                 })
             });
             FiledTriangle {

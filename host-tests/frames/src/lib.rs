@@ -17,7 +17,8 @@ use scanbeam::scene::{Assembled, Shading};
 use scanbeam::stats::SpanCounts;
 use scenes::{
     CutMemory, DRAWS, Frame, HEIGHT, InParts, OBJECTS, PhongLook, SceneB, Shot, ShotError,
-    SmoothLook, Suite, TexturedLook, VERTICES, WIDTH, frames, lamplit_teapot, teapot_lamps,
+    SmoothLook, Suite, TexturedLook, TexturedPhongLook, VERTICES, WIDTH, frames, lamplit_teapot,
+    teapot_lamps,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -204,6 +205,17 @@ pub fn lamplit_frame() -> Result<Drawn, Box<dyn Error>> {
     let lamps = teapot_lamps().map_err(|error| format!("{error:?}"))?;
     drawn::<PhongLook>(Shot::Teapot.background(), |scene| {
         said("teapot_lamplit", lamplit_teapot(&lamps, scene))
+    })
+}
+
+/// The teapot in smooth colours, by the look that has every other way too.
+///
+/// # Errors
+/// When it does not fit the memory that it asks for.
+pub fn untextured_frame() -> Result<Drawn, Box<dyn Error>> {
+    let teapot = Suite::Teapot;
+    drawn::<TexturedPhongLook>(teapot.background(), |scene| {
+        said("teapot_untextured", teapot.build(scene))
     })
 }
 

@@ -1,6 +1,10 @@
 //! Directions and normals in f64.
 
+use super::camera;
 use crate::common::Rng;
+use scanbeam::Screen;
+use scanbeam::light::{Lighting, PixelLamps};
+use scanbeam::mesh::{Material, U1F15};
 
 pub type V3 = [f64; 3];
 
@@ -25,4 +29,20 @@ pub fn some_direction(rng: &mut Rng) -> V3 {
 /// As meshes have normals.
 pub fn q14(v: V3) -> [i16; 3] {
     v.map(|c| (c * 16_384.0).round() as i16)
+}
+
+/// Light at pixels that leaves each colour as it is.
+pub fn even_light() -> Option<&'static PixelLamps> {
+    let full = [U1F15::from_bits(1 << 15); 3];
+    let material = Material {
+        ambient: full,
+        ..Material::default()
+    };
+    let lighting = Lighting::new(&[], full, material).expect("no light");
+    let screen = Screen::new(8, 8).expect("a screen");
+    Some(Box::leak(Box::new(PixelLamps::new(
+        &lighting,
+        &camera(),
+        screen,
+    ))))
 }

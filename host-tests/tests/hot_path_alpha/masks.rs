@@ -5,6 +5,8 @@
 use super::{each_place, leak, picture, triangle};
 use crate::common::Rng;
 use crate::hot::Smooth;
+use crate::hot::shine::even_light;
+use scanbeam::light::PixelLamps;
 use scanbeam::look::{Textured, TexturedPhong};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888};
 use scanbeam::scene::{Application, Blend, BlendMode, Budget, MaskTexel, Skin, Texture, Wrap};
@@ -99,6 +101,7 @@ pub fn some_skin(rng: &mut Rng) -> (&'static [[i32; 2]], Budget) {
 /// Holds pixels of 16 bits against whole numbers.
 fn masks_lie_on_texels<L: Smooth<Format: PixelFormat<Word = u16>>>(
     seed: u64,
+    light: Option<&'static PixelLamps>,
     order: fn(u16) -> u16,
 ) {
     let mut rng = Rng::new(seed);
@@ -122,7 +125,7 @@ fn masks_lie_on_texels<L: Smooth<Format: PixelFormat<Word = u16>>>(
                     budget,
                 });
                 // White, which looks that are lit at pixels have from the call.
-                (draw.mesh.colours, draw.blend) = (&[], blend);
+                (draw.mesh.colours, draw.blend, draw.lamps) = (&[], blend, light);
             })
         });
         let old = order(L::Format::from_rgb8(background));
@@ -154,10 +157,10 @@ fn masks_lie_on_texels<L: Smooth<Format: PixelFormat<Word = u16>>>(
 /// an alpha of the mode that is dropped, a texel that is added and asks the mode.
 #[test]
 fn a_mask_lies_where_its_texture_lies() {
-    masks_lie_on_texels::<Textured<Rgb565>>(31, |word| word);
-    masks_lie_on_texels::<Textured<Rgb565Be>>(32, u16::to_be);
-    masks_lie_on_texels::<Textured<Rgb565Le>>(33, u16::to_le);
-    masks_lie_on_texels::<TexturedPhong<Rgb565Be>>(34, u16::to_be);
+    masks_lie_on_texels::<Textured<Rgb565>>(31, None, |word| word);
+    masks_lie_on_texels::<Textured<Rgb565Be>>(32, None, u16::to_be);
+    masks_lie_on_texels::<Textured<Rgb565Le>>(33, None, u16::to_le);
+    masks_lie_on_texels::<TexturedPhong<Rgb565Be>>(34, even_light(), u16::to_be);
 }
 
 /// Levels of 24 and 32 bits, whose texels are the same words. Kills: a mask that wide pixels do not ask.
@@ -211,7 +214,7 @@ fn masks_of_wide_pixels_lie_on_texels() {
 /// the same call without a mask; with holes, decals and light at pixels too.
 fn d_bits_bypass_the_dither<L: Smooth<Format: PixelFormat<Word = u16>>>(
     seed: u64,
-    at_pixels: bool,
+    light: Option<&'static PixelLamps>,
     order: fn(u16) -> u16,
 ) {
     let mut rng = Rng::new(seed);
@@ -258,8 +261,8 @@ fn d_bits_bypass_the_dither<L: Smooth<Format: PixelFormat<Word = u16>>>(
                 picture::<L>(corners, background, |draw| {
                     draw.texture = Some(skin(texture));
                     (draw.dither, draw.application) = (dither, application);
-                    if at_pixels {
-                        (draw.mesh.colours, draw.colour) = (&[], colour);
+                    if light.is_some() {
+                        (draw.mesh.colours, draw.colour, draw.lamps) = (&[], colour, light);
                     }
                 })
             },
@@ -284,7 +287,7 @@ fn d_bits_bypass_the_dither<L: Smooth<Format: PixelFormat<Word = u16>>>(
 /// Kills: a D bit that is not asked, one that is taken for all, a mask that is read by another walker.
 #[test]
 fn texels_with_the_d_bit_are_not_dithered() {
-    d_bits_bypass_the_dither::<Textured<Rgb565>>(41, false, |word| word);
-    d_bits_bypass_the_dither::<Textured<Rgb565Be>>(42, false, u16::to_be);
-    d_bits_bypass_the_dither::<TexturedPhong<Rgb565Be>>(43, true, u16::to_be);
+    d_bits_bypass_the_dither::<Textured<Rgb565>>(41, None, |word| word);
+    d_bits_bypass_the_dither::<Textured<Rgb565Be>>(42, None, u16::to_be);
+    d_bits_bypass_the_dither::<TexturedPhong<Rgb565Be>>(43, even_light(), u16::to_be);
 }

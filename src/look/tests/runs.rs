@@ -3,7 +3,7 @@
 use super::super::fetch::packed;
 use super::super::gouraud::fields;
 use super::super::mapping::Mapping;
-use super::super::{Fill, Gouraud, Look, Parts, Place, Textured, ThinSpan, WordOf};
+use super::super::{Fill, Gouraud, Look, Parts, Place, Primitive, Textured, ThinSpan, WordOf};
 use super::triangles::{inside, some_triangle};
 use super::{FRACTION, Texels, Uv, WRAPS, draw_mapped, some_texture};
 use crate::geometry::{Faces, Mesh};
@@ -175,8 +175,14 @@ fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
         let draws = [DrawState::new(0, &call, Master::ALL)];
         let (area, lines, way) = (triangle.area(), triangle.lines(), triangle.way());
         let mut planes = L::EMPTY;
-        let size = triangle.size(area);
-        let fill = L::set_up(&triangle, 0, size, area, &draws, &mut planes);
+        let of = Primitive {
+            triangle: &triangle,
+            object: 0,
+            size: triangle.size(area),
+            area,
+            draws: &draws,
+        };
+        let fill = L::set_up(&of, &mut planes);
         let first = (corner[0] >> 19) as i32 + 1 - ORIGIN;
         for line in (first..lines.end).step_by(if i % 4 < 2 { 1 } else { 13 }) {
             let sides = triangle.sides(way, line, lines.turn);
@@ -195,6 +201,7 @@ fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
                     start,
                     pixels: end - start,
                 };
+                planes = L::EMPTY;
                 L::set_up_thin(&ends, 0, &draws, &mut planes);
                 fill = Fill::Wide;
             }

@@ -59,7 +59,7 @@ pub(super) fn draw_all<'t, L: Look>(
     Ok(())
 }
 
-/// A ball and a ribbon.
+/// A ball and a ribbon, and a smaller ball that is lit at its vertices.
 pub(super) fn phong<'t>(
     scene: &mut Scene<'_, 't, PhongLook>,
     lamps: &'t Option<PixelLamps>,
@@ -78,10 +78,16 @@ pub(super) fn phong<'t>(
         dither: true,
         ..Draw::new(uncoloured(RIBBON))
     };
-    draw_all(scene, &[ball, ribbon])
+    let smaller = Draw {
+        model: at(0.3, [-0.9, -0.5, 0.6]),
+        colour: [90, 160, 220],
+        light: light(),
+        ..Draw::new(SPHERE)
+    };
+    draw_all(scene, &[ball, ribbon, smaller])
 }
 
-/// A cube, a grille in front of it and a ball without texels.
+/// A cube, a grille in front of it and a ball without texels; and a cube that is lit at its faces.
 pub(super) fn texels<'t>(
     scene: &mut Scene<'_, 't, TexturedPhongLook>,
     lamps: &'t Option<PixelLamps>,
@@ -112,7 +118,14 @@ pub(super) fn texels<'t>(
         lamps,
         ..Draw::new(SPHERE)
     };
-    draw_all(scene, &[cube, grille, ball])
+    let smaller = Draw {
+        model: Affine::rotation_y(0.4).then(&at(0.25, [-0.9, -0.5, 0.6])),
+        lamps: None,
+        light: light(),
+        shading: Shading::Flat,
+        ..cube
+    };
+    draw_all(scene, &[cube, grille, ball, smaller])
 }
 
 /// A ball with contour bands, a corner of the picture left out.
