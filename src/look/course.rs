@@ -1,6 +1,5 @@
 //! A colour along a span, and a span in parts of 16 pixels, at whose beginnings its colour is reckoned anew.
 
-use super::Place;
 use super::ramp::{self, Packed, Pair};
 use crate::pixel::PixelFormat;
 
@@ -31,14 +30,6 @@ impl Course {
         }
     }
 
-    /// On by such a step.
-    #[inline(always)]
-    pub(super) fn advance(&mut self, step: [u32; 3]) {
-        for (value, step) in self.value.iter_mut().zip(step) {
-            *value = value.wrapping_add(step);
-        }
-    }
-
     /// Whether the colour does not step.
     #[inline(always)]
     pub(super) fn is_even(&self) -> bool {
@@ -48,88 +39,96 @@ impl Course {
     /// The pixel of a colour that does not step.
     #[inline(always)]
     pub(super) fn even<F: PixelFormat>(&self) -> F::Word {
+        let at = self.pair();
         if F::MADE_OF.is_one_word() {
-            return F::of_word(self.packed(0).word);
+            return F::of_word(at.word());
         }
-        let [at, _] = self.pair(0);
         F::pack_words(at.red_blue, at.green)
     }
 
-    /// The word of colour so many pixels on from an anchor.
+    /// The colour in two words.
     #[inline(always)]
-    pub(super) fn packed(&self, off: u32) -> Packed {
+    fn pair(&self) -> Pair {
         let [red, green, blue] = self.value;
-        let word = red << 1 & 0xFFE0_0000 | blue >> 10 & 0x001F_F800 | green >> 20 & 0x7FF;
-        Packed {
-            word: word.wrapping_add(self.packed.wrapping_mul(off)),
-            step: self.packed,
+        Pair {
+            red_blue: red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF,
+            green: green << 1 & 0xFFFF_0000,
+        }
+    }
+
+    /// The step of `2^log` pixels in two words, rounded.
+    #[inline(always)]
+    fn pair_step(&self, log: u32) -> Pair {
+        let rounded = |i: usize| (self.step[i] << log).wrapping_add(1 << 14) >> 15;
+        Pair {
+            red_blue: ((rounded(0) << 16) as u32).wrapping_add(rounded(2) as u32),
+            green: (rounded(1) << 16) as u32,
         }
     }
 
     /// The pair of words so many pixels on from an anchor, and their steps.
     #[inline(always)]
-    pub(super) fn pair(&self, off: u32) -> [Pair; 2] {
-        let [red, green, blue] = self.value;
-        let rounded = self.step.map(|s| (s + (1 << 14)) >> 15);
-        let join = |high: i32, low: i32| ((high << 16) as u32).wrapping_add(low as u32);
-        let step = Pair {
-            red_blue: join(rounded[0], rounded[2]),
-            green: (rounded[1] << 16) as u32,
-        };
-        let at = Pair {
-            red_blue: red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF,
-            green: green << 1 & 0xFFFF_0000,
-        };
-        let on = Pair {
-            red_blue: step.red_blue.wrapping_mul(off),
-            green: step.green.wrapping_mul(off),
-        };
-        [at.plus(on), step]
+    pub(super) fn pair_on(&self, off: u32) -> [Pair; 2] {
+        let step = self.pair_step(0);
+        [self.pair().plus(step.times(off)), step]
+    }
+
+    /// The colour in parts of 16 pixels, from its span's first pixel on, so many parts further.
+    #[inline(always)]
+    pub(super) fn in_parts(&self, further: u32) -> InParts {
+        let (mut at, mut sixteen) = (self.pair(), self.pair_step(4));
+        // Green has the lower half for itself.
+        (at.green, sixteen.green) = (self.value[1] << 1, (self.step[1] << 5) as u32);
+        let (at, step) = (at.plus(sixteen.times(further)), self.packed);
+        InParts { at, sixteen, step }
     }
 }
 
-/// The last pixel at or before a place that is a multiple of 16 from its span's first one, and how many pixels lie
-/// between.
-#[inline(always)]
-pub(super) fn anchor(place: Place) -> (Place, u32) {
-    let off = place.skipped() & 15;
-    let column = place.column.wrapping_sub(off);
-    (Place { column, ..place }, off)
+/// A colour at an anchor, its step to the next anchor, and to the next pixel in one word.
+#[derive(Clone, Copy)]
+pub(super) struct InParts {
+    pub(super) at: Pair,
+    pub(super) sixteen: Pair,
+    pub(super) step: u32,
 }
 
-/// Calls `f` with each part of a run between two anchors, of which the first is `off` pixels before the run: with its
-/// pixels, and how many lie between it and its anchor.
-#[inline(always)]
-pub(super) fn each_part<W>(run: &mut [W], mut off: u32, mut f: impl FnMut(&mut [W], u32)) {
-    let mut rest = run;
-    while !rest.is_empty() {
-        let pixels = rest.len().min(16 - off as usize);
-        let (part, after) = rest.split_at_mut(pixels);
-        f(part, off);
-        (rest, off) = (after, 0);
+impl InParts {
+    /// The colour so many pixels behind an anchor, and on to the next one.
+    #[inline(always)]
+    fn next(&mut self, off: u32) -> Packed {
+        let Self { at, sixteen, step } = *self;
+        self.at = at.plus(sixteen);
+        let word = at.word().wrapping_add(step.wrapping_mul(off));
+        Packed { word, step }
     }
-}
 
-/// [`each_part`] by colours in one word: `next` is asked for each anchor's, so many pixels on.
-#[inline(always)]
-pub(super) fn each_packed<F: PixelFormat>(
-    run: &mut [F::Word],
-    off: u32,
-    mut next: impl FnMut(u32) -> Packed,
-) {
-    let pixels = if off == 0 { 0 } else { 16 - off as usize };
-    let (first, rest) = run.split_at_mut(pixels.min(run.len()));
-    if !first.is_empty() {
-        ramp::fill::<F>(first, next(off));
-    }
-    let mut parts = rest.chunks_exact_mut(16);
-    for part in parts.by_ref() {
-        if let Ok(part) = <&mut [F::Word; 16]>::try_from(part) {
-            ramp::fill_sixteen::<F>(part, next(0));
+    /// Colours a run that begins so many pixels behind an anchor.
+    #[inline(always)]
+    pub(super) fn fill<F: PixelFormat>(mut self, run: &mut [F::Word], off: u32) {
+        if run.len() > 16 - off as usize {
+            return self.fill_long::<F>(run, off);
         }
+        ramp::fill::<F>(run, self.next(off));
     }
-    let last = parts.into_remainder();
-    if !last.is_empty() {
-        ramp::fill::<F>(last, next(0));
+
+    /// The same of more than one part.
+    #[inline(never)]
+    pub(super) fn fill_long<F: PixelFormat>(&self, run: &mut [F::Word], off: u32) {
+        let mut parts = *self;
+        let pixels = if off == 0 { 0 } else { 16 - off as usize };
+        let (first, rest) = run.split_at_mut(pixels.min(run.len()));
+        if !first.is_empty() {
+            ramp::fill::<F>(first, parts.next(off));
+        }
+        let mut sixteens = rest.chunks_exact_mut(16);
+        for part in sixteens.by_ref() {
+            if let Ok(part) = <&mut [F::Word; 16]>::try_from(part) {
+                ramp::fill_sixteen::<F>(part, parts.next(0));
+            }
+        }
+        let last = sixteens.into_remainder();
+        if !last.is_empty() {
+            ramp::fill::<F>(last, parts.next(0));
+        }
     }
 }

@@ -4,12 +4,12 @@
 //! |---|---|---|
 //! | within 25 pixels, 16-bit pixels | one word of three fields | below half a step of blue: 16 |
 //! | within 64 pixels | two words with 16 bits a channel, packed anew every 16 pixels | 4 |
-//! | larger | a plane a channel with 20 fraction bits more | 0.02 |
+//! | larger | a plane a channel with 20 fraction bits more; along spans of 16-bit pixels as above | 0.02; 1/64 each 16 pixels |
 //! | thin | none: exact at both ends of each span, linear between | |
 //!
 //! Vertices keep half a step from either end of a field, so no colour leaves its field (P4).
 
-use super::course::{Course, anchor, each_packed, each_part};
+use super::course::{Course, InParts};
 use super::ramp::{self, Packed, Pair};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
@@ -155,11 +155,10 @@ impl<F: PixelFormat> Gouraud<F> {
     /// A run of [`Fill::Small`], packed anew every 16 pixels from its span's first on.
     #[inline(always)]
     fn fill_small(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let (anchor, off) = anchor(place);
+        let (at, off) = Self::at_anchor(planes, place);
         if run.len() > 16 - off as usize {
             return Self::fill_small_long(planes, place, run);
         }
-        let at = Self::pair_at(planes, anchor);
         let step = planes[6];
         let word = at.word().wrapping_add(step.wrapping_mul(off));
         ramp::fill::<F>(run, Packed { word, step });
@@ -168,8 +167,7 @@ impl<F: PixelFormat> Gouraud<F> {
     /// The same of more than one part.
     #[inline(never)]
     fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let (anchor, off) = anchor(place);
-        let mut at = Self::pair_at(planes, anchor);
+        let (at, off) = Self::at_anchor(planes, place);
         if planes[1] | planes[4] == 0 {
             return ramp::fill_even::<F>(run, F::of_word(at.word()));
         }
@@ -178,43 +176,40 @@ impl<F: PixelFormat> Gouraud<F> {
             green: planes[4] << 4,
         };
         let step = planes[6];
-        each_packed::<F>(run, off, |off| {
-            let word = at.word().wrapping_add(step.wrapping_mul(off));
-            at = at.plus(sixteen);
-            Packed { word, step }
-        });
+        InParts { at, sixteen, step }.fill_long::<F>(run, off);
     }
 
-    /// Both words of [`Fill::Small`] at a place.
+    /// Both words of [`Fill::Small`] at the last pixel at or before a place that is a multiple of 16 from its span's first
+    /// one, and how many pixels lie between.
     #[inline(always)]
-    fn pair_at(planes: &Planes, place: Place) -> Pair {
-        Pair {
-            red_blue: at(planes, 0, place),
-            green: at(planes, 3, place),
-        }
+    fn at_anchor(planes: &Planes, place: Place) -> (Pair, u32) {
+        let off = place.skipped() & 15;
+        let column = place.column.wrapping_sub(off);
+        let [red_blue, green] = [0, 3].map(|i| at(planes, i, Place { column, ..place }));
+        (Pair { red_blue, green }, off)
     }
 
     /// A run of what keeps more bits, likewise.
     #[inline(never)]
     fn fill_wide(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let (anchor, off) = anchor(place);
-        let mut course = course(fill, planes, anchor);
+        let mut course = course(fill, planes, place.first());
         if course.is_even() {
             return ramp::fill_even::<F>(run, course.even::<F>());
         }
+        let (parts, mut off) = (place.skipped() >> 4, place.skipped() & 15);
         if F::MADE_OF.is_one_word() {
-            let step = course.step.map(|step| (step as u32) << 4);
-            return each_packed::<F>(run, off, |off| {
-                let packed = course.packed(off);
-                course.advance(step);
-                packed
-            });
+            return course.in_parts(parts).fill::<F>(run, off);
         }
-        each_part(run, off, |part, off| {
-            let [at, step] = course.pair(off);
+        course.skip(parts << 4);
+        let mut rest = run;
+        while !rest.is_empty() {
+            let pixels = rest.len().min(16 - off as usize);
+            let (part, after) = rest.split_at_mut(pixels);
+            let [at, step] = course.pair_on(off);
             ramp::fill_pair::<F>(part, at, step);
             course.skip(16);
-        });
+            (rest, off) = (after, 0);
+        }
     }
 
     #[inline(always)]

@@ -30,6 +30,14 @@ impl Pair {
     }
 
     #[inline(always)]
+    pub(super) fn times(self, steps: u32) -> Self {
+        Self {
+            red_blue: self.red_blue.wrapping_mul(steps),
+            green: self.green.wrapping_mul(steps),
+        }
+    }
+
+    #[inline(always)]
     pub(super) fn plus(self, step: Self) -> Self {
         Self {
             red_blue: self.red_blue.wrapping_add(step.red_blue),
@@ -96,9 +104,13 @@ pub(super) fn fill<F: PixelFormat>(run: &mut [F::Word], ramp: Packed) {
         ['a 0]);
 }
 
-/// Colours 16 pixels, as [`fill`] does, without a jump.
-#[inline(never)]
+/// Colours 16 pixels, as [`fill`] does, without a jump: code of a loop, but where there are 8 registers.
+#[cfg_attr(short_multiply, inline(never))]
+#[cfg_attr(not(short_multiply), inline(always))]
 pub(super) fn fill_sixteen<F: PixelFormat>(run: &mut [F::Word; 16], mut ramp: Packed) {
+    if !cfg!(short_multiply) {
+        ramp.step = black_box(ramp.step);
+    }
     fill_chunk::<F, 16>(run, &mut ramp);
 }
 

@@ -59,7 +59,7 @@ fn lit<F: PixelFormat, T: Texel>(
 }
 
 #[inline(never)]
-fn fill<F: PixelFormat, T: Texel>(
+fn shone<F: PixelFormat, T: Texel>(
     shine: &Shine<'_>,
     planes: &Planes,
     place: Place,
@@ -74,7 +74,7 @@ fn fill<F: PixelFormat, T: Texel>(
 
 /// The same of a run of up to 32 pixels whose texture may have transparent texels; a bit for each that is not a hole.
 #[inline(never)]
-fn fill_opaque<F: PixelFormat, T: Texel>(
+fn opaque<F: PixelFormat, T: Texel>(
     shine: &Shine<'_>,
     planes: &Planes,
     place: Place,
@@ -83,7 +83,7 @@ fn fill_opaque<F: PixelFormat, T: Texel>(
     run: &mut [F::Word],
 ) -> u32 {
     let Some(holes) = planes.holes(draws) else {
-        fill::<F, T>(shine, planes, place, dithers, draws, run);
+        shone::<F, T>(shine, planes, place, dithers, draws, run);
         return u32::MAX;
     };
     each_holed::<F, T>(planes, place, draws, holes, run, |place, texels, run| {
@@ -129,9 +129,7 @@ macro_rules! lit {
                 run: &mut [<$format as PixelFormat>::Word],
             ) {
                 match planes.shine(draws) {
-                    Some(shine) => {
-                        self::fill::<$format, $texel>(&shine, planes, place, false, draws, run)
-                    }
+                    Some(shine) => shone::<$format, $texel>(&shine, planes, place, false, draws, run),
                     None => Textured::<$format>::fill(fill, planes, place, draws, run),
                 }
             }
@@ -145,12 +143,8 @@ macro_rules! lit {
                 run: &mut [<$format as PixelFormat>::Word],
             ) -> u32 {
                 match planes.shine(draws) {
-                    Some(shine) => fill_opaque::<$format, $texel>(
-                        &shine, planes, place, dithers, draws, run,
-                    ),
-                    None => {
-                        Textured::<$format>::fill_opaque(fill, planes, place, draws, dithers, run)
-                    }
+                    Some(shine) => opaque::<$format, $texel>(&shine, planes, place, dithers, draws, run),
+                    None => Textured::<$format>::fill_opaque(fill, planes, place, draws, dithers, run),
                 }
             }
 
