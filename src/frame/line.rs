@@ -6,7 +6,7 @@
 
 use super::renderer::{LineError, Renderer, View};
 use super::spans::{Drawn, Line, Span, colour, columns_of};
-use crate::look::{Look, Place, WordOf, fill_even};
+use crate::look::{Look, WordOf, fill_even};
 use crate::num::take_first;
 use crate::scene::Scene;
 use core::hint::black_box;
@@ -123,23 +123,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while plain != 0 {
             let slot = &slots[take_first(&mut plain) as usize & 31];
             let sides = &slot.item.sides;
-            let (column, end) = (sides.left.column(line), sides.right.column(line));
-            if column >= end {
+            let (start, end) = (sides.left.column(line), sides.right.column(line));
+            if start >= end {
                 continue;
             }
-            let met = self.covered.cover(column, end);
+            let met = self.covered.cover(start, end);
             if met != 0 {
                 return met;
             }
-            let Some(run) = out.pixels.get_mut(column as usize..end as usize) else {
+            let Some(run) = out.pixels.get_mut(start as usize..end as usize) else {
                 continue;
             };
-            let at = Place {
-                span: column,
-                end,
-                column,
-                line,
-            };
+            let at = Span { start, end }.place(start, line);
             L::fill_plain(&slot.item.planes, at, out.view.draws, run);
         }
         0

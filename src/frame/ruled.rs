@@ -199,12 +199,7 @@ fn lay_by_pixel<L: Look>(
         ) else {
             return;
         };
-        let at = Place {
-            span: ink.span.start,
-            end: ink.span.end,
-            column: from,
-            line: out.number,
-        };
+        let at = ink.span.place(from, out.number);
         let opaque = L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, ink.dithers, new);
         let has_alphas = state.has_alphas();
         if has_alphas {
@@ -287,12 +282,7 @@ fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, Word
     let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };
-    let mut at = Place {
-        span: ink.span.start,
-        end: ink.span.end,
-        column: run.start,
-        line: out.number,
-    };
+    let mut at = ink.span.place(run.start, out.number);
     // Called, not pointed at: what others call would have to take all that a pointer hands over.
     let fill = |at: Place, run: &mut [WordOf<L>]| {
         let draws = out.view.draws;

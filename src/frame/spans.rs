@@ -97,18 +97,17 @@ pub(super) fn colour_slot<L: Look>(
     out: &mut Line<'_, '_, WordOf<L>>,
 ) {
     let span = Span::of(span);
-    if Flags(slot.flags).fill() != Fill::Plain {
+    let fill = Flags(slot.flags).fill();
+    if fill == Fill::Thin || !L::TEXTURED && fill != Fill::Plain {
         return colour::<L>(Drawn::of(slot), span, out);
     }
     let Some(run) = out.pixels.get_mut(span.start as usize..span.end as usize) else {
         return;
     };
-    let at = Place {
-        span: span.start,
-        end: span.end,
-        column: span.start,
-        line: out.number,
-    };
+    let at = span.place(span.start, out.number);
+    if L::TEXTURED {
+        return L::fill_slot(fill, &slot.item.planes, at, out.view.draws, run);
+    }
     L::fill_plain(&slot.item.planes, at, out.view.draws, run);
 }
 
@@ -133,12 +132,7 @@ pub(super) fn colour_run<L: Look>(
     let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };
-    let at = Place {
-        span: span.start,
-        end: span.end,
-        column: run.start,
-        line: out.number,
-    };
+    let at = span.place(run.start, out.number);
     let draws = out.view.draws;
     let fill = drawn.flags.fill();
     if fill == Fill::Thin {
@@ -172,6 +166,17 @@ impl<'a, P> Drawn<'a, P> {
 }
 
 impl Span {
+    /// The place of a column of the span on a line.
+    #[inline(always)]
+    pub(super) fn place(self, column: u32, line: u32) -> Place {
+        Place {
+            span: self.start,
+            end: self.end,
+            column,
+            line,
+        }
+    }
+
     /// Whether two spans that are not empty share a column.
     #[inline(always)]
     pub(super) fn meets(self, other: Self) -> bool {

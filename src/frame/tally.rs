@@ -13,7 +13,7 @@ use super::shadow::count_shadowed;
 use super::slot::{Active, Flags};
 use super::spans::{Drawn, Known, Line, Span, columns_of};
 use crate::active::{CacheSlot, CacheUse, next};
-use crate::look::{Look, Place, WordOf};
+use crate::look::{Look, WordOf};
 use crate::num::take_first;
 use crate::scene::DrawState;
 use crate::stats::{SpanCounts, SpanPixels};
@@ -299,12 +299,7 @@ pub(super) fn opaque_of<L: Look>(
 ) -> u32 {
     let mut others = None;
     let ink = ink_of::<L>(ruled, &mut others, out);
-    let at = Place {
-        span: ruled.span.start,
-        end: ruled.span.end,
-        column: first,
-        line: out.number,
-    };
+    let at = ruled.span.place(first, out.number);
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let colours = colours.get_mut(..pixels as usize).unwrap_or_default();
     L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, false, colours).reverse_bits()

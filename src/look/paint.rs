@@ -76,6 +76,19 @@ pub trait Look: Sized {
         Self::fill(Fill::Plain, planes, at, draws, run);
     }
 
+    /// [`fill`](Look::fill) of the whole span of a slot.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn fill_slot(
+        fill: Fill,
+        planes: &Self::Planes,
+        at: Place,
+        draws: &[DrawState<'_>],
+        run: &mut [WordOf<Self>],
+    ) {
+        Self::fill(fill, planes, at, draws, run);
+    }
+
     /// [`fill`](Look::fill), dithered or not, where pixels have 16 bits and the look dithers. Of a draw call whose texture
     /// has transparent texels, up to 32 pixels; a bit for each that is not a hole, the first the top one.
     #[doc(hidden)]

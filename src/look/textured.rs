@@ -397,13 +397,18 @@ impl<F: Texel> Look for Textured<F> {
 
     #[inline(never)]
     fn fill(fill: Fill, planes: &Planes, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
-        if fill == Fill::Plain {
-            return Self::fill_word(planes, place, draws, run);
+        Self::fill_slot(fill, planes, place, draws, run);
+    }
+
+    #[inline(always)]
+    fn fill_slot(how: Fill, planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        if how == Fill::Plain {
+            return Self::fill_word(planes, at, draws, run);
         }
         if planes.shaded.is_none() {
-            return Self::texels(planes, place, draws, run);
+            return Self::texels(planes, at, draws, run);
         }
-        Self::fill_shaded(planes, place, draws, run);
+        Self::fill_shaded(planes, at, draws, run);
     }
 
     #[inline(never)]
