@@ -1,10 +1,9 @@
 //! Several lights of lists that are played, coloured, with highlights: what the same calls draw (K10, H11).
 
 use crate::common::Rng;
-use crate::hot::shine::even_light;
 use crate::listing::{Cloud, PLENTY, unrolled};
 use crate::played::lists::after_a_triangle;
-use crate::played::{Kept, drawn, played};
+use crate::played::{Kept, drawn, lit_at_pixels, played};
 use host_tests::lists::writer::ListWriter;
 use scanbeam::input::PlayerSettings;
 use scanbeam::light::{DirectionalLight, Lighting};
@@ -394,13 +393,7 @@ fn lights_that_there_is_no_room_for_are_refused_where_they_stand() {
     }
     // Where light falls on pixels, it is that of the settings.
     type Pixels = Phong<Rgb565Be>;
-    let at_pixels = PlayerSettings {
-        draw: Draw {
-            lamps: even_light(),
-            ..settings.draw
-        },
-        ..settings
-    };
+    let at_pixels = lit_at_pixels();
     let got = refused::<Pixels>(&[on(1)], at_pixels);
     assert_eq!(got, missing(0, Missing::LightAtVertices));
     let got = refused::<Pixels>(&[shiny], at_pixels);

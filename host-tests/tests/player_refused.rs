@@ -3,7 +3,7 @@
 use crate::hot::shine::even_light;
 use crate::listing::{PLENTY, ring_memory, triangle};
 use crate::played::lists::{after_a_triangle, draw_textured, texture};
-use crate::played::{Kept, drawn, played};
+use crate::played::{Kept, drawn, lit_at_pixels, played};
 use host_tests::lists::writer::ListWriter;
 use scanbeam::Light;
 use scanbeam::event::{Event, Notice};
@@ -41,18 +41,6 @@ fn said<'t, L: Look<Pixel = Rgb565Be>>(
     result
 }
 
-/// Settings of light at pixels.
-fn lit() -> PlayerSettings<'static, 'static> {
-    let settings = PlayerSettings::default();
-    PlayerSettings {
-        draw: Draw {
-            lamps: even_light(),
-            ..settings.draw
-        },
-        ..settings
-    }
-}
-
 /// Refused by a look, as this block at this offset.
 fn refused<L: Look<Pixel = Rgb565Be>>(list: &[u32], at: u32, block: Id, reason: Reason) {
     refused_with::<L>(PlayerSettings::default(), list, at, block, reason);
@@ -76,6 +64,12 @@ fn refused_with<L: Look<Pixel = Rgb565Be>>(
     assert!(error.to_string().contains(&format!("{at:#x}")), "{error}");
 }
 
+/// Refused as light at vertices, where pixels are lit.
+fn refused_where_lit(list: &[u32], at: u32, block: Id) {
+    let reason = Reason::Missing(Missing::LightAtVertices);
+    refused_with::<Phong<Rgb565Be>>(lit_at_pixels(), list, at, block, reason);
+}
+
 #[test]
 fn what_a_player_does_not_have_is_refused_where_it_stands() {
     use Missing::*;
@@ -97,7 +91,7 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         })
     };
     let (list, at) = long;
-    refused_with::<Phong<Rgb565Be>>(lit(), &list, at, Id::Long, Reason::Missing(LightAtVertices));
+    refused_where_lit(&list, at, Id::Long);
     let overlay = Overlay {
         left: 0,
         top: 0,
@@ -126,13 +120,7 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
     );
     refused::<Smooth>(&list, at, Id::State, Reason::Missing(Lights));
     let (list, at) = state(State::Light { number: 0, light }, &[]);
-    refused_with::<Phong<Rgb565Be>>(
-        lit(),
-        &list,
-        at,
-        Id::State,
-        Reason::Missing(LightAtVertices),
-    );
+    refused_where_lit(&list, at, Id::State);
     let shiny = Material {
         specular: [1, 0, 0],
         ..Material::default()
@@ -169,13 +157,7 @@ fn what_a_player_does_not_have_is_refused_where_it_stands() {
         writer.vertices(header, &vec![0; words as usize]).unwrap();
         0
     });
-    refused_with::<Phong<Rgb565Be>>(
-        lit(),
-        &list,
-        at,
-        Id::Table,
-        Reason::Missing(LightAtVertices),
-    );
+    refused_where_lit(&list, at, Id::Table);
 }
 
 #[test]

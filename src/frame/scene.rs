@@ -3,7 +3,16 @@
 use crate::geometry::{Coordinate, Meshlets, Screen, Sphere, triangles};
 use crate::look::Look;
 use crate::pixel::{MadeOf, PixelFormat};
-use crate::scene::{Draw, DrawError, Memory, Scene, ScreenCorner, Shadow};
+use crate::scene::{Blend, Draw, DrawError, Memory, Scene, ScreenCorner, Shadow};
+
+/// Numbers of a palette cannot be blended.
+#[inline(always)]
+fn check_blend<L: Look>(blend: Option<Blend>) -> Result<(), DrawError> {
+    match (<L::Pixel as PixelFormat>::MADE_OF, blend) {
+        (MadeOf::Index, Some(_)) => Err(DrawError::Indices),
+        _ => Ok(()),
+    }
+}
 
 impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// A scene for pictures of this size. Nothing is drawn before it is [begun](Scene::begin).
@@ -18,9 +27,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// What is wrong with the mesh, after which nothing of it is drawn; or which memory is full, after which the rest
     /// is drawn.
     pub fn draw<C: Coordinate>(&mut self, draw: &Draw<'_, 't, C>) -> Result<(), DrawError> {
-        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
-            return Err(DrawError::Indices);
-        }
+        check_blend::<L>(draw.blend)?;
         self.assemble(draw, L::TEXTURED, L::LIT_AT_PIXELS)
     }
 
@@ -69,9 +76,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         draw: &Draw<'_, 't, C>,
         meshlets: &Meshlets<'_>,
     ) -> Result<(), DrawError> {
-        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
-            return Err(DrawError::Indices);
-        }
+        check_blend::<L>(draw.blend)?;
         self.assemble_meshlets(draw, meshlets, L::TEXTURED, L::LIT_AT_PIXELS)
     }
 
@@ -86,9 +91,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         draw: &Draw<'_, 't>,
         triangles: &[[ScreenCorner; 3]],
     ) -> Result<(), DrawError> {
-        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
-            return Err(DrawError::Indices);
-        }
+        check_blend::<L>(draw.blend)?;
         if draw.lamps.is_some() {
             return Err(DrawError::Light);
         }
@@ -108,9 +111,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         draw: &Draw<'_, 't, C>,
         size: u8,
     ) -> Result<(), DrawError> {
-        if <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index && draw.blend.is_some() {
-            return Err(DrawError::Indices);
-        }
+        check_blend::<L>(draw.blend)?;
         self.assemble_points(draw, size, L::TEXTURED, L::LIT_AT_PIXELS)
     }
 }

@@ -30,6 +30,7 @@ pub struct Phong<F>(PhantomData<F>);
 pub struct Planes {
     of: Three,
     draw: u16,
+    /// Kept, since planes that are made for a dither alone have no number.
     is_lit: bool,
 }
 

@@ -2,13 +2,14 @@
 
 pub mod lists;
 
+use crate::hot::shine::even_light;
 use host_tests::rooms::{Room, picture};
 use scanbeam::event::Notice;
 use scanbeam::input::{LightRoom, Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListError, OverlaySlot, TextureSlot, Words};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::{Scene, Texture};
+use scanbeam::scene::{Draw, Scene, Texture};
 use scanbeam::{Camera, Screen};
 
 pub const WIDTH: u16 = 96;
@@ -53,6 +54,18 @@ fn begun_in<'t, P: PixelFormat, L: Look<Pixel = P>>(
         Ok(())
     };
     picture(screen, room, P::Word::default(), built).unwrap()
+}
+
+/// Settings of light at pixels.
+pub fn lit_at_pixels() -> PlayerSettings<'static, 'static> {
+    let settings = PlayerSettings::default();
+    PlayerSettings {
+        draw: Draw {
+            lamps: even_light(),
+            ..settings.draw
+        },
+        ..settings
+    }
 }
 
 /// Memory of players.
