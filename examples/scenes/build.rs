@@ -1,6 +1,6 @@
 //! Generates the meshes (see `generate.rs`), and hands the baked lists on.
 //!
-//! `teapot.list` and `crate.list` were made by `scanbeam bake`; tests bake them anew and compare. A
+//! The `.list` files were made by `scanbeam bake`; tests bake them anew and compare. A
 //! build script that has the baker at hand would run it here instead of copying.
 
 mod generate;
@@ -13,7 +13,7 @@ fn main() {
     println!("cargo:rerun-if-changed=generate/teapot.rs");
     println!("cargo:rerun-if-changed=teapot_data.rs");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
-    for name in ["teapot.list", "crate.list"] {
+    for name in ["teapot.list", "teapot_meshlets.list", "crate.list"] {
         println!("cargo:rerun-if-changed={name}");
         let list = fs::read(name).expect("the lists are beside build.rs");
         assert!(list.len().is_multiple_of(4), "a list is whole words");

@@ -1,11 +1,11 @@
 //! What is baked is the model: within the error asked for, every triangle once, and the committed
 //! list is what the baker makes today.
 
+use crate::listing::model_of;
 use host_tests::lists::bake::{BakeSettings, Baked, bake};
 use host_tests::lists::{gltf, print, run};
 use host_tests::model::{Model, ModelVertex};
 use host_tests::reference::{Shade, View};
-use scanbeam::Faces;
 use scanbeam::list::{
     Budget, FieldForm, Halt, Header, Instruction, Layout, State, VertexFormat, read_block,
 };
@@ -14,24 +14,7 @@ use std::path::Path;
 
 /// The teapot of the scenes, brass.
 fn teapot() -> Model {
-    let Faces::Triangles(faces) = TEAPOT.faces else {
-        panic!("it has triangles");
-    };
-    let real = |v: [i16; 3]| v.map(|c| f64::from(c) / 16_384.0);
-    let pairs = TEAPOT.positions.iter().zip(TEAPOT.normals);
-    Model {
-        vertices: pairs
-            .map(|(p, n)| ModelVertex {
-                position: real(*p),
-                normal: real(*n),
-                colour: [236.0, 196.0, 112.0].map(|c| c / 255.0),
-                uv: [0.0; 2],
-            })
-            .collect(),
-        triangles: faces.iter().map(|f| f.map(u32::from)).collect(),
-        triangle_materials: vec![None; faces.len()],
-        ..Model::default()
-    }
+    model_of(TEAPOT, [236.0, 196.0, 112.0].map(|c| c / 255.0))
 }
 
 /// A corner of a triangle that a list draws: place and normal.
@@ -139,6 +122,13 @@ fn every_triangle_is_there_within_the_error() {
         let baked = bake(&model, &settings).unwrap();
         assert!(baked.error <= error && baked.normal_error <= 1.0);
         holds(&model, &baked, error);
+        let meshlets = BakeSettings {
+            meshlets: true,
+            ..settings
+        };
+        let in_parts = bake(&model, &meshlets).unwrap();
+        assert!(baked.parts == 0 && in_parts.parts > 8);
+        holds(&model, &in_parts, error);
         forms.push(baked.place);
     }
     assert_eq!(forms.len(), 5);
@@ -156,22 +146,35 @@ fn every_triangle_is_there_within_the_error() {
 #[test]
 fn the_teapot_in_flash_is_what_the_baker_makes() {
     let baked = bake(&teapot(), &BakeSettings::default()).unwrap();
-    let bytes: Vec<u8> = baked.words.iter().flat_map(|w| w.to_ne_bytes()).collect();
-    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scenes/teapot.list");
-    let there = std::fs::read(&file).unwrap_or_default();
-    if there != bytes {
+    kept(&baked, "teapot.list", scenes::teapot_list().unwrap());
+    assert!(baked.bytes_per_triangle() < 7.0);
+    let settings = BakeSettings {
+        meshlets: true,
+        ..BakeSettings::default()
+    };
+    let baked = bake(&teapot(), &settings).unwrap();
+    let there = scenes::teapot_meshlets_list().unwrap();
+    kept(&baked, "teapot_meshlets.list", there);
+    assert!(baked.bytes_per_triangle() < 8.0);
+}
+
+/// Holds a list against the file of the scenes, and makes that anew where it is another.
+fn kept(baked: &Baked, name: &str, there: &[u32]) {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../examples/scenes")
+        .join(name);
+    if there != baked.words {
+        let bytes: Vec<u8> = baked.words.iter().flat_map(|w| w.to_ne_bytes()).collect();
         std::fs::write(&file, &bytes).unwrap();
         panic!("{} was another; it is written anew", file.display());
     }
-    assert_eq!(scenes::teapot_list().unwrap(), &baked.words[..]);
     assert_eq!(run::head(&baked.words).unwrap().table as usize, baked.table);
     assert!(baked.table <= scenes::LIST_TABLE);
+    let bytes = 4 * baked.words.len();
     println!(
-        "{} bytes, {:.2} a triangle",
-        bytes.len(),
+        "{name}: {bytes} bytes, {:.2} a triangle",
         baked.bytes_per_triangle()
     );
-    assert!(baked.bytes_per_triangle() < 7.0);
 }
 
 #[test]

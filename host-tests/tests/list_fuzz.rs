@@ -6,8 +6,8 @@ use crate::fuzz::list::play;
 use host_tests::lists::print;
 use host_tests::lists::writer::{Form, ListWriter};
 use scanbeam::list::{
-    Bounds, CameraWords, Field, FieldForm, Flow, Head, Header, Id, LightWords, Material, Matrix,
-    Overlay, Palette, State, TexelForm, Texture, VertexFormat, Window,
+    Bounds, CameraWords, Cone, Field, FieldForm, Flow, Head, Header, Id, LightWords, Material,
+    Matrix, Overlay, Palette, State, TexelForm, Texture, VertexFormat, Window,
 };
 
 #[test]
@@ -121,6 +121,13 @@ fn valid(rng: &mut Rng) -> Vec<u32> {
     };
     writer.state(&State::Bounds(bounds)).unwrap();
     writer.state(&State::Matrix(Matrix::IDENTITY)).unwrap();
+    let cone = Cone {
+        apex: [0; 3],
+        axis: [0, 0, 1 << 14],
+        spread: 1 << 15,
+        words: 0,
+    };
+    writer.state(&State::Cone(cone)).unwrap();
     let texture = Texture {
         number: 1,
         log_width: 2,
@@ -239,6 +246,7 @@ fn every_kind_of_block_is_printed_and_drawn() {
         "Palette",
         "Overlay",
         "Bounds",
+        "Cone",
         "PointSize",
         "Pause",
         "Sync",

@@ -78,6 +78,13 @@ fn overlay(width: u16) -> Overlay {
 }
 
 /// What a head begins with.
+const CONE: Cone = Cone {
+    apex: [1, -2, 1 << 30],
+    axis: [-3, 4, 1 << 14],
+    spread: 5,
+    words: 0,
+};
+
 const MARK: u32 = u32::from_le_bytes(*b"SCBL");
 
 const MOST: i32 = (1 << 30) - 1;
@@ -112,6 +119,16 @@ fn numbers_of_space_and_light_have_limits() {
     replaced(&bounds, 4, &[0, MOST as u32], &[-1i32 as u32, 1 << 30]);
     let bad = [-129i32, 97, 1 << 16, i32::MIN].map(|exponent| exponent as u32);
     replaced(&bounds, 5, &[96, -128i32 as u32], &bad);
+    let cone = block(&State::Cone(CONE), &[]);
+    for word in 1..=5 {
+        replaced(&cone, word, &[0, u32::MAX, 1 << 31], &[]);
+    }
+    // It reads as it was written.
+    let read = read_block(&cone[..], 0, &VertexFormat::default());
+    assert_eq!(
+        read.unwrap().instruction,
+        Instruction::State(State::Cone(CONE))
+    );
     let light = LightWords {
         direction: [0, 0, 1 << 14],
         ambient: 0,
@@ -247,6 +264,7 @@ fn what_ends_within_a_block_is_refused_with_its_length() {
         (State::Camera(CAMERA), 13),
         (State::Window(window), 3),
         (State::Bounds(bounds), 7),
+        (State::Cone(CONE), 7),
     ];
     for (state, need) in states {
         let list = block(&state, &[]);

@@ -78,6 +78,7 @@ mod pairs;
 mod places;
 mod player;
 mod player_alpha;
+mod player_cones;
 mod player_flow;
 mod player_fuzz;
 mod player_lights;

@@ -3,7 +3,7 @@
 use crate::geometry::{Coordinate, Meshlets, Screen, Sphere, triangles};
 use crate::look::Look;
 use crate::pixel::{MadeOf, PixelFormat};
-use crate::scene::{Blend, Draw, DrawError, Memory, Scene, ScreenCorner, Shadow};
+use crate::scene::{Blend, Draw, DrawError, Memory, Moved, Scene, ScreenCorner, Shadow};
 
 /// Numbers of a palette cannot be blended.
 #[inline(always)]
@@ -28,7 +28,19 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// is drawn.
     pub fn draw<C: Coordinate>(&mut self, draw: &Draw<'_, 't, C>) -> Result<(), DrawError> {
         check_blend::<L>(draw.blend)?;
-        self.assemble(draw, L::TEXTURED, L::LIT_AT_PIXELS)
+        self.assemble(draw, Moved::All, L::TEXTURED, L::LIT_AT_PIXELS)
+    }
+
+    /// Draws a mesh whose faces have few of its vertices: the others are not moved.
+    ///
+    /// # Errors
+    /// As [`draw`](Scene::draw).
+    pub(crate) fn draw_partly<C: Coordinate>(
+        &mut self,
+        draw: &Draw<'_, 't, C>,
+    ) -> Result<(), DrawError> {
+        check_blend::<L>(draw.blend)?;
+        self.assemble(draw, Moved::OfFaces, L::TEXTURED, L::LIT_AT_PIXELS)
     }
 
     /// Draws a mesh all of whose vertices lie in `sphere`, as [`draw`](Scene::draw) does, and does not look at it where

@@ -4,8 +4,9 @@ use super::bounds::Sphere;
 use super::camera::{Camera, CameraError};
 use super::light::Light;
 use super::lighting::DirectionalLight;
+use super::meshlet::Meshlet;
 use super::transform::Affine;
-use crate::list::{Bounds, CameraWords, LightWords, Matrix};
+use crate::list::{Bounds, CameraWords, Cone, LightWords, Matrix};
 use crate::num::{Block, I2F14, U1F15};
 
 impl From<&Matrix> for Affine {
@@ -26,6 +27,18 @@ impl From<&Bounds> for Sphere {
         Self {
             centre: bounds.centre,
             radius: bounds.radius.unsigned_abs(),
+        }
+    }
+}
+
+impl From<&Cone> for Meshlet {
+    /// What tells from where it is seen from behind.
+    fn from(cone: &Cone) -> Self {
+        Self {
+            apex: cone.apex,
+            axis: cone.axis,
+            spread: cone.spread,
+            ..Self::EMPTY
         }
     }
 }

@@ -342,7 +342,7 @@ impl<C: Coordinate> Cutter<'_, C> {
 }
 
 /// The eye in the space of a model, in units in which all ways from it to the model are below 2^15.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Eye {
     at: [i32; 3],
     down: u32,

@@ -30,6 +30,18 @@ pub enum Instruction {
     Master(u32),
 }
 
+impl Instruction {
+    /// How many words behind the block it lets pass over.
+    pub(crate) const fn reach(&self) -> u32 {
+        match self {
+            Self::State(State::Bounds(Bounds { words, .. }) | State::Cone(Cone { words, .. })) => {
+                *words
+            }
+            _ => 0,
+        }
+    }
+}
+
 /// Elements that follow a header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Run {
@@ -119,6 +131,8 @@ pub enum State {
     Bounds(Bounds),
     /// 12: pixels of a point each way, the argument, 1 to 255; no word.
     PointSize(u8),
+    /// 13: a cone around the normals of what follows; 6 words.
+    Cone(Cone),
 }
 
 /// What a list is, at its beginning, so that memory can be lent to suit.
@@ -438,6 +452,25 @@ pub struct Bounds {
     pub radius: i32,
     /// Exponent of all four.
     pub exponent: i16,
+    /// Words behind this block that it speaks of.
+    pub words: u32,
+}
+
+/// A cone around the normals of all faces that the words behind this block draw, in the space of their vertices. Words 1
+/// to 3: a point that lies behind all of them, in units of 2^-30 of a place; word 4: x and y of the middle of the normals,
+/// Q1.14, of length 1, or 0 where they look everywhere; word 5: z of it, and in the upper half the square of the sine of
+/// the widest angle to it, in 1/65536; word 6: how many words may be passed over where all are seen from behind.
+///
+/// Nothing is passed over where faces are drawn from behind too, or under a matrix that stretches or mirrors. What is
+/// passed over sets no state, as with BOUNDS; LONG vertices and points have no side, and do not belong there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Cone {
+    /// The point behind all faces.
+    pub apex: [i32; 3],
+    /// The middle of the normals.
+    pub axis: [i16; 3],
+    /// How far normals are from it.
+    pub spread: u16,
     /// Words behind this block that it speaks of.
     pub words: u32,
 }

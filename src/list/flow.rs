@@ -449,14 +449,12 @@ impl Walker {
                 self.format = format;
                 self.kept = None;
             }
-            Instruction::State(State::Bounds(bounds)) => {
-                let left = words.end().wrapping_sub(next);
-                if words.room().is_none() && bounds.words > left {
-                    let value = bounds.words;
+            _ => {
+                let (left, value) = (words.end().wrapping_sub(next), instruction.reach());
+                if words.room().is_none() && value > left {
                     return Err(self.fail(Id::State, Reason::Value { word: 6, value }));
                 }
             }
-            _ => {}
         }
         Ok(())
     }

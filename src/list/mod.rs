@@ -90,8 +90,8 @@ mod vertex;
 mod words;
 
 pub use block::{
-    Bounds, CameraWords, Flow, Head, Instruction, LightWords, Material, Matrix, Overlay, Palette,
-    Run, State, TexelForm, Texture, Window,
+    Bounds, CameraWords, Cone, Flow, Head, Instruction, LightWords, Material, Matrix, Overlay,
+    Palette, Run, State, TexelForm, Texture, Window,
 };
 pub use error::{Lent, ListError, Missing, Reason};
 pub use flow::{Budget, Halt, ListCommand, ListControl, Step, Walker};

@@ -4,8 +4,8 @@
 //! read one is bounded by a constant: bulk data is not touched here.
 
 use super::block::{
-    Bounds, CameraWords, Flow, Head, Instruction, LightWords, Material, Matrix, Overlay, Palette,
-    Run, State, TexelForm, Texture, Window,
+    Bounds, CameraWords, Cone, Flow, Head, Instruction, LightWords, Material, Matrix, Overlay,
+    Palette, Run, State, TexelForm, Texture, Window,
 };
 use super::error::{ListError, Reason};
 use super::format::VertexFormat;
@@ -228,6 +228,7 @@ impl<'w, W: Words<'w>> Block<W> {
             11 => (State::Bounds(self.bounds()?), 7),
             12 if number == 0 => return Err(Reason::Count(self.header.count)),
             12 => (State::PointSize(number), 1),
+            13 => (State::Cone(self.cone()?), 7),
             kind => return Err(Reason::Kind(kind)),
         };
         Ok(Parsed {
@@ -435,6 +436,18 @@ impl<'w, W: Words<'w>> Block<W> {
             centre: [x, y, z],
             radius,
             exponent,
+            words: self.word(6),
+        })
+    }
+
+    fn cone(&self) -> Result<Cone, Reason> {
+        self.length(6)?;
+        let halves = |n: u32| [self.word(n) as u16, (self.word(n) >> 16) as u16];
+        let ([x, y], [z, spread]) = (halves(4), halves(5));
+        Ok(Cone {
+            apex: [self.signed(1), self.signed(2), self.signed(3)],
+            axis: [x as i16, y as i16, z as i16],
+            spread,
             words: self.word(6),
         })
     }

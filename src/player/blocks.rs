@@ -5,13 +5,13 @@ use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
 use super::textures::Asked;
-use crate::geometry::{Affine, Camera, Coordinate, Sphere};
+use crate::geometry::{Affine, Camera, Coordinate, Cull, Eye, Meshlet, Sphere};
 use crate::list::{
-    Bounds, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
+    Bounds, Cone, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
     NoTexture, Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
-use crate::scene::Scissor;
+use crate::scene::{Scissor, Shadow};
 
 impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     /// Does one block.
@@ -194,12 +194,36 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let (sphere, scale) = (Sphere::from(bounds), Affine::scale_of(bounds));
         let model = scale.then(&self.settings.draw.model);
         if sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
-            let to = self.walker.position().wrapping_add(bounds.words);
-            // Of a ring, what is not yet there cannot be passed over.
-            if self.walker.jump(words, to) {
-                self.counts.skipped += 1;
-                self.counts.skipped_words += bounds.words;
-            }
+            self.pass_over(words, bounds.words);
+        }
+    }
+
+    /// Passes over faces that are all seen from behind.
+    fn skip_behind(&mut self, words: impl Words<'t>, cone: &Cone, stage: &Stage<'_, '_, 't, L>) {
+        let Some(camera) = stage.scene.as_ref().and_then(|scene| scene.camera) else {
+            return;
+        };
+        let draw = &self.state.draw;
+        // What bounds a shadow is seen from all sides.
+        if draw.cull == Cull::None || matches!(draw.shadow, Some(Shadow::Volume(_))) {
+            return;
+        }
+        let find = || Eye::new(&draw.model, camera.view());
+        let eye = *self.state.eye.get_or_insert_with(find);
+        if eye.is_some_and(|eye| eye.is_behind(&Meshlet::from(cone))) {
+            self.pass_over(words, cone.words);
+            self.gather.lacks_faces();
+        }
+    }
+
+    /// Goes on behind so many words. Of a ring, what is not yet there cannot be passed over.
+    fn pass_over(&mut self, words: impl Words<'t>, count: u32) {
+        if self
+            .walker
+            .jump(words, self.walker.position().wrapping_add(count))
+        {
+            self.counts.skipped += 1;
+            self.counts.skipped_words += count;
         }
     }
 
@@ -214,6 +238,10 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             State::Head(_) | State::Format(_) => return Ok(Step::Passed),
             State::Bounds(bounds) => {
                 self.skip(words, &bounds, stage);
+                return Ok(Step::Passed);
+            }
+            State::Cone(cone) => {
+                self.skip_behind(words, &cone, stage);
                 return Ok(Step::Passed);
             }
             _ => self.draw(words, stage)?,
@@ -232,6 +260,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
                 if let Some(scene) = &mut stage.scene {
                     scene.camera = Some(camera);
                 }
+                self.state.eye = None;
             }
             State::Window(window) => return self.window(window, stage),
             State::Texture(texture) => self.define(&texture)?,
@@ -244,7 +273,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             }
             State::Overlay(overlay) => self.overlay(words, &overlay)?,
             State::PointSize(size) => self.state.point_size = size,
-            State::Head(_) | State::Format(_) | State::Bounds(_) => {}
+            State::Head(_) | State::Format(_) | State::Bounds(_) | State::Cone(_) => {}
         }
         Ok(Step::Passed)
     }

@@ -57,6 +57,17 @@ struct Table {
     placed: Option<[u8; 2]>,
     /// Its vertices could be had.
     usable: bool,
+    /// Faces of it were passed over.
+    lacks_faces: bool,
+}
+
+impl Table {
+    /// Whether so few faces are drawn that to look for their vertices is cheaper than to move all: 28 instructions for
+    /// each vertex of a mesh that is whole, where to move one takes 195.
+    fn is_partly(&self, faces: usize) -> bool {
+        let count = usize::from(self.count);
+        4 * faces < count || self.lacks_faces && 2 * faces < 3 * count
+    }
 }
 
 /// What is being gathered.
@@ -127,6 +138,8 @@ pub(crate) struct Gathered<'a, C> {
     pub(crate) points: Option<u8>,
     /// Byte offset of the block of its first face.
     pub(crate) block: u32,
+    /// Many of its vertices have no face.
+    pub(crate) partly: bool,
 }
 
 /// Where meshes go.
@@ -186,6 +199,13 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
         self.strip.restart();
     }
 
+    /// Faces of the table in force are passed over.
+    pub(crate) fn lacks_faces(&mut self) {
+        if let Some(table) = &mut self.table {
+            table.lacks_faces = true;
+        }
+    }
+
     /// Faces of a block follow.
     fn begin(&mut self, out: &Out<'_, C>) {
         if self.indices == 0 {
@@ -235,12 +255,13 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
     ) -> Option<Gathered<'s, C>> {
         let m = &self.memory;
         let indices = m.indices.get(..self.indices).unwrap_or(&[]);
-        let mut points = None;
+        let (mut points, mut partly) = (None, false);
         let (mesh, alphas, prsp) = match self.kind {
             Kind::Nothing => return None,
             Kind::Table => {
                 let t = self.table.as_ref()?;
                 let n = usize::from(t.count);
+                partly = t.is_partly(self.indices / 3);
                 let mesh = Mesh {
                     positions: column(words, t, t.place, m.positions.get(..n)),
                     normals: column(words, t, t.normal, m.normals.get(..n)),
@@ -276,6 +297,7 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
             prsp,
             points,
             block: self.block,
+            partly,
         })
     }
 

@@ -28,7 +28,7 @@ pub struct RunCounts {
     pub unimplemented: u32,
     /// Access violations.
     pub violations: u32,
-    /// Times that what BOUNDS speaks of was out of sight and passed over (M4).
+    /// Times that what BOUNDS or CONE speaks of was out of sight, or turned away, and passed over (M4).
     pub skipped: u32,
     /// Words that were passed over so.
     pub skipped_words: u32,

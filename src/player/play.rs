@@ -270,6 +270,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         if scene.camera.is_none() {
             return Err(self.unfit(Reason::NotBegun));
         }
+        // The scene may have been begun anew.
+        self.state.eye = None;
         let mut stage = Stage {
             scene: Some(scene),
             screen,

@@ -6,7 +6,7 @@ use super::play::Stage;
 use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, Notice};
-use crate::geometry::{Affine, Coordinate, Cull, Light};
+use crate::geometry::{Affine, Coordinate, Cull, Eye, Light};
 use crate::list::{Header, Lent, Material, Place, Reason};
 use crate::look::Look;
 use crate::scene::{
@@ -30,6 +30,8 @@ pub(super) struct State<'m, 't> {
     pub(super) texture: Option<Listed<'t>>,
     /// The texture is to be found anew.
     pub(super) is_stale: bool,
+    /// From where vertices are seen, once that was asked for; none where normals do not tell.
+    pub(super) eye: Option<Option<Eye>>,
 }
 
 impl<'m, 't> State<'m, 't> {
@@ -50,6 +52,7 @@ impl<'m, 't> State<'m, 't> {
             point_size: 1,
             texture: None,
             is_stale: false,
+            eye: None,
         };
         state.cut(settings, None);
         state
@@ -58,6 +61,7 @@ impl<'m, 't> State<'m, 't> {
     /// The list's matrix, in the world of the settings.
     pub(super) fn place(&mut self, matrix: &Affine, settings: &PlayerSettings<'_, '_>) {
         self.draw.model = matrix.then(&settings.draw.model);
+        self.eye = None;
     }
 
     /// The light from now on.
@@ -214,6 +218,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             };
             done = match gathered.points {
                 Some(size) => scene.draw_points(&draw, size),
+                None if gathered.partly => scene.draw_partly(&draw),
                 None => scene.draw(&draw),
             };
         });

@@ -16,6 +16,15 @@ use super::{
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use core::ops::Range;
 
+/// Which vertices of a mesh are moved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Moved {
+    /// All, one after the other.
+    All,
+    /// Those that faces have, where few of them do.
+    OfFaces,
+}
+
 /// The lines and columns of guard space that are drawn.
 #[derive(Clone)]
 pub(super) struct Picture {
@@ -33,6 +42,7 @@ impl<'t, L> Scene<'_, 't, L> {
     pub(crate) fn assemble<C: Coordinate>(
         &mut self,
         draw: &Draw<'_, 't, C>,
+        moved: Moved,
         textured: bool,
         word_of: Option<WordOfNormal>,
     ) -> Result<(), DrawError> {
@@ -41,7 +51,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
         let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
         let file = |scene: &mut Self, pass: &mut Pass<'_>| {
-            scene.share(mesh, pass);
+            scene.share(mesh, moved, pass);
             match is_volume {
                 true => scene.file_volume(mesh, pass),
                 false => scene.file(is_flat, mesh, pass),
@@ -209,9 +219,14 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Takes all vertices of a mesh into memory, if there is room for them.
-    fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &mut Pass<'_>) {
+    fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, moved: Moved, pass: &mut Pass<'_>) {
         if !self.reserve(mesh.positions.len(), pass) {
             return;
+        }
+        if let (Moved::OfFaces, None, Faces::Triangles(faces)) = (moved, pass.generated, mesh.faces)
+        {
+            self.wait(pass);
+            return self.transform(mesh.positions, faces.as_flattened(), pass);
         }
         let range = pass.base..pass.base + pass.shared;
         let (view, positions) = (&pass.view, mesh.positions);

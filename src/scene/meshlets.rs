@@ -6,7 +6,7 @@ use super::WordOfNormal;
 use super::check::check_alphas;
 use super::pass::Pass;
 use super::project::project_listed;
-use super::{Draw, DrawError, Scene, Shading, Shadow, TexturePlace, Vertex};
+use super::{Draw, DrawError, Moved, Scene, Shading, Shadow, TexturePlace, Vertex};
 use crate::geometry::{
     Camera, Coordinate, Cull, Eye, Mesh, MeshError, Meshlet, Meshlets, triangles,
 };
@@ -45,7 +45,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
         if is_volume || is_flat || draw.texgen.is_some() {
-            return self.assemble(draw, textured, word_of);
+            return self.assemble(draw, Moved::All, textured, word_of);
         }
         check_alphas(draw.alphas, mesh.positions.len())?;
         let eye = match draw.cull {
@@ -77,9 +77,7 @@ impl<'t, L> Scene<'_, 't, L> {
         pass: &mut Pass<'_>,
     ) -> Result<(), MeshError> {
         let mesh = &seen.draw.mesh;
-        self.shared(pass).fill(Vertex::WAITING);
-        // All of those that are transformed.
-        pass.within = true;
+        self.wait(pass);
         let (mut from, mut listed) = (0, meshlets.vertices());
         for part in meshlets.parts() {
             let end = from + usize::from(part.faces);
@@ -97,8 +95,15 @@ impl<'t, L> Scene<'_, 't, L> {
         Ok(())
     }
 
+    /// Begins a mesh of which no vertex is transformed yet.
+    pub(super) fn wait(&mut self, pass: &mut Pass<'_>) {
+        self.shared(pass).fill(Vertex::WAITING);
+        // All of those that are transformed.
+        pass.within = true;
+    }
+
     /// Transforms the listed vertices of a mesh that are not yet.
-    fn transform<C: Coordinate>(
+    pub(super) fn transform<C: Coordinate>(
         &mut self,
         positions: &[[C; 3]],
         list: &[u16],

@@ -65,6 +65,7 @@ mod texture;
 pub use crate::geometry::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};
 pub use alpha::MaskTexel;
 pub(crate) use alpha::{Alphas, PixelAlpha};
+pub(crate) use assemble::Moved;
 pub use blend::{Blend, BlendMode, Factor};
 pub use block::Blocked;
 pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};

@@ -11,7 +11,7 @@ use super::DepthFunction;
 use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
 use super::project::{Point, View};
-use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene};
+use super::{DepthTest, Draw, DrawError, DrawState, Master, Moved, Scene};
 use crate::geometry::{
     Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
     each_triangle, triangles,
@@ -112,7 +112,7 @@ impl<'t, L> Scene<'_, 't, L> {
                 faces: Faces::Triangles(sides.faces),
             })
         };
-        self.assemble(&volume, false, None)?;
+        self.assemble(&volume, Moved::All, false, None)?;
         let cap = Draw {
             // In front of all that is seen, wherever rounding puts it.
             depth: DepthTest::new(DepthFunction::ALWAYS),

@@ -1,6 +1,6 @@
 //! What pass one leaves of vertices, and what it refuses.
 
-use super::{Assembled, Draw, DrawError, DrawState, Memory, NONE, Object, Scene, Vertex};
+use super::{Assembled, Draw, DrawError, DrawState, Memory, Moved, NONE, Object, Scene, Vertex};
 use crate::geometry::{Affine, Camera, Cull, Faces, Light, Mesh, MeshError, Scale, Screen};
 
 /// Two triangles side by side, one that reaches far beyond the guard band, and one seen from behind.
@@ -43,6 +43,7 @@ fn drawn(faces: &[[u16; 3]]) -> (Result<(), DrawError>, [Vertex; 24], Assembled)
                 faces: Faces::Triangles(faces),
             })
         },
+        Moved::All,
         false,
         None,
     );

@@ -40,7 +40,10 @@ pub use contours::{CONTOURED, ContourLook, Contours};
 pub use frames::{Frame, frames};
 pub use in_parts::{CutMemory, IN_PARTS, InParts};
 pub use lamps::{lamplit_teapot, teapot_lamps};
-pub use listed::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list};
+pub use listed::{
+    CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list,
+    teapot_meshlets_list,
+};
 pub use looks::{SmoothLook, TexturedLook};
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};

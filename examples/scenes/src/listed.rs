@@ -20,6 +20,17 @@ pub fn teapot_list() -> Result<&'static [u32], ListError> {
     words_of(include_list!(concat!(env!("OUT_DIR"), "/teapot.list")))
 }
 
+/// The teapot in parts, as it lies in flash.
+///
+/// # Errors
+/// None: it is aligned.
+pub fn teapot_meshlets_list() -> Result<&'static [u32], ListError> {
+    words_of(include_list!(concat!(
+        env!("OUT_DIR"),
+        "/teapot_meshlets.list"
+    )))
+}
+
 /// The crate, as it lies in flash.
 ///
 /// # Errors

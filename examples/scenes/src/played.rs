@@ -1,6 +1,6 @@
 //! Baked lists in the rooms `scene`, `look` and `frame`: the teapot, and a crate with its textures (H7, H11).
 
-use crate::listed::{crate_list, teapot_list};
+use crate::listed::{crate_list, teapot_list, teapot_meshlets_list};
 use crate::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, Shot};
 use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerSettings, RunCounts};
@@ -14,13 +14,16 @@ use scanbeam::{Affine, Camera, CameraError, Light};
 pub enum Played {
     /// The teapot, smooth and lit.
     Teapot,
+    /// The same in parts.
+    TeapotMeshlets,
     /// The crate, textured and lit.
     Crate,
 }
 
 /// Their names.
-pub const PLAYED: [(&str, Played); 2] = [
+pub const PLAYED: [(&str, Played); 3] = [
     ("teapot_list", Played::Teapot),
+    ("teapot_list_meshlets", Played::TeapotMeshlets),
     ("crate_list", Played::Crate),
 ];
 
@@ -52,6 +55,7 @@ impl Played {
     pub fn list(self) -> Result<&'static [u32], ListError> {
         match self {
             Self::Teapot => teapot_list(),
+            Self::TeapotMeshlets => teapot_meshlets_list(),
             Self::Crate => crate_list(),
         }
     }
@@ -60,7 +64,7 @@ impl Played {
     #[must_use]
     pub const fn sizes(self) -> [usize; 2] {
         match self {
-            Self::Teapot => [LIST_TABLE, LIST_INDICES],
+            Self::Teapot | Self::TeapotMeshlets => [LIST_TABLE, LIST_INDICES],
             Self::Crate => [CRATE_TABLE, CRATE_INDICES],
         }
     }
@@ -85,7 +89,7 @@ impl Played {
     /// None: it sees.
     pub fn camera(self) -> Result<Camera, CameraError> {
         let eye = match self {
-            Self::Teapot => [0.0, 1.2, 2.6],
+            Self::Teapot | Self::TeapotMeshlets => [0.0, 1.2, 2.6],
             Self::Crate => [0.3, 1.7, 2.4],
         };
         Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0)

@@ -193,7 +193,7 @@ impl Sent<'_, '_> {
                 let mut renderer = rooms.lines.renderer(rooms.caches.textured);
                 self.send(&scene, &mut renderer, background);
             }
-            Played::Teapot => {
+            Played::Teapot | Played::TeapotMeshlets => {
                 let mut scene = rooms.scene.scene();
                 played
                     .play(&mut rooms.teapot, begin, &mut scene)

@@ -14,7 +14,7 @@ use std::error::Error;
 /// When it does not fit the memory that it asks for.
 pub fn played_frame(played: Played) -> Result<Drawn, Box<dyn Error>> {
     match played {
-        Played::Teapot => played_as::<SmoothLook>(played),
+        Played::Teapot | Played::TeapotMeshlets => played_as::<SmoothLook>(played),
         Played::Crate => played_as::<TexturedLook>(played),
     }
 }

@@ -32,6 +32,10 @@ pub struct BakeArgs {
     /// How far texels may be off: root of the mean square, in levels of 255. 0 keeps every texel
     #[arg(long, value_name = "LEVELS", default_value = "4", value_parser = parse_level, allow_hyphen_values = true)]
     pub texel_error: f64,
+    /// Cut the model into parts that are passed over where all of their faces are turned away: for closed models of
+    /// some thousand triangles
+    #[arg(long)]
+    pub meshlets: bool,
     /// Print the sizes as JSON
     #[arg(long)]
     pub json: bool,

@@ -35,6 +35,8 @@ pub struct BakeSettings {
     pub normals: bool,
     /// How far texels may be off: root of the mean square, in levels of 255.
     pub texel_error: f64,
+    /// Whether it is cut into parts that are passed over where they are turned away.
+    pub meshlets: bool,
 }
 
 impl Default for BakeSettings {
@@ -44,6 +46,7 @@ impl Default for BakeSettings {
             normal_error: 1.0,
             normals: true,
             texel_error: 4.0,
+            meshlets: false,
         }
     }
 }
@@ -61,6 +64,8 @@ pub struct Baked {
     pub vertices: usize,
     /// Strips, fans and separate triangles.
     pub runs: [usize; 3],
+    /// Parts that are passed over where they are turned away.
+    pub parts: usize,
     /// Form of the places.
     pub place: FieldForm,
     /// Form of the normals, where there are any.
@@ -97,6 +102,7 @@ pub fn run(args: &BakeArgs) -> Result<(), Box<dyn Error>> {
         normal_error: args.normal_error,
         normals: args.normals == Normals::Keep,
         texel_error: args.texel_error,
+        meshlets: args.meshlets,
     };
     let baked = bake_textured(&model, &pictures, &settings)
         .map_err(|e| format!("{}: {e}", args.model.display()))?;
@@ -257,6 +263,7 @@ pub fn bake_textured(
         dropped: 0,
         vertices: 0,
         runs: [0; 3],
+        parts: 0,
         place: grid.form,
         normal,
         error,
@@ -271,6 +278,7 @@ pub fn bake_textured(
         packed: &packed,
         model,
         textures: &numbers,
+        meshlets: settings.meshlets,
     };
     // 16 words a triangle and what comes once: more than any of the forms takes.
     let mut memory = vec![0; 32 * model.triangles.len() + 1024 + texel_words];

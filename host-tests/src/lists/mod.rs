@@ -10,6 +10,7 @@
 //! | `sizes.rs` | what of a list takes how many bytes |
 //! | `tables.rs` | strips and fans into tables of vertices |
 //! | `gltf.rs` | glTF 2.0 into a model |
+//! | `parts.rs` | triangles into parts that are passed over where they are turned away |
 //! | `print.rs` | a list as text |
 //! | `run.rs` | a list into a picture |
 //! | `writer.rs` | blocks into words |
@@ -18,6 +19,7 @@ pub mod args;
 pub mod bake;
 mod fields;
 pub mod gltf;
+mod parts;
 pub mod print;
 pub mod run;
 pub mod sizes;

@@ -99,6 +99,7 @@ pub(super) fn report(b: &Baked, json: bool) -> Result<(), Box<dyn Error>> {
             "strips": strips,
             "fans": fans,
             "separate": separate,
+            "parts": b.parts,
             "place": format!("{:?}", b.place),
             "normal": b.normal.map(|n| format!("{n:?}")),
             "error": b.error,
@@ -125,6 +126,12 @@ pub(super) fn report(b: &Baked, json: bool) -> Result<(), Box<dyn Error>> {
         b.vertices,
         b.table
     );
+    if b.parts > 0 {
+        say!(
+            "{} parts that are passed over where they are turned away",
+            b.parts
+        );
+    }
     say!("places {:?}, moved by {:.3e} at most", b.place, b.error);
     if let Some(normal) = b.normal {
         say!(

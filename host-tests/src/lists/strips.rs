@@ -6,6 +6,7 @@
 
 use scanbeam::list::Strip;
 use std::collections::{BTreeSet, HashMap};
+use std::ops::Range;
 
 /// Triangles of one table in the order in which they are drawn.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -30,6 +31,26 @@ impl Runs {
 /// Puts triangles in order; none may name a vertex twice.
 #[must_use]
 pub fn strips_of(triangles: &[[u32; 3]]) -> Runs {
+    runs_of(triangles, 0..6)
+}
+
+/// The same in strips alone, of one triangle too, so that one block has them all.
+#[must_use]
+pub(super) fn strips_alone(triangles: &[[u32; 3]]) -> Runs {
+    let Runs {
+        mut strips,
+        separate,
+        ..
+    } = runs_of(triangles, 3..6);
+    strips.extend(separate.iter().map(|t| t.to_vec()));
+    Runs {
+        strips,
+        ..Runs::default()
+    }
+}
+
+/// By some of the ways to walk: three as a fan, three as a strip.
+fn runs_of(triangles: &[[u32; 3]], ways: Range<usize>) -> Runs {
     let mut edges: HashMap<(u32, u32), Vec<u32>> = HashMap::new();
     for (n, t) in (0..).zip(triangles) {
         for k in 0..3 {
@@ -48,7 +69,8 @@ pub fn strips_of(triangles: &[[u32; 3]]) -> Runs {
     let mut queue: BTreeSet<(u32, u32)> = (0..).zip(&left).map(|(n, d)| (*d, n)).collect();
     let mut runs = Runs::default();
     while let Some((_, first)) = queue.first().copied() {
-        let best = (0..6)
+        let best = ways
+            .clone()
             // Of equally long ones the last is taken: a strip.
             .map(|way| walk.along(first, way % 3, way < 3))
             .max_by_key(|(taken, _)| taken.len());

@@ -1,12 +1,21 @@
 //! Runs into tables: which vertices lie together, so that an index of a table takes a byte.
 
+use super::parts::Part;
 use super::strips::Runs;
+use scanbeam::list::Cone;
 use std::collections::HashMap;
 
-/// A table and the runs over it, in its own indices.
+/// A table and what is drawn of it.
 #[derive(Default)]
 pub(super) struct Table {
     pub(super) vertices: Vec<u32>,
+    pub(super) parts: Vec<TablePart>,
+}
+
+/// A part, or what of it is drawn of one table, in the indices of that.
+#[derive(Default)]
+pub(super) struct TablePart {
+    pub(super) cone: Option<Cone>,
     pub(super) strips: Vec<Vec<u16>>,
     pub(super) fans: Vec<Vec<u16>>,
     pub(super) separate: Vec<[u16; 3]>,
@@ -15,8 +24,11 @@ pub(super) struct Table {
 impl Table {
     /// Indices, with those that end strips.
     pub(super) fn indices(&self) -> usize {
-        let runs = self.strips.iter().chain(&self.fans);
-        runs.map(|r| r.len() + 1).sum::<usize>() + 3 * self.separate.len()
+        let of = |part: &TablePart| {
+            let runs = part.strips.iter().chain(&part.fans);
+            runs.map(|r| r.len() + 1).sum::<usize>() + 3 * part.separate.len()
+        };
+        self.parts.iter().map(of).sum()
     }
 }
 
@@ -25,15 +37,37 @@ struct Tables {
     most: usize,
     done: Vec<Table>,
     index: HashMap<u32, u16>,
+    /// That of the part whose runs come.
+    cone: Option<Cone>,
 }
 
 impl Tables {
+    /// The table that is open.
     fn open(&mut self) -> &mut Table {
         if self.done.is_empty() {
             self.done.push(Table::default());
         }
         let last = self.done.len() - 1;
         &mut self.done[last]
+    }
+
+    /// The part that is open, of that table.
+    fn part(&mut self) -> &mut TablePart {
+        if self.open().parts.is_empty() {
+            self.begin();
+        }
+        let parts = &mut self.open().parts;
+        let last = parts.len() - 1;
+        &mut parts[last]
+    }
+
+    /// Begins a part of the table that is open.
+    fn begin(&mut self) {
+        let cone = self.cone;
+        self.open().parts.push(TablePart {
+            cone,
+            ..TablePart::default()
+        });
     }
 
     /// Whether the vertices fit the table that is open; else another is opened.
@@ -65,17 +99,27 @@ impl Tables {
     }
 }
 
-/// Splits runs into tables of at most `most` vertices. Runs that share vertices with what is in a
-/// table already go first, so that few vertices are in several.
-pub(super) fn tables(runs: &Runs, most: usize) -> Vec<Table> {
-    enum Piece<'a> {
-        Strip(&'a [u32]),
-        Fan(Vec<u32>),
-        Separate([u32; 3]),
+/// A run that fits a table of its own.
+enum Piece<'a> {
+    Strip(&'a [u32]),
+    Fan(Vec<u32>),
+    Separate([u32; 3]),
+}
+
+impl Piece<'_> {
+    fn corners(&self) -> &[u32] {
+        match self {
+            Self::Strip(run) => run,
+            Self::Fan(run) => run,
+            Self::Separate(t) => t,
+        }
     }
+}
+
+/// Cuts runs so that each piece fits a table of `most` vertices. A strip's pieces share two vertices and begin at even
+/// places, so that no triangle turns over; a fan's share its middle and one more.
+fn pieces(runs: &Runs, most: usize) -> Vec<Piece<'_>> {
     let mut pieces = Vec::new();
-    // Cut so that each fits a table of its own. A strip's pieces share two vertices and begin at
-    // even places, so that no triangle turns over; a fan's share its middle and one more.
     let longest = (most.min(60_000) / 2) & !1;
     for strip in &runs.strips {
         let mut at = 0;
@@ -96,46 +140,63 @@ pub(super) fn tables(runs: &Runs, most: usize) -> Vec<Table> {
         }
     }
     pieces.extend(runs.separate.iter().map(|t| Piece::Separate(*t)));
+    pieces
+}
 
+/// Splits parts into tables of at most `most` vertices. Parts follow one another, and one that does not fit begins a
+/// table; runs of a part that share vertices with what is in a table already go first, so that few vertices are in several.
+pub(super) fn tables(parts: &[Part], most: usize) -> Vec<Table> {
     let mut tables = Tables {
         most,
         done: Vec::new(),
         index: HashMap::new(),
+        cone: None,
     };
-    fn corners<'a>(piece: &'a Piece<'_>) -> &'a [u32] {
-        match piece {
-            Piece::Strip(run) => run,
-            Piece::Fan(run) => run,
-            Piece::Separate(t) => t,
+    for part in parts {
+        tables.cone = part.cone;
+        let pieces = pieces(&part.runs, most);
+        if pieces.is_empty() {
+            continue;
         }
-    }
-    let all_fit = most > 255;
-    pieces.reverse();
-    while !pieces.is_empty() {
-        // The piece with the fewest new vertices for its length; all are as good in one table.
-        let last = pieces.len() - 1;
-        let best = if all_fit {
-            last
-        } else {
-            let new = |p: &Piece<'_>| {
-                let run = corners(p);
-                let new = run.iter().filter(|v| !tables.index.contains_key(v)).count();
-                1000 * new / run.len()
-            };
-            // Of many only the last are looked at, so that large models take their time too.
-            let near = last.saturating_sub(4096);
-            let found = (near..=last).min_by_key(|n| new(&pieces[*n]));
-            found.unwrap_or(last)
-        };
-        let piece = pieces.swap_remove(best);
-        tables.make_room(corners(&piece));
-        let indices = tables.indices(corners(&piece));
-        let table = tables.open();
-        match piece {
-            Piece::Strip(_) => table.strips.push(indices),
-            Piece::Fan(_) => table.fans.push(indices),
-            Piece::Separate(_) => table.separate.push([indices[0], indices[1], indices[2]]),
+        if parts.len() > 1 {
+            let all: Vec<u32> = pieces.iter().flat_map(|p| p.corners()).copied().collect();
+            tables.make_room(&all);
         }
+        tables.begin();
+        tables.fill(pieces);
     }
     tables.done
+}
+
+impl Tables {
+    fn fill(&mut self, mut pieces: Vec<Piece<'_>>) {
+        let all_fit = self.most > 255;
+        pieces.reverse();
+        while !pieces.is_empty() {
+            // The piece with the fewest new vertices for its length; all are as good in one table.
+            let last = pieces.len() - 1;
+            let best = if all_fit {
+                last
+            } else {
+                let new = |p: &Piece<'_>| {
+                    let run = p.corners();
+                    let new = run.iter().filter(|v| !self.index.contains_key(v)).count();
+                    1000 * new / run.len()
+                };
+                // Of many only the last are looked at, so that large models take their time too.
+                let near = last.saturating_sub(4096);
+                let found = (near..=last).min_by_key(|n| new(&pieces[*n]));
+                found.unwrap_or(last)
+            };
+            let piece = pieces.swap_remove(best);
+            self.make_room(piece.corners());
+            let indices = self.indices(piece.corners());
+            let part = self.part();
+            match piece {
+                Piece::Strip(_) => part.strips.push(indices),
+                Piece::Fan(_) => part.fans.push(indices),
+                Piece::Separate(_) => part.separate.push([indices[0], indices[1], indices[2]]),
+            }
+        }
+    }
 }

@@ -3,8 +3,8 @@
 //! Nothing is written of a block that does not fit or contradicts itself.
 
 use scanbeam::list::{
-    Bounds, CameraWords, FieldForm, Flow, Head, Header, Id, LightWords, Matrix, Overlay, Palette,
-    State, Texture, VertexFormat, Window,
+    Bounds, CameraWords, Cone, FieldForm, Flow, Head, Header, Id, LightWords, Matrix, Overlay,
+    Palette, State, Texture, VertexFormat, Window,
 };
 
 /// Why a block was not written.
@@ -402,6 +402,22 @@ fn words_of_state(state: &State) -> (u8, u8, [u32; 13], usize) {
             (11, 0, 6)
         }
         State::PointSize(pixels) => (12, *pixels, 0),
+        State::Cone(Cone {
+            apex,
+            axis: [x, y, z],
+            spread,
+            words,
+        }) => {
+            let axis = [pair(*x as u16, *y as u16), pair(*z as u16, *spread)];
+            for (slot, word) in w
+                .iter_mut()
+                .zip(apex.map(|a| a as u32).into_iter().chain(axis))
+            {
+                *slot = word;
+            }
+            w[5] = *words;
+            (13, 0, 6)
+        }
     };
     (what, argument, w, len)
 }

@@ -172,6 +172,12 @@ pub(super) fn random_item(
             exponent: r.below(225) as i16 - 128,
             words: 0,
         })),
+        13 if r.flag() => Item::State(State::Cone(Cone {
+            apex: [0; 3].map(|_: i32| r.next() as i32),
+            axis: [0; 3].map(|_: i16| r.next() as i16),
+            spread: r.next() as u16,
+            words: 0,
+        })),
         13 => Item::Master(r.next()),
         14 => {
             let header = Header {

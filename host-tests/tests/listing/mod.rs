@@ -2,6 +2,7 @@
 
 use crate::common::Rng;
 use host_tests::lists::writer::{FieldPacker, ListWriter};
+use host_tests::model::{Model, ModelVertex};
 use scanbeam::list::{Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat};
 use scanbeam::{Affine, Faces, Mesh};
 use std::sync::atomic::AtomicU32;
@@ -11,6 +12,28 @@ pub const PLENTY: Budget = Budget {
     vertices: 1 << 24,
     jumps: 1 << 10,
 };
+
+/// A mesh as a model of one colour.
+pub fn model_of(mesh: Mesh<'_>, colour: [f64; 3]) -> Model {
+    let Faces::Triangles(faces) = mesh.faces else {
+        panic!("it has triangles");
+    };
+    let real = |v: [i16; 3]| v.map(|c| f64::from(c) / 16_384.0);
+    let pairs = mesh.positions.iter().zip(mesh.normals);
+    Model {
+        vertices: pairs
+            .map(|(p, n)| ModelVertex {
+                position: real(*p),
+                normal: real(*n),
+                colour,
+                uv: [0.0; 2],
+            })
+            .collect(),
+        triangles: faces.iter().map(|f| f.map(u32::from)).collect(),
+        triangle_materials: vec![None; faces.len()],
+        ..Model::default()
+    }
+}
 
 /// Memory of a ring of so many words.
 pub fn ring_memory(words: u32) -> Vec<AtomicU32> {

@@ -52,20 +52,29 @@ impl Rules {
 #[inline(never)]
 pub(super) fn fill<I: Copy + Into<u16>>(
     indices: &[I],
-    out: &mut [u16],
+    out: &mut [[u16; 3]],
     strip: &mut Strip,
     rules: &Rules,
 ) -> Filled {
     let (mut read, mut faces) = (0, 0);
     let end = loop {
+        if strip.have == 0 {
+            // Three corners at once, which most strips have.
+            let rest = indices.get(read..).unwrap_or_default();
+            if let (Some(face), Some(slot)) = (first_face(rest, rules), out.get_mut(faces)) {
+                *slot = face;
+                (read, faces) = (read + 3, faces + 1);
+                strip.corners = face;
+                if rules.separate {
+                    continue;
+                }
+                strip.have = 3;
+            }
+        }
         if strip.have == 3 {
             let rest = indices.get(read..).unwrap_or_default();
-            let done = go_on(
-                rest,
-                out.get_mut(3 * faces..).unwrap_or_default(),
-                strip,
-                rules,
-            );
+            let free = out.get_mut(faces..).unwrap_or_default();
+            let done = go_on(rest, free, strip, rules);
             (read, faces) = (read + done, faces + done);
         }
         let Some(&index) = indices.get(read) else {
@@ -80,13 +89,13 @@ pub(super) fn fill<I: Copy + Into<u16>>(
             read += 1;
             continue;
         }
-        let slot = out.get_mut(3 * faces..3 * faces + 3);
+        let slot = out.get_mut(faces);
         if strip.have >= 2 && slot.is_none() {
             break End::Full;
         }
         read += 1;
         if let (Some(face), Some(slot)) = (strip.push(index, rules.fan), slot) {
-            slot.copy_from_slice(&face);
+            *slot = face;
             faces += 1;
             if rules.separate {
                 strip.restart();
@@ -96,10 +105,17 @@ pub(super) fn fill<I: Copy + Into<u16>>(
     Filled { read, faces, end }
 }
 
+/// The three corners that come, if they all name vertices.
+#[inline(always)]
+fn first_face<I: Copy + Into<u16>>(rest: &[I], rules: &Rules) -> Option<[u16; 3]> {
+    let face = rest.first_chunk::<3>()?.map(Into::into);
+    (face.iter().all(|&index| index < rules.count)).then_some(face)
+}
+
 /// Goes on with a strip or fan that has three corners, up to an index that names no vertex; how many faces came of it.
 fn go_on<I: Copy + Into<u16>>(
     indices: &[I],
-    out: &mut [u16],
+    out: &mut [[u16; 3]],
     strip: &mut Strip,
     rules: &Rules,
 ) -> usize {
@@ -109,7 +125,7 @@ fn go_on<I: Copy + Into<u16>>(
     let mut first = strip.odd == rules.fan;
     let (turns, count) = (!rules.fan, rules.count);
     let mut done = 0;
-    for (slot, &index) in out.chunks_exact_mut(3).zip(indices) {
+    for (slot, &index) in out.iter_mut().zip(indices) {
         let index: u16 = index.into();
         if index >= count {
             break;
@@ -120,7 +136,7 @@ fn go_on<I: Copy + Into<u16>>(
             q = newest;
         }
         newest = index;
-        slot.copy_from_slice(&[p, q, newest]);
+        *slot = [p, q, newest];
         first ^= turns;
         done += 1;
     }
@@ -175,22 +191,23 @@ mod tests {
             let mut rest = &indices[..];
             while !rest.is_empty() {
                 let piece = &rest[..1 + below(rest.len() as u32) as usize];
-                let mut out = std::vec![0; 3 + below(20) as usize];
+                let mut out = std::vec![[0; 3]; 1 + below(6) as usize];
                 let filled = fill(piece, &mut out, &mut strip, &rules);
                 assert_eq!(filled.end == End::All, filled.read == piece.len());
                 assert_ne!(filled.end, End::Bad(0));
-                got.extend(
-                    out.chunks_exact(3)
-                        .take(filled.faces)
-                        .map(|f| [f[0], f[1], f[2]]),
-                );
+                got.extend_from_slice(&out[..filled.faces]);
                 rest = &rest[filled.read..];
             }
             assert_eq!(got, want, "round {round}");
             assert_eq!((strip.have, strip.odd), (one.have, one.odd));
         }
         let rules = Rules::of(Header::of(Id::Indexed, 0), 9);
-        let filled = fill(&[1u8, 2, 9], &mut [0; 9], &mut Strip::default(), &rules);
+        let filled = fill(
+            &[1u8, 2, 9],
+            &mut [[0; 3]; 3],
+            &mut Strip::default(),
+            &rules,
+        );
         assert_eq!((filled.read, filled.end), (2, End::Bad(9)));
     }
 }

@@ -33,6 +33,7 @@ impl<C: Coordinate + Place> Gather<'_, C> {
             prsp: run.header.prsp,
             placed: None,
             usable: true,
+            lacks_faces: false,
         };
         let place = layout.place;
         if place.form == C::IN_PLACE && place.in_place::<C>(words, at, count).is_some() {
@@ -156,7 +157,11 @@ impl<C: Coordinate + Place> Gather<'_, C> {
     ) -> Result<(), Refusal> {
         loop {
             let free = self.memory.indices.get_mut(self.indices..);
-            let filled = fill(rest, free.unwrap_or_default(), &mut self.strip, rules);
+            let free = free.unwrap_or_default();
+            let (whole, _) = free.split_at_mut(free.len() / 3 * 3);
+            // Three to a face, of whatever alignment.
+            let free = bytemuck::try_cast_slice_mut(whole).unwrap_or_default();
+            let filled = fill(rest, free, &mut self.strip, rules);
             self.indices += 3 * filled.faces;
             rest = rest.get(filled.read..).unwrap_or_default();
             match filled.end {

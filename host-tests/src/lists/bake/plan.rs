@@ -2,13 +2,14 @@
 
 use super::Baked;
 use crate::lists::fields::{Grid, Packed, Places};
-use crate::lists::strips::strips_of;
-use crate::lists::tables::{Table, tables};
+use crate::lists::parts::{parts_of, whole};
+use crate::lists::tables::{Table, TablePart, tables};
 use crate::lists::writer::{FieldPacker, Form, ListWriter, WriteError};
 use crate::model::Model;
 use scanbeam::Affine;
 use scanbeam::list::{
-    Bounds, Field, FieldForm, Flow, Head, Header, Id, Material, Matrix, State, VertexFormat,
+    Bounds, Cone, Field, FieldForm, Flow, Head, Header, Id, Material, Matrix, Place, State,
+    VertexFormat,
 };
 use std::collections::{BTreeMap, HashMap};
 use std::error::Error;
@@ -41,6 +42,8 @@ pub(super) struct Plan<'a> {
     pub(super) model: &'a Model,
     /// Numbers of the materials' textures.
     pub(super) textures: &'a [Option<u8>],
+    /// Whether it is cut into parts.
+    pub(super) meshlets: bool,
 }
 
 impl Plan<'_> {
@@ -169,14 +172,8 @@ impl Plan<'_> {
         VertexFormat::new(&fields).unwrap_or_default()
     }
 
-    fn group(
-        &self,
-        out: &mut ListWriter<'_>,
-        baked: &mut Baked,
-        group: &Group,
-        format: &VertexFormat,
-    ) -> Result<(), Box<dyn Error>> {
-        // Vertices that became the same are one.
+    /// The triangles of a group, and their vertices: those that became the same are one.
+    fn merged(&self, baked: &mut Baked, group: &Group) -> (Vec<Packed>, Vec<[u32; 3]>) {
         let mut known: HashMap<Packed, u32> = HashMap::new();
         let mut vertices: Vec<Packed> = Vec::new();
         let mut triangles = Vec::new();
@@ -213,10 +210,28 @@ impl Plan<'_> {
                 triangles.push(triangle);
             }
         }
-        let runs = strips_of(&triangles);
+        (vertices, triangles)
+    }
+
+    fn group(
+        &self,
+        out: &mut ListWriter<'_>,
+        baked: &mut Baked,
+        group: &Group,
+        format: &VertexFormat,
+    ) -> Result<(), Box<dyn Error>> {
+        let (vertices, triangles) = self.merged(baked, group);
+        let form = self.grid.form;
+        // As players have them.
+        let place = |v: &Packed| <i32 as Place>::of(form, v.place).unwrap_or_default();
+        let parts = match self.meshlets {
+            true => parts_of(&triangles, &vertices.iter().map(place).collect::<Vec<_>>())?,
+            false => whole(&triangles),
+        };
         baked.triangles += triangles.len();
-        let narrow = tables(&runs, 255);
-        let wide = tables(&runs, 65_535);
+        baked.parts += parts.iter().filter(|part| part.cone.is_some()).count();
+        let narrow = tables(&parts, 255);
+        let wide = tables(&parts, 65_535);
         let vertex_bytes: u32 = format.fields().iter().map(|f| f.form.column_bytes()).sum();
         let bytes = |tables: &[Table], each: usize| -> usize {
             let table =
@@ -231,11 +246,14 @@ impl Plan<'_> {
         for table in &tables {
             baked.table = baked.table.max(table.vertices.len());
             baked.vertices += table.vertices.len();
-            let counts = [table.strips.len(), table.fans.len(), table.separate.len()];
-            for (sum, n) in baked.runs.iter_mut().zip(counts) {
-                *sum += n;
+            self.table(out, (group, table), &vertices, format)?;
+            for part in &table.parts {
+                let counts = [part.strips.len(), part.fans.len(), part.separate.len()];
+                for (sum, n) in baked.runs.iter_mut().zip(counts) {
+                    *sum += n;
+                }
+                write_part(out, part, is_wide)?;
             }
-            self.table(out, (group, table), &vertices, format, is_wide)?;
         }
         Ok(())
     }
@@ -246,7 +264,6 @@ impl Plan<'_> {
         (group, table): (&Group, &Table),
         vertices: &[Packed],
         format: &VertexFormat,
-        wide: bool,
     ) -> Result<(), WriteError> {
         let header = group.header(Id::Table, table.vertices.len());
         let mut words = Vec::new();
@@ -270,26 +287,43 @@ impl Plan<'_> {
             packer.align();
         }
         out.vertices(header, &words)?;
-        for (runs, form) in [(&table.strips, Form::Strip), (&table.fans, Form::Fan)] {
-            // Blocks of at most 65,535 indices, broken between strips.
-            let mut block: Vec<Option<u16>> = Vec::new();
-            for run in runs {
-                if block.len() + run.len() >= 65_535 {
-                    out.indexed(Some(form), wide, std::mem::take(&mut block).into_iter())?;
-                }
-                if !block.is_empty() {
-                    block.push(None);
-                }
-                block.extend(run.iter().map(|i| Some(*i)));
-            }
-            if !block.is_empty() {
-                out.indexed(Some(form), wide, block.into_iter())?;
-            }
-        }
-        for part in table.separate.chunks(65_535 / 3) {
-            let indices: Vec<_> = part.iter().flatten().map(|i| Some(*i)).collect();
-            out.indexed(None, wide, indices.into_iter())?;
-        }
         Ok(())
     }
+}
+
+/// Writes the faces of a part, behind its cone.
+fn write_part(out: &mut ListWriter<'_>, part: &TablePart, wide: bool) -> Result<(), WriteError> {
+    let Some(cone) = part.cone else {
+        return write_runs(out, part, wide);
+    };
+    let at = out.position();
+    out.state(&State::Cone(cone))?;
+    let behind = out.position();
+    write_runs(out, part, wide)?;
+    let words = out.position() - behind;
+    out.rewrite(at, &State::Cone(Cone { words, ..cone }))
+}
+
+fn write_runs(out: &mut ListWriter<'_>, part: &TablePart, wide: bool) -> Result<(), WriteError> {
+    for (runs, form) in [(&part.strips, Form::Strip), (&part.fans, Form::Fan)] {
+        // Blocks of at most 65,535 indices, broken between strips.
+        let mut block: Vec<Option<u16>> = Vec::new();
+        for run in runs {
+            if block.len() + run.len() >= 65_535 {
+                out.indexed(Some(form), wide, std::mem::take(&mut block).into_iter())?;
+            }
+            if !block.is_empty() {
+                block.push(None);
+            }
+            block.extend(run.iter().map(|i| Some(*i)));
+        }
+        if !block.is_empty() {
+            out.indexed(Some(form), wide, block.into_iter())?;
+        }
+    }
+    for some in part.separate.chunks(65_535 / 3) {
+        let indices: Vec<_> = some.iter().flatten().map(|i| Some(*i)).collect();
+        out.indexed(None, wide, indices.into_iter())?;
+    }
+    Ok(())
 }
