@@ -1,12 +1,11 @@
 //! The triangles of a model counted once each, where a picture has several parts, or triangles are drawn again.
 
 use crate::DrawFailure;
-use crate::parts::{Job, MOST_OBJECTS, MOST_VERTICES, Tile, tiles};
+use crate::parts::{Job, MOST_OBJECTS, MOST_VERTICES, Step, Tile, tiles};
 use crate::prepared::Chunk;
 use host_support::rooms::{Room, SceneRooms};
+use scanbeam::Camera;
 use scanbeam::look::Look;
-use scanbeam::scene::DrawError;
-use scanbeam::{Camera, Scene};
 use std::ops::Range;
 
 /// Triangles that are drawn at a time: with the vertices of a part, and 20 more for each that is flat and clipped, they
@@ -39,7 +38,7 @@ struct Mark {
 pub(crate) fn count_triangles<'t, L: Look>(
     job: &Job,
     counted: &[Option<&Chunk>],
-    step: &mut impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+    step: &mut Step<'_, 't, L>,
 ) -> Result<Triangles, DrawFailure> {
     let mut all = Triangles::default();
     let alone = tiles(job).count() > 1;
@@ -95,7 +94,7 @@ pub(crate) fn lines_of_faces<'t, L: Look>(
     camera: &Camera,
     tile: &Tile,
     counted: &[Option<&Chunk>],
-    step: &mut impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+    step: &mut Step<'_, 't, L>,
 ) -> Result<Vec<Vec<Range<i32>>>, DrawFailure> {
     let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
     let room = Room {
@@ -132,7 +131,7 @@ impl Triangles {
         &mut self,
         chunk: &Chunk,
         mut marks: Option<&mut Vec<Mark>>,
-        draw: &mut impl FnMut(&Chunk) -> Result<Self, DrawFailure>,
+        draw: &mut dyn FnMut(&Chunk) -> Result<Self, DrawFailure>,
     ) -> Result<(), DrawFailure> {
         // Parts of a part share its vertices.
         let shared = chunk.positions.len();

@@ -297,7 +297,7 @@ impl Task<'_> {
             reach: 2,
         };
         let counted: Vec<_> = steps.iter().map(|step| self.counted(*step)).collect();
-        draw_parts::<L, F>(&job, &counted, |scene, tile, step, instead| {
+        draw_parts::<L, F>(&job, &counted, &mut |scene, tile, step, instead| {
             let (part, in_shadow) = match steps[step] {
                 Step::Part(part) => (part, false),
                 Step::InShadow(part) => (part, true),

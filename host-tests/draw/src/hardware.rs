@@ -62,8 +62,10 @@ fn draw_in<F: PixelFormat>(prepared: &Prepared, view: &View) -> Result<Drawn, Dr
     draw_parts_by::<Gouraud<F>, F>(
         &job,
         &counted,
-        |scene, _, number, instead| draw_chunk(scene, &setting, instead.unwrap_or(&chunks[number])),
-        |scene, pump: &mut Display<F>, lines| {
+        &mut |scene, _, number, instead| {
+            draw_chunk(scene, &setting, instead.unwrap_or(&chunks[number]))
+        },
+        &mut |scene, pump: &mut Display<F>, lines| {
             let mut memory = ModelLines::new(scene.screen().width());
             let mut renderer = memory.renderer();
             draw_model_frame(scene, &mut renderer, pump, background, lines)

@@ -70,7 +70,7 @@ fn draw_in<F: PixelFormat + Format>(
     draw_parts_by::<Gouraud<F>, F>(
         &job,
         &counted,
-        |scene, _, number, instead| {
+        &mut |scene, _, number, instead| {
             let chunk = instead.unwrap_or(&chunks[number]);
             scene.draw(&Draw {
                 model: setting.model,
@@ -80,7 +80,7 @@ fn draw_in<F: PixelFormat + Format>(
                 ..Draw::new(chunk.mesh())
             })
         },
-        |scene, pump, lines| draw_lines(scene, pump, (background, lines), how),
+        &mut |scene, pump, lines| draw_lines(scene, pump, (background, lines), how),
     )
 }
 

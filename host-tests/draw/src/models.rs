@@ -119,7 +119,7 @@ impl Task<'_> {
             ..Job::new(self.view, setting.camera, self.crew, room)
         };
         let counted: Vec<_> = chunks.iter().map(Some).collect();
-        draw_parts::<L, F>(&job, &counted, |scene, _, number, instead| {
+        draw_parts::<L, F>(&job, &counted, &mut |scene, _, number, instead| {
             let chunk: &Chunk = instead.unwrap_or(&chunks[number]);
             let texture = chunk
                 .texture

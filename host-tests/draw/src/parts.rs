@@ -165,6 +165,15 @@ impl Took {
 /// The pump to the mocked display of a part.
 pub(crate) type Display<F> = Pump<MockFrameBuffer<<F as PixelFormat>::Word>>;
 
+/// What draws one part of a tile: into a scene, by its number. It is called and not compiled in, so that all that draw by a
+/// look share what draws their pictures.
+pub(crate) type Step<'s, 't, L> =
+    dyn FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError> + 's;
+
+/// Who draws a scene to a display, so many lines a transfer.
+type Drawer<'d, 't, L, F> =
+    dyn FnMut(&Scene<'_, 't, L>, &mut Display<F>, u16) -> Result<Took, DrawFailure> + 'd;
+
 /// Draws a picture by line renderers, of what `step` draws, for each number from 0 to below those of `counted` once a
 /// scene. These are the parts of the model that steps draw; `None` where triangles do not count, since they are none of
 /// it or are drawn again. A step that is given another part draws that instead. A line that has more than a scene's
@@ -175,13 +184,13 @@ pub(crate) type Display<F> = Pump<MockFrameBuffer<<F as PixelFormat>::Word>>;
 pub(crate) fn draw_parts<'t, L, F>(
     job: &Job,
     counted: &[Option<&Chunk>],
-    step: impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
+    step: &mut Step<'_, 't, L>,
 ) -> Result<Drawn, DrawFailure>
 where
     L: Look<Pixel = F, Planes: Send> + Sync,
     F: PixelFormat + Sync,
 {
-    draw_parts_by(job, counted, step, |scene, pump, lines| {
+    draw_parts_by::<L, F>(job, counted, step, &mut |scene, pump, lines| {
         draw_by_crew(job, scene, pump, lines)
     })
 }
@@ -193,8 +202,8 @@ where
 pub(crate) fn draw_parts_by<'t, L, F>(
     job: &Job,
     counted: &[Option<&Chunk>],
-    step: impl FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
-    by: impl FnMut(&Scene<'_, 't, L>, &mut Display<F>, u16) -> Result<Took, DrawFailure>,
+    step: &mut Step<'_, 't, L>,
+    by: &mut Drawer<'_, 't, L, F>,
 ) -> Result<Drawn, DrawFailure>
 where
     L: Look<Pixel = F>,
@@ -212,10 +221,10 @@ where
         by,
     };
     for tile in tiles(job) {
-        parts.tile::<L, F>(job, tile)?;
+        parts.tile(job, tile)?;
     }
     if parts.figures.parts != 1 || job.shadows {
-        let all = count_triangles(job, counted, &mut parts.step)?;
+        let all = count_triangles(job, counted, parts.step)?;
         let done = &mut parts.used.assembled;
         (done.triangles, done.culled, done.clipped) = (all.triangles, all.culled, all.clipped);
         (parts.figures.objects, parts.figures.vertices) = (all.objects, all.vertices);
@@ -287,26 +296,20 @@ where
 }
 
 /// A picture as its parts become ready.
-struct Parts<'c, S, B> {
+struct Parts<'c, 't, L, F: PixelFormat> {
     rgb: Vec<u8>,
     used: FrameUse,
     spans: Option<SpanCounts>,
     figures: Figures,
     overfull: Option<Overfull>,
     counted: &'c [Option<&'c Chunk>],
-    step: S,
-    by: B,
+    step: &'c mut Step<'c, 't, L>,
+    by: &'c mut Drawer<'c, 't, L, F>,
 }
 
-impl<S, B> Parts<'_, S, B> {
+impl<'t, L: Look<Pixel = F>, F: PixelFormat> Parts<'_, 't, L, F> {
     /// Draws a tile, in as many bands of lines as it takes.
-    fn tile<'t, L, F>(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure>
-    where
-        L: Look<Pixel = F>,
-        F: PixelFormat,
-        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
-        B: FnMut(&Scene<'_, 't, L>, &mut Display<F>, u16) -> Result<Took, DrawFailure>,
-    {
+    fn tile(&mut self, job: &Job, tile: Tile) -> Result<(), DrawFailure> {
         let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
         let [width, height] = tile.size;
         // Where nothing is seen, from anywhere.
@@ -331,7 +334,7 @@ impl<S, B> Parts<'_, S, B> {
             match (full, &camera) {
                 // Without vertices of triangles elsewhere.
                 (Some(_), Some(camera)) if own_lines.is_none() => {
-                    let lines = lines_of_faces(camera, &tile, self.counted, &mut self.step)?;
+                    let lines = lines_of_faces(camera, &tile, self.counted, self.step)?;
                     own_lines = Some(lines);
                     continue;
                 }
@@ -361,23 +364,20 @@ impl<S, B> Parts<'_, S, B> {
 
     /// Draws all that a scene has room for, of parts of the model what may be on its lines, where that is known; what
     /// found none first. Where that is asked for, it stops there.
-    fn build<'t, L>(
+    fn build(
         &mut self,
         scene: &mut Scene<'_, 't, L>,
         tile: &Tile,
         stops: bool,
         own_lines: Option<&[Vec<Range<i32>>]>,
-    ) -> Result<Option<DrawError>, DrawFailure>
-    where
-        S: FnMut(&mut Scene<'_, 't, L>, &Tile, usize, Option<&Chunk>) -> Result<(), DrawError>,
-    {
+    ) -> Result<Option<DrawError>, DrawFailure> {
         let mut full = None;
         let band = scene.lines();
         let band = i32::from(band.start)..i32::from(band.end);
         for (step, chunk) in self.counted.iter().enumerate() {
             let part = chunk.zip(own_lines).map(|(chunk, lines)| {
                 let on_band = |lines: &Range<i32>| lines.start < band.end && band.start < lines.end;
-                chunk.only(|face| on_band(&lines[step][face]))
+                chunk.only(&|face| on_band(&lines[step][face]))
             });
             match (self.step)(scene, tile, step, part.as_ref()) {
                 Ok(()) => {}

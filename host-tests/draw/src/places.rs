@@ -125,19 +125,20 @@ fn words(
         ..Job::new(view, setting.camera, CrewSettings::default(), room)
     };
     let counted: Vec<_> = chunks.iter().map(Some).collect();
-    let drawn = draw_parts::<Textured<Rgb565>, Rgb565>(&job, &counted, |scene, _, i, instead| {
-        let chunk = instead.unwrap_or(&chunks[i]);
-        scene.draw(&Draw {
-            model: setting.model,
-            cull: setting.cull,
-            texture: Some(Skin {
-                texture,
-                places: &chunk.places,
-                budget,
-            }),
-            ..Draw::new(chunk.mesh())
-        })
-    })?;
+    let drawn =
+        draw_parts::<Textured<Rgb565>, Rgb565>(&job, &counted, &mut |scene, _, i, instead| {
+            let chunk = instead.unwrap_or(&chunks[i]);
+            scene.draw(&Draw {
+                model: setting.model,
+                cull: setting.cull,
+                texture: Some(Skin {
+                    texture,
+                    places: &chunk.places,
+                    budget,
+                }),
+                ..Draw::new(chunk.mesh())
+            })
+        })?;
     if let Some(overfull) = drawn.overfull {
         return Err(DrawFailure::View(overfull.to_string()));
     }

@@ -227,7 +227,7 @@ impl Chunk {
     }
 
     /// One with those faces that `has`, and their vertices alone.
-    pub(super) fn only(&self, has: impl Fn(usize) -> bool) -> Self {
+    pub(super) fn only(&self, has: &dyn Fn(usize) -> bool) -> Self {
         let mut part = Self::new(self.texture, self.look);
         let mut new_index = vec![u16::MAX; self.positions.len()];
         for (number, face) in self.faces.iter().enumerate() {

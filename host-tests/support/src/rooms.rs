@@ -123,11 +123,22 @@ pub fn picture<'t, P: PixelFormat, L: Look<Pixel = P>>(
     let mut memory = SceneRooms::new(room, screen.height());
     let mut scene = memory.scene(screen);
     build(&mut scene)?;
-    let mut lines: LineRooms<L> = LineRooms::new(room.objects, screen.width());
+    words_of(&scene, room.objects, background)
+}
+
+/// The words of a scene's lines, over a background, with room for so many triangles. It is apart from what builds the
+/// scene, so that all that draw by a look share it.
+fn words_of<P: PixelFormat, L: Look<Pixel = P>>(
+    scene: &Scene<'_, '_, L>,
+    objects: usize,
+    background: P::Word,
+) -> Result<Vec<P::Word>, Box<dyn Error>> {
+    let width = scene.screen().width();
+    let mut lines: LineRooms<L> = LineRooms::new(objects, width);
     let mut renderer = lines.renderer();
-    let (mut words, mut line) = (Vec::new(), vec![background; screen.width().into()]);
+    let (mut words, mut line) = (Vec::new(), vec![background; width.into()]);
     for y in scene.lines() {
-        renderer.draw_line(&scene, y, &mut line, background)?;
+        renderer.draw_line(scene, y, &mut line, background)?;
         words.extend_from_slice(&line);
     }
     Ok(words)

@@ -152,7 +152,7 @@ impl<'t> Worn<'_, 't> {
         let counted: Vec<_> = (steps.iter())
             .map(|step| self.parts.chunk(step).filter(|_| is_first(step)))
             .collect();
-        draw_parts::<L, F>(job, &counted, |scene, tile, number, instead| {
+        draw_parts::<L, F>(job, &counted, &mut |scene, tile, number, instead| {
             let step = &steps[number];
             let part = &self.parts.parts[step.object];
             if let (What::Volume(mesh), Some(light)) = (step.what, &shadows[step.object]) {
