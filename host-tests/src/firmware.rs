@@ -275,12 +275,6 @@ pub fn build_all(
     programs: &[&str],
     features: &[&str],
 ) -> Result<PathBuf, FirmwareError> {
-    let mut target = target_directory(toolchain);
-    if let Some(first) = features.first() {
-        // Beside the plain one, which somebody may be running. Those that share the first feature
-        // share what they depend on.
-        target.push(first);
-    }
     let mut words = vec!["--profile", profile.name()];
     words.extend(programs.iter().flat_map(|program| ["--bin", program]));
     let features = features.join(",");
@@ -289,10 +283,36 @@ pub fn build_all(
     }
     let package = Package {
         folder: workspace().join("host-tests/firmware"),
-        target,
+        target: target_directory(toolchain),
         crates: "core",
     };
-    package.build(toolchain, boards, &words)
+    let built = package.build(toolchain, boards, &words)?;
+    match features.is_empty() {
+        true => Ok(built),
+        false => set_aside(&built, &features, boards, profile, programs),
+    }
+}
+
+/// Copies programs into a folder of their features, and gives that: the next ones of the same names are built over them,
+/// where all share what they depend on.
+fn set_aside(
+    built: &Path,
+    features: &str,
+    boards: &[Board],
+    profile: Profile,
+    programs: &[&str],
+) -> Result<PathBuf, FirmwareError> {
+    let aside = built.join("by-features").join(features);
+    for board in boards {
+        let release = Path::new(board.target).join(profile.name());
+        let failed = || io_error(aside.join(&release).display().to_string());
+        std::fs::create_dir_all(aside.join(&release)).map_err(failed())?;
+        for program in programs {
+            let file = release.join(program);
+            std::fs::copy(built.join(&file), aside.join(&file)).map_err(failed())?;
+        }
+    }
+    Ok(aside)
 }
 
 /// A package of firmware.
