@@ -7,8 +7,6 @@
 mod bench;
 mod picture;
 mod render;
-#[cfg(test)]
-mod tests;
 mod view;
 
 pub use crate::choice::{DEFAULT_SLOTS, DepthArg, InterpArg, MAX_SIDE, PixelFormatArg};
@@ -225,6 +223,12 @@ pub enum Stop {
     Refused(String),
 }
 
+/// All flags, as they are defined.
+#[must_use]
+pub fn definitions() -> clap::Command {
+    Cli::command()
+}
+
 /// Reads the command line; `words` starts with the program's name, as `std::env::args_os` does. No command is `demo`.
 ///
 /// # Errors
@@ -238,7 +242,7 @@ where
         ErrorKind::DisplayHelp | ErrorKind::DisplayVersion => Stop::Text(error.to_string()),
         _ => Stop::Refused(one_line(&error.to_string())),
     };
-    let matches = Cli::command().try_get_matches_from(words).map_err(stop)?;
+    let matches = definitions().try_get_matches_from(words).map_err(stop)?;
     let cli = Cli::from_arg_matches(&matches).map_err(stop)?;
     let command = cli.command.unwrap_or(Command::Demo(DemoArgs::default()));
     let checked = match &command {
@@ -303,7 +307,7 @@ fn beside_scene(matches: &ArgMatches, allowed: &[&str]) -> Result<(), String> {
     let Some((name, given)) = matches.subcommand() else {
         return Ok(());
     };
-    let all = Cli::command();
+    let all = definitions();
     let flags = all.find_subcommand(name).into_iter();
     let mut flags = flags.flat_map(|command| command.get_arguments());
     let is_said = |id: &str| given.value_source(id) == Some(ValueSource::CommandLine);

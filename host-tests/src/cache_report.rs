@@ -29,33 +29,37 @@ use std::error::Error;
 type Look = Gouraud<Rgb565Be>;
 
 /// Bytes of a triangle and its corners.
-const RECORD_BYTES: u32 = Renderer::<Look, WORDS>::RECORD_BYTES;
+pub const RECORD_BYTES: u32 = Renderer::<Look, WORDS>::RECORD_BYTES;
 /// Words of 32 slots of the largest cache.
 const WORDS: usize = MOST_SLOTS as usize / 32;
 /// The scenes.
-const SHOTS: [Shot; 3] = [Shot::Teapot, Shot::Sphere, Shot::Crowd];
+pub const SHOTS: [Shot; 3] = [Shot::Teapot, Shot::Sphere, Shot::Crowd];
 /// Sizes of the cache.
-const SLOTS: [u16; 14] = [0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, MOST_SLOTS];
+pub const SLOTS: [u16; 14] = [0, 1, 2, 4, 8, 16, 24, 32, 43, 64, 96, 128, 192, MOST_SLOTS];
 /// The size whose figures are the goal's.
-const GOAL_SLOTS: u16 = 64;
+pub const GOAL_SLOTS: u16 = 64;
 /// Bytes a line that are fetched ahead where anything is.
 const AHEAD: u32 = 4_000;
 /// Lines of a transfer.
 const LINES: u16 = 4;
 
 /// A scene drawn with one size of cache.
-struct Row {
-    slots: u16,
-    prefetch: u32,
-    model: Model,
+pub struct Row {
+    /// Slots of the cache.
+    pub slots: u16,
+    /// Bytes a line that were fetched ahead.
+    pub prefetch: u32,
+    /// What was counted.
+    pub model: Model,
 }
 
 /// A scene, and what it was drawn with.
-struct Measured {
+pub struct Measured {
     pass: Assembled,
     objects: usize,
     vertices: usize,
-    rows: Vec<Row>,
+    /// By sizes of the cache, the last one fetching ahead.
+    pub rows: Vec<Row>,
 }
 
 /// Draws, prints and writes.
@@ -105,7 +109,7 @@ pub fn charts() -> Result<Vec<Chart>, Box<dyn Error>> {
 }
 
 /// Draws a scene with every size of cache, and once with fetching ahead.
-fn measure(shot: Shot) -> Result<Measured, Box<dyn Error>> {
+pub fn measure(shot: Shot) -> Result<Measured, Box<dyn Error>> {
     let room = Room {
         vertices: VERTICES,
         places: 0,
@@ -154,7 +158,7 @@ fn measure(shot: Shot) -> Result<Measured, Box<dyn Error>> {
 }
 
 /// How many times fewer slow bytes than `without`.
-fn saving(row: &Row, without: &Row) -> f64 {
+pub fn saving(row: &Row, without: &Row) -> f64 {
     let bytes = |row: &Row| row.model.slow_bytes(Layout::Indexed) as f64;
     bytes(without) / bytes(row).max(1.0)
 }
@@ -299,51 +303,5 @@ fn chart(shot: Shot, rows: &[Row]) -> Chart {
         y_name: "ms, second pass, 150 MHz".into(),
         series: series.into(),
         marks: Marks::Lines,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn more_slots_are_fewer_slow_bytes_and_less_time() {
-        let rows = measure(Shot::Sphere).unwrap().rows;
-        for pair in rows[..SLOTS.len()].windows(2) {
-            let bytes = |row: &Row| row.model.slow_bytes(Layout::Indexed);
-            assert!(
-                bytes(&pair[1]) <= bytes(&pair[0]),
-                "{} slots",
-                pair[1].slots
-            );
-            for system in SYSTEMS {
-                let ms = |row: &Row| row.model.time(Layout::Indexed, system).total_ms();
-                assert!(ms(&pair[1]) <= ms(&pair[0]) * 1.02);
-            }
-        }
-        let goal = rows.iter().find(|row| row.slots == GOAL_SLOTS).unwrap();
-        assert!(saving(goal, &rows[0]) >= 5.0, "{}", saving(goal, &rows[0]));
-        // Fetched ahead it is no more that is read, and hardly anything is left for when its line comes.
-        let ahead = rows.last().unwrap();
-        let read = |row: &Row| row.model.cache.slow_read_bytes(RECORD_BYTES);
-        assert!(ahead.model.cache.fetched * 5 > 4 * ahead.model.cache.hits);
-        assert!(read(ahead) <= read(goal));
-    }
-
-    #[test]
-    fn plots_are_written_whole() {
-        let folder = tempfile::tempdir().unwrap();
-        let args = CacheArgs {
-            json: false,
-            output: Some(folder.path().join("new")),
-        };
-        run(&args).unwrap();
-        for shot in SHOTS {
-            let svg = folder.path().join(format!("new/cache_{}.svg", shot.name()));
-            let svg = std::fs::read_to_string(svg).unwrap();
-            assert!(svg.starts_with("<svg ") && svg.trim_end().ends_with("</svg>"));
-            let png = folder.path().join(format!("new/cache_{}.png", shot.name()));
-            crate::image_out::read_image(&png).unwrap();
-        }
     }
 }

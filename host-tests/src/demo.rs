@@ -84,7 +84,7 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
     let bar = ProgressBar::new(u64::from(args.frames))
         .with_style(style)
         .with_message("drawing");
-    let turn = Turn::draw(args.frames, args.changed, || bar.inc(1))?;
+    let turn = Turn::draw(args.frames, args.changed, &|| bar.inc(1))?;
     bar.finish_and_clear();
     let pictures = turn.write(folder)?;
 
@@ -100,9 +100,11 @@ pub fn run(args: &DemoArgs) -> Result<(), Box<dyn Error>> {
 }
 
 /// All frames of a turn.
-struct Turn {
-    frames: Vec<Frame>,
-    took: Vec<Took>,
+pub struct Turn {
+    /// What the display shows.
+    pub frames: Vec<Frame>,
+    /// What each frame took.
+    pub took: Vec<Took>,
 }
 
 /// What the display shows, by what can be sent alone.
@@ -136,20 +138,21 @@ impl Shown<'_> {
 }
 
 /// What a frame took.
-struct Took {
-    frame: FrameUse,
-    /// Triangles and vertices of the scene.
-    objects: usize,
-    vertices: usize,
+pub struct Took {
+    /// By pass one and two, and on the wire.
+    pub frame: FrameUse,
+    /// Triangles of the scene.
+    pub objects: usize,
+    /// Vertices of the scene.
+    pub vertices: usize,
 }
 
 impl Turn {
     /// Draws `count` frames, each one the same angle on, sends what changes, and calls `done` after each.
-    fn draw(
-        count: u32,
-        changed: ChangedArg,
-        mut done: impl FnMut(),
-    ) -> Result<Self, Box<dyn Error>> {
+    ///
+    /// # Errors
+    /// When a frame cannot be drawn or sent.
+    pub fn draw(count: u32, changed: ChangedArg, done: &dyn Fn()) -> Result<Self, Box<dyn Error>> {
         let mut memory = SceneRooms::new(ROOM, HEIGHT);
         let mut scene = memory.scene::<Look>(Screen::new(WIDTH, HEIGHT)?);
         let mut lines: LineRooms<Look> = LineRooms::new(ROOM.objects, WIDTH);
@@ -248,7 +251,7 @@ impl Turn {
     }
 
     /// The memory that was lent, fast and slow, and how much of it the largest frame used.
-    fn lent(&self) -> [Vec<Lent>; 2] {
+    pub fn lent(&self) -> [Vec<Lent>; 2] {
         let most = |figure: fn(&Took) -> usize| self.took.iter().map(figure).max().unwrap_or(0);
         let objects = most(|t| t.objects);
         let vertices = most(|t| t.vertices);
@@ -308,14 +311,15 @@ impl Turn {
 }
 
 /// Memory of one kind.
-struct Lent {
-    what: &'static str,
+pub struct Lent {
+    /// What it is of.
+    pub what: &'static str,
     /// Bytes of one element.
-    each: usize,
+    pub each: usize,
     /// Elements lent.
-    count: usize,
+    pub count: usize,
     /// Most elements that were in use.
-    used: usize,
+    pub used: usize,
 }
 
 impl Lent {
@@ -333,7 +337,7 @@ impl Lent {
     }
 
     /// Lent, and used.
-    fn bytes(&self) -> [usize; 2] {
+    pub fn bytes(&self) -> [usize; 2] {
         [self.count, self.used].map(|count| count * self.each)
     }
 }
@@ -351,7 +355,7 @@ fn number(value: impl Display) -> Cell {
 }
 
 /// Digits with a comma before every third from the right.
-fn thousands(digits: &str) -> String {
+pub fn thousands(digits: &str) -> String {
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
         if index > 0 && (digits.len() - index).is_multiple_of(3) {
@@ -366,84 +370,3 @@ fn thousands(digits: &str) -> String {
 #[cfg(doctest)]
 #[doc = include_str!("../../README.md")]
 struct Readme;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn thousands_are_set_apart() {
-        for (digits, text) in [
-            ("0", "0"),
-            ("999", "999"),
-            ("1000", "1,000"),
-            ("1234567", "1,234,567"),
-        ] {
-            assert_eq!(thousands(digits), text);
-        }
-    }
-
-    /// Kills: a frame that is sent whole though the display shows most of it, memory that is full or hardly used.
-    #[test]
-    fn a_turn_fits_the_memory_at_any_angle() {
-        let turn = Turn::draw(97, ChangedArg::Lines, || ()).unwrap();
-        assert_eq!(turn.frames.len(), 97);
-        for (number, took) in turn.took.iter().enumerate() {
-            let assembled = took.frame.assembled;
-            assert_eq!(assembled.dropped, 0);
-            assert_eq!(assembled.clipped, 0, "the whole teapot is in sight");
-            // None is clipped, so what is left of each is one or nothing.
-            let kept = assembled.triangles - assembled.culled;
-            assert_eq!(took.objects, kept as usize);
-            let (cache, scan_out) = (took.frame.cache, took.frame.scan_out);
-            assert!(cache.hits + cache.spilled <= kept && cache.moved_in <= cache.spilled);
-            assert_eq!(scan_out.bytes_sent + scan_out.bytes_unsent, 320 * 240 * 2);
-            assert_eq!(scan_out.lines_unsent > 60, number > 0, "frame {number}");
-        }
-        for lent in turn.lent().iter().flatten() {
-            let [bytes, used] = lent.bytes();
-            assert!(
-                used <= bytes && 10 * used >= 9 * bytes,
-                "{}: {used} of {bytes}",
-                lent.what
-            );
-        }
-    }
-
-    /// Kills: parts of a frame that are not sent though they changed, and flags that send alike.
-    #[test]
-    fn whatever_is_sent_the_display_shows_the_same() {
-        let ways = [ChangedArg::All, ChangedArg::Lines, ChangedArg::Runs];
-        let turns = ways.map(|changed| Turn::draw(5, changed, || ()).unwrap());
-        let [all, lines, runs] = &turns;
-        let words = |turn: &Turn, frame: usize| turn.took[frame].frame.scan_out.bytes_sent;
-        for frame in 0..5 {
-            assert!(all.frames[frame] == lines.frames[frame], "{frame}");
-            assert!(all.frames[frame] == runs.frames[frame], "{frame}");
-            let sent = [runs, lines, all].map(|turn| words(turn, frame));
-            let falls = frame > 0 && sent[0] < sent[1] && sent[1] < sent[2];
-            assert!(falls || sent == [320 * 240 * 2; 3], "{frame}: {sent:?}");
-            assert_eq!(falls, frame > 0);
-        }
-    }
-
-    #[test]
-    fn the_readme_says_how_much_memory_is_lent() {
-        let lent = Turn::draw(1, ChangedArg::Lines, || ()).unwrap().lent();
-        let bytes = |rooms: &[Lent]| {
-            let sum: usize = rooms.iter().map(|lent| lent.bytes()[0]).sum();
-            thousands(&sum.to_string())
-        };
-        let [fast, slow] = &lent;
-        let said = format!(
-            "takes {} bytes of fast RAM ({} of the object cache, {} of depth, {} of two line buffers) \
-             and {} of slow RAM",
-            bytes(fast),
-            bytes(&fast[..2]),
-            bytes(&fast[2..3]),
-            bytes(&fast[3..]),
-            bytes(slow)
-        );
-        assert!(include_str!("../../README.md").contains(&said), "{said}");
-    }
-}

@@ -19,14 +19,12 @@
 //! | `profile.rs` | where a frame's instructions go |
 //! | `toolchain.rs` | which compiler there is |
 
-mod output;
+pub mod output;
 pub mod profile;
-mod qemu;
-mod sections;
-mod symbols;
-#[cfg(test)]
-mod tests;
-mod toolchain;
+pub mod qemu;
+pub mod sections;
+pub mod symbols;
+pub mod toolchain;
 
 pub use output::{CountCheck, FrameResult, GrowthRun, KernelRun, LinesRun, Output, UnitRun};
 pub use qemu::run;

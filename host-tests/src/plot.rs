@@ -412,7 +412,7 @@ impl Chart {
 }
 
 /// The next of 1, 2, 5 times a power of ten, not below `value`.
-fn nice(value: f64) -> f64 {
+pub fn nice(value: f64) -> f64 {
     let value = value.max(1e-9);
     let ten = 10f64.powf(value.log10().floor());
     let factors = [1.0, 2.0, 5.0, 10.0];
@@ -487,6 +487,3 @@ impl Canvas for Pixels {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,6 +1,3 @@
 //! A scene as a file, as the flags of the tool are held against it.
 
 pub use host_draw::scene_file::*;
-
-#[cfg(test)]
-mod tests;

@@ -23,7 +23,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 /// What stands before and after the table in `host-tests/figures/tables.md`.
-const MARKERS: [&str; 2] = [
+pub const MARKERS: [&str; 2] = [
     "<!-- sizes: written by `firmware --sizes --markdown` -->",
     "<!-- /sizes -->",
 ];
@@ -107,11 +107,12 @@ pub fn draws(known: &BTreeMap<&str, u32>, said: &[String]) -> bool {
 /// What a program takes.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ProgramSize {
-    program: Program,
+    /// The program.
+    pub program: Program,
     /// Of each of [`BOARDS`].
-    boards: Vec<Sections>,
+    pub boards: Vec<Sections>,
     /// Its functions, on each of them.
-    symbols: Vec<Symbols>,
+    pub symbols: Vec<Symbols>,
 }
 
 /// A triangle, with the link that files it.
@@ -131,7 +132,8 @@ impl ProgramSize {
         size_of::<Vertex>() + self.program.place
     }
 
-    fn to_json(&self, with_symbols: bool) -> Value {
+    /// As `firmware --sizes --json` prints it, with its functions or without.
+    pub fn to_json(&self, with_symbols: bool) -> Value {
         let measured = self.boards.iter().zip(&self.symbols);
         let boards = BOARDS
             .iter()
@@ -161,7 +163,7 @@ impl ProgramSize {
     }
 
     /// The largest functions on each core, a line each, and how many bytes the others have.
-    fn largest(&self) -> String {
+    pub fn largest(&self) -> String {
         let mut text = String::new();
         for ((board, sections), symbols) in BOARDS.iter().zip(&self.boards).zip(&self.symbols) {
             // Writing to a string cannot fail.
@@ -180,7 +182,7 @@ impl ProgramSize {
     }
 
     /// The cells of its row: name, code of each core, constants of all, fast RAM, records.
-    fn cells(&self) -> Vec<String> {
+    pub fn cells(&self) -> Vec<String> {
         let mut cells = vec![self.program.name.to_owned()];
         cells.extend(self.boards.iter().map(|s| thousands(s.text_bytes())));
         let constants = self.boards.iter().map(|s| thousands(s.rodata.bytes));
@@ -192,7 +194,8 @@ impl ProgramSize {
     }
 }
 
-fn head() -> Vec<String> {
+/// The cells of the head.
+pub fn head() -> Vec<String> {
     let mut head = vec!["program".to_owned()];
     let name = |board: &Board| board.name.replace("plus", "+").to_uppercase();
     head.extend(BOARDS.iter().map(|board| format!("code {}", name(board))));
@@ -200,7 +203,8 @@ fn head() -> Vec<String> {
     head
 }
 
-fn thousands(value: u64) -> String {
+/// A number with its thousands apart.
+pub fn thousands(value: u64) -> String {
     match value {
         0..1000 => value.to_string(),
         _ => format!("{},{:03}", thousands(value / 1000), value % 1000),
@@ -289,7 +293,8 @@ pub(crate) fn write(path: &Path, sizes: &[ProgramSize]) -> Result<(), Box<dyn Er
     rewrite(path, MARKERS, &markdown(sizes))
 }
 
-fn markdown(sizes: &[ProgramSize]) -> String {
+/// For the page.
+pub fn markdown(sizes: &[ProgramSize]) -> String {
     let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
     let head = head();
     let mut rule = vec!["---:".to_owned(); head.len()];
@@ -299,78 +304,4 @@ fn markdown(sizes: &[ProgramSize]) -> String {
         out.push_str(&line(size.cells()));
     }
     out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bench::table::between;
-    use crate::firmware::Section;
-
-    #[test]
-    fn a_row_has_what_the_head_names() {
-        let section = |bytes| Section { address: 0, bytes };
-        let sections = Sections {
-            text: section(50_123),
-            rodata: section(1_500),
-            fast: section(5_236),
-            dma: section(1_280),
-            ..Sections::default()
-        };
-        let size = ProgramSize {
-            program: PROGRAMS[0],
-            boards: vec![sections; BOARDS.len()],
-            symbols: vec![Symbols::default(); BOARDS.len()],
-        };
-        assert!(
-            size.largest().contains("  50,123  0 others"),
-            "{}",
-            size.largest()
-        );
-        let cells = size.cells();
-        assert_eq!(cells.len(), head().len());
-        assert_eq!(cells[1], "50,123");
-        assert_eq!(cells[1 + BOARDS.len()], "1,500 / 1,500 / 1,500");
-        assert_eq!(cells[2 + BOARDS.len()], "6,516");
-        assert_eq!(size.to_json(true)["fast_bytes"], 6_516);
-        let written = markdown(std::slice::from_ref(&size));
-        assert!(written.contains("| Gouraud, plain | 50,123 |"), "{written}");
-        let readme = include_str!("../figures/tables.md");
-        let new = between(readme, MARKERS, &written).unwrap();
-        assert_eq!(between(&new, MARKERS, &written).unwrap(), new);
-        assert_eq!(thousands(1_002_003), "1,002,003");
-    }
-
-    /// Kills: a row of a program that went, or has another name.
-    #[test]
-    fn the_table_has_the_programs_that_there_are() {
-        let table = include_str!("../figures/tables.md");
-        let (_, table) = table.split_once(MARKERS[0]).unwrap();
-        let (table, _) = table.split_once(MARKERS[1]).unwrap();
-        let rows = table.lines().filter(|line| line.starts_with("| ")).skip(2);
-        let rows: Vec<&str> = rows.filter_map(|line| line.split(" | ").next()).collect();
-        let names = PROGRAMS.map(|program| format!("| {}", program.name));
-        assert_eq!(rows, names);
-    }
-
-    /// Kills: a program that says nothing, says another checksum, or a picture that is not known.
-    #[test]
-    fn pictures_of_programs_are_known() {
-        let known = BTreeMap::from([("a", 0x12), ("b", 0xffff_ffff)]);
-        let said = |lines: &[&str]| {
-            draws(
-                &known,
-                &lines.iter().map(|l| (*l).to_owned()).collect::<Vec<_>>(),
-            )
-        };
-        assert!(said(&["picture a 00000012", "picture b ffffffff"]));
-        for wrong in [
-            &[][..],
-            &["picture a 00000013"],
-            &["picture c 00000012"],
-            &["picture a 00000012", "panic"],
-        ] {
-            assert!(!said(wrong), "{wrong:?}");
-        }
-    }
 }

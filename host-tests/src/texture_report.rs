@@ -393,6 +393,3 @@ pub fn depth_resolution() -> Chart {
         marks: Marks::Lines,
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -112,6 +112,7 @@ mod texture_cli;
 mod texture_levels;
 mod texture_truth;
 mod told;
+mod tool;
 mod view;
 #[cfg(target_os = "linux")]
 mod view_terminal;

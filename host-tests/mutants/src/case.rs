@@ -101,7 +101,8 @@ impl Bench {
         };
         let ignored = names(&["--ignored"])?;
         let mut all = names(&[])?;
-        all.retain(|name| !ignored.contains(name));
+        // Those of the tool's parts are no proofs of the crate, and some build firmware.
+        all.retain(|name| !ignored.contains(name) && !name.starts_with("tool::"));
         if all.is_empty() {
             return Err(format!("{program:?}: there are no tests"));
         }

@@ -34,11 +34,11 @@ fn of_span(name: &str, span: f64, one_more: Option<f64>) -> Option<f64> {
 
 /// Instructions a pixel and a span, by kernel; a frame has no spans of its own.
 #[derive(Debug, Default, PartialEq)]
-pub(super) struct Costs(BTreeMap<String, (f64, Option<f64>)>);
+pub struct Costs(BTreeMap<String, (f64, Option<f64>)>);
 
 impl Costs {
     /// Builds and runs the firmware; if there is nothing to do that with, no costs and why.
-    pub(super) fn measured() -> Result<(Self, Option<String>), Box<dyn Error>> {
+    pub fn measured() -> Result<(Self, Option<String>), Box<dyn Error>> {
         let measured = Toolchain::find()
             .and_then(|toolchain| measure(&toolchain, &M4, Profile::Release, &["bench"]));
         match measured {
@@ -55,7 +55,7 @@ impl Costs {
     }
 
     /// From what the firmware printed, and the pixels that the teapot's frames show, and that of a reflecting one.
-    pub(super) fn from_output(output: &Output, [teapot, mirror]: [u32; 2]) -> Result<Self, String> {
+    pub fn from_output(output: &Output, [teapot, mirror]: [u32; 2]) -> Result<Self, String> {
         let mut costs = BTreeMap::new();
         let one_more = output.units.iter().find(|unit| unit.name == "span");
         let one_more = one_more.map(|unit| unit.instructions as f64 / unit.count.max(1) as f64);
@@ -86,7 +86,7 @@ impl Costs {
     }
 
     /// Fills in the costs.
-    pub(super) fn fill(&self, rows: &mut [Row]) -> Result<(), String> {
+    pub fn fill(&self, rows: &mut [Row]) -> Result<(), String> {
         for row in rows {
             let Some(kernel) = row.kernel else { continue };
             if let Some((pixel, span)) = self.0.get(kernel) {
@@ -100,7 +100,7 @@ impl Costs {
 }
 
 /// `pixels a + spans b = instructions`, twice.
-pub(crate) fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
+pub fn solve(long: &KernelRun, short: &KernelRun) -> Option<(f64, f64)> {
     let row = |k: &KernelRun| (k.pixels as f64, k.spans as f64, k.instructions as f64);
     let ((p0, s0, i0), (p1, s1, i1)) = (row(long), row(short));
     let determinant = p0 * s1 - p1 * s0;

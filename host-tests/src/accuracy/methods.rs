@@ -28,7 +28,7 @@ macro_rules! method {
 }
 
 /// What the renderer does.
-pub(super) const RENDERER: &str = "renderer";
+pub const RENDERER: &str = "renderer";
 
 /// All of them.
 pub(super) const METHODS: [Method; 13] = [

@@ -18,18 +18,16 @@
 //! Every random choice comes from a generator with a fixed seed, so the figures are the same in
 //! every run. A row is there only if its figures were measured by code of this crate that runs.
 
-mod cost;
+pub mod cost;
 mod coverage;
 mod depth;
 mod frames;
 mod kept;
-mod methods;
+pub mod methods;
 mod rooms;
-mod scatter;
+pub mod scatter;
 mod spans;
 mod stage;
-#[cfg(test)]
-mod tests;
 mod texels;
 mod texture;
 
@@ -38,7 +36,7 @@ use crate::image_out::{make_folder, write_atomically, write_image};
 use crate::plot::Scatter;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use cost::Costs;
-pub(crate) use cost::solve;
+pub use cost::solve;
 use serde_json::{Value, json};
 use std::error::Error;
 
@@ -75,7 +73,7 @@ pub struct Row {
 }
 
 /// What a row is called: family, case, method, unit, kernel.
-type Name = (
+pub type Name = (
     &'static str,
     &'static str,
     &'static str,
@@ -85,15 +83,16 @@ type Name = (
 
 /// Errors of a method as they come in.
 #[derive(Debug, Default, Clone)]
-struct Errors(Vec<f32>);
+pub struct Errors(Vec<f32>);
 
 impl Errors {
-    fn push(&mut self, error: f64) {
+    /// Adds one.
+    pub fn push(&mut self, error: f64) {
         self.0.push(error as f32);
     }
 
     /// The row of these errors.
-    fn row(mut self, name: Name) -> Row {
+    pub fn row(mut self, name: Name) -> Row {
         let count = self.0.len();
         self.0.sort_unstable_by(f32::total_cmp);
         let sum: f64 = self.0.iter().map(|e| f64::from(*e)).sum();
@@ -107,7 +106,7 @@ impl Errors {
 
 impl Row {
     /// A row of rates: the highest of a batch, and that of all.
-    fn rate((family, case, method, unit, kernel): Name, max: f64, mean: f64) -> Self {
+    pub fn rate((family, case, method, unit, kernel): Name, max: f64, mean: f64) -> Self {
         Self {
             family,
             case,
@@ -125,7 +124,8 @@ impl Row {
         }
     }
 
-    fn to_json(&self) -> Value {
+    /// As `accuracy --json` prints it.
+    pub fn to_json(&self) -> Value {
         json!({
             "family": self.family,
             "case": self.case,
@@ -160,7 +160,7 @@ pub fn measure() -> Result<Vec<Row>, Box<dyn Error>> {
 }
 
 /// Instructions a pixel that are not told apart: ticks of the counter, and where code lies.
-const EQUAL_COST: f64 = 0.1;
+pub const EQUAL_COST: f64 = 0.1;
 
 /// Pixels of a span, by which what it takes counts for each: spans of the teapot have 2.8 in the mean, those of the sphere
 /// 5.4.
@@ -257,7 +257,7 @@ pub fn plots() -> Result<(Vec<Scatter>, Option<String>), Box<dyn Error>> {
 }
 
 /// The rows for people.
-fn table(rows: &[Row]) -> Table {
+pub fn table(rows: &[Row]) -> Table {
     let mut table = Table::new();
     table.load_preset(UTF8_FULL_CONDENSED);
     table.set_header([

@@ -8,7 +8,7 @@ const MOST_CASES: usize = 2;
 
 /// Plots of all that has a cost, by name: one for each family, or, where it has many cases, for
 /// each of them.
-pub(super) fn plots(rows: &[Row]) -> Vec<(String, Scatter)> {
+pub fn plots(rows: &[Row]) -> Vec<(String, Scatter)> {
     let costed: Vec<&Row> = rows.iter().filter(|row| row.cost.is_some()).collect();
     let mut plots = Vec::new();
     for family in distinct(costed.iter().map(|row| row.family)) {

@@ -70,10 +70,6 @@ const WAYS: [(&str, Way, &str); 9] = [
     ),
 ];
 
-/// What a skin has when nothing is said.
-#[cfg(test)]
-pub(super) const DEFAULT: &str = "balanced: 1/4 texel";
-
 pub(super) fn rows() -> Result<Vec<Row>, Box<dyn Error>> {
     let texels = texels();
     let map = Texture::words(&texels, SIDE, SIDE)?;

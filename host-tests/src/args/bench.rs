@@ -58,7 +58,7 @@ impl FirmwareArgs {
     }
 
     /// The boards that are run.
-    pub(crate) fn boards(&self) -> Vec<Board> {
+    pub fn boards(&self) -> Vec<Board> {
         let is_run = |board: &&Board| self.board.as_ref().is_none_or(|name| board.name == name);
         BOARDS.iter().filter(is_run).copied().collect()
     }

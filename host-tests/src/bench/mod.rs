@@ -15,9 +15,9 @@
 //! whatever else the machine does only adds to it. Before anything is measured, pictures are compared: a renderer that does not draw
 //! the same scene is refused.
 
-mod boards;
-mod scene;
-pub(crate) mod table;
+pub mod boards;
+pub mod scene;
+pub mod table;
 
 pub use boards::{Counted, OnBoard};
 
@@ -35,7 +35,7 @@ use tempfile::TempDir;
 /// The name of ours.
 pub const OURS: &str = "scanbeam";
 /// The packages of `host-tests/bench`: ours, and the one of all peers.
-const PACKAGES: [&str; 2] = ["ours", "peers"];
+pub const PACKAGES: [&str; 2] = ["ours", "peers"];
 /// Renderers of the registry: name of the package, as reports have it, and as its program does.
 const PEERS: [(&str, &str); 3] = [
     ("euc 0.5", "euc"),
@@ -79,7 +79,8 @@ impl Row {
         self.instructions.map(|i| i / self.pixels.max(1) as f64)
     }
 
-    fn to_json(&self) -> Value {
+    /// As `bench --json` prints it.
+    pub fn to_json(&self) -> Value {
         let boards = self.boards.iter();
         let boards: serde_json::Map<String, Value> = boards
             .map(|on| (on.board.name.to_owned(), on.to_json()))
@@ -155,11 +156,15 @@ struct Bench {
 
 /// A renderer on a scene, and how to run it: all words but the number of frames and the picture.
 /// Files are named as seen from the folder of scenes and pictures.
-struct Entry {
-    scene: Shot,
-    renderer: &'static str,
-    package: &'static str,
-    words: Vec<String>,
+pub struct Entry {
+    /// The scene.
+    pub scene: Shot,
+    /// The renderer's name, as reports have it.
+    pub renderer: &'static str,
+    /// The package that has it.
+    pub package: &'static str,
+    /// The words.
+    pub words: Vec<String>,
 }
 
 impl Bench {
@@ -302,34 +307,34 @@ impl Bench {
 }
 
 /// What callgrind says it has collected.
-fn collected(said: &str) -> Option<f64> {
+pub fn collected(said: &str) -> Option<f64> {
     let line = said.lines().find(|line| line.contains("Collected :"))?;
     line.rsplit(':').next()?.trim().parse().ok()
 }
 
 /// A picture as programs write it.
-fn pixels(bytes: &[u8]) -> Vec<u16> {
+pub fn pixels(bytes: &[u8]) -> Vec<u16> {
     let pixels = bytes.chunks_exact(2);
     pixels.map(|b| u16::from_le_bytes([b[0], b[1]])).collect()
 }
 
 /// Our pictures, by the scene's name.
-type Pictures = BTreeMap<&'static str, Vec<u16>>;
+pub type Pictures = BTreeMap<&'static str, Vec<u16>>;
 
 /// A picture beside ours.
 #[derive(Debug, PartialEq)]
-struct Compared {
+pub struct Compared {
     /// Pixels that show the scene.
-    shown: usize,
+    pub shown: usize,
     /// Pixels that show it in one of the two alone.
-    other: usize,
+    pub other: usize,
     /// Mean difference of a channel where both show it, 8-bit levels.
-    levels: f64,
+    pub levels: f64,
 }
 
 impl Compared {
     /// Refuses what is another picture than ours; what is ours has none to be held against.
-    fn new(entry: &Entry, picture: &[u16], ours: &Pictures) -> Result<Self, String> {
+    pub fn new(entry: &Entry, picture: &[u16], ours: &Pictures) -> Result<Self, String> {
         let ours = ours.get(entry.scene.name()).map_or(picture, Vec::as_slice);
         let compared = Self::beside(picture, ours, scene::background(entry.scene));
         if compared.is_the_same() {
@@ -399,79 +404,4 @@ fn build(name: &str) -> Result<(), Box<dyn Error>> {
         return Err(format!("host-tests/bench/{name} does not build:\n{said}").into());
     }
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn callgrind_is_understood() {
-        let said = "==1== Events    : Ir\n==1== Collected : 123456\n";
-        assert_eq!(collected(said), Some(123_456.0));
-        assert_eq!(collected("nothing"), None);
-    }
-
-    #[test]
-    fn another_picture_is_noticed() {
-        let size = usize::from(WIDTH) * usize::from(HEIGHT);
-        let mut ours = vec![0; size];
-        ours[..1000].fill(0x8410);
-        let entry = Entry {
-            scene: Shot::Sphere,
-            renderer: "x",
-            package: PACKAGES[1],
-            words: Vec::new(),
-        };
-        let pictures = Pictures::from([(Shot::Sphere.name(), ours.clone())]);
-        let check = |picture: &[u16]| Compared::new(&entry, picture, &pictures);
-        assert_eq!(check(&ours).map(|compared| compared.shown), Ok(1000));
-        assert!(check(&ours[..size - 100]).is_err());
-        assert!(check(&vec![0; size]).is_err());
-        let mut moved = ours.clone();
-        moved.rotate_right(30);
-        assert!(check(&moved).is_err());
-        let mut darker = ours.clone();
-        darker[..1000].fill(0x4208);
-        assert!(check(&darker).is_err());
-    }
-
-    #[test]
-    fn bytes_of_a_picture_come_low_first() {
-        assert_eq!(pixels(&[0x34, 0x12, 0xff, 0]), [0x1234, 0xff]);
-    }
-
-    /// One reason for all that it keeps from being measured.
-    #[test]
-    fn reasons_are_told_once() {
-        let row = |reasons: [&str; 2]| Row {
-            scene: "sphere",
-            renderer: OURS,
-            instructions: None,
-            pixels: 1,
-            wall_ms: 1.0,
-            ratio: 1.0,
-            instructions_ratio: None,
-            boards: reasons
-                .map(|reason| OnBoard {
-                    board: crate::firmware::M4,
-                    counted: Err(reason.to_owned()),
-                })
-                .to_vec(),
-        };
-        let rows = [row(["no QEMU", "no QEMU"]), row(["no QEMU", "no core"])];
-        assert_eq!(missing(&rows), ["no QEMU", "no core"]);
-        let json = rows[0].to_json();
-        assert_eq!(json["boards"]["m4"]["missing"], "no QEMU");
-    }
-
-    #[test]
-    fn shared_scenes_have_numbers() {
-        for shot in scene::SHARED {
-            let data = serde_json::to_value(scene::Data::new(shot).unwrap()).unwrap();
-            let faces = data["faces"].as_array().unwrap().len();
-            assert_eq!(faces, if shot == Shot::Sphere { 2048 } else { 32 });
-        }
-        assert!(scene::Data::new(Shot::Cube).is_none());
-    }
 }

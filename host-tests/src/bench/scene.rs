@@ -6,12 +6,12 @@ use scenes::{LAYER, LAYERS, NEAREST_LAYER, SPHERE, Shot, layer_colours};
 use serde::Serialize;
 
 /// The scenes that others draw too: A, and C in both orders.
-pub(super) const SHARED: [Shot; 3] = [Shot::Sphere, Shot::FarToNear, Shot::NearToFar];
+pub const SHARED: [Shot; 3] = [Shot::Sphere, Shot::FarToNear, Shot::NearToFar];
 
 /// A scene seen from the origin of view space: x right, y up, looking along -z, at a focal length
 /// of 320 pixels.
 #[derive(Debug, Serialize)]
-pub(super) struct Data {
+pub struct Data {
     /// Added to a position to come to view space.
     offset: [f32; 3],
     positions: Vec<[f32; 3]>,
@@ -36,7 +36,7 @@ pub(super) fn background(shot: Shot) -> u16 {
 
 impl Data {
     /// One of [`SHARED`]; `None` for other shots.
-    pub(super) fn new(shot: Shot) -> Option<Self> {
+    pub fn new(shot: Shot) -> Option<Self> {
         match shot {
             Shot::Sphere => Self::sphere(),
             Shot::FarToNear => Some(Self::stack(shot, (0..LAYERS).rev())),

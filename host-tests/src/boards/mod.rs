@@ -17,14 +17,12 @@
 //! | `outcome.rs` | a run, judged, as JSON and in a table |
 //! | `functions.rs` | what each function reads, and what is worth its bytes in RAM |
 
-mod chips;
-mod expected;
-mod functions;
-mod outcome;
+pub mod chips;
+pub mod expected;
+pub mod functions;
+pub mod outcome;
 mod panel;
-#[cfg(test)]
-mod tests;
-mod wire;
+pub mod wire;
 
 pub use crate::say;
 use chips::{Bench, CHIPS, Chip};

@@ -11,7 +11,7 @@ use std::error::Error;
 use std::fmt::Write as _;
 
 /// What stands before and after the table in the README.
-const MARKERS: [&str; 2] = [
+pub const MARKERS: [&str; 2] = [
     "<!-- suite: written by `firmware --bench --bless` -->",
     "<!-- /suite -->",
 ];
@@ -49,7 +49,7 @@ impl Cell {
 }
 
 /// What a scene is, for people.
-fn title(scene: &str) -> &'static str {
+pub fn title(scene: &str) -> &'static str {
     match scene {
         "a" => "A: sphere of 2,048 triangles, tilted",
         "b" => "B: the same, textured and lit",
@@ -86,7 +86,8 @@ pub fn rows(record: &Record) -> Vec<Vec<String>> {
     [head.to_vec()].into_iter().chain(rows).collect()
 }
 
-fn markdown(record: &Record) -> String {
+/// The table, of what is recorded.
+pub fn markdown(record: &Record) -> String {
     let mut out = String::new();
     for (at, row) in rows(record).iter().enumerate() {
         // Writing to a string cannot fail.
@@ -104,30 +105,4 @@ fn markdown(record: &Record) -> String {
 /// When the README has no markers, or cannot be read or written.
 pub fn write(record: &Record) -> Result<(), Box<dyn Error>> {
     rewrite(&workspace().join("README.md"), MARKERS, &markdown(record))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::bench::table::between;
-
-    #[test]
-    fn the_readme_has_what_is_recorded() {
-        let record = Record::read(&Record::path()).unwrap();
-        let readme = include_str!("../../../README.md");
-        let written = between(readme, MARKERS, &markdown(&record)).unwrap();
-        assert_eq!(written, readme, "`firmware --bench --bless` writes it");
-    }
-
-    #[test]
-    fn every_scene_has_a_title_and_a_figure() {
-        let record = Record::read(&Record::path()).unwrap();
-        for row in rows(&record) {
-            assert_ne!(row[0], title(""));
-            assert!(
-                !row.iter().any(|cell| cell.contains('-') && cell.len() < 3),
-                "{row:?}"
-            );
-        }
-    }
 }

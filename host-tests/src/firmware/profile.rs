@@ -25,7 +25,8 @@ pub struct Counts {
 }
 
 impl Counts {
-    fn add(&mut self, address: u64) {
+    /// Adds an instruction that ran at an address.
+    pub fn add(&mut self, address: u64) {
         let half = (address / 2) as usize;
         if half >= self.halves.len() {
             self.halves.resize(half + 1, 0);
@@ -47,7 +48,7 @@ impl Counts {
     }
 
     /// Of the instructions of a function.
-    fn of(&self, symbol: &Symbol) -> u64 {
+    pub fn of(&self, symbol: &Symbol) -> u64 {
         let addresses = (symbol.address..symbol.address + symbol.bytes).step_by(2);
         addresses.map(|address| self.at(address)).sum()
     }
@@ -100,7 +101,7 @@ pub fn step(toolchain: &Toolchain, board: &Board, frame: &str) -> Result<Stepped
 }
 
 /// A frame's name becomes a word of QEMU's command line, where a comma or a space would begin another.
-fn check_name(frame: &str) -> Result<(), FirmwareError> {
+pub fn check_name(frame: &str) -> Result<(), FirmwareError> {
     let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     if frame.is_empty() || !frame.chars().all(is_word) {
         return Err(FirmwareError::NoFrame {
@@ -180,15 +181,20 @@ fn log(board: &Board, elf: &Path, symbols: &Symbols, frame: &str) -> Result<Coun
 }
 
 /// Counts between the marks.
-struct Counter {
-    begin: u64,
-    end: u64,
-    counts: Counts,
-    is_on: bool,
+pub struct Counter {
+    /// Where the first mark is.
+    pub begin: u64,
+    /// Where the last mark is.
+    pub end: u64,
+    /// What was counted.
+    pub counts: Counts,
+    /// Whether the first mark was passed, and the last one not yet.
+    pub is_on: bool,
 }
 
 impl Counter {
-    fn step(&mut self, address: u64) {
+    /// Takes the address of the next instruction.
+    pub fn step(&mut self, address: u64) {
         if address == self.end {
             self.is_on = false;
         }
@@ -222,7 +228,7 @@ fn single_step() -> Result<&'static [&'static str], FirmwareError> {
 
 /// Where the instruction of a line of the log lies:
 /// `Trace 0: 0x7fd67c000400 [00800408/000c0ed0/00000110/ff000201] name`.
-fn address_of(line: &[u8]) -> Option<u64> {
+pub fn address_of(line: &[u8]) -> Option<u64> {
     let rest = line.strip_prefix(b"Trace ")?;
     let bracket = rest.iter().position(|byte| *byte == b'[')?;
     let field = rest[bracket..].split(|byte| *byte == b'/').nth(1)?;
@@ -263,7 +269,7 @@ impl Stepped {
 }
 
 /// A disassembler's text with how often each instruction ran before it.
-fn annotated(listing: &str, counts: &Counts) -> String {
+pub fn annotated(listing: &str, counts: &Counts) -> String {
     let mut text = String::new();
     for line in listing.lines() {
         let Some((address, rest)) = line.trim_start().split_once(':') else {
@@ -325,60 +331,4 @@ fn of_rustup() -> Option<PathBuf> {
     let hosts = std::fs::read_dir(sysroot.join("lib/rustlib")).ok()?;
     let tools = hosts.filter_map(|host| Some(host.ok()?.path().join("bin/llvm-objdump")));
     tools.into_iter().find(|tool| tool.exists())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_what_lies_between_the_marks_is_counted() {
-        let mut counter = Counter {
-            begin: 0x10,
-            end: 0x20,
-            counts: Counts::default(),
-            is_on: false,
-        };
-        let log = "Trace 0: 0x7f [00800408/00000008/00000110/ff000201] before\n\
-             Trace 0: 0x7f [00800408/00000010/00000110/ff000201] scanbeam_profile_begin\n\
-             Trace 0: 0x7f [00800408/00000012/00000110/ff000201] scanbeam_profile_begin\n\
-             Linking TBs 0x7f\n\
-             Trace 0: 0x7f [00800408/00000008/00000110/ff000201] draw\n\
-             Trace 0: 0x7f [00800408/00000008/00000110/ff000201] draw\n\
-             Trace 0: 0x7f [00800408/00000020/00000110/ff000201] scanbeam_profile_end\n\
-             Trace 0: 0x7f [00800408/00000008/00000110/ff000201] after\n";
-        log.split_inclusive('\n')
-            .filter_map(|line| address_of(line.as_bytes()))
-            .for_each(|address| counter.step(address));
-        let counts = counter.counts;
-        assert_eq!((counts.at(8), counts.at(0x12), counts.all()), (2, 1, 3));
-        let draw = Symbol {
-            address: 6,
-            bytes: 6,
-            name: "draw".into(),
-        };
-        assert_eq!(counts.of(&draw), 2);
-    }
-
-    #[test]
-    fn a_listing_has_counts_before_its_instructions() {
-        let mut counts = Counts::default();
-        (0..3).for_each(|_| counts.add(0x24d1e));
-        let listing = "\nfw:     file format elf32\n\n00024d1c <draw>:\n   24d1c:\tpush\t{r4, lr}\n   24d1e:\tnop\n";
-        assert_eq!(
-            annotated(listing, &counts),
-            "           24d1c push {r4, lr}\n        3  24d1e nop\n"
-        );
-    }
-
-    #[test]
-    fn a_frame_is_one_word() {
-        for name in ["", "a b", "a,arg=b", "../a"] {
-            let error = check_name(name);
-            assert!(
-                matches!(error, Err(FirmwareError::NoFrame { .. })),
-                "{name:?}"
-            );
-        }
-    }
 }

@@ -27,7 +27,7 @@ pub fn run(board: &Board, elf: &Path, timeout: Duration) -> Result<Vec<String>, 
 /// # Errors
 ///
 /// As [`run`].
-pub(crate) fn run_words(
+pub fn run_words(
     board: &Board,
     elf: &Path,
     timeout: Duration,
@@ -43,20 +43,20 @@ pub(crate) fn run_words(
 }
 
 /// What a program is handed.
-pub(crate) struct Handed<'a> {
+pub struct Handed<'a> {
     /// Words, the first its own name. None may hold a space or a comma.
-    pub(crate) words: &'a [&'a str],
+    pub words: &'a [&'a str],
     /// Where it finds its files.
-    pub(crate) folder: &'a Path,
+    pub folder: &'a Path,
     /// A file there that lies in its memory from the start, and at which address.
-    pub(crate) laid: Option<(&'a str, u32)>,
+    pub laid: Option<(&'a str, u32)>,
 }
 
 /// As [`run`], with what it is handed.
 ///
 /// # Errors
 /// As [`run`].
-pub(crate) fn run_handed(
+pub fn run_handed(
     board: &Board,
     elf: &Path,
     handed: &Handed<'_>,
@@ -64,7 +64,11 @@ pub(crate) fn run_handed(
     run_in(QEMU, board, elf, DEFAULT_TIMEOUT, handed)
 }
 
-pub(super) fn run_in(
+/// As [`run_handed`], by a QEMU of another name, for so long.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_in(
     qemu: &str,
     board: &Board,
     elf: &Path,

@@ -46,7 +46,7 @@ impl Symbols {
 
     /// Of addresses, sizes and names as the linker has them. Of several names for one place the
     /// first is kept.
-    pub(crate) fn of<'n>(functions: impl Iterator<Item = (u64, u64, &'n str)>) -> Self {
+    pub fn of<'n>(functions: impl Iterator<Item = (u64, u64, &'n str)>) -> Self {
         let mut by_address = BTreeMap::new();
         for (address, bytes, name) in functions {
             by_address.entry(address).or_insert_with(|| Symbol {
@@ -77,37 +77,5 @@ impl Symbols {
         let mut symbols: Vec<&Symbol> = self.0.iter().collect();
         symbols.sort_by(|a, b| b.bytes.cmp(&a.bytes).then(a.name.cmp(&b.name)));
         symbols
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn an_address_is_in_the_function_whose_bytes_hold_it() {
-        let symbols = Symbols::of(
-            [
-                (0x100, 0x20, "_ZN8scanbeam4span4draw17h836dc6be1353f5a2E"),
-                (0x140, 8, "memset"),
-                (0x140, 8, "__aeabi_memset"),
-                (0x120, 6, "_ZN11_$LT$u8$GT$3new17h836dc6be1353f5a2E"),
-            ]
-            .into_iter(),
-        );
-        let name = |address| symbols.at(address).map(|symbol| symbol.name.as_str());
-        assert_eq!(name(0xFF), None);
-        assert_eq!(name(0x100), Some("scanbeam::span::draw"));
-        assert_eq!(name(0x11F), Some("scanbeam::span::draw"));
-        assert_eq!(name(0x120), Some("<u8>::new"));
-        assert_eq!(name(0x126), None);
-        assert_eq!(name(0x147), Some("memset"));
-        assert_eq!(name(0x148), None);
-        let sizes: Vec<u64> = symbols
-            .by_size()
-            .iter()
-            .map(|symbol| symbol.bytes)
-            .collect();
-        assert_eq!(sizes, [0x20, 8, 6]);
     }
 }

@@ -173,7 +173,7 @@ pub(crate) fn clean_command(program: &str) -> Command {
 
 /// Whether a variable belongs to the build that this process is part of. Where packages come from,
 /// and which toolchain rustup's proxies start, stays.
-pub(super) fn is_of_outer_build(name: &str) -> bool {
+pub fn is_of_outer_build(name: &str) -> bool {
     const KEPT: [&str; 5] = [
         "CARGO_HOME",
         "CARGO_HTTP_",

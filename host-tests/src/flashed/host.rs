@@ -32,22 +32,22 @@ const MOST: Room = Room {
 
 /// A frame as this machine draws it.
 #[derive(Debug)]
-pub(super) struct Shown {
+pub struct Shown {
     /// What is drawn, and how.
-    pub(super) head: Head,
+    pub head: Head,
     /// Words of the panel.
-    pub(super) pixels: Vec<u16>,
+    pub pixels: Vec<u16>,
     /// Draw calls.
-    pub(super) calls: u32,
+    pub calls: u32,
     /// Triangles that were submitted; those that were filed are in the head's room.
-    pub(super) triangles: u32,
+    pub triangles: u32,
     /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
-    pub(super) slow_bytes: usize,
+    pub slow_bytes: usize,
 }
 
 impl Shown {
     /// The checksum that the firmware has of the same bytes.
-    pub(super) fn crc(&self) -> u32 {
+    pub fn crc(&self) -> u32 {
         let bytes: Vec<u8> = self.pixels.iter().flat_map(|w| w.to_le_bytes()).collect();
         crc32fast::hash(&bytes)
     }
@@ -55,7 +55,7 @@ impl Shown {
 
 /// Why a frame was not drawn.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum Refused {
+pub enum Refused {
     /// The scene had no room.
     #[error("{0}: boards draw a picture as one scene, which holds no more")]
     Full(String),
@@ -101,7 +101,7 @@ impl From<PlayError> for Refused {
 ///
 /// # Errors
 /// When it cannot be drawn, or not whole.
-pub(super) fn settle(words: &mut [u32], objects: &[usize]) -> Result<Shown, Box<dyn Error>> {
+pub fn settle(words: &mut [u32], objects: &[usize]) -> Result<Shown, Box<dyn Error>> {
     let first = loop {
         match frame(words, objects, MOST) {
             Err(Refused::Lent(lent, why)) => grow(words, lent, why)?,
@@ -118,7 +118,7 @@ pub(super) fn settle(words: &mut [u32], objects: &[usize]) -> Result<Shown, Box<
 }
 
 /// Lends the player of a list twice as much of what it had too little of.
-pub(super) fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Error>> {
+pub fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Error>> {
     let (head, mut reader) = Head::read(words)?;
     let list = List::read(&mut reader)?;
     let mut room = list.room;
@@ -177,7 +177,7 @@ fn list_bytes(room: &ListRoom) -> usize {
 }
 
 /// Draws a frame in so much memory.
-pub(super) fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Shown, Refused> {
+pub fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Shown, Refused> {
     let (head, mut reader) = Head::read(words)?;
     if matches!(head.kind, Kind::ListSmooth | Kind::ListTextured) {
         let list = List::read(&mut reader)?;

@@ -11,7 +11,7 @@ const LEAST: u32 = 64;
 const BUDGET: u32 = 1 << 24;
 
 /// The words of a list, which is seen as `run-list` does when nothing is said.
-pub(super) fn words(list: &[u32]) -> Vec<u32> {
+pub fn words(list: &[u32]) -> Vec<u32> {
     let view = View::default();
     let (room, is_textured) = room(list);
     let written = List { room, words: list }.to_words();

@@ -13,11 +13,9 @@
 //! | `list.rs` | a list as words |
 //! | `report.rs` | what was measured, as a table and as JSON |
 
-mod host;
-mod list;
+pub mod host;
+pub mod list;
 mod report;
-#[cfg(test)]
-mod tests;
 
 use crate::args::{FirmwareArgs, PixelFormatArg, is_list};
 use crate::draw::{self, CrewSettings, SceneParts};
@@ -32,11 +30,13 @@ use std::error::Error;
 use std::path::Path;
 
 /// A scene as the boards have it.
-struct Flashed {
-    words: Vec<u32>,
-    shown: Shown,
+pub struct Flashed {
+    /// Its words.
+    pub words: Vec<u32>,
+    /// What it shows here.
+    pub shown: Shown,
     /// What is not as in the files.
-    notes: Vec<String>,
+    pub notes: Vec<String>,
 }
 
 /// Draws a scene on the boards that are asked for, and compares; `false` when a frame differs.
@@ -55,7 +55,11 @@ pub fn run(file: &Path, args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
 }
 
 impl Flashed {
-    fn load(file: &Path) -> Result<Self, Box<dyn Error>> {
+    /// Reads a scene file or a list, and draws it here.
+    ///
+    /// # Errors
+    /// When it cannot be read or drawn, or is too large for the boards.
+    pub fn load(file: &Path) -> Result<Self, Box<dyn Error>> {
         match is_list(file) {
             true => Self::of_list(file),
             false => Self::of_scene(file),
@@ -104,13 +108,13 @@ impl Flashed {
     }
 
     /// Whether a board drew what was drawn here.
-    fn matches(&self, board: &Measured) -> bool {
+    pub fn matches(&self, board: &Measured) -> bool {
         let frames = &board.output.frames;
         frames.iter().all(|frame| frame.crc == self.shown.crc()) && frames.len() == 1
     }
 
     /// Builds the firmware for boards and runs it with the scene in its flash.
-    fn measure(
+    pub fn measure(
         &self,
         toolchain: &Toolchain,
         boards: &[Board],
@@ -142,7 +146,7 @@ impl Flashed {
     }
 
     /// Whether there is slow memory for it, behind that of the firmware's own scenes, and its code ends before it.
-    fn fits(&self, sections: &Sections, file: &Path) -> Result<(), String> {
+    pub fn fits(&self, sections: &Sections, file: &Path) -> Result<(), String> {
         let code_end = sections.rodata.address + sections.rodata.bytes + sections.data.bytes;
         if code_end > u64::from(FLASH_AT) {
             return Err(format!("the firmware's code ends at {code_end:#x}"));
@@ -170,7 +174,7 @@ fn fits_flash(words: &[u32]) -> Result<(), Box<dyn Error>> {
 }
 
 /// Whether words of a panel show what `render` draws of the same file.
-fn is_as_rendered(pixels: &[u16], rgb: &[u8]) -> Result<(), String> {
+pub fn is_as_rendered(pixels: &[u16], rgb: &[u8]) -> Result<(), String> {
     let own = pixels.iter().copied().flat_map(Rgb565Be::to_rgb8);
     match own.zip(rgb).filter(|(a, b)| a != *b).count() {
         0 if 3 * pixels.len() == rgb.len() => Ok(()),

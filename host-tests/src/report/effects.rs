@@ -11,7 +11,7 @@ use std::error::Error;
 use std::path::Path;
 
 /// The section.
-pub(super) fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
+pub fn effects(page: &mut Page) -> Result<(), Box<dyn Error>> {
     page.section("effects", "Materials, shadows, light at pixels, dither");
     page.paragraph(
         "A teapot that shines and a clear ball on a floor, by `render` with the flags that are \

@@ -3,11 +3,9 @@
 //! All on it is drawn and measured when it is made, except the instruction counts of whole
 //! frames: those are the recorded ones that `firmware --bench` is held against.
 
-mod effects;
-mod page;
-mod scene_files;
-#[cfg(test)]
-mod tests;
+pub mod effects;
+pub mod page;
+pub mod scene_files;
 
 use crate::args::{PixelFormatArg, ReportArgs};
 use crate::bench::OnBoard;
@@ -59,7 +57,7 @@ pub fn run(args: &ReportArgs) -> Result<(), Box<dyn Error>> {
 }
 
 /// The frames that host and firmware draw alike.
-fn shots(page: &mut Page) -> Result<(), Box<dyn Error>> {
+pub fn shots(page: &mut Page) -> Result<(), Box<dyn Error>> {
     page.section("shots", "Frames");
     page.paragraph(
         "320 by 240 pixels of RGB565. The firmware draws the same frames with the same bits.",
@@ -107,7 +105,7 @@ fn draws_model(model: &Model, view: &View) -> Result<Drawn, Box<dyn Error>> {
 }
 
 /// Pictures beside their distance from the reference.
-fn errors(page: &mut Page) -> Result<(), Box<dyn Error>> {
+pub fn errors(page: &mut Page) -> Result<(), Box<dyn Error>> {
     page.section("errors", "Errors against f64");
     page.paragraph(
         "Left the picture, right the distance of its worst channel from the reference, 64 shades \
@@ -199,7 +197,8 @@ fn accuracy_plots(page: &mut Page) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn cache(page: &mut Page) -> Result<(), Box<dyn Error>> {
+/// The plots of the cache.
+pub fn cache(page: &mut Page) -> Result<(), Box<dyn Error>> {
     page.section("cache", "Object cache");
     page.paragraph(
         "Slow bytes a frame and modelled times against slots of the cache; the picture is the same.",
@@ -311,7 +310,8 @@ fn sizes<L: Look>(name: &str) -> Vec<String> {
         .collect()
 }
 
-fn memory(page: &mut Page) {
+/// What records of each look take.
+pub fn memory(page: &mut Page) {
     page.section("memory", "Memory");
     page.paragraph(&format!(
         "Bytes of the records, and of fast RAM for a line of {WIDTH} pixels with 64 slots of cache; \

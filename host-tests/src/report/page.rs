@@ -15,14 +15,14 @@ collapse:collapse;font-variant-numeric:tabular-nums}td,th{border-bottom:1px soli
 .8em;text-align:right}td:first-child,th:first-child{text-align:left}nav a{margin-right:1em}";
 
 /// A page under construction.
-pub(super) struct Page {
+pub struct Page {
     title: String,
     contents: String,
     body: String,
 }
 
 /// Text with what HTML would take for its own replaced.
-pub(super) fn escaped(text: &str) -> String {
+pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
@@ -37,7 +37,7 @@ pub(super) fn escaped(text: &str) -> String {
 }
 
 /// The same, and what stands between two backticks as code.
-pub(super) fn marked_up(text: &str) -> String {
+pub fn marked_up(text: &str) -> String {
     let mut parts = text.split('`').map(escaped).peekable();
     let mut out = parts.next().unwrap_or_default();
     while let Some(part) = parts.next() {
@@ -70,7 +70,8 @@ fn image(frame: &Frame, name: &str) -> Result<String, ImageError> {
 }
 
 impl Page {
-    pub(super) fn new(title: &str) -> Self {
+    /// One without sections.
+    pub fn new(title: &str) -> Self {
         Self {
             title: escaped(title),
             contents: String::new(),
@@ -79,18 +80,19 @@ impl Page {
     }
 
     /// Begins a section; `id` is its anchor.
-    pub(super) fn section(&mut self, id: &str, title: &str) {
+    pub fn section(&mut self, id: &str, title: &str) {
         let title = escaped(title);
         let _ = write!(self.contents, "<a href=\"#{id}\">{title}</a> ");
         let _ = writeln!(self.body, "<h2 id=\"{id}\">{title}</h2>");
     }
 
-    pub(super) fn paragraph(&mut self, text: &str) {
+    /// Adds text.
+    pub fn paragraph(&mut self, text: &str) {
         let _ = writeln!(self.body, "<p>{}</p>", marked_up(text));
     }
 
     /// Pictures side by side over one caption.
-    pub(super) fn pictures(&mut self, frames: &[&Frame], caption: &str) -> Result<(), ImageError> {
+    pub fn pictures(&mut self, frames: &[&Frame], caption: &str) -> Result<(), ImageError> {
         let class = if frames.len() > 1 {
             " class=\"pair\""
         } else {
@@ -106,7 +108,7 @@ impl Page {
     }
 
     /// A plot, as SVG text.
-    pub(super) fn plot(&mut self, svg: &str) {
+    pub fn plot(&mut self, svg: &str) {
         // What stands before the element belongs to a file of its own.
         let start = svg.find("<svg").unwrap_or(0);
         let _ = writeln!(
@@ -117,7 +119,7 @@ impl Page {
     }
 
     /// A table whose first row is its head.
-    pub(super) fn table(&mut self, rows: &[Vec<String>]) {
+    pub fn table(&mut self, rows: &[Vec<String>]) {
         self.body.push_str("<table>\n");
         for (i, row) in rows.iter().enumerate() {
             let tag = if i == 0 { "th" } else { "td" };
@@ -129,7 +131,8 @@ impl Page {
         self.body.push_str("</table>\n");
     }
 
-    pub(super) fn finish(self) -> String {
+    /// The page as text.
+    pub fn finish(self) -> String {
         let Self {
             title,
             contents,

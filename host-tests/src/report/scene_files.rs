@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 ///
 /// # Errors
 /// When their folder cannot be read.
-pub(super) fn files() -> Result<Vec<PathBuf>, Box<dyn Error>> {
+pub fn files() -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/scene-files");
     let entries = std::fs::read_dir(&folder)
         .and_then(Iterator::collect::<Result<Vec<_>, _>>)
@@ -26,7 +26,7 @@ pub(super) fn files() -> Result<Vec<PathBuf>, Box<dyn Error>> {
 }
 
 /// The section.
-pub(super) fn scene_files(page: &mut Page) -> Result<(), Box<dyn Error>> {
+pub fn scene_files(page: &mut Page) -> Result<(), Box<dyn Error>> {
     page.section("scenes", "Scene files");
     page.paragraph(
         "The files of `examples/scene-files`, drawn by `render` without a flag: between them they say all that a scene \

@@ -13,7 +13,7 @@
 //! | `window.rs` | the same in a window, with the feature `window` |
 
 mod blocks;
-mod screen;
+pub mod screen;
 mod show;
 mod state;
 mod terminal;

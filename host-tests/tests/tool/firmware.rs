@@ -1,8 +1,10 @@
 //! What cargo, QEMU and the firmware do when all is well, and when not.
 
-use super::qemu::run_in;
-use super::toolchain::is_of_outer_build;
-use super::*;
+use host_tests::firmware::qemu::{Handed, run_in};
+use host_tests::firmware::toolchain::is_of_outer_build;
+use host_tests::firmware::*;
+use std::path::Path;
+use std::time::Duration;
 
 #[test]
 fn outer_build_does_not_leak_into_the_inner_one() {
@@ -79,7 +81,7 @@ fn built() -> Result<Toolchain, FirmwareError> {
 #[test]
 fn firmware_runs_the_same_everywhere() -> Result<(), Box<dyn std::error::Error>> {
     let toolchain = built()?;
-    let host = crate::frames::host_frames()?;
+    let host = host_tests::frames::host_frames()?;
     let mut released = None;
     for (board, profile) in [
         (M4, Profile::Release),

@@ -2,10 +2,11 @@
 
 mod refusals;
 
-use super::*;
-use crate::draw::CrewSettings;
-use crate::reference::{Cull, Shade, View};
+use host_tests::args::*;
+use host_tests::draw::CrewSettings;
+use host_tests::reference::{Cull, Shade, View};
 use scanbeam::scene::Budget;
+use std::path::PathBuf;
 
 fn words(line: &str) -> Result<Command, Stop> {
     parse(std::iter::once("scanbeam").chain(line.split_whitespace()))
@@ -20,8 +21,7 @@ fn render(flags: &str) -> RenderArgs {
 
 #[test]
 fn the_definitions_hold_together() {
-    use clap::CommandFactory;
-    Cli::command().debug_assert();
+    definitions().debug_assert();
 }
 
 #[test]

@@ -1,9 +1,12 @@
 //! What the figures must be, so that a method that gets worse is noticed.
 
-use super::cost::{Costs, solve};
-use super::methods::RENDERER;
-use super::{EQUAL_COST, Errors, Row, mark_frontier, measure, scatter, table, texture};
-use crate::firmware::{FrameResult, KernelRun, Output};
+use host_tests::accuracy::cost::{Costs, solve};
+use host_tests::accuracy::methods::RENDERER;
+use host_tests::accuracy::{EQUAL_COST, Errors, Row, mark_frontier, measure, scatter, table};
+use host_tests::firmware::{FrameResult, KernelRun, Output};
+
+/// What a skin has when nothing is said.
+const DEFAULT: &str = "balanced: 1/4 texel";
 
 fn made(case: &'static str, cost: Option<f64>, max: f64) -> Row {
     let name = ("family", case, "method", "unit", None);
@@ -291,8 +294,8 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
         ("coverage", "", "exact edges", 4.0),
         ("depth", "order", "32-bit 1/w, large", 14.0),
         ("frame", "", "planes, RGB565", 320.0),
-        ("texture", "triangles", texture::DEFAULT, 20.0),
-        ("texture", "sphere", texture::DEFAULT, 20.0),
+        ("texture", "triangles", DEFAULT, 20.0),
+        ("texture", "sphere", DEFAULT, 20.0),
         ("texels", "", "words of 16 bits", 8.0),
     ] {
         let mut some = false;

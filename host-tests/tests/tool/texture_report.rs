@@ -1,6 +1,7 @@
 //! The table of textures, and what errors of them mean.
 
-use super::*;
+use host_tests::say;
+use host_tests::texture_report::*;
 
 #[test]
 fn blocks_change_pages_less() {
@@ -105,7 +106,7 @@ fn depth_resolution_is_that_of_the_ranges() {
         ("texture-pages.png", texture_pages()),
         ("texture-reads.png", texture_reads()),
     ] {
-        let plot = crate::image_out::read_image(&folder.path().join(name));
+        let plot = host_tests::image_out::read_image(&folder.path().join(name));
         assert_eq!(plot.expect("it is there"), chart.to_frame());
     }
     // Every count of the table is written in the plots.

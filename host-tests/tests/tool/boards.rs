@@ -1,9 +1,9 @@
 //! Streams that are right and streams with one fault each, what is read, and what is printed.
 
-use super::chips::Limits;
-use super::outcome::Outcome;
-use super::wire::{self, Event, Figures, Use};
-use super::*;
+use host_tests::boards::chips::{Bench, CHIPS, Limits};
+use host_tests::boards::outcome::Outcome;
+use host_tests::boards::wire::{self, Event, Figures, Use};
+use host_tests::boards::{Expected, table};
 
 /// A window of this many bytes is the whole picture.
 const FRAME_BYTES: usize = 320 * 240 * 2;

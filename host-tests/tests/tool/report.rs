@@ -1,9 +1,11 @@
-use super::effects::effects;
-use super::page::{Page, escaped, marked_up};
-use super::scene_files::{files, scene_files};
-use super::{cache, errors, memory, shots};
+//! The report as a page.
+
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
+use host_tests::report::effects::effects;
+use host_tests::report::page::{Page, escaped, marked_up};
+use host_tests::report::scene_files::{files, scene_files};
+use host_tests::report::{cache, errors, memory, shots};
 
 /// The values of an attribute.
 fn values<'p>(page: &'p str, attribute: &str) -> Vec<&'p str> {

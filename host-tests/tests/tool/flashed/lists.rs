@@ -6,7 +6,7 @@ use super::*;
 /// player that is lent as much as before, and overlays that are left out.
 #[test]
 fn lists_that_boards_cannot_draw_are_refused() -> Tried {
-    let list = crate::lists::read_list(&example("scenes/crate.list"))?;
+    let list = host_tests::lists::read_list(&example("scenes/crate.list"))?;
     let refused = |list: &[u32]| {
         let done = settle(&mut list::words(list), &[]);
         done.map(|_| ()).expect_err("it is refused").to_string()

@@ -1,9 +1,9 @@
 //! What a scene's text may say, and what contradicts itself.
 
-use super::{Loaded, SceneFile};
-use crate::args::ViewArgs;
-use crate::view::{Scenery, State};
 use clap::Parser;
+use host_tests::args::ViewArgs;
+use host_tests::scene_file::{Loaded, SceneFile};
+use host_tests::view::{Scenery, State};
 use serde_json::{Value, json};
 use std::f64::consts::TAU;
 

@@ -1,6 +1,6 @@
 //! What a plot shows, as it is written.
 
-use super::*;
+use host_tests::plot::*;
 
 #[test]
 fn scales_are_nice() {

@@ -3,14 +3,17 @@
 
 mod lists;
 
-use super::host::{frame, grow, settle};
-use super::*;
-use crate::firmware::{BOARDS, M4};
-use crate::image_out::{Frame, write_image};
+use host_tests::firmware::{BOARDS, Board, M4, Measured, Output, Section, Sections, Toolchain};
+use host_tests::flashed::host::{frame, grow, settle};
+use host_tests::flashed::list;
+use host_tests::flashed::*;
+use host_tests::image_out::{Frame, write_image};
 use scanbeam::list::Lent;
-use scene_flash::Kind;
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scene_flash::{FLASH_AT, Kind};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::error::Error;
+use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 
 type Tried = Result<(), Box<dyn Error>>;
@@ -372,7 +375,6 @@ fn a_picture_that_is_not_that_of_render_is_told() {
 /// to where the scene lies.
 #[test]
 fn what_boards_have_no_memory_for_is_refused_with_how_much_it_is() -> Tried {
-    use crate::firmware::Section;
     let file = Path::new("s.json");
     let flashed = Flashed::load(&example("scene-files/dusk.json"))?;
     let needed = flashed.shown.slow_bytes as u64;
@@ -396,7 +398,7 @@ fn what_boards_have_no_memory_for_is_refused_with_how_much_it_is() -> Tried {
         ..with_slow(needed)
     };
     assert!(flashed.fits(&code, file).is_err());
-    let list = crate::lists::read_list(&example("scenes/crate.list"))?;
+    let list = host_tests::lists::read_list(&example("scenes/crate.list"))?;
     let mut words = list::words(&list);
     let grown = (0..32).find_map(|_| grow(&mut words, Lent::Texels, String::new()).err());
     let said = grown.map(|error| error.to_string()).unwrap_or_default();
