@@ -23,6 +23,8 @@ mod firmware_profile;
 mod firmware_symbols;
 mod flashed;
 mod golden;
+mod lists_strips;
+mod lists_texels;
 mod memory_model;
 mod plot;
 mod report;
