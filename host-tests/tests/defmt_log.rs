@@ -61,7 +61,9 @@ fn run(command: &mut Command) -> Output {
 fn the_decoded_log_is_what_the_host_says() {
     const TARGET: &str = "thumbv7em-none-eabihf";
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/defmt-log");
-    let built = Path::new(env!("CARGO_TARGET_TMPDIR")).join("defmt-log");
+    // Where all firmware is built: what both depend on is compiled once.
+    let target = Path::new(env!("CARGO_TARGET_TMPDIR")).with_file_name("firmware");
+    let built = target.join("rustup");
     run(Command::new("cargo")
         .args(["build", "--release", "--target", TARGET, "--target-dir"])
         .arg(&built)
