@@ -244,7 +244,7 @@ fn the_eye_is_that_of_the_block() {
     let behind = Affine::rotation_y(3.1).then(&Affine::placed(1.0, [0.3, 0.0, 0.0]).unwrap());
     let behind = State::Matrix(Matrix::try_from(&behind).unwrap());
     let beyond = State::Camera(CameraWords {
-        eye: [0.2, 0.4, -3.0],
+        eye: [0.2, 0.4, -2.5],
         at: [0.0; 3],
         up: UP,
         focal: 200.0,
