@@ -5,7 +5,7 @@ use crate::hot::{SceneRooms, WordOf, frame};
 use scanbeam::look::Gouraud;
 use scanbeam::mesh::{CutError, Meshlet, Meshlets};
 use scanbeam::pixel::Rgb888;
-use scanbeam::scene::{Assembled, Budget, DrawError, Scene, Skin};
+use scanbeam::scene::{Assembled, Budget, DrawError, Scene, Shading, Skin};
 use scanbeam::{Affine, Camera, Cull, Draw, Faces, Light, Mesh, MeshError, Screen};
 
 type Look = Gouraud<Rgb888>;
@@ -156,6 +156,58 @@ fn a_mesh_in_parts_is_the_mesh() {
     }
     println!("{skipped} faces skipped, {beside} meshes by spheres, {lost} faces of edges");
     assert!(skipped > 100_000 && beside > 15 && lost < 100);
+}
+
+/// Some faces of a table, from near and far, with room for the table and without, and one that is wrong.
+///
+/// Kills: vertices of the first half of the faces alone are moved.
+#[test]
+fn some_faces_of_a_large_table_are_a_mesh() {
+    let mut rng = Rng::new(0x7AB_1E5);
+    let mut drawn_faces = 0;
+    for case in 0..120 {
+        let mesh = [scenes::TEAPOT, scenes::SPHERE][case % 2];
+        let Faces::Triangles(all) = mesh.faces else {
+            panic!("triangles");
+        };
+        let from = rng.below(all.len() as u32 - 1) as usize;
+        let many = 1 + rng.below((all.len() - from) as u32) as usize;
+        let mut faces = all[from..(from + many).min(all.len())].to_vec();
+        if case % 11 == 10 {
+            faces.push([0, 1, mesh.positions.len() as u16]);
+        }
+        let eye = [0, 1, 2].map(|_| (rng.signed() * rng.pick(&[1.5, 4.0])) as f32);
+        let Ok(camera) = Camera::look_at(eye, [0.0; 3], [0.1, 1.0, 0.2], 90.0, 0.2, 100.0) else {
+            continue;
+        };
+        let call = Draw {
+            shading: [Shading::Smooth, Shading::Flat][case / 2 % 2],
+            cull: [Cull::Back, Cull::None][case / 4 % 2],
+            light: Light::new([0.3, 0.8, 0.6], 0.2),
+            ..Draw::new(Mesh {
+                faces: Faces::Triangles(&faces),
+                ..mesh
+            })
+        };
+        let room = if case % 7 == 6 {
+            mesh.positions.len() - 1
+        } else {
+            VERTICES
+        };
+        let mut told = [Ok(()); 2];
+        let whole = drawn(room, |scene| {
+            scene.begin(&camera).unwrap();
+            told[0] = scene.draw(&call);
+        });
+        let partly = drawn(room, |scene| {
+            scene.begin(&camera).unwrap();
+            told[1] = scene.draw_partly(&call);
+        });
+        assert_eq!(told[0], told[1], "case {case}");
+        assert!(whole == partly, "case {case}");
+        drawn_faces += whole.1;
+    }
+    assert!(drawn_faces > 10_000, "{drawn_faces}");
 }
 
 /// Kills: a spread of a quarter.

@@ -62,11 +62,11 @@ struct Table {
 }
 
 impl Table {
-    /// Whether so few faces are drawn that to look for their vertices is cheaper than to move all: 28 instructions for
-    /// each vertex of a mesh that is whole, where to move one takes 195.
+    /// Whether so few faces are drawn that to look for their vertices, 9 instructions a corner on a Cortex-M4, is cheaper
+    /// than to move all, 90 each: of closed meshes half as many vertices have a face as there are faces, else all corners.
     fn is_partly(&self, faces: usize) -> bool {
         let count = usize::from(self.count);
-        4 * faces < count || self.lacks_faces && 2 * faces < 3 * count
+        4 * faces < count || self.lacks_faces && faces < count
     }
 }
 
