@@ -94,6 +94,25 @@ pub struct Size {
     pub sections: Sections,
 }
 
+/// Instructions of single things; of a vertex out of a list what it takes more than one of a call.
+fn units(output: &Output) -> Vec<(String, f64)> {
+    let each = |instructions: u64, count: u64| instructions as f64 / count.max(1) as f64;
+    let measured = output.units.iter();
+    let mut units: Vec<_> = measured
+        .map(|unit| (unit.name.clone(), each(unit.instructions, unit.count)))
+        .collect();
+    let figure = |name: &str| output.figures.get(name).copied();
+    if let (Some(listed), Some(called), Some(vertices)) = (
+        figure("list_pass_one"),
+        figure("calls_pass_one"),
+        figure("list_vertices"),
+    ) {
+        let more = each(listed.saturating_sub(called), vertices);
+        units.push(("listed_vertex".into(), more));
+    }
+    units
+}
+
 /// Everything that `--bench` measures on a board.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bench {
@@ -140,14 +159,7 @@ impl Bench {
         let lines: Option<Vec<Lines>> = output.lines.iter().map(Lines::new).collect();
         Ok(Self {
             kernels,
-            units: output
-                .units
-                .iter()
-                .map(|unit| {
-                    let each = unit.instructions as f64 / unit.count.max(1) as f64;
-                    (unit.name.clone(), each)
-                })
-                .collect(),
+            units: units(output),
             lines: lines.ok_or("a scene has no lines")?,
             growth: growth::curves(&output.growth, spans)?,
             sizes,
