@@ -13,12 +13,10 @@ use scanbeam::scene::Budget;
 
 fn material(ks: f64, ns: f64, d: f64) -> Material {
     Material {
-        name: String::new(),
-        kd: [1.0; 3],
         ks: [ks; 3],
         ns,
         d,
-        map_kd: None,
+        ..Material::default()
     }
 }
 

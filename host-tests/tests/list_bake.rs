@@ -1,7 +1,7 @@
 //! What is baked is the model: within the error asked for, every triangle once, and the committed
 //! list is what the baker makes today.
 
-use crate::listing::model_of;
+use crate::listing::{blocks, model_of};
 use host_tests::lists::bake::{BakeSettings, Baked, bake};
 use host_tests::lists::{gltf, print, run};
 use host_tests::model::{Model, ModelVertex};
@@ -287,12 +287,10 @@ fn gltf_gives_the_same_triangles_as_obj() {
 fn materials_keep_opacity_and_highlights() {
     let mut model = teapot();
     let material = |d: f64, ks: [f64; 3], ns: f64| host_tests::model::Material {
-        name: String::new(),
-        kd: [1.0; 3],
         ks,
         ns,
         d,
-        map_kd: None,
+        ..host_tests::model::Material::default()
     };
     model.materials = vec![
         material(0.5, [1.0, 0.5, 0.0], 96.0),
@@ -307,19 +305,12 @@ fn materials_keep_opacity_and_highlights() {
             ..BakeSettings::default()
         };
         let list = bake(&model, &settings).unwrap().words;
-        let (mut at, mut format, mut found) = (0, VertexFormat::default(), Vec::new());
-        while (at as usize) < list.len() {
-            let parsed = read_block(&list[..], at, &format).unwrap();
-            match parsed.instruction {
-                Instruction::State(State::Format(new)) => format = new,
-                Instruction::State(State::Material(m)) => {
-                    found.push((m.opacity, m.specular, m.exponent));
-                }
-                _ => {}
-            }
-            at += parsed.words;
-        }
-        found
+        let all = blocks(&list).into_iter();
+        let found = all.filter_map(|(_, instruction)| match instruction {
+            Instruction::State(State::Material(m)) => Some((m.opacity, m.specular, m.exponent)),
+            _ => None,
+        });
+        found.collect::<Vec<_>>()
     };
     assert_eq!(
         materials(true),

@@ -179,15 +179,7 @@ fn a_crate() -> (Model, Vec<Option<Picture>>) {
             }
         }
     }
-    let plain = host_tests::model::Material {
-        name: String::new(),
-        kd: [1.0; 3],
-        ks: [0.0; 3],
-        ns: 0.0,
-        d: 1.0,
-        map_kd: None,
-    };
-    model.materials = vec![plain.clone(), plain];
+    model.materials = vec![host_tests::model::Material::default(); 2];
     (model, vec![planks, lid])
 }
 

@@ -2,18 +2,17 @@
 
 use crate::command_line::Desk;
 use crate::common::Rng;
-use crate::listing::{PLENTY, model_of};
+use crate::listing::{PLENTY, blocks, model_of};
 use crate::played::{HEIGHT, Kept, WIDTH, begun, played};
 use host_tests::image_out::Frame;
 use host_tests::lists::bake::{BakeSettings, bake_textured};
 use host_tests::lists::read_list;
 use host_tests::lists::texels::Picture;
+use host_tests::lists::writer::ListWriter;
 use host_tests::model::{Material as ModelMaterial, Model};
 use host_tests::rooms::{Room, SceneRooms};
 use scanbeam::input::PlayerSettings;
-use scanbeam::list::{
-    CameraWords, Flow, Instruction, Material, Matrix, State, VertexFormat, read_block,
-};
+use scanbeam::list::{CameraWords, Flow, Instruction, Material, Matrix, State};
 use scanbeam::look::{Gouraud, Look, Textured};
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Draw, Shadow};
@@ -31,14 +30,7 @@ fn baked(mesh: Mesh<'_>, textured: bool) -> Vec<u32> {
         let rgb = (0..64 * 3).map(|n| (n * 37 % 251) as u8).collect();
         let picture = Picture::new(&Frame::new(8, 8, rgb).unwrap()).unwrap();
         pictures.push(Some(picture));
-        model.materials.push(ModelMaterial {
-            name: String::new(),
-            kd: [1.0; 3],
-            ks: [0.0; 3],
-            ns: 0.0,
-            d: 1.0,
-            map_kd: None,
-        });
+        model.materials.push(ModelMaterial::default());
         model.triangle_materials.fill(Some(0));
         for vertex in &mut model.vertices {
             vertex.uv = [vertex.position[0] * 2.0, vertex.position[1] * 2.0];
@@ -51,20 +43,6 @@ fn baked(mesh: Mesh<'_>, textured: bool) -> Vec<u32> {
     let baked = bake_textured(&model, &pictures, &settings).unwrap();
     assert!(baked.parts > 8, "{}", baked.parts);
     baked.words
-}
-
-/// The blocks of a list: where each begins, and what it says.
-fn blocks(list: &[u32]) -> Vec<(usize, Instruction)> {
-    let (mut at, mut format, mut all) = (0, VertexFormat::default(), Vec::new());
-    while at < list.len() {
-        let parsed = read_block(list, at as u32, &format).unwrap();
-        if let Instruction::State(State::Format(new)) = parsed.instruction {
-            format = new;
-        }
-        all.push((at, parsed.instruction));
-        at += parsed.words as usize;
-    }
-    all
 }
 
 /// The same list, of which nothing is passed over.
@@ -152,17 +130,27 @@ fn a_list_in_parts_is_the_whole_list() {
     }
 }
 
+/// Blocks of state, and of flow behind them.
+fn written(states: &[State], flow: Option<Flow>) -> Vec<u32> {
+    let mut memory = vec![0; 64];
+    let mut writer = ListWriter::new(&mut memory);
+    for state in states {
+        writer.state(state).unwrap();
+    }
+    if let Some(flow) = flow {
+        writer.flow(flow).unwrap();
+    }
+    writer.words().to_vec()
+}
+
 /// The list with another material or another matrix in it, where there was one.
-fn changed(list: &[u32], state: &State) -> Vec<u32> {
-    let mut memory = vec![0; 32];
-    let mut writer = host_tests::lists::writer::ListWriter::new(&mut memory);
-    writer.state(state).unwrap();
+fn changed(list: &[u32], state: State) -> Vec<u32> {
+    let kind = std::mem::discriminant(&state);
+    let words = written(&[state], None);
     let mut changed = list.to_vec();
-    let kind = std::mem::discriminant(state);
     for (at, instruction) in blocks(list) {
         if matches!(&instruction, Instruction::State(s) if std::mem::discriminant(s) == kind) {
-            let words = writer.words();
-            changed[at..at + words.len()].copy_from_slice(words);
+            changed[at..at + words.len()].copy_from_slice(&words);
         }
     }
     changed
@@ -198,7 +186,7 @@ fn what_is_seen_from_all_sides_is_not_passed_over() {
         two_sided: true,
         ..Material::default()
     };
-    let list_of_both = changed(&list, &State::Material(two_sided));
+    let list_of_both = changed(&list, State::Material(two_sided));
     assert_eq!(submitted(&list_of_both, lit(Affine::IDENTITY)), all);
     let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, -1.0]];
     let mirrored = Affine::from_rows(rows, [0.0; 3]).unwrap();
@@ -230,17 +218,6 @@ fn the_eye_is_that_of_the_block() {
     let is_bounds =
         |block: &&(usize, Instruction)| matches!(block.1, Instruction::State(State::Bounds(_)));
     let begin = all.iter().find(is_bounds).unwrap().0 + 7;
-    let written = |states: &[State], flow: Option<Flow>| {
-        let mut memory = vec![0; 64];
-        let mut writer = host_tests::lists::writer::ListWriter::new(&mut memory);
-        for state in states {
-            writer.state(state).unwrap();
-        }
-        if let Some(flow) = flow {
-            writer.flow(flow).unwrap();
-        }
-        writer.words().to_vec()
-    };
     let behind = Affine::rotation_y(3.1).then(&Affine::placed(1.0, [0.3, 0.0, 0.0]).unwrap());
     let behind = State::Matrix(Matrix::try_from(&behind).unwrap());
     let beyond = State::Camera(CameraWords {

@@ -32,8 +32,8 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
     }
 
     /// Draws some faces of a large table of vertices, as [`draw`](Scene::draw) does, and moves only the vertices that they
-    /// have: for those of one material of a model, say. On a Cortex-M4 a corner takes 9
-    /// instructions more, and a vertex that is not moved some 85 less; there is to be room for all. Strips, quads and reflections are drawn whole.
+    /// have: for those of one material of a model, say. On a Cortex-M4 a corner takes 9 instructions more, and a vertex
+    /// that is not moved some 85 less; there is to be room for all. Strips, quads and reflections are drawn whole.
     ///
     /// # Errors
     /// As [`draw`](Scene::draw).

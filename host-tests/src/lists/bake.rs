@@ -133,14 +133,7 @@ fn load(args: &BakeArgs) -> Result<Loaded, Box<dyn Error>> {
         // The last material, which no triangle has had, is for those without.
         let one = Picture::new(&read_image(file)?)?;
         let model = &mut loaded.model;
-        model.materials.push(crate::model::Material {
-            name: String::new(),
-            kd: [1.0; 3],
-            ks: [0.0; 3],
-            ns: 0.0,
-            d: 1.0,
-            map_kd: None,
-        });
+        model.materials.push(crate::model::Material::default());
         let last = model.materials.len() as u32 - 1;
         for material in &mut model.triangle_materials {
             material.get_or_insert(last);

@@ -79,13 +79,11 @@ pub fn load(path: &Path) -> Result<Loaded, ModelError> {
         reader.model.materials.push(Material {
             name: material.name().unwrap_or("").to_owned(),
             kd: [r, g, b].map(level),
-            ks: [0.0; 3],
-            ns: 0.0,
             d: match material.alpha_mode() {
                 gltf::material::AlphaMode::Blend => f64::from(a),
                 _ => 1.0,
             },
-            map_kd: None,
+            ..Material::default()
         });
     }
     let scenes: Vec<_> = match gltf.default_scene() {

@@ -87,12 +87,10 @@ fn still_life() -> Result<Model, Box<dyn Error>> {
     let file = Path::new("made here.obj");
     let text = |mesh| obj_text(mesh).ok_or("a mesh of triangles");
     let material = |ks: f64, ns: f64, d: f64| Material {
-        name: String::new(),
-        kd: [1.0; 3],
         ks: [ks; 3],
         ns,
         d,
-        map_kd: None,
+        ..Material::default()
     };
     let mut all = Model {
         materials: vec![

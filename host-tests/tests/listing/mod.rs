@@ -3,7 +3,9 @@
 use crate::common::Rng;
 use host_tests::lists::writer::{FieldPacker, ListWriter};
 use host_tests::model::{Model, ModelVertex};
-use scanbeam::list::{Budget, Field, FieldForm, Header, Id, Matrix, State, VertexFormat};
+use scanbeam::list::{
+    Budget, Field, FieldForm, Header, Id, Instruction, Matrix, State, VertexFormat, read_block,
+};
 use scanbeam::{Affine, Faces, Mesh};
 use std::sync::atomic::AtomicU32;
 
@@ -12,6 +14,20 @@ pub const PLENTY: Budget = Budget {
     vertices: 1 << 24,
     jumps: 1 << 10,
 };
+
+/// The blocks of a list: where each begins, and what it says.
+pub fn blocks(list: &[u32]) -> Vec<(usize, Instruction)> {
+    let (mut at, mut format, mut all) = (0, VertexFormat::default(), Vec::new());
+    while at < list.len() {
+        let parsed = read_block(list, at as u32, &format).unwrap();
+        if let Instruction::State(State::Format(new)) = parsed.instruction {
+            format = new;
+        }
+        all.push((at, parsed.instruction));
+        at += parsed.words as usize;
+    }
+    all
+}
 
 /// A mesh as a model of one colour.
 pub fn model_of(mesh: Mesh<'_>, colour: [f64; 3]) -> Model {

@@ -62,6 +62,20 @@ pub struct Material {
     pub map_kd: Option<PathBuf>,
 }
 
+impl Default for Material {
+    /// What a file means that says nothing: white, opaque, matt.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            kd: [1.0; 3],
+            ks: [0.0; 3],
+            ns: 0.0,
+            d: 1.0,
+            map_kd: None,
+        }
+    }
+}
+
 /// Triangles over shared vertices. Zero triangles are valid and draw only the background.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Model {

@@ -15,11 +15,7 @@ pub(super) fn read(
         if statement.keyword() == "newmtl" {
             materials.push(Material {
                 name: statement.name()?.to_owned(),
-                kd: [1.0; 3],
-                ks: [0.0; 3],
-                ns: 0.0,
-                d: 1.0,
-                map_kd: None,
+                ..Material::default()
             });
             continue;
         }
