@@ -15,7 +15,6 @@ mod listing;
 mod played;
 mod shadow_world;
 
-mod accuracy_frontier;
 mod against_reference;
 mod arenas;
 mod by_calls;

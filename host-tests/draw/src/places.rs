@@ -4,7 +4,6 @@
 
 use crate::parts::{Job, draw_parts, room_for};
 use crate::{CrewSettings, DrawFailure, Prepared, Setting, TextureSet};
-use host_support::image_out::Frame;
 use host_support::model::Model;
 use host_support::reference::{Shade, View};
 use host_support::texture_file::TextureImage;
@@ -85,9 +84,14 @@ pub fn places(
 ) -> Result<Vec<Shown>, DrawFailure> {
     let bad = |error: &dyn std::fmt::Display| DrawFailure::View(error.to_string());
     let steps = Texture::MAX_SIDE / side.clamp(1, Texture::MAX_SIDE);
-    let blank = Frame::new(Texture::MAX_SIDE, Texture::MAX_SIDE, vec![0; 3 << 20])
-        .ok_or_else(|| bad(&"a texture has texels"))?;
-    let image = TextureImage::new(&blank).map_err(|error| bad(&error))?;
+    // Texels are computed; of a picture the sides alone are asked.
+    let image = TextureImage {
+        width: Texture::MAX_SIDE,
+        height: Texture::MAX_SIDE,
+        levels: Default::default(),
+        alpha: None,
+        note: None,
+    };
     let prepared = Prepared::textured(model, &TextureSet::whole(model, image));
     let magnified = (budget.texels() * steps).min(u16::MAX.into());
     let budget = Budget::new(magnified as u16);
