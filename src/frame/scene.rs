@@ -3,7 +3,7 @@
 use crate::geometry::{Coordinate, Meshlets, Screen, Sphere, triangles};
 use crate::look::Look;
 use crate::pixel::{MadeOf, PixelFormat};
-use crate::scene::{Blend, Draw, DrawError, Memory, Moved, Scene, ScreenCorner, Shadow};
+use crate::scene::{Blend, Draw, DrawError, Memory, Moved, Scene, ScreenCorner};
 
 /// Numbers of a palette cannot be blended.
 #[inline(always)]
@@ -57,8 +57,7 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
         };
-        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
-        if is_volume || !sphere.is_outside(&camera, self.screen, &self.lines, &draw.model) {
+        if draw.is_volume() || !sphere.is_outside(&camera, self.screen, &self.lines, &draw.model) {
             return self.draw(draw).map(|()| true);
         }
         let skipped = triangles(draw.mesh.faces);

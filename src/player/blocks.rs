@@ -5,13 +5,13 @@ use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
 use super::textures::Asked;
-use crate::geometry::{Affine, Camera, Coordinate, Cull, Eye, Meshlet, Sphere};
+use crate::geometry::{Affine, Camera, Coordinate, Eye, Meshlet, Sphere};
 use crate::list::{
     Bounds, Cone, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
     NoTexture, Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
-use crate::scene::{Scissor, Shadow};
+use crate::scene::Scissor;
 
 impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     /// Does one block.
@@ -204,8 +204,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             return;
         };
         let draw = &self.state.draw;
-        // What bounds a shadow is seen from all sides.
-        if draw.cull == Cull::None || matches!(draw.shadow, Some(Shadow::Volume(_))) {
+        if !draw.is_one_sided() {
             return;
         }
         let find = || Eye::new(&draw.model, camera.view());

@@ -10,8 +10,7 @@ use super::pass::{Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, ligh
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
-    Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Shadow,
-    Vertex,
+    Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Vertex,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use core::ops::Range;
@@ -49,7 +48,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let mesh = &draw.mesh;
         check_alphas(draw.alphas, mesh.positions.len())?;
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
-        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
+        let is_volume = draw.is_volume();
         let file = |scene: &mut Self, pass: &mut Pass<'_>| {
             scene.share(mesh, moved, pass);
             match is_volume {

@@ -130,6 +130,16 @@ impl<'a, C> Draw<'a, '_, C> {
             priority: 0,
         }
     }
+
+    /// Whether it bounds a shadow, which is seen from all sides, wherever it is.
+    pub(crate) fn is_volume(&self) -> bool {
+        matches!(self.shadow, Some(Shadow::Volume(_)))
+    }
+
+    /// Whether faces that are turned away are dropped.
+    pub(crate) fn is_one_sided(&self) -> bool {
+        self.cull == Cull::Back && !self.is_volume()
+    }
 }
 
 impl<'a, 't> Draw<'a, 't> {

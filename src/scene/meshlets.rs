@@ -6,10 +6,8 @@ use super::WordOfNormal;
 use super::check::check_alphas;
 use super::pass::Pass;
 use super::project::project_listed;
-use super::{Draw, DrawError, Moved, Scene, Shading, Shadow, TexturePlace, Vertex};
-use crate::geometry::{
-    Camera, Coordinate, Cull, Eye, Mesh, MeshError, Meshlet, Meshlets, triangles,
-};
+use super::{Draw, DrawError, Moved, Scene, Shading, TexturePlace, Vertex};
+use crate::geometry::{Camera, Coordinate, Eye, Mesh, MeshError, Meshlet, Meshlets, triangles};
 
 /// What tells which parts are seen.
 struct Seen<'a, 't, C> {
@@ -42,15 +40,14 @@ impl<'t, L> Scene<'_, 't, L> {
         let Some(camera) = self.camera else {
             return Err(DrawError::NotBegun);
         };
-        let is_volume = matches!(draw.shadow, Some(Shadow::Volume(_)));
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
-        if is_volume || is_flat || draw.texgen.is_some() {
+        if draw.is_volume() || is_flat || draw.texgen.is_some() {
             return self.assemble(draw, Moved::All, textured, word_of);
         }
         check_alphas(draw.alphas, mesh.positions.len())?;
-        let eye = match draw.cull {
-            Cull::Back => Eye::new(&draw.model, camera.view()),
-            Cull::None => None,
+        let eye = match draw.is_one_sided() {
+            true => Eye::new(&draw.model, camera.view()),
+            false => None,
         };
         let seen = Seen { camera, draw, eye };
         self.assemble_by(
