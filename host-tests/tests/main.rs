@@ -106,6 +106,7 @@ mod skipped;
 mod stress_input;
 mod stress_near;
 mod stress_shapes;
+mod support;
 mod survivors;
 mod texture_cli;
 mod texture_levels;

@@ -102,7 +102,12 @@ impl Bench {
         let ignored = names(&["--ignored"])?;
         let mut all = names(&[])?;
         // Those of the tool's parts are no proofs of the crate, and some build firmware.
-        all.retain(|name| !ignored.contains(name) && !name.starts_with("tool::"));
+        let is_of_hosts = |name: &str| {
+            ["tool::", "support::"]
+                .iter()
+                .any(|of| name.starts_with(of))
+        };
+        all.retain(|name| !ignored.contains(name) && !is_of_hosts(name));
         if all.is_empty() {
             return Err(format!("{program:?}: there are no tests"));
         }

@@ -464,6 +464,3 @@ fn decode_ppm(bytes: &[u8]) -> Result<Frame, String> {
     let data = rest.get(1..1 + pixels * 3).ok_or_else(malformed)?;
     Frame::new(width, height, data.to_vec()).ok_or_else(malformed)
 }
-
-#[cfg(test)]
-mod tests;

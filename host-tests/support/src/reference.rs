@@ -26,8 +26,6 @@
 
 mod compare;
 mod raster;
-#[cfg(test)]
-mod tests;
 mod texel;
 
 pub use compare::{Comparison, SizeMismatch, TOLERANCE_LEVELS, compare};

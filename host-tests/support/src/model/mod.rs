@@ -18,8 +18,6 @@
 mod line;
 mod mtl;
 mod obj;
-#[cfg(test)]
-mod tests;
 mod text;
 
 pub use text::obj_text;

@@ -1,8 +1,8 @@
 //! Pictures that are known without drawing them.
 
-use super::*;
-use crate::image_out::Frame;
-use crate::model::ModelVertex;
+use host_support::image_out::Frame;
+use host_support::model::{Model, ModelVertex};
+use host_support::reference::*;
 
 mod texels;
 
@@ -471,28 +471,4 @@ fn rounding_of_corners_stays_within_the_mask() {
         assert_eq!(result.differing_pixels, 0, "{result:?}");
         assert!(result.compared_pixels > 500, "{result:?}");
     }
-}
-
-/// Time is printed, not judged: `cargo test --release -- --ignored --nocapture five_thousand`.
-#[test]
-#[ignore = "a measurement"]
-fn five_thousand_triangles() {
-    let mut triangles = Vec::new();
-    for i in 0..5000 {
-        let (x, y) = (
-            f64::from(i % 100) / 50.0 - 1.0,
-            f64::from(i / 100) / 25.0 - 1.0,
-        );
-        triangles.push(plain(
-            [[x, y, 0.0], [x + 0.3, y, 0.1], [x, y + 0.3, -0.2]],
-            WHITE,
-        ));
-    }
-    let start = std::time::Instant::now();
-    let picture = render(&model(&triangles), &View::default()).unwrap();
-    say!(
-        "{} pixels covered in {:?}",
-        covered(&picture),
-        start.elapsed()
-    );
 }

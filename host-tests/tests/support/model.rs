@@ -1,9 +1,15 @@
 //! Each well-formed and each malformed case, on text in the source.
 
-use super::*;
+use host_support::model::*;
+use std::path::Path;
 
 fn read(text: &str) -> Result<Model, ModelError> {
     Model::from_obj_text(text, Path::new("m.obj"))
+}
+
+fn unit(v: [f64; 3]) -> [f64; 3] {
+    let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    v.map(|x| x / length)
 }
 
 /// The error as the user sees it.
@@ -401,7 +407,7 @@ fn random_damage_never_panics_and_never_lets_a_bad_value_in() {
             bytes.splice(from..to, piece.bytes());
         }
         bytes.truncate(bytes.len() - next(&mut state) % 6);
-        let Ok(model) = read(&text_of(bytes)) else {
+        let Ok(model) = read(&String::from_utf8_lossy(&bytes)) else {
             continue;
         };
         accepted += 1;
@@ -464,9 +470,9 @@ fn agrees_with_tobj() {
         assert_eq!(vertex.position, theirs.positions[at * 3..][..3]);
         assert_eq!(vertex.colour, theirs.vertex_color[at * 3..][..3]);
         assert_eq!(vertex.uv, theirs.texcoords[at * 2..][..2]);
-        assert_eq!(
-            vertex.normal,
-            unit(theirs.normals[at * 3..][..3].try_into().unwrap())
-        );
+        let normal = unit(theirs.normals[at * 3..][..3].try_into().unwrap());
+        for (got, want) in vertex.normal.into_iter().zip(normal) {
+            assert!((got - want).abs() < 1e-15, "{vertex:?}");
+        }
     }
 }
