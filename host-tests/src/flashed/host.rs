@@ -1,5 +1,7 @@
 //! The words of a scene drawn on this machine, and what memory they need.
 
+use super::memory::{DRAW_BYTES, VOLUME_BYTES, list_bytes, slow_bytes};
+use super::tally::{Meshes, PassOne, Tally};
 use super::too_large;
 use crate::draw::twice;
 use crate::rooms::{self, LineRooms, SceneRooms};
@@ -8,13 +10,11 @@ use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::list::{Lent, ListCommand, Reason, TextureSlot};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scanbeam::scene::{
-    CacheWord, DrawError, DrawState, Object, ShadowEdge, Texture, TexturePlace, Vertex,
-};
+use scanbeam::scene::{CacheWord, DrawError, ShadowEdge, Texture};
 use scanbeam::{Camera, Link, Scene, Screen};
 use scene_flash::{
     CACHED, Call, CallError, CallMemory, Calls, Counts, FlashError, Head, Kind, Level, LightMemory,
-    Lights, List, ListRoom, Palette, PlayError, Room, Sheet, TextureMemory, VolumeMemory,
+    Lights, List, Palette, PlayError, Room, Sheet, TextureMemory, VolumeMemory,
 };
 use scenes::{IndexedLook, PhongLook, SmoothLook, TexturedLook, TexturedPhongLook};
 use std::error::Error;
@@ -43,6 +43,8 @@ pub struct Shown {
     pub triangles: u32,
     /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
     pub slow_bytes: usize,
+    /// What it does with each number of slots that was asked for.
+    pub tallies: Vec<Tally>,
 }
 
 impl Shown {
@@ -133,7 +135,7 @@ pub fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Er
         _ => return Err(why.into()),
     };
     *slot = slot.saturating_mul(2).max(4);
-    let needed = slow_bytes(&head) + list_bytes(&room);
+    let needed = slow_bytes(&head, DRAW_BYTES) + list_bytes(&room);
     if needed > SLOW_BYTES {
         return Err(too_large(needed as u64, SLOW_BYTES as u64).into());
     }
@@ -142,48 +144,25 @@ pub fn grow(words: &mut [u32], lent: Lent, why: String) -> Result<(), Box<dyn Er
     Ok(())
 }
 
-/// What a scene of the head's room is lent, and its renderer.
-fn slow_bytes(head: &Head) -> usize {
-    let place = if head.kind.is_textured() {
-        size_of::<TexturePlace>()
-    } else {
-        0
-    };
-    let room = [head.room.vertices, head.room.objects, head.room.draws].map(|n| n as usize);
-    room[0] * (size_of::<Vertex>() + place)
-        + room[1] * (size_of::<Object>() + size_of::<Link>())
-        + room[2] * size_of::<DrawState<'_>>()
-        + usize::from(head.size[1]) * size_of::<u16>()
-}
-
-/// What a player is lent.
-fn list_bytes(room: &ListRoom) -> usize {
-    let of = |count: u32, bytes: usize| (count as usize).saturating_mul(bytes);
-    let texture = size_of::<Texture<'_>>();
-    [
-        of(
-            room.table,
-            2 * size_of::<[i16; 3]>() + 4 + size_of::<[i32; 2]>(),
-        ),
-        of(room.indices, 2),
-        of(room.names, size_of::<TextureSlot>()),
-        of(room.textures, size_of::<TextureRoom<'_>>()),
-        of(room.texels, 2),
-        of(room.levels, texture),
-        size_of::<LightRoom>(),
-    ]
-    .into_iter()
-    .fold(0, usize::saturating_add)
-}
-
 /// Draws a frame in so much memory.
 pub fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Shown, Refused> {
+    surveyed(words, objects, room, &[])
+}
+
+/// The same, and what it does with each of these numbers of slots, at most [`MOST_SLOTS`](crate::draw::MOST_SLOTS).
+pub fn surveyed(
+    words: &[u32],
+    objects: &[usize],
+    room: Room,
+    slots: &[u16],
+) -> Result<Shown, Refused> {
     let (head, mut reader) = Head::read(words)?;
+    let lend = Lend { room, slots };
     if matches!(head.kind, Kind::ListSmooth | Kind::ListTextured) {
         let list = List::read(&mut reader)?;
         return match head.kind {
-            Kind::ListTextured => played::<TexturedLook>(&head, &list, room),
-            _ => played::<SmoothLook>(&head, &list, room),
+            Kind::ListTextured => played::<TexturedLook>(&head, &list, lend),
+            _ => played::<SmoothLook>(&head, &list, lend),
         };
     }
     let counts = Counts::read(&mut reader)?;
@@ -197,11 +176,11 @@ pub fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Shown, Refu
         objects,
     };
     match head.kind {
-        Kind::Textured => called.coloured::<TexturedLook>(room),
-        Kind::TexturedPhong => called.coloured::<TexturedPhongLook>(room),
-        Kind::Phong => called.coloured::<PhongLook>(room),
+        Kind::Textured => called.coloured::<TexturedLook>(lend),
+        Kind::TexturedPhong => called.coloured::<TexturedPhongLook>(lend),
+        Kind::Phong => called.coloured::<PhongLook>(lend),
         Kind::Indexed => {
-            let (shown, indices) = called.draw::<IndexedLook>(room, 0)?;
+            let (shown, indices) = called.draw::<IndexedLook>(lend, 0)?;
             let lines = (0..).zip(indices.chunks(head.size[0].into()));
             let colour = |(line, row): (u16, &[u8])| {
                 let palette = calls.palette(line);
@@ -211,8 +190,15 @@ pub fn frame(words: &[u32], objects: &[usize], room: Room) -> Result<Shown, Refu
             let pixels = lines.flat_map(colour).collect();
             Ok(Shown { pixels, ..shown })
         }
-        Kind::Smooth | Kind::ListSmooth | Kind::ListTextured => called.coloured::<SmoothLook>(room),
+        Kind::Smooth | Kind::ListSmooth | Kind::ListTextured => called.coloured::<SmoothLook>(lend),
     }
+}
+
+/// What a scene is lent, and the numbers of slots with which it is counted.
+#[derive(Clone, Copy)]
+struct Lend<'a> {
+    room: Room,
+    slots: &'a [u16],
 }
 
 /// What calls are read into.
@@ -284,9 +270,9 @@ struct Called<'o, 't> {
 
 impl<'t> Called<'_, 't> {
     /// Draws colours.
-    fn coloured<L: Look<Pixel = Rgb565Be>>(&self, room: Room) -> Result<Shown, Refused> {
+    fn coloured<L: Look<Pixel = Rgb565Be>>(&self, lend: Lend<'_>) -> Result<Shown, Refused> {
         let background = Rgb565Be::from_rgb8(self.head.background);
-        let (shown, pixels) = self.draw::<L>(room, background)?;
+        let (shown, pixels) = self.draw::<L>(lend, background)?;
         let pixels = match self.head.doubled {
             true => {
                 twice::<Rgb565Be>(&pixels, self.head.size[0])
@@ -298,8 +284,26 @@ impl<'t> Called<'_, 't> {
         Ok(Shown { pixels, ..shown })
     }
 
+    /// What all meshes have.
+    fn meshes(&self) -> Meshes {
+        let mut all = Meshes {
+            lights: self.counts.lights.lights,
+            ..Meshes::default()
+        };
+        for call in self.calls.calls {
+            let (Call::Mesh(draw) | Call::Said(_, draw)) = call else {
+                continue;
+            };
+            let vertices = draw.mesh.positions.len() as u32;
+            all.vertices += vertices;
+            all.lit += if draw.lights.is_some() { vertices } else { 0 };
+            all.placed += if draw.texture.is_some() { vertices } else { 0 };
+        }
+        all
+    }
+
     /// Draws them over a background.
-    fn draw<L: Look>(&self, room: Room, background: Word<L>) -> Result<Drawn<L>, Refused> {
+    fn draw<L: Look>(&self, lend: Lend<'_>, background: Word<L>) -> Result<Drawn<L>, Refused> {
         let thrown = self.counts.thrown as usize;
         let mut memory = VolumeMemory {
             edges: &mut vec![ShadowEdge::default(); 3 * thrown],
@@ -309,7 +313,7 @@ impl<'t> Called<'_, 't> {
         let has_shadows = self.counts.volumes > 0;
         let drawn = drawn::<L>(
             &self.head,
-            room,
+            lend,
             (background, has_shadows),
             |scene, camera| {
                 let drawn = self.calls.draw(camera, scene, &mut memory);
@@ -327,7 +331,10 @@ impl<'t> Called<'_, 't> {
                         _ => Refused::Other(said),
                     }
                 })?;
-                Ok(self.counts.states())
+                Ok(Built {
+                    draws: self.counts.states(),
+                    meshes: self.meshes(),
+                })
             },
         );
         let (shown, pixels) = drawn?;
@@ -342,10 +349,6 @@ impl<'t> Called<'_, 't> {
     }
 }
 
-/// Bytes that a triangle takes which throws a shadow, while its volume is made.
-const VOLUME_BYTES: usize =
-    3 * size_of::<ShadowEdge>() + 6 * size_of::<[i32; 3]>() + 6 * size_of::<[u16; 3]>();
-
 /// The screen of what is drawn.
 fn screen(head: &Head) -> Result<Screen, Refused> {
     let [width, height] = head.size;
@@ -356,7 +359,7 @@ fn screen(head: &Head) -> Result<Screen, Refused> {
 fn played<L: Look<Pixel = Rgb565Be>>(
     head: &Head,
     list: &List<'_>,
-    room: Room,
+    lend: Lend<'_>,
 ) -> Result<Shown, Refused> {
     let [table, indices, names, textures, texels, levels] = [
         list.room.table,
@@ -391,10 +394,16 @@ fn played<L: Look<Pixel = Rgb565Be>>(
     };
     let mut player = Player::<L>::new(memory, list.settings());
     let background = Rgb565Be::from_rgb8(head.background);
-    let done = drawn::<L>(head, room, (background, false), |scene, camera| {
+    let done = drawn::<L>(head, lend, (background, false), |scene, camera| {
         let played = list.play(&mut player, ListCommand::Start(0), camera, scene);
         let counts = played.map_err(Refused::from)?;
-        Ok(counts.draws.max(1))
+        Ok(Built {
+            draws: counts.draws.max(1),
+            meshes: Meshes {
+                vertices: counts.vertices,
+                ..Meshes::default()
+            },
+        })
     });
     let (shown, pixels) = done?;
     let slow_bytes = shown.slow_bytes + list_bytes(&list.room);
@@ -405,13 +414,20 @@ fn played<L: Look<Pixel = Rgb565Be>>(
     })
 }
 
-/// Draws what `build` makes, which says how many states of draw calls that has, over a background, with shadows or
-/// without.
+/// What was put into a scene.
+struct Built {
+    /// States of draw calls.
+    draws: u32,
+    /// What they are of.
+    meshes: Meshes,
+}
+
+/// Draws what `build` makes over a background, with shadows or without.
 fn drawn<'t, L: Look>(
     head: &Head,
-    room: Room,
+    Lend { room, slots }: Lend<'_>,
     (background, has_shadows): (Word<L>, bool),
-    build: impl FnOnce(&mut Scene<'_, 't, L>, &Camera) -> Result<u32, Refused>,
+    build: impl FnOnce(&mut Scene<'_, 't, L>, &Camera) -> Result<Built, Refused>,
 ) -> Result<Drawn<L>, Refused> {
     let [width, height] = head.size;
     let screen = screen(head)?;
@@ -425,7 +441,7 @@ fn drawn<'t, L: Look>(
     };
     let mut memory = SceneRooms::new(lent, height);
     let mut scene = memory.scene::<L>(screen);
-    let draws = build(&mut scene, &camera)?;
+    let Built { draws, meshes } = build(&mut scene, &camera)?;
     let mut lines = LineRooms::<L>::new(scene.objects(), width);
     if has_shadows {
         lines = lines.with_counts();
@@ -446,12 +462,16 @@ fn drawn<'t, L: Look>(
         },
         ..*head
     };
+    let pass_one = PassOne::of(&scene, draws, meshes);
+    let count = |slots: &u16| Tally::count(&scene, pass_one, *slots, background);
+    let tallies = slots.iter().map(count).collect::<Result<_, _>>();
     let shown = Shown {
+        tallies: tallies.map_err(other)?,
         head,
         pixels: Vec::new(),
         calls: draws,
         triangles: scene.assembled().triangles,
-        slow_bytes: slow_bytes(&Head { room, ..head }),
+        slow_bytes: slow_bytes(&Head { room, ..head }, DRAW_BYTES),
     };
     Ok((shown, pixels))
 }

@@ -11,11 +11,17 @@
 //! |---|---|
 //! | `host.rs` | the words drawn here, and what memory they need |
 //! | `list.rs` | a list as words |
+//! | `memory.rs` | bytes that it is lent |
+//! | `shape.rs` | triangles by their sizes and textures |
+//! | `tally.rs` | what a scene does on its lines, counted |
 //! | `report.rs` | what was measured, as a table and as JSON |
 
 pub mod host;
 pub mod list;
+pub mod memory;
 mod report;
+pub mod shape;
+pub mod tally;
 
 use crate::args::{FirmwareArgs, PixelFormatArg, is_list};
 use crate::draw::{self, CrewSettings, SceneParts};
@@ -25,7 +31,7 @@ use crate::firmware::{
 use crate::scene_file::{Format, Loaded};
 use host::Shown;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scene_flash::{FLASH_AT, FLASH_BYTES};
+use scene_flash::{Counts, FLASH_AT, FLASH_BYTES, FlashError, Head, Kind};
 use std::error::Error;
 use std::path::Path;
 
@@ -103,8 +109,37 @@ impl Flashed {
         })
     }
 
-    fn flash_bytes(&self) -> usize {
+    /// Bytes of flash that its models and textures take.
+    #[must_use]
+    pub fn flash_bytes(&self) -> usize {
         size_of_val(&self.words[..])
+    }
+
+    /// Whether it is a list.
+    #[must_use]
+    pub fn is_list(&self) -> bool {
+        matches!(self.shown.head.kind, Kind::ListSmooth | Kind::ListTextured)
+    }
+
+    /// Bytes of slow memory that it takes where the state of a draw call has so many; of a list at most so many.
+    #[must_use]
+    pub fn slow_bytes(&self, draw_bytes: usize) -> usize {
+        let head = &self.shown.head;
+        let beside = self.shown.slow_bytes - memory::slow_bytes(head, memory::DRAW_BYTES);
+        memory::slow_bytes(head, draw_bytes) + beside
+    }
+
+    /// Bytes of fast memory that it takes beside the object cache.
+    ///
+    /// # Errors
+    /// When its words are none of a scene.
+    pub fn rest_of_fast_bytes(&self) -> Result<usize, FlashError> {
+        let (head, mut reader) = Head::read(&self.words)?;
+        let counts = match self.is_list() {
+            true => None,
+            false => Some(Counts::read(&mut reader)?),
+        };
+        Ok(memory::fast_bytes(&head, counts.as_ref()))
     }
 
     /// Whether a board drew what was drawn here.

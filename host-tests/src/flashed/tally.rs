@@ -1,0 +1,147 @@
+//! What a scene does, counted on this machine: in pass one, and on its lines with so many slots.
+
+use super::shape::{self, Shares};
+use crate::draw::MOST_SLOTS;
+use crate::rooms::LineRooms;
+use scanbeam::Scene;
+use scanbeam::frame::{CacheUse, LineError};
+use scanbeam::look::Look;
+use scanbeam::pixel::PixelFormat;
+use scanbeam::stats::SpanCounts;
+
+/// Words of 32 slots of the largest cache.
+const WORDS: usize = MOST_SLOTS as usize / 32;
+
+/// What meshes of draw calls have.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Meshes {
+    /// Vertices.
+    pub vertices: u32,
+    /// Those that are lit.
+    pub lit: u32,
+    /// Those that have a place on a texture.
+    pub placed: u32,
+    /// Lights of the scene.
+    pub lights: u32,
+}
+
+/// What pass one does.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct PassOne {
+    /// Draw calls.
+    pub draws: u32,
+    /// What they are of.
+    pub meshes: Meshes,
+    /// Triangles that cannot be seen.
+    pub culled: u32,
+    /// Triangles that crossed a near, far or guard plane.
+    pub clipped: u32,
+    /// Triangles that were filed.
+    pub filed: u32,
+}
+
+impl PassOne {
+    /// Of a scene of so many draw calls.
+    #[must_use]
+    pub fn of<L: Look>(scene: &Scene<'_, '_, L>, draws: u32, meshes: Meshes) -> Self {
+        let all = scene.assembled();
+        Self {
+            draws,
+            meshes,
+            culled: all.culled,
+            clipped: all.clipped,
+            filed: scene.objects() as u32,
+        }
+    }
+}
+
+/// What a line does.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct LineTally {
+    /// Along its spans.
+    pub spans: SpanCounts,
+    /// In the cache.
+    pub cache: CacheUse,
+}
+
+/// What a frame does.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tally {
+    /// The most slots that were used.
+    pub slots: u16,
+    /// Slots that were in use at a time.
+    pub peak: u32,
+    /// Pixels of a line.
+    pub width: u16,
+    /// In pass one.
+    pub pass_one: PassOne,
+    /// On each line.
+    pub lines: Vec<LineTally>,
+    /// Triangles of each kind, on each line.
+    pub shares: Vec<Shares>,
+}
+
+impl Tally {
+    /// Draws a scene with so many slots, over a background.
+    ///
+    /// # Errors
+    /// When a line cannot be drawn.
+    pub fn count<L: Look>(
+        scene: &Scene<'_, '_, L>,
+        pass_one: PassOne,
+        slots: u16,
+        background: <L::Pixel as PixelFormat>::Word,
+    ) -> Result<Self, LineError> {
+        let width = scene.screen().width();
+        let rooms = LineRooms::<L, WORDS>::new(scene.objects(), width);
+        let mut rooms = rooms.with_counts().with_limit(slots);
+        let mut renderer = rooms.renderer().counting();
+        let mut line = vec![background; width.into()];
+        let (mut lines, mut before) = (Vec::new(), LineTally::default());
+        for y in scene.lines() {
+            renderer.draw_line(scene, y, &mut line, background)?;
+            let now = LineTally {
+                spans: renderer.spans(),
+                cache: renderer.counts(),
+            };
+            lines.push(now.since(&before));
+            before = now;
+        }
+        Ok(Self {
+            slots,
+            peak: before.cache.peak,
+            width,
+            pass_one,
+            lines,
+            shares: shape::shares(scene),
+        })
+    }
+}
+
+impl LineTally {
+    /// What was done since another count.
+    fn since(&self, before: &Self) -> Self {
+        let (spans, was) = (&self.spans, &before.spans);
+        let (cache, had) = (&self.cache, &before.cache);
+        Self {
+            spans: SpanCounts {
+                spans: spans.spans - was.spans,
+                spans_hidden: spans.spans_hidden - was.spans_hidden,
+                spans_untested: spans.spans_untested - was.spans_untested,
+                pixels_shaded: spans.pixels_shaded - was.pixels_shaded,
+                pixels_hidden: spans.pixels_hidden - was.pixels_hidden,
+                depth_tests: spans.depth_tests - was.depth_tests,
+                texture_fetches: spans.texture_fetches - was.texture_fetches,
+            },
+            cache: CacheUse {
+                hits: cache.hits - had.hits,
+                spilled: cache.spilled - had.spilled,
+                moved_in: cache.moved_in - had.moved_in,
+                misses: cache.misses - had.misses,
+                set_ups: cache.set_ups - had.set_ups,
+                turning: cache.turning - had.turning,
+                ..*cache
+            },
+        }
+    }
+}
