@@ -11,7 +11,7 @@ mod view;
 
 pub use crate::choice::{DEFAULT_SLOTS, DepthArg, InterpArg, MAX_SIDE, PixelFormatArg};
 pub(crate) use bench::is_list;
-pub use bench::{BenchArgs, BoardsArgs, BudgetsArgs, FirmwareArgs};
+pub use bench::{BenchArgs, BoardsArgs, BudgetsArgs, FirmwareArgs, PlanArgs};
 pub use picture::{PictureArgs, ShadeArg, Size};
 pub use render::{Method, QualityArg, RenderArgs, SwitchArg};
 pub use view::ViewArgs;
@@ -66,6 +66,8 @@ pub enum Command {
     Cache(CacheArgs),
     /// Measure every method's error and cost against the f64 reference
     Accuracy(AccuracyArgs),
+    /// Tell what memory, slots and instructions a scene file needs, before there is any firmware
+    Plan(PlanArgs),
     /// Run the Cortex-M firmware in QEMU and compare its frames, or those of a scene file, with the host's
     Firmware(FirmwareArgs),
     /// Run the examples for boards in emulators, and judge what arrives at the panel
@@ -260,6 +262,7 @@ where
         Command::Compress(compress) => compress.check(),
         Command::RunList(list) => list.check(),
         Command::Firmware(firmware) => firmware.check(),
+        Command::Plan(plan) => plan.check(),
         Command::Demo(_)
         | Command::Cache(_)
         | Command::Accuracy(_)

@@ -8,8 +8,8 @@ use host_tests::lists::{bake, print as list_text, run as list_run};
 use host_tests::model::Model;
 use host_tests::scene_file::Loaded;
 use host_tests::{
-    accuracy, bench, boards, budgets, cache_report, compress, demo, draw, firmware_report, report,
-    stdio, tell, trace, view,
+    accuracy, bench, boards, budgets, cache_report, compress, demo, draw, firmware_report, plan,
+    report, stdio, tell, trace, view,
 };
 use std::error::Error;
 use std::process::ExitCode;
@@ -45,6 +45,7 @@ fn main() -> ExitCode {
         Command::Compress(args) => compress::run(&args),
         Command::RunList(args) => list_run::run(&args),
         Command::Disassemble(args) => list_text::run(&args),
+        Command::Plan(args) => plan::run(&args),
         Command::Firmware(args) => match firmware_report::run(&args) {
             // The frames were compared and differ: bad firmware, not bad input.
             Ok(false) => return ended(Ok(ExitCode::FAILURE)),

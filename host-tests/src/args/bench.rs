@@ -1,6 +1,7 @@
 //! Flags of what measures speed.
 
 use super::is_scene;
+use crate::draw::MOST_SLOTS;
 use crate::firmware::{BOARDS, Board};
 use clap::Args;
 use std::path::{Path, PathBuf};
@@ -49,18 +50,48 @@ pub struct FirmwareArgs {
 impl FirmwareArgs {
     /// What flags alone cannot say.
     pub(super) fn check(&self) -> Result<(), String> {
-        match &self.scene {
-            Some(file) if !is_scene(file) && !is_list(file) => {
-                Err("SCENE.json must be a scene file, .json, or a list, .list".into())
-            }
-            _ => Ok(()),
-        }
+        check_scene(self.scene.as_deref())
     }
 
     /// The boards that are run.
     pub fn boards(&self) -> Vec<Board> {
         let is_run = |board: &&Board| self.board.as_ref().is_none_or(|name| board.name == name);
         BOARDS.iter().filter(is_run).copied().collect()
+    }
+}
+
+/// Flags of `plan`.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Args)]
+pub struct PlanArgs {
+    /// A scene file, .json, or a list that `bake` has made, .list
+    #[arg(value_name = "SCENE.json", required_unless_present = "bless")]
+    pub file: Option<PathBuf>,
+    /// Slots of the object cache, 0 to 224; 64 when nothing is said
+    #[arg(long, value_name = "N",
+        value_parser = clap::value_parser!(u16).range(..=i64::from(MOST_SLOTS)))]
+    pub slots: Option<u16>,
+    /// Print the figures as JSON
+    #[arg(long)]
+    pub json: bool,
+    /// Instead: measure the samples in QEMU, and record what works take
+    #[arg(long, conflicts_with_all = ["file", "slots", "json"])]
+    pub bless: bool,
+}
+
+impl PlanArgs {
+    /// What flags alone cannot say.
+    pub(super) fn check(&self) -> Result<(), String> {
+        check_scene(self.file.as_deref())
+    }
+}
+
+/// Refuses what is neither a scene file nor a list.
+fn check_scene(file: Option<&Path>) -> Result<(), String> {
+    match file {
+        Some(file) if !is_scene(file) && !is_list(file) => {
+            Err("SCENE.json must be a scene file, .json, or a list, .list".into())
+        }
+        _ => Ok(()),
     }
 }
 

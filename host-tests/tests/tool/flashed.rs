@@ -2,6 +2,7 @@
 //! same bits.
 
 mod lists;
+mod plans;
 
 use host_tests::firmware::{BOARDS, Board, M4, Measured, Output, Section, Sections, Toolchain};
 use host_tests::flashed::host::{frame, grow, settle};
@@ -308,17 +309,7 @@ fn drawn_on(file: &str, kind: Kind, asked: &[Board]) -> Result<Vec<u64>, Box<dyn
             "{name}: {sum} of {}",
             frame.instructions
         );
-        let figure = |name: &str| board.output.figures[name] as usize;
-        let here = flashed.shown.slow_bytes;
-        assert!(
-            (here / 2..=here + 64).contains(&figure("slow_bytes")),
-            "{name}: {here}"
-        );
-        assert_eq!(figure("line_bytes"), 2 * 2 * 320, "{name}");
-        assert!(
-            (4 * 160..20 << 10).contains(&figure("fast_bytes")),
-            "{name}"
-        );
+        plans::bytes_are_as_planned(&flashed, board)?;
     }
     let passes = boards.iter().map(|board| board.output.lines[0].pass_one);
     Ok(passes.collect())

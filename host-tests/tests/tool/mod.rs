@@ -26,6 +26,7 @@ mod golden;
 mod lists_strips;
 mod lists_texels;
 mod memory_model;
+mod plan;
 mod plot;
 mod report;
 mod scene_file;
