@@ -55,13 +55,14 @@ fn a_reader_that_goes_away_ends_the_tool_quietly() {
 }
 
 /// All words that the tool has.
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "render",
     "view",
     "demo",
     "trace",
     "cache",
     "accuracy",
+    "plan",
     "firmware",
     "boards",
     "budgets",

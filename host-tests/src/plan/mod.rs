@@ -174,7 +174,7 @@ impl Plan {
         })
     }
 
-    /// The smallest number of slots that was tried with which but [`FEW`] spans are drawn without one.
+    /// The smallest number of slots that was tried with which no more than [`FEW`] of the spans are drawn without one.
     #[must_use]
     pub fn enough(&self) -> Option<&Row> {
         let few = |row: &&Row| f64::from(row.without) <= FEW * f64::from(row.spans);

@@ -16,7 +16,7 @@ pub type Works = BTreeMap<String, f64>;
 /// The part that large triangles may take for the bound.
 const MOST_LARGE: f64 = 0.35;
 /// The part that what has no slot may take for it.
-const MOST_WITHOUT_SLOT: f64 = 0.15;
+const MOST_WITHOUT_SLOT: f64 = 0.03;
 /// Lines of an equation.
 const BLOCK: usize = 8;
 /// Rounds of the solution at most.

@@ -24,8 +24,8 @@ pub(super) fn print(file: &Path, plan: &Plan, json: bool) -> Result<(), Box<dyn 
         plan.flashed.flash_bytes()
     );
     match &plan.program {
-        Some(program) => say!("program: {}, of {}", program.name, plan.release),
-        None => say!("program: none on record"),
+        Some(program) => say!("program: {}; costs of {}", program.name, plan.release),
+        None => say!("program: none on record; costs of {}", plan.release),
     }
     cores(plan);
     slots(plan);
@@ -78,7 +78,7 @@ fn slots(plan: &Plan) {
     }
     match plan.enough() {
         Some(row) => say!(
-            "{} slots are enough: more than that save less than {:.0} % of the spans the way without one",
+            "{} slots are enough: no more than {:.0} % of the spans are drawn without one",
             row.slots,
             100.0 * FEW
         ),

@@ -32,7 +32,7 @@ fn samples_are_reckoned_from_all_others() -> Tried {
         let bounded: Vec<_> = (board.samples.iter())
             .filter(|(_, known)| known.is_bounded())
             .collect();
-        assert!(bounded.len() > 80, "{name}: {}", bounded.len());
+        assert!(bounded.len() > 60, "{name}: {}", bounded.len());
         for (sample, known) in bounded {
             let off = (known.reckoned_without / known.measured - 1.0).abs();
             assert!(off <= BOUND, "{name}: {sample}: {off:.3}");
@@ -101,8 +101,7 @@ fn what_is_not_reckoned_is_told() -> Tried {
                   scene: serde_json::Value|
      -> Result<_, Box<dyn Error>> {
         let mut one = json!({ "model": model });
-        let mut all =
-            json!({ "size": [32, 32], "camera": { "eye": [0, 0, 6], "at": [0, 0, 0], "fov": 45 } });
+        let mut all = json!({ "size": [32, 32], "format": "rgb565", "camera": { "eye": [0, 0, 6], "at": [0, 0, 0], "fov": 45 } });
         for (to, from) in [(&mut one, object), (&mut all, scene)] {
             for (key, value) in from.as_object().into_iter().flatten() {
                 to[key] = value.clone();
@@ -241,4 +240,66 @@ fn a_plan_has_a_file() {
     ] {
         assert!(parsed(line).is_err(), "{line}");
     }
+}
+
+/// What is printed, as a table and as JSON: of a scene that is reckoned and of one that is not.
+#[test]
+fn plans_are_printed() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("ball.json");
+    let ball = root().join("examples/scene-files/ball.obj");
+    let camera = json!({ "eye": [0, 0, 6], "at": [0, 0, 0], "fov": 45 });
+    let scene = json!({ "size": [320, 240], "format": "rgb565", "camera": camera, "objects": [{ "model": ball, "cull": "back" }] });
+    std::fs::write(&file, scene.to_string())?;
+    let said = |file: &Path, flag: &str| -> Result<String, Box<dyn Error>> {
+        let mut tool = std::process::Command::new(env!("CARGO_BIN_EXE_scanbeam"));
+        let output = tool
+            .arg("plan")
+            .arg(file)
+            .args(flag.split_whitespace())
+            .output()?;
+        assert_eq!(
+            (output.status.code(), output.stderr.len()),
+            (Some(0), 0),
+            "{output:?}"
+        );
+        Ok(String::from_utf8(output.stdout)?)
+    };
+    let table = said(&file, "")?;
+    for words in [
+        "320 x 240, 1 draw calls of 224 triangles",
+        "Gouraud, plain",
+        "within 10 %",
+        "slots are enough",
+        "RP2040, one core",
+    ] {
+        assert!(table.contains(words), "{words}: {table}");
+    }
+    let report: serde_json::Value = serde_json::from_str(&said(&file, "--json --slots 16")?)?;
+    // The cache of 32 slots, and the depth of a line.
+    assert_eq!(
+        report["fast_bytes"],
+        json!(cache_bytes::<SmoothLook>(32) + 320 * 4)
+    );
+    assert_eq!(report["boards"][2]["board"], "m0plus");
+    assert_eq!(report["boards"][2]["within_bound"], false);
+    let took = report["boards"][2]["instructions"]
+        .as_f64()
+        .ok_or("instructions")?;
+    assert_eq!(
+        report["chips"][1]["most_by_clock"]
+            .as_f64()
+            .map(|rate| (rate * took / 1e6).round()),
+        Some(125.0)
+    );
+    let room = root().join("examples/scene-files/room.json");
+    assert!(said(&room, "")?.contains("not reckoned: dither"));
+    let report: serde_json::Value = serde_json::from_str(&said(&room, "--json")?)?;
+    assert_eq!(report["not_reckoned"], "dither");
+    assert!(
+        report["boards"][0]["instructions"].is_null()
+            && report["chips"][0]["most_by_clock"].is_null()
+    );
+    assert_eq!(report["program"], "Textured");
+    Ok(())
 }
