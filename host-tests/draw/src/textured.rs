@@ -110,7 +110,8 @@ impl TextureSet {
     }
 
     /// Its pictures, by their numbers.
-    pub(crate) fn images(&self) -> &[TextureImage] {
+    #[must_use]
+    pub fn images(&self) -> &[TextureImage] {
         &self.images
     }
 

@@ -69,7 +69,7 @@ pub struct Reckoned {
     /// How many.
     pub instructions: f64,
     /// Whether they are within [`BOUND`] of what is measured: not where its [parts](model::Parts) that are less
-    /// certain are large, nor where the slots are not those of the samples.
+    /// certain are large, nor where slots are not those of the samples or textures larger than theirs.
     pub is_within: bool,
 }
 
@@ -140,9 +140,15 @@ impl Plan {
     /// As [`run`].
     pub fn of(file: &Path, slots: u16, record: &Record) -> Result<Self, Box<dyn Error>> {
         let flashed = Flashed::load(file)?;
-        let beyond = match is_list(file) {
-            true => Some("lists"),
-            false => scope::beyond(&Loaded::load(file)?.scene),
+        let (beyond, is_usual) = match is_list(file) {
+            true => (Some("lists"), false),
+            false => {
+                let loaded = Loaded::load(file)?;
+                (
+                    scope::beyond(&loaded.scene),
+                    scope::has_usual_textures(&loaded),
+                )
+            }
         };
         let (release, known) = record.latest().ok_or("no costs are on record")?;
         let asked: Vec<u16> = STEPS.into_iter().chain([slots]).collect();
@@ -158,7 +164,7 @@ impl Plan {
                 name: board.name,
                 code: program.as_ref().map(|program| program.code[at]),
                 slow_bytes: flashed.slow_bytes(of.draw_bytes),
-                reckoned: beyond.is_none().then(|| reckoned(of, tally)),
+                reckoned: beyond.is_none().then(|| reckoned(of, tally, is_usual)),
             });
         }
         let row = |tally: &Tally| row(kind, tally);
@@ -182,13 +188,13 @@ impl Plan {
     }
 }
 
-/// Instructions of a frame on a board.
-fn reckoned(of: &OfBoard, tally: &Tally) -> Reckoned {
+/// Instructions of a frame on a board, with textures as the samples have them or with larger ones.
+fn reckoned(of: &OfBoard, tally: &Tally, is_usual: bool) -> Reckoned {
     let works = works(tally);
     let are_small = Parts::of(&of.costs, &works).are_small();
     Reckoned {
         instructions: reckon(&of.costs, &works),
-        is_within: are_small && tally.slots == SLOTS,
+        is_within: are_small && is_usual && tally.slots == SLOTS,
     }
 }
 

@@ -16,6 +16,9 @@ pub struct Sample {
     pub scene: Value,
 }
 
+/// The longest side of a texture of theirs.
+pub const LONGEST_SIDE: u32 = 128;
+
 /// How surfaces look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Style {
@@ -161,7 +164,7 @@ pub fn write(folder: &Path, all: &[Sample]) -> Result<(), Box<dyn Error>> {
         0 => [220, 200, 90],
         _ => [60, 90, 160],
     })?;
-    texture("waves.png", 128, &|x, y| {
+    texture("waves.png", LONGEST_SIDE, &|x, y| {
         let wave = |at: u32, by: f64| 128.0 + 120.0 * (f64::from(at) * TAU / 128.0 * by).sin();
         [wave(x, 3.0), wave(y, 2.0), wave(x + y, 5.0)].map(|level| level as u8)
     })?;

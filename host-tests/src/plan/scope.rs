@@ -1,6 +1,14 @@
 //! Which scenes have their instructions reckoned: those whose draw calls have nothing but colours, lights and textures.
 
-use crate::scene_file::{Item, SceneFile, ShadeKind};
+use super::samples::LONGEST_SIDE;
+use crate::scene_file::{Item, Loaded, SceneFile, ShadeKind};
+
+/// Whether no texture of a scene is larger than those that costs were measured on.
+#[must_use]
+pub fn has_usual_textures(loaded: &Loaded) -> bool {
+    let mut images = loaded.parts.iter().flat_map(|part| part.textures.images());
+    images.all(|image| image.width.max(image.height) <= LONGEST_SIDE)
+}
 
 /// What a scene has of which no costs are on record; `None` where it has nothing.
 #[must_use]

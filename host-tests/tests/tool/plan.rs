@@ -4,11 +4,13 @@ use host_tests::args::{self, Command};
 use host_tests::figures::gate;
 use host_tests::firmware::BOARDS;
 use host_tests::flashed::memory::cache_bytes;
+use host_tests::image_out::{Frame, write_image};
 use host_tests::plan::chips::CHIPS;
 use host_tests::plan::model::{Costs, Equations, Parts, Works, reckon, works};
 use host_tests::plan::program::code_of;
 use host_tests::plan::record::{Record, SLOTS, load, tally};
-use host_tests::plan::samples::{samples, write};
+use host_tests::plan::samples::{LONGEST_SIDE, samples, write};
+use host_tests::plan::shapes::Shape;
 use host_tests::plan::{BOUND, Plan, scope};
 use host_tests::scene_file::Loaded;
 use scenes::SmoothLook;
@@ -222,6 +224,34 @@ fn a_list_has_bytes_and_slots() -> Tried {
         .ok_or("it is a row")?;
     assert!(50 * enough.without <= enough.spans);
     assert!(at > 0 && 50 * plan.rows[at - 1].without > enough.spans);
+    Ok(())
+}
+
+/// Kills: pictures of any side pass for those of the samples.
+#[test]
+fn textures_larger_than_those_of_samples_have_no_bound() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let record = Record::read(&Record::path())?;
+    let ball = Shape::Ball(16, 24);
+    std::fs::write(folder.path().join(ball.file()), ball.to_obj())?;
+    for side in [LONGEST_SIDE, 2 * LONGEST_SIDE] {
+        let picture = folder.path().join(format!("{side}.png"));
+        let texels = vec![99; 3 * (side * side) as usize];
+        write_image(
+            &picture,
+            &Frame::new(side, side, texels).ok_or("a picture")?,
+        )?;
+        let camera = json!({ "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 45 });
+        let object = json!({ "model": ball.file(), "texture": picture, "cull": "back" });
+        let scene = json!({ "size": [320, 240], "format": "rgb565", "camera": camera, "objects": [object] });
+        let file = folder.path().join("s.json");
+        std::fs::write(&file, scene.to_string())?;
+        let plan = Plan::of(&file, SLOTS, &record)?;
+        for board in &plan.boards {
+            let is_within = board.reckoned.ok_or("it is reckoned")?.is_within;
+            assert_eq!(is_within, side == LONGEST_SIDE, "{side}: {}", board.name);
+        }
+    }
     Ok(())
 }
 
