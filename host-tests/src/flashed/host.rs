@@ -1,7 +1,7 @@
 //! The words of a scene drawn on this machine, and what memory they need.
 
 use super::memory::{DRAW_BYTES, VOLUME_BYTES, list_bytes, slow_bytes};
-use super::tally::{Meshes, PassOne, Tally};
+use super::tally::{Meshes, PassOne, Tally, WORDS};
 use super::too_large;
 use crate::draw::twice;
 use crate::rooms::{self, LineRooms, SceneRooms};
@@ -442,7 +442,7 @@ fn drawn<'t, L: Look>(
     let mut memory = SceneRooms::new(lent, height);
     let mut scene = memory.scene::<L>(screen);
     let Built { draws, meshes } = build(&mut scene, &camera)?;
-    let mut lines = LineRooms::<L>::new(scene.objects(), width);
+    let mut lines = LineRooms::<L, WORDS>::new(scene.objects(), width);
     if has_shadows {
         lines = lines.with_counts();
     }

@@ -9,8 +9,8 @@ use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::stats::SpanCounts;
 
-/// Words of 32 slots of the largest cache.
-const WORDS: usize = MOST_SLOTS as usize / 32;
+/// Words of 32 slots of the largest cache. All that is drawn here has such a one, so that renderers are compiled once.
+pub(super) const WORDS: usize = MOST_SLOTS as usize / 32;
 
 /// What meshes of draw calls have.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
