@@ -120,10 +120,11 @@ impl<'a> Court<'a> {
         let is_unit = |case: &&&Case| case.program == Program::Unit;
         let unit: Vec<&Case> = cases.iter().filter(is_unit).copied().collect();
         let proofs = cases.iter().filter(|case| !is_unit(case));
-        let groups = std::iter::once(unit).chain(proofs.map(|case| vec![*case]));
+        let groups = in_steps(&unit).into_iter();
+        let groups = groups.chain(proofs.map(|case| vec![*case]));
         let mut found = (Fate::Unreached, None);
         let mut spent = 0.0;
-        for group in groups.filter(|group| !group.is_empty()) {
+        for group in groups {
             let names: Vec<&str> = group.iter().map(|case| case.name.as_str()).collect();
             let seconds: f64 = group.iter().map(|case| case.seconds).sum();
             if spent > 0.0 && spent + seconds > self.patience as f64 {
@@ -221,6 +222,27 @@ impl<'a> Court<'a> {
     }
 }
 
+/// Unit tests, the fastest first, as the programs that run them: the first has those of a fifth of a second, and each has
+/// four times as long as the one before. A mutant that is noticed is so by the first, and one that never ends holds
+/// nobody up for as long as the slowest might take.
+fn in_steps<'a>(unit: &[&'a Case]) -> Vec<Vec<&'a Case>> {
+    let (mut steps, mut seconds, mut most) = (Vec::<Vec<&Case>>::new(), 0.0, 0.2);
+    for case in unit {
+        match steps.last_mut() {
+            Some(step) if seconds + case.seconds <= most => {
+                step.push(case);
+                seconds += case.seconds;
+            }
+            last => {
+                most *= if last.is_some() { 4.0 } else { 1.0 };
+                steps.push(vec![case]);
+                seconds = case.seconds;
+            }
+        }
+    }
+    steps
+}
+
 /// Numbers in a random order, which is the same for the same seed.
 pub fn shuffle(numbers: &mut [usize], seed: u64) {
     let mut state = seed;
@@ -233,5 +255,28 @@ pub fn shuffle(numbers: &mut [usize], seed: u64) {
         // Far fewer than 2^32 are shuffled, so the remainder is as good as even.
         let other = usize::try_from(mixed % (at as u64 + 1)).unwrap_or(0);
         numbers.swap(at, other);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Kills: a step that never ends, tests that are lost between two, one slow test that has to share.
+    #[test]
+    fn steps_have_all_tests_in_order_and_grow() {
+        let case = |seconds: f64| Case {
+            program: Program::Unit,
+            name: String::new(),
+            seconds,
+            left_out: None,
+            reached: Vec::new(),
+        };
+        let cases = [0.05, 0.1, 0.1, 0.2, 0.3, 0.4, 5.0, 6.0].map(case);
+        let steps = in_steps(&cases.iter().collect::<Vec<_>>());
+        let seconds = |step: &Vec<&Case>| step.iter().map(|case| case.seconds).collect::<Vec<_>>();
+        let wanted: [&[f64]; 4] = [&[0.05, 0.1], &[0.1, 0.2, 0.3], &[0.4], &[5.0, 6.0]];
+        assert!(steps.iter().map(seconds).eq(wanted));
+        assert!(in_steps(&[]).is_empty());
     }
 }
