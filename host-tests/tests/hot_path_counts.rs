@@ -12,6 +12,7 @@ use crate::hot::exact::within;
 use crate::hot::values::{NEARER_OR_EQUAL, draw_each};
 use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf, line};
 use calls::{Call, KINDS, Kind};
+use host_tests::flashed::tally::spans_since;
 use row::Row;
 use scanbeam::Screen;
 use scanbeam::frame::Renderer;
@@ -73,21 +74,9 @@ fn counted<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, depth: bool) -> Vec<
     let of_line = |y| {
         line(&mut renderer, scene, y, L::Format::from_rgb8(BACKGROUND));
         let now = renderer.spans();
-        less(now, core::mem::replace(&mut before, now))
+        spans_since(&now, &core::mem::replace(&mut before, now))
     };
     scene.lines().map(of_line).collect()
-}
-
-fn less(a: SpanCounts, b: SpanCounts) -> SpanCounts {
-    SpanCounts {
-        spans: a.spans - b.spans,
-        spans_hidden: a.spans_hidden - b.spans_hidden,
-        spans_untested: a.spans_untested - b.spans_untested,
-        pixels_shaded: a.pixels_shaded - b.pixels_shaded,
-        pixels_hidden: a.pixels_hidden - b.pixels_hidden,
-        depth_tests: a.depth_tests - b.depth_tests,
-        texture_fetches: a.texture_fetches - b.texture_fetches,
-    }
 }
 
 fn sum(counts: impl IntoIterator<Item = SpanCounts>) -> SpanCounts {

@@ -463,8 +463,7 @@ fn drawn<'t, L: Look>(
         ..*head
     };
     let pass_one = PassOne::of(&scene, draws, meshes);
-    let count = |slots: &u16| Tally::count(&scene, pass_one, *slots, background);
-    let tallies = slots.iter().map(count).collect::<Result<_, _>>();
+    let tallies = Tally::count_all(&scene, pass_one, slots, background);
     let shown = Shown {
         tallies: tallies.map_err(other)?,
         head,

@@ -68,17 +68,20 @@ impl Flashed {
     pub fn load(file: &Path) -> Result<Self, Box<dyn Error>> {
         match is_list(file) {
             true => Self::of_list(file),
-            false => Self::of_scene(file),
+            false => Self::of_scene(file, &Loaded::load(file)?),
         }
     }
 
-    fn of_scene(file: &Path) -> Result<Self, Box<dyn Error>> {
-        let loaded = Loaded::load(file)?;
+    /// Draws a scene that was read from a file.
+    ///
+    /// # Errors
+    /// As [`load`](Self::load).
+    pub fn of_scene(file: &Path, loaded: &Loaded) -> Result<Self, Box<dyn Error>> {
         let mut notes = loaded.notes();
         if loaded.scene.format == Format::Rgb888 {
             notes.push("boards are sent 16 bits a pixel: `format` is rgb565 there".into());
         }
-        let flashed = Self::of_loaded(&loaded, notes);
+        let flashed = Self::of_loaded(loaded, notes);
         flashed.map_err(|error| format!("{}: {error}", file.display()).into())
     }
 

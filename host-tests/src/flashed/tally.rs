@@ -82,21 +82,44 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Draws a scene with so many slots, over a background.
+    /// Draws a scene with each of these numbers of slots, over a background.
     ///
     /// # Errors
     /// When a line cannot be drawn.
-    pub fn count<L: Look>(
+    pub fn count_all<L: Look>(
         scene: &Scene<'_, '_, L>,
         pass_one: PassOne,
-        slots: u16,
+        slots: &[u16],
+        background: <L::Pixel as PixelFormat>::Word,
+    ) -> Result<Vec<Self>, LineError> {
+        if slots.is_empty() {
+            return Ok(Vec::new());
+        }
+        let shares = shape::shares(scene);
+        let one = |slots: &u16| {
+            let of_none = Self {
+                slots: *slots,
+                peak: 0,
+                width: scene.screen().width(),
+                pass_one,
+                lines: Vec::new(),
+                shares: shares.clone(),
+            };
+            of_none.count(scene, background)
+        };
+        slots.iter().map(one).collect()
+    }
+
+    /// With what lines do.
+    fn count<L: Look>(
+        self,
+        scene: &Scene<'_, '_, L>,
         background: <L::Pixel as PixelFormat>::Word,
     ) -> Result<Self, LineError> {
-        let width = scene.screen().width();
-        let rooms = LineRooms::<L, WORDS>::new(scene.objects(), width);
-        let mut rooms = rooms.with_counts().with_limit(slots);
+        let rooms = LineRooms::<L, WORDS>::new(scene.objects(), self.width);
+        let mut rooms = rooms.with_counts().with_limit(self.slots);
         let mut renderer = rooms.renderer().counting();
-        let mut line = vec![background; width.into()];
+        let mut line = vec![background; self.width.into()];
         let (mut lines, mut before) = (Vec::new(), LineTally::default());
         for y in scene.lines() {
             renderer.draw_line(scene, y, &mut line, background)?;
@@ -108,31 +131,33 @@ impl Tally {
             before = now;
         }
         Ok(Self {
-            slots,
             peak: before.cache.peak,
-            width,
-            pass_one,
             lines,
-            shares: shape::shares(scene),
+            ..self
         })
+    }
+}
+
+/// What was done along spans since another count.
+#[must_use]
+pub fn spans_since(now: &SpanCounts, was: &SpanCounts) -> SpanCounts {
+    SpanCounts {
+        spans: now.spans - was.spans,
+        spans_hidden: now.spans_hidden - was.spans_hidden,
+        spans_untested: now.spans_untested - was.spans_untested,
+        pixels_shaded: now.pixels_shaded - was.pixels_shaded,
+        pixels_hidden: now.pixels_hidden - was.pixels_hidden,
+        depth_tests: now.depth_tests - was.depth_tests,
+        texture_fetches: now.texture_fetches - was.texture_fetches,
     }
 }
 
 impl LineTally {
     /// What was done since another count.
     fn since(&self, before: &Self) -> Self {
-        let (spans, was) = (&self.spans, &before.spans);
         let (cache, had) = (&self.cache, &before.cache);
         Self {
-            spans: SpanCounts {
-                spans: spans.spans - was.spans,
-                spans_hidden: spans.spans_hidden - was.spans_hidden,
-                spans_untested: spans.spans_untested - was.spans_untested,
-                pixels_shaded: spans.pixels_shaded - was.pixels_shaded,
-                pixels_hidden: spans.pixels_hidden - was.pixels_hidden,
-                depth_tests: spans.depth_tests - was.depth_tests,
-                texture_fetches: spans.texture_fetches - was.texture_fetches,
-            },
+            spans: spans_since(&self.spans, &before.spans),
             cache: CacheUse {
                 hits: cache.hits - had.hits,
                 spilled: cache.spilled - had.spilled,

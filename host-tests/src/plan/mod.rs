@@ -139,21 +139,25 @@ impl Plan {
     /// # Errors
     /// As [`run`].
     pub fn of(file: &Path, slots: u16, record: &Record) -> Result<Self, Box<dyn Error>> {
-        let flashed = Flashed::load(file)?;
-        let (beyond, is_usual) = match is_list(file) {
-            true => (Some("lists"), false),
+        let (flashed, beyond, is_usual) = match is_list(file) {
+            true => (Flashed::load(file)?, Some("lists"), false),
             false => {
                 let loaded = Loaded::load(file)?;
                 (
+                    Flashed::of_scene(file, &loaded)?,
                     scope::beyond(&loaded.scene),
                     scope::has_usual_textures(&loaded),
                 )
             }
         };
         let (release, known) = record.latest().ok_or("no costs are on record")?;
-        let asked: Vec<u16> = STEPS.into_iter().chain([slots]).collect();
+        let is_step = STEPS.contains(&slots);
+        let asked: Vec<u16> = (STEPS.into_iter())
+            .chain((!is_step).then_some(slots))
+            .collect();
         let tallies = record::tally(&flashed, &asked)?;
-        let tally = tallies.last().ok_or("nothing was counted")?;
+        let tally = tallies.iter().find(|tally| tally.slots == slots);
+        let tally = tally.ok_or("nothing was counted")?;
         let kind = flashed.shown.head.kind;
         let program = program::program(kind, beyond.is_none())?;
         let mut boards = Vec::new();

@@ -4,7 +4,7 @@
 //! What one takes is the least-squares solution without negative terms over the [samples](super::samples), of pass one, of
 //! every eight lines and of whole frames; each sample counts as much as another.
 
-use crate::flashed::shape::{LARGE, NAMES, Shares, TEXTURED};
+use crate::flashed::shape::{LARGE, NAMES, Share, Shares, TEXTURED};
 use crate::flashed::tally::{LineTally, PassOne, Tally};
 use std::collections::BTreeMap;
 
@@ -65,7 +65,7 @@ fn line_works(line: &LineTally, shares: &Shares, width: u16) -> Works {
     let hidden = part(spans.spans_hidden, spans.spans);
     let meet = f64::from(spans.spans - spans.spans_untested);
     let misses = f64::from(cache.misses);
-    let sum = |of: fn(&crate::flashed::shape::Share) -> u32| shares.iter().map(of).sum::<u32>();
+    let sum = |of: fn(&Share) -> u32| shares.iter().map(of).sum::<u32>();
     let seen = part(spans.pixels_shaded, sum(|share| share.pixels));
     let textured = shares[TEXTURED..].iter().map(|share| share.spans).sum();
     let one = |yes: bool| f64::from(u8::from(yes));

@@ -3,6 +3,7 @@
 use crate::image_out::{Frame, write_image};
 use crate::plan::shapes::Shape;
 use serde_json::{Value, json};
+use std::collections::HashSet;
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -14,6 +15,7 @@ pub struct Sample {
     pub name: String,
     /// Its words, as a scene file.
     pub scene: Value,
+    shapes: Vec<Shape>,
 }
 
 /// The longest side of a texture of theirs.
@@ -165,22 +167,19 @@ pub fn write(folder: &Path, all: &[Sample]) -> Result<(), Box<dyn Error>> {
         _ => [60, 90, 160],
     })?;
     texture("waves.png", LONGEST_SIDE, &|x, y| {
-        let wave = |at: u32, by: f64| 128.0 + 120.0 * (f64::from(at) * TAU / 128.0 * by).sin();
+        let wave = |at: u32, by: f64| {
+            128.0 + 120.0 * (f64::from(at) * TAU / f64::from(LONGEST_SIDE) * by).sin()
+        };
         [wave(x, 3.0), wave(y, 2.0), wave(x + y, 5.0)].map(|level| level as u8)
     })?;
-    for shape in Shape::all_of(all.iter().flat_map(Sample::models)) {
+    let shapes: HashSet<Shape> = all
+        .iter()
+        .flat_map(|sample| sample.shapes.clone())
+        .collect();
+    for shape in shapes {
         std::fs::write(folder.join(shape.file()), shape.to_obj())?;
     }
     Ok(())
-}
-
-impl Sample {
-    /// The files of its models.
-    fn models(&self) -> Vec<PathBuf> {
-        let objects = self.scene["objects"].as_array().into_iter().flatten();
-        let model = |object: &Value| object["model"].as_str().map(PathBuf::from);
-        objects.filter_map(model).collect()
-    }
 }
 
 /// Makes a scene.
@@ -189,6 +188,7 @@ struct Maker {
     style: Style,
     size: [u32; 2],
     objects: Vec<Value>,
+    shapes: Vec<Shape>,
     eye: [f64; 3],
 }
 
@@ -199,6 +199,7 @@ impl Maker {
             style,
             size: [320, 240],
             objects: Vec::new(),
+            shapes: Vec::new(),
             eye: [0.0; 3],
         }
     }
@@ -217,6 +218,7 @@ impl Maker {
             object["texture"] = json!(self.folder.join(texture));
         }
         self.objects.push(object);
+        self.shapes.push(shape);
         self
     }
 
@@ -261,6 +263,7 @@ impl Maker {
         Sample {
             name: format!("{}, {name}", self.style.name()),
             scene,
+            shapes: self.shapes,
         }
     }
 }

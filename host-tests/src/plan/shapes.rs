@@ -2,10 +2,9 @@
 
 use std::f64::consts::{PI, TAU};
 use std::fmt::Write as _;
-use std::path::Path;
 
 /// A shape of one sheet or of six sides, and of how many pieces along it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// A ball of so many rings and of so many pieces around.
     Ball(u32, u32),
@@ -51,38 +50,6 @@ impl Shape {
     #[must_use]
     pub fn is_lying(self) -> bool {
         matches!(self, Self::Land(_) | Self::Floor(_) | Self::Room(_))
-    }
-
-    /// The shapes of files, each once.
-    pub fn all_of<P: AsRef<Path>>(files: impl Iterator<Item = P>) -> Vec<Self> {
-        let mut all = Vec::new();
-        for file in files {
-            let stem = file.as_ref().file_stem().map(|stem| stem.to_string_lossy());
-            if let Some(shape) = stem.and_then(|stem| Self::of(&stem)) {
-                if !all.contains(&shape) {
-                    all.push(shape);
-                }
-            }
-        }
-        all
-    }
-
-    /// By its name.
-    fn of(name: &str) -> Option<Self> {
-        let mut words = name.split('-');
-        let kind = words.next()?;
-        let mut number = || words.next()?.parse().ok();
-        let first = number()?;
-        Some(match kind {
-            "ball" => Self::Ball(first, number()?),
-            "ring" => Self::Ring(first, number()?),
-            "land" => Self::Land(first),
-            "pane" => Self::Pane(first),
-            "floor" => Self::Floor(first),
-            "cube" => Self::Cube(first),
-            "room" => Self::Room(first),
-            _ => return None,
-        })
     }
 
     /// As an OBJ model.

@@ -24,6 +24,23 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
 }
 
+/// Writes a scene of an object that is seen from so far.
+fn scene_of(
+    object: &serde_json::Value,
+    distance: u32,
+    folder: &Path,
+) -> Result<PathBuf, Box<dyn Error>> {
+    let scene = json!({
+        "size": [320, 240],
+        "format": "rgb565",
+        "camera": { "eye": [0, 0, distance], "at": [0, 0, 0], "fov": 45 },
+        "objects": [object],
+    });
+    let file = folder.join("s.json");
+    std::fs::write(&file, scene.to_string())?;
+    Ok(file)
+}
+
 /// Kills: a sample on record that is off by more than the bound, and is said to be within it.
 #[test]
 fn samples_are_reckoned_from_all_others() -> Tried {
@@ -241,11 +258,8 @@ fn textures_larger_than_those_of_samples_have_no_bound() -> Tried {
             &picture,
             &Frame::new(side, side, texels).ok_or("a picture")?,
         )?;
-        let camera = json!({ "eye": [0, 0, 5], "at": [0, 0, 0], "fov": 45 });
         let object = json!({ "model": ball.file(), "texture": picture, "cull": "back" });
-        let scene = json!({ "size": [320, 240], "format": "rgb565", "camera": camera, "objects": [object] });
-        let file = folder.path().join("s.json");
-        std::fs::write(&file, scene.to_string())?;
+        let file = scene_of(&object, 5, folder.path())?;
         let plan = Plan::of(&file, SLOTS, &record)?;
         for board in &plan.boards {
             let is_within = board.reckoned.ok_or("it is reckoned")?.is_within;
@@ -276,11 +290,8 @@ fn a_plan_has_a_file() {
 #[test]
 fn plans_are_printed() -> Tried {
     let folder = tempfile::tempdir()?;
-    let file = folder.path().join("ball.json");
     let ball = root().join("examples/scene-files/ball.obj");
-    let camera = json!({ "eye": [0, 0, 6], "at": [0, 0, 0], "fov": 45 });
-    let scene = json!({ "size": [320, 240], "format": "rgb565", "camera": camera, "objects": [{ "model": ball, "cull": "back" }] });
-    std::fs::write(&file, scene.to_string())?;
+    let file = scene_of(&json!({ "model": ball, "cull": "back" }), 6, folder.path())?;
     let said = |file: &Path, flag: &str| -> Result<String, Box<dyn Error>> {
         let mut tool = std::process::Command::new(env!("CARGO_BIN_EXE_scanbeam"));
         let output = tool
