@@ -6,7 +6,7 @@ use super::slot::Flags;
 use super::spans::{Drawn, Line, Span, colour};
 use super::thin::depth_plane;
 use crate::active::CacheUse;
-use crate::look::{Look, Primitive, WordOf};
+use crate::look::{Fill, Look, Primitive, WordOf};
 use crate::span::Way;
 
 /// A triangle without a slot, set up for one line.
@@ -43,7 +43,6 @@ pub(super) fn set_up_stray<L: Look>(
     } = stray;
     let area = triangle.area();
     let size = triangle.size(area);
-    let mut planes = L::EMPTY;
     let of = Primitive {
         triangle,
         object: *object,
@@ -51,15 +50,18 @@ pub(super) fn set_up_stray<L: Look>(
         area,
         draws: out.view.draws,
     };
-    let fill = L::set_up(&of, &mut planes);
-    counts.set_ups += 1;
-    Alone {
-        planes,
-        // Its columns are known, and its depth is not.
-        flags: Flags::new(fill, Way::PLAIN).with_depth(true),
+    // Its planes are made where they are given back, so that nothing is copied.
+    let mut alone = Alone {
+        planes: L::EMPTY,
+        flags: Flags::new(Fill::Plain, Way::PLAIN),
         object: *object,
         span: *span,
-    }
+    };
+    let fill = L::set_up(&of, &mut alone.planes);
+    // Its columns are known, and its depth is not.
+    alone.flags = Flags::new(fill, Way::PLAIN).with_depth(true);
+    counts.set_ups += 1;
+    alone
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {

@@ -450,18 +450,15 @@ fn insert_falling(keys: &mut [u32], count: usize, key: u32) {
 /// Inserts a key among the first `count`, behind the last that comes before it.
 #[inline(always)]
 pub(super) fn insert(keys: &mut [u32], count: usize, key: u32, is_before: impl Fn(u32) -> bool) {
-    let Some(keys) = keys.get_mut(..=count) else {
-        return;
-    };
-    let mut after = keys.iter_mut().rev();
-    if let Some(mut to) = after.next() {
-        for from in after {
-            if is_before(*from) {
-                break;
-            }
-            *to = *from;
-            to = from;
+    let mut keys = keys.get_mut(..=count).unwrap_or_default();
+    while let [.., from, to] = keys {
+        if is_before(*from) {
+            break;
         }
+        *to = *from;
+        keys = keys.split_last_mut().map_or(&mut [], |(_, before)| before);
+    }
+    if let Some(to) = keys.last_mut() {
         *to = key;
     }
 }

@@ -210,8 +210,10 @@ fn lay_by_pixel<L: Look>(
         }
         let mut put = |seen: Span| {
             let columns = |from: u32| (seen.start - from) as usize..(seen.end - from) as usize;
-            let (Some(old), Some(new)) = (out.pixels.get_mut(columns(0)), new.get(columns(from)))
-            else {
+            let old = out.pixels.get_mut(columns(0)).unwrap_or_default();
+            // As long as those, and said so.
+            let new = new.get(columns(from).start..).unwrap_or_default();
+            let Some(new) = new.get(..old.len()) else {
                 return;
             };
             match ink.blend {

@@ -142,20 +142,17 @@ pub(crate) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u
 
 /// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
 pub(crate) fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
-    let d = |a: usize, i: usize| i64::from(p[a][i]) - i64::from(p[0][i]);
+    let [a, b] = [1, 2].map(|k| [0, 1, 2].map(|i| i64::from(p[k][i]) - i64::from(p[0][i])));
     // Shifted together until they have 30 bits, so that the products fit, and small faces keep
     // all of theirs.
-    let mut bits = 1;
-    for i in 0..3 {
-        bits |= d(1, i).unsigned_abs() | d(2, i).unsigned_abs();
-    }
+    let bits = a
+        .iter()
+        .chain(&b)
+        .fold(1, |bits, d| bits | d.unsigned_abs());
     let down = 34u32.saturating_sub(bits.leading_zeros());
-    let e = |a: usize, i: usize| d(a, i) >> down;
-    let axis = |i: usize, k: usize| e(1, i) * e(2, k) - e(1, k) * e(2, i);
-    let n = [axis(1, 2), axis(2, 0), axis(0, 1)];
-    let bits = n.iter().fold(1, |b, c| b | c.unsigned_abs());
-    let down = 32u32.saturating_sub(bits.leading_zeros());
-    unit(n.map(|c| c >> down)).map(|c| c.to_bits())
+    let [a, b] = [a, b].map(|d| d.map(|d| i64::from((d >> down) as i32)));
+    let axis = |i: usize, k: usize| a[i] * b[k] - a[k] * b[i];
+    unit([axis(1, 2), axis(2, 0), axis(0, 1)]).map(|c| c.to_bits())
 }
 
 #[cfg(test)]

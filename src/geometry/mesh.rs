@@ -58,6 +58,15 @@ pub struct Mesh<'a, C = i16> {
     pub faces: Faces<'a>,
 }
 
+impl<C: Coordinate> Mesh<'_, C> {
+    /// Where a vertex lies, in Q1.30; the middle, where there is none.
+    #[inline(always)]
+    pub(crate) fn place(&self, vertex: usize) -> [i32; 3] {
+        let at = self.positions.get(vertex);
+        at.map_or([0; 3], |at| at.map(C::to_q30))
+    }
+}
+
 /// The faces of a mesh, as indices into its vertices.
 #[derive(Clone, Copy, Debug)]
 pub enum Faces<'a> {

@@ -4,7 +4,7 @@
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
 //! and no float is touched after set-up.
 
-use crate::num::{Block, I2F14, divide_signed, root, shift_round};
+use crate::num::{Block, I2F14, divide_signed, inverse_root, shift_round};
 use micromath::F32Ext;
 
 /// An affine map `p -> linear p + offset`.
@@ -109,7 +109,7 @@ impl Affine {
     /// `f32` rows of each turn are off by up to 2^-22, always the same way for the same turn, so
     /// after a million frames it may have grown or shrunk by several per cent. This takes the
     /// drift out (M3): each entry of the linear part times its transpose is within 2^-26 of the
-    /// identity. Integers alone, 4 square roots: once a frame, or every hundred, is enough.
+    /// identity. Integers alone, 5 roots: once a frame, or every hundred, is enough.
     /// ```
     /// # use scanbeam::Affine;
     /// let (mut turned, step) = (Affine::IDENTITY, Affine::rotation_y(0.01));
@@ -225,38 +225,30 @@ impl Affine {
     }
 }
 
-/// The unit vector along `v` (each below 2^32 in magnitude) in Q1.14, each within 2^-15, negative
-/// ones within 2^-14; zero stays zero.
-#[inline(never)]
+/// The unit vector along `v` (each below 2^62 in magnitude) in Q1.14, each 0.501 of its units off at most; zero stays
+/// zero. Flat faces and normals at pixels ask for each of them.
 pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
-    let (v, length) = with_length(v);
-    if length == 0 {
-        return [I2F14::ZERO; 3];
-    }
-    // No component is longer than the whole.
-    v.map(|c| I2F14::from_bits(((divide_signed(c << 15, length as u32) + 1) >> 1) as i16))
+    near_unit_q30(v).map(|c| I2F14::from_bits((((c >> 15) + 1) >> 1) as i16))
 }
 
-/// `v` (each below 2^32 in magnitude) with 30 bits in its largest, and its length then.
-#[inline(never)]
-fn with_length(v: [i64; 3]) -> ([i64; 3], i64) {
-    let [x, y, z] = v;
-    let bits = x.unsigned_abs() | y.unsigned_abs() | z.unsigned_abs();
-    // 30 bits each: the sum of squares fits 62 bits, and the root has 30 of its own.
-    let shift = bits.leading_zeros() as i32 - 34;
-    let v = v.map(|c| shift_round(c, shift));
-    let square: i64 = v.iter().map(|c| c * c).sum();
-    (v, root(square.unsigned_abs()).into())
-}
-
-/// The unit vector along `v` in Q1.30, 2^-28 off at most; `None` for zero.
+/// The unit vector along `v`, likewise, in Q1.30, 2^-28 off at most; `None` for zero.
 fn unit_q30(v: [i64; 3]) -> Option<[i64; 3]> {
-    let (v, length) = with_length(v);
-    let of = |c: i64| {
-        let down = if c < 0 { length - 1 } else { 0 };
-        (divide_signed((c << 31) - down, length as u32) + 1) >> 1
-    };
-    (length != 0).then(|| v.map(of))
+    let near = near_unit_q30(v).map(i64::from);
+    // Half of what its square lacks, of its length.
+    let lacks = ((1 << 60) - near.iter().map(|c| c * c).sum::<i64>()) >> 31;
+    (v != [0; 3]).then(|| near.map(|c| c + ((c * lacks + (1 << 29)) >> 30)))
+}
+
+/// About [`unit_q30`], its length 2^-27 off; zero stays zero.
+#[inline(never)]
+fn near_unit_q30(v: [i64; 3]) -> [i32; 3] {
+    let [x, y, z] = v.map(i64::unsigned_abs);
+    // The largest gets 30 bits, so its square 58 at least.
+    let up = (x | y | z).leading_zeros() - 2;
+    let v = v.map(|c| (c << up) >> 32);
+    let square = v.iter().map(|c| c * c).sum::<i64>() >> 30;
+    let (root, half) = inverse_root((square as u32).max(1 << 28));
+    v.map(|c| ((((c * i64::from(root)) >> (30 - half)) + 1) >> 1) as i32)
 }
 
 /// The scalar product of two vectors in Q1.30 of length up to 1.

@@ -1,17 +1,18 @@
 //! One over a square root, for vectors that are to be unit length (K10).
 //!
-//! A table of 192 bytes gives 7 bits, and two Newton steps of two products each double them twice:
+//! A table of 256 bytes gives 7 bits, and two Newton steps of two products each double them twice:
 //! no division and no loop, the same for all values.
 
 use super::product::mul_high_unsigned;
 
-/// `2^15 / sqrt(x)` for the upper byte of a normalised number, from 0x40 on, to nearest.
-const SEEDS: [u8; 192] = {
-    let mut seeds = [0; 192];
-    let mut i = 0;
-    while i < 192 {
-        // In the middle of what has this byte: sqrt((2 (i + 64) + 1) / 512) is in 1/2 ..< 1.
-        let root = ((2 * (i as u64 + 64) + 1) << 39).isqrt();
+/// `2^15 / sqrt(x)` for the upper byte of a normalised number, from 0x40 on, to nearest; nothing below, so that any
+/// byte has a place.
+static SEEDS: [u8; 256] = {
+    let mut seeds = [0; 256];
+    let mut i = 64;
+    while i < 256 {
+        // In the middle of what has this byte: sqrt((2 i + 1) / 512) is in 1/2 ..< 1.
+        let root = ((2 * i as u64 + 1) << 39).isqrt();
         // 2^7 / sqrt, 2^7 ..= 2^8: the upper end is kept below.
         let seed = ((1u64 << 31) + root / 2) / root;
         seeds[i] = if seed > 255 { 255 } else { seed as u8 };
@@ -26,12 +27,12 @@ const SEEDS: [u8; 192] = {
 /// Its relative error is below 2^-27. For 0 it is that of 1.
 #[inline]
 #[must_use]
-pub const fn inverse_root(x: u32) -> (u32, u32) {
+pub fn inverse_root(x: u32) -> (u32, u32) {
     let x = if x == 0 { 1 } else { x };
     let up = x.leading_zeros() & !1;
     let x = x << up;
     // X = x / 2^32 in 1/4 ..< 1, and y = 2^30 / sqrt(X).
-    let mut y = (SEEDS[((x >> 24) - 64) as usize] as u32) << 23;
+    let mut y = (SEEDS[(x >> 24) as usize] as u32) << 23;
     let mut step = 0;
     while step < 2 {
         // y (3 - X y^2) / 2

@@ -40,7 +40,7 @@ pub use inverse_root::inverse_root;
 pub use log::{exp2, log2};
 pub use plane::{InverseArea, Plane};
 pub use product::{leading_zeros, mul_16, mul_high, mul_high_unsigned};
-pub use quotient::{divide, divide_signed, root};
+pub use quotient::{divide, divide_signed};
 pub use recip::recip;
 pub use recip16::{mul_17, mul_recip_16, of_height, recip_16, slope_of};
 pub use short::SHORT;

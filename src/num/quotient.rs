@@ -1,6 +1,6 @@
-//! Quotients and roots of 64 bits for what is done once a draw call or for few triangles: small, not fast.
+//! Quotients of 64 bits for what is done once a draw call or for few triangles: small, not fast.
 //!
-//! The division of 64 bits that a compiler brings takes 1 KB of code, and core's root of as many another.
+//! The division of 64 bits that a compiler brings takes 1 KB of code.
 
 use super::leading_zeros;
 use core::hint::black_box;
@@ -43,41 +43,6 @@ pub fn divide_signed(number: i64, by: u32) -> i64 {
     if number < 0 { -quotient } else { quotient }
 }
 
-/// The root of a square, rounded down.
-#[inline(never)]
-#[must_use]
-pub fn root(square: u64) -> u32 {
-    if square == 0 {
-        return 0;
-    }
-    // The upper word has its leading bit in one of the first two places, after an even shift.
-    let high = (square >> 32) as u32;
-    let zeros = if high == 0 {
-        32 + leading_zeros(square as u32)
-    } else {
-        leading_zeros(high)
-    };
-    let up = zeros & !1;
-    let square = square << up;
-    // The upper word's root, bit by bit; what is left is at most twice that. Not straight code: the loop's length is
-    // not known.
-    let (mut left, mut head, mut bit) = ((square >> 32) as u32, 0u32, black_box(1u32 << 30));
-    while bit != 0 {
-        let tried = head + bit;
-        head >>= 1;
-        if left >= tried {
-            left -= tried;
-            head += bit;
-        }
-        bit >>= 2;
-    }
-    // 16 bits more by one division, at most one too large.
-    let next = (square as u32) >> 17;
-    let root = (head << 16).saturating_add((left << 15 | next) / head.max(1));
-    let is_beyond = u64::from(root) * u64::from(root) > square;
-    (root - u32::from(is_beyond)) >> (up / 2)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -113,23 +78,5 @@ mod tests {
             whole += u32::from(want != u32::MAX);
         }
         assert!(whole > 100_000, "{whole}");
-    }
-
-    #[test]
-    fn roots_are_rounded_down() {
-        let mut rng = Rng(52);
-        let hold = |square: u64| assert_eq!(u64::from(root(square)), square.isqrt(), "{square}");
-        for square in [0, 1, 2, 3, 4, u64::MAX, u64::MAX - 1, 1 << 62, 1 << 63] {
-            hold(square);
-        }
-        for _ in 0..200_000 {
-            let whole = u64::from(word(&mut rng));
-            let square = whole * whole;
-            // About the steps, and in between.
-            hold(square);
-            hold(square.saturating_sub(1));
-            hold(square.saturating_add(2 * whole));
-            hold(u64::from(word(&mut rng)) << 32 | u64::from(word(&mut rng)));
-        }
     }
 }

@@ -18,7 +18,7 @@ pub const fn recip(a: u32) -> u32 {
         return short::newton(a, seed, rest);
     }
     // 2^48 / a to 16 bits: relative error within -2^-16 and +2^-15.
-    let seed = 0xFFFF_FFFF / (a >> 16);
+    let seed = 0xFFFF_FFFF / (a >> 16 | 1 << 15);
     // Within 2^33, so that an eighth of it has 32 bits.
     let miss = (1i64 << 48) - (a as u64 * seed as u64) as i64;
     // One Newton step: seed (1 + miss / 2^48), in 2^62 / a; the neglected square is 2^-30.

@@ -35,14 +35,14 @@ pub(crate) fn blend_each<F: PixelFormat>(
     how: Blend,
     alphas: &[PixelAlpha],
 ) {
-    let (mut rest, mut from) = (old, 0);
-    for alike in alphas.chunk_by(PartialEq::eq) {
-        let Some((old, more)) = rest.split_at_mut_checked(alike.len()) else {
+    let mut from = 0;
+    while let Some([alpha, more @ ..]) = alphas.get(from..) {
+        let end = from + 1 + more.iter().take_while(|other| *other == alpha).count();
+        let (Some(old), Some(new)) = (old.get_mut(from..end), new.get(from..)) else {
             return;
         };
-        let new = new.get(from..).unwrap_or_default();
-        blend::<F>(old, new, how.by(alike[0]));
-        (rest, from) = (more, from + alike.len());
+        blend::<F>(old, new, how.by(*alpha));
+        from = end;
     }
 }
 

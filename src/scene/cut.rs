@@ -30,47 +30,44 @@ type Polygon = Vec<Corner, 7, u8>;
 /// of colour in common, so how they are parted is seen, and must not hang on where the guard band is.
 #[inline(never)]
 pub(super) fn cut_all(
-    corners: [Corner; 3],
+    corners: &[Corner; 3],
     view: &View,
     beyond: u32,
-    f: &mut dyn FnMut([Corner; 3]),
+    f: &mut dyn FnMut(&[Corner; 3]),
 ) {
     let depth = [beyond::NEAR, beyond::FAR].map(|plane| plane & beyond);
-    let depth = cut_by(&corners, view, &depth);
-    each_triangle(&depth, &mut |piece| {
+    cut_by(corners, view, &depth, &mut |piece| {
         // A cut at the near plane may reach beyond the guard band where no corner does.
         let is_within = |corner: &Corner| view.beyond(corner.point) == 0;
         if piece.iter().all(is_within) {
             return f(piece);
         }
         let sides = [beyond::RIGHT, beyond::LEFT, beyond::BOTTOM, beyond::TOP];
-        each_triangle(&cut_by(&piece, view, &sides), f);
+        cut_by(piece, view, &sides, f);
     });
 }
 
-/// Calls `f` with the triangles of a fan around the first corner; out of line, since triangles are large.
+/// Calls `f` with the triangles of what lies within some planes: a convex polygon in the order of the corners, as a fan
+/// around the first.
 #[inline(never)]
-fn each_triangle(polygon: &[Corner], f: &mut dyn FnMut([Corner; 3])) {
-    if let [first, rest @ ..] = polygon {
-        for pair in rest.windows(2) {
-            f([*first, pair[0], pair[1]]);
-        }
-    }
-}
-
-/// What lies within some planes, as a convex polygon in the order of the corners.
-#[inline(never)]
-fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32]) -> Polygon {
-    let mut polygon = Polygon::new();
+fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32], f: &mut dyn FnMut(&[Corner; 3])) {
+    // Polygons are large: each plane's is made beside that of the one before.
+    let (mut polygon, mut kept) = (Polygon::new(), Polygon::new());
+    let (mut polygon, mut kept) = (&mut polygon, &mut kept);
     // Three of seven places: it cannot be full.
     let _ = polygon.extend_from_slice(corners);
     for &plane in planes {
         let is_within = |corner: &Corner| view.within(plane, corner.point) >= 0;
         if plane != 0 && !polygon.iter().all(is_within) {
-            polygon = cut(&polygon, view, plane);
+            cut(polygon, view, plane, kept);
+            (polygon, kept) = (kept, polygon);
         }
     }
-    polygon
+    if let [first, rest @ ..] = polygon.as_slice() {
+        for pair in rest.windows(2) {
+            f(&[*first, pair[0], pair[1]]);
+        }
+    }
 }
 
 /// Where a triangle goes out through the near plane, and where it comes in again: the points that [`cut_all`] makes;
@@ -100,11 +97,10 @@ pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
     Some([out?, back?])
 }
 
-/// Keeps what lies within one plane. The result begins with the first corner within, or the new one
-/// before it.
+/// Keeps what lies within one plane. It begins with the first corner within, or the new one before it.
 #[inline(never)]
-fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
-    let mut kept = Polygon::new();
+fn cut(polygon: &[Corner], view: &View, plane: u32, kept: &mut Polygon) {
+    kept.clear();
     for (i, this) in polygon.iter().enumerate() {
         let next = polygon.get(i + 1).or(polygon.first()).unwrap_or(this);
         let (within, next_within) = (
@@ -125,7 +121,6 @@ fn cut(polygon: &[Corner], view: &View, plane: u32) -> Polygon {
             let _ = kept.push(between(inner, outer, far, guard));
         }
     }
-    kept
 }
 
 /// The point where the edge from `inner` to `outer` meets the plane that they lie so far within.

@@ -13,18 +13,19 @@ impl<L> Scene<'_, '_, L> {
     pub(super) fn file_flat<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, pass: &mut Pass<'_>) {
         let scale = self.scale;
         each_triangle(mesh.faces, |face, corners, provoking| {
-            let colour = || colour_of(mesh, corners, provoking, pass, &scale);
-            let Some(mut own) = self.copies(corners, pass) else {
-                let colour = colour();
-                return self.file_one(mesh, face, corners, Some(colour), pass);
+            let colour = |pass: &Pass<'_>| colour_of(mesh, corners, provoking, pass, &scale);
+            let Some(places) = self.places_of(corners, pass) else {
+                if self.leaves_out(corners, pass) {
+                    return;
+                }
+                let colour = Some(colour(pass));
+                return self.file_one(mesh, face, corners, colour, pass);
             };
             let before = self.objects.len();
-            if pass.order(own.map(|own| own.vertex.place)).is_some() {
-                let colour = colour();
-                for own in &mut own {
-                    own.vertex.colour = colour;
-                }
-                if let Err(memory) = self.file_own(own, pass) {
+            if pass.order(places).is_some() {
+                let colour = colour(pass);
+                let own = corners.map(|i| self.copy_of(i, colour, pass));
+                if let Err(memory) = self.file_own(&own, pass) {
                     return pass.lost.lose(memory, face);
                 }
             }
@@ -34,20 +35,31 @@ impl<L> Scene<'_, '_, L> {
         });
     }
 
-    /// Copies of a face's vertices; `None` where they are not there, or have to be clipped.
-    fn copies(&self, corners: [u16; 3], pass: &Pass<'_>) -> Option<[Own; 3]> {
-        let vertices = self.vertices.as_slice().get(pass.base..)?;
-        let copy = |i: u16| {
-            let vertex = vertices.get(usize::from(i)).filter(|_| pass.shared > 0)?;
-            let place = self.places.get(pass.base + usize::from(i)).copied();
-            (vertex.place != Vertex::OUTSIDE).then_some(Own {
-                vertex: *vertex,
-                place: place.unwrap_or(TexturePlace::EMPTY),
-                alpha: pass.alpha(i.into()),
-            })
+    /// Where a face's vertices are on the screen; `None` where they are not there, or have to be clipped.
+    #[inline(always)]
+    fn places_of(&mut self, corners: [u16; 3], pass: &Pass<'_>) -> Option<[u32; 3]> {
+        let vertices = self.shared(pass);
+        let at = |i: u16| {
+            let place = vertices.get(usize::from(i))?.place;
+            (place != Vertex::OUTSIDE).then_some(place)
         };
         let [a, b, c] = corners;
-        Some([copy(a)?, copy(b)?, copy(c)?])
+        Some([at(a)?, at(b)?, at(c)?])
+    }
+
+    /// A copy of a vertex on the screen, of a colour; out of line, since a face has three.
+    #[inline(never)]
+    fn copy_of(&self, i: u16, colour: u32, pass: &Pass<'_>) -> Own {
+        let at = pass.base + usize::from(i);
+        let vertex = self.vertices.as_slice().get(at).copied();
+        Own {
+            vertex: Vertex {
+                colour,
+                ..vertex.unwrap_or(Vertex::EMPTY)
+            },
+            place: self.places.get(at).copied().unwrap_or(TexturePlace::EMPTY),
+            alpha: pass.alpha(i.into()),
+        }
     }
 }
 
@@ -59,6 +71,6 @@ fn colour_of<C: Coordinate>(
     pass: &Pass<'_>,
     scale: &Scale,
 ) -> u32 {
-    let normal = face_normal(corners.map(|i| mesh.positions[usize::from(i)].map(C::to_q30)));
+    let normal = face_normal(corners.map(|i| mesh.place(i.into())));
     pass.lit(mesh, usize::from(provoking), Some(normal), scale)
 }

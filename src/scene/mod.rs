@@ -313,8 +313,8 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             .filter(|&place| place != Vertex::OUTSIDE)
             .max()
             .map_or(0, first_line);
-        let end = lowest - ORIGIN;
-        end.clamp(self.lines.start.into(), self.lines.end.into()) as u16
+        let end = (lowest - ORIGIN).min(self.lines.end.into());
+        end.max(self.lines.start.into()) as u16
     }
 
     /// Counts the triangles from an object on that stretch too far over their texture.

@@ -4,6 +4,7 @@ use super::alpha;
 use super::assemble::bin_of;
 use super::cut::{Corner, cut_all};
 use super::pass::{Own, Pass, colour_of};
+use super::project::Point;
 use super::{Full, NONE, Object, Scene, TexturePlace, Vertex};
 use crate::geometry::{Coordinate, Mesh, Scale};
 
@@ -19,21 +20,30 @@ impl<L> Scene<'_, '_, L> {
         colour: Option<u32>,
         pass: &mut Pass<'_>,
     ) {
-        let corners = corners.map(|i| corner_of(mesh, i.into(), colour, pass, &self.scale));
-        let beyond = corners.map(|c| pass.view.beyond(c.point));
+        if self.leaves_out(corners, pass) {
+            return;
+        }
+        let points = corners.map(|i| pass.view.point_of(mesh.positions, i.into()));
+        let beyond = points.map(|point| pass.view.beyond(point));
+        if beyond[0] & beyond[1] & beyond[2] != 0 {
+            pass.culled += 1;
+            return;
+        }
         let any = beyond[0] | beyond[1] | beyond[2];
+        let corners = [0, 1, 2].map(|k| {
+            let i = usize::from(corners[k]);
+            corner_of(mesh, i, points[k], colour, pass, &self.scale)
+        });
         let before = self.objects.len();
         let mut lost = None;
-        if beyond[0] & beyond[1] & beyond[2] == 0 {
-            if any == 0 {
-                lost = self.file_piece(corners, pass).err();
-            } else {
-                pass.clipped += 1;
-                let (view, pass) = (pass.view, &*pass);
-                cut_all(corners, &view, any, &mut |piece| {
-                    lost = lost.or(self.file_piece(piece, pass).err());
-                });
-            }
+        if any == 0 {
+            lost = self.file_piece(&corners, pass).err();
+        } else {
+            pass.clipped += 1;
+            let (view, pass) = (pass.view, &*pass);
+            cut_all(&corners, &view, any, &mut |piece| {
+                lost = lost.or(self.file_piece(piece, pass).err());
+            });
         }
         if let Some(memory) = lost {
             pass.lost.lose(memory, face);
@@ -42,22 +52,35 @@ impl<L> Scene<'_, '_, L> {
         }
     }
 
+    /// Counts a face whose vertices are known to lie beyond one plane, all of them; whether they are.
+    #[inline(never)]
+    pub(super) fn leaves_out(&mut self, corners: [u16; 3], pass: &mut Pass<'_>) -> bool {
+        let vertices = self.shared(pass);
+        let beyond = corners.map(|i| match vertices.get(usize::from(i)) {
+            Some(vertex) if vertex.place == Vertex::OUTSIDE => vertex.depth,
+            _ => 0,
+        });
+        let is_beyond = beyond[0] & beyond[1] & beyond[2] != 0;
+        pass.culled += u32::from(is_beyond);
+        is_beyond
+    }
+
     /// A triangle within all planes; an error names the memory that is full.
     #[inline(never)]
-    pub(super) fn file_piece(&mut self, corners: [Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        self.file_own(corners.map(|corner| own_of(corner, pass)), pass)
+    pub(super) fn file_piece(&mut self, piece: &[Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
+        self.file_own(&[0, 1, 2].map(|i| own_of(&piece[i], pass)), pass)
     }
 
     /// A triangle with vertices of its own; an error names the memory that is full.
-    pub(super) fn file_own(&mut self, own: [Own; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        let places = own.map(|own| own.vertex.place);
+    pub(super) fn file_own(&mut self, own: &[Own; 3], pass: &Pass<'_>) -> Result<(), Full> {
+        let places = [0, 1, 2].map(|i| own[i].vertex.place);
         let Some((order, places)) = pass.order(places) else {
             return Ok(());
         };
         let Some(bin) = bin_of(places, &self.picture()) else {
             return Ok(());
         };
-        let own = order.map(|i| own[usize::from(i) % 3]);
+        let own = order.map(|i| &own[usize::from(i) % 3]);
         let base = self.vertices.len();
         let record = usize::from(!pass.alphas.is_empty());
         let Some(vertices) = self.vertices.append(3 + record) else {
@@ -91,17 +114,18 @@ impl<L> Scene<'_, '_, L> {
     }
 }
 
-/// A corner of a face as the camera sees it, of a colour, or lit; out of line, since a face has three.
+/// A corner of a face that the camera sees at a point, of a colour, or lit; out of line, since a face has three.
 #[inline(never)]
 fn corner_of<C: Coordinate>(
     mesh: &Mesh<'_, C>,
     i: usize,
+    point: Point,
     colour: Option<u32>,
     pass: &Pass<'_>,
     scale: &Scale,
 ) -> Corner {
     Corner {
-        point: pass.view.point(mesh.positions[i]),
+        point,
         colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
         texel: pass.texel(i),
         alpha: pass.alpha(i),
@@ -110,7 +134,7 @@ fn corner_of<C: Coordinate>(
 
 /// A corner within all planes as a vertex; out of line, since a triangle has three.
 #[inline(never)]
-fn own_of(corner: Corner, pass: &Pass<'_>) -> Own {
+fn own_of(corner: &Corner, pass: &Pass<'_>) -> Own {
     let on = pass.view.project(corner.point);
     Own {
         vertex: Vertex {

@@ -211,7 +211,7 @@ impl Pass<'_> {
                 tint: &tint,
                 scale,
                 normal,
-                place: mesh.positions[i].map(C::to_q30),
+                place: mesh.place(i),
             }),
             (Some(normal), None, Some(light)) => light.lit(&tint, normal),
             _ => tint.lit(1 << 15),

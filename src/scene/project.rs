@@ -34,7 +34,7 @@ pub(super) mod beyond {
 }
 
 /// A point seen by the camera, in units of one draw call.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub(super) struct Point {
     pub(super) x: i32,
     pub(super) y: i32,
@@ -109,6 +109,13 @@ impl View {
             y: row(1),
             z: row(2),
         }
+    }
+
+    /// The point of one of these positions; at the eye, which is before the near plane, where there is none.
+    #[inline(never)]
+    pub(super) fn point_of<C: Coordinate>(&self, positions: &[[C; 3]], i: usize) -> Point {
+        let at = positions.get(i);
+        at.map_or(Point::default(), |&at| self.point(at))
     }
 
     /// Whether a point lies within near, far and guard planes.

@@ -176,7 +176,7 @@ impl<'t, L> Scene<'_, 't, L> {
     /// Files a triangle of a face, and counts it.
     fn file_on_screen(&mut self, face: u32, own: [Own; 3], pass: &mut Pass<'_>) {
         let before = self.objects.len();
-        match self.file_own(own, pass) {
+        match self.file_own(&own, pass) {
             Err(memory) => pass.lost.lose(memory, face),
             Ok(()) => pass.culled += u32::from(self.objects.len() == before),
         }

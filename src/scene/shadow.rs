@@ -182,7 +182,7 @@ impl<'t, L> Scene<'_, 't, L> {
             alpha: 0,
         };
         let (view, mut lost) = (pass.view, None);
-        cut_all(points.map(corner), &view, 0, &mut |piece| {
+        cut_all(&points.map(corner), &view, 0, &mut |piece| {
             lost = lost.or(self.file_piece(piece, pass).err());
         });
         if let Some(memory) = lost {

@@ -440,7 +440,7 @@ impl Sides {
             } else {
                 edge.column(line) as i32 + frame.wide_left() - ORIGIN
             };
-            column.clamp(0, frame.width) as u32
+            column.min(frame.width).max(0) as u32
         };
         (of(self.left), of(self.right))
     }
