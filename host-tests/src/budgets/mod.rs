@@ -14,7 +14,7 @@ pub mod source;
 
 use crate::args::BudgetsArgs;
 use crate::figures::gate::{TOLERANCE_OTHER, release};
-use crate::firmware::{self, BOARDS, Profile, Sections, Toolchain, workspace};
+use crate::firmware::{self, BOARDS, Profile, Sections, Symbols, Toolchain, workspace};
 use crate::image_out::write_atomically;
 use crate::stdio;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
@@ -208,7 +208,17 @@ const PROGRAMS: [(&str, &[&str], &str); 3] = [
     ("looks", &[], "all looks in one program"),
 ];
 
-/// Bytes of code, by program and core.
+/// What functions are called that panic, in all of these programs together.
+const PANICS: &str = "functions that panic, in these programs";
+
+/// Whether a function is one of `core` that panics: a program has it where something of it might.
+#[must_use]
+pub fn is_panic(name: &str) -> bool {
+    let is_failure = name.ends_with("_failed") || name.ends_with("_fail");
+    name.starts_with("core::") && (is_failure || name.starts_with("core::panicking::"))
+}
+
+/// Bytes of code, by program and core, and what of it panics.
 fn of_code(toolchain: &Toolchain) -> Result<Figures, Box<dyn Error>> {
     let mut figures = Figures::new();
     for (program, features, name) in PROGRAMS {
@@ -216,11 +226,12 @@ fn of_code(toolchain: &Toolchain) -> Result<Figures, Box<dyn Error>> {
             firmware::build_all(toolchain, &BOARDS, Profile::Release, &[program], features)?;
         for board in &BOARDS {
             let release = folder.join(board.target).join(Profile::Release.name());
-            let sections = Sections::read(&release.join(program))?;
-            figures.insert(
-                format!("text {name}, {}", board.name),
-                sections.text_bytes(),
-            );
+            let elf = release.join(program);
+            let bytes = Sections::read(&elf)?.text_bytes();
+            figures.insert(format!("text {name}, {}", board.name), bytes);
+            let symbols = Symbols::read(&elf)?;
+            let panics = symbols.iter().filter(|symbol| is_panic(&symbol.name));
+            *figures.entry(PANICS.to_owned()).or_default() += panics.count() as u64;
         }
     }
     Ok(figures)

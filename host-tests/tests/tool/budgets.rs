@@ -36,3 +36,24 @@ fn what_is_above_its_limit_or_has_none_is_broken() {
         assert!(read(&path).is_err(), "{wrong:?}");
     }
 }
+
+/// Kills: functions of `core` that fail without a word of panicking in their path, and those of others that are called so.
+#[test]
+fn functions_that_panic_are_known_by_their_names() {
+    for name in [
+        "core::panicking::panic_fmt",
+        "core::panicking::panic_const::panic_const_div_by_zero",
+        "core::slice::index::slice_index_fail",
+        "core::slice::copy_from_slice_impl::len_mismatch_fail",
+        "core::option::unwrap_failed",
+    ] {
+        assert!(is_panic(name), "{name}");
+    }
+    for name in [
+        "core::slice::sort::insertion_sort",
+        "scanbeam::scan_out::pump::Pump<D>::fail",
+        "small::panicking::has_failed",
+    ] {
+        assert!(!is_panic(name), "{name}");
+    }
+}
