@@ -13,7 +13,8 @@
 //!
 //! Measured against the formula in `f64` on normals as meshes have them (see the tests), the rounding of the
 //! colour to 10 and 11 bits included: at most 0.26 levels of 255 with powers up to 64, 0.25 up to 255, 0.3 up to
-//! 1000. Of eleven more samples of 600,000 with powers up to 255 (the same test with seeds 3 to 13) one vertex was 0.71 off.
+//! 1000. Of eleven more samples of 600,000 with powers up to 255 (the same test with seeds 3 to 13) one vertex was
+//! 0.71 off.
 //!
 //! One light without a material is [`Light`](super::Light).
 

@@ -59,12 +59,17 @@ pub struct Mesh<'a, C = i16> {
 }
 
 impl<C: Coordinate> Mesh<'_, C> {
-    /// Where a vertex lies, in Q1.30; the middle, where there is none.
+    /// [`place_of`] a vertex of the mesh.
     #[inline(always)]
     pub(crate) fn place(&self, vertex: usize) -> [i32; 3] {
-        let at = self.positions.get(vertex);
-        at.map_or([0; 3], |at| at.map(C::to_q30))
+        place_of(self.positions, vertex)
     }
+}
+
+/// Where a vertex lies, in Q1.30; the middle, where there is none.
+#[inline(always)]
+pub(super) fn place_of<C: Coordinate>(positions: &[[C; 3]], i: usize) -> [i32; 3] {
+    positions.get(i).map_or([0; 3], |at| at.map(C::to_q30))
 }
 
 /// The faces of a mesh, as indices into its vertices.

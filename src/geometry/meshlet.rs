@@ -6,7 +6,7 @@
 
 use super::bounds::Sphere;
 use super::faces::{MeshError, face_normal};
-use super::mesh::{Coordinate, Faces};
+use super::mesh::{Coordinate, Faces, place_of};
 use super::transform::{Affine, unit};
 use core::fmt;
 
@@ -214,10 +214,7 @@ struct Cutter<'p, C> {
 
 impl<C: Coordinate> Cutter<'_, C> {
     fn corners(&self, face: &[u16; 3]) -> [[i32; 3]; 3] {
-        face.map(|i| {
-            let position = self.positions.get(usize::from(i));
-            position.map_or([0; 3], |p| p.map(C::to_q30))
-        })
+        face.map(|i| place_of(self.positions, i.into()))
     }
 
     /// Where a face lies on an axis.
