@@ -21,7 +21,10 @@
 use super::colour::{Colour, Scale, Tint};
 use super::light::direction;
 use super::transform::Affine;
-use crate::num::{Block, I2F14, U1F15, inverse_root, shift_round};
+use crate::num::{
+    Block, I2F14, U1F15, inverse_root, leading_zeros, mul_16, mul_high, mul_high_unsigned,
+    shift_round,
+};
 
 /// A light from infinitely far, with a colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -207,20 +210,20 @@ impl Lamps {
     /// lies this way: any length, the largest component in 2^14 ..= 2^15, or all 0.
     #[inline]
     pub(super) fn shine(&self, normal: [i16; 3], eye: impl FnOnce() -> [i32; 3]) -> Shine {
-        let n = normal.map(i32::from);
         let glance = if self.shiny {
-            Some(Glance::new(n, eye()))
+            Some(Glance::new(normal.map(i32::from), eye()))
         } else {
             None
         };
         let mut shine = self.base;
         for lamp in self.lamps.iter().take(usize::from(self.count)) {
-            // Q44 to Q30; a normal a little longer than 1 must not make it more than 1.
-            let cosine = (dot(n, lamp.towards) >> 14).min(1 << 30);
+            // Q44 to Q28; a normal a little longer than 1 must not make it 1 or more.
+            let part = |i: usize| mul_16(lamp.towards[i], normal[i]);
+            let cosine = (part(0) + part(1) + part(2)).min((1 << 28) - 1);
             if cosine <= 0 {
                 continue;
             }
-            let level = ((cosine + (1 << 14)) >> 15) as u32;
+            let level = ((cosine + (1 << 12)) >> 13) as u32;
             // 17 and 16 bits; the sum of 8 lights has 20.
             for i in 0..3 {
                 shine.factor[i] += (lamp.diffuse[i] * level) >> 15;
@@ -240,9 +243,10 @@ impl Lamps {
 
 /// What all lights share where a surface is looked at.
 struct Glance {
+    /// The eye's vector with 15 fraction bits.
     eye: [i32; 3],
-    /// N.V / |N|^2, with 14 fraction bits beyond those of the eye's vector.
-    across: i64,
+    /// N.V / |N|^2, with 14 fraction bits beyond those that the eye's vector came with.
+    across: i32,
     /// 1 / |V| = root 2^(half - 46).
     root: u32,
     half: u32,
@@ -254,47 +258,49 @@ impl Glance {
         // Each at most 2^30.
         let square = |v: [i32; 3]| v.iter().map(|c| (c * c) as u32).sum::<u32>();
         let (root, half) = inverse_root(square(eye));
-        // 1 / |N|^2 in Q28, to the first order.
+        // 1 / |N|^2 in Q28, to the first order; 2 and beyond all signs where N, and with it the sum below, is 0.
         let mend = (2u32 << 28).saturating_sub(square(n));
+        // A normal may be any number: two bits less, and the sum fits.
+        let part = |i: usize| (n[i] * eye[i]) >> 2;
+        let along = part(0) + part(1) + part(2);
         Self {
-            eye,
-            across: (dot(n, eye) * i64::from(mend)) >> 28,
+            eye: eye.map(|c| c << 15),
+            across: mul_high(along, (mend << 2) as i32) << 4,
             root,
             half,
         }
     }
 
-    /// R.V as a 32-bit fraction, 0 where it is negative.
+    /// R.V as a 32-bit fraction, 0 where it is negative; of a cosine in Q28, below 1.
     #[inline]
-    fn mirrored(&self, cosine: i64, towards: [i32; 3]) -> u32 {
-        // 30 and 33 bits; both with 15 fraction bits beyond those of the eye's vector.
-        let forth = (cosine * self.across) >> 28;
-        let rest = forth - (dot(self.eye, towards) >> 15);
-        // |V| is below 2^16, so R.V |V| is below 2^31 where the normal is unit length.
-        let rest = rest.clamp(0, (1 << 31) - 1);
-        let cosine = (rest * i64::from(self.root)) >> (29 - self.half.min(29));
-        cosine.min(i64::from(u32::MAX)) as u32
+    fn mirrored(&self, cosine: i32, towards: [i32; 3]) -> u32 {
+        // Both with 13 fraction bits beyond those that the eye's vector came with.
+        let forth = mul_high(cosine << 3, self.across) << 1;
+        let part = |i: usize| mul_high(self.eye[i], towards[i]);
+        // |V| is below 2^16, so R.V |V| is below 2^29 where the normal is unit length.
+        let rest = (forth - (part(0) + part(1) + part(2))).max(0);
+        let cosine = mul_high_unsigned((rest as u32) << 2, self.root);
+        let up = 3 + self.half;
+        if cosine >> (32 - up) != 0 {
+            return u32::MAX;
+        }
+        cosine << up
     }
-}
-
-/// The sum of three products, exact.
-#[inline(always)]
-fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
-    let product = |i: usize| i64::from(a[i]) * i64::from(b[i]);
-    product(0) + product(1) + product(2)
 }
 
 /// `base^exponent` of a 32-bit fraction; all ones is 1. Below the true value by at most
 /// `3 exponent` units of 2^-32.
 #[inline]
 fn power(base: u32, exponent: u16) -> u32 {
-    let times = |a: u32, b: u32| ((u64::from(a) * (u64::from(b) + 1)) >> 32) as u32;
+    if base == u32::MAX {
+        return base;
+    }
     let (mut result, mut square, mut rest) = (u32::MAX, base, exponent);
     while rest != 0 {
         if rest & 1 == 1 {
-            result = times(result, square);
+            result = mul_high_unsigned(result, square);
         }
-        square = times(square, square);
+        square = mul_high_unsigned(square, square);
         rest >>= 1;
     }
     result
@@ -336,7 +342,7 @@ impl LampsInModel {
 #[inline]
 pub(super) fn fifteen_bits(v: [i32; 3]) -> [i32; 3] {
     let bits = v.iter().fold(0, |bits, c| bits | c.unsigned_abs());
-    let shift = bits.leading_zeros() as i32 - 17;
+    let shift = leading_zeros(bits) as i32 - 17;
     if bits == 0 {
         return [0; 3];
     }

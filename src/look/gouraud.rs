@@ -288,7 +288,7 @@ fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
         let Some(plane) = area.plane(corners.map(|c| c[i] as i32)) else {
             return false;
         };
-        *to = triangle.in_picture(plane);
+        *to = plane;
     }
     keep_wide(three, planes);
     true

@@ -6,14 +6,6 @@
 //! | `Wide` | any triangle that is affine within the budget | 2^-15 of its width |
 //! | `Perspective` | all others | see [`Perspective`] |
 //!
-//! Instructions a triangle (rustc 1.95, opt-level 3, counted in QEMU), the same bits on both cores:
-//!
-//! | | Cortex-M4 | Cortex-M0+ |
-//! |---|---|---|
-//! | `Word` | 231 | 526 |
-//! | `Perspective` within 64 pixels | 701 | 1,726 |
-//! | `Wide`, larger | 858 | 2,300 |
-//!
 //! A triangle may stretch over 4,096 texels, wherever on the texture it lies: places count from a base
 //! near its middle, in whole repeats where the texture repeats.
 
@@ -24,7 +16,7 @@ use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::{Range, Reach, Stride, reach};
 #[cfg(test)]
 use super::word_plane::Near;
-use crate::num::{leading_zeros, mul_high, mul_high_unsigned};
+use crate::num::{leading_zeros, leading_zeros_here, mul_high, mul_high_unsigned};
 pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
@@ -102,11 +94,11 @@ fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
 
 /// Whether u and v may be taken as linear on the screen: `width (max - min) <= 4 budget min`, of
 /// the depths, for a triangle of `width` on the texture, with 14 fraction bits. See [`perspective`](super::perspective).
-#[inline]
+#[inline(always)]
 #[must_use]
 pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
     let [least, most] = range(depth);
-    let up = leading_zeros(most) & 31;
+    let up = leading_zeros_here(most) & 31;
     // Both sides by 2^-21, the left one rounded up.
     let off = mul_high_unsigned(width << 5, (most - least) << up);
     let may = mul_high_unsigned(budget.for_curves() << 13, least << up);

@@ -13,13 +13,13 @@
 //! two products and a small table where there is no divider, with the same bits. So a place is off
 //! by 2^-15 of its distance from the base at most; the base is to be near the triangle's middle.
 //!
-//! Instructions of the 27 cubes (rustc 1.95, opt-level 3, counted in QEMU; `firmware --profile lean_f`), the same bits on
+//! Instructions of the 27 cubes (rustc 1.95, opt-level 3, counted in QEMU; `firmware --profile f`), the same bits on
 //! both cores:
 //!
 //! | | Cortex-M4 | Cortex-M0+ |
 //! |---|---|---|
-//! | a straight span, but for its texels | 99 | 337 |
-//! | an arc, but for its texels | 137 | 504 |
+//! | a straight span, but for its texels | 99 | 292 |
+//! | an arc, but for its texels | 137 | 442 |
 //! | a texel of an arc, of eight; of up to seven that are left | 8.1; 11 | 13.1; 18 |
 //!
 //! # How far exact places may be apart

@@ -15,6 +15,7 @@
 use super::gouraud::{Gouraud, Planes as Three, dithered, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::{Affine, PixelLamps, Scale, unit_normal};
+use crate::num::mul_high_unsigned;
 use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, WordOfNormal};
 use crate::span::Triangle;
@@ -59,6 +60,12 @@ fn pixel<F: PixelFormat>(channels: [i32; 3], parts: i32) -> F::Word {
     F::pack_words(sixteen(0) << 16 | sixteen(2), sixteen(1) << 16)
 }
 
+/// A 255th, rounded down: by 2^39 / 255, rounded up. Where a product has no upper half a division is a call.
+#[inline(always)]
+fn of_255(number: u32) -> u32 {
+    mul_high_unsigned(number, 0x8080_8081) >> 7
+}
+
 /// What shines on the pixels of a draw call, and the colour that it falls on.
 pub(super) struct Shine<'t> {
     lamps: &'t PixelLamps,
@@ -76,7 +83,7 @@ impl<'t> Shine<'t> {
     /// The call's colour in 16.16 steps of the format.
     pub(super) fn steps<F: PixelFormat>(&self) -> [u32; 3] {
         let steps = |i: usize| u32::from(self.colour[i]) * u32::from(F::STEPS[i]);
-        [0, 1, 2].map(|i| ((steps(i) << 16) + 127) / 255)
+        [0, 1, 2].map(|i| of_255((steps(i) << 16) + 127))
     }
 }
 
@@ -187,5 +194,19 @@ impl<F: PixelFormat> Look for Phong<F> {
             return u32::MAX;
         }
         Gouraud::<F>::fill_opaque(fill, &planes.of, at, draws, dithers, run)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_255;
+
+    /// Kills: a factor that is rounded the other way.
+    #[test]
+    fn all_products_of_bytes_are_divided_exactly() {
+        for product in 0..=255 * 255u32 {
+            let number = (product << 16) + 127;
+            assert_eq!(of_255(number), number / 255, "{product}");
+        }
     }
 }

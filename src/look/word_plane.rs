@@ -1,13 +1,12 @@
 //! The plane of [`Method::Word`](super::mapping::Method::Word): both texture coordinates of a small affine triangle in
 //! one word.
 //!
-//! Products have 16 bits a factor, and corners are taken as differences from the first one's: 231 instructions a
-//! triangle on a Cortex-M4, 526 on a Cortex-M0+.
+//! Products have 16 bits a factor, and corners are taken as differences from the first one's.
 
 #[cfg(test)]
 use super::mapping::Corner;
 use super::mapping::is_affine;
-use crate::num::{leading_zeros, mul_16, recip_16};
+use crate::num::{leading_zeros_here, mul_16, recip_16};
 use crate::scene::{Budget, Texture, TexturePlace, Wrap};
 
 /// What [`Method::Word`](super::mapping::Method::Word) asks of a triangle: corners as differences from the first one's, which is kept whole.
@@ -69,7 +68,7 @@ impl<'a> Near<'a> {
         {
             return None;
         }
-        let up = leading_zeros(area as u32);
+        let up = leading_zeros_here(area as u32);
         let r = recip_16((area as u32) << up >> 16) as i32;
         // Sides times 64 / area are these times 2^(up - 44).
         let share = |d: i32| (d * r) << 3;

@@ -167,6 +167,14 @@ pub const fn shift_round(value: i64, shift: i32) -> i64 {
     }
 }
 
+/// `value 2^-shift`, rounded to nearest, half up; a shift is by 31 at most.
+#[inline(always)]
+#[must_use]
+pub const fn rounded(value: i32, shift: i32) -> i32 {
+    // The bit below is that of twice the value.
+    (value >> (shift & 31)) + ((value << 1) >> (shift & 31) & 1)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -195,6 +203,13 @@ mod tests {
         // Kills: a shift that is taken for one beyond all bits, and one that is not.
         assert_eq!(shift_round(i64::MAX, -63), 1);
         assert_eq!([i64::MAX, i64::MIN].map(|v| shift_round(v, -64)), [0; 2]);
+        // Kills: a shift of none or of all, and a bit that is not the next one below.
+        for value in [0, 1, -1, 6, 7, -6, -7, i32::MAX, i32::MIN, 0x5555_5555] {
+            for shift in 0..=31 {
+                let want = shift_round(value.into(), -shift) as i32;
+                assert_eq!(rounded(value, shift), want, "{value} {shift}");
+            }
+        }
         let b = Block::new([i64::MAX, -1], 0);
         assert_eq!(b.mantissa, [1 << 29, 0]);
         let b = Block::new([(1 << 30) - 1], 0);

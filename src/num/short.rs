@@ -1,10 +1,12 @@
 //! What a processor does whose only multiplication is 32 x 32 to 32 bits: a Cortex-M0+.
 //!
-//! There a 64-bit product is a library call of 42 instructions, a division one of 192, and a count
+//! There a 64-bit product is a library call of some 40 instructions, a division one of 130 to 190, and a count
 //! of leading zeros one of 33. The forms here give the same bits in 6 to 45. They are chosen where
 //! `build.rs` finds such a target ([`SHORT`]); all others keep the plain forms beside the calls,
 //! and the tests hold one against the other. Reciprocals take 1.3 KB of flash, on those targets
 //! alone.
+
+use core::hint::black_box;
 
 /// Whether the target has neither long products nor a division.
 pub const SHORT: bool = cfg!(short_multiply);
@@ -37,7 +39,8 @@ pub(super) const fn high(a: i32, b: i32) -> i32 {
 #[inline(always)]
 pub(super) const fn high_unsigned(a: u32, b: u32) -> u32 {
     let (ah, al, bh, bl) = (a >> 16, a & 0xFFFF, b >> 16, b & 0xFFFF);
-    let first = ah * bl + ((al * bl) >> 16);
+    // Unknown to the compiler, which would else put the pieces together again, and call.
+    let first = ah * bl + (black_box(al * bl) >> 16);
     let second = al * bh + (first & 0xFFFF);
     ah * bh + (first >> 16) + (second >> 16)
 }
@@ -89,22 +92,25 @@ pub(super) const fn newton(a: u32, seed: u32, rest: u32) -> u32 {
     ((seed << 14) as i32).wrapping_add(step) as u32
 }
 
-/// Bits set in none of the upper places.
+/// Bits set in none of the upper places: with all below the first one set, 33 numbers are left, and times `SPREAD` each
+/// has upper bits that no other has.
 #[inline(always)]
-pub(super) fn leading_zeros(x: u32) -> u32 {
-    /// Of four bits.
-    static OF_FOUR: [u8; 16] = [4, 3, 2, 2, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0];
-    let (mut x, mut zeros) = (x, 0);
-    if x >> 16 == 0 {
-        (x, zeros) = (x << 16, 16);
+pub(super) fn leading_zeros(mut x: u32) -> u32 {
+    const SPREAD: u32 = 0xBB96_8A43;
+    static ZEROS: [u8; 64] = {
+        let mut zeros = [0; 64];
+        let mut bits = 0;
+        while bits <= 32 {
+            let x = ((1u64 << bits) - 1) as u32;
+            zeros[(x.wrapping_mul(SPREAD) >> 26) as usize] = 32 - bits;
+            bits += 1;
+        }
+        zeros
+    };
+    for by in [1, 2, 4, 8, 16] {
+        x |= x >> by;
     }
-    if x >> 24 == 0 {
-        (x, zeros) = (x << 8, zeros + 8);
-    }
-    if x >> 28 == 0 {
-        (x, zeros) = (x << 4, zeros + 4);
-    }
-    zeros + u32::from(OF_FOUR[(x >> 28) as usize & 15])
+    u32::from(ZEROS[(x.wrapping_mul(SPREAD) >> 26) as usize])
 }
 
 #[cfg(test)]

@@ -10,7 +10,7 @@
 
 use super::record::{ORIGIN, TexturePlace, Vertex};
 use crate::geometry::{Affine, Camera, Coordinate, Projection, Screen};
-use crate::num::{SHORT, leading_zeros, mul_recip_16, recip_16};
+use crate::num::{SHORT, leading_zeros, mul_recip_16, recip_16, rounded};
 
 /// `x / z` in units of 1/8 pixel is `2^17` of the rows' ratio.
 const FOCAL_BITS: i32 = 17;
@@ -207,15 +207,6 @@ impl View {
             depth: depth >> (self.down - up).clamp(0, 31),
             fine: [fine(qx, sx), fine(qy, sy)],
         }
-    }
-}
-
-/// `value 2^-shift`, rounded to nearest, half up; a shift is by 31 at most.
-#[inline(always)]
-fn rounded(value: i32, shift: i32) -> i32 {
-    match shift {
-        0 => value,
-        _ => (value >> (shift & 31)) + (value >> ((shift - 1) & 31) & 1),
     }
 }
 

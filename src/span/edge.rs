@@ -61,12 +61,6 @@ pub(crate) fn down(difference: u32) -> i32 {
     difference.wrapping_add(0x8000) as i32 >> 16
 }
 
-/// Column and line of a place, in units of 1/8 pixel.
-#[inline(always)]
-pub(crate) fn parts(place: u32) -> (u16, u16) {
-    (place as u16, (place >> 16) as u16)
-}
-
 impl Edge {
     /// A side that is never asked.
     pub(crate) const NONE: Self = Self { at: 0, slope: 0 };
@@ -147,6 +141,11 @@ mod tests {
     use super::*;
     use crate::num::random::Rng;
     use crate::scene::first_line;
+
+    /// Column and line of a place, in units of 1/8 pixel.
+    fn parts(place: u32) -> (u16, u16) {
+        (place as u16, (place >> 16) as u16)
+    }
 
     fn exact(a: (u16, u16), b: (u16, u16), line: i32) -> i64 {
         let dy = i64::from(b.1) - i64::from(a.1);

@@ -4,7 +4,7 @@
 //! side times the reciprocal of the area, cut to what leaves room for rises of 11 bits.
 
 use super::edge::{across, down};
-use crate::num::{leading_zeros, mul_high, recip_16};
+use crate::num::{leading_zeros, leading_zeros_here, mul_high, recip_16};
 use crate::scene::ORIGIN;
 
 /// Sides times the reciprocal of the doubled area, `r 2^(up - 47)`, and the first corner's place.
@@ -37,7 +37,7 @@ impl Shares {
             place[1].wrapping_sub(place[0]),
             place[2].wrapping_sub(place[0]),
         );
-        let up = leading_zeros(area);
+        let up = leading_zeros_here(area);
         let r = recip_16((area << (up & 31)) >> 16) as i32;
         Self {
             x1: down(d2).wrapping_mul(r),

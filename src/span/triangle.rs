@@ -2,7 +2,7 @@
 
 use super::edge::{Edge, Frame, Kind, across, down};
 use super::plane::Shares;
-use crate::num::{InverseArea, Plane};
+use crate::num::InverseArea;
 use crate::scene::{ORIGIN, Object, TexturePlace, Vertex, first_line};
 
 /// Corners of a triangle, the topmost first, clockwise, with a doubled area above 0.
@@ -364,13 +364,13 @@ impl Triangle<'_> {
     /// Planes of any triangle that is not too thin; on values below 2^31.
     #[inline(never)]
     pub(crate) fn wide_area(&self) -> Option<InverseArea> {
-        InverseArea::new(self.places().map(super::edge::parts))
-    }
-
-    /// A plane of guard space, counted from the picture's first pixel.
-    pub(crate) fn in_picture(&self, plane: Plane) -> [u32; 3] {
-        let at = plane.at(ORIGIN, ORIGIN);
-        [at, plane.dx, plane.dy].map(|v| v as u32)
+        let [a, b, c] = self.places();
+        let way = |to: u32| {
+            let d = to.wrapping_sub(a);
+            [across(d), down(d)]
+        };
+        let first = [a & 0xFFFF, a >> 16].map(|at| at as i32 - 8 * ORIGIN);
+        InverseArea::new(first, [way(b), way(c)])
     }
 }
 
