@@ -109,6 +109,8 @@ pub fn samples(folder: &Path) -> Vec<Sample> {
         }
         for (walls, shape) in [
             (1, Shape::Ball(12, 18)),
+            (1, Shape::Ring(14, 10)),
+            (2, Shape::Ball(12, 18)),
             (4, Shape::Ring(18, 12)),
             (7, Shape::Cube(1)),
         ] {
