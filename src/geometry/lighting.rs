@@ -258,7 +258,7 @@ impl Glance {
         // Each at most 2^30.
         let square = |v: [i32; 3]| v.iter().map(|c| (c * c) as u32).sum::<u32>();
         let (root, half) = inverse_root(square(eye));
-        // 1 / |N|^2 in Q28, to the first order; 2 and beyond all signs where N, and with it the sum below, is 0.
+        // 1 / |N|^2 in Q28, to the first order. Of no normal it is 2, which has no sign in 32 bits, but there the sum is 0.
         let mend = (2u32 << 28).saturating_sub(square(n));
         // A normal may be any number: two bits less, and the sum fits.
         let part = |i: usize| (n[i] * eye[i]) >> 2;

@@ -66,8 +66,7 @@ impl InverseArea {
         if (right.shift | down.shift) < 0 {
             return None;
         }
-        let steps = [right, down].map(|g| rounded(g.mantissa, g.shift));
-        let [dx, dy] = steps;
+        let [dx, dy] = [right, down].map(|g| rounded(g.mantissa, g.shift));
         if ((dx ^ (dx >> 31)) | (dy ^ (dy >> 31))) >> self.most != 0 {
             return None;
         }
