@@ -38,6 +38,14 @@ pub const fn mul_16(a: i32, b: i16) -> i32 {
     }
 }
 
+/// A product of two bytes by 255, to nearest; where a sum of two is beyond 255, any number that is too. Where a processor
+/// has no division, one by a constant is a call too.
+#[inline(always)]
+#[must_use]
+pub const fn of_255(product: u32) -> u32 {
+    ((product + 127) * 0x8081) >> 23
+}
+
 /// Zero bits above the topmost one, 32 for 0; where no instruction counts them, by a call.
 #[cfg_attr(short_multiply, inline(never))]
 #[cfg_attr(not(short_multiply), inline(always))]
@@ -54,5 +62,18 @@ pub fn leading_zeros_here(x: u32) -> u32 {
         short::leading_zeros(x)
     } else {
         x.leading_zeros()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::of_255;
+
+    /// Kills: a factor that is one more or less, and a half that is not added.
+    #[test]
+    fn sums_of_two_products_of_bytes_are_divided_by_255() {
+        for sum in 0..=2 * 255 * 255 {
+            assert_eq!(of_255(sum).min(256), ((sum + 127) / 255).min(256), "{sum}");
+        }
     }
 }

@@ -1,6 +1,7 @@
 //! Pixels of a span over those that are there (K11, H8, P5).
 
 use super::{Mix, PixelFormat};
+use crate::num::of_255;
 use crate::scene::{Blend, BlendMode, Factor, PixelAlpha};
 
 /// The way that formats have for a mode, if there is one.
@@ -71,7 +72,7 @@ fn single<F: PixelFormat>(old: F::Word, new: F::Word, blend: Blend, mix: Option<
 /// A level times a factor and another times another, at most full.
 fn sum(new: u8, source: u8, old: u8, destination: u8) -> u8 {
     let both = u32::from(new) * u32::from(source) + u32::from(old) * u32::from(destination);
-    ((both + 127) / 255).min(255) as u8
+    of_255(both).min(255) as u8
 }
 
 /// A factor where `old` is the level that is there.

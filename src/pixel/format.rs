@@ -4,6 +4,7 @@ use super::mix::{Mix, mix_levels};
 use super::mix_565::mix_565;
 use super::mix_bytes::mix_bytes;
 use super::{MadeOf, between};
+use crate::num::of_255;
 
 /// How a pixel looks in the line buffer, and how it is made of a colour and of other pixels.
 pub trait PixelFormat {
@@ -45,11 +46,7 @@ pub trait PixelFormat {
 
     /// A pixel from 8-bit levels, rounded to nearest.
     fn from_rgb8(rgb: [u8; 3]) -> Self::Word {
-        let mut steps = [0; 3];
-        for i in 0..3 {
-            steps[i] = ((u32::from(rgb[i]) * u32::from(Self::STEPS[i]) + 127) / 255) as u8;
-        }
-        Self::pack(steps)
+        Self::pack([0, 1, 2].map(|i| of_255(u32::from(rgb[i]) * u32::from(Self::STEPS[i])) as u8))
     }
 
     /// The 8-bit levels a display shows for a pixel, rounded to nearest.

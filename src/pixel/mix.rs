@@ -5,6 +5,7 @@
 //! ideal rounding, and alpha 0 and 255 are exact.
 
 use super::PixelFormat;
+use crate::num::of_255;
 
 /// A blend that formats have a fast way for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,22 +24,15 @@ impl Mix {
     /// On 8-bit levels; `a b / 255` is rounded to nearest.
     #[must_use]
     pub fn of_levels(self, old: u8, new: u8) -> u8 {
+        let times = |level: u8, alpha: u8| u32::from(level) * u32::from(alpha);
+        let part = |alpha| of_255(times(new, alpha)) as u8;
         match self {
-            Self::Filter(alpha) => {
-                let (a, o, n) = (u32::from(alpha), u32::from(old), u32::from(new));
-                (((255 - a) * o + a * n + 127) / 255) as u8
-            }
+            Self::Filter(alpha) => of_255(times(old, 255 - alpha) + times(new, alpha)) as u8,
             Self::Half => ((u16::from(old) + u16::from(new)) / 2) as u8,
-            Self::Add(alpha) => old.saturating_add(times(new, alpha)),
-            Self::Subtract(alpha) => old.saturating_sub(times(new, alpha)),
+            Self::Add(alpha) => old.saturating_add(part(alpha)),
+            Self::Subtract(alpha) => old.saturating_sub(part(alpha)),
         }
     }
-}
-
-/// A level times a factor of 255, rounded to nearest.
-#[inline]
-fn times(level: u8, factor: u8) -> u8 {
-    ((u32::from(level) * u32::from(factor) + 127) / 255) as u8
 }
 
 /// Blends `new` pixels over `old` ones by their 8-bit levels.

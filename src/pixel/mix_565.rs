@@ -18,9 +18,9 @@ const EVEN_DOWN: u32 = 0x07C0_F83F;
 const HALF_ODD: u32 = 1 << 25 | 1 << 15 | 1 << 4;
 const HALF_EVEN: u32 = 1 << 26 | 1 << 15 | 1 << 4;
 
-/// Alpha of 255 as one of 32, rounded to nearest.
+/// Alpha of 255 as one of 32, to nearest: as of 256, which differ by less than a half.
 const fn of_32(alpha: u8) -> u32 {
-    (alpha as u32 * 32 + 127) / 255
+    (alpha as u32 + 4) / 8
 }
 
 /// `(old (32 - a) + new a) / 32` in every field, rounded to nearest.

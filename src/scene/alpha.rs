@@ -6,6 +6,7 @@
 //! anything for it, and no look knows of it. A mask is a texture of the same places.
 
 use super::{Form, Object, Texture, TextureError, Vertex};
+use crate::num::mul_high_unsigned;
 
 /// What a mask says of the texel at its place: how opaque it is, whether it is dithered, whether it is added.
 ///
@@ -80,7 +81,8 @@ impl PixelAlpha {
     /// Both alphas and a third one, rounded once.
     pub(super) const fn times(self, alpha: u8) -> u8 {
         let all = self.surface as u32 * self.of_texel() as u32 * alpha as u32;
-        ((all + 255 * 255 / 2) / (255 * 255)) as u8
+        // By 2^47 / 255^2, rounded up: the quotient is exact.
+        (mul_high_unsigned(all + 255 * 255 / 2, 0x8101_8203) >> 15) as u8
     }
 }
 
@@ -207,4 +209,31 @@ pub(super) fn keep(alphas: &[u8], records: &mut [Vertex]) {
 pub(super) fn own_record(alphas: [u16; 3]) -> Vertex {
     let [a, b, c] = alphas;
     record(bytemuck::cast([a, b, c, 0]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{MaskTexel, PixelAlpha};
+
+    /// Kills: a factor that is one less, a half that is one less.
+    #[test]
+    fn three_alphas_are_rounded_once() {
+        for surface in 0..=255 {
+            for texel in 0..=surface {
+                let both = PixelAlpha {
+                    surface,
+                    texel: MaskTexel(texel.into()),
+                };
+                for alpha in 0..=texel {
+                    let all = u32::from(surface) * u32::from(texel) * u32::from(alpha);
+                    let exact = (all + 255 * 255 / 2) / (255 * 255);
+                    assert_eq!(
+                        u32::from(both.times(alpha)),
+                        exact,
+                        "{surface} {texel} {alpha}"
+                    );
+                }
+            }
+        }
+    }
 }

@@ -177,7 +177,7 @@ impl Mask {
             if part == Part::Some {
                 let mut fresh = bits & !self.0[word];
                 while fresh != 0 {
-                    let first = fresh.leading_zeros();
+                    let first = leading_zeros(fresh);
                     fresh &= !(0x8000_0000 >> (first & 31));
                     new(word * 32 + first as usize);
                 }
