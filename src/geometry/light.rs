@@ -1,8 +1,8 @@
 //! Light at a vertex: ambient and one infinite light, Lambert's law (K10).
 
 use super::colour::{Colour, Tint};
-use super::transform::{Affine, inverse_sqrt, unit};
-use crate::num::{I2F14, U1F15};
+use super::transform::{Affine, unit};
+use crate::num::{Block, I2F14, U1F15};
 
 /// An infinite light and the ambient level.
 ///
@@ -22,10 +22,9 @@ impl Light {
     /// `None` when the direction is zero or not finite.
     #[must_use]
     pub fn new(direction: [f32; 3], ambient: f32) -> Option<Self> {
-        let ambient = if ambient > 0.0 { ambient.min(1.0) } else { 0.0 };
         Some(Self {
             direction: self::direction(direction)?,
-            ambient: U1F15::from_bits((ambient * 32_768.0 + 0.5) as u16),
+            ambient: level_of(ambient).min(U1F15::ONE),
         })
     }
 
@@ -83,13 +82,20 @@ fn level(dot: i32, ambient: U1F15) -> U1F15 {
 
 /// A direction of any length as a unit vector; `None` when it is zero or not finite.
 pub(super) fn direction(v: [f32; 3]) -> Option<[I2F14; 3]> {
-    let largest = v.iter().fold(0.0f32, |m, c| m.max(c.abs()));
-    if !(largest > 0.0 && largest < f32::INFINITY) || v.iter().any(|c| c.is_nan()) {
-        return None;
+    Block::direction(v).map(|v| unit(v.map(i64::from)))
+}
+
+/// 0 to 1.99 to nearest; what is not a number is 0.
+pub(super) fn level_of(value: f32) -> U1F15 {
+    const MOST: u32 = 1.99f32.to_bits();
+    let bits = value.to_bits();
+    // What has a sign has larger bits, and so has what is no number.
+    if bits > f32::INFINITY.to_bits() {
+        return U1F15::ZERO;
     }
-    let v = v.map(|c| c / largest);
-    let scale = inverse_sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    Some(unit(v.map(|c| (c * scale * (1 << 30) as f32) as i64)))
+    let bits = bits.min(MOST);
+    let twice = (bits & 0x7F_FFFF | 0x80_0000) << 1 >> (135 - (bits >> 23)).min(31);
+    U1F15::from_bits(((twice + 1) >> 1) as u16)
 }
 
 #[cfg(test)]

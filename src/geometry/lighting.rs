@@ -19,7 +19,7 @@
 //! One light without a material is [`Light`](super::Light).
 
 use super::colour::{Colour, Scale, Tint};
-use super::light::direction;
+use super::light::{direction, level_of};
 use super::transform::Affine;
 use crate::num::{
     Block, I2F14, U1F15, inverse_root, leading_zeros, mul_16, mul_high, mul_high_unsigned,
@@ -44,7 +44,7 @@ impl DirectionalLight {
     pub fn new(towards: [f32; 3], colour: [f32; 3]) -> Option<Self> {
         Some(Self {
             direction: direction(towards)?,
-            colour: colour.map(level),
+            colour: colour.map(level_of),
         })
     }
 }
@@ -82,7 +82,7 @@ impl Material {
     #[must_use]
     pub fn shiny(specular: f32, shininess: u16) -> Self {
         Self {
-            specular: [level(specular); 3],
+            specular: [level_of(specular); 3],
             shininess,
             ..Self::default()
         }
@@ -140,12 +140,6 @@ impl<'a> Lighting<'a> {
             power: power.min(31) as u32,
         }
     }
-}
-
-/// 0 ..< 2 to nearest; what is not a number is 0.
-fn level(value: f32) -> U1F15 {
-    let value = if value > 0.0 { value.min(1.99) } else { 0.0 };
-    U1F15::from_bits((value * 32_768.0 + 0.5) as u16)
 }
 
 /// What falls on a surface: factors of its colour, and what is added; 1 is 2^15.
@@ -210,20 +204,18 @@ impl Lamps {
     /// lies this way: any length, the largest component in 2^14 ..= 2^15, or all 0.
     #[inline]
     pub(super) fn shine(&self, normal: [i16; 3], eye: impl FnOnce() -> [i32; 3]) -> Shine {
-        let glance = if self.shiny {
-            Some(Glance::new(normal.map(i32::from), eye()))
-        } else {
-            None
-        };
+        let glance = self
+            .shiny
+            .then(|| Glance::new(normal.map(i32::from), eye()));
         let mut shine = self.base;
         for lamp in self.lamps.iter().take(usize::from(self.count)) {
-            // Q44 to Q28; a normal a little longer than 1 must not make it 1 or more.
+            // Q44 to Q28; of a normal that is longer than 1 more than 1, which its square mends in what is mirrored.
             let part = |i: usize| mul_16(lamp.towards[i], normal[i]);
-            let cosine = (part(0) + part(1) + part(2)).min((1 << 28) - 1);
+            let cosine = (part(0) + part(1) + part(2)).min((1 << 29) - 1);
             if cosine <= 0 {
                 continue;
             }
-            let level = ((cosine + (1 << 12)) >> 13) as u32;
+            let level = ((cosine.min((1 << 28) - 1) + (1 << 12)) >> 13) as u32;
             // 17 and 16 bits; the sum of 8 lights has 20.
             for i in 0..3 {
                 shine.factor[i] += (lamp.diffuse[i] * level) >> 15;
@@ -271,11 +263,11 @@ impl Glance {
         }
     }
 
-    /// R.V as a 32-bit fraction, 0 where it is negative; of a cosine in Q28, below 1.
+    /// R.V as a 32-bit fraction, 0 where it is negative; of N.L in Q28, below 2.
     #[inline]
     fn mirrored(&self, cosine: i32, towards: [i32; 3]) -> u32 {
         // Both with 13 fraction bits beyond those that the eye's vector came with.
-        let forth = mul_high(cosine << 3, self.across) << 1;
+        let forth = mul_high(cosine << 2, self.across) << 2;
         let part = |i: usize| mul_high(self.eye[i], towards[i]);
         // |V| is below 2^16, so R.V |V| is below 2^29 where the normal is unit length.
         let rest = (forth - (part(0) + part(1) + part(2))).max(0);

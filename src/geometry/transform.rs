@@ -4,8 +4,7 @@
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
 //! and no float is touched after set-up.
 
-use crate::num::{Block, I2F14, divide_signed, inverse_root, shift_round};
-use micromath::F32Ext;
+use crate::num::{Block, I2F14, divide_signed, inverse_root, shift_round, sin_cos};
 
 /// An affine map `p -> linear p + offset`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,13 +15,7 @@ pub struct Affine {
 
 impl Affine {
     /// The map that changes nothing.
-    pub const IDENTITY: Self = Self {
-        linear: Block {
-            mantissa: [1 << 29, 0, 0, 0, 1 << 29, 0, 0, 0, 1 << 29],
-            exponent: 1,
-        },
-        offset: Block::ZERO,
-    };
+    pub const IDENTITY: Self = Self::rotation([1 << 29, 0, 0, 0, 1 << 29, 0, 0, 0, 1 << 29]);
 
     /// From rows of the linear part and the offset, in world units.
     ///
@@ -46,31 +39,38 @@ impl Affine {
     }
 
     /// A rotation about the x axis by `angle` radians, counter-clockwise seen from its tip: any
-    /// finite angle, to 0.0012 rad of its remainder. By what is not finite, the identity.
+    /// finite angle, each entry 2^-28 off at most. By what is not finite, the identity.
     #[must_use]
     pub fn rotation_x(angle: f32) -> Self {
-        let (s, c) = sin_cos(angle);
-        Self::rotation([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+        let [s, c] = sin_cos(angle);
+        Self::rotation([1 << 29, 0, 0, 0, c, -s, 0, s, c])
     }
 
     /// A rotation about the y axis by `angle` radians, counter-clockwise seen from its tip: any
-    /// finite angle, to 0.0012 rad of its remainder. By what is not finite, the identity.
+    /// finite angle, each entry 2^-28 off at most. By what is not finite, the identity.
     #[must_use]
     pub fn rotation_y(angle: f32) -> Self {
-        let (s, c) = sin_cos(angle);
-        Self::rotation([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+        let [s, c] = sin_cos(angle);
+        Self::rotation([c, 0, s, 0, 1 << 29, 0, -s, 0, c])
     }
 
     /// A rotation about the z axis by `angle` radians, counter-clockwise seen from its tip: any
-    /// finite angle, to 0.0012 rad of its remainder. By what is not finite, the identity.
+    /// finite angle, each entry 2^-28 off at most. By what is not finite, the identity.
     #[must_use]
     pub fn rotation_z(angle: f32) -> Self {
-        let (s, c) = sin_cos(angle);
-        Self::rotation([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+        let [s, c] = sin_cos(angle);
+        Self::rotation([c, -s, 0, s, c, 0, 0, 0, 1 << 29])
     }
 
-    fn rotation(rows: [[f32; 3]; 3]) -> Self {
-        Self::from_rows(rows, [0.0; 3]).unwrap_or(Self::IDENTITY)
+    /// Of entries in 2^-29.
+    const fn rotation(mantissa: [i32; 9]) -> Self {
+        Self {
+            linear: Block {
+                mantissa,
+                exponent: 1,
+            },
+            offset: Block::ZERO,
+        }
     }
 
     /// The map that does `self` first and then `next`.
@@ -87,12 +87,11 @@ impl Affine {
                 linear[3 * row + column] = value;
             }
         }
-        let moved = next.linear_times(self.offset);
         // What turns or scales alone moves nothing.
-        let offset = if next.offset.is_zero() {
-            moved
+        let offset = if self.offset.is_zero() {
+            next.offset
         } else {
-            add(moved, next.offset)
+            add(next.linear_times(self.offset), next.offset)
         };
         Self {
             linear: Block::new(linear, next.linear.exponent + self.linear.exponent - 30),
@@ -106,10 +105,10 @@ impl Affine {
     /// 2^-20 of parallel.
     ///
     /// A rotation that is turned a little each frame by [`then`](Affine::then) drifts: the
-    /// `f32` rows of each turn are off by up to 2^-22, always the same way for the same turn, so
-    /// after a million frames it may have grown or shrunk by several per cent. This takes the
+    /// rows of each turn are off by up to 2^-28, always the same way for the same turn, so
+    /// after a million frames it may have grown or shrunk by some thousandths. This takes the
     /// drift out (M3): each entry of the linear part times its transpose is within 2^-26 of the
-    /// identity. Integers alone, 5 roots: once a frame, or every hundred, is enough.
+    /// identity. 5 roots: once a frame, or every hundred, is enough.
     /// ```
     /// # use scanbeam::Affine;
     /// let (mut turned, step) = (Affine::IDENTITY, Affine::rotation_y(0.01));
@@ -279,75 +278,6 @@ fn add_to(sum: &mut [i64], mantissa: &[i32], shift: i32) {
     for (value, &m) in sum.iter_mut().zip(mantissa) {
         *value += shift_round(i64::from(m) << 2, shift);
     }
-}
-
-/// Sine and cosine on the unit circle to 1e-7 (the angle itself is 0.0012 rad off at most); those
-/// of 0 where the angle is not finite.
-///
-/// micromath's polynomials give the point; a Newton step each puts it on the circle, so that a
-/// rotation does not scale. Only IEEE basic operations, hence the same bits everywhere.
-fn sin_cos(angle: f32) -> (f32, f32) {
-    if !angle.is_finite() {
-        return (0.0, 1.0);
-    }
-    let angle = if angle.abs() < WHOLE_TURNS {
-        angle
-    } else {
-        remainder(angle)
-    };
-    let (s, c) = (F32Ext::sin(angle), F32Ext::cos(angle));
-    let scale = inverse_sqrt(s * s + c * c);
-    (s * scale, c * scale)
-}
-
-/// Angles from here on lose their whole turns before micromath sees them, which takes them off in
-/// floats itself.
-const WHOLE_TURNS: f32 = 64.0;
-
-/// `1 / 2 pi` as a fraction of binary digits, behind 32 zeros.
-const TURNS: [u32; 7] = [
-    0,
-    0x28BE_60DB,
-    0x9391_054A,
-    0x7F09_D5F4,
-    0x7D4D_3770,
-    0x36D8_A566,
-    0x4F10_E410,
-];
-
-/// A finite angle of at least [`WHOLE_TURNS`] without its whole turns, -pi to pi, to 2^-23 of that.
-///
-/// The 24 bits of the angle are multiplied by those 64 digits of `1 / 2 pi` that lie below a whole
-/// turn and above 2^-40 of one; what is above makes whole turns, and wraps.
-fn remainder(angle: f32) -> f32 {
-    let bits = angle.to_bits();
-    // The angle is `mantissa 2^exponent`, the exponent -17 to 104.
-    let mantissa = u64::from(bits & 0x7F_FFFF | 0x80_0000);
-    let exponent = (bits >> 23 & 0xFF) as i32 - 150;
-    let first = (exponent + 32) as u32;
-    let word = |i: u32| u64::from(TURNS.get((first / 32 + i) as usize).copied().unwrap_or(0));
-    let high = word(0) << 32 | word(1);
-    let digits = match first % 32 {
-        0 => high,
-        up => high << up | word(2) >> (32 - up),
-    };
-    // Turns in 2^-64, modulo one turn; of the 32 bits above, the sign says which half.
-    let turns = (mantissa.wrapping_mul(digits) >> 32) as i32;
-    let turns = if angle < 0.0 {
-        -(turns as f32)
-    } else {
-        turns as f32
-    };
-    turns * (core::f32::consts::TAU / (1u64 << 32) as f32)
-}
-
-/// `1 / sqrt(x)` for a positive normal `x`, to 1e-7: micromath's estimate and three Newton steps.
-pub(super) fn inverse_sqrt(x: f32) -> f32 {
-    let mut y = F32Ext::invsqrt(x);
-    for _ in 0..3 {
-        y *= 1.5 - 0.5 * x * y * y;
-    }
-    y
 }
 
 #[cfg(test)]

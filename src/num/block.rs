@@ -44,12 +44,17 @@ impl<const N: usize> Block<N> {
     #[must_use]
     pub fn from_f32(value: [f32; N]) -> Option<Self> {
         let mut mantissa = [0; N];
-        let exponent = mantissas(&value, &mut mantissa)?;
-        Some(if exponent < LEAST {
-            Self::ZERO
-        } else {
-            Self { mantissa, exponent }
-        })
+        let exponent = mantissas(&value, &mut mantissa);
+        let made = Self { mantissa, exponent };
+        (exponent <= 96).then_some(if exponent < LEAST { Self::ZERO } else { made })
+    }
+
+    /// Floats times a power of two, the largest below 2^30; `None` when one is not finite, or all are 0.
+    #[must_use]
+    pub fn direction(value: [f32; N]) -> Option<[i32; N]> {
+        let mut mantissa = [0; N];
+        let exponent = mantissas(&value, &mut mantissa);
+        (exponent <= 128 && mantissa.iter().any(|m| *m != 0)).then_some(mantissa)
     }
 
     /// Whether all are 0.
@@ -119,29 +124,31 @@ fn shift_all(value: &[i64], shift: i32, mantissa: &mut [i32]) -> u32 {
 /// Floats below this power of two are 0.
 const LEAST: i32 = -90;
 
-/// Floats as mantissas with a common exponent: the largest has a leading bit, so they are normalised as they are.
-/// Left as they are when all are tiny.
+/// Floats as mantissas with a common exponent, which is returned: the largest has a leading bit, so they are normalised as
+/// they are. No float is reckoned with: few processors have them, and all have the same bits.
 #[inline(never)]
-fn mantissas(value: &[f32], mantissa: &mut [i32]) -> Option<i32> {
-    let mut largest = 0;
+fn mantissas(value: &[f32], mantissa: &mut [i32]) -> i32 {
+    let mut largest = 1;
     for v in value {
-        largest = largest.max(v.to_bits() & 0x7FFF_FFFF);
-        if largest >> 23 > 96 + 126 {
-            return None;
+        largest = largest.max(v.to_bits() << 1 >> 24);
+        if largest == 0xFF {
+            break;
         }
     }
-    let exponent = (largest >> 23) as i32 - 126;
-    if exponent >= LEAST {
-        // A power of two, so each product is exact.
-        let scale = f32::from_bits(((127 + 30 - exponent) as u32) << 23);
-        for (i, m) in mantissa.iter_mut().enumerate() {
-            let Some(v) = value.get(i) else {
-                break;
-            };
-            *m = (v * scale) as i32;
-        }
+    for (i, m) in mantissa.iter_mut().enumerate() {
+        let Some(v) = value.get(i) else {
+            break;
+        };
+        let bits = v.to_bits();
+        let exponent = bits >> 23 & 0xFF;
+        // The smallest have no leading bit.
+        let leading = exponent.min(1) << 23;
+        let down = (largest - exponent.max(1)).min(31);
+        let magnitude = ((bits & 0x7F_FFFF | leading) << 6 >> down) as i32;
+        let sign = bits as i32 >> 31;
+        *m = (magnitude ^ sign) - sign;
     }
-    Some(exponent)
+    largest as i32 - 126
 }
 
 /// `value 2^shift`, rounded to nearest (half up) where it shifts right.

@@ -32,6 +32,7 @@ pub(crate) mod random;
 mod recip;
 mod recip16;
 mod short;
+mod sine;
 
 pub use bits::{bit, take_first};
 pub use block::{Block, rounded, shift_round};
@@ -44,6 +45,7 @@ pub use quotient::{divide, divide_signed};
 pub use recip::recip;
 pub use recip16::{mul_17, mul_recip_16, of_height, recip_16, slope_of};
 pub use short::SHORT;
+pub use sine::sin_cos;
 
 /// The pixel column and line that lies at the middle of guard space.
 pub const GUARD_CENTRE: i32 = 4096;

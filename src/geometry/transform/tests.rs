@@ -37,10 +37,10 @@ fn rotations_keep_lengths() {
         let angle = i as f32 * 0.0137;
         let r = Affine::rotation_z(angle);
         let (c, s) = (value(&r.linear, 0), value(&r.linear, 3));
-        assert!((c * c + s * s - 1.0).abs() < 1e-6, "{angle}");
+        assert!((c * c + s * s - 1.0).abs() < 4e-9, "{angle}");
         let want = f64::from(angle);
         assert!(
-            (c - want.cos()).abs() < 0.003 && (s - want.sin()).abs() < 0.003,
+            (c - want.cos()).abs() < 4e-9 && (s - want.sin()).abs() < 4e-9,
             "{angle}"
         );
     }
@@ -65,15 +65,15 @@ fn rotations_by_any_angle_are_rotations() {
             continue;
         }
         let (c, s) = (value(&turned.linear, 0), value(&turned.linear, 3));
-        assert!((c * c + s * s - 1.0).abs() < 1e-6, "{angle:e}");
+        assert!((c * c + s * s - 1.0).abs() < 4e-9, "{angle:e}");
         let (want_s, want_c) = f64::from(angle).sin_cos();
         let off = (s * want_c - c * want_s)
             .atan2(c * want_c + s * want_s)
             .abs();
-        assert!(off < 0.0012, "{angle:e}: {off}");
+        assert!(off < 4e-9, "{angle:e}: {off}");
         worst = worst.max(off);
     }
-    std::println!("angles of any size: {worst:.5} rad off at most");
+    std::println!("angles of any size: {worst:.2e} rad off at most");
     for angle in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         assert_eq!(Affine::rotation_x(angle), Affine::IDENTITY);
         assert_eq!(Affine::rotation_y(angle), Affine::IDENTITY);
@@ -113,9 +113,9 @@ fn determinant([a, b, c]: &[[f64; 3]; 3]) -> f64 {
 ///
 /// Bounds. A product rounds each entry by 2^-30 at most, so after n steps a chain is within
 /// 3 n 2^-30 of the exact product of its own steps, times what these have grown to. A step's
-/// rows are 24-bit floats, scaled by a Newton root good to 2^-22: its skew is below 2^-20,
-/// and adds up to n 2^-20. With `orthonormalised` the skew is below 2^-26 at any time, and
-/// between two calls that are k steps apart below 2^-26 + k 2^-20.
+/// entries are 2^-28.8 off: its skew is below 2^-27, and adds up to n 2^-27. With
+/// `orthonormalised` the skew is below 2^-26 at any time, and between two calls that are k
+/// steps apart below 2^-26 + k 2^-27.
 #[test]
 fn a_million_turns_drift_within_their_bounds() {
     const TURNS: u32 = 1_000_000;
@@ -125,7 +125,7 @@ fn a_million_turns_drift_within_their_bounds() {
         Affine::rotation_z(0.0013),
     ];
     for turn in &turns {
-        assert!(skew(&rows(turn)) < 2f64.powi(-20));
+        assert!(skew(&rows(turn)) < 2f64.powi(-27));
     }
     let cases: [&[Affine]; 2] = [&turns[..1], &turns];
     for steps in cases {
@@ -156,9 +156,9 @@ fn a_million_turns_drift_within_their_bounds() {
         );
         let turns = f64::from(TURNS);
         assert!(error <= 3.0 * turns * 2f64.powi(-30) * growth, "{error}");
-        assert!(drift <= turns * 2f64.powi(-20), "{drift}");
+        assert!(drift <= turns * 2f64.powi(-27), "{drift}");
         assert!(worst_kept <= 2f64.powi(-26), "{worst_kept}");
-        assert!(worst_seldom <= 2f64.powi(-26) + 100.0 * 2f64.powi(-20));
+        assert!(worst_seldom <= 2f64.powi(-26) + 100.0 * 2f64.powi(-27));
         assert!((determinant(&rows(&kept)) - 1.0).abs() <= 2f64.powi(-25));
     }
 }
