@@ -85,7 +85,7 @@ pub(super) fn direction(v: [f32; 3]) -> Option<[I2F14; 3]> {
     Block::direction(v).map(|v| unit(v.map(i64::from)))
 }
 
-/// 0 to 1.99 to nearest; what is not a number is 0.
+/// 0 to 1.99 to nearest; what is below 0, or no number, is 0.
 pub(super) fn level_of(value: f32) -> U1F15 {
     const MOST: u32 = 1.99f32.to_bits();
     let bits = value.to_bits();

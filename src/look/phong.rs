@@ -62,7 +62,7 @@ fn pixel<F: PixelFormat>(channels: [i32; 3], parts: i32) -> F::Word {
 
 /// A 255th, rounded down: by 2^39 / 255, rounded up. Where a product has no upper half a division is a call.
 #[inline(always)]
-fn of_255(number: u32) -> u32 {
+fn divided_by_255(number: u32) -> u32 {
     mul_high_unsigned(number, 0x8080_8081) >> 7
 }
 
@@ -83,7 +83,7 @@ impl<'t> Shine<'t> {
     /// The call's colour in 16.16 steps of the format.
     pub(super) fn steps<F: PixelFormat>(&self) -> [u32; 3] {
         let steps = |i: usize| u32::from(self.colour[i]) * u32::from(F::STEPS[i]);
-        [0, 1, 2].map(|i| of_255((steps(i) << 16) + 127))
+        [0, 1, 2].map(|i| divided_by_255((steps(i) << 16) + 127))
     }
 }
 
@@ -199,14 +199,14 @@ impl<F: PixelFormat> Look for Phong<F> {
 
 #[cfg(test)]
 mod tests {
-    use super::of_255;
+    use super::divided_by_255;
 
     /// Kills: a factor that is rounded the other way.
     #[test]
     fn all_products_of_bytes_are_divided_exactly() {
         for product in 0..=255 * 255u32 {
             let number = (product << 16) + 127;
-            assert_eq!(of_255(number), number / 255, "{product}");
+            assert_eq!(divided_by_255(number), number / 255, "{product}");
         }
     }
 }

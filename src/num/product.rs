@@ -38,8 +38,8 @@ pub const fn mul_16(a: i32, b: i16) -> i32 {
     }
 }
 
-/// A product of two bytes by 255, to nearest; where a sum of two is beyond 255, any number that is too. Where a processor
-/// has no division, one by a constant is a call too.
+/// A product of two bytes by 255, to nearest. Of a sum of two such products, what is beyond 255 may be one off, but stays
+/// beyond. Where a processor has no division, one by a constant is a call too.
 #[inline(always)]
 #[must_use]
 pub const fn of_255(product: u32) -> u32 {

@@ -112,7 +112,7 @@ fn worst(powers: &[u16], rounds: u32, seed: u64) -> (f64, u32) {
         let lights = truth.lights();
         let ambient = truth.ambient.map(|c| level_of(c as f32));
         let lighting = Lighting::new(&lights, ambient, truth.material()).unwrap();
-        // A turn about two axes, with its rows in f64 as the map has them, to 2^-23.
+        // A turn about two axes, with its rows in f64 as the map has them.
         let (a, b) = (rng.about(3.0), rng.about(3.0));
         let turn = Affine::rotation_y(a as f32).then(&Affine::rotation_x(b as f32));
         let size = (rng.about(6.0)).exp2();
@@ -175,18 +175,18 @@ fn worst(powers: &[u16], rounds: u32, seed: u64) -> (f64, u32) {
 /// Bounds are what no one of 40 seeds was beyond: 0.207, 0.270 and 0.386 levels.
 #[test]
 fn random_vertices_lights_and_materials_are_as_in_f64() {
-    for (powers, rounds, bound) in [
-        (&[0, 1, 2, 5, 10, 20, 40, 64], 1_000, 0.21),
-        (&[100, 128, 200, 255, 100, 128, 200, 255], 1_000, 0.28),
-        (&[300, 500, 800, 1000, 300, 500, 800, 1000], 1_000, 0.39),
+    for (powers, bound) in [
+        (&[0, 1, 2, 5, 10, 20, 40, 64][..], 0.21),
+        (&[100, 128, 200, 255], 0.28),
+        (&[300, 500, 800, 1000], 0.39),
     ] {
         let (mut most, mut count) = (0f64, 0);
         for seed in 1..=4 {
-            let (off, more) = worst(powers, rounds, seed);
+            let (off, more) = worst(powers, 1_000, seed);
             most = most.max(off);
             count += more;
         }
-        std::println!("powers up to {}: {most:.3} levels of {count}", powers[7]);
+        std::println!("powers {powers:?}: {most:.3} levels of {count}");
         assert!(count > 700_000 && most <= bound, "{most} of {count}");
     }
 }
