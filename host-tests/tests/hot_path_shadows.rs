@@ -5,6 +5,7 @@
 
 use crate::common::Rng;
 use crate::hot::exact::{doubled_area, within};
+use crate::hot::layers::compare_face;
 use crate::hot::values::{
     Cut, FUNCTIONS, Function, HOLED, PLACES, WHITE, blended, draw_each, passes, some_corners,
 };
@@ -224,7 +225,8 @@ fn pixel(
         let (mut count, mut faces) = (0, 0);
         let volume = Some(Shadow::Volume(light));
         for call in here.iter().filter(|call| call.shadow == volume) {
-            if call.passes(NEARER, call.compare(there, at)?) {
+            let order = compare_face(&call.corners, there.map(|there| &there.corners), at)?;
+            if call.passes(NEARER, order) {
                 // Clockwise is from behind.
                 let is_back = doubled_area(call.corners.map(|c| c.at)) > 0;
                 count += if is_back { 1 } else { -1 };

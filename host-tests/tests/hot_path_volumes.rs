@@ -4,7 +4,9 @@
 use crate::common::Rng;
 use crate::hot::shine::even_light;
 use crate::hot::{LineRooms, SceneRooms, Smooth, WordOf, line};
-use crate::shadow_world::{ADDS, Body, DARK, From, LIT, WHITE, World, camera, many, screen, world};
+use crate::shadow_world::{
+    ADDS, Body, DARK, From, LIT, WHITE, World, camera, many, one, screen, world,
+};
 use scanbeam::frame::LineError;
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
@@ -103,6 +105,27 @@ fn shadows_of_random_closed_meshes_are_those_of_rays() {
 #[test]
 fn several_lights_each_have_their_shadows() {
     many(43, 2, From::Above, drawn);
+}
+
+/// Kills: a volume that does not begin where its mesh is on the screen, in the first three of these worlds; depths of both
+/// that are held to be exact, in the others.
+#[test]
+fn shadows_begin_at_what_casts_them() {
+    for (seed, number) in [
+        (1035, 35),
+        (1081, 8),
+        (1111, 22),
+        (1000, 26),
+        (1022, 8),
+        (1026, 5),
+        (1026, 29),
+        (1032, 23),
+        (1072, 14),
+        (1087, 33),
+        (1098, 31),
+    ] {
+        one(seed, number, 2, drawn);
+    }
 }
 
 #[test]

@@ -106,6 +106,18 @@ pub(super) fn count_shadowed<L: Look>(
     }
 }
 
+/// How far a depth may be off beside another one that it should be equal to, by its steps to the right and down: what it
+/// changes over 1/64 pixel, and what sums round.
+///
+/// A side of a volume and the surface that it begins at meet in an edge whose ends both have to the bit, but each has a
+/// plane through a third corner of its own, on the next 1/8 pixel. Of 4,520 worlds of random meshes with two lights 29 had
+/// a wrong pixel without this, and 4 have one with it, where a face lies almost along the light.
+#[inline(always)]
+fn inexact(step: u32, down: u32) -> u32 {
+    let [right, down] = [step, down].map(|step| (step as i32).unsigned_abs() >> 6);
+    right + down + 256
+}
+
 /// Counts a span of a volume, or draws one that is seen again, where depth and counts say so.
 #[inline(never)]
 fn take<L: Look>(
@@ -118,6 +130,7 @@ fn take<L: Look>(
     let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
     let how = receives(state);
     let passes = how.passes;
+    let inexact = inexact(step, known.plane[2]);
     for run in state.cut(out.number, span.start..span.end) {
         let run = Span {
             start: run.start,
@@ -131,13 +144,21 @@ fn take<L: Look>(
             return;
         };
         let depth_at = |column: u32| at.wrapping_add(step.wrapping_mul(column));
+        // What a face may be off by is inside.
+        let (mut first, last) = (depth_at(run.start), depth_at(run.end - 1));
         let change = match state.role() {
-            Role::Front(_) => u8::MAX,
-            Role::Back(_) => 1,
+            Role::Front(_) => {
+                first = first.wrapping_add(inexact);
+                u8::MAX
+            }
+            Role::Back(_) => {
+                first = first.wrapping_sub(inexact.min(first).min(last));
+                1
+            }
             _ => 0,
         };
         if change != 0 {
-            count(counts, cells, [depth_at(run.start), step], passes, change);
+            count(counts, cells, [first, step], passes, change);
             continue;
         }
         let parts = counts

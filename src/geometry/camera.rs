@@ -1,6 +1,6 @@
 //! The screen and the camera: what stays the same for a whole frame.
 
-use super::transform::Affine;
+use super::transform::{Affine, add, product, unit_q30, wide_product};
 use crate::num::{Block, GUARD_CENTRE, divide_signed};
 
 /// The size of the picture, 1 to 8192 pixels each way (K3).
@@ -156,9 +156,7 @@ impl Camera {
     /// `focal` is the focal length in pixels: half the picture's height divided by the tangent
     /// of half the vertical field of view. What is nearer than `near` or farther than `far`,
     /// measured along the view, is not seen; `far` may be up to [`MOST_FAR`](Camera::MOST_FAR) times
-    /// `near`.
-    ///
-    /// Float is used here alone, with IEEE basic operations, so every target gets the same bits.
+    /// `near`. Coordinates count to 2^-30 of the largest one of their place.
     ///
     /// # Errors
     /// [`CameraError`] says which argument is wrong.
@@ -170,44 +168,44 @@ impl Camera {
         near: f32,
         far: f32,
     ) -> Result<Self, CameraError> {
-        const LIMIT: f32 = (1u128 << 90) as f32;
-        let all = [eye, at, up];
-        if !all.iter().flatten().all(|c| c.abs() < LIMIT) {
-            return Err(CameraError::NotFinite);
-        }
-        if !(focal >= 1.0 / 1024.0 && focal <= (1 << 20) as f32) {
+        let (eye, at, up) = (block(eye.map(|c| -c))?, block(at)?, block(up)?);
+        // Floats without a sign are in the order of their bits, and what is no number comes last.
+        let power = |exponent: i32| ((127 + exponent) as u32) << 23;
+        if !(power(-10)..=power(20)).contains(&focal.to_bits()) {
             return Err(CameraError::Focal);
         }
-        if !(near >= 1.0 / (1u64 << 60) as f32 && near < far && far < LIMIT) {
+        let (least, most) = (near.to_bits(), far.to_bits());
+        if !(power(-60)..most).contains(&least) || most >= power(LIMIT) {
             return Err(CameraError::Range);
         }
-        // A power of two times what is below 2^90: exact.
-        if far > Self::MOST_FAR * near {
+        let (mut focal, near, far) = (block([focal])?, block([near])?, block([far])?);
+        // To 1/8 pixel.
+        focal.exponent += 3;
+        // 65536 times near, as far is kept.
+        if (far.exponent, far.mantissa) > (near.exponent + 16, near.mantissa) {
             return Err(CameraError::Ratio);
         }
-        let ahead = normalised(sub(at, eye)).ok_or(CameraError::NoDirection)?;
-        let up = normalised(up).ok_or(CameraError::NoUp)?;
-        let right = cross(ahead, up);
-        if dot(right, right) < 1e-10 {
+        let way = add(at, eye).mantissa.map(i64::from);
+        let ahead = unit_q30(way).ok_or(CameraError::NoDirection)?;
+        let right = wide_product(ahead, up.mantissa);
+        // The sine of the angle between them is below 2^-16.
+        if right.iter().all(|c| (c >> 32).abs() < 1 << 11) {
             return Err(CameraError::NoUp);
         }
-        let right = normalised(right).ok_or(CameraError::NoUp)?;
-        let down = cross(ahead, right);
-        let rows = [right, down, ahead];
-        let turn = Affine::from_rows(rows, [0.0; 3]).ok_or(CameraError::NotFinite)?;
-        let eye = Block::from_f32(eye.map(|c| -c)).ok_or(CameraError::NotFinite)?;
+        let right = unit_q30(right).ok_or(CameraError::NoUp)?;
+        let down = product(ahead, right);
+        let turn = Affine::of_units([right, down, ahead]);
         let view = Affine {
             offset: turn.linear_times(eye),
             ..turn
         };
-        let one = |v| Block::from_f32([v]).ok_or(CameraError::NotFinite);
         Ok(Self {
             view,
             seen: view,
             shift: [0; 2],
-            focal: one(focal * 8.0)?,
-            near: one(near)?,
-            far: one(far)?,
+            focal,
+            near,
+            far,
         })
     }
 
@@ -245,36 +243,15 @@ impl Camera {
     }
 }
 
-fn sub(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
+/// Places and lengths are below this power of two.
+const LIMIT: i32 = 90;
 
-fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn cross(a: [f32; 3], b: [f32; 3]) -> [f32; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-/// The unit vector along `v`; `None` for zero. Scaled first, so that no square leaves the range.
-fn normalised(v: [f32; 3]) -> Option<[f32; 3]> {
-    let largest = v.iter().fold(0.0f32, |m, c| m.max(c.abs()));
-    if largest < f32::MIN_POSITIVE {
-        return None;
+#[inline(never)]
+fn block<const N: usize>(v: [f32; N]) -> Result<Block<N>, CameraError> {
+    match Block::from_f32(v) {
+        Some(block) if block.exponent <= LIMIT => Ok(block),
+        _ => Err(CameraError::NotFinite),
     }
-    let v = v.map(|c| c / largest);
-    let square = dot(v, v);
-    // Its inverse root: half of the logarithm that a float's bits are about, 5 % off, and three Newton steps.
-    let mut scale = f32::from_bits(0x5F37_5A86 - (square.to_bits() >> 1));
-    for _ in 0..3 {
-        scale *= 1.5 - 0.5 * square * scale * scale;
-    }
-    Some(v.map(|c| c * scale))
 }
 
 #[cfg(test)]
@@ -357,9 +334,8 @@ mod tests {
 
     /// M3: a camera is made from its places each time, so nothing adds up however long it turns.
     ///
-    /// Bound on the view's rows times their transpose, away from the identity: 2^-20 for rows of
-    /// 24 bits scaled by a Newton root, and `2^-21 / s` where up and view have the sine s between
-    /// them: each entry of their cross product errs by `3 2^-24`, and is then divided by s.
+    /// Bound on the view's rows times their transpose, away from the identity, for rows that are 2^-28 off: 2^-26, also
+    /// where it looks almost along up.
     #[test]
     fn views_keep_right_angles_however_often_they_turn() {
         let mut worst = [0f64; 2];
@@ -390,7 +366,14 @@ mod tests {
             if sine < 1e-4 {
                 continue;
             }
-            let bound = 2f64.powi(-20) + 2f64.powi(-21) / sine;
+            let bound = 2f64.powi(-26);
+            // It looks where it should, and its picture's columns are upright.
+            let along = |a: [f64; 3], b: [f64; 3]| dot(a, b) / dot(b, b).sqrt();
+            assert!((along(row(2), ahead) - 1.0).abs() <= bound, "{angle}");
+            assert!(
+                along(row(0), up).abs() <= bound && along(row(1), up) < 0.0,
+                "{angle}"
+            );
             for (a, b) in [(0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2)] {
                 let want = f64::from(u8::from(a == b));
                 let off = (dot(row(a), row(b)) - want).abs();

@@ -46,7 +46,8 @@ impl Projection {
         for i in 0..3 {
             let m = &map.linear.mantissa[3 * i..3 * i + 3];
             let sum: u32 = m.iter().map(|m| m.unsigned_abs()).sum();
-            row_bits = row_bits.max(32 - sum.leading_zeros() as i32);
+            // A power of two is reached, not gone beyond: there is a bit for that.
+            row_bits = row_bits.max(32 - sum.saturating_sub(1).leading_zeros() as i32);
         }
         let reach = (row_bits + 1 + map.linear.exponent - 30).max(map.offset.magnitude_bits()) + 1;
         let scale = 29 - reach.max(-100);
@@ -55,19 +56,13 @@ impl Projection {
         let mut offset = [0; 3];
         for i in 0..3 {
             // x and y take the focal length's mantissa, 2^29 ..< 2^30 for 1/2 ..< 1.
-            let times = |m: i32| {
-                if i < 2 {
-                    i64::from(m) * i64::from(focal)
-                } else {
-                    i64::from(m) << 30
-                }
-            };
+            let factor = if i < 2 { focal } else { 1 << 30 };
             for (k, entry) in rows[i].iter_mut().enumerate() {
-                let m = times(map.linear.mantissa[3 * i + k]);
-                *entry = shift_round(m, map.linear.exponent - 60 + scale + 2) as i32;
+                let m = map.linear.mantissa[3 * i + k];
+                *entry = product(m, factor, map.linear.exponent - 60 + scale + 2);
             }
-            let m = times(map.offset.mantissa[i]);
-            offset[i] = shift_round(m, map.offset.exponent - 60 + scale) as i32;
+            let m = map.offset.mantissa[i];
+            offset[i] = product(m, factor, map.offset.exponent - 60 + scale);
         }
         let clamp = |v: i64| v.clamp(1, i64::from(i32::MAX)) as i32;
         Self {
@@ -96,4 +91,10 @@ impl Projection {
             z: row(2),
         }
     }
+}
+
+/// A product, shifted to the left; out of line, since a draw call has twelve.
+#[inline(never)]
+fn product(m: i32, factor: i32, shift: i32) -> i32 {
+    shift_round(i64::from(m) * i64::from(factor), shift) as i32
 }

@@ -84,8 +84,18 @@ impl core::fmt::Display for ShadowRoom {
 /// The sides of a shadow volume, in coordinates of model space by 2^-reach, Q1.30.
 #[derive(Debug)]
 pub(crate) struct Sides<'m> {
+    /// The silhouette, by the first corner of an edge.
+    edges: &'m [ShadowEdge],
+    /// Two of each edge's first corner: that itself, and the one it casts its shadow to.
     pub(crate) positions: &'m [[i32; 3]],
     pub(crate) faces: &'m [[u16; 3]],
+}
+
+impl Sides<'_> {
+    /// The corners of the mesh that the even positions are, by vertex.
+    pub(crate) fn corners(&self) -> impl Iterator<Item = u16> + '_ {
+        self.edges.iter().map(|edge| edge.directed()[0])
+    }
 }
 
 /// How a mesh is drawn out: model space to that of the volume.
@@ -188,7 +198,11 @@ impl Extrusion {
             faces[2 * i] = [b, a, a + 1];
             faces[2 * i + 1] = [b, a + 1, b + 1];
         }
-        Ok(Sides { positions, faces })
+        Ok(Sides {
+            edges,
+            positions,
+            faces,
+        })
     }
 
     /// The edges of the silhouette, at the front of `edges`.

@@ -2,7 +2,7 @@
 //!
 //! Nine mantissas of 30 bits share one exponent, the three of the translation another. So a
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
-//! and no float is touched after set-up.
+//! and floats are but taken apart: none is reckoned with, so that all targets have the same bits.
 
 use crate::num::{Block, I2F14, divide_signed, inverse_root, shift_round, sin_cos};
 
@@ -121,9 +121,9 @@ impl Affine {
         let m = &self.linear.mantissa;
         let row = |i: usize| [m[3 * i], m[3 * i + 1], m[3 * i + 2]].map(i64::from);
         let x = unit_q30(row(0))?;
-        let beside = |v: [i64; 3]| {
+        let beside = |v: [i32; 3]| {
             let along = dot_q30(v, x);
-            [0, 1, 2].map(|i| v[i] - shift_round(along * x[i], -30))
+            [0, 1, 2].map(|i| i64::from(v[i]) - shift_round(along * i64::from(x[i]), -30))
         };
         let y = beside(unit_q30(row(1))?);
         if y.iter().all(|c| c.abs() < 1 << 10) {
@@ -131,17 +131,25 @@ impl Affine {
         }
         // A second time: what was left over may have few bits.
         let y = unit_q30(beside(unit_q30(y)?))?;
-        let mut z =
-            [(1, 2), (2, 0), (0, 1)].map(|(i, k)| shift_round(x[i] * y[k] - x[k] * y[i], -30));
+        let mut z = product(x, y);
         if dot_q30(unit_q30(row(2)).unwrap_or(z), z) < 0 {
             z = z.map(|c| -c);
         }
-        let [x, y, z] = [x, y, z];
-        let linear = [x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]];
         Some(Self {
-            linear: Block::new(linear, 0),
             offset: self.offset,
+            ..Self::of_units([x, y, z])
         })
+    }
+
+    /// Of rows in Q30.
+    #[inline(never)]
+    pub(super) fn of_units(rows: [[i32; 3]; 3]) -> Self {
+        let [[a, b, c], [d, e, f], [g, h, i]] = rows;
+        let linear = [a, b, c, d, e, f, g, h, i].map(i64::from);
+        Self {
+            linear: Block::new(linear, 0),
+            offset: Block::ZERO,
+        }
     }
 
     /// The first two rows of the nearest turn, in Q1.14; zeros where there is none.
@@ -170,7 +178,7 @@ impl Affine {
 
     /// The same in Q1.30, 2^-28 off at most; zero where there is no direction.
     pub(super) fn direction_to_model_q30(&self, direction: [I2F14; 3]) -> [i32; 3] {
-        unit_q30(self.transposed_times(direction)).map_or([0; 3], |v| v.map(|c| c as i32))
+        unit_q30(self.transposed_times(direction)).unwrap_or_default()
     }
 
     /// The transpose of the linear part times a direction, of any length below 2^32.
@@ -196,7 +204,7 @@ impl Affine {
     /// A direction of model space seen from where the map leads, a unit vector in Q1.30, 2^-28
     /// off at most; zero where there is no direction.
     pub(super) fn direction_from_model_q30(&self, direction: [I2F14; 3]) -> [i32; 3] {
-        unit_q30(self.turned(direction)).map_or([0; 3], |v| v.map(|c| c as i32))
+        unit_q30(self.turned(direction)).unwrap_or_default()
     }
 
     /// The point that this map takes to the origin; where it has no inverse, the origin.
@@ -231,11 +239,14 @@ pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
 }
 
 /// The unit vector along `v`, likewise, in Q1.30, 2^-28 off at most; `None` for zero.
-fn unit_q30(v: [i64; 3]) -> Option<[i64; 3]> {
-    let near = near_unit_q30(v).map(i64::from);
-    // Half of what its square lacks, of its length.
-    let lacks = ((1 << 60) - near.iter().map(|c| c * c).sum::<i64>()) >> 31;
-    (v != [0; 3]).then(|| near.map(|c| c + ((c * lacks + (1 << 29)) >> 30)))
+#[inline(never)]
+pub(super) fn unit_q30(v: [i64; 3]) -> Option<[i32; 3]> {
+    let near = near_unit_q30(v);
+    let square: i64 = near.iter().map(|&c| i64::from(c) * i64::from(c)).sum();
+    // Half of what it lacks, of its length.
+    let lacks = ((1 << 60) - square + (1 << 30)) >> 31;
+    let mended = |c: i32| c + ((i64::from(c) * lacks + (1 << 29)) >> 30) as i32;
+    (square != 0).then(|| near.map(mended))
 }
 
 /// About [`unit_q30`], its length 2^-27 off; zero stays zero.
@@ -251,8 +262,22 @@ fn near_unit_q30(v: [i64; 3]) -> [i32; 3] {
 }
 
 /// The scalar product of two vectors in Q1.30 of length up to 1.
-fn dot_q30(a: [i64; 3], b: [i64; 3]) -> i64 {
-    shift_round(a[0] * b[0] + a[1] * b[1] + a[2] * b[2], -30)
+fn dot_q30(a: [i32; 3], b: [i32; 3]) -> i64 {
+    let [x, y, z] = [0, 1, 2].map(|i| i64::from(a[i]) * i64::from(b[i]));
+    shift_round(x + y + z, -30)
+}
+
+/// The vector product of such, likewise.
+pub(super) fn product(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    wide_product(a, b).map(|c| ((c + (1 << 29)) >> 30) as i32)
+}
+
+/// The vector product.
+#[inline(never)]
+pub(super) fn wide_product(a: [i32; 3], b: [i32; 3]) -> [i64; 3] {
+    let part =
+        |i: usize, k: usize| i64::from(a[i]) * i64::from(b[k]) - i64::from(a[k]) * i64::from(b[i]);
+    [part(1, 2), part(2, 0), part(0, 1)]
 }
 
 /// A matrix, row by row, times a vector.
@@ -262,7 +287,8 @@ fn times(m: &[i32; 9], v: [i32; 3]) -> [i64; 3] {
     [0, 1, 2].map(|i| wide(i, 0) + wide(i, 1) + wide(i, 2))
 }
 
-fn add(a: Block<3>, b: Block<3>) -> Block<3> {
+/// The sum of two vectors, rounded once.
+pub(super) fn add(a: Block<3>, b: Block<3>) -> Block<3> {
     let exponent = a.exponent.max(b.exponent);
     let mut sum = [0i64; 3];
     for part in [a, b] {

@@ -218,7 +218,12 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Takes all vertices of a mesh into memory, if there is room for them.
-    fn share<C: Coordinate>(&mut self, mesh: &Mesh<'_, C>, moved: Moved, pass: &mut Pass<'_>) {
+    pub(super) fn share<C: Coordinate>(
+        &mut self,
+        mesh: &Mesh<'_, C>,
+        moved: Moved,
+        pass: &mut Pass<'_>,
+    ) {
         if !self.reserve(mesh.positions.len(), pass) {
             return;
         }

@@ -19,6 +19,13 @@ pub(super) struct Corner {
     pub(super) texel: [i32; 2],
     /// The alpha, with 8 fraction bits: it follows edges as the colour does.
     pub(super) alpha: u16,
+    /// The vertex of the mesh; [`Corner::CUT`] where a plane made the corner.
+    pub(super) vertex: u16,
+}
+
+impl Corner {
+    /// No vertex: beside a mesh that has one of this number no triangle finds room for vertices of its own.
+    pub(super) const CUT: u16 = u16::MAX;
 }
 
 /// A convex polygon: a triangle gains at most one corner a plane.
@@ -79,6 +86,7 @@ pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
         colour: 0,
         texel: [0; 2],
         alpha: 0,
+        vertex: Corner::CUT,
     };
     let (mut out, mut back) = (None, None);
     for (i, next) in [(0, 1), (1, 2), (2, 0)] {
@@ -155,6 +163,7 @@ fn between(inner: &Corner, outer: &Corner, [near, far]: [i64; 2], on_screen: boo
             from.wrapping_add(mix(0, outer.texel[i].wrapping_sub(from), t))
         }),
         alpha: mix(inner.alpha.into(), outer.alpha.into(), along) as u16,
+        vertex: Corner::CUT,
     }
 }
 

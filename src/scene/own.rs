@@ -68,7 +68,9 @@ impl<L> Scene<'_, '_, L> {
     /// A triangle within all planes; an error names the memory that is full.
     #[inline(never)]
     pub(super) fn file_piece(&mut self, piece: &[Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
-        self.file_own(&[0, 1, 2].map(|i| own_of(&piece[i], pass)), pass)
+        let vertices = self.shared(pass);
+        let own = [0, 1, 2].map(|i| own_of(&piece[i], vertices, pass));
+        self.file_own(&own, pass)
     }
 
     /// A triangle with vertices of its own; an error names the memory that is full.
@@ -129,13 +131,19 @@ fn corner_of<C: Coordinate>(
         colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
         texel: pass.texel(i),
         alpha: pass.alpha(i),
+        vertex: i as u16,
     }
 }
 
-/// A corner within all planes as a vertex; out of line, since a triangle has three.
+/// A corner within all planes as a vertex: where the mesh's has been seen already, if it is one. Out of line, since a
+/// triangle has three.
 #[inline(never)]
-fn own_of(corner: &Corner, pass: &Pass<'_>) -> Own {
-    let on = pass.view.project(corner.point);
+fn own_of(corner: &Corner, vertices: &[Vertex], pass: &Pass<'_>) -> Own {
+    let mut on = pass.view.project(corner.point);
+    let known = vertices.get(usize::from(corner.vertex));
+    if let Some(known) = known.filter(|known| known.place != Vertex::OUTSIDE) {
+        (on.place, on.depth) = (known.place, known.depth);
+    }
     Own {
         vertex: Vertex {
             place: on.place,

@@ -8,10 +8,11 @@
 //! which side is seen is known once a draw call, and no record of a triangle has anything for it.
 
 use super::DepthFunction;
+use super::assemble::Moved;
 use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
-use super::project::{Point, View};
-use super::{DepthTest, Draw, DrawError, DrawState, Master, Moved, Scene};
+use super::project::{OnScreen, Point, View};
+use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene, Vertex};
 use crate::geometry::{
     Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
     each_triangle, triangles,
@@ -25,7 +26,8 @@ use crate::geometry::{
 pub enum Shadow {
     /// The call bounds the shadow volume of the light: it is not seen, but counted where it is nearer than what is
     /// seen, one way for faces that are seen from outside, and the other for those from inside. Neither is dropped.
-    /// Pixels in front of which they do not balance are in the light's shadow.
+    /// Pixels in front of which they do not balance are in the light's shadow. What a face is less than 1/64 pixel of its
+    /// slope away from is inside: so surfaces that a volume begins at are in shadow where they are turned from the light.
     ///
     /// Colours, light, textures, blends and dither do nothing. Counts are modulo 256: no more than 255 volumes of a
     /// light may lie over each other.
@@ -112,13 +114,40 @@ impl<'t, L> Scene<'_, 't, L> {
                 faces: Faces::Triangles(sides.faces),
             })
         };
-        self.assemble(&volume, Moved::All, false, None)?;
+        let view = View::new(&camera, self.screen, model);
+        let mut corners = sides.corners();
+        let mut near = || {
+            let point = view.point_of(mesh.positions, corners.next()?.into());
+            (view.beyond(point) == 0).then(|| view.project(point))
+        };
+        self.assemble_volume(&volume, &mut near)?;
         let cap = Draw {
             // In front of all that is seen, wherever rounding puts it.
             depth: DepthTest::new(DepthFunction::ALWAYS),
             ..volume
         };
         self.close_near(&cap, &camera, &extrusion, mesh)
+    }
+
+    /// Draws a volume whose even vertices are where `near` says, one after the other: where the mesh that casts the
+    /// shadow has them, to the bit, for what is between its border and the volume's would be in shadow or in light by
+    /// mistake.
+    fn assemble_volume(
+        &mut self,
+        volume: &Draw<'_, 't, i32>,
+        near: &mut dyn FnMut() -> Option<OnScreen>,
+    ) -> Result<(), DrawError> {
+        let mesh = &volume.mesh;
+        let file = |scene: &mut Self, pass: &mut Pass<'_>| {
+            scene.share(mesh, Moved::All, pass);
+            for vertex in scene.shared(pass).iter_mut().step_by(2) {
+                if let Some(on) = near() {
+                    *vertex = Vertex::unused(on.place, on.depth);
+                }
+            }
+            scene.file_volume(mesh, pass)
+        };
+        self.assemble_by(volume, false, None, triangles(mesh.faces), file)
     }
 
     /// Closes a shadow volume where the near plane cuts it: triangles from the border of the cut to one point of it,
@@ -180,6 +209,7 @@ impl<'t, L> Scene<'_, 't, L> {
             colour: pass.one.unwrap_or_default(),
             texel: [0; 2],
             alpha: 0,
+            vertex: Corner::CUT,
         };
         let (view, mut lost) = (pass.view, None);
         cut_all(&points.map(corner), &view, 0, &mut |piece| {

@@ -3,6 +3,7 @@
 //! Where two depths are nearer to each other than depth may err, nobody knows.
 
 use super::Corner;
+use super::exact::doubled_area;
 use super::values::{Function, passes};
 use crate::hot_path_depth::{bound, exact};
 use std::cmp::Ordering;
@@ -51,6 +52,40 @@ impl<'a> There<'a> {
         }
         let apart = self.depth - there.depth;
         (apart.abs() > self.off + there.off).then(|| apart.total_cmp(&0.0))
+    }
+}
+
+/// How a face of a shadow volume compares with what is there (K9): of what it may be nearer or farther by, 1/64 pixel of
+/// its way and 256 units, it is nearer where it is seen from outside, and farther from inside.
+pub fn compare_face(
+    face: &[Corner; 3],
+    there: Option<&[Corner; 3]>,
+    at: [u16; 2],
+) -> Option<Ordering> {
+    let (here, [x, y]) = (There::of(face, at), at);
+    let there = there.map_or(There::FARTHEST, |there| There::of(there, at));
+    let right = There::of(face, [x + 1, y]).depth - here.depth;
+    let down = There::of(face, [x, y + 1]).depth - here.depth;
+    // Thin triangles have no step down, and sums are rounded.
+    let range = [right.abs() * 0.98, right.abs() * 1.02 + down.abs() * 1.02];
+    let [least, most] = [range[0] / 64.0 + 252.0, range[1] / 64.0 + 260.0];
+    // Clockwise is from inside.
+    let is_back = doubled_area(face.map(|corner| corner.at)) > 0;
+    let apart = here.depth - there.depth;
+    let off = if here.compare(there) == Some(Ordering::Equal) {
+        0.0
+    } else {
+        here.off + there.off
+    };
+    let [below, above] = if is_back {
+        [least, most]
+    } else {
+        [-most, -least]
+    };
+    match () {
+        () if apart > above + off => Some(Ordering::Greater),
+        () if apart < below - off => Some(Ordering::Less),
+        () => None,
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::calls::{Call, Skinned};
 use crate::hot::exact::doubled_area;
+use crate::hot::layers::compare_face;
 use crate::hot::values::passes;
 use scanbeam::scene::Shadow;
 use scanbeam::stats::SpanCounts;
@@ -211,12 +212,13 @@ impl Row<'_> {
         }
         let mut inside = vec![0; cells.len()];
         for &i in all.iter().filter(|&&i| of(i, Shadow::Volume(light))) {
-            let is_front = doubled_area(self.calls[i].corners.map(|c| c.at)) > 0;
+            let corners = &self.calls[i].corners;
+            let is_back = doubled_area(corners.map(|c| c.at)) > 0;
             for x in self.kept(i) {
                 counts.depth_tests += 1;
-                let there = cells[x].map(|k| &self.calls[k]);
-                if self.calls[i].compare(there, [x as u16, self.y])? == Ordering::Greater {
-                    inside[x] += if is_front { -1 } else { 1 };
+                let there = cells[x].map(|k| &self.calls[k].corners);
+                if compare_face(corners, there, [x as u16, self.y])? == Ordering::Greater {
+                    inside[x] += if is_back { 1 } else { -1 };
                 }
             }
         }

@@ -263,6 +263,17 @@ fn compare(world: &World, drawn: &[Vec<[u8; 3]>]) -> (u32, u32) {
     (compared, shadows)
 }
 
+/// Compares one world of those that [`many`] makes of a seed, by its number.
+pub fn one(seed: u64, number: usize, lights: u8, draw: fn(&World) -> Vec<Vec<[u8; 3]>>) {
+    let mut rng = Rng::new(seed);
+    for _ in 0..number {
+        world(&mut rng, lights, From::Above);
+    }
+    let world = world(&mut rng, lights, From::Above);
+    let (compared, shadows) = compare(&world, &draw(&world));
+    assert!(compared > 1000 && shadows > 0, "{compared} {shadows}");
+}
+
 /// Compares random worlds that `draw` has drawn.
 pub fn many(seed: u64, lights: u8, from: From, draw: fn(&World) -> Vec<Vec<[u8; 3]>>) {
     let mut rng = Rng::new(seed);

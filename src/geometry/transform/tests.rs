@@ -343,3 +343,17 @@ fn directions_are_turned_in_units_of_the_mantissa() {
         }
     }
 }
+
+/// Kills: what a square lacks that is cut off.
+#[test]
+fn units_along_an_axis_are_exact() {
+    for axis in 0..3 {
+        for length in [1i64, -7, 1 << 29, -(1 << 61), (1 << 61) - 1] {
+            let (mut v, mut unit) = ([0; 3], [0; 3]);
+            v[axis] = length;
+            unit[axis] = length.signum() as i32 * (1 << 30);
+            assert_eq!(unit_q30(v), Some(unit), "{v:?}");
+        }
+    }
+    assert_eq!(unit_q30([0; 3]), None);
+}
