@@ -264,19 +264,20 @@ fn farthest_off(seed: u64, (ratio, texels): (f64, f64), budget: Budget) -> Seen 
 }
 
 const BUDGETS: [(Budget, f64); 3] = [
-    (Budget::EXACT, 1.0 / 16.0),
+    (Budget::EXACT, 1.0 / 32.0),
     (Budget::BALANCED, 0.25),
     (Budget::FAST, 0.5),
 ];
 
-/// How far budgets reach: to corners of 1:300, a texel more at 1:12,000, and eight at the farthest that a camera sees;
-/// where a pixel has many texels, 1/250 of them more.
+/// How far budgets reach: to corners of 1:300, a third of a texel more at 1:12,000, and four texels at the farthest that a
+/// camera sees; where a pixel has many texels, 1/250 of them more. Bounds are those of twelve seeds.
 ///
-/// Kills: a reach of twice as many steps, 1/w of ten bits fewer, a base that is no multiple of the side.
+/// Kills: a reach of twice as many steps, 1/w of ten bits fewer, a base that is no multiple of the side, planes that are
+/// exact anywhere but at the farthest corner.
 #[test]
 fn places_keep_their_budget() {
     for (budget, most) in BUDGETS {
-        for (ratio, more) in [(10.0, 0.0), (300.0, 0.0), (12_000.0, 1.0), (65_000.0, 8.0)] {
+        for (ratio, more) in [(10.0, 0.0), (300.0, 0.0), (12_000.0, 0.3), (65_000.0, 4.0)] {
             for texels in [64.0, 3000.0] {
                 let seen = farthest_off(7, (ratio, texels), budget);
                 println!(
@@ -295,9 +296,10 @@ fn places_keep_their_budget() {
 }
 
 /// The longest spans that there are, with ends of 1:10 and 1:100 (H1, H3, K18, X2): at the exact budget no more pixels have
-/// another texel than if all places were off by anything up to 1/128 texel.
+/// another texel than if all places were off by anything up to 1/256 texel, and none is off by more than 1/64 texel and
+/// what 1/250 pixel is.
 ///
-/// Kills: a last piece that ends early, a reach of twice as many steps.
+/// Kills: a last piece that ends early, a reach of twice as many steps, planes that are exact where the picture begins.
 #[test]
 fn long_spans_at_any_ratio_of_depth_keep_their_texels() {
     let screen = Screen::new(1016, 64).unwrap();
@@ -329,11 +331,10 @@ fn long_spans_at_any_ratio_of_depth_keep_their_texels() {
                 seen.pixels, seen.longest, seen.farthest, seen.beyond
             );
             assert!(seen.longest >= 1000 && seen.pixels > 200_000);
+            let is_exact = budget == Budget::EXACT;
+            let most = if is_exact { 1.0 / 64.0 } else { most };
             assert!(seen.beyond <= most, "1:{ratio} {budget:?}: {}", seen.beyond);
-            assert!(
-                budget != Budget::EXACT || share <= 100.0 / 128.0,
-                "1:{ratio}: {share} %"
-            );
+            assert!(!is_exact || share <= 100.0 / 256.0, "1:{ratio}: {share} %");
         }
     }
 }

@@ -117,6 +117,9 @@ pub(super) struct Large {
     y: i32,
     /// By how many bits the unit of planes is finer than that of values.
     finer: u32,
+    /// The pixel at which planes are exact, for steps are rounded: next to the farthest corner, where a place changes most
+    /// by what a unit is.
+    exact_at: [i32; 2],
 }
 
 impl Large {
@@ -143,6 +146,7 @@ impl Large {
             x: a.x,
             y: a.y,
             finer: 0,
+            exact_at: [0; 2],
         }))
     }
 
@@ -176,11 +180,24 @@ impl Large {
             let most = (at >> Self::FINER) + way(dx, width) + way(dy, height);
             let spare = |most| leading_zeros(most).saturating_sub(2).min(Self::FINER);
             self.finer = u32::try_from(most).map_or(0, spare);
+            let [y2, y1, x1, x2] = self.side;
+            let [x, y] = match (e1 < 0 && e1 <= e2, e2 < 0) {
+                (true, _) => [self.x + x1, self.y - y1],
+                (false, true) => [self.x - x2, self.y + y2],
+                _ => [self.x, self.y],
+            };
+            self.exact_at = [(x >> 6).max(0).min(width), (y >> 6).max(0).min(height)];
         }
         let down = Self::FINER - self.finer;
         let half = i64::from(1u32 << (down & 31) >> 1);
         // Fewer instructions than a shift of 64 bits by any number.
         let lower = |v: i64| (v as u32) >> (down & 31) | ((v >> 32) as u32) << 1 << (!down & 31);
-        Some([at, dx + half, dy + half].map(lower))
+        let [column, line] = self.exact_at;
+        let there = at + dx * i64::from(column) + dy * i64::from(line);
+        let [there, dx, dy] = [there, dx + half, dy + half].map(lower);
+        let way = dx
+            .wrapping_mul(column as u32)
+            .wrapping_add(dy.wrapping_mul(line as u32));
+        Some([there.wrapping_sub(way), dx, dy])
     }
 }
