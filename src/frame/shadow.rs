@@ -144,18 +144,12 @@ fn take<L: Look>(
             return;
         };
         let depth_at = |column: u32| at.wrapping_add(step.wrapping_mul(column));
+        let (first, last) = (depth_at(run.start), depth_at(run.end - 1));
         // What a face may be off by is inside.
-        let (mut first, last) = (depth_at(run.start), depth_at(run.end - 1));
-        let change = match state.role() {
-            Role::Front(_) => {
-                first = first.wrapping_add(inexact);
-                u8::MAX
-            }
-            Role::Back(_) => {
-                first = first.wrapping_sub(inexact.min(first).min(last));
-                1
-            }
-            _ => 0,
+        let (change, first) = match state.role() {
+            Role::Front(_) => (u8::MAX, first.wrapping_add(inexact)),
+            Role::Back(_) => (1, first.wrapping_sub(inexact.min(first).min(last))),
+            _ => (0, first),
         };
         if change != 0 {
             count(counts, cells, [first, step], passes, change);

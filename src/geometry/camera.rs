@@ -1,6 +1,6 @@
 //! The screen and the camera: what stays the same for a whole frame.
 
-use super::transform::{Affine, add, product, unit_q30, wide_product};
+use super::transform::{Affine, add, cross, unit_q30, wide_cross};
 use crate::num::{Block, GUARD_CENTRE, divide_signed};
 
 /// The size of the picture, 1 to 8192 pixels each way (K3).
@@ -144,7 +144,9 @@ impl Camera {
     /// of surfaces that face the eye, a thousandth of their distance apart, the nearer one is still 16
     /// units ahead. Those that lean are planes, which err by up to half a unit a pixel: a thousandth apart they are told
     /// apart in each pixel within 4,096 times near.
-    pub const MOST_FAR: f32 = 65_536.0;
+    pub const MOST_FAR: f32 = (1u32 << Self::FAR_BITS) as f32;
+    /// As a power of two.
+    const FAR_BITS: i32 = 16;
 
     /// World to camera.
     pub(crate) fn view(&self) -> &Affine {
@@ -181,19 +183,19 @@ impl Camera {
         let (mut focal, near, far) = (block([focal])?, block([near])?, block([far])?);
         // To 1/8 pixel.
         focal.exponent += 3;
-        // 65536 times near, as far is kept.
-        if (far.exponent, far.mantissa) > (near.exponent + 16, near.mantissa) {
+        // Times a power of two, as far is kept.
+        if (far.exponent, far.mantissa) > (near.exponent + Self::FAR_BITS, near.mantissa) {
             return Err(CameraError::Ratio);
         }
         let way = add(at, eye).mantissa.map(i64::from);
         let ahead = unit_q30(way).ok_or(CameraError::NoDirection)?;
-        let right = wide_product(ahead, up.mantissa);
+        let right = wide_cross(ahead, up.mantissa);
         // The sine of the angle between them is below 2^-16.
         if right.iter().all(|c| (c >> 32).abs() < 1 << 11) {
             return Err(CameraError::NoUp);
         }
         let right = unit_q30(right).ok_or(CameraError::NoUp)?;
-        let down = product(ahead, right);
+        let down = cross(ahead, right);
         let turn = Affine::of_units([right, down, ahead]);
         let view = Affine {
             offset: turn.linear_times(eye),

@@ -59,10 +59,10 @@ impl Projection {
             let factor = if i < 2 { focal } else { 1 << 30 };
             for (k, entry) in rows[i].iter_mut().enumerate() {
                 let m = map.linear.mantissa[3 * i + k];
-                *entry = product(m, factor, map.linear.exponent - 60 + scale + 2);
+                *entry = scaled(m, factor, map.linear.exponent - 60 + scale + 2);
             }
             let m = map.offset.mantissa[i];
-            offset[i] = product(m, factor, map.offset.exponent - 60 + scale);
+            offset[i] = scaled(m, factor, map.offset.exponent - 60 + scale);
         }
         let clamp = |v: i64| v.clamp(1, i64::from(i32::MAX)) as i32;
         Self {
@@ -93,8 +93,8 @@ impl Projection {
     }
 }
 
-/// A product, shifted to the left; out of line, since a draw call has twelve.
+/// A number times a factor, shifted to the left; out of line, since a draw call has twelve.
 #[inline(never)]
-fn product(m: i32, factor: i32, shift: i32) -> i32 {
+fn scaled(m: i32, factor: i32, shift: i32) -> i32 {
     shift_round(i64::from(m) * i64::from(factor), shift) as i32
 }

@@ -131,7 +131,7 @@ impl Affine {
         }
         // A second time: what was left over may have few bits.
         let y = unit_q30(beside(unit_q30(y)?))?;
-        let mut z = product(x, y);
+        let mut z = cross(x, y);
         if dot_q30(unit_q30(row(2)).unwrap_or(z), z) < 0 {
             z = z.map(|c| -c);
         }
@@ -267,14 +267,14 @@ fn dot_q30(a: [i32; 3], b: [i32; 3]) -> i64 {
     shift_round(x + y + z, -30)
 }
 
-/// The vector product of such, likewise.
-pub(super) fn product(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
-    wide_product(a, b).map(|c| ((c + (1 << 29)) >> 30) as i32)
+/// The cross product of such, likewise.
+pub(super) fn cross(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
+    wide_cross(a, b).map(|c| ((c + (1 << 29)) >> 30) as i32)
 }
 
-/// The vector product.
+/// The cross product.
 #[inline(never)]
-pub(super) fn wide_product(a: [i32; 3], b: [i32; 3]) -> [i64; 3] {
+pub(super) fn wide_cross(a: [i32; 3], b: [i32; 3]) -> [i64; 3] {
     let part =
         |i: usize, k: usize| i64::from(a[i]) * i64::from(b[k]) - i64::from(a[k]) * i64::from(b[i]);
     [part(1, 2), part(2, 0), part(0, 1)]

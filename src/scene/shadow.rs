@@ -8,11 +8,10 @@
 //! which side is seen is known once a draw call, and no record of a triangle has anything for it.
 
 use super::DepthFunction;
-use super::assemble::Moved;
 use super::cut::{Corner, cut_all, near_ends};
 use super::pass::{Pass, colour_all};
 use super::project::{OnScreen, Point, View};
-use super::{DepthTest, Draw, DrawError, DrawState, Master, Scene, Vertex};
+use super::{DepthTest, Draw, DrawError, DrawState, Master, Moved, Scene, Vertex};
 use crate::geometry::{
     Affine, Camera, Coordinate, Cull, Extrusion, Faces, Mesh, ShadowLight, ShadowMemory, check,
     each_triangle, triangles,
