@@ -12,7 +12,7 @@
 //!   planes (`hot_path_colours.rs`).
 //! - 1/w likewise, of which the near plane has 1/2 to 1: with 2^-18 for its plane, 2^-15 of it for a reciprocal and `2^-24 s / n` for its corners
 //!   (`hot_path_depth.rs`).
-//! - That an edge stays closed has no tolerance.
+//! - That an edge stays closed has no tolerance; that no pixel is drawn twice, but for what is thin and folds over.
 
 use crate::common::Rng;
 use crate::hot::cover::L;
@@ -135,6 +135,8 @@ enum Kind {
     Kept,
     /// Adding 1 to each pixel.
     AddsOne,
+    /// The same where it is seen from the front.
+    AddsOneInFront,
 }
 
 struct Stage {
@@ -196,7 +198,10 @@ impl Stage {
                     faces: Faces::Triangles(&[[0, 1, 2]]),
                 })
             };
-            if kind == Kind::AddsOne {
+            if kind == Kind::AddsOneInFront {
+                call.cull = Cull::Back;
+            }
+            if matches!(kind, Kind::AddsOne | Kind::AddsOneInFront) {
                 (call.mesh.colours, call.colour) = (&[], [1; 3]);
                 call.blend = Some(Blend::add(255));
             }
@@ -209,10 +214,22 @@ impl Stage {
         scene
     }
 
+    fn count(&mut self, triangles: &[[Corner; 3]], kind: Kind) -> Vec<u8> {
+        let words = frame(&self.scene(triangles, kind), 4, false, [0; 3]);
+        words.concat().into_iter().map(|word| word[0]).collect()
+    }
+
     /// How often each pixel is hit.
     fn hits(&mut self, triangles: &[[Corner; 3]]) -> Vec<u8> {
-        let words = frame(&self.scene(triangles, Kind::AddsOne), 4, false, [0; 3]);
-        words.concat().into_iter().map(|word| word[0]).collect()
+        self.count(triangles, Kind::AddsOne)
+    }
+
+    /// How much more often each pixel is hit by what is seen from the front.
+    fn balance(&mut self, triangles: &[[Corner; 3]]) -> Vec<i32> {
+        let front = self.count(triangles, Kind::AddsOneInFront);
+        let hits = front.iter().zip(self.hits(triangles));
+        hits.map(|(&front, all)| 2 * i32::from(front) - i32::from(all))
+            .collect()
     }
 
     fn draw(&mut self, triangle: [Corner; 3]) -> Frame {
@@ -359,7 +376,7 @@ fn triangles_through_the_near_plane_are_cut_where_they_should() {
 #[test]
 fn an_edge_that_is_cut_stays_closed() {
     let mut rng = Rng::new(62);
-    let (mut pairs, mut closed) = (0u32, 0u64);
+    let (mut pairs, mut closed, mut folded) = (0u32, 0u64, 0u32);
     while pairs < 12_000 {
         let mut stage = Stage::new(&mut rng);
         let (p, q, r) = (
@@ -405,17 +422,21 @@ fn an_edge_that_is_cut_stays_closed() {
         // The edge runs one way in one triangle and the other way in the other.
         let [first, second] = [[p, q, r], [q, p, s]];
         let hits = [vec![first], vec![second], vec![first, second]].map(|t| stage.hits(&t));
+        // What is thin may fold over as its corners are rounded: then a pixel is hit once more from one side and once
+        // from the other.
+        let balance = stage.balance(&[first, second]);
         for (i, x, y) in pixels() {
             assert_eq!(hits[0][i] + hits[1][i], hits[2][i]);
-            let [a, b, both] = [0, 1, 2].map(|k| hits[k][i] != 0);
+            let both = hits[2][i] != 0;
             let context = || format!("{x}, {y} of {p:?} {q:?} {r:?} {s:?} near {near}");
-            assert!(!(a && b), "drawn twice, {}", context());
+            assert!(balance[i].abs() <= 1, "drawn twice, {}", context());
+            folded += u32::from(hits[2][i] > 1);
             if inside(&whole, x, y) > slack {
                 closed += 1;
                 assert!(both, "a gap, {}", context());
             }
         }
     }
-    println!("{pairs} pairs, {closed} pixels inside");
-    assert!(closed > 500_000, "{closed}");
+    println!("{pairs} pairs, {closed} pixels inside, {folded} folded over");
+    assert!(closed > 500_000 && folded < 8, "{closed} {folded}");
 }
