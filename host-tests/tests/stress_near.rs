@@ -15,7 +15,7 @@
 //! - That an edge stays closed has no tolerance; that no pixel is drawn twice, but for what is thin and folds over.
 
 use crate::common::Rng;
-use crate::hot::cover::L;
+use crate::hot::cover::{L, balance};
 use crate::hot::{LineRooms, SceneRooms, frame, line};
 use scanbeam::scene::{Blend, Draw, Scene, Scissor};
 use scanbeam::{Affine, Camera, Cull, Faces, Mesh, Screen};
@@ -214,22 +214,14 @@ impl Stage {
         scene
     }
 
-    fn count(&mut self, triangles: &[[Corner; 3]], kind: Kind) -> Vec<u8> {
+    /// How often each pixel is hit, by what is drawn as a kind that adds 1.
+    fn hits_of(&mut self, triangles: &[[Corner; 3]], kind: Kind) -> Vec<u8> {
         let words = frame(&self.scene(triangles, kind), 4, false, [0; 3]);
         words.concat().into_iter().map(|word| word[0]).collect()
     }
 
-    /// How often each pixel is hit.
     fn hits(&mut self, triangles: &[[Corner; 3]]) -> Vec<u8> {
-        self.count(triangles, Kind::AddsOne)
-    }
-
-    /// How much more often each pixel is hit by what is seen from the front.
-    fn balance(&mut self, triangles: &[[Corner; 3]]) -> Vec<i32> {
-        let front = self.count(triangles, Kind::AddsOneInFront);
-        let hits = front.iter().zip(self.hits(triangles));
-        hits.map(|(&front, all)| 2 * i32::from(front) - i32::from(all))
-            .collect()
+        self.hits_of(triangles, Kind::AddsOne)
     }
 
     fn draw(&mut self, triangle: [Corner; 3]) -> Frame {
@@ -422,21 +414,22 @@ fn an_edge_that_is_cut_stays_closed() {
         // The edge runs one way in one triangle and the other way in the other.
         let [first, second] = [[p, q, r], [q, p, s]];
         let hits = [vec![first], vec![second], vec![first, second]].map(|t| stage.hits(&t));
-        // What is thin may fold over as its corners are rounded: then a pixel is hit once more from one side and once
-        // from the other.
-        let balance = stage.balance(&[first, second]);
+        let front = stage.hits_of(&[first, second], Kind::AddsOneInFront);
         for (i, x, y) in pixels() {
-            assert_eq!(hits[0][i] + hits[1][i], hits[2][i]);
-            let both = hits[2][i] != 0;
+            let all = hits[2][i];
+            assert_eq!(hits[0][i] + hits[1][i], all);
             let context = || format!("{x}, {y} of {p:?} {q:?} {r:?} {s:?} near {near}");
-            assert!(balance[i].abs() <= 1, "drawn twice, {}", context());
-            folded += u32::from(hits[2][i] > 1);
+            let balance = balance(front[i], all);
+            assert!(balance.abs() <= 1, "drawn twice, {}", context());
+            folded += u32::from(all > 1);
             if inside(&whole, x, y) > slack {
                 closed += 1;
-                assert!(both, "a gap, {}", context());
+                assert!(all != 0, "a gap, {}", context());
             }
         }
     }
     println!("{pairs} pairs, {closed} pixels inside, {folded} folded over");
-    assert!(closed > 500_000 && folded < 8, "{closed} {folded}");
+    // With seven other seeds up to 5 do.
+    assert_eq!(folded, 0, "pixels folded over");
+    assert!(closed > 500_000, "{closed}");
 }

@@ -7,7 +7,7 @@
 mod large;
 
 use crate::common::Rng;
-use crate::hot::cover::{Bench, L, add_one, hits};
+use crate::hot::cover::{Bench, L, add_one, balance, hits};
 use crate::hot::exact::doubled_area;
 use crate::hot::{Place, SceneRooms};
 use scanbeam::{Camera, Cull, Faces, Mesh, Screen};
@@ -338,10 +338,8 @@ fn cut_edges_stay_shut() {
             hits(&scene, SLOTS[round % 4][0])
         });
         for (y, (front, all)) in (0..64u16).zip(front.iter().zip(&all)) {
-            // What is thin may fold over as its corners are rounded: then a pixel is hit once more from the front and
-            // once from behind.
             assert!(
-                (0..96).all(|x| matches!(2 * i32::from(front[x]) - i32::from(all[x]), -1..=1)),
+                (0..96).all(|x| balance(front[x], all[x]).abs() <= 1),
                 "round {round}, line {y}: hit twice"
             );
             folded += (0..96).filter(|&x| all[x] > 1).count();
@@ -363,5 +361,6 @@ fn cut_edges_stay_shut() {
     }
     println!("{clipped} triangles cut, {held} lines without a gap, {folded} pixels folded over");
     assert!(clipped > 40_000 && held > 10_000, "{clipped}, {held}");
-    assert!(folded < 8, "{folded}");
+    // With seven other seeds up to 1 does.
+    assert_eq!(folded, 0, "pixels folded over");
 }

@@ -87,6 +87,13 @@ pub fn hits(scene: &Scene<'_, '_, L>, slots: u16) -> Picture<u8> {
         .collect()
 }
 
+/// How much more often a pixel is hit from the front than from behind, by what [`Cull::Back`] leaves of its hits. A mesh
+/// that covers each pixel once has -1, 0 or 1, even where a thin triangle folds over as its corners are rounded: that
+/// hits once more from one side, and once from the other.
+pub fn balance(front: u8, all: u8) -> i32 {
+    2 * i32::from(front) - i32::from(all)
+}
+
 /// Keeps its memory from scene to scene.
 pub struct Bench {
     pub rooms: SceneRooms,
