@@ -363,6 +363,49 @@ fn triangles_through_the_near_plane_are_cut_where_they_should() {
     assert!(compared > 1_000_000, "{compared}");
 }
 
+/// Planes that the eye is almost in, so that the near plane cuts them across the picture: a corner there errs by 4 units
+/// of 2^-26 of the scale, x and y as z, times half the guard band's width at most where the plane leans.
+///
+/// Kills: corners of x and y that have lost what a vertex can do without.
+#[test]
+fn planes_that_the_eye_is_almost_in_are_cut_where_they_should() {
+    let mut rng = Rng::new(63);
+    let (mut compared, mut beside, mut worst) = (0u32, 0u32, 0f64);
+    for _ in 0..6_000 {
+        let mut stage = Stage::new(&mut rng);
+        stage.scale = rng.pick(&[32.0, 256.0, 4_096.0]);
+        let (near, unit) = (stage.near, stage.scale / f64::from(1 << 30));
+        let (across, along) = (0.1 * rng.signed(), 0.05 * rng.signed());
+        // The middle of the cut is so many lines from the picture's.
+        let middle = 14.0 * rng.signed() / stage.focal - along;
+        let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, z)| {
+            let [x, z] = [x, z].map(|v: f64| v * stage.scale);
+            let y = middle * near + across * x + along * z;
+            corner(&mut rng, [x, (y / unit).round() * unit, z])
+        });
+        let slack = 0.0884 + 2f64.powi(-24) * stage.scale / near * (2.0 * stage.focal + 256.0);
+        let [a, b, c, d] = corners;
+        let hits = stage.hits(&[[a, b, c], [a, c, d]]);
+        let polygon = stage.polygon(&corners);
+        for (i, x, y) in pixels() {
+            let deep = inside(&polygon, x, y);
+            if (hits[i] != 0) != (deep > 0.0) {
+                beside += 1;
+                worst = worst.max(deep.abs() / slack);
+            }
+            compared += u32::from(deep > slack);
+        }
+    }
+    println!(
+        "{compared} pixels inside, {beside} on the other side, within {worst:.3} of the bound"
+    );
+    assert!(
+        compared > 1_000_000 && beside > 1_000,
+        "{compared} {beside}"
+    );
+    assert!(worst <= 1.0, "{worst}");
+}
+
 /// Two triangles on either side of an edge that the near plane cuts, at any angle: no pixel
 /// between them is left out, and none is drawn by both.
 #[test]

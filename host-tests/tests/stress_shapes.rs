@@ -11,6 +11,7 @@
 //! | order of depth, 1/w from 1 to 2^-16 | right where 1/w differs by more than both bounds | the same | `hot_path_depth.rs` |
 //! | depth of any corners that a camera sees together | never leaves its range | corners are cut to 2^-10 of 1 where others are so far | `hot_path_depth.rs` |
 //! | near plane at any angle: where edges lie | `0.0884 + 2^-24 scale / near (focal + 4096)` pixels; none is cut open | 1/16 pixel each way by snapping, 26 bits of a model's scale | `stress_near.rs` |
+//! | planes that the eye is almost in: where the near plane cuts them | `0.0884 + 2^-24 scale / near (2 focal + 256)` pixels | the same 26 bits of x and y, which vertices that are not cut do without | `stress_near.rs` |
 //! | near plane: colour, 1/w | 1.1 levels, `2^-18 + 2^-15 / w + 2^-24 scale / near`, and what that way of an edge makes of their slopes | as above | `stress_near.rs` |
 //! | chains of n maps of any magnitude | `3 n 2^-30` of the product of their norms | mantissas of 30 bits | `geometry/transform.rs` |
 //! | a million turns: skew of the rows | `n 2^-20` left alone, 2^-26 with `Affine::orthonormalised` | 24-bit rows of a turn | `geometry/transform.rs` |

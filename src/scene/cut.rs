@@ -3,7 +3,8 @@
 //! Near and far cut in space, so colours and texture places follow the edge linearly. The guard band cuts
 //! on the screen, where colour is linear, so there colours follow the projected edge, and cutting leaves the
 //! shading as if nothing had been cut; texture places are linear in space in either case. Each cut is
-//! reckoned from the inner to the outer end, so two triangles that share an edge get the same new vertex.
+//! reckoned from the inner to the outer end, so two triangles that share an edge get the same new vertex. Points have
+//! all bits of x and y while they are cut: near the eye those would be seen that a vertex can do without.
 
 use super::project::{Point, View, beyond};
 use crate::geometry::Colour;
@@ -26,12 +27,23 @@ pub(super) struct Corner {
 impl Corner {
     /// No vertex: beside a mesh that has one of this number no triangle finds room for vertices of its own.
     pub(super) const CUT: u16 = u16::MAX;
+
+    /// A corner that a plane made, of nothing but a colour.
+    pub(super) fn cut(point: Point, colour: u32) -> Self {
+        Self {
+            point,
+            colour,
+            texel: [0; 2],
+            alpha: 0,
+            vertex: Self::CUT,
+        }
+    }
 }
 
 /// A convex polygon: a triangle gains at most one corner a plane.
 type Polygon = Vec<Corner, 7, u8>;
 
-/// Calls `f` with triangles that are what lies within all planes of `beyond`.
+/// Calls `f` with triangles that are what lies within all planes of `beyond`, of corners whose points are finer.
 ///
 /// What near and far leave is parted into triangles before the guard band cuts each of them: four corners have no plane
 /// of colour in common, so how they are parted is seen, and must not hang on where the guard band is.
@@ -45,8 +57,7 @@ pub(super) fn cut_all(
     let depth = [beyond::NEAR, beyond::FAR].map(|plane| plane & beyond);
     cut_by(corners, view, &depth, &mut |piece| {
         // A cut at the near plane may reach beyond the guard band where no corner does.
-        let is_within = |corner: &Corner| view.beyond(corner.point) == 0;
-        if piece.iter().all(is_within) {
+        if piece.iter().all(|corner| view.is_between(corner.point)) {
             return f(piece);
         }
         let sides = [beyond::RIGHT, beyond::LEFT, beyond::BOTTOM, beyond::TOP];
@@ -81,13 +92,7 @@ fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32], f: &mut dyn FnMut(
 /// `None` where it does not.
 pub(super) fn near_ends(points: [Point; 3], view: &View) -> Option<[Point; 2]> {
     let within = points.map(|point| view.within(beyond::NEAR, point));
-    let corner = |i: usize| Corner {
-        point: points[i],
-        colour: 0,
-        texel: [0; 2],
-        alpha: 0,
-        vertex: Corner::CUT,
-    };
+    let corner = |i: usize| Corner::cut(points[i], 0);
     let (mut out, mut back) = (None, None);
     for (i, next) in [(0, 1), (1, 2), (2, 0)] {
         match (within[i] >= 0, within[next] >= 0) {

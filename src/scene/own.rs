@@ -4,9 +4,10 @@ use super::alpha;
 use super::assemble::bin_of;
 use super::cut::{Corner, cut_all};
 use super::pass::{Own, Pass, colour_of};
-use super::project::Point;
+use super::project::{Point, View};
 use super::{Full, NONE, Object, Scene, TexturePlace, Vertex};
 use crate::geometry::{Coordinate, Mesh, Scale};
+use core::hint::black_box;
 
 impl<L> Scene<'_, '_, L> {
     /// A face that brings its own vertices, and is cut where needed; of one colour, if it has one.
@@ -37,12 +38,14 @@ impl<L> Scene<'_, '_, L> {
         let before = self.objects.len();
         let mut lost = None;
         if any == 0 {
-            lost = self.file_piece(&corners, pass).err();
+            lost = self.file_piece(&corners, &corners, pass).err();
         } else {
             pass.clipped += 1;
-            let (view, pass) = (pass.view, &*pass);
-            cut_all(&corners, &view, any, &mut |piece| {
-                lost = lost.or(self.file_piece(piece, pass).err());
+            let pass = &*pass;
+            let mut finer = corners;
+            make_finer(mesh, black_box(finer.as_mut_slice()), &pass.view);
+            cut_all(&finer, &pass.view, any, &mut |piece| {
+                lost = lost.or(self.file_piece(piece, &corners, pass).err());
             });
         }
         if let Some(memory) = lost {
@@ -65,11 +68,17 @@ impl<L> Scene<'_, '_, L> {
         is_beyond
     }
 
-    /// A triangle within all planes; an error names the memory that is full.
+    /// A triangle within all planes, corners of which are among those of a face that was cut; an error names the memory
+    /// that is full.
     #[inline(never)]
-    pub(super) fn file_piece(&mut self, piece: &[Corner; 3], pass: &Pass<'_>) -> Result<(), Full> {
+    pub(super) fn file_piece(
+        &mut self,
+        piece: &[Corner; 3],
+        whole: &[Corner],
+        pass: &Pass<'_>,
+    ) -> Result<(), Full> {
         let vertices = self.shared(pass);
-        let own = [0, 1, 2].map(|i| own_of(&piece[i], vertices, pass));
+        let own = [0, 1, 2].map(|i| own_of(&piece[i], whole, vertices, pass));
         self.file_own(&own, pass)
     }
 
@@ -135,11 +144,26 @@ fn corner_of<C: Coordinate>(
     }
 }
 
+/// Gives points of corners of a mesh all bits.
+#[inline(never)]
+fn make_finer<C: Coordinate>(mesh: &Mesh<'_, C>, corners: &mut [Corner], view: &View) {
+    for corner in corners {
+        if let Some(&at) = mesh.positions.get(usize::from(corner.vertex)) {
+            corner.point = view.finer(at.map(C::to_q30), corner.point);
+        }
+    }
+}
+
 /// A corner within all planes as a vertex: where the mesh's has been seen already, if it is one. Out of line, since a
 /// triangle has three.
 #[inline(never)]
-fn own_of(corner: &Corner, vertices: &[Vertex], pass: &Pass<'_>) -> Own {
-    let mut on = pass.view.project(corner.point);
+fn own_of(corner: &Corner, whole: &[Corner], vertices: &[Vertex], pass: &Pass<'_>) -> Own {
+    // What is no new corner is where others see it, who may not be cut.
+    let (point, finer) = match whole.iter().find(|one| one.vertex == corner.vertex) {
+        Some(seen) => (seen.point, 0),
+        None => (corner.point, pass.view.finer),
+    };
+    let mut on = pass.view.project_finer(point, finer);
     let known = vertices.get(usize::from(corner.vertex));
     if let Some(known) = known.filter(|known| known.place != Vertex::OUTSIDE) {
         (on.place, on.depth) = (known.place, known.depth);

@@ -61,6 +61,10 @@ pub(super) struct View {
     down: i32,
     /// The principal point and half a unit, in units of 2^-14 of 1/8 pixel.
     centre: [i32; 2],
+    /// Rows and offsets of x and y before what they lose: so many bits.
+    finer_rows: [[i32; 3]; 2],
+    finer_offset: [i32; 2],
+    pub(super) finer: i32,
 }
 
 impl View {
@@ -72,6 +76,8 @@ impl View {
         // What x and y lose, or, for long focal lengths, z.
         let down = FOCAL_BITS - projection.power;
         let (cross, along) = (down.clamp(0, 31), (-down).clamp(0, 31));
+        let finer_rows = [rows[0], rows[1]];
+        let finer_offset = [offset[0], offset[1]];
         for i in 0..3 {
             let shift = if i < 2 { cross } else { along };
             let scaled = |v: i32| rounded(v, shift);
@@ -92,23 +98,55 @@ impl View {
             far: range(far),
             down: near_down + along + 1,
             centre: [centre(0), centre(1)],
+            finer_rows,
+            finer_offset,
+            finer: cross,
         }
     }
 
     /// Nine products.
     #[inline(always)]
     pub(super) fn point<C: Coordinate>(&self, p: [C; 3]) -> Point {
-        let row = |i: usize| {
-            let r = &self.rows[i];
-            let sum = p[0].times(r[0]).wrapping_add(p[1].times(r[1]));
-            sum.wrapping_add(p[2].times(r[2]))
-                .wrapping_add(self.offset[i])
-        };
+        let row = |i: usize| along(self.rows[i], p, self.offset[i]);
         Point {
             x: row(0),
             y: row(1),
             z: row(2),
         }
+    }
+
+    /// The point of a position that is seen at a point, with all bits that x and y can have: a cut at the near plane
+    /// magnifies what they lose.
+    ///
+    /// What lies between two guard planes does so here as well.
+    #[inline(never)]
+    pub(super) fn finer(&self, p: [i32; 3], seen: Point) -> Point {
+        let (beyond, reach) = (self.beyond(seen), self.reach(seen.z));
+        let row = |i: usize, planes: u32| {
+            let v = along(self.finer_rows[i], p, self.finer_offset[i]);
+            if beyond & planes == 0 {
+                v.max(-reach).min(reach)
+            } else {
+                v
+            }
+        };
+        Point {
+            x: row(0, beyond::RIGHT | beyond::LEFT),
+            y: row(1, beyond::BOTTOM | beyond::TOP),
+            z: seen.z,
+        }
+    }
+
+    /// Whether a [finer](Self::finer) point lies within all guard planes.
+    #[inline(never)]
+    pub(super) fn is_between(&self, p: Point) -> bool {
+        p.x.abs().max(p.y.abs()) <= self.reach(p.z)
+    }
+
+    /// How far the guard band reaches, for a [finer](Self::finer) point: more than it can have, where it would be.
+    fn reach(&self, z: i32) -> i32 {
+        let finer = self.finer & 31;
+        guard(z).min(i32::MAX >> finer) << finer
     }
 
     /// The point of one of these positions; at the eye, which is before the near plane, where there is none.
@@ -159,32 +197,56 @@ impl View {
         .fold(0, |all, (is, bit)| if is { all | bit } else { all })
     }
 
-    /// How far a point lies within a plane; below 0 beyond it.
+    /// How far a [finer](Self::finer) point lies within a plane; below 0 beyond it.
+    #[inline(never)]
     pub(super) fn within(&self, plane: u32, p: Point) -> i64 {
-        let (x, y, z) = (i64::from(p.x), i64::from(p.y), i64::from(p.z));
-        let guard = i64::from(guard(p.z));
-        match plane {
-            beyond::NEAR => z - i64::from(self.near),
-            beyond::FAR => i64::from(self.far) - z,
-            beyond::RIGHT => guard - x,
-            beyond::LEFT => guard + x,
-            beyond::BOTTOM => guard - y,
-            _ => guard + y,
-        }
+        let reach = self.reach(p.z);
+        let (most, at) = match plane {
+            beyond::NEAR => (p.z, self.near),
+            beyond::FAR => (self.far, p.z),
+            beyond::RIGHT => (reach, p.x),
+            beyond::LEFT => (reach, -p.x),
+            beyond::BOTTOM => (reach, p.y),
+            _ => (reach, -p.y),
+        };
+        i64::from(most) - i64::from(at)
+    }
+
+    /// A point within all planes to the screen, x and y of which have so many bits more.
+    #[inline(never)]
+    pub(super) fn project_finer(&self, p: Point, finer: i32) -> OnScreen {
+        // Only ratios count, so z may be as large as it can.
+        let up = leading_zeros(p.z as u32) as i32 - 1;
+        let more = up - finer;
+        let scaled = |v: i32| {
+            if more < 0 {
+                rounded(v, -more)
+            } else {
+                v << (more & 31)
+            }
+        };
+        let (x, y) = (scaled(p.x), scaled(p.y));
+        self.place(x, y, p.z << (up & 31), up)
     }
 
     /// A point within all planes to the screen.
     #[inline(always)]
     pub(super) fn project(&self, p: Point) -> OnScreen {
-        let (mut x, mut y, mut z, mut up) = (p.x, p.y, p.z, 0);
+        self.place(p.x, p.y, p.z, 0)
+    }
+
+    /// A point within all planes, made larger by so many bits, to the screen.
+    #[inline(always)]
+    fn place(&self, mut x: i32, mut y: i32, mut z: i32, mut up: i32) -> OnScreen {
         if SHORT {
             // One or two rounds: cheaper than a count of zeros.
             while z > 0 {
                 (x, y, z, up) = (x << 1, y << 1, z << 1, up + 1);
             }
         } else {
-            up = leading_zeros(z as u32) as i32;
-            (x, y, z) = (x << (up & 31), y << (up & 31), z << (up & 31));
+            let more = leading_zeros(z as u32) as i32;
+            (x, y, z) = (x << (more & 31), y << (more & 31), z << (more & 31));
+            up += more;
         }
         let z = z as u32;
         let r = recip_16(z >> 16);
@@ -208,6 +270,13 @@ impl View {
             fine: [fine(qx, sx), fine(qy, sy)],
         }
     }
+}
+
+/// A row times a position, and what is added.
+#[inline(always)]
+fn along<C: Coordinate>(row: [i32; 3], p: [C; 3], offset: i32) -> i32 {
+    let sum = p[0].times(row[0]).wrapping_add(p[1].times(row[1]));
+    sum.wrapping_add(p[2].times(row[2])).wrapping_add(offset)
 }
 
 /// Positions into vertices, which are not lit yet; whether all of them lie within the planes.
@@ -294,119 +363,4 @@ pub(super) fn project_listed<C: Coordinate>(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::geometry::CameraError;
-    use crate::num::random::Rng;
-
-    #[test]
-    fn places_are_the_nearest_to_those_of_a_division() {
-        let screen = Screen::new(320, 240).unwrap();
-        let mut rng = Rng(9);
-        let (mut worst, mut worst_fine, mut worst_depth) = (0f64, 0f64, 0f64);
-        for i in 0..60_000 {
-            let size = [0.001f32, 1.0, 5000.0][i % 3];
-            let focal = [20.0f32, 200.0, 3000.0][i / 3 % 3];
-            let away = size * (3.0 + 40.0 * rng.signed().abs());
-            let (o, z, y) = ([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
-            let camera = Camera::look_at(o, z, y, focal, size, size * 1000.0).unwrap();
-            let model = Affine::placed(size, [0.0, 0.0, -away]).unwrap();
-            let view = View::new(&camera, screen, &model);
-            let q = [rng.signed(), rng.signed(), rng.signed()].map(|c| (c * 16_384.0) as i16);
-            let p = view.point(q);
-            if view.beyond(p) != 0 {
-                assert!(!view.is_within(p));
-                continue;
-            }
-            assert!(view.is_within(p));
-            let on = view.project(p);
-            let [x, y, z] = q.map(|c| f64::from(c) / 16_384.0 * f64::from(size));
-            let z = f64::from(away) - z;
-            let want = [
-                8.0 * (f64::from(ORIGIN) + 160.0 + f64::from(focal) * x / z),
-                8.0 * (f64::from(ORIGIN) + 120.0 - f64::from(focal) * y / z),
-            ];
-            let got = [on.place & 0xFFFF, on.place >> 16].map(f64::from);
-            for k in 0..2 {
-                worst = worst.max((got[k] - want[k]).abs());
-                let fine = got[k] + f64::from(on.fine[k]) / 8.0;
-                worst_fine = worst_fine.max((fine - want[k]).abs());
-            }
-            // All depths of a camera have the same factor, 1/2 to 1.
-            let depth = f64::from(on.depth) / 2f64.powi(31) * z / f64::from(size);
-            let near = View::new(&camera, screen, &Affine::placed(size, [0.0; 3]).unwrap());
-            let at_near = near.project(near.point([0i16, 0, -32_768]));
-            let factor = f64::from(at_near.depth) / 2f64.powi(30);
-            assert!(factor > 0.49 && factor < 1.0001, "{factor}");
-            worst_depth = worst_depth.max((depth / factor - 1.0).abs());
-        }
-        std::println!("{worst} {worst_fine} of 1/8 pixel, {worst_depth}");
-        assert!(worst < 0.505, "{worst}");
-        assert!(worst_fine < 0.13, "{worst_fine}");
-        assert!(worst_depth < 3e-5, "{worst_depth}");
-    }
-
-    /// Kills: points on a plane that lie beyond it, or one unit beyond it that do not.
-    #[test]
-    fn planes_belong_to_what_is_seen() {
-        let screen = Screen::new(320, 240).unwrap();
-        let (o, ahead, up) = ([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]);
-        let camera = Camera::look_at(o, ahead, up, 200.0, 0.1, 2.0).unwrap();
-        let view = View::new(&camera, screen, &Affine::IDENTITY);
-        let at = |x: i32, y: i32, z: i32| view.beyond(Point { x, y, z });
-        assert_eq!([at(0, 0, view.near), at(0, 0, view.far)], [0, 0]);
-        let outside = [at(0, 0, view.near - 1), at(0, 0, view.far + 1)];
-        assert_eq!(outside, [beyond::NEAR, beyond::FAR]);
-        let z = view.near * 2;
-        let side = guard(z);
-        for (x, y, plane) in [
-            (1, 0, beyond::RIGHT),
-            (-1, 0, beyond::LEFT),
-            (0, 1, beyond::BOTTOM),
-            (0, -1, beyond::TOP),
-        ] {
-            assert_eq!(at(x * side, y * side, z), 0);
-            assert_eq!(at(x * (side + 1), y * (side + 1), z), plane);
-        }
-    }
-
-    #[test]
-    fn cameras_that_are_shifted_see_the_same_from_another_middle() {
-        let screen = Screen::new(320, 240).unwrap();
-        let mut rng = Rng(10);
-        let mut worst = 0;
-        for i in 0..20_000 {
-            let focal = [90.0f32, 700.0, 3000.0][i % 3];
-            let (o, ahead, y) = ([0.0; 3], [0.2, 0.1, -1.0], [0.0, 1.0, 0.0]);
-            let camera = Camera::look_at(o, ahead, y, focal, 0.1, 100.0).unwrap();
-            let shift = [rng.signed(), rng.signed()].map(|s| s * 900.0);
-            let shifted = camera.shifted(shift).unwrap();
-            let model = Affine::placed(1.0, [0.0, 0.0, -4.0]).unwrap();
-            let q = [rng.signed(), rng.signed(), rng.signed()].map(|c| (c * 16_384.0) as i16);
-            let place = |camera: &Camera| {
-                let view = View::new(camera, screen, &model);
-                let p = view.point(q);
-                let on = (view.beyond(p) == 0).then(|| view.project(p).place)?;
-                Some([on & 0xFFFF, on >> 16].map(|c| c as i32))
-            };
-            let (Some(one), Some(other)) = (place(&camera), place(&shifted)) else {
-                continue;
-            };
-            for k in 0..2 {
-                let by = (f64::from(shift[k]) * 8.0).round() as i32;
-                worst = worst.max((one[k] - by - other[k]).abs());
-            }
-        }
-        assert_eq!(worst, 1);
-        let camera = Camera::look_at([0.0; 3], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0], 2.0, 0.1, 9.0);
-        let camera = camera.unwrap();
-        assert!(camera.shifted([128.0, -128.0]).is_ok());
-        for far in [[129.0, 0.0], [0.0, -129.0], [f32::NAN, 0.0], [0.0, 1e9]] {
-            assert_eq!(
-                camera.shifted(far).err(),
-                Some(CameraError::Shift),
-                "{far:?}"
-            );
-        }
-    }
-}
+mod tests;

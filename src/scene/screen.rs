@@ -205,6 +205,6 @@ impl super::project::View {
     /// The depth of the near plane.
     fn near_depth(&self) -> u32 {
         let z = self.near;
-        self.project(Point { x: 0, y: 0, z }).depth
+        self.project_finer(Point { x: 0, y: 0, z }, 0).depth
     }
 }

@@ -177,7 +177,7 @@ impl<'t, L> Scene<'_, 't, L> {
             }
             let mut hub = None;
             let mut close = |corners: [[i32; 3]; 3]| {
-                let points = corners.map(|p| pass.view.point(p));
+                let points = corners.map(|p| pass.view.finer(p, pass.view.point(p)));
                 // The border of the cut goes against the way of the triangle.
                 if let Some([to, from]) = near_ends(points, &pass.view) {
                     let hub = *hub.get_or_insert(from);
@@ -203,16 +203,11 @@ impl<'t, L> Scene<'_, 't, L> {
 
     /// Files a triangle that lies in the near plane, cut to the guard band.
     fn file_cut(&mut self, points: [Point; 3], number: u32, pass: &mut Pass<'_>) {
-        let corner = |point| Corner {
-            point,
-            colour: pass.one.unwrap_or_default(),
-            texel: [0; 2],
-            alpha: 0,
-            vertex: Corner::CUT,
-        };
+        let colour = pass.one.unwrap_or_default();
         let (view, mut lost) = (pass.view, None);
-        cut_all(&points.map(corner), &view, 0, &mut |piece| {
-            lost = lost.or(self.file_piece(piece, pass).err());
+        let corners = points.map(|point| Corner::cut(point, colour));
+        cut_all(&corners, &view, 0, &mut |piece| {
+            lost = lost.or(self.file_piece(piece, &[], pass).err());
         });
         if let Some(memory) = lost {
             pass.lost.lose(memory, number);
