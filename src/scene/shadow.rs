@@ -27,6 +27,7 @@ pub enum Shadow {
     /// seen, one way for faces that are seen from outside, and the other for those from inside. Neither is dropped.
     /// Pixels in front of which they do not balance are in the light's shadow. What a face is less than 1/64 pixel of its
     /// slope away from is inside: so surfaces that a volume begins at are in shadow where they are turned from the light.
+    /// A face that is too steep for a plane has the slope between its pixels of a line.
     ///
     /// Colours, light, textures, blends and dither do nothing. Counts are modulo 256: no more than 255 volumes of a
     /// light may lie over each other.

@@ -66,8 +66,13 @@ pub fn compare_face(
     let there = there.map_or(There::FARTHEST, |there| There::of(there, at));
     let right = There::of(face, [x + 1, y]).depth - here.depth;
     let down = There::of(face, [x, y + 1]).depth - here.depth;
-    // Thin triangles have no step down, and sums are rounded.
-    let range = [right.abs() * 0.98, right.abs() * 1.02 + down.abs() * 1.02];
+    // Thin triangles have no step down, those that are too steep for a plane the one of their span, which may be of one
+    // pixel; and sums are rounded.
+    let is_steep = right.abs().max(down.abs()) > f64::from(1 << 29);
+    let range = [
+        if is_steep { 0.0 } else { right.abs() * 0.98 },
+        right.abs() * 1.02 + down.abs() * 1.02,
+    ];
     let [least, most] = [range[0] / 64.0 + 252.0, range[1] / 64.0 + 260.0];
     // Clockwise is from inside.
     let is_back = doubled_area(face.map(|corner| corner.at)) > 0;
