@@ -82,13 +82,7 @@ impl Shares {
                 .wrapping_sub(dy.wrapping_mul(self.y));
             way >> 3
         } else {
-            // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
-            let rest = 4i32
-                .wrapping_sub(dx.wrapping_mul(self.x & 7))
-                .wrapping_sub(dy.wrapping_mul(self.y & 7));
-            (rest >> 3)
-                .wrapping_sub(dx.wrapping_mul(self.x >> 3))
-                .wrapping_sub(dy.wrapping_mul(self.y >> 3))
+            self.back(dx, dy)
         };
         Rise { at, dx, dy }
     }
@@ -117,18 +111,24 @@ impl Shares {
             [gx, gy].map(|g| (g << left) >> 3)
         };
         let at = if SHORT {
-            // Whole pixels apart from the rest: nothing is shifted right after a product has wrapped.
-            let rest = 4i32
-                .wrapping_sub(dx.wrapping_mul(self.x & 7))
-                .wrapping_sub(dy.wrapping_mul(self.y & 7));
-            (rest >> 3)
-                .wrapping_sub(dx.wrapping_mul(self.x >> 3))
-                .wrapping_sub(dy.wrapping_mul(self.y >> 3))
+            self.back(dx, dy)
         } else {
             let way = |d: i32, to: i32| i64::from(d) * i64::from(to);
             ((4 - way(dx, self.x) - way(dy, self.y)) >> 3) as i32
         };
         Some([at, dx, dy].map(|v| v as u32))
+    }
+
+    /// From the first corner back to the picture's first pixel: whole pixels apart from the rest, as nothing is shifted
+    /// right then after a product has wrapped.
+    #[inline(always)]
+    fn back(&self, dx: i32, dy: i32) -> i32 {
+        let rest = 4i32
+            .wrapping_sub(dx.wrapping_mul(self.x & 7))
+            .wrapping_sub(dy.wrapping_mul(self.y & 7));
+        (rest >> 3)
+            .wrapping_sub(dx.wrapping_mul(self.x >> 3))
+            .wrapping_sub(dy.wrapping_mul(self.y >> 3))
     }
 }
 
