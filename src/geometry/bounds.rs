@@ -11,7 +11,7 @@
 
 use super::camera::{Camera, Screen};
 use super::mesh::Coordinate;
-use super::project::Projection;
+use super::project::{Projection, along};
 use super::transform::Affine;
 use core::ops::Range;
 
@@ -75,8 +75,8 @@ impl Sphere {
         let columns = left..left + i32::from(screen.width());
         let lines = top + i32::from(lines.start)..top + i32::from(lines.end);
         let rows = projection.rows.map(|row| row.map(i64::from));
-        let centre = projection.transform(self.centre);
-        let z = i64::from(centre.z);
+        let at = |i: usize| along(projection.rows[i], self.centre, projection.offset[i]);
+        let z = i64::from(at(2));
         if self.is_beyond(rows[2], z - i64::from(projection.near), SLACK)
             || self.is_beyond(rows[2], i64::from(projection.far) - z, SLACK)
         {
@@ -85,7 +85,7 @@ impl Sphere {
         // X = v 2^power / z in units of 1/8 pixel; both sides are multiplied by z > 0.
         let up = projection.power.clamp(0, 30);
         let down = (-projection.power).clamp(0, 16);
-        [(centre.x, &columns), (centre.y, &lines)]
+        [(at(0), &columns), (at(1), &lines)]
             .into_iter()
             .enumerate()
             .any(|(axis, (v, range))| {

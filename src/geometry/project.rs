@@ -9,15 +9,6 @@ use super::mesh::Coordinate;
 use super::transform::Affine;
 use crate::num::shift_round;
 
-/// A vertex in clip coordinates of its draw call: x and y times the mantissa of the focal
-/// length, z along the view; each within 2^30.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct ClipPoint {
-    pub(super) x: i32,
-    pub(super) y: i32,
-    pub(super) z: i32,
-}
-
 /// Model space to screen, for one draw call.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Projection {
@@ -75,22 +66,13 @@ impl Projection {
             centre: screen.centre(),
         }
     }
+}
 
-    /// Model space to clip coordinates: nine products.
-    #[inline]
-    pub(super) fn transform<C: Coordinate>(&self, p: [C; 3]) -> ClipPoint {
-        let row = |i: usize| {
-            let r = &self.rows[i];
-            let xy = p[0].times(r[0]).wrapping_add(p[1].times(r[1]));
-            xy.wrapping_add(p[2].times(r[2]))
-                .wrapping_add(self.offset[i])
-        };
-        ClipPoint {
-            x: row(0),
-            y: row(1),
-            z: row(2),
-        }
-    }
+/// A row times a position, and what is added.
+#[inline(always)]
+pub(crate) fn along<C: Coordinate>(row: [i32; 3], p: [C; 3], offset: i32) -> i32 {
+    let sum = p[0].times(row[0]).wrapping_add(p[1].times(row[1]));
+    sum.wrapping_add(p[2].times(row[2])).wrapping_add(offset)
 }
 
 /// A number times a factor, shifted to the left; out of line, since a draw call has twelve.

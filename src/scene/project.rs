@@ -9,7 +9,7 @@
 //! 16 bits, also of places that were rounded away from each other.
 
 use super::record::{ORIGIN, TexturePlace, Vertex};
-use crate::geometry::{Affine, Camera, Coordinate, Projection, Screen};
+use crate::geometry::{Affine, Camera, Coordinate, Projection, Screen, along};
 use crate::num::{SHORT, leading_zeros, mul_recip_16, recip_16, rounded};
 
 /// `x / z` in units of 1/8 pixel is `2^17` of the rows' ratio.
@@ -270,13 +270,6 @@ impl View {
             fine: [fine(qx, sx), fine(qy, sy)],
         }
     }
-}
-
-/// A row times a position, and what is added.
-#[inline(always)]
-fn along<C: Coordinate>(row: [i32; 3], p: [C; 3], offset: i32) -> i32 {
-    let sum = p[0].times(row[0]).wrapping_add(p[1].times(row[1]));
-    sum.wrapping_add(p[2].times(row[2])).wrapping_add(offset)
 }
 
 /// Positions into vertices, which are not lit yet; whether all of them lie within the planes.
