@@ -77,7 +77,7 @@ fn rooms(screen: Screen) -> SceneRooms {
 }
 
 /// All lines, every `step`-th first, with so many slots.
-fn lines<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, step: usize) -> Vec<Vec<WordOf<L>>> {
+pub fn lines<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, step: usize) -> Vec<Vec<WordOf<L>>> {
     let mut lines = LineRooms::fitting(scene, slots, true);
     let mut renderer = lines.with_shadows();
     let mut picture = vec![Vec::new(); scene.lines().len()];
@@ -90,7 +90,7 @@ fn lines<L: Smooth>(scene: &Scene<'_, '_, L>, slots: u16, step: usize) -> Vec<Ve
     picture
 }
 
-fn drawn(world: &World) -> Vec<Vec<[u8; 3]>> {
+pub fn drawn(world: &World) -> Vec<Vec<[u8; 3]>> {
     let mut memory = rooms(screen());
     let mut scene = memory.scene::<L>(screen());
     build(&mut scene, world);

@@ -15,14 +15,14 @@ use scanbeam::{Cull, Faces, Mesh};
 type Smooth = Gouraud<Rgb565Be>;
 
 /// Vertices of a strip: places, colours, alphas.
-struct Band {
-    positions: Vec<[i16; 3]>,
-    colours: Vec<[u8; 3]>,
-    alphas: Vec<u8>,
+pub struct Band {
+    pub positions: Vec<[i16; 3]>,
+    pub colours: Vec<[u8; 3]>,
+    pub alphas: Vec<u8>,
 }
 
 impl Band {
-    fn new(rng: &mut Rng, count: usize) -> Self {
+    pub fn new(rng: &mut Rng, count: usize) -> Self {
         let positions = (0..count).map(|i| {
             let side = [-5_000, 5_000][i % 2];
             let [x, y] = [(); 2].map(|()| rng.within(-2_000, 2_000) as i16);
@@ -38,7 +38,7 @@ impl Band {
     }
 
     /// Vertices one after the other, or columns.
-    fn words(&self, is_table: bool) -> Vec<u32> {
+    pub fn words(&self, is_table: bool) -> Vec<u32> {
         let mut words = Vec::new();
         let mut packer = FieldPacker::new(|w| words.push(w));
         let places = self.positions.iter().map(|p| p.map(i32::from));
@@ -87,7 +87,7 @@ impl Band {
 }
 
 /// A list: what is seen from both sides, of places and colours with alphas, and then what `write` writes.
-fn list_of(opacity: u8, write: impl FnOnce(&mut ListWriter<'_>)) -> &'static [u32] {
+pub fn list_of(opacity: u8, write: impl FnOnce(&mut ListWriter<'_>)) -> &'static [u32] {
     let mut memory = vec![0; 1024];
     let mut writer = ListWriter::new(&mut memory);
     let fields = [

@@ -252,6 +252,8 @@ fn what_memory_scene_or_settings_do_not_allow_is_refused() {
     };
     let error = said::<Phong<Rgb565Be>>(teapot, lit, 300, 0, 0).unwrap_err();
     assert_eq!(error.reason, Reason::Missing(Missing::LightAtVertices));
+    let error = said::<Smooth>(teapot, lit_at_pixels(), 300, 0, 0).unwrap_err();
+    assert_eq!(error.reason, Reason::Missing(Missing::Lamps));
     // A second rectangle cannot be said.
     let window = Window {
         left: 1,

@@ -99,6 +99,12 @@ pub enum Missing {
     Highlights,
     /// Lights and colours at vertices, where the settings have lamps.
     LightAtVertices,
+    /// Lamps, in a scene whose look is not lit at pixels.
+    Lamps,
+    /// Opacity, alphas or blends, in a scene whose pixels are numbers of a palette.
+    Blends,
+    /// Shadows where priority decides, of a light that they cannot have, or of points and triangles on the screen.
+    Shadows,
     /// A window, where what is drawn is cut in another way already.
     SecondScissor,
 }
@@ -124,6 +130,8 @@ pub enum Lent {
     Levels,
     /// For overlays.
     Overlays,
+    /// For shadow volumes.
+    Shadows,
 }
 
 impl core::fmt::Display for Missing {
@@ -135,6 +143,9 @@ impl core::fmt::Display for Missing {
             Self::Lights => "coloured lights, or several",
             Self::Highlights => "highlights",
             Self::LightAtVertices => "lights and colours at vertices where pixels are lit",
+            Self::Lamps => "lamps in a scene that is lit at vertices",
+            Self::Blends => "blends of numbers of a palette",
+            Self::Shadows => "shadows by priority, of that light, or of points",
             Self::SecondScissor => "a window where there is another scissor",
         })
     }
@@ -151,6 +162,7 @@ impl core::fmt::Display for Lent {
             Self::Texels => "palettes and texels",
             Self::Levels => "levels of detail",
             Self::Overlays => "overlays",
+            Self::Shadows => "shadow volumes",
         })
     }
 }

@@ -69,7 +69,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
             .lit_by(self.lights.as_deref());
         let (gather, point_size) = (&mut self.gather, self.state.point_size);
-        let done = drawer.gather(|out| match instruction {
+        let done = drawer.gather(self.casts.as_mut(), |out| match instruction {
             Instruction::Table(run) => gather.table(words, format, run, out),
             Instruction::Indexed(run) => gather.indexed(words, run, out),
             _ => gather.run(words, format, run, point_size, out),
@@ -96,7 +96,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let offset = self.walker.offset();
         let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
             .lit_by(self.lights.as_deref());
-        drawer.gather(|out| self.gather.pause(words, out))?;
+        drawer.gather(self.casts.as_mut(), |out| self.gather.pause(words, out))?;
         if self.state.is_stale {
             self.find_texture(words)?;
         }
@@ -109,7 +109,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
                 let alphas = if has_alphas { alphas } else { &[] };
                 drawer.draw_long(triangles, alphas, run.header);
             });
-        Ok(())
+        drawer.done()
     }
 
     /// Draws what was gathered.
@@ -130,7 +130,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let offset = self.walker.offset();
         let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
             .lit_by(self.lights.as_deref());
-        drawer.gather(|out| self.gather.flush(words, out))
+        drawer.gather(self.casts.as_mut(), |out| self.gather.flush(words, out))
     }
 
     /// The texture that the material names, and the palette that this one names now.
@@ -193,7 +193,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         };
         let (sphere, scale) = (Sphere::from(bounds), Affine::scale_of(bounds));
         let model = scale.then(&self.settings.draw.model);
-        if sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
+        if self.passes_over() && sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
             self.pass_over(words, bounds.words);
         }
     }
@@ -204,7 +204,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             return;
         };
         let draw = &self.state.draw;
-        if !draw.is_one_sided() {
+        if !draw.is_one_sided() || !self.passes_over() {
             return;
         }
         let find = || Eye::new(&draw.model, camera.view());
@@ -213,6 +213,11 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             self.pass_over(words, cone.words);
             self.gather.lacks_faces();
         }
+    }
+
+    /// Whether what is out of sight may be passed over: it casts no shadow into what is seen.
+    fn passes_over(&self) -> bool {
+        self.settings.casting().is_empty()
     }
 
     /// Goes on behind so many words. Of a ring, what is not yet there cannot be passed over.

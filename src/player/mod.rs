@@ -14,6 +14,7 @@
 //! | `gather` | vertices into meshes |
 //! | `long` | vertices that were set up beforehand |
 //! | `lights` | several lights, whose code only a player that has room for them brings in |
+//! | `shadows` | shadows that what is drawn casts, likewise |
 //! | `outcome` | what was done |
 //! | `queue` | draw calls and cameras that come through queues, without a list |
 
@@ -24,6 +25,7 @@ mod long;
 mod outcome;
 mod play;
 mod queue;
+mod shadows;
 mod state;
 mod textures;
 

@@ -16,7 +16,7 @@ pub enum OnViolation {
 pub struct RunCounts {
     /// Blocks, flow control left out.
     pub blocks: u32,
-    /// Meshes that were drawn.
+    /// Meshes that were drawn, and shadow volumes of them.
     pub draws: u32,
     /// Vertices that were transformed.
     pub vertices: u32,

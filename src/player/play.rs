@@ -3,17 +3,18 @@
 use super::gather::{Gather, Unpacked};
 use super::lights;
 use super::long::LongStrip;
+use super::shadows::Casts;
 use super::state::State;
 use super::textures::Shelf;
 use super::{LightRoom, OnViolation, RunCounts, TextureRoom};
 use crate::event::{Event, Notice};
-use crate::geometry::{Coordinate, Mesh, Screen};
+use crate::geometry::{Coordinate, Mesh, Screen, ShadowLight, ShadowMemory};
 use crate::list::{
-    Halt, ListCommand, ListControl, ListError, Missing, OverlaySlot, OverlaySlots, Place, Reason,
-    Step, TextureSlot, TextureSlots, Walker, Window, Words,
+    Halt, Lent, ListCommand, ListControl, ListError, Missing, OverlaySlot, OverlaySlots, Place,
+    Reason, Step, TextureSlot, TextureSlots, Walker, Window, Words,
 };
 use crate::look::Look;
-use crate::scene::{Budget, Draw, Sampling, Scene, Texture};
+use crate::scene::{Budget, Draw, Sampling, Scene, Shadow, Texture};
 use core::marker::PhantomData;
 
 /// Memory of a player, lent by the application.
@@ -72,10 +73,23 @@ pub struct PlayerSettings<'m, 't> {
     pub budget: Budget,
     /// How texels are taken; `None`: the nearest one.
     pub sampling: Option<Sampling>,
+    /// The lights whose shadows what is drawn casts, for players [`with_shadows`](Player::with_shadows) alone; what has a
+    /// [`shadow`](Draw::shadow) itself casts none.
+    pub casts: &'m [ShadowLight],
     /// After an access violation.
     pub on_violation: OnViolation,
     /// Where commands come from, beside [`Player::command`].
     pub control: Option<&'m ListControl>,
+}
+
+impl<'m> PlayerSettings<'m, '_> {
+    /// The lights whose shadows what is drawn casts.
+    pub(super) fn casting(&self) -> &'m [ShadowLight] {
+        match self.draw.shadow {
+            None => self.casts,
+            Some(_) => &[],
+        }
+    }
 }
 
 impl Default for PlayerSettings<'_, '_> {
@@ -92,6 +106,7 @@ impl Default for PlayerSettings<'_, '_> {
             window: None,
             budget: Budget::BALANCED,
             sampling: None,
+            casts: &[],
             on_violation: OnViolation::GoOn,
             control: None,
         }
@@ -116,10 +131,11 @@ impl Default for PlayerSettings<'_, '_> {
 /// | WINDOW | `scissor` |
 /// | POINTS, LONG | [`Scene::draw_points`], [`Scene::draw_screen`] |
 /// | OVERLAY | none: [`ListOverlays`](crate::overlay::ListOverlays) over the lines |
-/// | nothing | `shading`, `depth`, `dither`, `priority`, `application`, `lamps`: those of the settings |
+/// | all that is opaque and lit, for players [`with_shadows`](Player::with_shadows) | volumes of its own faces, by [`Scene::draw_shadow`] |
+/// | nothing | `shading`, `depth`, `dither`, `priority`, `application`, `lamps`, `shadow`: those of the settings |
 ///
 /// **What a player does not have is refused, never left out**: [`Reason::Missing`](crate::list::Reason::Missing) says
-/// what, and where. These are places of 32 bits where `C` is `i16`, coloured or several lights and highlights without memory for them, and what the look of the scene cannot have. A list
+/// what, and where. These are places of 32 bits where `C` is `i16`, coloured or several lights and highlights without memory for them, shadows by priority or of points, and what the look of the scene cannot have: textures, lamps, blends of numbers of a palette. A list
 /// that is started is walked once without drawing, as far as the budget reaches, before any of it is drawn: what is malformed, missing or too large for the memory is an error then, and the scene
 /// is as it was. [`ListCommand::Restart`](crate::list::ListCommand) plays the same list again without that walk.
 ///
@@ -163,6 +179,7 @@ pub struct Player<'m, 't, L, C = i16> {
     pub(super) shelf: Shelf<'t>,
     pub(super) state: State<'m, 't>,
     pub(super) lights: Option<&'m mut LightRoom>,
+    pub(super) casts: Option<Casts<'m, 't, L, C>>,
     /// The list that begins is to be looked at before it is drawn.
     unchecked: bool,
     pub(super) counts: RunCounts,
@@ -199,11 +216,25 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             shelf: Shelf::new(memory.textures, memory.texels, memory.levels),
             state: State::new(&settings),
             lights: memory.lights,
+            casts: None,
             settings,
             unchecked: false,
             counts: RunCounts::default(),
             look: PhantomData,
         }
+    }
+
+    /// The same, with shadows of the lights that its [settings](PlayerSettings::casts) name (K9), by memory for one volume
+    /// at a time. What is in them is drawn by the same list once more, with settings that have a [`shadow`](Draw::shadow).
+    ///
+    /// What is lit and opaque casts its shadow as it is drawn, as many faces at once as
+    /// [`indices`](PlayerMemory::indices) has room for; points and triangles on the screen cast none. Best are closed
+    /// meshes that have room as a whole: where one is parted, both parts have a volume at their border, which cancel each
+    /// other but for some pixels along it. Nothing is passed over that is out of sight or turned away.
+    #[must_use]
+    pub fn with_shadows(self, memory: ShadowMemory<'m>) -> Self {
+        let casts = Some(Casts::new(memory));
+        Self { casts, ..self }
     }
 
     /// Begins at word `at`, with the state that the settings give.
@@ -277,6 +308,12 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             screen,
             events,
         };
+        if self.walker.is_running() {
+            if let Err(reason) = self.fits() {
+                self.notice(&mut stage, Event::Malformed, 0);
+                return Err(self.unfit(reason));
+            }
+        }
         loop {
             if let Some(command) = self.settings.control.and_then(ListControl::take) {
                 if matches!(command, ListCommand::Start(_) | ListCommand::Restart) {
@@ -314,11 +351,7 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         screen: Screen,
         mut budget: crate::list::Budget,
     ) -> Result<Halt, ListError> {
-        let draw = &self.settings.draw;
-        let at_vertices = draw.light.is_some() || draw.lights.is_some();
-        if draw.lamps.is_some() && at_vertices {
-            return Err(self.unfit(Reason::Missing(Missing::LightAtVertices)));
-        }
+        self.fits().map_err(|reason| self.unfit(reason))?;
         let begin = self.walker.clone();
         self.walker = Walker::new();
         self.walker.command(ListCommand::Start(begin.position()));
@@ -385,6 +418,28 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             }
         }
         Ok(None)
+    }
+
+    /// Whether what the settings ask for can be had.
+    fn fits(&self) -> Result<(), Reason> {
+        let draw = &self.settings.draw;
+        let at_vertices = draw.light.is_some() || draw.lights.is_some();
+        if draw.lamps.is_some() && at_vertices {
+            return Err(Reason::Missing(Missing::LightAtVertices));
+        }
+        if draw.lamps.is_some() && L::LIT_AT_PIXELS.is_none() {
+            return Err(Reason::Missing(Missing::Lamps));
+        }
+        let casts = self.settings.casting();
+        if !casts.is_empty() && self.casts.is_none() {
+            return Err(Reason::Lent(Lent::Shadows));
+        }
+        let cast = casts.iter().map(|cast| cast.light);
+        let mut lights = cast.chain(draw.shadow.map(Shadow::light));
+        match lights.any(|light| draw.priority > 0 || light >= Shadow::LIGHTS) {
+            true => Err(Reason::Missing(Missing::Shadows)),
+            false => Ok(()),
+        }
     }
 
     /// An error that no block has made.

@@ -3,12 +3,14 @@
 use super::gather::{Gathered, Out, Places};
 use super::lights;
 use super::play::Stage;
+use super::shadows::Casts;
 use super::textures::Listed;
 use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, Notice};
-use crate::geometry::{Affine, Coordinate, Cull, Eye, Light};
-use crate::list::{Header, Lent, Material, Place, Reason};
+use crate::geometry::{Affine, Coordinate, Cull, Eye, Light, ShadowLight};
+use crate::list::{Header, Lent, Material, Missing, Place, Reason};
 use crate::look::Look;
+use crate::pixel::{MadeOf, PixelFormat};
 use crate::scene::{
     Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
 };
@@ -122,11 +124,26 @@ fn seen(alphas: &[u8]) -> &[u8] {
     }
 }
 
+/// Why a list stops at a call that its scene refuses.
+#[cold]
+fn refused(error: DrawError) -> Reason {
+    match error {
+        DrawError::Shadow(_) => Reason::Lent(Lent::Shadows),
+        DrawError::ShadowLight | DrawError::ShadowRanked | DrawError::ShadowFlat => {
+            Reason::Missing(Missing::Shadows)
+        }
+        DrawError::Indices => Reason::Missing(Missing::Blends),
+        DrawError::Light => Reason::Missing(Missing::Lamps),
+        // Meshes and textures were looked at when they were gathered.
+        _ => Reason::NotBegun,
+    }
+}
+
 /// Who draws what is gathered, and counts it.
 pub(super) struct Drawer<'d, 's, 'm, 't, L> {
     /// None where the list is only looked at.
-    scene: Option<&'d mut Scene<'s, 't, L>>,
-    state: &'d State<'m, 't>,
+    pub(super) scene: Option<&'d mut Scene<'s, 't, L>>,
+    pub(super) state: &'d State<'m, 't>,
     /// How far texels of blocks with PRSP may be from their places.
     budget: Budget,
     counts: &'d mut RunCounts,
@@ -136,13 +153,15 @@ pub(super) struct Drawer<'d, 's, 'm, 't, L> {
     lack: Option<Reason>,
     /// Several lights of the list.
     lights: Option<&'d LightRoom>,
+    /// Those that have shadows.
+    pub(super) casts: &'m [ShadowLight],
 }
 
 impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
     /// Who draws with this state, for the block at an offset.
     pub(super) fn of(
         state: &'d State<'m, 't>,
-        settings: &PlayerSettings<'_, '_>,
+        settings: &PlayerSettings<'m, '_>,
         counts: &'d mut RunCounts,
         stage: &'d mut Stage<'_, 's, 't, L>,
         offset: u32,
@@ -156,6 +175,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             offset,
             lack: None,
             lights: None,
+            casts: settings.casting(),
         }
     }
 
@@ -164,25 +184,30 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         Self { lights, ..self }
     }
 
-    /// Draws what `gather` hands over; what that says.
+    /// Draws what `gather` hands over, and what shadow it casts; what that says.
     ///
     /// # Errors
     /// What could not be drawn.
     pub(super) fn gather<R, C: Coordinate + Place>(
         mut self,
+        mut casts: Option<&mut Casts<'_, 't, L, C>>,
         gather: impl FnOnce(&mut Out<'_, C>) -> R,
     ) -> Result<R, Reason> {
         let done = gather(&mut Out {
             textured: L::TEXTURED,
             sides: self.sides(),
             block: self.offset,
-            draw: &mut |mesh| self.draw(mesh),
+            draw: &mut |mesh| self.draw(mesh, casts.as_deref_mut()),
         });
-        self.lack.map_or(Ok(done), Err)
+        self.done().map(|()| done)
     }
 
-    /// Draws a mesh.
-    fn draw<C: Coordinate + Place>(&mut self, gathered: &Gathered<'_, C>) {
+    /// Draws a mesh, and what shadow it casts.
+    fn draw<C: Coordinate + Place>(
+        &mut self,
+        gathered: &Gathered<'_, C>,
+        casts: Option<&mut Casts<'_, 't, L, C>>,
+    ) {
         let places = match gathered.places {
             Places::Texels(places) => Some(places),
             Places::None => None,
@@ -191,12 +216,12 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
                 None
             }
         };
+        let skin = self.state.texture.zip(places);
+        let alphas = seen(gathered.alphas);
+        let blend = self.blend(skin.is_some(), !alphas.is_empty());
         let Some(scene) = &mut self.scene else {
             return;
         };
-        let skin = self.state.texture.zip(places);
-        let alphas = seen(gathered.alphas);
-        let blend = self.state.blend_with(skin.is_some(), !alphas.is_empty());
         let texture = skin.map(|(listed, places)| Skin {
             texture: listed.texture,
             places,
@@ -224,6 +249,10 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         });
         let vertices = gathered.mesh.positions.len();
         self.count(vertices, before, done, gathered.block);
+        let is_solid = blend.is_none() && !self.state.material.unlit && gathered.points.is_none();
+        if let Some(casts) = casts.filter(|_| is_solid) {
+            casts.of(self, gathered);
+        }
     }
 
     /// Draws triangles that were set up beforehand, of vertices that are exact on their texture or not; so many vertices
@@ -234,14 +263,15 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         alphas: &[u8],
         header: Header,
     ) {
+        let texture = self.state.texture.filter(|_| header.text);
+        let alphas = seen(alphas);
+        let blend = self.blend(header.text, !alphas.is_empty());
         let Some(scene) = &mut self.scene else {
             return;
         };
-        let texture = self.state.texture.filter(|_| header.text);
-        let alphas = seen(alphas);
         let draw = Draw {
             alphas,
-            blend: self.state.blend_with(header.text, !alphas.is_empty()),
+            blend,
             texture: texture.map(|listed| Skin {
                 texture: listed.texture,
                 places: &[],
@@ -258,8 +288,25 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
         self.count(0, before, done, self.offset);
     }
 
+    /// The blend of what has the texture or has none, and has alphas or none: numbers of a palette can have none.
+    fn blend(&mut self, textured: bool, has_alphas: bool) -> Option<Blend> {
+        let blend = self.state.blend_with(textured, has_alphas);
+        if blend.is_some() && <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index {
+            self.lack = Some(Reason::Missing(Missing::Blends));
+        }
+        blend
+    }
+
+    /// What could not be drawn.
+    ///
+    /// # Errors
+    /// If there was anything.
+    pub(super) fn done(&self) -> Result<(), Reason> {
+        self.lack.map_or(Ok(()), Err)
+    }
+
     /// Counts what a call has done with some vertices of the block at an offset, and tells what was lost.
-    fn count(
+    pub(super) fn count(
         &mut self,
         vertices: usize,
         before: Assembled,
@@ -279,8 +326,7 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
                 self.counts.dropped += triangles;
                 self.tell(Event::Full, block, triangles);
             }
-            // Lengths and indices were checked when they were gathered.
-            Err(_) => self.tell(Event::Malformed, block, 0),
+            Err(error) => self.lack = Some(refused(error)),
         }
         for (event, count) in [
             (Event::Clipped, after.clipped - before.clipped),

@@ -43,7 +43,7 @@ impl Shadow {
     /// How many lights can have shadows.
     pub const LIGHTS: u8 = 8;
 
-    fn light(self) -> u8 {
+    pub(crate) fn light(self) -> u8 {
         match self {
             Self::Volume(light) | Self::Lit(light) | Self::Shadowed(light) => light,
         }

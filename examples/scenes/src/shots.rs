@@ -2,6 +2,7 @@
 
 use crate::suite::{self, Suite};
 use crate::{CUBE, CUBE_QUADS, RIBBON, SPHERE, stress};
+use scanbeam::list::{Halt, ListError};
 use scanbeam::look::Look;
 use scanbeam::scene::{BeginError, CacheError, DrawError, Shading, TextureError};
 use scanbeam::{Affine, Camera, CameraError, Cull, Draw, Light, Mesh, Scene, Screen};
@@ -181,6 +182,10 @@ pub enum ShotError {
     Cache(CacheError),
     /// Sprites are not in order.
     Sprites,
+    /// A light comes from nowhere.
+    Light,
+    /// A list was not played to its end, or the scene is too small for it.
+    List(Result<Halt, ListError>),
 }
 
 impl From<CameraError> for ShotError {

@@ -18,7 +18,7 @@
 //! | `values_computed` | a floor and cubes of computed texels, nearest, mixed and with holes |
 //! | `values_blocks` | a floor and a cube whose texels lie in blocks behind a small cache |
 //! | `values_compressed` | floors and cubes of compressed texels: through a cache, mixed, alone, and with holes |
-//! | `values_shadows` | two cubes, a ribbon, a floor and a pane in the shadows of two lights |
+//! | `values_shadows` | two cubes, an octahedron of a list, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_points` | points of three sizes and corners on the screen, textured, by a camera that looks aside |
 //! | `values_overlay` | a ball below sprites |
 //! | `values_lines` | a ball, and what of it changes, line by line |
@@ -27,6 +27,7 @@
 //! | `values_told` | what becomes of damaged lists, and what frames, lists and queues tell, as squares |
 
 mod alpha;
+mod cast;
 mod compressed;
 mod dusk;
 mod fetched;
@@ -73,7 +74,7 @@ pub const VALUES_SHOWN: usize =
 /// Draw calls of the frame that has most.
 const DRAWS: usize = 12;
 /// Likewise with shadows.
-const SHADOW_DRAWS: usize = 24;
+const SHADOW_DRAWS: usize = 32;
 /// Columns and lines of a cell.
 const CELL: (u16, u16) = (16, 2);
 

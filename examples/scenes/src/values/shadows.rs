@@ -1,6 +1,7 @@
-//! Two cubes, a ribbon and a pane over a floor, in two lights: what light from everywhere makes of them, the volumes of both
+//! Two cubes, an octahedron of a list, a ribbon and a pane over a floor, in two lights: what light from everywhere makes of them, the volumes of both
 //! lights, and what each light adds where it is not in the way (K9).
 
+use super::cast::octahedron;
 use super::scenes::{at, camera, uncoloured};
 use crate::ShotError;
 use crate::looks::SmoothLook;
@@ -96,26 +97,29 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, SmoothLook>) -> Result<(), 
         ..Draw::new(uncoloured(CUBE))
     };
     draw_all(scene, &dark)?;
-    for (light, lamp) in (0..).zip(&LAMPS) {
-        let Some(lit) = Light::new(lamp.towards, 0.0) else {
-            continue;
-        };
-        let thrown = ShadowLight {
-            light,
-            direction: lit.direction,
-            reach: 5,
-        };
+    let lights = LAMPS.each_ref().map(|lamp| Light::new(lamp.towards, 0.0));
+    let [Some(warm), Some(cold)] = lights else {
+        return Err(ShotError::Light);
+    };
+    let casts = [(0, warm), (1, cold)].map(|(light, lit)| ShadowLight {
+        light,
+        direction: lit.direction,
+        reach: 5,
+    });
+    octahedron(scene, &dark, &casts)?;
+    for ((lit, lamp), cast) in [warm, cold].into_iter().zip(&LAMPS).zip(&casts) {
         for model in &cubes {
-            throw(scene, model, &thrown)?;
+            throw(scene, model, cast)?;
         }
         let adds = Draw {
             colour: lamp.colour,
             light: Some(lit),
-            shadow: Some(Shadow::Lit(light)),
+            shadow: Some(Shadow::Lit(cast.light)),
             blend: Some(Blend::add(255)),
             ..dark
         };
         draw_all(scene, &adds)?;
+        octahedron(scene, &adds, &[])?;
     }
     let pane = Draw {
         model: Affine::rotation_y(0.9).then(&at(0.2, [-0.75, 0.05, 0.8])),

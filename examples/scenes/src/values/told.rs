@@ -237,12 +237,12 @@ fn camera(focal: f32) -> Result<Camera, CameraError> {
 const CORNERS: usize = 4 * COLUMNS;
 
 /// The header of a block, as it lies in memory.
-pub(super) fn header(id: Id, count: u16) -> u32 {
+pub(super) const fn header(id: Id, count: u16) -> u32 {
     Header::of(id, count).to_word().to_le()
 }
 
 /// A FLOW block without words of its own.
-pub(super) fn flow(flow: Flow) -> u32 {
+pub(super) const fn flow(flow: Flow) -> u32 {
     let (what, argument) = flow.code();
     header(Id::Flow, u16::from_be_bytes([what, argument]))
 }

@@ -1,0 +1,53 @@
+//! Shadows that what a list draws casts (K9). Their code is in a program only where it calls
+//! [`Player::with_shadows`](crate::input::Player::with_shadows).
+
+use super::gather::Gathered;
+use super::state::Drawer;
+use crate::geometry::{Coordinate, ShadowMemory};
+use crate::list::Place;
+use crate::look::Look;
+
+/// Memory for a volume at a time.
+pub(super) struct Casts<'m, 't, L, C> {
+    memory: ShadowMemory<'m>,
+    /// By a pointer that only [`new`](Casts::new) makes: what no program makes, no program has.
+    cast: Cast<'t, L, C>,
+}
+
+type Cast<'t, L, C> = fn(&mut Drawer<'_, '_, '_, 't, L>, &Gathered<'_, C>, &mut ShadowMemory<'_>);
+
+impl<'m, 't, L: Look, C: Coordinate + Place> Casts<'m, 't, L, C> {
+    pub(super) fn new(memory: ShadowMemory<'m>) -> Self {
+        Self { memory, cast }
+    }
+
+    /// Draws the shadow volumes of a mesh.
+    pub(super) fn of(
+        &mut self,
+        drawer: &mut Drawer<'_, '_, '_, 't, L>,
+        gathered: &Gathered<'_, C>,
+    ) {
+        (self.cast)(drawer, gathered, &mut self.memory);
+    }
+}
+
+fn cast<L: Look, C: Coordinate + Place>(
+    drawer: &mut Drawer<'_, '_, '_, '_, L>,
+    gathered: &Gathered<'_, C>,
+    memory: &mut ShadowMemory<'_>,
+) {
+    for light in drawer.casts {
+        let Some(scene) = &mut drawer.scene else {
+            return;
+        };
+        let lent = ShadowMemory {
+            edges: memory.edges,
+            positions: memory.positions,
+            faces: memory.faces,
+        };
+        let before = scene.assembled();
+        let model = &drawer.state.draw.model;
+        let done = scene.draw_shadow(&gathered.mesh, model, light, lent);
+        drawer.count(0, before, done, gathered.block);
+    }
+}
