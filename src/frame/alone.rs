@@ -18,6 +18,18 @@ pub(super) struct Alone<P> {
 }
 
 impl<P> Alone<P> {
+    /// Without its colours: `planes` are empty.
+    #[inline(always)]
+    pub(super) fn dark(stray: &Stray<'_>, planes: P) -> Self {
+        Self {
+            planes,
+            // Its columns are known, and its depth is not.
+            flags: Flags::new(Fill::Plain, Way::PLAIN).with_depth(true),
+            object: stray.object,
+            span: stray.span,
+        }
+    }
+
     /// As it is drawn.
     #[inline(always)]
     pub(super) fn drawn(&self) -> Drawn<'_, P> {
@@ -36,29 +48,19 @@ pub(super) fn set_up_stray<L: Look>(
     counts: &mut CacheUse,
     out: &Line<'_, '_, WordOf<L>>,
 ) -> Alone<L::Planes> {
-    let Stray {
-        triangle,
-        object,
-        span,
-    } = stray;
+    let triangle = &stray.triangle;
     let area = triangle.area();
     let size = triangle.size(area);
     let of = Primitive {
         triangle,
-        object: *object,
+        object: stray.object,
         size,
         area,
         draws: out.view.draws,
     };
     // Its planes are made where they are given back, so that nothing is copied.
-    let mut alone = Alone {
-        planes: L::EMPTY,
-        flags: Flags::new(Fill::Plain, Way::PLAIN),
-        object: *object,
-        span: *span,
-    };
+    let mut alone = Alone::dark(stray, L::EMPTY);
     let fill = L::set_up(&of, &mut alone.planes);
-    // Its columns are known, and its depth is not.
     alone.flags = Flags::new(fill, Way::PLAIN).with_depth(true);
     counts.set_ups += 1;
     alone

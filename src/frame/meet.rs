@@ -7,8 +7,13 @@ use crate::look::{Look, WordOf};
 use crate::num::take_first;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// The columns of all spans, with a slot or without; whether two meet.
-    pub(super) fn find_all(&mut self, out: &Line<'_, '_, WordOf<L>>) -> bool {
+    /// The columns of all spans, with a slot or without; whether two meet. Those without a slot that are compared count as
+    /// if they met.
+    pub(super) fn find_all(
+        &mut self,
+        out: &Line<'_, '_, WordOf<L>>,
+        compares: impl Fn(u16) -> bool,
+    ) -> bool {
         let mut met = false;
         if self.cache.spilled.is_some() {
             let mut walk = Walk::of(self.cache.spilled);
@@ -16,6 +21,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let Span { start, end } = stray.span;
                 self.counts.misses += 1;
                 met |= self.covered.cover_over(&mut self.over, start, end);
+                if compares(stray.object) {
+                    self.over.cover(start, end);
+                }
             }
         }
         for word in 0..WORDS {

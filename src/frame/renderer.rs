@@ -11,6 +11,7 @@ use crate::scene::{Content, DrawState, Master, Object, Scene, TexturePlace, Vert
 use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::stats::SpanCounts;
 use crate::visible::Mask;
+use core::cell::Cell;
 use core::fmt;
 
 /// The object cache of a renderer: `32 WORDS` slots, best in the fastest memory there is, as a static.
@@ -377,7 +378,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 }
 
 /// A scene as pass two reads it.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct View<'a> {
     pub(super) vertices: &'a [Vertex],
     pub(super) places: &'a [TexturePlace],
@@ -394,6 +395,8 @@ pub struct View<'a> {
     pub(super) ranked: bool,
     /// Whether depths are compared, where there is memory for them.
     pub(super) deep: bool,
+    /// How many calls have begun up to the object that was asked for last: mostly as many as up to the next one.
+    begun: Cell<usize>,
 }
 
 impl<'a> View<'a> {
@@ -415,12 +418,27 @@ impl<'a> View<'a> {
             ruled: scene.has_values,
             ranked: scene.is_ranked,
             deep: scene.master.has(Master::DEPTH) && !scene.is_ranked,
+            begun: Cell::new(0),
         }
     }
 
-    /// The state of an object's draw call.
+    /// How many calls have begun up to an object.
+    #[inline(always)]
+    pub(super) fn begun(&self, object: u16) -> usize {
+        let last = self.begun.get();
+        let has = |number: usize| self.draws.get(number).is_some_and(|d| d.has_begun(object));
+        if last > 0 && has(last - 1) && !has(last) {
+            return last;
+        }
+        let begun = DrawState::begun(object, self.draws);
+        self.begun.set(begun);
+        begun
+    }
+
+    /// The state of an object's draw call: that of the last call that began at it or before.
+    #[inline(never)]
     pub(super) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
-        DrawState::of(object, self.draws)
+        self.draws.get(self.begun(object).checked_sub(1)?)
     }
 
     /// The same of an object in a slot that knows how many calls have begun up to its own.

@@ -4,6 +4,7 @@
 //! Light by light, its volumes are counted in any order, and what it falls on is drawn in order of submission. One
 //! line of counts serves all lights.
 
+use super::alone::{Alone, set_up_stray};
 use super::rank::insert_rising;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
@@ -32,7 +33,7 @@ fn step_of(role: Role) -> Option<Step> {
 }
 
 /// Lights that have something on a line, a bit for each.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
 struct Lights {
     with_volumes: u32,
     with_lit: u32,
@@ -234,11 +235,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            if let Some(state) = out.view.state(at.object()) {
-                let role = state.role();
-                if step_of(role).is_some() && out.stray(at.object()).is_some() {
-                    lights.add(role);
-                }
+            let role = out.view.state(at.object()).map(DrawState::role);
+            let mut with = lights;
+            with.add(role.unwrap_or_default());
+            if with != lights && out.stray(at.object()).is_some() {
+                lights = with;
             }
             at = next(self.links, at);
         }
@@ -296,8 +297,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
             return;
         };
-        let Some(mut alone) = self.set_up_alone(object, out) else {
+        let Some(stray) = out.stray(object) else {
             return;
+        };
+        let mut alone = match state.role() {
+            Role::Front(_) | Role::Back(_) => Alone::dark(&stray, L::EMPTY),
+            _ => set_up_stray::<L>(&stray, &mut self.counts, out),
         };
         let plane = Self::find_depth(&mut alone, out.view);
         let known = Known {

@@ -32,7 +32,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return false;
         }
         fill_line::<L>(out.pixels, background);
-        self.find_all(out);
+        let compares = |object| out.view.state(object).is_some_and(DrawState::compares);
+        self.find_all(out, |object| out.deep && compares(object));
         // Where this is so, `over` says where depth is compared.
         self.met = out.deep;
         if self.met {
@@ -68,7 +69,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 if Flags(slot.flags).has_values() {
                     continue;
                 }
-                slot.draw = DrawState::begun_near(slot.draw, slot.object, view.draws);
+                slot.draw = u8::try_from(view.begun(slot.object)).unwrap_or(0);
                 if view.state_of(slot).is_some_and(DrawState::has_values) {
                     slot.flags = Flags(slot.flags).with_values().0;
                     self.cache.plain[word] &= !bit(i);
@@ -118,7 +119,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         false
     }
 
-    /// Adds the columns of spans that compare to those where spans meet.
+    /// Adds the columns of spans in slots that compare to those where spans meet.
     fn find_compared(&mut self, out: &Line<'_, '_, WordOf<L>>) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word] & !self.cache.plain[word];
@@ -131,16 +132,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     self.over.cover(span.start, span.end);
                 }
             }
-        }
-        let mut at = self.cache.spilled;
-        while at.is_some() {
-            let state = out.view.state(at.object());
-            if state.is_some_and(DrawState::compares) {
-                if let Some(stray) = out.stray(at.object()) {
-                    self.over.cover(stray.span.start, stray.span.end);
-                }
-            }
-            at = next(self.links, at);
         }
     }
 

@@ -280,12 +280,6 @@ impl<'t> DrawState<'t> {
         }
     }
 
-    /// The state of an object: that of the last call that began at it or before.
-    #[inline(never)]
-    pub(crate) fn of(object: u16, draws: &[Self]) -> Option<&Self> {
-        draws.get(Self::begun(object, draws).checked_sub(1)?)
-    }
-
     /// The number of the state of an object.
     #[inline(always)]
     pub(crate) fn number_of(object: u16, draws: &[Self]) -> u16 {
@@ -295,21 +289,17 @@ impl<'t> DrawState<'t> {
         Self::begun(object, draws).saturating_sub(1) as u16
     }
 
-    /// How many calls began at an object or before.
+    /// Whether it is of a call that began at an object or before.
     #[inline(always)]
-    fn begun(object: u16, draws: &[Self]) -> usize {
-        draws.partition_point(|draw| draw.first <= object)
+    pub(crate) fn has_begun(&self, object: u16) -> bool {
+        self.first <= object
     }
 
-    /// The same in one byte, faster where it is `likely`; 0 for more than 255.
+    /// How many calls began at an object or before.
+    #[cold]
     #[inline(never)]
-    pub(crate) fn begun_near(likely: u8, object: u16, draws: &[Self]) -> u8 {
-        let of = |number: u8| draws.get(usize::from(number));
-        let has_begun = |number: u8| of(number).is_some_and(|draw| draw.first <= object);
-        if likely > 0 && has_begun(likely - 1) && !has_begun(likely) {
-            return likely;
-        }
-        u8::try_from(Self::begun(object, draws)).unwrap_or(0)
+    pub(crate) fn begun(object: u16, draws: &[Self]) -> usize {
+        draws.partition_point(|draw| draw.has_begun(object))
     }
 
     /// Whether its triangles are drawn in another way than most.
