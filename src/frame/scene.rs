@@ -1,18 +1,8 @@
 //! A scene of a look: what its pixels are is what its vertices' colours are steps of.
 
 use crate::geometry::{Coordinate, Meshlets, Screen, Sphere, triangles};
-use crate::look::Look;
-use crate::pixel::{MadeOf, PixelFormat};
-use crate::scene::{Blend, Draw, DrawError, Memory, Moved, Scene, ScreenCorner};
-
-/// Numbers of a palette cannot be blended.
-#[inline(always)]
-fn check_blend<L: Look>(blend: Option<Blend>) -> Result<(), DrawError> {
-    match (<L::Pixel as PixelFormat>::MADE_OF, blend) {
-        (MadeOf::Index, Some(_)) => Err(DrawError::Indices),
-        _ => Ok(()),
-    }
-}
+use crate::look::{Look, check_blend};
+use crate::scene::{Draw, DrawError, Memory, Moved, Scene, ScreenCorner};
 
 impl<'m, 't, L: Look> Scene<'m, 't, L> {
     /// A scene for pictures of this size. Nothing is drawn before it is [begun](Scene::begin).

@@ -32,8 +32,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return false;
         }
         fill_line::<L>(out.pixels, background);
-        let compares = |object| out.view.state(object).is_some_and(DrawState::compares);
-        self.find_all(out, |object| out.deep && compares(object));
+        let compares = |object| out.deep && out.view.state(object).is_some_and(DrawState::compares);
+        self.find_all(out, compares);
         // Where this is so, `over` says where depth is compared.
         self.met = out.deep;
         if self.met {

@@ -1,8 +1,8 @@
 //! What a look does, and what it is told.
 
 use crate::geometry::Scale;
-use crate::pixel::PixelFormat;
-use crate::scene::{DrawState, WordOfNormal};
+use crate::pixel::{MadeOf, PixelFormat};
+use crate::scene::{Blend, DrawError, DrawState, WordOfNormal};
 use crate::span::{Size, Triangle};
 
 /// How the planes of a triangle are evaluated; each look says what is where in its planes.
@@ -205,5 +205,14 @@ impl ThinSpan<'_> {
             (first as u32).wrapping_sub(step.wrapping_mul(self.start)),
             step,
         ]
+    }
+}
+
+/// Numbers of a palette cannot be blended.
+#[inline(always)]
+pub(crate) fn check_blend<L: Look>(blend: Option<Blend>) -> Result<(), DrawError> {
+    match (<L::Pixel as PixelFormat>::MADE_OF, blend) {
+        (MadeOf::Index, Some(_)) => Err(DrawError::Indices),
+        _ => Ok(()),
     }
 }

@@ -9,8 +9,7 @@ use super::{LightRoom, PlayerSettings, RunCounts};
 use crate::event::{Event, Notice};
 use crate::geometry::{Affine, Coordinate, Cull, Eye, Light, ShadowLight};
 use crate::list::{Header, Lent, Material, Missing, Place, Reason};
-use crate::look::Look;
-use crate::pixel::{MadeOf, PixelFormat};
+use crate::look::{Look, check_blend};
 use crate::scene::{
     Assembled, Blend, Budget, Draw, DrawError, Lights, Scene, Scissor, ScreenCorner, Skin,
 };
@@ -86,15 +85,6 @@ impl<'m, 't> State<'m, 't> {
             opacity => Some(Blend::filter(opacity)),
         };
         self.shine();
-    }
-
-    /// The blend of what has the texture or has none, and has alphas or none.
-    fn blend_with(&self, textured: bool, has_alphas: bool) -> Option<Blend> {
-        let texture = self.texture.filter(|_| textured);
-        match has_alphas || texture.is_some_and(|listed| listed.is_translucent) {
-            true => Some(self.draw.blend.map_or(Blend::ALPHA, Blend::by_alpha)),
-            false => self.draw.blend,
-        }
     }
 
     /// Whether several lights of the settings fall on what is drawn.
@@ -290,9 +280,14 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
 
     /// The blend of what has the texture or has none, and has alphas or none: numbers of a palette can have none.
     fn blend(&mut self, textured: bool, has_alphas: bool) -> Option<Blend> {
-        let blend = self.state.blend_with(textured, has_alphas);
-        if blend.is_some() && <L::Pixel as PixelFormat>::MADE_OF == MadeOf::Index {
-            self.lack = Some(Reason::Missing(Missing::Blends));
+        let texture = self.state.texture.filter(|_| textured);
+        let blend = self.state.draw.blend;
+        let blend = match has_alphas || texture.is_some_and(|listed| listed.is_translucent) {
+            true => Some(blend.map_or(Blend::ALPHA, Blend::by_alpha)),
+            false => blend,
+        };
+        if let Err(error) = check_blend::<L>(blend) {
+            self.lack = Some(refused(error));
         }
         blend
     }
