@@ -13,12 +13,14 @@
 //! |---|---|---|---|---|
 //! | `copy`, squares of 32, 64, 128, 256 words | 6.75 | 9.25 | 76; 115 | 462 bytes each |
 //! | `copy`, words of other sizes | 12.0 | 23 | 131; 218 | 710 bytes, all forms |
-//! | `copy`, indices of 8; 4 to 1 bits | 15; 20 | 25; 30 | 142; 228 | |
+//! | `copy`, indices of 8; 4 bits in squares of 32 to 128 | 12; 16 | 22; 27 | | 420 bytes, [`bent`](super::bent) |
+//! | `copy`, other indices of 8; 4 to 1 bits | 15; 20 | 25; 30 | 142; 228 | |
 //! | `copy_wide`, squares of words | 9.2 | 12.7 | 156; 225 | 446 bytes |
 //! | `copy_exact`, words; 8 bits | 12.0; 15 | 23; 25 | 148; 239 | 102 bytes |
 //! | the same with a step of 2/3 texel, 128 texels clamped | 14.0 | 26.6 | 294; 494 | 704 bytes |
 //! | and 64 texels mirrored | 17.8 | 33.5 | 284; 446 | |
 
+use super::bent::copy_indices;
 use crate::scene::{Form, Square, TexelWay, Texture, Wrap};
 use core::hint::black_box as unknown;
 
@@ -205,47 +207,13 @@ pub(super) fn copy_part(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u
     copy(run, texture, at, step);
 }
 
-/// Copies a square's texels into `run` along a parabola: as [`copy_from`], and the step grows by a second one at each
-/// pixel.
-#[inline(always)]
-pub(super) fn copy_arc(run: &mut [u16], square: Square<'_>, at: u32, steps: [u32; 2]) {
-    match square {
-        Square::Side32(t) => copy_bent(run, t, at, steps),
-        Square::Side64(t) => copy_bent(run, t, at, steps),
-        Square::Side128(t) => copy_bent(run, t, at, steps),
-        Square::Side256(t) => copy_bent(run, t, at, steps),
-    }
-}
-
-/// [`copy_arc`] from a square.
-#[inline(never)]
-fn copy_bent<const SIDE: usize>(
-    run: &mut [u16],
-    t: &[[u16; SIDE]; SIDE],
-    mut at: u32,
-    [mut step, turn]: [u32; 2],
-) {
-    let mut draw = |pixel: &mut u16, turn: u32| {
-        *pixel = texel(t, at);
-        at = at.wrapping_add(step);
-        step = step.wrapping_add(turn);
-    };
-    let mut eights = run.chunks_exact_mut(8);
-    for eight in eights.by_ref() {
-        // Unknown to the compiler, which would else make several copies of the loop.
-        let turn = unknown(turn);
-        if let Ok(eight) = <&mut [u16; 8]>::try_from(eight) {
-            eight.iter_mut().for_each(|pixel| draw(pixel, turn));
-        }
-    }
-    for pixel in eights.into_remainder() {
-        draw(pixel, unknown(turn));
-    }
-}
-
 /// [`copy`] from any form and size.
 #[inline(never)]
 fn copy_packed(run: &mut [u16], texture: &Texture<'_>, at: u32, step: u32) {
+    if texture.repeated() > 0 {
+        // No square of words, so one of indices.
+        return copy_indices(run, texture, at, [step, 0]);
+    }
     // u in the upper half takes its carry along.
     let way = Turns {
         u: [at << 16, step << 16],
@@ -322,7 +290,7 @@ pub fn copy_exact(run: &mut [u16], texture: &Texture<'_>, way: Way) {
 /// repeat: there places may be off by 1/24 texel; by 1/10 where steps are longer than a quarter of the side.
 #[inline(never)]
 pub fn copy_wide(run: &mut [u16], skipped: usize, texture: &Texture<'_>, way: Way) {
-    if texture.repeated() == 0 {
+    if texture.repeated() == 0 || !matches!(texture.form, Form::Words(_)) {
         copy_exact(run, texture, way.skip(skipped));
         return;
     }

@@ -10,6 +10,7 @@
 //! Vertices keep half a step from either end of a field, so no colour leaves its field (P4).
 
 use super::course::{Course, InParts};
+use super::fields::{fields, is_even, is_flat, packed_step, wide_fields};
 use super::ramp::{self, Packed, Pair};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
@@ -61,12 +62,6 @@ pub(super) fn wide_at(planes: &Planes, place: Place) -> [[u32; 3]; 2] {
     [value, [rx, gx, bx]]
 }
 
-/// Red, green and blue of a word of colour: 11, 11 and 10 bits.
-#[inline(always)]
-pub(super) fn fields(word: u32) -> [i32; 3] {
-    [word >> 21, word & 0x7FF, word >> 11 & 0x3FF].map(|f| f as i32)
-}
-
 /// `values[0]` and what is to be added for each column and line, at a place.
 #[inline(always)]
 pub(super) fn at(planes: &Planes, plane: usize, place: Place) -> u32 {
@@ -79,8 +74,12 @@ impl<F: PixelFormat> Gouraud<F> {
     /// One word of three fields.
     #[inline(never)]
     fn packed_planes(vertex: [&Vertex; 3], area: u32, planes: &mut Planes) {
-        let shares = Shares::new(area, vertex.map(|v| v.place)).cut::<5>();
         let [a, b, c] = vertex.map(|v| v.colour);
+        if is_even([a, b, c]) {
+            Self::even_word(a, planes);
+            return;
+        }
+        let shares = Shares::new(area, vertex.map(|v| v.place)).cut::<5>();
         let rise = |shift: u32, bits: u32| {
             let field = |w: u32| (w >> shift & bits) as i32;
             shares.rise::<5, 0>(field(b) - field(a), field(c) - field(a))
@@ -100,6 +99,9 @@ impl<F: PixelFormat> Gouraud<F> {
     #[inline(never)]
     fn other_planes(triangle: &Triangle<'_>, size: Size, area: u32, planes: &mut Planes) -> Fill {
         let colour = triangle.vertex.map(|v| v.colour);
+        if is_even(colour) {
+            return Self::even_word(colour[0], planes);
+        }
         if size == Size::Sharp && F::MADE_OF.is_one_word() && is_flat(colour) {
             Self::packed_planes(triangle.vertex, area, planes);
             return Fill::Plain;
@@ -127,14 +129,21 @@ impl<F: PixelFormat> Gouraud<F> {
             }
             mean[i] = (low + high) >> 1;
         }
-        *planes = [0; 8];
+        Some(Self::even_word(
+            ((mean[0] << 21) | (mean[2] << 11) | mean[1]) as u32,
+            planes,
+        ))
+    }
+
+    /// Planes of one colour.
+    #[inline(always)]
+    fn even_word(colour: u32, planes: &mut Planes) -> Fill {
         if F::MADE_OF.is_one_word() {
-            planes[0] = ((mean[0] << 21) | (mean[2] << 11) | mean[1]) as u32;
-            return Some(Fill::Plain);
+            planes[..3].copy_from_slice(&[colour, 0, 0]);
+            return Fill::Plain;
         }
-        planes[0] = ((mean[0] << 21) | (mean[2] << 6)) as u32;
-        planes[3] = (mean[1] << 21) as u32;
-        Some(Fill::Small)
+        even_pair(colour, planes);
+        Fill::Small
     }
 
     /// A run of what is not in one word.
@@ -327,35 +336,11 @@ pub(super) fn thin_shades(span: &ThinSpan<'_>, planes: &mut Planes) {
     keep_wide(three, planes);
 }
 
-/// Whether no field changes by more than a quarter of its range from the first corner on.
-#[inline(always)]
-fn is_flat(colour: [u32; 3]) -> bool {
-    let [a, b, c] = colour.map(fields);
-    let rise = |i: usize| {
-        let (one, other) = (b[i] - a[i], c[i] - a[i]);
-        (one ^ one >> 31) | (other ^ other >> 31)
-    };
-    rise(0) | rise(1) | rise(2) << 1 < 512
-}
-
-/// The fields with 20, 20 and 21 bits more: below 2^31 each.
-#[inline(always)]
-fn wide_fields(word: u32) -> [u32; 3] {
-    let [red, green, blue] = fields(word);
-    [
-        (red << 20) as u32,
-        (green << 20) as u32,
-        (blue << 21) as u32,
-    ]
-}
-
-/// Steps of red, green and blue with so many bits below a field's unit, rounded into one word.
-#[inline(always)]
-fn packed_step(step: [i32; 3], below: [u32; 3]) -> u32 {
-    let round = |i: usize| (step[i] + (1 << below[i] >> 1)) >> below[i];
-    ((round(0) << 21) as u32)
-        .wrapping_add((round(2) << 11) as u32)
-        .wrapping_add(round(1) as u32)
+/// Planes of [`Fill::Small`] of one colour.
+#[inline(never)]
+pub(super) fn even_pair(colour: u32, planes: &mut Planes) {
+    let red_blue = colour & 0xFFE0_0000 | colour >> 5 & 0xFFC0;
+    *planes = [red_blue, 0, 0, colour << 21, 0, 0, 0, 0];
 }
 
 impl<F: PixelFormat> Look for Gouraud<F> {
@@ -427,20 +412,24 @@ impl<F: PixelFormat> Look for Gouraud<F> {
 
 #[cfg(test)]
 mod tests {
-    use super::{is_flat, keep_wide, wide_at};
+    use super::{even_pair, keep_wide, pair_planes, wide_at};
     use crate::look::Place;
     use crate::num::random::Rng;
+    use crate::span::Shares;
 
-    /// Kills: a field that may change by more, or less, than the others.
+    /// Kills: a field in the place of another, or with another number of bits.
     #[test]
-    fn a_quarter_of_the_range_is_flat_in_each_field() {
-        for (level, flat) in [(0, true), (510, true), (514, false), (2047, false)] {
-            for light in [level << 21, level, level >> 1 << 11] {
-                assert_eq!(is_flat([0, 0, light]), flat, "{light:#x}");
-                assert_eq!(is_flat([light, 0, light]), flat, "{light:#x}");
-            }
+    fn one_colour_has_the_planes_of_three_equal_ones() {
+        let mut rng = Rng(6);
+        let shares = Shares::new(1 << 14, [0x0080_0100, 0x0100_0180, 0x0100_0080]);
+        for _ in 0..1000 {
+            let (colour, mut want, mut got) = (rng.bits(), [1; 8], [2; 8]);
+            pair_planes(&shares, [colour; 3], &mut want);
+            even_pair(colour, &mut got);
+            assert_eq!(got[..7], want[..7], "{colour:#x}");
         }
     }
+
     /// Kills: a word or a bit in the place of another, and bits that are lent from what is multiplied.
     #[test]
     fn nine_words_in_eight_are_planes_with_eleven_bits_fewer() {

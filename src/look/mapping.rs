@@ -401,8 +401,10 @@ impl Mapping {
         if steps > (8 * usize::from(reach.line)).max(24) && steps > usize::from(reach.arc) {
             reach = span.reach(within.pixels, budget, texture.repeated());
         }
-        if let (Some(square), 1..) = (texture.square(), reach.arc) {
-            return span.arcs(run, within, square, reach.arc);
+        if reach.arc > 0 {
+            if let Some(square) = texture.bent() {
+                return span.arcs(run, within, square, reach.arc);
+            }
         }
         if !budget.is_coarse() {
             reach.line = reach.line.min(4);

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `paint` | what a look does, and what it is told |
 //! | `gouraud` | colours linear between vertices |
+//! | `fields` | the fields of words of colour |
 //! | `course` | a colour along a span |
 //! | `textured`, `textured_wide` | texels times such colours, in pixels of 16 bits and of more |
 //! | `shades` | the planes of those colours, and what they are along a span |
@@ -13,6 +14,7 @@
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
 //! | `word_plane` | both coordinates of a small affine triangle in one word |
 //! | `fetch` | texels along a way that is linear on the texture |
+//! | `bent` | texels along a parabola |
 //! | `perspective` | a span in perspective: exact places at its ends or every 16 to 1 pixels, fetched between |
 //! | `stride` | how far these exact places may be apart |
 //! | `sampling` | levels of detail: where each begins along a span |
@@ -24,8 +26,10 @@
 //! code is a sum of the two and not a product, and neither spills registers.
 
 mod area;
+mod bent;
 mod course;
 mod fetch;
+mod fields;
 mod gouraud;
 mod linear;
 mod mapping;

@@ -5,7 +5,7 @@
 //! |---|---|---|
 //! | squares that repeat, at a coarse budget, up to the triangle's [`Reach::line`] | at both ends | [`Perspective::between`] |
 //! | likewise, up to its [`Reach::arc`] | at both ends, and a parabola through the exact middle | [`Perspective::arc`] |
-//! | likewise, longer | the same, every power of two of pixels | [`Perspective::arcs`] |
+//! | likewise, longer; of squares of indices, any | the same, every power of two of pixels | [`Perspective::arcs`] |
 //! | all others | every [`Stride`] pixels, and at the end | [`Perspective::draw`] |
 //!
 //! 1/w, u/w and v/w are linear on the screen and share the triangle's exponent, which therefore
@@ -18,8 +18,8 @@
 //!
 //! | | Cortex-M4 | Cortex-M0+ |
 //! |---|---|---|
-//! | a straight span, but for its texels | 99 | 292 |
-//! | an arc, but for its texels | 137 | 442 |
+//! | a straight span, but for its texels | 99 | 256 |
+//! | an arc, but for its texels | 137 | 388 |
 //! | a texel of an arc, of eight; of up to seven that are left | 8.1; 11 | 13.1; 18 |
 //!
 //! # How far exact places may be apart
@@ -28,10 +28,11 @@
 //! over which 1/w changes by a fifth is off by 1/26 of what a straight way is. [`reach`](super::stride::reach()) asks so once
 //! a triangle for all of its spans, and once for a long span.
 
-use super::fetch::{Uv, Way, copy_arc, copy_exact, copy_from, packed, packed_on, packed_step};
+use super::bent::{copy_arc, copy_indices};
+use super::fetch::{Uv, Way, copy_exact, copy_from, packed, packed_on, packed_step};
 use super::stride::{Range, Reach, Stride, reach};
 use crate::num::{leading_zeros, mul_17, mul_high, recip_16};
-use crate::scene::{Budget, Square, Texture};
+use crate::scene::{Bent, Budget, Square, Texture, Wrap};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
 ///
@@ -192,7 +193,7 @@ impl Perspective {
     /// every 2nd or 4th: that is not dearer.
     #[inline(never)]
     pub fn draw(&self, run: &mut [u16], within: Within, texture: &Texture<'_>, stride: Stride) {
-        let square = texture.square().filter(|_| texture.repeated() != 0);
+        let square = texture.square().filter(|_| texture.wrap() == Wrap::Repeat);
         match (square, stride) {
             (_, Stride::Eight | Stride::Sixteen) => self.any(run, within, texture, stride),
             (Some(square), _) => self.few(run, within, Rows::of(square), stride),
@@ -203,10 +204,14 @@ impl Perspective {
     /// Copies a square's texels into a run of the span along parabolas, with exact places at both ends of each: one
     /// every power of two of steps that is at most `arc`.
     #[inline(never)]
-    pub fn arcs(&self, run: &mut [u16], within: Within, square: Square<'_>, arc: u8) {
+    pub fn arcs(&self, run: &mut [u16], within: Within, square: Bent<'_>, arc: u8) {
+        let side = square.log();
         let copy = |run: &mut [u16], piece: Piece| {
-            let arc = Arc::along(&piece, self.step.q, square.log());
-            arc.on(piece.skipped).copy(run, square);
+            let arc = Arc::along(&piece, self.step.q, side).on(piece.skipped);
+            match square {
+                Bent::Words(square) => arc.copy(run, square),
+                Bent::Indices(texture) => copy_indices(run, texture, arc.at, arc.steps()),
+            }
         };
         let log = 31 - leading_zeros(u32::from(arc) | 1);
         let rest = self.pieces(run, within, log, copy);
@@ -427,7 +432,13 @@ impl Arc {
     /// Copies a square's texels into a run that begins here.
     #[inline(always)]
     fn copy(self, run: &mut [u16], square: Square<'_>) {
-        copy_arc(run, square, self.at, [self.step, self.turn]);
+        copy_arc(run, square, self.at, self.steps());
+    }
+
+    /// The step, and what it grows by.
+    #[inline(always)]
+    fn steps(self) -> [u32; 2] {
+        [self.step, self.turn]
     }
 }
 

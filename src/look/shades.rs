@@ -2,7 +2,8 @@
 
 use super::Place;
 use super::course::Course;
-use super::gouraud::{Planes as Shades, at, fields};
+use super::fields::fields;
+use super::gouraud::{Planes as Shades, at};
 use super::tint::Shade;
 use crate::span::{Rise, Shares};
 

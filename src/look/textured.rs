@@ -10,7 +10,8 @@
 //! | thin | from both ends of each span | likewise |
 
 use super::fetch::copy_from;
-use super::gouraud::{Planes as Shades, course, thin_shades, wide_shades};
+use super::fields::is_even;
+use super::gouraud::{Planes as Shades, course, even_pair, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::phong::Shine;
 use super::shades::{shade_at, shade_planes, small_shade};
@@ -150,6 +151,10 @@ impl<F: Texel> Textured<F> {
         let [a, b, c] = colour.map(|colour| colour ^ FULL);
         if a | b | c == 0 {
             return None;
+        }
+        if is_even(colour) {
+            even_pair(colour[0], planes);
+            return Some(Fill::Small);
         }
         let is_small = matches!(size, Size::Tiny | Size::Small);
         if is_small && shade_planes(&triangle.shares(area), colour, planes) {

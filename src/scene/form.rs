@@ -1,6 +1,6 @@
 //! How texels lie in memory, or who is asked for them (H7, H17).
 
-use super::Texels;
+use super::{Texels, Texture};
 
 /// How texels lie in memory: rows from the top, but for those that are asked for. Slices have the exact length of the texture.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +31,26 @@ pub(crate) enum Square<'t> {
     Side128(&'t [[u16; 128]; 128]),
     /// 256 texels a side.
     Side256(&'t [[u16; 256]; 256]),
+}
+
+/// A square of which texels are read along parabolas of places in one word.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Bent<'t> {
+    /// One that has loops of its own.
+    Words(Square<'t>),
+    /// One of indices of 8 or 4 bits, 32 to 128 texels a side.
+    Indices(&'t Texture<'t>),
+}
+
+impl Bent<'_> {
+    /// The power of two that its side is.
+    #[inline(always)]
+    pub(crate) const fn log(self) -> u32 {
+        match self {
+            Self::Words(square) => square.log(),
+            Self::Indices(texture) => texture.log_width(),
+        }
+    }
 }
 
 impl<'t> Square<'t> {

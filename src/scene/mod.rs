@@ -76,7 +76,7 @@ pub use depth::{DepthFunction, DepthTest};
 pub(crate) use draw::Holes;
 pub use draw::{Application, Draw, DrawState, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
-pub(crate) use form::{Form, Square};
+pub(crate) use form::{Bent, Form, Square};
 pub(crate) use late::Role;
 pub use lights::Lights;
 pub use master::Master;

@@ -14,7 +14,7 @@
 //!
 //! Texels are words of the panel, in its byte order, so that a copy is a copy.
 
-use super::form::{Form, Square};
+use super::form::{Bent, Form, Square};
 use super::{Sampling, Texels};
 use core::fmt;
 
@@ -114,6 +114,8 @@ pub struct Texture<'t> {
     pub(super) sides: Sides,
     /// The power of two of both sides of a [`Square`]; else 0.
     square: u8,
+    /// Likewise of what is [`Bent`].
+    bent: u8,
     /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
     /// sampled.
     pub(super) spare: u8,
@@ -196,10 +198,15 @@ impl<'t> Texture<'t> {
     };
 
     const fn new(form: Form<'t>, sides: Sides) -> Self {
-        let is_square = matches!(form, Form::Words(_)) && sides.log_width == sides.log_height;
-        let square = match sides.log_width {
-            log @ 5..=8 if is_square => log,
-            _ => 0,
+        let log = if sides.log_width == sides.log_height {
+            sides.log_width
+        } else {
+            0
+        };
+        let (square, bent) = match (&form, log) {
+            (Form::Words(_), 5..=8) => (log, log),
+            (Form::Index8(..) | Form::Index4(..), 5..=7) => (0, log),
+            _ => (0, 0),
         };
         let longest = if sides.log_width > sides.log_height {
             sides.log_width
@@ -210,6 +217,7 @@ impl<'t> Texture<'t> {
             form,
             sides,
             square,
+            bent,
             spare: match longest {
                 0..=7 => 2,
                 8 => 1,
@@ -418,12 +426,24 @@ impl<'t> Texture<'t> {
         self.spare > 1
     }
 
-    /// The power of two of both sides where it is a [`Square`] and repeats; else 0.
+    /// The power of two of both sides where it is [`bent`](Self::bent); else 0.
     #[inline(always)]
     pub(crate) fn repeated(&self) -> u32 {
         match self.wrap {
-            Wrap::Repeat => self.square.into(),
+            Wrap::Repeat => self.bent.into(),
             _ => 0,
+        }
+    }
+
+    /// It as what is read along parabolas, if it is such a square and repeats.
+    #[inline(always)]
+    pub(crate) fn bent(&self) -> Option<Bent<'_>> {
+        if self.repeated() == 0 {
+            return None;
+        }
+        match self.square() {
+            Some(square) => Some(Bent::Words(square)),
+            None => Some(Bent::Indices(self)),
         }
     }
 

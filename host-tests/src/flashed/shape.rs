@@ -25,6 +25,8 @@ pub const NAMES: [&str; 16] = [
     "lit texels curved",
     "lit texels steep",
 ];
+/// The kind of one colour that is not large.
+const EVEN: usize = 3;
 /// The kind without a texture that is too thin for its size.
 const THIN: usize = 5;
 /// The first kind with a texture.
@@ -86,14 +88,16 @@ fn kind(triangle: &FiledTriangle, is_textured: bool) -> usize {
         return TEXTURED + lit + way(triangle, size, reach);
     }
     let is_even = colours[1] == colours[0] && colours[2] == colours[0];
-    if far < 224 && area >= 256 || far < 200 && area >= 32 {
-        return 0;
+    let is_tiny = far < 224 && area >= 256 || far < 200 && area >= 32;
+    let is_thin = reach < Some(512) && area < 1024;
+    match is_even {
+        true if is_tiny || is_small || is_thin => EVEN,
+        true => EVEN + 1,
+        false if is_tiny => 0,
+        false if is_thin => THIN,
+        false if is_small => 1,
+        false => 2,
     }
-    if reach < Some(512) && area < 1024 {
-        return THIN;
-    }
-    let size = if is_small { 0 } else { 1 };
-    1 + size + if is_even { 2 } else { 0 }
 }
 
 /// How places on a texture are found, of a triangle of a size, 0 to 2, and of so many pixels: linearly, where

@@ -1,7 +1,7 @@
 //! Runs of a span, each coloured alone, have the bits of the whole span.
 
 use super::super::fetch::packed;
-use super::super::gouraud::fields;
+use super::super::fields::fields;
 use super::super::mapping::Mapping;
 use super::super::{Fill, Gouraud, Look, Parts, Place, Primitive, Textured, ThinSpan, WordOf};
 use super::triangles::{inside, some_triangle};
