@@ -2,6 +2,7 @@
 //!
 //! | triangle | planes | error, units of a vertex's colour |
 //! |---|---|---|
+//! | of one colour | that colour | none |
 //! | within 25 pixels, 16-bit pixels | one word of three fields | below half a step of blue: 16 |
 //! | within 64 pixels | two words with 16 bits a channel, packed anew every 16 pixels | 4 |
 //! | larger | a plane a channel with 20 fraction bits more; along spans of 16-bit pixels as above | 0.02; 1/64 each 16 pixels |

@@ -8,6 +8,8 @@
 //! | small, affine within its budget | one word that steps | two words that step |
 //! | others that have planes | planes of u and v, or of u/w, v/w and 1/w | a plane a channel, anew every 64 pixels |
 //! | thin | from both ends of each span | likewise |
+//!
+//! Corners of one colour have one shade, on triangles of any size.
 
 use super::fetch::copy_from;
 use super::fields::is_even;

@@ -254,7 +254,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.reset();
     }
 
-    /// Other settings, from the next start on.
+    /// Other settings: what [`draw`](PlayerSettings::draw) says a list begins with counts from the next start on, its model
+    /// and all else from the next block on.
     pub fn set(&mut self, settings: PlayerSettings<'m, 't>) {
         self.settings = settings;
     }
