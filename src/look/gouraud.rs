@@ -378,6 +378,11 @@ impl<F: PixelFormat> Look for Gouraud<F> {
     }
 
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {
+        let colour = triangle.vertex.map(|v| v.colour);
+        if is_even(colour) {
+            even_pair(colour[0], planes);
+            return Some(Fill::Small);
+        }
         let area = triangle.area();
         Some(plane_shades(triangle, triangle.size(area), area, planes))
     }
@@ -413,10 +418,20 @@ impl<F: PixelFormat> Look for Gouraud<F> {
 
 #[cfg(test)]
 mod tests {
-    use super::{even_pair, keep_wide, pair_planes, wide_at};
-    use crate::look::Place;
+    use super::{Gouraud, even_pair, keep_wide, pair_planes, wide_at, wide_fields};
+    use crate::look::{Fill, Look, Place};
     use crate::num::random::Rng;
+    use crate::pixel::Rgb565;
     use crate::span::Shares;
+
+    fn place(column: u32, line: u32) -> Place {
+        Place {
+            span: 0,
+            end: 1023,
+            column,
+            line,
+        }
+    }
 
     /// Kills: a field in the place of another, or with another number of bits.
     #[test]
@@ -431,6 +446,29 @@ mod tests {
         }
     }
 
+    /// Kills: another colour, or one that steps, where faces of one colour are dithered.
+    #[test]
+    fn one_colour_is_dithered_as_a_plane_of_it() {
+        let mut rng = Rng(7);
+        for _ in 0..200 {
+            let colour = rng.bits();
+            let (mut one, mut wide) = ([1; 8], [0; 8]);
+            even_pair(colour, &mut one);
+            keep_wide(wide_fields(colour).map(|field| [field, 0, 0]), &mut wide);
+            let place = place(rng.below(200), rng.below(200));
+            let drawn = |fill, planes| {
+                let mut run = [0; 40];
+                Gouraud::<Rgb565>::fill_opaque(fill, planes, place, &[], true, &mut run);
+                run
+            };
+            assert_eq!(
+                drawn(Fill::Small, &one),
+                drawn(Fill::Wide, &wide),
+                "{colour:#x}"
+            );
+        }
+    }
+
     /// Kills: a word or a bit in the place of another, and bits that are lent from what is multiplied.
     #[test]
     fn nine_words_in_eight_are_planes_with_eleven_bits_fewer() {
@@ -441,15 +479,7 @@ mod tests {
             let mut planes = [0; 8];
             keep_wide(of, &mut planes);
             let (column, line) = (rng.below(1023), rng.below(1023));
-            let [value, step] = wide_at(
-                &planes,
-                Place {
-                    span: 0,
-                    end: 1023,
-                    column,
-                    line,
-                },
-            );
+            let [value, step] = wide_at(&planes, place(column, line));
             for i in 0..3 {
                 let [at, across, down] = of[i];
                 assert_eq!(step[i], across);
