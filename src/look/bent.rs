@@ -4,22 +4,23 @@
 //! of indices of 8 bits 12 on a Cortex-M4 and 22 on a Cortex-M0+, of 4 bits 16 and 27.
 
 use super::fetch::texel;
-use crate::scene::{Form, Square, Texture};
+use crate::scene::{Bent, Form, Square, Texture};
 use core::hint::black_box as unknown;
 
 /// Copies a square's texels into `run` along a parabola: as `fetch::copy_from`, and the step grows by a second one at each
 /// pixel.
 #[inline(always)]
-pub(super) fn copy_arc(run: &mut [u16], square: Square<'_>, at: u32, steps: [u32; 2]) {
+pub(super) fn copy_arc(run: &mut [u16], square: Bent<'_>, at: u32, steps: [u32; 2]) {
     match square {
-        Square::Side32(t) => copy_square(run, t, at, steps),
-        Square::Side64(t) => copy_square(run, t, at, steps),
-        Square::Side128(t) => copy_square(run, t, at, steps),
-        Square::Side256(t) => copy_square(run, t, at, steps),
+        Bent::Words(Square::Side32(t)) => copy_square(run, t, at, steps),
+        Bent::Words(Square::Side64(t)) => copy_square(run, t, at, steps),
+        Bent::Words(Square::Side128(t)) => copy_square(run, t, at, steps),
+        Bent::Words(Square::Side256(t)) => copy_square(run, t, at, steps),
+        Bent::Indices(t) => copy_indices(run, t, at, steps),
     }
 }
 
-/// [`copy_arc`] from a square.
+/// [`copy_arc`] from a square of words.
 #[inline(never)]
 fn copy_square<const SIDE: usize>(
     run: &mut [u16],

@@ -28,7 +28,7 @@
 //! over which 1/w changes by a fifth is off by 1/26 of what a straight way is. [`reach`](super::stride::reach()) asks so once
 //! a triangle for all of its spans, and once for a long span.
 
-use super::bent::{copy_arc, copy_indices};
+use super::bent::copy_arc;
 use super::fetch::{Uv, Way, copy_exact, copy_from, packed, packed_on, packed_step};
 use super::stride::{Range, Reach, Stride, reach};
 use crate::num::{leading_zeros, mul_17, mul_high, recip_16};
@@ -185,7 +185,7 @@ impl Perspective {
             at: self.at,
         };
         let arc = Arc::along(&rest.last(self.step), self.step.q, square.log());
-        arc.on(within.skipped).copy(rest.run, square);
+        arc.on(within.skipped).copy(rest.run, Bent::Words(square));
     }
 
     /// Copies texels into a run of the span, with exact places at every `stride` pixels and at the
@@ -207,11 +207,8 @@ impl Perspective {
     pub fn arcs(&self, run: &mut [u16], within: Within, square: Bent<'_>, arc: u8) {
         let side = square.log();
         let copy = |run: &mut [u16], piece: Piece| {
-            let arc = Arc::along(&piece, self.step.q, side).on(piece.skipped);
-            match square {
-                Bent::Words(square) => arc.copy(run, square),
-                Bent::Indices(texture) => copy_indices(run, texture, arc.at, arc.steps()),
-            }
+            let arc = Arc::along(&piece, self.step.q, side);
+            arc.on(piece.skipped).copy(run, square);
         };
         let log = 31 - leading_zeros(u32::from(arc) | 1);
         let rest = self.pieces(run, within, log, copy);
@@ -431,14 +428,8 @@ impl Arc {
 
     /// Copies a square's texels into a run that begins here.
     #[inline(always)]
-    fn copy(self, run: &mut [u16], square: Square<'_>) {
-        copy_arc(run, square, self.at, self.steps());
-    }
-
-    /// The step, and what it grows by.
-    #[inline(always)]
-    fn steps(self) -> [u32; 2] {
-        [self.step, self.turn]
+    fn copy(self, run: &mut [u16], square: Bent<'_>) {
+        copy_arc(run, square, self.at, [self.step, self.turn]);
     }
 }
 

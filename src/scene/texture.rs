@@ -112,10 +112,8 @@ pub enum Wrap {
 pub struct Texture<'t> {
     pub(crate) form: Form<'t>,
     pub(super) sides: Sides,
-    /// The power of two of both sides of a [`Square`]; else 0.
+    /// The power of two of both sides of what is [`Bent`]; else 0.
     square: u8,
-    /// Likewise of what is [`Bent`].
-    bent: u8,
     /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
     /// sampled.
     pub(super) spare: u8,
@@ -198,15 +196,11 @@ impl<'t> Texture<'t> {
     };
 
     const fn new(form: Form<'t>, sides: Sides) -> Self {
-        let log = if sides.log_width == sides.log_height {
-            sides.log_width
-        } else {
-            0
-        };
-        let (square, bent) = match (&form, log) {
-            (Form::Words(_), 5..=8) => (log, log),
-            (Form::Index8(..) | Form::Index4(..), 5..=7) => (0, log),
-            _ => (0, 0),
+        let square = match (&form, sides.log_width) {
+            _ if sides.log_width != sides.log_height => 0,
+            (Form::Words(_), log @ 5..=8) => log,
+            (Form::Index8(..) | Form::Index4(..), log @ 5..=7) => log,
+            _ => 0,
         };
         let longest = if sides.log_width > sides.log_height {
             sides.log_width
@@ -217,7 +211,6 @@ impl<'t> Texture<'t> {
             form,
             sides,
             square,
-            bent,
             spare: match longest {
                 0..=7 => 2,
                 8 => 1,
@@ -430,7 +423,7 @@ impl<'t> Texture<'t> {
     #[inline(always)]
     pub(crate) fn repeated(&self) -> u32 {
         match self.wrap {
-            Wrap::Repeat => self.bent.into(),
+            Wrap::Repeat => self.square.into(),
             _ => 0,
         }
     }
