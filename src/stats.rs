@@ -27,7 +27,7 @@ pub struct SpanCounts {
     /// depth was asked for them.
     pub pixels_hidden: u32,
     /// Pixels whose depth was compared with the one of their column: on lines with draw calls that blend, cut, have
-    /// holes, dither, cast shadows or have a depth test, where spans meet or a call is blended or has such a test; and pixels
+    /// holes, cast shadows or have a depth test, where spans meet or a call is blended or has such a test; and pixels
     /// of shadow volumes, and of what is drawn again by them. Other lines sort spans and compare no pixels.
     pub depth_tests: u32,
     /// Pixels that texels were read for; a filter reads four at each. A texture with holes is read for pixels that turn

@@ -1,11 +1,13 @@
-//! `firmware --profile FRAME`: where the instructions of a frame go.
+//! `firmware --profile FRAME`: where the instructions of a frame go, of the firmware or of a scene file.
 
-use crate::args::FirmwareArgs;
+use crate::args::{FirmwareArgs, is_list, is_scene};
 use crate::firmware::profile::{FunctionCost, Stepped, step};
 use crate::firmware::{BOARDS, M4, Toolchain};
+use crate::flashed::Flashed;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use serde_json::{Value, json};
 use std::error::Error;
+use std::path::Path;
 
 /// Functions that the table has; the rest is one row.
 const ROWS: usize = 40;
@@ -18,7 +20,12 @@ pub fn run(frame: &str, args: &FirmwareArgs) -> Result<(), Box<dyn Error>> {
     let name = args.board.as_deref().unwrap_or(M4.name);
     let board = BOARDS.iter().find(|board| board.name == name);
     let board = board.ok_or_else(|| format!("there is no board {name}"))?;
-    let stepped = step(&Toolchain::find()?, board, frame)?;
+    let toolchain = Toolchain::find()?;
+    let file = Path::new(frame);
+    let stepped = match is_scene(file) || is_list(file) {
+        true => Flashed::load(file)?.step(&toolchain, board, file)?,
+        false => step(&toolchain, board, frame)?,
+    };
     // Before anything is printed: it may be refused.
     let words = args.function.as_deref();
     let listing = words.map(|words| stepped.listing(words)).transpose()?;

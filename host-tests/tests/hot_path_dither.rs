@@ -7,7 +7,7 @@ use crate::hot::shine::even_light;
 use crate::hot::{Corner, SceneRooms, Smooth, WordOf, camera, draw_with, frame};
 use scanbeam::look::{Gouraud, Phong, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888};
-use scanbeam::scene::{Budget, Skin, Texture};
+use scanbeam::scene::{Budget, Scissor, Skin, Texture};
 use scanbeam::{Cull, Screen};
 
 /// As it is printed in books.
@@ -161,4 +161,83 @@ fn pixels_of_24_bits_are_not_dithered() {
         words
     });
     assert!(pictures[0].len() > 20_000 && pictures[0] == pictures[1]);
+}
+
+/// Draws triangles over each other, each in a call of its own, dithered where it says so; a call before all others cuts
+/// nothing away, if it says that it cuts.
+fn layers<L: Smooth>(
+    triangles: &[([Corner; 3], bool)],
+    texture: Option<&'static Texture<'static>>,
+    cuts: bool,
+    slots: u16,
+    depth: bool,
+) -> Vec<Vec<WordOf<L>>> {
+    let screen = Screen::new(48, 24).expect("a screen");
+    let mut rooms = SceneRooms::of_triangles(triangles.len(), screen);
+    let mut scene = rooms.scene::<L>(screen);
+    scene.begin(&camera()).expect("the rooms are large enough");
+    for (i, (corners, dither)) in triangles.iter().enumerate() {
+        draw_with(&mut scene, &[*corners], |draw| {
+            (draw.cull, draw.dither) = (Cull::None, *dither);
+            draw.scissor = (cuts && i == 0).then(|| Scissor::inside(0..48, 0..24));
+            draw.texture = texture.map(|texture| Skin {
+                texture,
+                places: &[[0, 0], [900, 0], [0, 900]],
+                budget: Budget::BALANCED,
+            });
+        })
+        .expect("there is room");
+    }
+    frame(&scene, slots, depth, L::Format::from_rgb8([9, 0, 70]))
+}
+
+/// What is dithered alone has the pixels that it has where depths are compared, as on lines with a call that cuts.
+fn is_dithered_alike<L: Smooth>(seed: u64, texture: Option<&'static Texture<'static>>)
+where
+    WordOf<L>: PartialEq,
+{
+    let mut rng = Rng::new(seed);
+    let mut differ = 0;
+    for round in 0..80 {
+        let count = 2 + rng.below(9);
+        let mut triangles: Vec<_> = (0..count)
+            .map(|_| {
+                let is_even = rng.below(3) == 0;
+                let corners = triangle(&mut rng, is_even);
+                let deep = corners.map(|corner| Corner {
+                    w: 1.0 + rng.unit() * 4.0,
+                    ..corner
+                });
+                (deep, rng.below(4) > 0)
+            })
+            .collect();
+        // All over the picture, behind the others.
+        for (corner, at) in triangles[0]
+            .0
+            .iter_mut()
+            .zip([(-100, -100), (900, -100), (-100, 500)])
+        {
+            (corner.at, corner.w) = (at, 9.0);
+        }
+        for depth in [true, false] {
+            let want = layers::<L>(&triangles, texture, true, 64, depth);
+            for slots in [64, 3, 0] {
+                let got = layers::<L>(&triangles, texture, false, slots, depth);
+                assert!(got == want, "{round}: {slots} slots, depth {depth}");
+            }
+            for (_, dithers) in &mut triangles {
+                *dithers = !*dithers;
+            }
+            differ += u32::from(layers::<L>(&triangles, texture, false, 64, depth) != want);
+        }
+    }
+    assert!(differ > 100, "{differ} of 160 look otherwise without");
+}
+
+/// Kills: a call that is not dithered where nothing else is asked of its line, one that is though it does not say so, a
+/// triangle without a slot or without planes that is not, one that is marked when its line is over.
+#[test]
+fn a_dither_alone_is_that_of_lines_with_values() {
+    is_dithered_alike::<Gouraud<Rgb565>>(2_011, None);
+    is_dithered_alike::<Textured<Rgb565>>(2_012, Some(&TEXTURE));
 }

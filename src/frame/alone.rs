@@ -6,7 +6,7 @@ use super::slot::Flags;
 use super::spans::{Drawn, Line, Span, colour};
 use super::thin::depth_plane;
 use crate::active::CacheUse;
-use crate::look::{Fill, Look, Primitive, WordOf};
+use crate::look::{Fill, Look, Primitive};
 use crate::span::Way;
 
 /// A triangle without a slot, set up for one line.
@@ -46,7 +46,7 @@ impl<P> Alone<P> {
 pub(super) fn set_up_stray<L: Look>(
     stray: &Stray<'_>,
     counts: &mut CacheUse,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> Alone<L::Planes> {
     let triangle = &stray.triangle;
     let area = triangle.area();
@@ -62,6 +62,9 @@ pub(super) fn set_up_stray<L: Look>(
     let mut alone = Alone::dark(stray, L::EMPTY);
     let fill = L::set_up(&of, &mut alone.planes);
     alone.flags = Flags::new(fill, Way::PLAIN).with_depth(true);
+    if out.view.dithers(stray.object) {
+        alone.flags = alone.flags.with_values();
+    }
     counts.set_ups += 1;
     alone
 }
@@ -72,7 +75,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn set_up_alone(
         &mut self,
         object: u16,
-        out: &Line<'_, '_, WordOf<L>>,
+        out: &Line<'_, '_, L>,
     ) -> Option<Alone<L::Planes>> {
         let stray = out.stray(object)?;
         Some(set_up_stray::<L>(&stray, &mut self.counts, out))
@@ -80,7 +83,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours what has no slot, where nobody is yet; `false` as soon as one meets another.
     #[inline(never)]
-    pub(super) fn draw_all_alone(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn draw_all_alone(&mut self, out: &mut Line<'_, '_, L>) -> bool {
         let mut walk = Walk::of(self.cache.spilled);
         let mut misses = 0;
         while let Some(stray) = self.next_stray(&mut walk, out) {

@@ -11,7 +11,7 @@ use super::near::{drawn_in, number_of};
 use super::renderer::Renderer;
 use super::rival::{Rival, rival_of};
 use super::spans::{Drawn, Line, Span, colour_run};
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::visible::Mask;
 
 /// Columns of a line that have cells, the first one's cell first.
@@ -87,7 +87,7 @@ fn colour_seen_run<L: Look>(
     span: Span,
     run: Span,
     mask: &mut Mask,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
     mask.cover(run.start, run.end);
     colour_run::<L>(drawn, span, run, out);
@@ -101,7 +101,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         &mut self,
         slots: usize,
         cells: &mut [u32],
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> usize {
         let (mut start, mut hidden) = (0, 0);
         let width = out.pixels.len();
@@ -126,12 +126,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// The nearest depth of each column.
-    fn find_nearest(
-        &mut self,
-        slots: usize,
-        part: &mut Part<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) {
+    fn find_nearest(&mut self, slots: usize, part: &mut Part<'_>, out: &mut Line<'_, '_, L>) {
         for k in 0..slots {
             if let Some(rival) = self.rival_at(k, out) {
                 part.deepen(rival);
@@ -157,7 +152,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         &mut self,
         mut slots: usize,
         part: &mut Part<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> usize {
         let mut hidden = 0;
         let mut walk = Walk::of(self.cache.spilled);
@@ -186,7 +181,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The span of the slot that is so many places from the front; `None` where it has no columns.
     #[inline(never)]
-    fn rival_at(&self, at: usize, out: &Line<'_, '_, WordOf<L>>) -> Option<Rival> {
+    fn rival_at(&self, at: usize, out: &Line<'_, '_, L>) -> Option<Rival> {
         let number = number_of::<WORDS>(*self.cache.order.as_flattened().get(at)?);
         let span = Span::of(self.cache.spans.as_flattened()[number]);
         let slot = &self.cache.slots.as_flattened()[number];
@@ -200,7 +195,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         at: usize,
         rival: Rival,
         part: &mut Part<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> bool {
         let key = self.cache.order.as_flattened().get(at).copied();
         let number = number_of::<WORDS>(key.unwrap_or_default());
@@ -217,7 +212,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         &mut self,
         stray: &Stray<'_>,
         part: &mut Part<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> bool {
         let rival = stray.rival(stray.slope::<L>(out));
         let mask = drawn_in(self.crowded, &mut self.covered, &mut self.written);

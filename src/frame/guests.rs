@@ -11,7 +11,7 @@ use super::spans::{Line, Span};
 use super::thin::depth_plane;
 use crate::active::next;
 use crate::link::Link;
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::span::Triangle;
 use crate::visible::Mask;
 
@@ -102,7 +102,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         &self,
         taken: &mut Taken,
         drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> u32 {
         let guest = Guest::of(self.cells, taken.guests);
         taken.guests += 1;
@@ -119,7 +119,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         guest: Guest,
         after: Taken,
         drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) {
         let rival = guest.rival;
         let [_, far] = rival.slope.range(rival.span);
@@ -145,7 +145,7 @@ fn colour_guest<L: Look>(
     rival: Rival,
     taken: Option<&mut Mask>,
     drawing: &mut Drawing<'_>,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
     let (object, span) = (rival.object, rival.span);
     let Some(triangle) = out.view.triangle_of(object) else {
@@ -198,7 +198,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn next_stray<'v>(
         &mut self,
         walk: &mut Walk,
-        out: &Line<'_, 'v, WordOf<L>>,
+        out: &Line<'_, 'v, L>,
     ) -> Option<Stray<'v>> {
         let line = out.number as i32;
         while walk.at.is_some() {
@@ -222,11 +222,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws so many slots that are sorted, and what has no slot, of which all or those on columns where spans meet are
     /// compared; how many spans met others.
     #[inline(never)]
-    pub(super) fn draw_with_guests(
-        &mut self,
-        slots: usize,
-        out: &mut Line<'_, '_, WordOf<L>>,
-    ) -> usize {
+    pub(super) fn draw_with_guests(&mut self, slots: usize, out: &mut Line<'_, '_, L>) -> usize {
         let depth = core::mem::take(&mut self.depth);
         let mut few = [0; FEW * CELLS];
         let cells = if depth.len() < few.len() {
@@ -252,7 +248,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Sorts what has no slot; how many that are, or `None` where the cells do not hold them.
     #[inline(never)]
-    fn sort_guests(&mut self, cells: &mut [u32], out: &Line<'_, '_, WordOf<L>>) -> Option<usize> {
+    fn sort_guests(&mut self, cells: &mut [u32], out: &Line<'_, '_, L>) -> Option<usize> {
         let (mut count, room) = (0, cells.len() / CELLS);
         let mut walk = Walk::of(self.cache.spilled);
         while let Some(stray) = self.next_stray(&mut walk, out) {
@@ -276,7 +272,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-impl<'v, W> Line<'_, 'v, W> {
+impl<'v, L: Look> Line<'_, 'v, L> {
     /// What has no slot, by its number; `None` where it has no pixels on the line.
     #[inline(always)]
     pub(super) fn stray(&self, object: u16) -> Option<Stray<'v>> {
@@ -305,7 +301,7 @@ impl<'v> Stray<'v> {
     }
 
     /// Whether the triangle has no pixels on this line and those to come.
-    pub(super) fn has_ended<W>(&self, out: &Line<'_, '_, W>) -> bool {
+    pub(super) fn has_ended<L: Look>(&self, out: &Line<'_, '_, L>) -> bool {
         self.triangle.lines().end <= out.number as i32
     }
 
@@ -319,7 +315,7 @@ impl<'v> Stray<'v> {
     }
 
     /// Its depth, or what stands for it.
-    pub(super) fn slope<L: Look>(&self, out: &Line<'_, '_, WordOf<L>>) -> Slope {
+    pub(super) fn slope<L: Look>(&self, out: &Line<'_, '_, L>) -> Slope {
         if !out.deep {
             return Slope::of_place(out.view, self.object);
         }

@@ -53,11 +53,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut out = Line {
             deep: !self.depth.is_empty() && view.deep,
             nearest_first: false,
+            dither: self.dither,
             view,
             number: u32::from(line),
             pixels,
         };
-        if view.ruled
+        if view.has_values
             && self
                 .values
                 .is_some_and(|draw| draw(self, &mut out, background))
@@ -95,7 +96,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours spans as they are found; `false` as soon as two meet.
     #[inline(always)]
-    pub(super) fn draw_calm(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn draw_calm(&mut self, out: &mut Line<'_, '_, L>) -> bool {
         for word in 0..WORDS {
             let plain = self.cache.plain[word];
             if plain != 0 && self.draw_plain(out, word, plain) != 0 {
@@ -111,12 +112,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The commonest spans of a word of slots; not 0 as soon as one meets another.
     #[inline(never)]
-    fn draw_plain(
-        &mut self,
-        out: &mut Line<'_, '_, WordOf<L>>,
-        word: usize,
-        mut plain: u32,
-    ) -> u32 {
+    fn draw_plain(&mut self, out: &mut Line<'_, '_, L>, word: usize, mut plain: u32) -> u32 {
         // Unknown to the compiler, which would else reckon from the cache's beginning, and load word by word.
         let slots = black_box(&self.cache.slots[word]);
         let line = out.number;
@@ -142,12 +138,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The other spans of a word of slots; not 0 as soon as one meets another.
     #[inline(never)]
-    fn draw_others(
-        &mut self,
-        out: &mut Line<'_, '_, WordOf<L>>,
-        word: usize,
-        mut others: u32,
-    ) -> u32 {
+    fn draw_others(&mut self, out: &mut Line<'_, '_, L>, word: usize, mut others: u32) -> u32 {
         let slots = black_box(&self.cache.slots[word]);
         while others != 0 {
             let slot = &slots[take_first(&mut others) as usize & 31];

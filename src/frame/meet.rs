@@ -3,7 +3,7 @@
 use super::guests::Walk;
 use super::renderer::Renderer;
 use super::spans::{Line, Span, columns_of};
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::num::take_first;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -11,7 +11,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// if they met.
     pub(super) fn find_all(
         &mut self,
-        out: &Line<'_, '_, WordOf<L>>,
+        out: &Line<'_, '_, L>,
         compares: impl Fn(u16) -> bool,
     ) -> bool {
         let mut met = false;

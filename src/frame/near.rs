@@ -16,7 +16,7 @@ use super::rival::{Rival, Slope, deepen, rival_of, slope_of};
 use super::slot::{Active, Flags};
 use super::spans::{Drawn, Line, Span, colour_run, colour_slot, columns_of};
 use crate::active::{Cache, CacheSlot, CacheUse};
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::visible::{Mask, Part};
 
@@ -87,7 +87,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         rival: Rival,
         far: u32,
         after: Taken,
-        out: &Line<'_, '_, WordOf<L>>,
+        out: &Line<'_, '_, L>,
         mask: &mut Mask,
     ) {
         for &key in self.keys.get(after.slots..).unwrap_or_default() {
@@ -117,7 +117,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         mut taken: Taken,
         until: u32,
         drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> usize {
         let mut keys = self.keys.get(taken.slots..).unwrap_or_default();
         while let [key, later @ ..] = keys {
@@ -140,7 +140,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         guest_key: u32,
         taken: Taken,
         drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) {
         let number = number_of::<WORDS>(key);
         let (Some(slot), Some(&word), Some(&far)) = (
@@ -178,7 +178,7 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
         far: u32,
         taken: Taken,
         drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) {
         let mut mask = drawing.mask.part(span.start, span.end);
         let rival = rival_of::<L>(slot, span, out);
@@ -211,7 +211,7 @@ pub(super) fn colour_rest<L: Look>(
     mask: &mut Mask,
     drawn: Drawn<'_, L::Planes>,
     span: Span,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
     let mut rest = span;
     while let Some(run) = rest.take_run(mask) {
@@ -226,7 +226,7 @@ pub(super) fn colour_free<L: Look>(
     taken: &mut Mask,
     drawn: Drawn<'_, L::Planes>,
     span: Span,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
     let mut rest = span;
     while let Some(run) = rest.take_run(taken) {
@@ -238,7 +238,7 @@ pub(super) fn colour_free<L: Look>(
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws all spans: those that meet others from the nearest on.
     #[inline(never)]
-    pub(super) fn draw_sorted(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_sorted(&mut self, out: &mut Line<'_, '_, L>) {
         self.cache.listed = self.cache.used;
         if self.crowded {
             let (slots, hidden) = self.draw_listed(out);
@@ -258,7 +258,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws slots that are listed, and what has no slot; how many slots these are, and how many spans met others.
     #[inline(never)]
-    fn draw_listed(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> (usize, usize) {
+    fn draw_listed(&mut self, out: &mut Line<'_, '_, L>) -> (usize, usize) {
         self.dense &= self.cache.spilled.is_some();
         out.nearest_first = out.deep && !self.dense;
         let slots = self.sort_slots(out);
@@ -272,7 +272,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours spans that meet nobody, and lists the others; how many were coloured.
     #[inline(never)]
-    fn colour_alone(&mut self, met: bool, out: &mut Line<'_, '_, WordOf<L>>) -> usize {
+    fn colour_alone(&mut self, met: bool, out: &mut Line<'_, '_, L>) -> usize {
         let mut alone = 0;
         for word in 0..WORDS {
             let (slots, spans) = (&self.cache.slots[word], &self.cache.spans[word]);
@@ -298,7 +298,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Sorts the slots that are listed, from the last line's order on, and finds their spans; how many they
     /// are.
     #[inline(never)]
-    pub(super) fn sort_slots(&mut self, out: &Line<'_, '_, WordOf<L>>) -> usize {
+    pub(super) fn sort_slots(&mut self, out: &Line<'_, '_, L>) -> usize {
         let (listed, before) = (self.cache.listed, self.append_new());
         let mut count = 0;
         let mut last = u32::MAX;
@@ -336,13 +336,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Finds the span of a slot and puts it into its place among so many that are sorted; one without pixels keeps
     /// its key, where that is a depth.
     #[inline(always)]
-    fn insert_slot(
-        &mut self,
-        mut key: u32,
-        count: usize,
-        last: &mut u32,
-        out: &Line<'_, '_, WordOf<L>>,
-    ) {
+    fn insert_slot(&mut self, mut key: u32, count: usize, last: &mut u32, out: &Line<'_, '_, L>) {
         let number = number_of::<WORDS>(key);
         let slot = &self.cache.slots.as_flattened()[number];
         if out.nearest_first && Flags(slot.flags).is_usual() {
@@ -381,7 +375,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// [`keep_span`](Self::keep_span) of any slot.
     #[inline(never)]
-    fn find_other(&mut self, key: u32, out: &Line<'_, '_, WordOf<L>>) -> u32 {
+    fn find_other(&mut self, key: u32, out: &Line<'_, '_, L>) -> u32 {
         let number = number_of::<WORDS>(key);
         let slot = &mut self.cache.slots.as_flattened_mut()[number];
         let span = columns_of::<L>(slot, out);
@@ -412,7 +406,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         slots: usize,
         cells: &[u32],
         guests: usize,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) -> usize {
         let cache = &*self.cache;
         let field = Field::<L, WORDS> {

@@ -7,13 +7,13 @@
 use super::renderer::{Renderer, View};
 use super::spans::{Drawn, Line, colour_run, columns_of};
 use super::thin::MARGIN;
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Colours spans in the order of the last line, where nobody has been before, up to a line that is full; whether
     /// it is.
     #[inline(never)]
-    pub(super) fn draw_as_before(&mut self, out: &mut Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn draw_as_before(&mut self, out: &mut Line<'_, '_, L>) -> bool {
         let mut left = out.pixels.len() as u32;
         for k in 0..usize::from(self.nearest) {
             let number = self.number_at(k);
@@ -48,7 +48,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Whether of the slots in order each lies behind all before it, but for a neighbour just before it.
     #[inline(never)]
-    pub(super) fn lasts(&self, out: &Line<'_, '_, WordOf<L>>) -> bool {
+    pub(super) fn lasts(&self, out: &Line<'_, '_, L>) -> bool {
         if !out.deep {
             return true;
         }

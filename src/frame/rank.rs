@@ -8,7 +8,7 @@ use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
 use crate::active::next;
 use crate::link::Link;
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::num::take_first;
 
 /// Inserts a key among the first `count`, which rise.
@@ -19,7 +19,7 @@ pub(super) fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws all spans from the lowest priority on, or in order of submission, what has no slot between the others.
-    pub(super) fn draw_in_order(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_in_order(&mut self, out: &mut Line<'_, '_, L>) {
         let count = self.lowest_first(out.view);
         let at = |keys: &[[u32; 32]; WORDS], k: usize| {
             let keys = keys.as_flattened().get(..count);

@@ -1,12 +1,13 @@
 //! What draws lines of a scene, and what it has to be lent.
 
 use super::ahead::Fetcher;
+use super::ruled::colour_dithered;
 use super::slot::Active;
-use super::spans::Line;
+use super::spans::{Drawn, Line};
 use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
-use crate::look::{Look, WordOf};
+use crate::look::{Look, Place, WordOf};
 use crate::scene::{Content, DrawState, Master, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::stats::SpanCounts;
@@ -152,12 +153,15 @@ impl core::error::Error for LineError {}
 
 /// Draws a line with values that few have over a background; `false` where no draw call on it has any.
 pub(super) type DrawValues<L, const WORDS: usize> =
-    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>, WordOf<L>) -> bool;
+    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, L>, WordOf<L>) -> bool;
+
+/// Colours a run, dithered.
+pub(super) type Dither<L> = fn(Drawn<'_, <L as Look>::Planes>, Place, &View<'_>, &mut [WordOf<L>]);
 
 /// Draws what has to do with shadows on a line whose opaque spans are drawn; of a line that is not drawn by depth, hides
 /// what is never seen of it.
 pub(super) type DrawShadows<L, const WORDS: usize> =
-    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, WordOf<L>>);
+    fn(&mut Renderer<'_, L, WORDS>, &mut Line<'_, '_, L>);
 
 /// Draws lines of a scene: owns a cache, a link column and the depth of a line, and shares the scene with any
 /// number of others (K16, X6).
@@ -195,6 +199,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) counts: CacheUse,
     /// What draws lines with values that few have. A program that names it nowhere does not have its code.
     pub(super) values: Option<DrawValues<L, WORDS>>,
+    /// Likewise what dithers.
+    pub(super) dither: Option<Dither<L>>,
     /// Likewise of shadows.
     pub(super) shadows: Option<DrawShadows<L, WORDS>>,
     /// Counts of shadow volumes on a line, for one light at a time.
@@ -212,6 +218,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     pub fn new(memory: Memory<'m, L, WORDS>) -> Self {
         Self {
             values: Some(|renderer, out, background| renderer.draw_values(out, background)),
+            dither: Some(colour_dithered::<L>),
             ..Self::plain(memory)
         }
     }
@@ -253,6 +260,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             changed: true,
             counts: CacheUse::default(),
             values: None,
+            dither: None,
             shadows: None,
             volumes: &mut [],
             counter: None,
@@ -390,6 +398,8 @@ pub struct View<'a> {
     pub(super) first: u16,
     pub(super) bins: &'a [u16],
     /// Whether a draw call has values that few have.
+    pub(super) has_values: bool,
+    /// Whether one has values by which its lines are drawn.
     pub(super) ruled: bool,
     /// Whether the scene is drawn by priority.
     pub(super) ranked: bool,
@@ -415,7 +425,8 @@ impl<'a> View<'a> {
             content: scene.content(),
             first: scene.lines().start,
             bins: scene.bins,
-            ruled: scene.has_values,
+            has_values: scene.has_values,
+            ruled: scene.is_ruled,
             ranked: scene.is_ranked,
             deep: scene.master.has(Master::DEPTH) && !scene.is_ranked,
             begun: Cell::new(0),
@@ -458,10 +469,10 @@ impl<'a> View<'a> {
         self.state(object).map_or(0, |state| state.priority.into())
     }
 
-    /// Whether an object's draw call has values that few have.
+    /// Whether an object's draw call is dithered.
     #[inline(always)]
-    pub(super) fn has_values(&self, object: u16) -> bool {
-        self.ruled && self.state(object).is_some_and(DrawState::has_values)
+    pub(super) fn dithers(&self, object: u16) -> bool {
+        self.has_values && self.state(object).is_some_and(|state| state.dithers)
     }
 
     /// The corners of a triangle.

@@ -6,7 +6,7 @@ use super::slot::{Active, Flags};
 use super::spans::{Line, Span, thin_depth};
 use super::thin::depth_plane;
 use crate::active::CacheSlot;
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::visible::Mask;
 
 /// The depth of a span: its value at the picture's first column, and its step.
@@ -127,7 +127,7 @@ pub(super) fn deepen<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &Vi
 pub(super) fn slope_of<L: Look>(
     slot: &CacheSlot<Active<L::Planes>>,
     span: Span,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> Slope {
     if !out.deep {
         return Slope::of_place(out.view, slot.object);
@@ -152,7 +152,7 @@ pub(super) fn thin_slope(object: u16, span: Span, view: &View<'_>, line: u32) ->
 pub(super) fn rival_of<L: Look>(
     slot: &CacheSlot<Active<L::Planes>>,
     span: Span,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> Rival {
     Rival {
         span,

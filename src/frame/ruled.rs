@@ -11,8 +11,8 @@ use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
 use crate::num::leading_zeros;
 use crate::pixel::{blend, blend_each};
-use crate::scene::{Blend, DrawState, MaskTexel, PixelAlpha};
-use crate::visible::{MOST_TESTED, Part, test};
+use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
+use crate::visible::{MOST_TESTED, Part, keep, test};
 
 /// A span of a triangle, and the values of its draw call.
 #[derive(Clone, Copy)]
@@ -37,7 +37,7 @@ pub(super) struct Ink<'a, P> {
 pub(super) fn draw_ruled<L: Look>(
     ruled: Ruled<'_, L::Planes>,
     part: Span,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
     mut known: Option<Known<'_>>,
 ) {
     let Ruled { drawn, span, state } = ruled;
@@ -69,24 +69,29 @@ pub(super) fn draw_ruled<L: Look>(
     }
 }
 
+/// Colours a run, dithered: on a line without values, where nothing is compared.
+pub(super) fn colour_dithered<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    at: Place,
+    view: &View<'_>,
+    run: &mut [WordOf<L>],
+) {
+    let mut others = None;
+    let fill = fill_of::<L>(drawn, at, true, &mut others, view);
+    let planes = others.as_ref().unwrap_or(drawn.planes);
+    L::fill_opaque(fill, planes, at, view.draws, true, run);
+}
+
 /// What colours a span; `others` keeps its planes where those of the triangle do not do.
 #[inline(always)]
 pub(super) fn ink_of<'a, L: Look>(
     ruled: Ruled<'a, L::Planes>,
     others: &'a mut Option<L::Planes>,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> Ink<'a, L::Planes> {
     let Ruled { drawn, span, state } = ruled;
-    let mut fill = drawn.flags.fill();
-    if state.dithers && fill == Fill::Plain {
-        if let Some((finer, planes)) = dithered_planes::<L>(drawn.object, out.view) {
-            (fill, *others) = (finer, Some(planes));
-        }
-    }
-    if fill == Fill::Thin {
-        let planes = thin_planes::<L>(drawn.object, span, out.number, out.view);
-        (fill, *others) = (Fill::Wide, Some(planes));
-    }
+    let at = span.place(span.start, out.number);
+    let fill = fill_of::<L>(drawn, at, state.dithers, others, out.view);
     Ink {
         fill,
         planes: others.as_ref().unwrap_or(drawn.planes),
@@ -99,12 +104,28 @@ pub(super) fn ink_of<'a, L: Look>(
     }
 }
 
-/// Planes that keep enough for a dither, where those that a triangle has do not.
+/// How a span is coloured: by planes of its own where it is thin, and where it is dithered and those of the triangle do
+/// not keep enough for that.
 #[inline(always)]
-fn dithered_planes<L: Look>(object: u16, view: &View<'_>) -> Option<(Fill, L::Planes)> {
-    let mut planes = L::EMPTY;
-    let fill = L::set_up_dithered(&view.triangle_of(object)?, &mut planes)?;
-    Some((fill, planes))
+fn fill_of<L: Look>(
+    drawn: Drawn<'_, L::Planes>,
+    at: Place,
+    dithers: bool,
+    others: &mut Option<L::Planes>,
+    view: &View<'_>,
+) -> Fill {
+    let mut fill = drawn.flags.fill();
+    if dithers && fill == Fill::Plain {
+        let mut planes = L::EMPTY;
+        let triangle = view.triangle_of(drawn.object);
+        if let Some(finer) = triangle.and_then(|t| L::set_up_dithered(&t, &mut planes)) {
+            (fill, *others) = (finer, Some(planes));
+        }
+    }
+    if fill == Fill::Thin {
+        (fill, *others) = (Fill::Wide, Some(thin_planes::<L>(drawn.object, at, view)));
+    }
+    fill
 }
 
 /// The depth of a span at the picture's first column, and its step.
@@ -113,7 +134,7 @@ pub(super) fn depth_on_line<L: Look>(
     drawn: Drawn<'_, L::Planes>,
     plane: [u32; 3],
     span: Span,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> [u32; 2] {
     if drawn.flags.lacks_depth() {
         let [at, step] = thin_depth(drawn.object, span, out.view, out.number);
@@ -126,16 +147,23 @@ pub(super) fn depth_on_line<L: Look>(
 /// The depths of a run; what nobody has written is farthest away.
 #[inline(never)]
 pub(super) fn cells_of<'a>(run: Span, known: &'a mut Known<'_>) -> Option<&'a mut [u32]> {
+    let (cells, is_new) = written_cells(run, known)?;
+    if is_new {
+        cells.fill(0);
+    }
+    Some(cells)
+}
+
+/// The same, and whether nobody has written any, as they are then.
+#[inline(always)]
+fn written_cells<'a>(run: Span, known: &'a mut Known<'_>) -> Option<(&'a mut [u32], bool)> {
     let part = known.written.cover_part(run.start, run.end, |column| {
         if let Some(cell) = known.cells.get_mut(column) {
             *cell = 0;
         }
     });
     let cells = known.cells.get_mut(run.start as usize..run.end as usize)?;
-    if part == Part::None {
-        cells.fill(0);
-    }
-    Some(cells)
+    Some((cells, part == Part::None))
 }
 
 /// Calls `f` with each run of pixels that pass the test.
@@ -147,13 +175,20 @@ fn compare(
     known: &mut Known<'_>,
     f: &mut dyn FnMut(Span),
 ) {
-    let Some(cells) = cells_of(run, known) else {
+    let Some((cells, is_new)) = written_cells(run, known) else {
         return;
     };
+    if is_new {
+        if state.depth == DepthTest::HIDES {
+            keep(cells, at.wrapping_add(step.wrapping_mul(run.start)), step);
+            return f(run);
+        }
+        cells.fill(0);
+    }
     let firsts = (run.start..).step_by(MOST_TESTED);
     for (cells, first) in cells.chunks_mut(MOST_TESTED).zip(firsts) {
         let depth = at.wrapping_add(step.wrapping_mul(first));
-        let seen = test(cells, depth, step, state.depth).reverse_bits();
+        let seen = test(cells, depth, step, state.depth);
         each_run(seen, first, f);
     }
 }
@@ -184,7 +219,7 @@ fn lay_by_pixel<L: Look>(
     run: Span,
     state: &DrawState<'_>,
     depth: [u32; 2],
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
     known: &mut Option<Known<'_>>,
 ) {
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
@@ -280,7 +315,7 @@ fn undither<L: Look>(
 }
 
 /// Colours a run, or blends it.
-fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, WordOf<L>>) {
+fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, L>) {
     let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };

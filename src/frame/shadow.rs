@@ -12,7 +12,7 @@ use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
 use super::spans::{Drawn, Known, Line, Span};
 use super::tally::{cells_at, each_part, has_texels, opaque_of};
 use crate::active::next;
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::{DepthFunction, DrawState, Role};
 use crate::stats::{SpanCounts, SpanPixels};
@@ -67,7 +67,7 @@ pub(super) fn count_shadowed<L: Look>(
     ruled: Ruled<'_, L::Planes>,
     known: &Known<'_>,
     counts: &[u8],
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) {
     let Ruled { drawn, span, state } = ruled;
     let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
@@ -125,7 +125,7 @@ fn take<L: Look>(
     ruled: Ruled<'_, L::Planes>,
     mut known: Known<'_>,
     counts: &mut [u8],
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
     let Ruled { drawn, span, state } = ruled;
     let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
@@ -160,7 +160,7 @@ fn take<L: Look>(
             .chunks_mut(MOST_TESTED)
             .zip(cells.chunks(MOST_TESTED));
         for ((counts, cells), first) in parts.zip((run.start..).step_by(MOST_TESTED)) {
-            let seen = receive(counts, cells, [depth_at(first), step], how).reverse_bits();
+            let seen = receive(counts, cells, [depth_at(first), step], how);
             each_run(seen, first, &mut |part| {
                 draw_ruled::<L>(ruled, part, out, None);
             });
@@ -172,7 +172,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Counts the volumes of all lights, and draws what they fall on, on a line that is drawn by depth. On another, slots
     /// that are seen by their counts alone lose their spans.
     #[inline(never)]
-    pub(super) fn draw_shadows(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_shadows(&mut self, out: &mut Line<'_, '_, L>) {
         if !out.deep {
             return self.hide_shadows(out.view);
         }
@@ -214,7 +214,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Lists the slots that have to do with shadows by their steps, and of a step in order of submission, and finds their
     /// depth; how many there are, and the lights of all spans.
-    fn list_shadows(&mut self, out: &Line<'_, '_, WordOf<L>>) -> (usize, Lights) {
+    fn list_shadows(&mut self, out: &Line<'_, '_, L>) -> (usize, Lights) {
         let (mut count, mut lights) = (0, Lights::default());
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
@@ -248,7 +248,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Takes the spans of a step in order of submission: of so many slots that are listed, and what has none between
     /// them.
-    fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, L>) {
         let mut slow = self.cache.spilled;
         let keys = self.cache.order.as_flattened().get(..slots);
         let first = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
@@ -268,7 +268,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
         let (Some(slots), Some(spans)) = (
             self.cache.slots.get(number >> 5),
             self.cache.spans.get(number >> 5),
@@ -292,7 +292,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         take::<L>(ruled, known, self.volumes, out);
     }
 
-    fn take_alone(&mut self, object: u16, step: Step, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn take_alone(&mut self, object: u16, step: Step, out: &mut Line<'_, '_, L>) {
         let state = out.view.state(object);
         let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
             return;

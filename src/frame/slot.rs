@@ -51,6 +51,18 @@ impl Flags {
         Way(self.0 >> Self::WAY & Way::BITS)
     }
 
+    /// Whether its look alone does not colour it: it is thin, or its draw call has values.
+    #[inline(always)]
+    pub(super) fn is_other(self) -> bool {
+        self.0 & (Self::VALUES | 3) >= 3
+    }
+
+    /// Whether its look alone colours it, in the commonest way.
+    #[inline(always)]
+    pub(super) fn is_coloured_plainly(self) -> bool {
+        self.0 & (Self::VALUES | 3) == 0
+    }
+
     /// Whether the draw call has values that few have.
     #[inline(always)]
     pub(super) fn has_values(self) -> bool {
@@ -59,6 +71,10 @@ impl Flags {
 
     pub(super) fn with_values(self) -> Self {
         Self(self.0 | Self::VALUES)
+    }
+
+    pub(super) fn with_fill(self, fill: Fill) -> Self {
+        Self(self.0 & !3 | fill as u8)
     }
 
     /// Whether columns need no look at the picture's border.

@@ -1,6 +1,6 @@
 //! The pixels of a span.
 
-use super::renderer::View;
+use super::renderer::{Dither, View};
 use super::slot::{Active, Flags};
 use super::thin::{MARGIN, thin_span};
 use crate::active::CacheSlot;
@@ -8,10 +8,12 @@ use crate::look::{Fill, Look, Place, WordOf};
 use crate::visible::Mask;
 
 /// A line that is drawn.
-pub(super) struct Line<'a, 'v, W> {
+pub(super) struct Line<'a, 'v, L: Look> {
     pub(super) view: &'a View<'v>,
     pub(super) number: u32,
-    pub(super) pixels: &'a mut [W],
+    pub(super) pixels: &'a mut [WordOf<L>],
+    /// What dithers, where a scene may.
+    pub(super) dither: Option<Dither<L>>,
     /// Whether the nearest span is seen; otherwise the one of the highest priority, of equals the one submitted last.
     pub(super) deep: bool,
     /// Whether slots are sorted by depth.
@@ -54,18 +56,17 @@ pub(super) fn thin_depth(object: u16, span: Span, view: &View<'_>, line: u32) ->
     [first.wrapping_add(MARGIN), step]
 }
 
-/// The planes of a thin triangle on a line.
+/// The planes of a thin triangle on the line of one of its spans.
 #[cold]
 #[inline(never)]
-pub(super) fn thin_planes<L: Look>(
-    object: u16,
-    span: Span,
-    line: u32,
-    view: &View<'_>,
-) -> L::Planes {
+pub(super) fn thin_planes<L: Look>(object: u16, at: Place, view: &View<'_>) -> L::Planes {
     let mut planes = L::EMPTY;
     if let Some(triangle) = view.triangle_of(object) {
-        let ends = thin_span(&triangle, span, line);
+        let span = Span {
+            start: at.span,
+            end: at.end,
+        };
+        let ends = thin_span(&triangle, span, at.line);
         L::set_up_thin(&ends, object, view.draws, &mut planes);
     }
     planes
@@ -75,7 +76,7 @@ pub(super) fn thin_planes<L: Look>(
 #[inline(always)]
 pub(super) fn columns_of<L: Look>(
     slot: &CacheSlot<Active<L::Planes>>,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> Span {
     let (flags, sides) = (Flags(slot.flags), &slot.item.sides);
     let (start, end) = if flags.is_direct() {
@@ -94,11 +95,14 @@ pub(super) fn columns_of<L: Look>(
 pub(super) fn colour_slot<L: Look>(
     slot: &CacheSlot<Active<L::Planes>>,
     span: u32,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
-    let span = Span::of(span);
-    let fill = Flags(slot.flags).fill();
-    if fill == Fill::Thin || !L::TEXTURED && fill != Fill::Plain {
+    let (span, flags) = (Span::of(span), Flags(slot.flags));
+    let is_usual = match L::TEXTURED {
+        true => !flags.is_other(),
+        false => flags.is_coloured_plainly(),
+    };
+    if !is_usual {
         return colour::<L>(Drawn::of(slot), span, out);
     }
     let Some(run) = out.pixels.get_mut(span.start as usize..span.end as usize) else {
@@ -106,18 +110,14 @@ pub(super) fn colour_slot<L: Look>(
     };
     let at = span.place(span.start, out.number);
     if L::TEXTURED {
-        return L::fill_slot(fill, &slot.item.planes, at, out.view.draws, run);
+        return L::fill_slot(flags.fill(), &slot.item.planes, at, out.view.draws, run);
     }
     L::fill_plain(&slot.item.planes, at, out.view.draws, run);
 }
 
 /// Colours a span.
 #[inline(always)]
-pub(super) fn colour<L: Look>(
-    drawn: Drawn<'_, L::Planes>,
-    span: Span,
-    out: &mut Line<'_, '_, WordOf<L>>,
-) {
+pub(super) fn colour<L: Look>(drawn: Drawn<'_, L::Planes>, span: Span, out: &mut Line<'_, '_, L>) {
     colour_run::<L>(drawn, span, span, out);
 }
 
@@ -127,29 +127,45 @@ pub(super) fn colour_run<L: Look>(
     drawn: Drawn<'_, L::Planes>,
     span: Span,
     run: Span,
-    out: &mut Line<'_, '_, WordOf<L>>,
+    out: &mut Line<'_, '_, L>,
 ) {
     let Some(pixels) = out.pixels.get_mut(run.start as usize..run.end as usize) else {
         return;
     };
     let at = span.place(run.start, out.number);
-    let draws = out.view.draws;
-    let fill = drawn.flags.fill();
-    if fill == Fill::Thin {
-        return colour_thin::<L>(drawn.object, at, out.view, pixels);
+    let Drawn {
+        planes,
+        flags,
+        object,
+    } = drawn;
+    if flags.is_other() {
+        return colour_other::<L>(planes, flags, object, at, out.view, out.dither, pixels);
     }
-    L::fill(fill, drawn.planes, at, draws, pixels);
+    L::fill(flags.fill(), planes, at, out.view.draws, pixels);
 }
 
-/// Colours a run of a thin triangle.
+/// Colours a run that is dithered, or of a thin triangle. What is drawn comes in parts, so that nobody who calls this
+/// keeps it whole.
 #[cold]
 #[inline(never)]
-fn colour_thin<L: Look>(object: u16, at: Place, view: &View<'_>, pixels: &mut [WordOf<L>]) {
-    let span = Span {
-        start: at.span,
-        end: at.end,
-    };
-    let planes = thin_planes::<L>(object, span, at.line, view);
+fn colour_other<L: Look>(
+    planes: &L::Planes,
+    flags: Flags,
+    object: u16,
+    at: Place,
+    view: &View<'_>,
+    dither: Option<Dither<L>>,
+    pixels: &mut [WordOf<L>],
+) {
+    if let Some(dither) = dither.filter(|_| flags.has_values()) {
+        let drawn = Drawn {
+            planes,
+            flags,
+            object,
+        };
+        return dither(drawn, at, view, pixels);
+    }
+    let planes = thin_planes::<L>(object, at, view);
     L::fill(Fill::Wide, &planes, at, view.draws, pixels);
 }
 

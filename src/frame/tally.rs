@@ -35,18 +35,17 @@ pub(super) struct Counter<L: Look, const WORDS: usize> {
 
 type PlanesOf<L> = <L as Look>::Planes;
 
-type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, WordOf<L>>);
+type CountLine<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, &Line<'_, '_, L>);
 
 /// The depth that the span is compared with, if it is, and whether it shares no column with another.
 type CountSpan<L> =
-    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, Option<&Known<'_>>, bool, &Line<'_, '_, WordOf<L>>);
+    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, Option<&Known<'_>>, bool, &Line<'_, '_, L>);
 
-type CountPanes<L, const WORDS: usize> =
-    fn(&mut Renderer<'_, L, WORDS>, usize, &Line<'_, '_, WordOf<L>>);
+type CountPanes<L, const WORDS: usize> = fn(&mut Renderer<'_, L, WORDS>, usize, &Line<'_, '_, L>);
 
 /// The depth of the line, and its counts of volumes.
 type CountShadowed<L> =
-    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, &Known<'_>, &[u8], &Line<'_, '_, WordOf<L>>);
+    fn(&mut SpanCounts, Ruled<'_, PlanesOf<L>>, &Known<'_>, &[u8], &Line<'_, '_, L>);
 
 impl<L: Look, const WORDS: usize> Counter<L, WORDS> {
     pub(super) fn new() -> Self {
@@ -68,7 +67,7 @@ struct Seen<'a, P> {
 
 impl<P> Seen<'_, P> {
     /// With its depth, or what stands for it; nothing is kept of it.
-    fn rival<L: Look<Planes = P>>(&self, out: &Line<'_, '_, WordOf<L>>) -> Option<Rival> {
+    fn rival<L: Look<Planes = P>>(&self, out: &Line<'_, '_, L>) -> Option<Rival> {
         let slot = self
             .slot
             .filter(|slot| !out.deep || Flags(slot.flags).is_deep());
@@ -86,7 +85,7 @@ impl<P> Seen<'_, P> {
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Calls `f` with each span of the line.
-    fn each_span(&self, out: &Line<'_, '_, WordOf<L>>, f: &mut dyn FnMut(&Seen<'_, L::Planes>)) {
+    fn each_span(&self, out: &Line<'_, '_, L>, f: &mut dyn FnMut(&Seen<'_, L::Planes>)) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             while used != 0 {
@@ -115,7 +114,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Counts the spans of a line without values.
     #[inline(never)]
-    fn count_line(&mut self, out: &Line<'_, '_, WordOf<L>>) {
+    fn count_line(&mut self, out: &Line<'_, '_, L>) {
         let (mut covered, mut over) = (Mask::EMPTY, Mask::EMPTY);
         self.each_span(out, &mut |one| {
             covered.cover_over(&mut over, one.span.start, one.span.end);
@@ -147,7 +146,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// How many pixels of a span no other is seen before.
-    fn seen_of(&self, one: &Seen<'_, L::Planes>, out: &Line<'_, '_, WordOf<L>>) -> u32 {
+    fn seen_of(&self, one: &Seen<'_, L::Planes>, out: &Line<'_, '_, L>) -> u32 {
         let Some(rival) = one.rival::<L>(out) else {
             return 0;
         };
@@ -168,7 +167,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Counts what is translucent on a line that is drawn by depth: all else is drawn, and none of it changes depths.
     #[inline(never)]
-    fn count_panes(&mut self, slots: usize, out: &Line<'_, '_, WordOf<L>>) {
+    fn count_panes(&mut self, slots: usize, out: &Line<'_, '_, L>) {
         for k in 0..slots {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize;
@@ -201,12 +200,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Counts a translucent span without a slot.
-    fn count_pane_alone(
-        &mut self,
-        object: u16,
-        state: &DrawState<'_>,
-        out: &Line<'_, '_, WordOf<L>>,
-    ) {
+    fn count_pane_alone(&mut self, object: u16, state: &DrawState<'_>, out: &Line<'_, '_, L>) {
         let Some(stray) = out.stray(object) else {
             return;
         };
@@ -236,7 +230,7 @@ fn count_span<L: Look>(
     ruled: Ruled<'_, L::Planes>,
     known: Option<&Known<'_>>,
     is_alone: bool,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) {
     let Ruled { drawn, span, state } = ruled;
     let depth = known.map(|known| depth_on_line::<L>(drawn, known.plane, span, out));
@@ -244,7 +238,7 @@ fn count_span<L: Look>(
     // A slot without values is compared by no state of its own.
     let has_texels = has_texels::<L>(out.view.state(drawn.object));
     each_part(ruled, out, &mut |first, part| {
-        let all = u32::MAX >> (32 - part);
+        let all = u32::MAX << (32 - part);
         let is_holed = L::TEXTURED && state.holes.is_some();
         let asked = if is_holed {
             all & opaque_of::<L>(ruled, first, part, out)
@@ -274,9 +268,9 @@ fn count_span<L: Look>(
 }
 
 /// Calls `f` with the first column of each part of at most 32 pixels that the scissor keeps, and their number.
-pub(super) fn each_part<P, W>(
-    ruled: Ruled<'_, P>,
-    out: &Line<'_, '_, W>,
+pub(super) fn each_part<L: Look>(
+    ruled: Ruled<'_, L::Planes>,
+    out: &Line<'_, '_, L>,
     f: &mut dyn FnMut(u32, u32),
 ) {
     let Span { start, end } = ruled.span;
@@ -290,19 +284,19 @@ pub(super) fn each_part<P, W>(
     }
 }
 
-/// A bit for each of some pixels that is not a hole of the texture, the first the lowest.
+/// A bit for each of some pixels that is not a hole of the texture, the first the top one.
 pub(super) fn opaque_of<L: Look>(
     ruled: Ruled<'_, L::Planes>,
     first: u32,
     pixels: u32,
-    out: &Line<'_, '_, WordOf<L>>,
+    out: &Line<'_, '_, L>,
 ) -> u32 {
     let mut others = None;
     let ink = ink_of::<L>(ruled, &mut others, out);
     let at = ruled.span.place(first, out.number);
     let mut colours = [WordOf::<L>::default(); MOST_TESTED];
     let colours = colours.get_mut(..pixels as usize).unwrap_or_default();
-    L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, false, colours).reverse_bits()
+    L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, false, colours)
 }
 
 /// A copy of the depths that are there from a column on; what nobody has written is farthest away.

@@ -13,7 +13,7 @@ use super::rival::{Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
 use crate::active::next;
-use crate::look::{Look, WordOf};
+use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
 use core::cmp::Ordering;
@@ -182,7 +182,7 @@ impl Pile {
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws all translucent spans of a line that is drawn by depth.
     #[inline(never)]
-    pub(super) fn draw_translucent(&mut self, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_translucent(&mut self, out: &mut Line<'_, '_, L>) {
         let count = self.list_translucent(out);
         if let Some(counter) = &self.counter {
             (counter.panes)(self, count, out);
@@ -194,7 +194,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws the panes of so many slots that are listed, and of what has no slot.
     #[inline(never)]
-    fn draw_piles(&mut self, count: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_piles(&mut self, count: usize, out: &mut Line<'_, '_, L>) {
         let until = out.pixels.len() as u32;
         let mut pile = Pile::EMPTY;
         let mut window = Span {
@@ -219,7 +219,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Lists the slots of translucent spans, and finds their depth; how many there are.
-    fn list_translucent(&mut self, out: &Line<'_, '_, WordOf<L>>) -> usize {
+    fn list_translucent(&mut self, out: &Line<'_, '_, L>) -> usize {
         let mut count = 0;
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
@@ -240,7 +240,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Calls `f` with each pane of the line.
     #[inline(never)]
-    fn each_pane(&mut self, count: usize, out: &Line<'_, '_, WordOf<L>>, f: &mut dyn FnMut(Pane)) {
+    fn each_pane(&mut self, count: usize, out: &Line<'_, '_, L>, f: &mut dyn FnMut(Pane)) {
         for k in 0..count {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize;
@@ -279,19 +279,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Fills a pile.
     #[inline(never)]
-    fn gather_panes(
-        &mut self,
-        pile: &mut Pile,
-        count: usize,
-        take: Take,
-        out: &Line<'_, '_, WordOf<L>>,
-    ) {
+    fn gather_panes(&mut self, pile: &mut Pile, count: usize, take: Take, out: &Line<'_, '_, L>) {
         (pile.count, pile.is_short) = (0, false);
         self.each_pane(count, out, &mut |pane| pile.add(pane, take));
     }
 
     /// Draws the panes of a window that a pile holds.
-    fn draw_pile(&mut self, pile: &mut Pile, window: Span, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_pile(&mut self, pile: &mut Pile, window: Span, out: &mut Line<'_, '_, L>) {
         let mut start = window.start;
         while let Some((mut part, set)) = pile.next_stretch(start, window.end) {
             start = loop {
@@ -315,7 +309,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         pile: &mut Pile,
         count: usize,
         column: Span,
-        out: &mut Line<'_, '_, WordOf<L>>,
+        out: &mut Line<'_, '_, L>,
     ) {
         let mut after = None;
         loop {
@@ -332,7 +326,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws some columns of a pane.
     #[inline(never)]
-    fn draw_pane(&mut self, pane: Pane, part: Span, out: &mut Line<'_, '_, WordOf<L>>) {
+    fn draw_pane(&mut self, pane: Pane, part: Span, out: &mut Line<'_, '_, L>) {
         let Some(state) = out.view.state(pane.object) else {
             return;
         };

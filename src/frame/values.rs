@@ -1,7 +1,8 @@
 //! Lines with draw calls that have values few have (H9, H15, K11).
 //!
 //! Values are looked at once a span, and only where a call of the scene has any: other lines and other scenes know
-//! nothing of them. On such a line the background comes first. With depth, what is opaque is drawn in order of
+//! nothing of them. A dither alone is none of these: its spans are sorted as others are, and what colours them asks
+//! whether they are dithered. On such a line the background comes first. With depth, what is opaque is drawn in order of
 //! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
@@ -13,22 +14,18 @@ use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
 use crate::active::next;
 use crate::link::Link;
-use crate::look::{Look, WordOf};
+use crate::look::{Fill, Look, WordOf};
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Draws a line over a background, if a draw call on it has values that few have.
     #[inline(never)]
-    pub(super) fn draw_values(
-        &mut self,
-        out: &mut Line<'_, '_, WordOf<L>>,
-        background: WordOf<L>,
-    ) -> bool {
+    pub(super) fn draw_values(&mut self, out: &mut Line<'_, '_, L>, background: WordOf<L>) -> bool {
         if self.changed {
             self.mark_values(out.view);
         }
-        if !self.has_values(out) {
+        if !out.view.ruled || !self.is_ruled(out) {
             return false;
         }
         fill_line::<L>(out.pixels, background);
@@ -70,10 +67,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     continue;
                 }
                 slot.draw = u8::try_from(view.begun(slot.object)).unwrap_or(0);
-                if view.state_of(slot).is_some_and(DrawState::has_values) {
-                    slot.flags = Flags(slot.flags).with_values().0;
-                    self.cache.plain[word] &= !bit(i);
+                let Some(state) = view.state_of(slot).filter(|state| state.has_values()) else {
+                    continue;
+                };
+                let mut flags = Flags(slot.flags).with_values();
+                if state.dithers && flags.fill() == Fill::Plain {
+                    let triangle = view.triangle_of(slot.object);
+                    let finer =
+                        triangle.and_then(|t| L::set_up_dithered(&t, &mut slot.item.planes));
+                    flags = finer.map_or(flags, |fill| flags.with_fill(fill));
                 }
+                slot.flags = flags.0;
+                self.cache.plain[word] &= !bit(i);
             }
         }
     }
@@ -92,13 +97,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         None
     }
 
-    /// Whether a draw call with pixels on this line has values.
-    fn has_values(&self, out: &Line<'_, '_, WordOf<L>>) -> bool {
+    /// Whether a draw call with pixels on this line has values by which lines are drawn.
+    fn is_ruled(&self, out: &Line<'_, '_, L>) -> bool {
+        let rules = |state: Option<&DrawState<'_>>| state.is_some_and(DrawState::rules);
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
                 let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
-                if Flags(slot.flags).has_values() {
+                if Flags(slot.flags).has_values() && rules(out.view.state_of(slot)) {
                     let Span { start, end } = columns_of::<L>(slot, out);
                     if start < end {
                         return true;
@@ -108,7 +114,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let mut at = self.cache.spilled;
         while at.is_some() {
-            if out.view.has_values(at.object()) {
+            if rules(out.view.state(at.object())) {
                 let stray = out.stray(at.object());
                 if stray.is_some_and(|stray| !stray.has_ended(out)) {
                     return true;
@@ -120,7 +126,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Adds the columns of spans in slots that compare to those where spans meet.
-    fn find_compared(&mut self, out: &Line<'_, '_, WordOf<L>>) {
+    fn find_compared(&mut self, out: &Line<'_, '_, L>) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word] & !self.cache.plain[word];
             while used != 0 {
@@ -137,7 +143,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws a span in a slot.
     #[inline(never)]
-    pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, WordOf<L>>) {
+    pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
         let (word, i) = (number >> 5, number & 31);
         let (Some(slots), Some(spans)) =
             (self.cache.slots.get_mut(word), self.cache.spans.get(word))
@@ -174,7 +180,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws a span without a slot; the next of its kind.
     #[inline(never)]
-    pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, WordOf<L>>) -> Link {
+    pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, L>) -> Link {
         let state = out.view.state(at.object());
         let state = state.unwrap_or(&DrawState::EMPTY);
         let after = next(self.links, at);

@@ -66,6 +66,19 @@ impl Course {
         }
     }
 
+    /// Whether the first of so many pixels and the last keep so much of 2^16 from either end of a channel.
+    #[inline(always)]
+    pub(super) fn keeps(&self, least: [u32; 3], pixels: u32) -> bool {
+        let mut last = *self;
+        last.skip(pixels.wrapping_sub(1));
+        let is_within = |value: u32, least: u32| {
+            (value >> 15 & 0xFFFF).wrapping_sub(least) <= 0xFFFF - 2 * least
+        };
+        let keeps =
+            |i: usize| is_within(self.value[i], least[i]) & is_within(last.value[i], least[i]);
+        keeps(0) & keeps(1) & keeps(2)
+    }
+
     /// The pair of words so many pixels on from an anchor, and their steps.
     #[inline(always)]
     pub(super) fn pair_on(&self, off: u32) -> [Pair; 2] {

@@ -11,11 +11,12 @@
 //! Vertices keep half a step from either end of a field, so no colour leaves its field (P4).
 
 use super::course::{Course, InParts};
+use super::dither;
 use super::fields::{fields, is_even, is_flat, packed_step, wide_fields};
 use super::ramp::{self, Packed, Pair};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
-use crate::pixel::{PixelFormat, threshold};
+use crate::pixel::PixelFormat;
 use crate::scene::{DrawState, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle};
 use core::marker::PhantomData;
@@ -254,13 +255,6 @@ pub(super) fn course(fill: Fill, planes: &Planes, place: Place) -> Course {
     }
 }
 
-/// A channel of 16 bits, of which a format keeps so many steps, raised by so many of 32 parts of one.
-#[inline(always)]
-pub(super) fn dithered(channel: u32, parts: i32, steps: u16) -> u32 {
-    let step = 1 << steps.leading_zeros();
-    (channel as i32 + ((parts * step) >> 5)).clamp(0, 0xFFFF) as u32
-}
-
 /// Two words with 16 bits a channel.
 #[inline(never)]
 fn pair_planes(shares: &Shares, colour: [u32; 3], planes: &mut Planes) {
@@ -387,7 +381,6 @@ impl<F: PixelFormat> Look for Gouraud<F> {
         Some(plane_shades(triangle, triangle.size(area), area, planes))
     }
 
-    #[inline(never)]
     fn fill_opaque(
         fill: Fill,
         planes: &Planes,
@@ -398,19 +391,8 @@ impl<F: PixelFormat> Look for Gouraud<F> {
     ) -> u32 {
         if !dithers || !F::MADE_OF.is_one_word() || fill == Fill::Plain {
             Self::fill(fill, planes, place, draws, run);
-            return u32::MAX;
-        }
-        let Course {
-            mut value, step, ..
-        } = course(fill, planes, place);
-        for (pixel, column) in run.iter_mut().zip(place.column..) {
-            let by = threshold(column, place.line);
-            // Of a steep shade two words hold steps modulo 2^16.
-            let raised = |i: usize| dithered(value[i] >> 15 & 0xFFFF, by, F::STEPS[i]);
-            *pixel = F::pack_words(raised(0) << 16 | raised(2), raised(1) << 16);
-            for (value, step) in value.iter_mut().zip(step) {
-                *value = value.wrapping_add(step as u32);
-            }
+        } else {
+            dither::fill::<F>(course(fill, planes, place.first()), place, run);
         }
         u32::MAX
     }

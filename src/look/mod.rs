@@ -28,6 +28,7 @@
 mod area;
 mod bent;
 mod course;
+mod dither;
 mod fetch;
 mod fields;
 mod gouraud;

@@ -12,7 +12,8 @@
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye. A call without
 //! lamps is drawn as [`Gouraud`] draws it, bit for bit.
 
-use super::gouraud::{Gouraud, Planes as Three, dithered, thin_shades, wide_at, wide_shades};
+use super::dither::dithered;
+use super::gouraud::{Gouraud, Planes as Three, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::{Affine, PixelLamps, Scale, unit_normal};
 use crate::num::mul_high_unsigned;

@@ -272,27 +272,20 @@ impl<F: Texel> Textured<F> {
         if run.len() as u32 == place.pixels() {
             return F::tint(run, at, step);
         }
-        Self::shade_part(run, place, [at, step]);
+        Self::shade_part(run, place, [at, step], false);
     }
 
     /// [`shade`](Textured::shade), dithered.
     #[inline(never)]
     fn shade_dithered(planes: &Planes, place: Place, run: &mut [u16]) {
-        let Some(fill) = planes.shaded else {
-            return;
-        };
-        let at = [place.column, place.line];
-        if fill == Fill::Small {
-            let [shade, step] = small_shade(&planes.shade, place);
-            let first = shade.minus_quarter(step.times(2));
-            return F::tint_dithered(run, first, step, at);
-        }
-        let mut course = course(fill, &planes.shade, place);
-        for (pixel, column) in run.chunks_mut(1).zip(place.column..) {
-            // A pixel alone has the shade of its own place.
-            let [shade, _] = shade_at(&course.still(), 1);
-            F::tint_dithered(pixel, shade, Shade::default(), [column, place.line]);
-            course.skip(1);
+        match planes.shaded {
+            Some(Fill::Small) => {
+                let [half, step] = small_shade(&planes.shade, place);
+                let shade = half.minus_quarter(step.times(2));
+                Self::shade_part(run, place, [shade, step], true);
+            }
+            Some(fill) => Self::shade_long(fill, &planes.shade, place, run, true),
+            None => {}
         }
     }
 
@@ -301,14 +294,14 @@ impl<F: Texel> Textured<F> {
     fn shade(planes: &Planes, place: Place, run: &mut [u16]) {
         match planes.shaded {
             Some(Fill::Small) => Self::shade_small(&planes.shade, place, run),
-            Some(fill) => Self::shade_long(fill, &planes.shade, place, run),
+            Some(fill) => Self::shade_long(fill, &planes.shade, place, run, false),
             None => {}
         }
     }
 
     /// Multiplies a run by the shade of a triangle that is not within 64 pixels.
     #[inline(never)]
-    fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16]) {
+    fn shade_long(fill: Fill, planes: &Shades, place: Place, run: &mut [u16], dithers: bool) {
         let mut at = place;
         let mut rest = run;
         while !rest.is_empty() {
@@ -317,17 +310,24 @@ impl<F: Texel> Textured<F> {
             let (run, more) = rest.split_at_mut(pixels);
             let column = at.column - skipped;
             let course = course(fill, planes, Place { column, ..at });
-            let [shade, step] = shade_at(&course, SHADE_RUN.min(at.end - column));
+            let [mut shade, step] = shade_at(&course, SHADE_RUN.min(at.end - column));
+            if dithers {
+                [shade, _] = shade_at(&course.still(), 1);
+            }
             let shade = shade.plus(step.times(skipped as usize));
-            Self::shade_part(run, at, [shade, step]);
+            Self::shade_part(run, at, [shade, step], dithers);
             at.column += pixels as u32;
             rest = more;
         }
     }
 
-    /// Multiplies a run by a shade, two pixels from an even number of pixels behind the span's first one alike.
+    /// Multiplies a run by a shade, two pixels from an even number of pixels behind the span's first one alike; dithered,
+    /// each by its own.
     #[inline(never)]
-    fn shade_part(run: &mut [u16], place: Place, [mut shade, step]: [Shade; 2]) {
+    fn shade_part(run: &mut [u16], place: Place, [mut shade, step]: [Shade; 2], dithers: bool) {
+        if dithers {
+            return F::tint_dithered(run, shade, step, [place.column, place.line]);
+        }
         let pixels = run.len() as u32;
         let mut rest = run;
         if place.skipped() & 1 != 0 {

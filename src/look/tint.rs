@@ -13,6 +13,9 @@
 //! Long runs of one shade have a loop of their own, 248 bytes: a list of crates, swapped, takes 556,885 instructions
 //! for them on an M4 where the loop with steps takes 713,247.
 //!
+//! Dithered, what is raised takes the place of half a step: two pixels at a time where the shade is one, and else each
+//! by its own shade.
+//!
 //! # Error
 //! Against `round(texel x shade)` with nothing else rounded: at most one step of red and of blue,
 //! and of green (which has 6 bits) one of its own, where the shade changes by less than 1/70 of full
@@ -247,17 +250,68 @@ fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: S
     }
 }
 
-/// A texel times a shade, each channel raised by so many of 32 parts of a step before it is cut to one.
+/// A mask whose half a step is what two places raise a pixel by, before it is cut to a step.
 #[inline(always)]
-fn product_raised(texel: u16, by: [u32; 3], parts: i32) -> u16 {
-    const HALF: i32 = 1 << 9;
-    // Full light may be a little more, which with nearly a step would be one beyond the texel.
-    let raised = |field: u16, by: u32| {
-        let product = u32::from(field) * by;
-        (product.wrapping_add_signed(HALF + 32 * parts) >> 10).min(field.into()) as u16
+fn raised<const SWAPPED: bool>([column, line]: [u32; 2]) -> Masks {
+    let half = |i: u32| ((1 << 9) + 32 * threshold(column.wrapping_add(i), line)) as u32;
+    Masks {
+        half: match SWAPPED {
+            true => half(0) << 16 | half(1),
+            false => half(1) << 16 | half(0),
+        },
+        ..MASKS
+    }
+}
+
+/// Full light may be a little more, which with nearly a step would be one beyond the texel.
+#[inline(always)]
+fn held(shade: Shade) -> [u32; 3] {
+    shade.channels().map(|channel| channel.min(1 << 10))
+}
+
+/// Each pixel with the shade of its own place, which `shade` is for the first.
+#[inline(always)]
+fn dithered<const SWAPPED: bool>(
+    run: &mut [u16],
+    mut shade: Shade,
+    step: Shade,
+    [column, line]: [u32; 2],
+) {
+    for (pixel, column) in run.iter_mut().zip(column..) {
+        let m = raised::<SWAPPED>([column, line]);
+        *pixel = tinted::<SWAPPED>(u32::from(*pixel), held(shade), m) as u16;
+        // Unknown to the compiler, which would make more copies of the loop.
+        shade.red_blue = shade.red_blue.wrapping_add(unknown(step.red_blue));
+        shade.green = shade.green.wrapping_add(step.green);
+    }
+}
+
+/// Of one shade, two pixels at a time.
+#[inline(always)]
+fn dithered_even<const SWAPPED: bool>(run: &mut [u16], shade: Shade, [column, line]: [u32; 2]) {
+    let [red, green, blue] = held(shade);
+    let first = raised::<SWAPPED>([column, line]).unknown();
+    let other = raised::<SWAPPED>([column.wrapping_add(2), line]);
+    let second = Masks {
+        half: unknown(other.half),
+        ..first
     };
-    let [red, green, blue] = by;
-    raised(texel >> 11, red) << 11 | raised(texel >> 5 & 63, green) << 5 | raised(texel & 31, blue)
+    let mut fours = run.chunks_exact_mut(4);
+    for four in fours.by_ref() {
+        let by = [red, green, unknown(blue)];
+        if let [a, b, c, d] = four {
+            pair::<SWAPPED>(a, b, by, first);
+            pair::<SWAPPED>(c, d, by, second);
+        }
+    }
+    let rest = fours.into_remainder();
+    for (pixels, m) in rest.chunks_mut(2).zip([first, second]) {
+        if let [a, b] = pixels {
+            pair::<SWAPPED>(a, b, [red, green, blue], m);
+        } else if let [a] = pixels {
+            *a = tinted::<SWAPPED>(u32::from(*a), [red, green, blue], m) as u16;
+        }
+    }
 }
 
 /// A pixel of 16 bits that can be tinted.
@@ -275,14 +329,20 @@ pub trait Texel: PixelFormat<Word = u16> {
         }
     }
 
-    /// The same, dithered by where the run is on the picture; the shade is that of its first pixel.
+    /// The same, dithered by where the run is on the picture, and each pixel by the shade of its own place, which
+    /// `shade` is for the first.
     #[inline(never)]
-    fn tint_dithered(run: &mut [u16], mut shade: Shade, step: Shade, [column, line]: [u32; 2]) {
-        for (pixel, column) in run.iter_mut().zip(column..) {
-            let parts = threshold(column, line);
-            let texel = Self::ordered(*pixel);
-            *pixel = Self::ordered(product_raised(texel, shade.channels(), parts));
-            shade = shade.plus(step);
+    fn tint_dithered(run: &mut [u16], shade: Shade, step: Shade, at: [u32; 2]) {
+        let swaps = Self::ordered(1) != 1;
+        if step.red_blue | step.green == 0 {
+            return match swaps {
+                false => dithered_even::<false>(run, shade, at),
+                true => dithered_even::<true>(run, shade, at),
+            };
+        }
+        match swaps {
+            false => dithered::<false>(run, shade, step, at),
+            true => dithered::<true>(run, shade, step, at),
         }
     }
 }
@@ -323,6 +383,48 @@ mod tests {
         Shade {
             red_blue: ((of(red) << 16) + of(blue)) as u32,
             green: (of(green) << 16) as u32,
+        }
+    }
+
+    /// Kills: a place of another column or line, halves that are exchanged, one shade that is not taken as others are,
+    /// more than full light that raises beyond the texel, a shade of another pixel.
+    #[test]
+    fn dithered_texels_are_raised_by_their_places() {
+        let mut rng = Rng(31);
+        for round in 0..4_000 {
+            let pixels = 1 + rng.below(23) as usize;
+            let at = [rng.below(8), rng.below(8)];
+            let levels = [0, 9_000, 20_000, FULL, FULL + 200];
+            let first = [(); 3].map(|()| levels[rng.below(5) as usize] as i32);
+            let step = [(); 3].map(|()| match round % 2 {
+                0 => 0,
+                _ => rng.below(200) as i32,
+            });
+            let step = [0, 1, 2].map(|i| if first[i] > 20_000 { -step[i] } else { step[i] });
+            let shade = |levels: [i32; 3]| Shade {
+                red_blue: ((levels[0] << 16) + levels[2]) as u32,
+                green: (levels[1] << 16) as u32,
+            };
+            let texels: Vec<u16> = (0..pixels).map(|_| rng.bits() as u16).collect();
+            let mut run = texels.clone();
+            Rgb565::tint_dithered(&mut run, shade(first), shade(step), at);
+            let mut swapped: Vec<u16> = texels.iter().map(|t| t.swap_bytes()).collect();
+            Rgb565Bytes::<true>::tint_dithered(&mut swapped, shade(first), shade(step), at);
+            assert!(run.iter().zip(&swapped).all(|(r, s)| *r == s.swap_bytes()));
+            for (k, (&got, &texel)) in (0..).zip(run.iter().zip(&texels)) {
+                let parts = f64::from(threshold(at[0] + k, at[1])) / 32.0 + 0.5;
+                let (got, texel) = (fields(got), fields(texel));
+                for i in 0..3 {
+                    let by = f64::from(first[i] + step[i] * k as i32) / f64::from(FULL);
+                    // The shade has 10 bits.
+                    let cut = |off: f64| ((by.min(1.0) + off) * texel[i] + parts).floor();
+                    let (least, most) = (cut(-0.0011).max(0.0), cut(0.0001).min(texel[i]));
+                    assert!(
+                        least <= got[i] && got[i] <= most,
+                        "{round} {k} {i} {got:?} {texel:?}"
+                    );
+                }
+            }
         }
     }
 

@@ -7,8 +7,8 @@ const RANKS: [[u8; 4]; 4] = [[0, 8, 2, 10], [12, 4, 14, 6], [3, 11, 1, 9], [15, 
 /// By how much a place of the picture raises a colour before it is cut to a step: -15 to 15 of 32 parts of a step, all
 /// of them once in 4 x 4 pixels.
 #[inline(always)]
-pub(crate) fn threshold(column: u32, line: u32) -> i32 {
-    2 * i32::from(RANKS[line as usize & 3][column as usize & 3]) - 15
+pub(crate) const fn threshold(column: u32, line: u32) -> i32 {
+    2 * RANKS[line as usize & 3][column as usize & 3] as i32 - 15
 }
 
 #[cfg(test)]

@@ -148,6 +148,7 @@ impl<'t, L> Scene<'_, 't, L> {
             self.count_untextured(state.first.into());
         }
         self.has_values |= state.has_values();
+        self.is_ruled |= state.rules();
         self.is_ranked |= state.priority != 0;
         self.count(&pass, submitted)
     }

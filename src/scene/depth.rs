@@ -38,6 +38,14 @@ impl DepthFunction {
         // Less, equal and greater are -1, 0 and 1.
         self.0 >> (order as i8 + 1) & 1 != 0
     }
+
+    /// Which pass of pixels that have a bit each in one of three words: those that are farther, equal and nearer.
+    #[inline(always)]
+    pub(crate) fn among(self, [farther, equal, nearer]: [u32; 3]) -> u32 {
+        let passing =
+            |bit: u32, pixels: u32| pixels & 0u32.wrapping_sub(u32::from(self.0) >> bit & 1);
+        passing(0, farther) | passing(1, equal) | passing(2, nearer)
+    }
 }
 
 /// Where a draw call is seen, and where its depth is kept, by how it compares with what is there.

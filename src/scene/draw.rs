@@ -304,7 +304,12 @@ impl<'t> DrawState<'t> {
 
     /// Whether its triangles are drawn in another way than most.
     pub(crate) fn has_values(&self) -> bool {
-        self.scissor.is_some() || self.compares() || self.holes.is_some() || self.dithers
+        self.dithers || self.rules()
+    }
+
+    /// Whether lines with its triangles are: what is dithered alone takes other colours, and hides like any other.
+    pub(crate) fn rules(&self) -> bool {
+        self.scissor.is_some() || self.compares() || self.holes.is_some() || self.has_mask
     }
 
     /// Whether the alpha of its vertices is looked at.

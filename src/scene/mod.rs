@@ -184,6 +184,8 @@ pub struct Scene<'m, 't, L> {
     pub(crate) scale: Scale,
     /// Whether a draw call has values that few have.
     pub(crate) has_values: bool,
+    /// Whether one has values by which its lines are drawn.
+    pub(crate) is_ruled: bool,
     /// Whether a draw call has a priority.
     pub(crate) is_ranked: bool,
     /// Whether a draw call has to do with shadows.
@@ -210,6 +212,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             lines: 0..0,
             scale,
             has_values: false,
+            is_ruled: false,
             is_ranked: false,
             has_shadows: false,
             master: Master::ALL,
@@ -261,6 +264,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.camera = Some(*camera);
         self.lines = lines;
         self.has_values = false;
+        self.is_ruled = false;
         self.is_ranked = false;
         self.has_shadows = false;
         self.assembled = Assembled::default();

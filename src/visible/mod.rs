@@ -13,5 +13,5 @@ mod test;
 mod volume;
 
 pub(crate) use mask::{Mask, Part};
-pub(crate) use test::{MOST as MOST_TESTED, test};
+pub(crate) use test::{MOST as MOST_TESTED, keep, test};
 pub(crate) use volume::{Receives, count, receive, settle};

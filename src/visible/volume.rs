@@ -47,7 +47,7 @@ pub(crate) struct Receives {
     pub(crate) is_once: bool,
 }
 
-/// A bit for each of up to [`MOST_TESTED`] pixels that a surface is drawn on, the first the lowest.
+/// A bit for each of up to [`MOST_TESTED`] pixels that a surface is drawn on, the first the top one.
 #[inline(never)]
 pub(crate) fn receive(
     counts: &mut [u8],
@@ -57,16 +57,16 @@ pub(crate) fn receive(
 ) -> u32 {
     let mask = SHADOWED | if how.is_once { DONE } else { 0 };
     let want = u8::from(how.is_shadowed);
-    let (mut seen, mut depth) = (0, at);
-    let pixels = counts.iter_mut().zip(cells).take(MOST_TESTED);
-    for (i, (count, cell)) in pixels.enumerate() {
+    let (mut seen, mut bit, mut depth) = (0, 1 << 31, at);
+    for (count, cell) in counts.iter_mut().zip(cells).take(MOST_TESTED) {
         if *count & mask == want && how.passes.passes(depth.cmp(cell)) {
-            seen |= 1 << i;
+            seen |= bit;
             if how.is_once {
                 *count |= DONE;
             }
         }
         depth = depth.wrapping_add(step);
+        bit >>= 1;
     }
     seen
 }
@@ -116,7 +116,7 @@ mod tests {
                         *done |= is_due && is_once;
                         is_due && is_first
                     };
-                    assert_eq!(bits >> i & 1 == 1, want);
+                    assert_eq!(bits << i >> 31 == 1, want);
                     let kind = usize::from(is_shadowed) * 2 + usize::from(is_once);
                     seen[kind] += usize::from(want);
                 }

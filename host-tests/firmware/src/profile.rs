@@ -1,10 +1,10 @@
 //! One frame alone, for whoever steps through it: between the marks is nothing but its drawing.
 //!
-//! The host asks for it by words that semihosting hands over, `qemu-firmware profile NAME`, and
-//! logs every instruction between the marks.
+//! The host asks for it by words that semihosting hands over, `qemu-firmware profile NAME`, or `scene profile` for what
+//! it has laid into flash, and logs every instruction between the marks.
 
 use crate::console::Console;
-use crate::frames::{draw, lines_of};
+use crate::frames::{Receives, draw, lines_of};
 use crate::rooms::Rooms;
 use core::hint::black_box;
 use cortex_m_semihosting::nr;
@@ -48,14 +48,17 @@ pub(crate) fn asked(console: &mut Console) -> Option<bool> {
         // It is cut once, which is not the frame's.
         rooms.in_parts(suite);
     }
+    marked(&mut |to| draw(frame, lines_of(frame), &mut rooms, to));
+    Some(true)
+}
+
+/// Draws between the marks.
+pub(crate) fn marked(draw: &mut dyn FnMut(&mut dyn Receives)) {
     let mut bytes = 0;
     scanbeam_profile_begin();
-    draw(frame, lines_of(frame), &mut rooms, &mut |line: &[u8]| {
-        bytes += black_box(line).len();
-    });
+    draw(&mut |line: &[u8]| bytes += black_box(line).len());
     scanbeam_profile_end();
     black_box(bytes);
-    Some(true)
 }
 
 /// Whether the host asks for kernels, units, lines and growth too: `qemu-firmware bench`.
@@ -68,6 +71,12 @@ pub(crate) fn asks_bench() -> bool {
 pub(crate) fn asks_scene() -> bool {
     let mut line = [0; WORDS];
     words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("scene"))
+}
+
+/// Whether that scene is to be stepped through: `qemu-firmware scene profile`.
+pub(crate) fn asks_steps() -> bool {
+    let mut line = [0; WORDS];
+    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(2) == Some("profile"))
 }
 
 /// The words that the host hands over; `None` where there are none, or too many.

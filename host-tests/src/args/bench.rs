@@ -32,7 +32,7 @@ pub struct FirmwareArgs {
     /// With the sizes also the largest functions of each program
     #[arg(long, requires = "sizes")]
     pub symbols: bool,
-    /// Instead: step through one frame and print where its instructions go, by function
+    /// Instead: step through one frame, or that of a scene file or a list, and print where its instructions go, by function
     #[arg(long, value_name = "FRAME", conflicts_with_all = ["bench", "sizes", "output"])]
     pub profile: Option<String>,
     /// With a profile also the listing of the functions whose names have this in them, each

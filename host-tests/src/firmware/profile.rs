@@ -5,7 +5,7 @@
 //! the firmware does before and after the frame lies outside its two marks
 //! (`host-tests/firmware/src/profile.rs`).
 
-use super::qemu::{QEMU, collect};
+use super::qemu::{Handed, QEMU, collect};
 use super::{Board, COMPARER, FirmwareError, Profile, Symbol, Symbols, Toolchain, build, io_error};
 use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
@@ -81,8 +81,25 @@ pub struct Stepped {
 pub fn step(toolchain: &Toolchain, board: &Board, frame: &str) -> Result<Stepped, FirmwareError> {
     check_name(frame)?;
     let elf = build(toolchain, board, Profile::Release, COMPARER, &[])?;
+    let handed = Handed {
+        words: &[COMPARER, "profile", frame],
+        folder: Path::new("."),
+        laid: None,
+    };
+    step_handed(board, elf, &handed)
+}
+
+/// Steps through what the firmware draws of what it is handed.
+///
+/// # Errors
+/// When it cannot be run, or refuses.
+pub fn step_handed(
+    board: &Board,
+    elf: PathBuf,
+    handed: &Handed<'_>,
+) -> Result<Stepped, FirmwareError> {
     let symbols = Symbols::read(&elf)?;
-    let counts = log(board, &elf, &symbols, frame)?;
+    let counts = log(board, &elf, &symbols, handed)?;
     let ran = |symbol: &Symbol| {
         let cost = FunctionCost {
             instructions: counts.of(symbol),
@@ -112,15 +129,21 @@ pub fn check_name(frame: &str) -> Result<(), FirmwareError> {
 }
 
 /// Runs the firmware step by step and counts between its marks.
-fn log(board: &Board, elf: &Path, symbols: &Symbols, frame: &str) -> Result<Counts, FirmwareError> {
+fn log(
+    board: &Board,
+    elf: &Path,
+    symbols: &Symbols,
+    handed: &Handed<'_>,
+) -> Result<Counts, FirmwareError> {
     let mark = |name: &str| symbols.iter().find(|s| s.name == name).map(|s| s.address);
     let [Some(begin), Some(end)] = MARKS.map(mark) else {
         return Err(io_error(elf.display().to_string())(io::Error::other(
             "its marks are missing",
         )));
     };
-    let words = format!("enable=on,target=native,arg={COMPARER},arg=profile,arg={frame}");
     let mut child = Command::new(QEMU)
+        .current_dir(handed.folder)
+        .args(handed.loader())
         .args(["-machine", board.machine, "-cpu", board.cpu])
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
         .args(single_step()?)
@@ -128,7 +151,7 @@ fn log(board: &Board, elf: &Path, symbols: &Symbols, frame: &str) -> Result<Coun
             "-d",
             "nochain,exec",
             "-semihosting-config",
-            &words,
+            &handed.semihosting(),
             "-kernel",
         ])
         .arg(elf)

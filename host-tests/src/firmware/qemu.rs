@@ -52,6 +52,24 @@ pub struct Handed<'a> {
     pub laid: Option<(&'a str, u32)>,
 }
 
+impl Handed<'_> {
+    /// The words, as QEMU is told them.
+    pub(super) fn semihosting(&self) -> String {
+        let mut text = String::from("enable=on,target=native");
+        text.extend(self.words.iter().map(|word| format!(",arg={word}")));
+        text
+    }
+
+    /// The file that lies in memory, as QEMU is told it.
+    pub(super) fn loader(&self) -> impl Iterator<Item = String> {
+        let device = |(file, address): (&str, u32)| {
+            let device = format!("loader,file={file},addr={address:#x},force-raw=on");
+            ["-device".to_owned(), device]
+        };
+        self.laid.map(device).into_iter().flatten()
+    }
+}
+
 /// As [`run`], with what it is handed.
 ///
 /// # Errors
@@ -75,19 +93,13 @@ pub fn run_in(
     timeout: Duration,
     handed: &Handed<'_>,
 ) -> Result<Vec<String>, FirmwareError> {
-    let mut semihosting = String::from("enable=on,target=native");
-    semihosting.extend(handed.words.iter().map(|word| format!(",arg={word}")));
-    let laid = handed.laid.map(|(file, address)| {
-        let device = format!("loader,file={file},addr={address:#x},force-raw=on");
-        ["-device".to_owned(), device]
-    });
     let child = Command::new(qemu)
         .current_dir(handed.folder)
-        .args(laid.iter().flatten())
+        .args(handed.loader())
         .args(["-machine", board.machine, "-cpu", board.cpu])
         .args(["-icount", "shift=0"])
         .args(["-display", "none", "-monitor", "none", "-serial", "none"])
-        .args(["-semihosting-config", &semihosting, "-kernel"])
+        .args(["-semihosting-config", &handed.semihosting(), "-kernel"])
         .arg(elf)
         .stdin(Stdio::null())
         .stdout(Stdio::piped())

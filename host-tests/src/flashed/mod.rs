@@ -25,6 +25,7 @@ pub mod tally;
 
 use crate::args::{FirmwareArgs, PixelFormatArg, is_list};
 use crate::draw::{self, CrewSettings, SceneParts};
+use crate::firmware::profile::{Stepped, step_handed};
 use crate::firmware::{
     self, Board, COMPARER, Handed, Measured, Output, Profile, Sections, Toolchain,
 };
@@ -34,6 +35,7 @@ use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scene_flash::{Counts, FLASH_AT, FLASH_BYTES, FlashError, Head, Kind};
 use std::error::Error;
 use std::path::Path;
+use tempfile::TempDir;
 
 /// A scene as the boards have it.
 pub struct Flashed {
@@ -158,21 +160,14 @@ impl Flashed {
         boards: &[Board],
         file: &Path,
     ) -> Result<Vec<Measured>, Box<dyn Error>> {
-        const LAID: &str = "scene.flash";
-        let folder = tempfile::tempdir()?;
-        let bytes: Vec<u8> = self.words.iter().flat_map(|w| w.to_le_bytes()).collect();
-        std::fs::write(folder.path().join(LAID), bytes)?;
+        let folder = self.laid()?;
         let built = firmware::build_all(toolchain, boards, Profile::Release, &[COMPARER], &[])?;
         let mut measured = Vec::new();
         for board in boards {
             let elf = built.join(board.target).join("release").join(COMPARER);
             let sections = Sections::read(&elf)?;
             self.fits(&sections, file)?;
-            let handed = Handed {
-                words: &[COMPARER, "scene"],
-                folder: folder.path(),
-                laid: Some((LAID, FLASH_AT)),
-            };
+            let handed = handed(&[COMPARER, "scene"], folder.path());
             let said = firmware::run_handed(board, &elf, &handed)?;
             measured.push(Measured {
                 board: *board,
@@ -181,6 +176,28 @@ impl Flashed {
             });
         }
         Ok(measured)
+    }
+
+    /// Builds the firmware for a board and steps through a frame of the scene.
+    pub fn step(
+        &self,
+        toolchain: &Toolchain,
+        board: &Board,
+        file: &Path,
+    ) -> Result<Stepped, Box<dyn Error>> {
+        let folder = self.laid()?;
+        let elf = firmware::build(toolchain, board, Profile::Release, COMPARER, &[])?;
+        self.fits(&Sections::read(&elf)?, file)?;
+        let handed = handed(&[COMPARER, "scene", "profile"], folder.path());
+        Ok(step_handed(board, elf, &handed)?)
+    }
+
+    /// A folder with its words in a file.
+    fn laid(&self) -> std::io::Result<TempDir> {
+        let folder = tempfile::tempdir()?;
+        let bytes: Vec<u8> = self.words.iter().flat_map(|w| w.to_le_bytes()).collect();
+        std::fs::write(folder.path().join(LAID), bytes)?;
+        Ok(folder)
     }
 
     /// Whether there is slow memory for it, behind that of the firmware's own scenes, and its code ends before it.
@@ -196,6 +213,18 @@ impl Flashed {
             true => Err(too_large(needed, left)).map_err(|e| format!("{}: {e}", file.display())),
             false => Ok(()),
         }
+    }
+}
+
+/// The file with a scene's words.
+const LAID: &str = "scene.flash";
+
+/// Words for the firmware, and a scene of a folder in its flash.
+fn handed<'a>(words: &'a [&'a str], folder: &'a Path) -> Handed<'a> {
+    Handed {
+        words,
+        folder,
+        laid: Some((LAID, FLASH_AT)),
     }
 }
 

@@ -151,7 +151,7 @@ impl Call {
 
     pub(super) fn has_values(&self, is_textured: bool) -> bool {
         let has_holes = is_textured && self.skin == Skinned::Holed;
-        self.cut.is_some() || self.dither || has_holes || self.compares()
+        self.cut.is_some() || has_holes || self.compares()
     }
 
     /// How it compares with another at a pixel; `None` where that hangs on what depth may err.

@@ -50,6 +50,20 @@ fn scene() -> Value {
     })
 }
 
+/// Kills: another frame than the one that is counted, the making of the scene with it, a frame of the firmware's own.
+#[test]
+fn scenes_are_stepped_through() -> Tried {
+    let folder = tempfile::tempdir()?;
+    let (flashed, file) = (loaded(&folder, &scene())?, folder.path().join("s.json"));
+    let toolchain = Toolchain::find()?;
+    let measured = flashed.measure(&toolchain, &[M4], &file)?;
+    let counted = measured[0].output.frames[0].instructions;
+    let stepped = flashed.step(&toolchain, &M4, &file)?.instructions();
+    // Some ten for each of 48 lines that are handed on.
+    assert!(counted.abs_diff(stepped) < 1_000, "{counted} {stepped}");
+    Ok(())
+}
+
 /// Kills: a value that the words leave out or mistake (a blend for another, the window's other side, a function's bits,
 /// the functions of colour and depth for each other, an ambient light of its own, a texture of another object, the second
 /// light): `load` fails where the picture is another than that of `render`.
