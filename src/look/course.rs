@@ -48,7 +48,7 @@ impl Course {
 
     /// The colour in two words.
     #[inline(always)]
-    fn pair(&self) -> Pair {
+    pub(super) fn pair(&self) -> Pair {
         let [red, green, blue] = self.value;
         Pair {
             red_blue: red << 1 & 0xFFFF_0000 | blue >> 15 & 0xFFFF,
@@ -81,9 +81,29 @@ impl Course {
 
     /// The pair of words so many pixels on from an anchor, and their steps.
     #[inline(always)]
-    pub(super) fn pair_on(&self, off: u32) -> [Pair; 2] {
+    fn pair_on(&self, off: u32) -> [Pair; 2] {
         let step = self.pair_step(0);
         [self.pair().plus(step.times(off)), step]
+    }
+
+    /// Hands `f` a run that begins so many pixels behind the span's first one, in parts up to each 16th pixel of the span,
+    /// with the pair of words at the first of each and their steps.
+    #[inline(always)]
+    pub(super) fn each_part<W>(
+        mut self,
+        run: &mut [W],
+        skipped: u32,
+        mut f: impl FnMut(&mut [W], [Pair; 2]),
+    ) {
+        self.skip(skipped & !15);
+        let (mut rest, mut off) = (run, skipped & 15);
+        while !rest.is_empty() {
+            let pixels = rest.len().min(16 - off as usize);
+            let (part, after) = rest.split_at_mut(pixels);
+            f(part, self.pair_on(off));
+            self.skip(16);
+            (rest, off) = (after, 0);
+        }
     }
 
     /// The colour in parts of 16 pixels, from its span's first pixel on, so many parts further.

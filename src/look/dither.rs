@@ -12,9 +12,9 @@ use crate::pixel::{PixelFormat, threshold};
 /// By how much each of 4 x 4 places raises a pair of words, in lines.
 type Raised = [[Pair; 4]; 4];
 
-/// A step of a channel of 16 bits, of which a format keeps so many.
-const fn step_of(steps: u16) -> i32 {
-    1 << steps.leading_zeros()
+/// So many of 32 parts of a step of a channel of 16 bits, of which a format keeps so many.
+const fn parts_of(parts: i32, steps: u16) -> i32 {
+    (parts * (1 << steps.leading_zeros())) >> 5
 }
 
 const fn raised(steps: [u16; 3]) -> Raised {
@@ -28,9 +28,9 @@ const fn raised(steps: [u16; 3]) -> Raised {
         let (line, column) = (i >> 2, i & 3);
         let parts = threshold(column as u32, line as u32);
         let [red, green, blue] = [
-            (parts * step_of(steps[0])) >> 5,
-            (parts * step_of(steps[1])) >> 5,
-            (parts * step_of(steps[2])) >> 5,
+            parts_of(parts, steps[0]),
+            parts_of(parts, steps[1]),
+            parts_of(parts, steps[2]),
         ];
         raised[line][column] = Pair {
             red_blue: ((red << 16) as u32).wrapping_add(blue as u32),
@@ -54,37 +54,29 @@ impl<F: PixelFormat> Table<F> {
     ];
 
     const fn least(steps: u16) -> u32 {
-        ((15 * step_of(steps)) >> 5) as u32 + 8
+        parts_of(15, steps) as u32 + 8
     }
 }
 
 /// Colours a run; `course` is at its span's first pixel.
 #[inline(never)]
-pub(super) fn fill<F: PixelFormat>(mut course: Course, place: Place, run: &mut [F::Word]) {
+pub(super) fn fill<F: PixelFormat>(course: Course, place: Place, run: &mut [F::Word]) {
     if !course.keeps(Table::<F>::LEAST, place.pixels()) {
         return fill_held::<F>(course, place, run);
     }
     let raised = &const { Table::<F>::RAISED }[place.line as usize & 3];
-    let (mut off, mut column) = (place.skipped() & 15, place.column);
+    let mut column = place.column;
     if course.is_even() {
-        let [at, _] = course.pair_on(0);
-        return fill_even::<F>(run, at, raised, column);
+        return fill_even::<F>(run, course.pair(), raised, column);
     }
-    course.skip(place.skipped() & !15);
-    let mut rest = run;
-    while !rest.is_empty() {
-        let pixels = rest.len().min(16 - off as usize);
-        let (part, after) = rest.split_at_mut(pixels);
-        let [mut at, step] = course.pair_on(off);
+    course.each_part(run, place.skipped(), |part, [mut at, step]| {
         for pixel in part {
             let by = at.plus(raised[column as usize & 3]);
             *pixel = F::pack_words(by.red_blue, by.green);
             at = at.plus(step);
             column += 1;
         }
-        course.skip(16);
-        (rest, off) = (after, 0);
-    }
+    });
 }
 
 /// The same of one colour: four pixels again and again.
@@ -119,7 +111,7 @@ fn fill_held<F: PixelFormat>(mut course: Course, place: Place, run: &mut [F::Wor
 /// A channel of 16 bits, of which a format keeps so many steps, raised by so many of 32 parts of one.
 #[inline(always)]
 pub(super) fn dithered(channel: u32, parts: i32, steps: u16) -> u32 {
-    (channel as i32 + ((parts * step_of(steps)) >> 5)).clamp(0, 0xFFFF) as u32
+    (channel as i32 + parts_of(parts, steps)).clamp(0, 0xFFFF) as u32
 }
 
 #[cfg(test)]

@@ -203,24 +203,17 @@ impl<F: PixelFormat> Gouraud<F> {
     /// A run of what keeps more bits, likewise.
     #[inline(never)]
     fn fill_wide(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        let mut course = course(fill, planes, place.first());
+        let course = course(fill, planes, place.first());
         if course.is_even() {
             return ramp::fill_even::<F>(run, course.even::<F>());
         }
-        let (parts, mut off) = (place.skipped() >> 4, place.skipped() & 15);
+        let skipped = place.skipped();
         if F::MADE_OF.is_one_word() {
-            return course.in_parts(parts).fill::<F>(run, off);
+            return course.in_parts(skipped >> 4).fill::<F>(run, skipped & 15);
         }
-        course.skip(parts << 4);
-        let mut rest = run;
-        while !rest.is_empty() {
-            let pixels = rest.len().min(16 - off as usize);
-            let (part, after) = rest.split_at_mut(pixels);
-            let [at, step] = course.pair_on(off);
+        course.each_part(run, skipped, |part, [at, step]| {
             ramp::fill_pair::<F>(part, at, step);
-            course.skip(16);
-            (rest, off) = (after, 0);
-        }
+        });
     }
 
     #[inline(always)]

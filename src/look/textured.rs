@@ -272,7 +272,7 @@ impl<F: Texel> Textured<F> {
         if run.len() as u32 == place.pixels() {
             return F::tint(run, at, step);
         }
-        Self::shade_part(run, place, [at, step], false);
+        Self::shade_part(run, place, [at, step]);
     }
 
     /// [`shade`](Textured::shade), dithered.
@@ -282,7 +282,7 @@ impl<F: Texel> Textured<F> {
             Some(Fill::Small) => {
                 let [half, step] = small_shade(&planes.shade, place);
                 let shade = half.minus_quarter(step.times(2));
-                Self::shade_part(run, place, [shade, step], true);
+                F::tint_dithered(run, shade, step, [place.column, place.line]);
             }
             Some(fill) => Self::shade_long(fill, &planes.shade, place, run, true),
             None => {}
@@ -310,24 +310,23 @@ impl<F: Texel> Textured<F> {
             let (run, more) = rest.split_at_mut(pixels);
             let column = at.column - skipped;
             let course = course(fill, planes, Place { column, ..at });
-            let [mut shade, step] = shade_at(&course, SHADE_RUN.min(at.end - column));
+            let [half, step] = shade_at(&course, SHADE_RUN.min(at.end - column));
+            let way = step.times(skipped as usize);
             if dithers {
-                [shade, _] = shade_at(&course.still(), 1);
+                // Each pixel has the shade of its own place.
+                let [own, _] = shade_at(&course.still(), 1);
+                F::tint_dithered(run, own.plus(way), step, [at.column, at.line]);
+            } else {
+                Self::shade_part(run, at, [half.plus(way), step]);
             }
-            let shade = shade.plus(step.times(skipped as usize));
-            Self::shade_part(run, at, [shade, step], dithers);
             at.column += pixels as u32;
             rest = more;
         }
     }
 
-    /// Multiplies a run by a shade, two pixels from an even number of pixels behind the span's first one alike; dithered,
-    /// each by its own.
+    /// Multiplies a run by a shade, two pixels from an even number of pixels behind the span's first one alike.
     #[inline(never)]
-    fn shade_part(run: &mut [u16], place: Place, [mut shade, step]: [Shade; 2], dithers: bool) {
-        if dithers {
-            return F::tint_dithered(run, shade, step, [place.column, place.line]);
-        }
+    fn shade_part(run: &mut [u16], place: Place, [mut shade, step]: [Shade; 2]) {
         let pixels = run.len() as u32;
         let mut rest = run;
         if place.skipped() & 1 != 0 {

@@ -62,6 +62,12 @@ static MASKS: Masks = Masks {
 };
 
 impl Masks {
+    /// The same with other parts of a step in place of half of one.
+    #[inline(always)]
+    fn raising(self, half: u32) -> Self {
+        Self { half, ..self }
+    }
+
     /// The same in registers.
     #[inline(always)]
     fn unknown(&self) -> Self {
@@ -187,18 +193,28 @@ fn gouraud<const SWAPPED: bool>(run: &mut [u16], shade: Shade, step: Shade) {
 #[inline(never)]
 fn even_long<const SWAPPED: bool>(run: &mut [u16], shade: Shade, step: Shade) {
     let m = MASKS.unknown();
-    let [red, green, blue] = shade.channels();
+    let rest = even_fours::<SWAPPED>(run, shade.channels(), [m, m]);
+    // For a step that it knows, the compiler would make another copy of that.
+    gouraud_short::<SWAPPED>(rest, shade, step);
+}
+
+/// Of one shade, four pixels at a time, each two by a mask of their own; what is left.
+#[inline(always)]
+fn even_fours<const SWAPPED: bool>(
+    run: &mut [u16],
+    [red, green, blue]: [u32; 3],
+    [first, second]: [Masks; 2],
+) -> &mut [u16] {
     let mut fours = run.chunks_exact_mut(4);
     for four in fours.by_ref() {
         // Unknown to the compiler, which would make more copies of the loop.
         let by = [red, green, unknown(blue)];
         if let [a, b, c, d] = four {
-            pair::<SWAPPED>(a, b, by, m);
-            pair::<SWAPPED>(c, d, by, m);
+            pair::<SWAPPED>(a, b, by, first);
+            pair::<SWAPPED>(c, d, by, second);
         }
     }
-    // For a step that it knows, the compiler would make another copy of that.
-    gouraud_short::<SWAPPED>(fours.into_remainder(), shade, step);
+    fours.into_remainder()
 }
 
 #[inline(never)]
@@ -250,16 +266,13 @@ fn gouraud_short<const SWAPPED: bool>(run: &mut [u16], mut shade: Shade, step: S
     }
 }
 
-/// A mask whose half a step is what two places raise a pixel by, before it is cut to a step.
+/// What a place and the next one raise pixels by in place of half a step, before they are cut to one.
 #[inline(always)]
-fn raised<const SWAPPED: bool>([column, line]: [u32; 2]) -> Masks {
-    let half = |i: u32| ((1 << 9) + 32 * threshold(column.wrapping_add(i), line)) as u32;
-    Masks {
-        half: match SWAPPED {
-            true => half(0) << 16 | half(1),
-            false => half(1) << 16 | half(0),
-        },
-        ..MASKS
+fn raised<const SWAPPED: bool>([column, line]: [u32; 2]) -> u32 {
+    let by = |i: u32| ((1 << 9) + 32 * threshold(column.wrapping_add(i), line)) as u32;
+    match SWAPPED {
+        true => by(0) << 16 | by(1),
+        false => by(1) << 16 | by(0),
     }
 }
 
@@ -278,7 +291,7 @@ fn dithered<const SWAPPED: bool>(
     [column, line]: [u32; 2],
 ) {
     for (pixel, column) in run.iter_mut().zip(column..) {
-        let m = raised::<SWAPPED>([column, line]);
+        let m = MASKS.raising(raised::<SWAPPED>([column, line]));
         *pixel = tinted::<SWAPPED>(u32::from(*pixel), held(shade), m) as u16;
         // Unknown to the compiler, which would make more copies of the loop.
         shade.red_blue = shade.red_blue.wrapping_add(unknown(step.red_blue));
@@ -289,27 +302,16 @@ fn dithered<const SWAPPED: bool>(
 /// Of one shade, two pixels at a time.
 #[inline(always)]
 fn dithered_even<const SWAPPED: bool>(run: &mut [u16], shade: Shade, [column, line]: [u32; 2]) {
-    let [red, green, blue] = held(shade);
-    let first = raised::<SWAPPED>([column, line]).unknown();
-    let other = raised::<SWAPPED>([column.wrapping_add(2), line]);
-    let second = Masks {
-        half: unknown(other.half),
-        ..first
-    };
-    let mut fours = run.chunks_exact_mut(4);
-    for four in fours.by_ref() {
-        let by = [red, green, unknown(blue)];
-        if let [a, b, c, d] = four {
-            pair::<SWAPPED>(a, b, by, first);
-            pair::<SWAPPED>(c, d, by, second);
-        }
-    }
-    let rest = fours.into_remainder();
+    let by = held(shade);
+    let half = |i: u32| raised::<SWAPPED>([column.wrapping_add(i), line]);
+    let first = MASKS.raising(half(0)).unknown();
+    let second = first.raising(half(2));
+    let rest = even_fours::<SWAPPED>(run, by, [first, second]);
     for (pixels, m) in rest.chunks_mut(2).zip([first, second]) {
         if let [a, b] = pixels {
-            pair::<SWAPPED>(a, b, [red, green, blue], m);
+            pair::<SWAPPED>(a, b, by, m);
         } else if let [a] = pixels {
-            *a = tinted::<SWAPPED>(u32::from(*a), [red, green, blue], m) as u16;
+            *a = tinted::<SWAPPED>(u32::from(*a), by, m) as u16;
         }
     }
 }

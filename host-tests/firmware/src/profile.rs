@@ -63,20 +63,23 @@ pub(crate) fn marked(draw: &mut dyn FnMut(&mut dyn Receives)) {
 
 /// Whether the host asks for kernels, units, lines and growth too: `qemu-firmware bench`.
 pub(crate) fn asks_bench() -> bool {
-    let mut line = [0; WORDS];
-    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("bench"))
+    says(1, "bench")
 }
 
 /// Whether the host asks for the scene that it has laid into flash: `qemu-firmware scene`.
 pub(crate) fn asks_scene() -> bool {
-    let mut line = [0; WORDS];
-    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(1) == Some("scene"))
+    says(1, "scene")
 }
 
 /// Whether that scene is to be stepped through: `qemu-firmware scene profile`.
 pub(crate) fn asks_steps() -> bool {
+    says(2, "profile")
+}
+
+/// Whether one of the words that the host hands over is this; the first is the program's own name.
+fn says(at: usize, word: &str) -> bool {
     let mut line = [0; WORDS];
-    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(2) == Some("profile"))
+    words(&mut line).is_some_and(|said| said.split_ascii_whitespace().nth(at) == Some(word))
 }
 
 /// The words that the host hands over; `None` where there are none, or too many.
