@@ -116,12 +116,16 @@ fn main() -> ExitCode {
     }
 }
 
+/// The project's folder.
+fn root() -> Result<PathBuf, String> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    root.canonicalize()
+        .map_err(|error| format!("{}: {error}", root.display()))
+}
+
 /// Whether no mutant lives but those that are known.
 fn run(args: &Args) -> Result<bool, String> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let root = root
-        .canonicalize()
-        .map_err(|error| format!("{}: {error}", root.display()))?;
+    let root = root()?;
     let known = known::read(&root)?;
     let files = tree::read(&root)?;
     let mut mutants = Vec::new();
@@ -472,3 +476,17 @@ It is of the sources of its day: tests that were written for those that lived ar
 The last column is of those tried without the equal ones, with the standard error of a random sample.
 
 ";
+
+#[cfg(test)]
+mod tests {
+    use super::{check_known, known, root, sources, tree};
+
+    /// Kills: a line of `src/` that was changed, but not where it is told why a mutant of it lives.
+    #[test]
+    fn mutants_that_are_known_to_live_are_those_of_the_source() {
+        let root = root().unwrap();
+        let (known, mut mutants) = (known::read(&root).unwrap(), Vec::new());
+        sources(&tree::read(&root).unwrap(), &mut mutants).unwrap();
+        assert_eq!(check_known(&known, &mutants), Ok(()));
+    }
+}
