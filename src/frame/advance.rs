@@ -184,7 +184,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             object: number,
             size: entry.size(),
             area: entry.area,
-            draws: view.draws,
+            draws: &view.draws,
         };
         let fill = L::set_up(&of, planes);
         let flags = Flags::new(fill, entry.way());

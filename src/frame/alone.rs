@@ -56,7 +56,7 @@ pub(super) fn set_up_stray<L: Look>(
         object: stray.object,
         size,
         area,
-        draws: out.view.draws,
+        draws: &out.view.draws,
     };
     // Its planes are made where they are given back, so that nothing is copied.
     let mut alone = Alone::dark(stray, L::EMPTY);

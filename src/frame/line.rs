@@ -131,7 +131,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 continue;
             };
             let at = Span { start, end }.place(start, line);
-            L::fill_plain(&slot.item.planes, at, out.view.draws, run);
+            L::fill_plain(&slot.item.planes, at, out.view.draws.states, run);
         }
         0
     }

@@ -19,6 +19,7 @@
 //! | `spans` | the pixels of a span |
 //! | `values` | lines with draw calls that have values few have |
 //! | `rank` | the order of their spans |
+//! | `spilled` | what of them has no slot |
 //! | `ruled` | pixels of such a span |
 //! | `alpha` | the alpha of vertices along it |
 //! | `shadow` | shadow volumes, and what their lights fall on |
@@ -51,6 +52,7 @@ mod send;
 mod shadow;
 mod slot;
 mod spans;
+mod spilled;
 mod tally;
 #[cfg(test)]
 mod tests;

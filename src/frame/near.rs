@@ -247,7 +247,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.lasting = !self.changed && !self.dense && self.lasts(out);
             return;
         }
-        let met = self.find_all(out, |_| false);
+        let met = self.find_all(out);
         let alone = self.colour_alone(met, out);
         let (slots, hidden) = self.draw_listed(out);
         self.written.clear();

@@ -6,8 +6,8 @@
 use super::near::{insert, place_of};
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
+use super::spilled::Spilled;
 use crate::active::next;
-use crate::link::Link;
 use crate::look::Look;
 use crate::num::take_first;
 
@@ -27,9 +27,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let (mut k, mut level) = (0, Some(0));
         while let Some(rank) = level {
-            let mut slow = self.next_alone(self.cache.spilled, rank, out.view);
+            let mut slow = self.next_alone(self.first_spilled(), rank, out.view);
             while let Some(key) = at(&self.cache.order, k).filter(|key| key >> 24 == rank) {
-                while slow.is_some() && u32::from(slow.object()) < key >> 8 & 0xFFFF {
+                while slow.object() < key >> 8 & 0xFFFF {
                     let after = self.draw_alone(slow, out);
                     slow = self.next_alone(after, rank, out.view);
                 }
@@ -66,9 +66,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// What has no slot and this priority, from `at` on.
-    fn next_alone(&self, mut at: Link, rank: u32, view: &View<'_>) -> Link {
-        while at.is_some() && view.rank(at.object()) != rank {
-            at = next(self.links, at);
+    fn next_alone(&self, mut at: Spilled, rank: u32, view: &View<'_>) -> Spilled {
+        while at.is_some() && view.rank(at.object() as u16) != rank {
+            at = self.after(at);
         }
         at
     }

@@ -8,11 +8,10 @@ use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
 use crate::look::{Look, Place, WordOf};
-use crate::scene::{Content, DrawState, Master, Object, Scene, TexturePlace, Vertex};
+use crate::scene::{Content, DrawState, Draws, Master, Object, Scene, TexturePlace, Vertex};
 use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::stats::SpanCounts;
 use crate::visible::Mask;
-use core::cell::Cell;
 use core::fmt;
 
 /// The object cache of a renderer: `32 WORDS` slots, best in the fastest memory there is, as a static.
@@ -391,7 +390,7 @@ pub struct View<'a> {
     pub(super) vertices: &'a [Vertex],
     pub(super) places: &'a [TexturePlace],
     pub(super) objects: &'a [Object],
-    pub(super) draws: &'a [DrawState<'a>],
+    pub(super) draws: Draws<'a>,
     pub(super) frame: Frame,
     pub(super) content: Content,
     /// The first line, and what begins on it and each below.
@@ -405,8 +404,6 @@ pub struct View<'a> {
     pub(super) ranked: bool,
     /// Whether depths are compared, where there is memory for them.
     pub(super) deep: bool,
-    /// How many calls have begun up to the object that was asked for last: mostly as many as up to the next one.
-    begun: Cell<usize>,
 }
 
 impl<'a> View<'a> {
@@ -417,7 +414,7 @@ impl<'a> View<'a> {
             vertices: scene.vertices.as_slice(),
             places: scene.places,
             objects: scene.objects.as_slice(),
-            draws: scene.draws.as_slice(),
+            draws: Draws::new(scene.draws.as_slice()),
             frame: Frame {
                 width: i32::from(screen.width()),
                 height: i32::from(screen.height()),
@@ -429,34 +426,20 @@ impl<'a> View<'a> {
             ruled: scene.is_ruled,
             ranked: scene.is_ranked,
             deep: scene.master.has(Master::DEPTH) && !scene.is_ranked,
-            begun: Cell::new(0),
         }
     }
 
-    /// How many calls have begun up to an object.
+    /// The state of an object's draw call.
     #[inline(always)]
-    pub(super) fn begun(&self, object: u16) -> usize {
-        let last = self.begun.get();
-        let has = |number: usize| self.draws.get(number).is_some_and(|d| d.has_begun(object));
-        if last > 0 && has(last - 1) && !has(last) {
-            return last;
-        }
-        let begun = DrawState::begun(object, self.draws);
-        self.begun.set(begun);
-        begun
-    }
-
-    /// The state of an object's draw call: that of the last call that began at it or before.
-    #[inline(never)]
     pub(super) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
-        self.draws.get(self.begun(object).checked_sub(1)?)
+        self.draws.state(object)
     }
 
     /// The same of an object in a slot that knows how many calls have begun up to its own.
     #[inline(never)]
     pub(super) fn state_of<T>(&self, slot: &CacheSlot<T>) -> Option<&'a DrawState<'a>> {
         match slot.draw.checked_sub(1) {
-            Some(at) => self.draws.get(usize::from(at)),
+            Some(at) => self.draws.states.get(usize::from(at)),
             None => self.state(slot.object),
         }
     }

@@ -79,7 +79,7 @@ pub(super) fn colour_dithered<L: Look>(
     let mut others = None;
     let fill = fill_of::<L>(drawn, at, true, &mut others, view);
     let planes = others.as_ref().unwrap_or(drawn.planes);
-    L::fill_opaque(fill, planes, at, view.draws, true, run);
+    L::fill_opaque(fill, planes, at, view.draws.states, true, run);
 }
 
 /// What colours a span; `others` keeps its planes where those of the triangle do not do.
@@ -116,7 +116,7 @@ fn fill_of<L: Look>(
 ) -> Fill {
     let mut fill = drawn.flags.fill();
     if dithers && fill == Fill::Plain {
-        let mut planes = L::EMPTY;
+        let mut planes = *drawn.planes;
         let triangle = view.triangle_of(drawn.object);
         if let Some(finer) = triangle.and_then(|t| L::set_up_dithered(&t, &mut planes)) {
             (fill, *others) = (finer, Some(planes));
@@ -235,7 +235,14 @@ fn lay_by_pixel<L: Look>(
             return;
         };
         let at = ink.span.place(from, out.number);
-        let opaque = L::fill_opaque(ink.fill, ink.planes, at, out.view.draws, ink.dithers, new);
+        let opaque = L::fill_opaque(
+            ink.fill,
+            ink.planes,
+            at,
+            out.view.draws.states,
+            ink.dithers,
+            new,
+        );
         let has_alphas = state.has_alphas();
         if has_alphas {
             find_alphas::<L>(ink, at, state, out.view, alphas);
@@ -282,7 +289,7 @@ fn find_alphas<L: Look>(
     let mut texels = [MaskTexel::OPAQUE.word(); MOST_TESTED];
     let texels = &mut texels[..alphas.len()];
     if L::TEXTURED && state.has_mask {
-        L::fill_mask(ink.planes, at, view.draws, texels);
+        L::fill_mask(ink.planes, at, view.draws.states, texels);
     }
     for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
         *alpha = PixelAlpha {
@@ -306,7 +313,7 @@ fn undither<L: Look>(
     }
     let mut plain = [WordOf::<L>::default(); MOST_TESTED];
     let plain = &mut plain[..run.len()];
-    L::fill_opaque(ink.fill, ink.planes, at, view.draws, false, plain);
+    L::fill_opaque(ink.fill, ink.planes, at, view.draws.states, false, plain);
     for ((pixel, &plain), alpha) in run.iter_mut().zip(&*plain).zip(alphas) {
         if alpha.texel.is_undithered() {
             *pixel = plain;
@@ -322,7 +329,7 @@ fn lay<L: Look>(ink: &Ink<'_, L::Planes>, run: Span, out: &mut Line<'_, '_, L>) 
     let mut at = ink.span.place(run.start, out.number);
     // Called, not pointed at: what others call would have to take all that a pointer hands over.
     let fill = |at: Place, run: &mut [WordOf<L>]| {
-        let draws = out.view.draws;
+        let draws = out.view.draws.states;
         if ink.dithers {
             L::fill_opaque(ink.fill, ink.planes, at, draws, true, run);
         } else {

@@ -10,8 +10,8 @@ use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
 use super::spans::{Drawn, Known, Line, Span};
+use super::spilled::Spilled;
 use super::tally::{cells_at, each_part, has_texels, opaque_of};
-use crate::active::next;
 use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::{DepthFunction, DrawState, Role};
@@ -233,15 +233,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 }
             }
         }
-        let mut at = self.cache.spilled;
+        let mut at = self.first_spilled();
         while at.is_some() {
-            let role = out.view.state(at.object()).map(DrawState::role);
+            let role = self.spilled_state(at, out.view).map(DrawState::role);
             let mut with = lights;
             with.add(role.unwrap_or_default());
-            if with != lights && out.stray(at.object()).is_some() {
+            if with != lights && self.spilled_stray(at, out).is_some() {
                 lights = with;
             }
-            at = next(self.links, at);
+            at = self.after(at);
         }
         (count, lights)
     }
@@ -249,7 +249,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Takes the spans of a step in order of submission: of so many slots that are listed, and what has none between
     /// them.
     fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, L>) {
-        let mut slow = self.cache.spilled;
+        let mut slow = self.first_spilled();
         let keys = self.cache.order.as_flattened().get(..slots);
         let first = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
         for k in first.. {
@@ -257,9 +257,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let key = keys.and_then(|keys| keys.get(k)).copied();
             let key = key.filter(|key| key >> 24 == step);
             let object = key.map_or(u32::MAX, |key| key >> 8 & 0xFFFF);
-            while slow.is_some() && u32::from(slow.object()) < object {
-                self.take_alone(slow.object(), step, out);
-                slow = next(self.links, slow);
+            while slow.object() < object {
+                self.take_alone(slow, step, out);
+                slow = self.after(slow);
             }
             let Some(key) = key else {
                 return;
@@ -292,12 +292,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         take::<L>(ruled, known, self.volumes, out);
     }
 
-    fn take_alone(&mut self, object: u16, step: Step, out: &mut Line<'_, '_, L>) {
-        let state = out.view.state(object);
+    fn take_alone(&mut self, at: Spilled, step: Step, out: &mut Line<'_, '_, L>) {
+        let state = self.spilled_state(at, out.view);
         let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
             return;
         };
-        let Some(stray) = out.stray(object) else {
+        let Some(stray) = self.spilled_stray(at, out) else {
             return;
         };
         let mut alone = match state.role() {

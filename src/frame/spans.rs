@@ -67,7 +67,7 @@ pub(super) fn thin_planes<L: Look>(object: u16, at: Place, view: &View<'_>) -> L
             end: at.end,
         };
         let ends = thin_span(&triangle, span, at.line);
-        L::set_up_thin(&ends, object, view.draws, &mut planes);
+        L::set_up_thin(&ends, object, &view.draws, &mut planes);
     }
     planes
 }
@@ -110,9 +110,15 @@ pub(super) fn colour_slot<L: Look>(
     };
     let at = span.place(span.start, out.number);
     if L::TEXTURED {
-        return L::fill_slot(flags.fill(), &slot.item.planes, at, out.view.draws, run);
+        return L::fill_slot(
+            flags.fill(),
+            &slot.item.planes,
+            at,
+            out.view.draws.states,
+            run,
+        );
     }
-    L::fill_plain(&slot.item.planes, at, out.view.draws, run);
+    L::fill_plain(&slot.item.planes, at, out.view.draws.states, run);
 }
 
 /// Colours a span.
@@ -141,7 +147,7 @@ pub(super) fn colour_run<L: Look>(
     if flags.is_other() {
         return colour_other::<L>(planes, flags, object, at, out.view, out.dither, pixels);
     }
-    L::fill(flags.fill(), planes, at, out.view.draws, pixels);
+    L::fill(flags.fill(), planes, at, out.view.draws.states, pixels);
 }
 
 /// Colours a run that is dithered, or of a thin triangle. What is drawn comes in parts, so that nobody who calls this
@@ -166,7 +172,7 @@ fn colour_other<L: Look>(
         return dither(drawn, at, view, pixels);
     }
     let planes = thin_planes::<L>(object, at, view);
-    L::fill(Fill::Wide, &planes, at, view.draws, pixels);
+    L::fill(Fill::Wide, &planes, at, view.draws.states, pixels);
 }
 
 impl<'a, P> Drawn<'a, P> {

@@ -12,7 +12,6 @@ use super::renderer::Renderer;
 use super::rival::{Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
-use crate::active::next;
 use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
@@ -259,21 +258,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 slot: number as u16,
             });
         }
-        let mut at = self.cache.spilled;
+        let mut at = self.first_spilled();
         while at.is_some() {
-            let object = at.object();
-            let state = out.view.state(object);
+            let state = self.spilled_state(at, out.view);
             if state.is_some_and(DrawState::is_translucent) {
-                if let Some(stray) = out.stray(object) {
+                if let Some(stray) = self.spilled_stray(at, out) {
                     f(Pane {
                         span: stray.span,
                         depth: stray.slope::<L>(out),
-                        object,
+                        object: stray.object,
                         slot: NO_SLOT,
                     });
                 }
             }
-            at = next(self.links, at);
+            at = self.after(at);
         }
     }
 

@@ -6,14 +6,15 @@
 //! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
+use super::alone::set_up_stray;
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
+use super::spilled::Spilled;
 use crate::active::next;
-use crate::link::Link;
 use crate::look::{Fill, Look, WordOf};
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
@@ -29,8 +30,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return false;
         }
         fill_line::<L>(out.pixels, background);
-        let compares = |object| out.deep && out.view.state(object).is_some_and(DrawState::compares);
-        self.find_all(out, compares);
+        if self.cache.spilled.is_some() {
+            self.keep_strays(out);
+        }
+        self.find_slots(out);
         // Where this is so, `over` says where depth is compared.
         self.met = out.deep;
         if self.met {
@@ -66,7 +69,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 if Flags(slot.flags).has_values() {
                     continue;
                 }
-                slot.draw = u8::try_from(view.begun(slot.object)).unwrap_or(0);
+                slot.draw = u8::try_from(view.draws.begun(slot.object)).unwrap_or(0);
                 let Some(state) = view.state_of(slot).filter(|state| state.has_values()) else {
                     continue;
                 };
@@ -180,16 +183,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws a span without a slot; the next of its kind.
     #[inline(never)]
-    pub(super) fn draw_alone(&mut self, at: Link, out: &mut Line<'_, '_, L>) -> Link {
-        let state = out.view.state(at.object());
-        let state = state.unwrap_or(&DrawState::EMPTY);
-        let after = next(self.links, at);
+    pub(super) fn draw_alone(&mut self, at: Spilled, out: &mut Line<'_, '_, L>) -> Spilled {
+        let after = self.after(at);
+        let Some(state) = self.spilled_state(at, out.view) else {
+            return after;
+        };
         if state.waits() && (self.met || state.is_in_vain()) {
             return after;
         }
-        let Some(mut alone) = self.set_up_alone(at.object(), out) else {
+        let Some(stray) = self.spilled_stray(at, out) else {
             return after;
         };
+        let mut alone = set_up_stray::<L>(&stray, &mut self.counts, out);
         let span = alone.span;
         let is_compared = self.met && self.over.meets(span.start, span.end);
         let plane = if is_compared {

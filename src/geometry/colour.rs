@@ -98,10 +98,16 @@ impl Tint {
     /// In `light`, 1 being 2^15; within 1/8 of a field's unit before rounding.
     #[inline]
     pub(crate) const fn lit(&self, light: u16) -> Colour {
+        self.times([light as u32; 3])
+    }
+
+    /// In light of a level a channel, with which none of a colour is above full level.
+    #[inline(always)]
+    pub(super) const fn times(&self, light: [u32; 3]) -> Colour {
         let mut field = [0; 3];
         let mut i = 0;
         while i < 3 {
-            field[i] = (self.field[i] * light as u32 + self.half[i]) >> 18;
+            field[i] = (self.field[i] * light[i] + self.half[i]) >> 18;
             i += 1;
         }
         Colour::from_fields(field)

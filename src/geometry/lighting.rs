@@ -200,6 +200,11 @@ impl Lamps {
         }
     }
 
+    /// Whether light only multiplies colours: nothing is mirrored, and nothing shines by itself.
+    pub(super) fn is_matt(&self) -> bool {
+        !self.shiny && self.base.more == [0; 3]
+    }
+
     /// What falls on a surface with this normal, about unit length in Q1.14, seen by an eye that
     /// lies this way: any length, the largest component in 2^14 ..= 2^15, or all 0.
     #[inline]
@@ -207,6 +212,17 @@ impl Lamps {
         let glance = self
             .shiny
             .then(|| Glance::new(normal.map(i32::from), eye()));
+        self.falls(normal, glance.as_ref())
+    }
+
+    /// The same of what [is matt](Self::is_matt).
+    #[inline]
+    pub(super) fn matt(&self, normal: [i16; 3]) -> Shine {
+        self.falls(normal, None)
+    }
+
+    #[inline(always)]
+    fn falls(&self, normal: [i16; 3], glance: Option<&Glance>) -> Shine {
         let mut shine = self.base;
         for lamp in self.lamps.iter().take(usize::from(self.count)) {
             // Q44 to Q28; of a normal that is longer than 1 more than 1, which its square mends in what is mirrored.
@@ -220,7 +236,7 @@ impl Lamps {
             for i in 0..3 {
                 shine.factor[i] += (lamp.diffuse[i] * level) >> 15;
             }
-            let Some(glance) = &glance else {
+            let Some(glance) = glance else {
                 continue;
             };
             let mirrored = glance.mirrored(cosine, lamp.towards);

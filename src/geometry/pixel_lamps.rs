@@ -1,12 +1,13 @@
 //! What shines on pixels: lights and a material as a camera sees them, and normals of unit length (K10).
 
 use super::camera::{Camera, Screen};
+use super::colour::{Scale, Tint};
 use super::lighting::{Lamps, Lighting, fifteen_bits};
 use super::transform::{Affine, unit};
 use crate::num::{Block, I2F14, inverse_root, mul_high, mul_high_unsigned, rounded, shift_round};
 
 /// A normal of any length as about unit length in Q1.14; no component reaches 2^31.
-#[inline]
+#[inline(always)]
 pub(crate) fn unit_normal(wide: [i32; 3]) -> [i16; 3] {
     let v = fifteen_bits(wide);
     let square = v.iter().map(|c| (c * c) as u32).sum();
@@ -50,6 +51,20 @@ impl PixelLamps {
             focal: focal.clamp(1, 1 << 29) as i32,
             first: [screen.left(), screen.top()],
         }
+    }
+
+    /// The word of a colour on a surface with this normal, of any length, if it is the same from wherever that is seen,
+    /// and may be multiplied with texels afterwards: nothing is added to it, and it does not stop at full level.
+    pub(crate) fn matt(&self, normal: [i32; 3], colour: [u8; 3], scale: &Scale) -> Option<u32> {
+        if !self.lamps.is_matt() {
+            return None;
+        }
+        let shine = self.lamps.matt(unit_normal(normal));
+        let stops = |i: usize| u32::from(colour[i]) * shine.factor[i] > 255 << 15;
+        if stops(0) || stops(1) || stops(2) {
+            return None;
+        }
+        Some(Tint::new(colour, scale).times(shine.factor).word())
     }
 
     /// Colours of a pixel of the picture in this light: 16.16 steps plus one half, of formats with

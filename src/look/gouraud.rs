@@ -17,7 +17,7 @@ use super::ramp::{self, Packed, Pair};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
-use crate::scene::{DrawState, Vertex};
+use crate::scene::{DrawState, Draws, Vertex};
 use crate::span::{Rise, Shares, Size, Triangle};
 use core::marker::PhantomData;
 
@@ -139,7 +139,7 @@ impl<F: PixelFormat> Gouraud<F> {
 
     /// Planes of one colour.
     #[inline(always)]
-    fn even_word(colour: u32, planes: &mut Planes) -> Fill {
+    pub(super) fn even_word(colour: u32, planes: &mut Planes) -> Fill {
         if F::MADE_OF.is_one_word() {
             planes[..3].copy_from_slice(&[colour, 0, 0]);
             return Fill::Plain;
@@ -347,7 +347,7 @@ impl<F: PixelFormat> Look for Gouraud<F> {
         Self::other_planes(of.triangle, of.size, of.area, planes)
     }
 
-    fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {
+    fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &Draws<'_>, planes: &mut Planes) {
         thin_shades(span, planes);
     }
 

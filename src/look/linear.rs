@@ -1,41 +1,50 @@
 //! The weighted mean of the four nearest texels (H6), and levels of detail made of means.
 //!
 //! Instructions a pixel (rustc 1.95, opt-level 3, counted in QEMU; `firmware --profile values_sampled`), in runs of 5
-//! pixels, all in: 109 of words that repeat on a Cortex-M4, 97 of them in the loop, and 154 on a Cortex-M0+.
+//! pixels, all in: 100 of words that repeat on a Cortex-M4, 86 of them in the loop, and 135 on a Cortex-M0+.
 
 use super::fetch::{FRACTION, Way};
 use super::tint::Texel;
 use crate::scene::{Form, Texture, TextureError, Words, Wrap, half};
 
-/// The fields of a pixel, with five bits between them.
-const FIELDS: u32 = 0x07E0_F81F;
-/// Half of 32 parts of each field.
-const HALF: u32 = 0x0200_8010;
+/// The fields of a pixel, with five bits between them, and half of 32 parts of each: in the order of numbers, and of a
+/// pixel whose bytes are swapped, doubled and turned right by three bits, where green is whole as well.
+const fn fields(swapped: bool) -> [u32; 2] {
+    if swapped {
+        [0x03E0_FC1F, 0x0200_4010]
+    } else {
+        [0x07E0_F81F, 0x0200_8010]
+    }
+}
 
-/// The fields of a pixel in the order of numbers, apart from each other.
+/// The fields of a pixel, apart from each other.
 #[inline(always)]
-fn apart(word: u16) -> u32 {
-    (u32::from(word) | u32::from(word) << 16) & FIELDS
+fn apart<const SWAPPED: bool>(word: u16) -> u32 {
+    let two = u32::from(word) | u32::from(word) << 16;
+    let [fields, _] = const { fields(SWAPPED) };
+    two.rotate_right(if SWAPPED { 3 } else { 0 }) & fields
 }
 
 /// Sums of fields in 32 parts as a pixel, rounded.
 #[inline(always)]
-fn joined(sum: u32) -> u16 {
-    let fields = (sum.wrapping_add(HALF) >> 5) & FIELDS;
-    (fields | fields >> 16) as u16
+fn joined<const SWAPPED: bool>(sum: u32) -> u16 {
+    let [fields, half] = const { fields(SWAPPED) };
+    let fields = (sum.wrapping_add(half) >> 5) & fields;
+    let two = fields.rotate_left(if SWAPPED { 3 } else { 0 });
+    (two | two >> 16) as u16
 }
 
 /// Four texels, the right ones with `right` parts of 16, the lower ones with `down`.
 #[inline(always)]
-fn mixed(four: [u16; 4], right: u32, down: u32) -> u16 {
+fn mixed<const SWAPPED: bool>(four: [u16; 4], right: u32, down: u32) -> u16 {
     // Modulo 2^32 no field of the sum is lost, whatever the differences borrow from each other.
-    let [a, b, c, d] = four.map(apart);
+    let [a, b, c, d] = four.map(apart::<SWAPPED>);
     let across = b.wrapping_sub(a).wrapping_mul(2 * right);
     let below = c.wrapping_sub(a).wrapping_mul(2 * down);
     let turn = a.wrapping_sub(b).wrapping_sub(c).wrapping_add(d);
     let both = turn.wrapping_mul((right * down + 4) >> 3);
     let sum = (a << 5).wrapping_add(across).wrapping_add(below);
-    joined(sum.wrapping_add(both))
+    joined::<SWAPPED>(sum.wrapping_add(both))
 }
 
 /// Columns or rows of a texture.
@@ -87,11 +96,14 @@ fn mixed_masks(four: [u16; 4], nearest: u16, right: u32, down: u32) -> u16 {
 pub(super) fn copy_linear(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
     let sides = [texture.log_width(), texture.log_height()];
     let is_plain = texture.wrap() == Wrap::Repeat && texture.key().is_none() && of != Words::Masks;
-    let is_swapped = of == Words::Swapped;
     match texture.form {
         // A side of one texel has no bits: nothing is shifted by 32.
         Form::Words(words) if is_plain && !sides.contains(&0) => {
-            copy_repeated(run, words, sides, way, is_swapped);
+            if of == Words::Swapped {
+                copy_repeated::<true>(run, words, sides, way);
+            } else {
+                copy_repeated::<false>(run, words, sides, way);
+            }
         }
         _ => copy_any(run, texture, way, of),
     }
@@ -99,14 +111,12 @@ pub(super) fn copy_linear(run: &mut [u16], texture: &Texture<'_>, way: Way, of: 
 
 /// From words that repeat, with places as 32-bit fractions of the period.
 #[inline(never)]
-fn copy_repeated(
+fn copy_repeated<const SWAPPED: bool>(
     run: &mut [u16],
     words: &[u16],
     [log_width, log_height]: [u32; 2],
     way: Way,
-    is_swapped: bool,
 ) {
-    let order = |word: u16| if is_swapped { word.swap_bytes() } else { word };
     let turn = |texels: i32, log: u32| (texels << (13 - log)) as u32;
     // Texels lie in the middle of their squares.
     let first = |at: i32, base: i32, log: u32| {
@@ -116,22 +126,28 @@ fn copy_repeated(
     let mut u = first(way.at.u, way.base[0], log_width);
     let mut v = first(way.at.v, way.base[1], log_height);
     let (du, dv) = (turn(way.step.u, log_width), turn(way.step.v, log_height));
-    let (right, down) = (32 - log_width, 32 - log_height);
+    // With four bits below the texel.
+    let (right, down) = (28 - log_width, 28 - log_height);
     let (last, all) = ((1u32 << log_width) - 1, words.len() as u32 - 1);
     for pixel in run {
-        let (column, row) = (u >> right, v >> down << log_width);
+        let (across, along) = (u >> right, v >> down);
+        let (column, row) = (across >> 4, along >> 4 << log_width);
         let (next, below) = ((column + 1) & last, (row + last + 1) & all);
         let texel = |at: u32| words.get(at as usize).copied();
-        let (Some(a), Some(b), Some(c), Some(d)) = (
-            texel(row | column),
-            texel(row | next),
-            texel(below | column),
-            texel(below | next),
-        ) else {
+        // One after the other: of four the compiler would keep some in memory.
+        let Some(a) = texel(row | column) else {
             return;
         };
-        let (across, along) = (u >> (right - 4) & 15, v >> (down - 4) & 15);
-        *pixel = order(mixed([a, b, c, d].map(order), across, along));
+        let Some(b) = texel(row | next) else {
+            return;
+        };
+        let Some(c) = texel(below | column) else {
+            return;
+        };
+        let Some(d) = texel(below | next) else {
+            return;
+        };
+        *pixel = mixed::<SWAPPED>([a, b, c, d], across & 15, along & 15);
         u = u.wrapping_add(du);
         v = v.wrapping_add(dv);
     }
@@ -163,7 +179,7 @@ fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
             return;
         };
         let four = [a, b, c, d];
-        let mean = |four: [u16; 4]| order(mixed(four.map(order), across, down));
+        let mean = |four: [u16; 4]| order(mixed::<false>(four.map(order), across, down));
         let nearest = four[usize::from(across >= 8) + 2 * usize::from(down >= 8)];
         *pixel = match texture.key() {
             _ if of == Words::Masks => mixed_masks(four, nearest, across, down),
@@ -229,7 +245,7 @@ pub fn halved<'w, F: Texel>(
 
 /// The mean of four texels.
 fn mean<F: Texel>(four: [u16; 4], key: Option<u16>) -> u16 {
-    let mean = |four: [u16; 4]| F::ordered(mixed(four.map(F::ordered), 8, 8));
+    let mean = |four: [u16; 4]| F::ordered(mixed::<false>(four.map(F::ordered), 8, 8));
     let Some(key) = key else {
         return mean(four);
     };

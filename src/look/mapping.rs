@@ -286,7 +286,7 @@ impl Mapping {
     ) {
         match texture.sampling() {
             None => self.draw_any(run, place, texture, budget),
-            Some(sampling) => self.draw_sampled(run, place, texture, budget, sampling, words),
+            Some(sampling) => self.draw_sampled(run, place, texture, sampling, words),
         }
     }
 
@@ -367,13 +367,11 @@ impl Mapping {
         run: &mut [u16],
         place: Place,
         texture: &Texture<'_>,
-        budget: Budget,
         sampling: Sampling,
         words: Words,
     ) {
         let span = SampledSpan {
             texture,
-            budget,
             words,
             method: self.method,
             steps: self.reach.line,

@@ -2,7 +2,7 @@
 
 use crate::geometry::Scale;
 use crate::pixel::{MadeOf, PixelFormat};
-use crate::scene::{Blend, DrawError, DrawState, WordOfNormal};
+use crate::scene::{Blend, DrawError, DrawState, Draws, WordOfNormal};
 use crate::span::{Size, Triangle};
 
 /// How the planes of a triangle are evaluated; each look says what is where in its planes.
@@ -47,12 +47,7 @@ pub trait Look: Sized {
 
     /// The planes of a thin triangle on one line, of the kind [`Fill::Wide`], where there were none.
     #[doc(hidden)]
-    fn set_up_thin(
-        span: &ThinSpan<'_>,
-        object: u16,
-        draws: &[DrawState<'_>],
-        planes: &mut Self::Planes,
-    );
+    fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &Draws<'_>, planes: &mut Self::Planes);
 
     /// Colours a run of pixels; `at` is its first.
     #[doc(hidden)]
@@ -167,7 +162,7 @@ pub struct Primitive<'a> {
     pub object: u16,
     pub size: Size,
     pub area: u32,
-    pub draws: &'a [DrawState<'a>],
+    pub draws: &'a Draws<'a>,
 }
 
 /// A span of a thin triangle: the parts that its corners have in its first pixel and in its last.

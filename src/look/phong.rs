@@ -9,16 +9,20 @@
 //! | a vertex's normal | 11, 11 and 10 bits: 1/2000 of its length, 1/1000 along the way ahead |
 //! | a thin triangle | exact at both ends of each span, linear between |
 //!
+//! A face of one normal is lit once, and drawn as one of that colour, where light only multiplies it: nothing is mirrored
+//! or shines by itself, and no channel stops at full level.
+//!
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye. A call without
 //! lamps is drawn as [`Gouraud`] draws it, bit for bit.
 
 use super::dither::dithered;
-use super::gouraud::{Gouraud, Planes as Three, thin_shades, wide_at, wide_shades};
+use super::fields::{is_even, wide_fields};
+use super::gouraud::{Gouraud, Planes as Three, even_pair, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::{Affine, PixelLamps, Scale, unit_normal};
 use crate::num::mul_high_unsigned;
 use crate::pixel::{PixelFormat, threshold};
-use crate::scene::{DrawState, WordOfNormal};
+use crate::scene::{DrawState, Draws, WordOfNormal};
 use crate::span::Triangle;
 use core::marker::PhantomData;
 
@@ -34,6 +38,8 @@ pub struct Planes {
     draw: u16,
     /// Kept, since planes that are made for a dither alone have no number.
     is_lit: bool,
+    /// Whether light gave all of it one colour.
+    is_even: bool,
 }
 
 /// A normal of length 1 in a field of 11 bits, which has 1024 in its middle; in one of 10 bits it is half of that.
@@ -50,6 +56,12 @@ pub(crate) fn word_of(turn: &Affine, normal: Option<[i16; 3]>) -> u32 {
     let eleven = |c: i16| field(c, LENGTH).wrapping_add(1024) & 0x7FF;
     let ten = field(z, LENGTH / 2).wrapping_add(512) & 0x3FF;
     eleven(x) << 21 | ten << 11 | eleven(y)
+}
+
+/// The normal of three planes' values.
+#[inline(always)]
+fn normal_of(value: [u32; 3]) -> [i32; 3] {
+    value.map(|v| v.wrapping_sub(MIDDLE) as i32)
 }
 
 /// A pixel of channels of 16.16 steps and one half, raised by so many of 32 parts of a step.
@@ -81,6 +93,17 @@ impl<'t> Shine<'t> {
         lamps.map(|lamps| Self { lamps, colour })
     }
 
+    /// The word of the colour of a triangle, if light gives all of it the same.
+    #[inline(never)]
+    pub(super) fn even(&self, triangle: &Triangle<'_>, scale: &Scale) -> Option<u32> {
+        let normals = triangle.vertex.map(|v| v.colour);
+        if !is_even(normals) {
+            return None;
+        }
+        let normal = normal_of(wide_fields(normals[0]));
+        self.lamps.matt(normal, self.colour, scale)
+    }
+
     /// The call's colour in 16.16 steps of the format.
     pub(super) fn steps<F: PixelFormat>(&self) -> [u32; 3] {
         let steps = |i: usize| u32::from(self.colour[i]) * u32::from(F::STEPS[i]);
@@ -102,9 +125,9 @@ pub(super) fn light<F: PixelFormat>(
     let dithers = dithers && F::MADE_OF.is_one_word();
     let [mut value, steps] = wide_at(planes, place);
     for (pixel, column) in run.iter_mut().zip(place.column..) {
-        let [x, y, z] = value.map(|v| v.wrapping_sub(MIDDLE) as i32);
+        let normal = unit_normal(normal_of(value));
         let at = [column, place.line];
-        let lit = shine.lamps.lit(unit_normal([x, y, z]), at, own(), F::STEPS);
+        let lit = shine.lamps.lit(normal, at, own(), F::STEPS);
         let parts = if dithers {
             threshold(column, place.line)
         } else {
@@ -133,11 +156,12 @@ fn lit<F: PixelFormat>(
 }
 
 impl Planes {
-    /// Says whose triangle they are; whether it is lit at pixels.
-    fn begin(&mut self, object: u16, draws: &[DrawState<'_>]) -> bool {
-        self.draw = DrawState::number_of(object, draws);
-        self.is_lit = Shine::of(self.draw, draws).is_some();
-        self.is_lit
+    /// Says whose triangle they are, and whether it is lit at pixels; what shines on it.
+    fn begin<'t>(&mut self, object: u16, draws: &Draws<'t>) -> Option<Shine<'t>> {
+        self.draw = draws.number_of(object);
+        let shine = Shine::of(self.draw, draws.states);
+        (self.is_lit, self.is_even) = (shine.is_some(), false);
+        shine
     }
 }
 
@@ -148,24 +172,29 @@ impl<F: PixelFormat> Look for Phong<F> {
         of: [0; 8],
         draw: 0,
         is_lit: false,
+        is_even: false,
     };
     const TEXTURED: bool = false;
     const LIT_AT_PIXELS: Option<WordOfNormal> = Some(word_of);
     const SCALE: Scale = Scale::new(F::STEPS);
 
     fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
-        if planes.begin(of.object, of.draws) {
+        let Some(shine) = planes.begin(of.object, of.draws) else {
+            return Gouraud::<F>::set_up(of, &mut planes.of);
+        };
+        let Some(colour) = shine.even(of.triangle, &Self::SCALE) else {
             return wide_shades(of.triangle, &mut planes.of);
-        }
-        Gouraud::<F>::set_up(of, &mut planes.of)
+        };
+        (planes.is_lit, planes.is_even) = (false, true);
+        Gouraud::<F>::even_word(colour, &mut planes.of)
     }
 
-    fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], planes: &mut Planes) {
+    fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &Draws<'_>, planes: &mut Planes) {
         planes.begin(object, draws);
         thin_shades(span, &mut planes.of);
     }
 
-    // No triangle that is lit is plain.
+    // No triangle that is lit at pixels is plain.
     #[inline(always)]
     fn fill_plain(planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
         Gouraud::<F>::fill_plain(&planes.of, at, draws, run);
@@ -179,6 +208,10 @@ impl<F: PixelFormat> Look for Phong<F> {
     }
 
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {
+        if planes.is_even {
+            even_pair(planes.of[0], &mut planes.of);
+            return Some(Fill::Small);
+        }
         Gouraud::<F>::set_up_dithered(triangle, &mut planes.of)
     }
 

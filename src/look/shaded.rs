@@ -7,7 +7,7 @@ use super::gouraud::{Planes, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
-use crate::scene::DrawState;
+use crate::scene::{DrawState, Draws};
 use core::marker::PhantomData;
 
 /// What makes a pixel of three parameters that are linear between vertices.
@@ -88,7 +88,7 @@ impl<S: Shader> Look for Shaded<S> {
         wide_shades(of.triangle, planes)
     }
 
-    fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &[DrawState<'_>], planes: &mut Planes) {
+    fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &Draws<'_>, planes: &mut Planes) {
         thin_shades(span, planes);
     }
 

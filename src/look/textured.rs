@@ -22,7 +22,8 @@ use super::tint::{Shade, Texel};
 use super::word_plane::Near;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
-use crate::scene::{Budget, DrawState, Holes, ORIGIN, Texture, TexturePlace, Vertex, Words};
+use crate::pixel::PixelFormat;
+use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, TexturePlace, Vertex, Words};
 use crate::span::{Size, Triangle, across, down};
 use core::marker::PhantomData;
 use core::slice::from_mut;
@@ -40,7 +41,8 @@ pub struct Planes {
     mapping: Mapping,
     /// The number of its draw state.
     draw: u16,
-    /// How the shade's planes are evaluated; `None` in full light.
+    /// How the shade's planes are evaluated; `None` in full light. [`Fill::Plain`] is none of these ways: that is what
+    /// is lit at pixels.
     shaded: Option<Fill>,
     /// Whether there is a mapping.
     mapped: bool,
@@ -87,7 +89,30 @@ impl Planes {
     /// What shines on the triangle's pixels, if anything does.
     #[inline(always)]
     pub(super) fn shine<'t>(&self, draws: &[DrawState<'t>]) -> Option<Shine<'t>> {
-        Shine::of(self.draw, draws)
+        match self.shaded {
+            Some(Fill::Plain) => Shine::of(self.draw, draws),
+            _ => None,
+        }
+    }
+
+    /// Lights a triangle of a format that has normals for colours: all of it alike where that is so and pixels have 16 bits,
+    /// for which a shade is as exact; else at pixels, and then `true`.
+    #[inline(never)]
+    pub(super) fn light<F: PixelFormat>(
+        &mut self,
+        triangle: &Triangle<'_>,
+        draws: &[DrawState<'_>],
+    ) -> bool {
+        let Some(shine) = Shine::of(self.draw, draws) else {
+            return false;
+        };
+        let once = F::MADE_OF.is_one_word().then_some(&Scale::SHADE);
+        let even = once.and_then(|scale| shine.even(triangle, scale));
+        self.shaded = match even {
+            Some(colour) => even_shade(colour, &mut self.shade),
+            None => Some(Fill::Plain),
+        };
+        even.is_none()
     }
 
     /// The planes of the shade.
@@ -98,6 +123,17 @@ impl Planes {
     pub(super) fn shades_mut(&mut self) -> &mut Shades {
         &mut self.shade
     }
+}
+
+/// Planes of a shade that is one colour: how they are evaluated; `None` in full light.
+#[inline(always)]
+fn even_shade(colour: u32, planes: &mut Shades) -> Option<Fill> {
+    const FULL: u32 = Scale::SHADE.full_word();
+    if colour == FULL {
+        return None;
+    }
+    even_pair(colour, planes);
+    Some(Fill::Small)
 }
 
 /// Pixels between two evaluations of the shade's planes: steps are rounded to 2^-15 of full light.
@@ -148,15 +184,9 @@ impl<F: Texel> Textured<F> {
         area: u32,
         planes: &mut Shades,
     ) -> Option<Fill> {
-        const FULL: u32 = Scale::SHADE.full_word();
         let colour = triangle.vertex.map(|v| v.colour);
-        let [a, b, c] = colour.map(|colour| colour ^ FULL);
-        if a | b | c == 0 {
-            return None;
-        }
         if is_even(colour) {
-            even_pair(colour[0], planes);
-            return Some(Fill::Small);
+            return even_shade(colour[0], planes);
         }
         let is_small = matches!(size, Size::Tiny | Size::Small);
         if is_small && shade_planes(&triangle.shares(area), colour, planes) {
@@ -172,17 +202,17 @@ impl<F: Texel> Textured<F> {
         object: u16,
         size: Size,
         area: u32,
-        draws: &[DrawState<'_>],
+        draws: &Draws<'_>,
         planes: &mut Planes,
     ) -> Fill {
-        planes.draw = DrawState::number_of(object, draws);
+        planes.draw = draws.number_of(object);
         planes.shaded = Self::set_up_shade(triangle, size, area, &mut planes.shade);
         planes.mapped = false;
         planes.mapping.quick = 0;
         planes.mapping.reach = Reach::NONE;
         let mut is_plain = false;
         let mut thin = planes.shaded == Some(Fill::Thin);
-        let state = draws.get(usize::from(planes.draw));
+        let state = draws.states.get(usize::from(planes.draw));
         if let Some((texture, budget)) = state.and_then(DrawState::texture) {
             let places = triangle.textures();
             let near = Self::near(triangle, &places);
@@ -366,11 +396,11 @@ impl<F: Texel> Look for Textured<F> {
         Self::set_up_all(of.triangle, of.object, of.size, of.area, of.draws, planes)
     }
 
-    fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], planes: &mut Planes) {
-        planes.draw = DrawState::number_of(object, draws);
+    fn set_up_thin(span: &ThinSpan<'_>, object: u16, draws: &Draws<'_>, planes: &mut Planes) {
+        planes.draw = draws.number_of(object);
         thin_shades(span, &mut planes.shade);
         planes.shaded = Some(Fill::Wide);
-        let state = draws.get(usize::from(planes.draw));
+        let state = draws.states.get(usize::from(planes.draw));
         let Some((texture, budget)) = state.and_then(DrawState::texture) else {
             return;
         };

@@ -12,7 +12,7 @@ use super::tint::Texel;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
-use crate::scene::{DrawState, WordOfNormal};
+use crate::scene::{DrawState, Draws, WordOfNormal};
 use core::marker::PhantomData;
 
 /// The look of textures lit at each pixel, in the pixel format `F`; texels are as for [`Textured`], and what shines is
@@ -31,14 +31,13 @@ fn times(texel: [u8; 3], colour: [u32; 3]) -> [i32; 3] {
 }
 
 /// Sets a triangle up; of one that is lit a vertex's colour is its normal, and the planes of the shade are the normal's.
-fn set_up<T: Texel>(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
+fn set_up<F: PixelFormat, T: Texel>(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
     let fill = Textured::<T>::set_up(of, planes);
     // The planes of small triangles have too few bits.
-    match fill {
-        Fill::Thin => Fill::Thin,
-        _ if planes.shine(of.draws).is_some() => wide_shades(of.triangle, planes.shades_mut()),
-        _ => fill,
+    if fill != Fill::Thin && planes.light::<F>(of.triangle, of.draws.states) {
+        return wide_shades(of.triangle, planes.shades_mut());
     }
+    fill
 }
 
 /// Lights pixels by their texels, which are words of `T`, dithered or not; those without one by white.
@@ -103,14 +102,15 @@ macro_rules! lit {
             const SCALE: Scale = Textured::<$format>::SCALE;
 
             fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
-                set_up::<$texel>(of, planes)
+                set_up::<$format, $texel>(of, planes)
             }
 
-            fn set_up_thin(of: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], to: &mut Planes) {
+            fn set_up_thin(of: &ThinSpan<'_>, object: u16, draws: &Draws<'_>, to: &mut Planes) {
                 Textured::<$texel>::set_up_thin(of, object, draws, to);
+                to.light::<$format>(of.triangle, draws.states);
             }
 
-            // No triangle that is lit is plain.
+            // No triangle that is lit at pixels is plain.
             #[inline(always)]
             fn fill_plain(
                 planes: &Planes,

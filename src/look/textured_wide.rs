@@ -9,7 +9,7 @@ use super::tint::{Shade, Texel};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
-use crate::scene::{DrawState, Holes};
+use crate::scene::{DrawState, Draws, Holes};
 
 /// The look that fetches texels.
 type Texels = Textured<Rgb565>;
@@ -150,7 +150,7 @@ macro_rules! wide {
                 Texels::set_up(of, planes)
             }
 
-            fn set_up_thin(of: &ThinSpan<'_>, object: u16, draws: &[DrawState<'_>], to: &mut Planes) {
+            fn set_up_thin(of: &ThinSpan<'_>, object: u16, draws: &Draws<'_>, to: &mut Planes) {
                 Texels::set_up_thin(of, object, draws, to);
             }
 

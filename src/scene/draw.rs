@@ -6,6 +6,7 @@ use super::late::{Late, Role};
 use super::texgen::TexGen;
 use super::{Blend, Budget, DepthTest, Lights, Master, Scissor, Shadow, Texture};
 use crate::geometry::{Affine, Cull, Light, Mesh, PixelLamps};
+use core::cell::Cell;
 use core::ops::Range;
 
 /// One draw call: a mesh, where it stands and how it looks.
@@ -172,6 +173,50 @@ impl<'a, 't> Draw<'a, 't> {
     }
 }
 
+/// The states of a scene's draw calls.
+#[derive(Clone, Debug)]
+pub struct Draws<'a> {
+    pub(crate) states: &'a [DrawState<'a>],
+    /// How many calls have begun up to the object that was asked for last: mostly as many as up to the next one.
+    begun: Cell<usize>,
+}
+
+impl<'a> Draws<'a> {
+    #[inline(always)]
+    pub(crate) fn new(states: &'a [DrawState<'a>]) -> Self {
+        let begun = Cell::new(0);
+        Self { states, begun }
+    }
+
+    /// How many calls have begun up to an object.
+    #[inline(always)]
+    pub(crate) fn begun(&self, object: u16) -> usize {
+        let last = self.begun.get();
+        let has = |number: usize| self.states.get(number).is_some_and(|d| d.has_begun(object));
+        if last > 0 && has(last - 1) && !has(last) {
+            return last;
+        }
+        let begun = DrawState::begun(object, self.states);
+        self.begun.set(begun);
+        begun
+    }
+
+    /// The number of the state of an object's call: that of the last call that began at it or before.
+    #[inline(always)]
+    pub(crate) fn number_of(&self, object: u16) -> u16 {
+        if self.states.len() < 2 {
+            return 0;
+        }
+        self.begun(object).saturating_sub(1) as u16
+    }
+
+    /// That state.
+    #[inline(never)]
+    pub(crate) fn state(&self, object: u16) -> Option<&'a DrawState<'a>> {
+        self.states.get(self.begun(object).checked_sub(1)?)
+    }
+}
+
 /// What pass two needs of a draw call, kept once a call.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct DrawState<'t> {
@@ -280,25 +325,16 @@ impl<'t> DrawState<'t> {
         }
     }
 
-    /// The number of the state of an object.
-    #[inline(always)]
-    pub(crate) fn number_of(object: u16, draws: &[Self]) -> u16 {
-        if draws.len() < 2 {
-            return 0;
-        }
-        Self::begun(object, draws).saturating_sub(1) as u16
-    }
-
     /// Whether it is of a call that began at an object or before.
     #[inline(always)]
-    pub(crate) fn has_begun(&self, object: u16) -> bool {
+    fn has_begun(&self, object: u16) -> bool {
         self.first <= object
     }
 
     /// How many calls began at an object or before.
     #[cold]
     #[inline(never)]
-    pub(crate) fn begun(object: u16, draws: &[Self]) -> usize {
+    fn begun(object: u16, draws: &[Self]) -> usize {
         draws.partition_point(|draw| draw.has_begun(object))
     }
 

@@ -74,7 +74,7 @@ pub use compressed::Compressed;
 pub use computed::{Checker, Gradient, TexelWay, Texels};
 pub use depth::{DepthFunction, DepthTest};
 pub(crate) use draw::Holes;
-pub use draw::{Application, Draw, DrawState, Shading, Skin};
+pub use draw::{Application, Draw, DrawState, Draws, Shading, Skin};
 pub use error::{BeginError, DrawError, Full};
 pub(crate) use form::{Bent, Form, Square};
 pub(crate) use late::Role;

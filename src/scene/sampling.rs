@@ -3,7 +3,7 @@
 //! What they do is in room `look`. A texture leads there by a function, so that a program which names no
 //! [`Sampling`] does not have the code.
 
-use super::{Budget, Texture};
+use super::Texture;
 use core::ops::Range;
 
 /// A way from places on a texture to colours, for [`Texture::sampled`].
@@ -37,7 +37,6 @@ pub(crate) enum Words {
 #[derive(Debug)]
 pub(crate) struct SampledSpan<'a> {
     pub(crate) texture: &'a Texture<'a>,
-    pub(crate) budget: Budget,
     pub(crate) words: Words,
     pub(crate) method: Method,
     /// Steps from one exact place to the next, where each has its own 1/w.

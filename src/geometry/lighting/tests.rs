@@ -223,9 +223,8 @@ fn normals_longer_than_one_mirror_what_their_direction_does() {
                 more: [0; 3],
             },
         };
-        let shine = lamps.shine(normal, || {
-            v.map(|c| (c / largest * 32_768.0).round() as i32)
-        });
+        let eye = v.map(|c| (c / largest * 32_768.0).round() as i32);
+        let shine = lamps.shine(normal, || eye);
         let across = 2.0 * times(n, l);
         let mirrored = times([0, 1, 2].map(|i| across * n[i] - l[i]), v).max(0.0);
         let exact = mirrored.powi(1000) * 255.0;

@@ -10,7 +10,8 @@ use crate::geometry::{Faces, Mesh};
 use crate::num::random::Rng;
 use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
 use crate::scene::{
-    Budget, Draw, DrawState, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace, Vertex,
+    Budget, Draw, DrawState, Draws, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace,
+    Vertex,
 };
 use crate::span::{Frame, Triangle};
 use std::vec::Vec;
@@ -172,7 +173,8 @@ fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
             texture: skin,
             ..Draw::new(mesh)
         };
-        let draws = [DrawState::new(0, &call, Master::ALL)];
+        let states = [DrawState::new(0, &call, Master::ALL)];
+        let draws = Draws::new(&states);
         let (area, lines, way) = (triangle.area(), triangle.lines(), triangle.way());
         let mut planes = L::EMPTY;
         let of = Primitive {
@@ -212,7 +214,7 @@ fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
                 line: line as u32,
             };
             let first = difference(&mut rng, place, |at, run: &mut [WordOf<L>]| {
-                L::fill(fill, &planes, at, &draws, run);
+                L::fill(fill, &planes, at, &states, run);
             });
             assert_eq!(first, None, "{place:?} {fill:?} {planes:?} {corner:x?}");
         }
