@@ -64,7 +64,8 @@ pub struct Cache<T, const WORDS: usize> {
     pub(crate) spans: [[u32; 32]; WORDS],
     /// Slots of spans that meet others, and all slots, from the nearest on or by number of object.
     pub(crate) order: [[u32; 32]; WORDS],
-    /// The farthest depth of each slot's span on this line.
+    /// The farthest depth of each slot's span on this line; on one with values, columns and draw calls of what found no
+    /// slot.
     pub(crate) far: [[u32; 32]; WORDS],
     /// The last, so that all else lies within the reach of one instruction.
     pub(crate) slots: [[Slot<T>; 32]; WORDS],

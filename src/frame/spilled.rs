@@ -1,8 +1,8 @@
 //! What has no slot, on lines with values (C5, H15).
 //!
-//! Such a line walks over the chain of it several times: to find columns, to draw, for each light, for what is
-//! translucent. Columns and draw call are found the first time, and kept for the first of the chain, where on other lines
-//! slots have their farthest depths.
+//! Such a line walks over the chain several times: to find columns, to draw, for each light, and for what is translucent.
+//! The first time columns and draw calls are found, and those of the chain's first objects kept, in the words that have
+//! slots' farthest depths on other lines. Of the others they are found again.
 
 use super::guests::{Stray, Walk};
 use super::renderer::{Renderer, View};
