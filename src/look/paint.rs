@@ -107,7 +107,7 @@ pub trait Look: Sized {
         let _ = (planes, at, draws, run);
     }
 
-    /// Planes that keep enough of a triangle's colour for a dither, where those it has do not.
+    /// Planes that keep enough of a triangle's colour for a dither, in place of those it has, where these do not.
     #[doc(hidden)]
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Self::Planes) -> Option<Fill> {
         let _ = (triangle, planes);
