@@ -1,17 +1,12 @@
-//! Generates the meshes (see `generate.rs`), and hands the baked lists on.
+//! Hands the baked lists on.
 //!
 //! The `.list` files were made by `scanbeam bake`; tests bake them anew and compare. A
 //! build script that has the baker at hand would run it here instead of copying.
-
-mod generate;
 
 use std::{env, fs, path::PathBuf};
 
 fn main() {
     println!("cargo:rerun-if-changed=build.rs");
-    println!("cargo:rerun-if-changed=generate.rs");
-    println!("cargo:rerun-if-changed=generate/teapot.rs");
-    println!("cargo:rerun-if-changed=teapot_data.rs");
     let out = PathBuf::from(env::var_os("OUT_DIR").expect("cargo sets OUT_DIR"));
     for name in ["teapot.list", "teapot_meshlets.list", "crate.list"] {
         println!("cargo:rerun-if-changed={name}");
@@ -19,5 +14,4 @@ fn main() {
         assert!(list.len().is_multiple_of(4), "a list is whole words");
         fs::write(out.join(name), list).expect("OUT_DIR can be written");
     }
-    fs::write(out.join("meshes.rs"), generate::source()).expect("OUT_DIR can be written");
 }

@@ -1,6 +1,6 @@
 //! A look of one's own: a parameter of vertices as contour bands, as maps have them.
 
-use crate::{SPHERE, SPHERE_POSITIONS};
+use crate::SPHERE;
 use scanbeam::Mesh;
 use scanbeam::look::{Shaded, Shader};
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
@@ -27,14 +27,14 @@ impl Shader for Contours {
 }
 
 /// The height of each vertex of [`SPHERE`] above its lowest, and how far it is in front, 255 for the whole sphere.
-static PARAMETERS: [[u8; 3]; SPHERE_POSITIONS.len()] = {
+static PARAMETERS: [[u8; 3]; SPHERE.positions.len()] = {
     const fn level(place: i16) -> u8 {
         (((place as i32 + (1 << 14)) * 255) >> 15) as u8
     }
-    let mut parameters = [[0; 3]; SPHERE_POSITIONS.len()];
+    let mut parameters = [[0; 3]; SPHERE.positions.len()];
     let mut i = 0;
     while i < parameters.len() {
-        let [_, y, z] = SPHERE_POSITIONS[i];
+        let [_, y, z] = SPHERE.positions[i];
         parameters[i] = [level(y), level(z), 0];
         i += 1;
     }
@@ -43,7 +43,7 @@ static PARAMETERS: [[u8; 3]; SPHERE_POSITIONS.len()] = {
 
 /// [`SPHERE`] with its parameters.
 pub static CONTOURED: Mesh<'static> = Mesh {
-    positions: &SPHERE_POSITIONS,
+    positions: SPHERE.positions,
     normals: &[],
     colours: &PARAMETERS,
     faces: SPHERE.faces,

@@ -176,7 +176,7 @@ pub fn build<L: Look>(scene: &mut Scene<'_, '_, L>, turn: u16) {
         model: Affine::rotation_y(f32::from(turn % TURN) * (core::f32::consts::TAU / 126.0)),
         light: Light::new([0.3, 0.8, 0.6], 0.2),
         colour: [236, 196, 112],
-        ..Draw::new(scenes::TEAPOT)
+        ..Draw::new(meshes::TEAPOT)
     };
     scene.draw(&call).expect("the memory holds the teapot");
 }

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use meshes::{CUBE, CUBE_QUADS, FINE_SPHERE, RIBBON, SPHERE, TEAPOT};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::{Faces, Mesh};
-use scenes::{CUBE, CUBE_QUADS, FINE_SPHERE, RIBBON, SPHERE, TEAPOT};
 
 #[path = "../generate/teapot.rs"]
 mod generate;
