@@ -36,6 +36,8 @@ pub struct PassOne {
     pub culled: u32,
     /// Triangles that crossed a near, far or guard plane.
     pub clipped: u32,
+    /// Vertices in memory beyond those of meshes: of what was cut.
+    pub own: u32,
     /// Triangles that were filed.
     pub filed: u32,
 }
@@ -50,6 +52,7 @@ impl PassOne {
             meshes,
             culled: all.culled,
             clipped: all.clipped,
+            own: (scene.vertices() as u32).saturating_sub(meshes.vertices),
             filed: scene.objects() as u32,
         }
     }

@@ -53,6 +53,7 @@ pub fn pass_one_works(pass: &PassOne) -> Works {
         ("vertex with texels", meshes.placed.into()),
         ("face not seen", pass.culled.into()),
         ("face cut", pass.clipped.into()),
+        ("vertex of a cut", pass.own.into()),
         ("face filed", pass.filed.into()),
     ];
     all.map(|(name, count)| (name.to_owned(), count)).into()
