@@ -2,7 +2,8 @@
 //!
 //! The division of 64 bits that a compiler brings takes 1 KB of code.
 
-use super::leading_zeros;
+use super::short::SHORT;
+use super::{leading_zeros, short};
 use core::hint::black_box;
 
 /// `number / by`, rounded down; all ones where that has more than 32 bits.
@@ -41,6 +42,32 @@ pub fn divide(number: u64, by: u32) -> u32 {
 pub fn divide_signed(number: i64, by: u32) -> i64 {
     let quotient = i64::from(divide(number.unsigned_abs(), by));
     if number < 0 { -quotient } else { quotient }
+}
+
+/// `n / by` rounded down, for `by` of 1 to 2^15 - 1, where that has 16 bits with its sign.
+#[inline(always)]
+#[must_use]
+pub fn quotient_16(n: i32, by: i32) -> i32 {
+    if SHORT {
+        short::quotient_16(n, by as u32)
+    } else {
+        n.div_euclid(by)
+    }
+}
+
+/// `dx / height` rounded down, and what is left of it in 2^-22: of `dx` with 16 bits and a sign and a height of 1 to
+/// 1,023, or of 0 and a height of up to 16 bits.
+#[inline(always)]
+#[must_use]
+pub fn slope_and_rest(dx: i32, height: i32) -> (i32, i32) {
+    if SHORT {
+        return short::slope_and_rest(dx, height as u32);
+    }
+    let whole = dx.div_euclid(height);
+    (
+        whole,
+        ((((dx - whole * height) as u32) << 22) / height as u32) as i32,
+    )
 }
 
 #[cfg(test)]

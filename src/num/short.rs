@@ -75,6 +75,38 @@ pub(super) const fn divide(n: u32, d: u32) -> (u32, u32) {
     (quotient, rest)
 }
 
+/// [`divide`]: one copy for all sides of triangles.
+#[inline(never)]
+fn divide_called(n: u32, d: u32) -> (u32, u32) {
+    divide(n, d)
+}
+
+/// `n / by` rounded down, and the rest times a power of two, with `by` times the same as a divisor of 16 bits; the quotient
+/// has 16 bits with its sign.
+#[inline(always)]
+fn floor(n: i32, by: u32) -> (i32, u32, u32) {
+    let up = leading_zeros(by) & 15;
+    let divisor = by << up;
+    // By 2^15 more, so that it is not below 0.
+    let (quotient, rest) = divide_called((by << 15).wrapping_add(n as u32) << up, divisor);
+    (quotient as i32 - (1 << 15), rest, divisor)
+}
+
+/// [`quotient_16`](super::quotient_16).
+#[inline(always)]
+pub(super) fn quotient_16(n: i32, by: u32) -> i32 {
+    floor(n, by).0
+}
+
+/// [`slope_and_rest`](super::slope_and_rest): three digits by one divisor.
+#[inline(always)]
+pub(super) fn slope_and_rest(dx: i32, height: u32) -> (i32, i32) {
+    let (whole, rest, divisor) = floor(dx, height);
+    let (upper, rest) = divide_called(rest << 11, divisor);
+    let (lower, _) = divide_called(rest << 11, divisor);
+    (whole, (upper << 11 | lower) as i32)
+}
+
 /// One Newton step from `seed = (2^32 - 1) / (a >> 16)`, which left `rest`: see
 /// [`recip`](super::recip()).
 #[inline(always)]
@@ -171,6 +203,36 @@ mod tests {
             ];
             for n in some.into_iter().chain(ends) {
                 assert_eq!(divide(n, d), (n / d, n % d), "{n} / {d}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_height_has_its_slopes() {
+        let mut rng = Rng(53);
+        for height in 1..1024 {
+            let some = [(); 60].map(|()| rng.below(1 << 16) as i32 - (1 << 15));
+            let ends = [0, 1, -1, height - 1, -height, 0x7FFF, -0x8000];
+            for dx in some.into_iter().chain(ends) {
+                let (whole, rest) = (dx.div_euclid(height), dx.rem_euclid(height) as u32);
+                let want = (whole, ((rest << 22) / height as u32) as i32);
+                assert_eq!(slope_and_rest(dx, height as u32), want, "{dx} / {height}");
+            }
+        }
+        for height in 1..1 << 16 {
+            assert_eq!(slope_and_rest(0, height), (0, 0), "{height}");
+        }
+    }
+
+    #[test]
+    fn quotients_of_16_bits_are_rounded_down() {
+        let mut rng = Rng(59);
+        for by in 1..1 << 15 {
+            let ends = [0x7FFF * by + by - 1, -0x8000 * by, 0, -1, by - 1, -by];
+            let some = [(); 40].map(|()| (rng.below(1 << 16) as i32 - (1 << 15)) * by);
+            let some = some.map(|n| n + rng.below(by as u32) as i32);
+            for n in some.into_iter().chain(ends) {
+                assert_eq!(quotient_16(n, by as u32), n.div_euclid(by), "{n} / {by}");
             }
         }
     }

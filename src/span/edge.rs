@@ -7,14 +7,14 @@
 //! | kind | of sides | set-up, M4 | a line |
 //! |---|---|---|---|
 //! | [`Kind::Short`] | up to 511 units of 1/8 pixel either way | 11 instructions, from a table | one multiply-add |
-//! | [`Kind::Tall`] | below 1,024 units of height, or upright | two divisions | one multiply-add |
+//! | [`Kind::Tall`] | below 1,024 units of height, or upright | two divisions; on a Cortex-M0+ three digits | one multiply-add |
 //! | [`Kind::Divided`] | all others, and what lies too far beside the picture | none | one division |
 //!
 //! Short: the slope is `round(dx 2^19 / dy)` a unit of height by a reciprocal of 31 bits, less than
 //! 0.63 units of 2^-22 column off; after 511 units it is 322 off, the bias is 512, and the truth a
 //! multiple of 1,024 of them.
 
-use crate::num::{of_height, slope_of};
+use crate::num::{of_height, quotient_16, slope_and_rest, slope_of};
 use crate::scene::ORIGIN;
 
 /// What the picture's place in guard space is to edges and planes: it begins at [`ORIGIN`], either way.
@@ -100,10 +100,8 @@ impl Edge {
         let (x, y) = ((a & 0xFFFF) as i32, (a >> 16) as i32);
         let start = ((x + 4 - 8 * origin) << 19).wrapping_add(256);
         // dy is above 0; said so that no check for it is compiled in.
-        let height = dy.max(1);
-        let whole = dx.div_euclid(height);
-        let part = (((dx - whole * height) as u32) << 22) / height as u32;
-        let (part, first) = (part as i32, (y + 4) >> 3);
+        let (whole, part) = slope_and_rest(dx, dy.max(1));
+        let first = (y + 4) >> 3;
         let slope = (whole << 22).wrapping_add(part);
         let down = 8 * first + 4 - y;
         let at = start
@@ -131,7 +129,7 @@ impl Edge {
         // Units of the way, rounded down: what is cut off cannot reach the next column's centre. A line that the side
         // is on is fewer than 2^15 units below its upper end, and neither end is farther across.
         let below = 8 * line + 4 - (a >> 16) as i32;
-        let way = below.wrapping_mul(across(d)).div_euclid(dy);
+        let way = quotient_16(below.wrapping_mul(across(d)), dy);
         ((a & 0xFFFF) as i32 + 4 + way) >> 3
     }
 }
