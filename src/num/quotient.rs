@@ -1,4 +1,5 @@
-//! Quotients of 64 bits for what is done once a draw call or for few triangles: small, not fast.
+//! Quotients of 64 bits for what is done once a draw call or for few triangles: small, not fast; and those of triangles'
+//! sides, of 32 bits, which processors without a divider find by [`short`].
 //!
 //! The division of 64 bits that a compiler brings takes 1 KB of code.
 
@@ -49,7 +50,7 @@ pub fn divide_signed(number: i64, by: u32) -> i64 {
 #[must_use]
 pub fn quotient_16(n: i32, by: i32) -> i32 {
     if SHORT {
-        short::quotient_16(n, by as u32)
+        short::floor(n, by as u32).0
     } else {
         n.div_euclid(by)
     }

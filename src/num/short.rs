@@ -84,18 +84,12 @@ fn divide_called(n: u32, d: u32) -> (u32, u32) {
 /// `n / by` rounded down, where that has 16 bits with its sign; the rest, and `by`, times the power of two that makes a
 /// divisor of 16 bits of `by`.
 #[inline(always)]
-fn floor(n: i32, by: u32) -> (i32, u32, u32) {
+pub(super) fn floor(n: i32, by: u32) -> (i32, u32, u32) {
     let up = leading_zeros(by) & 15;
     let divisor = by << up;
     // By 2^15 more, so that it is not below 0.
     let (quotient, rest) = divide_called((by << 15).wrapping_add(n as u32) << up, divisor);
     (quotient as i32 - (1 << 15), rest, divisor)
-}
-
-/// [`quotient_16`](super::quotient_16).
-#[inline(always)]
-pub(super) fn quotient_16(n: i32, by: u32) -> i32 {
-    floor(n, by).0
 }
 
 /// [`slope_and_rest`](super::slope_and_rest): three digits by one divisor.
@@ -232,7 +226,7 @@ mod tests {
             let some = [(); 40].map(|()| (rng.below(1 << 16) as i32 - (1 << 15)) * by);
             let some = some.map(|n| n + rng.below(by as u32) as i32);
             for n in some.into_iter().chain(ends) {
-                assert_eq!(quotient_16(n, by as u32), n.div_euclid(by), "{n} / {by}");
+                assert_eq!(floor(n, by as u32).0, n.div_euclid(by), "{n} / {by}");
             }
         }
     }
