@@ -261,6 +261,12 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.plain[word] &= !slots;
     }
 
+    /// Frees slots of a word that wait for a change.
+    pub(crate) fn give_up(&mut self, word: usize, slots: u32) {
+        self.free_slots(word, slots);
+        self.turning[word] &= !slots;
+    }
+
     /// Says that the line to come is this one.
     pub(crate) fn before_line(&mut self, line: u16) {
         self.line = line.wrapping_sub(1);

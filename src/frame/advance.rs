@@ -73,7 +73,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Slots of a word of which a side turns.
     #[inline(never)]
-    fn turn_all(&mut self, view: &View<'_>, word: usize, mut turning: u32) {
+    pub(super) fn turn_all(&mut self, view: &View<'_>, word: usize, mut turning: u32) {
         while turning != 0 {
             self.turn(view, word, take_first(&mut turning));
         }
@@ -108,7 +108,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// A slot whose side turns, or that ends, far down: asks its triangle for the line.
     #[inline(never)]
-    fn ask_change(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
+    pub(super) fn ask_change(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
         let slot = &self.cache.slots[word][i as usize & 31];
         if let Some(triangle) = view.triangle_of(slot.object) {
             let lines = triangle.lines();

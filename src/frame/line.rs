@@ -45,6 +45,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         pixels: &mut [WordOf<L>],
         background: WordOf<L>,
     ) -> bool {
+        if let Some(pacer) = &self.pacer {
+            return (pacer.draw)(self, view, line, pixels, background);
+        }
         self.advance(view, line);
         if self.cache.is_empty() {
             fill_line::<L>(pixels, background);

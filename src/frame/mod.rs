@@ -27,6 +27,9 @@
 //! | `tally` | spans and pixels, counted |
 //! | `send` | all lines of a frame, with overlays, through a pump, awaited, or to a panel with a clock of its own |
 //! | `changed` | likewise, what has changed alone |
+//! | `pace`, `paced` | lines that cost no more than they may |
+//! | `runs` | who is seen on them, run by run |
+//! | `evenly` | the colours of these runs, all or one |
 //! | `palette` | likewise, of pixels that are numbers of a palette |
 //! | `relay` | a frame of two cores |
 
@@ -36,10 +39,13 @@ mod alone;
 mod alpha;
 mod changed;
 mod dense;
+mod evenly;
 mod guests;
 mod line;
 mod meet;
 mod near;
+mod pace;
+mod paced;
 mod palette;
 mod plan;
 mod rank;
@@ -47,6 +53,7 @@ mod relay;
 mod renderer;
 mod rival;
 mod ruled;
+mod runs;
 mod scene;
 mod send;
 mod shadow;
@@ -62,6 +69,7 @@ mod values;
 
 pub use crate::active::{CacheUse, Interleave};
 pub use changed::{draw_frame_changed, draw_frame_changed_runs};
+pub use pace::{Pace, Paid};
 pub use palette::draw_frame_indexed;
 pub use relay::{Desk, Peer, Relay, Worker, draw_frame_shared};
 pub use renderer::{FastMemory, LineError, Memory, Renderer};

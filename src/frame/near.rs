@@ -28,7 +28,7 @@ pub(super) fn place_of(view: &View<'_>, object: u16) -> u32 {
 }
 
 /// The lowest bits of a key: a slot's number.
-const NUMBER: u32 = 0xFF;
+pub(super) const NUMBER: u32 = 0xFF;
 
 /// The slot of a key, below the number of slots: no index has to be looked at again.
 #[inline(always)]
@@ -51,10 +51,26 @@ pub(super) struct Taken {
     pub(super) guests: usize,
 }
 
-impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
+impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
+    /// Slots with these keys, which fall, and nothing without a slot.
+    pub(super) fn of(cache: &'a Cache<Active<L::Planes>, WORDS>, keys: &'a [u32]) -> Self {
+        Self {
+            cache,
+            keys,
+            cells: &[],
+            guests: 0,
+        }
+    }
+
+    /// The keys of what comes later than so many slots.
+    #[inline(always)]
+    pub(super) fn later(&self, after: usize) -> &'a [u32] {
+        self.keys.get(after..).unwrap_or_default()
+    }
+
     /// The span of a slot.
     #[inline(always)]
-    fn span(&self, key: u32) -> Span {
+    pub(super) fn span(&self, key: u32) -> Span {
         let spans = self.cache.spans.as_flattened();
         let span = spans.get(number_of::<WORDS>(key)).copied();
         Span::of(span.unwrap_or_default())

@@ -1,6 +1,7 @@
 //! What draws lines of a scene, and what it has to be lent.
 
 use super::ahead::Fetcher;
+use super::paced::Pacer;
 use super::ruled::colour_dithered;
 use super::slot::Active;
 use super::spans::{Drawn, Line};
@@ -104,6 +105,9 @@ pub enum LineError {
     /// A draw call has a value that few have: a scissor, a depth test, a blend, holes, a dither or a shadow. Only a renderer that
     /// was made by [`Renderer::new`] draws it.
     Values,
+    /// The renderer is [`paced`](Renderer::paced), and a draw call has such a value, or the renderer fetches ahead or
+    /// counts too.
+    Paced,
     /// The wait for the other core was given up.
     Stopped {
         /// The line that was awaited.
@@ -137,6 +141,9 @@ impl fmt::Display for LineError {
             Self::Line { line } => write!(f, "renderer: line {line} is not part of the scene"),
             Self::Values => f.write_str(
                 "renderer: a draw call has a scissor, a depth test, a blend, holes, a dither or a shadow: use Renderer::new",
+            ),
+            Self::Paced => f.write_str(
+                "renderer: a paced one draws no scissor, depth test, blend, holes, dither or shadow, and neither fetches ahead nor counts",
             ),
             Self::Stopped { line } => {
                 write!(f, "renderer: the wait for line {line} was given up")
@@ -209,6 +216,8 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) spans: SpanCounts,
     /// Likewise of fetching ahead.
     pub(super) fetcher: Option<Fetcher<L, WORDS>>,
+    /// Likewise of lines that cost no more than they may.
+    pub(super) pacer: Option<Pacer<L, WORDS>>,
 }
 
 impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
@@ -265,6 +274,7 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             counter: None,
             spans: SpanCounts::default(),
             fetcher: None,
+            pacer: None,
         }
     }
 
@@ -334,6 +344,9 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
             if scene.has_shadows {
                 self.check_shadows(scene.screen().width())?;
             }
+        }
+        if let Some(pacer) = &self.pacer {
+            (pacer.check)(self, scene)?;
         }
         let (needed, have) = (scene.objects(), self.links.len());
         if have < needed {

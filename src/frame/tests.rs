@@ -13,6 +13,8 @@ use crate::scene::{
 use std::boxed::Box;
 use std::vec::Vec;
 
+mod paced;
+
 const WIDTH: u16 = 96;
 
 /// How scenes are seen: lines of the picture, the eye's distance from the middle, its focal length, and the near

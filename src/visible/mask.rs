@@ -288,6 +288,15 @@ impl Mask {
         }
     }
 
+    /// Calls `run` with each run of the first `width` columns that is covered, likewise.
+    pub(crate) fn take_covered(&mut self, width: u32, run: impl FnMut(u32, u32)) {
+        for word in &mut self.0 {
+            *word = !*word;
+        }
+        self.take_free(width, run);
+        self.clear();
+    }
+
     /// Covers the first run of `start .. end` that is not covered: its first column, and that after its last in the lower
     /// half. 0 where there is none. `end` is below 1,024.
     #[inline(never)]

@@ -1,8 +1,8 @@
 //! The frames that are drawn on the host and on every target, by name.
 
 use crate::{
-    IN_PARTS, PLAYED, Played, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, Suite, VALUES,
-    VARIANTS, Values, Variant,
+    IN_PARTS, PACED, PLAYED, Paced, Played, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, Suite,
+    VALUES, VARIANTS, Values, Variant,
 };
 
 /// What a frame is.
@@ -12,6 +12,8 @@ pub enum Frame {
     Suite(Suite),
     /// A scene of the suite whose mesh is drawn in parts.
     InParts(Suite),
+    /// A scene of the suite whose lines cost no more than they may.
+    Paced(Paced),
     /// A small frame of what few draw calls have.
     Values(Values),
     /// A list that is played.
@@ -24,11 +26,12 @@ pub enum Frame {
     Model(Shot),
 }
 
-/// Every frame, in the order in which they are drawn: the suite, and of it what is drawn in parts, what few draw calls have, lists, all other shots,
+/// Every frame, in the order in which they are drawn: the suite, and of it what is drawn in parts and what is paced, what few draw calls have, lists, all other shots,
 /// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, and one by the hardware model.
 pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
     let suite = SUITE.map(|suite| (suite.name(), Frame::Suite(suite)));
     let parts = IN_PARTS.map(|(name, suite)| (name, Frame::InParts(suite)));
+    let paced = PACED.map(|paced| (paced.name, Frame::Paced(paced)));
     let values = VALUES.map(|(name, values)| (name, Frame::Values(values)));
     let played = PLAYED.map(|(name, played)| (name, Frame::Played(played)));
     let measured = |shot: &Shot| SUITE.iter().any(|suite| suite.name() == shot.name());
@@ -37,6 +40,7 @@ pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
     suite
         .into_iter()
         .chain(parts)
+        .chain(paced)
         .chain(values)
         .chain(played)
         .chain(shots.map(|how| (how.name, Frame::Shot(how))))

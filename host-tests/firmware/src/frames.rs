@@ -11,7 +11,7 @@ use scanbeam::scan_out::{Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Frame, Played, SUITE_LINES, Shot, ShotError, SmoothLook, TexturedLook, Values, ValuesMemory,
+    Frame, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, TexturedLook, Values, ValuesMemory,
     Variant, WIDTH,
 };
 
@@ -37,7 +37,7 @@ impl<F: FnMut(&[u8])> Receives for F {
 /// Lines that a transfer of a frame takes.
 pub(crate) const fn lines_of(frame: Frame) -> u16 {
     match frame {
-        Frame::Suite(_) | Frame::InParts(_) | Frame::Played(_) => SUITE_LINES,
+        Frame::Suite(_) | Frame::InParts(_) | Frame::Paced(_) | Frame::Played(_) => SUITE_LINES,
         _ => LINES_PER_TRANSFER,
     }
 }
@@ -63,6 +63,7 @@ pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Rec
             let cut = rooms.in_parts(suite);
             sent.smooth(rooms, suite.background(), &|scene| cut.build(scene));
         }
+        Frame::Paced(paced) => sent.paced(paced, rooms),
         Frame::B(how) => {
             let background = Shot::Sphere.background();
             sent.textured(rooms, background, &|scene| how.build(scene));
@@ -104,6 +105,21 @@ impl Sent<'_, '_> {
         build(&mut scene).expect(LARGE);
         let mut renderer = rooms.lines.renderer(rooms.caches.textured);
         self.send(&scene, &mut renderer, background);
+    }
+
+    /// A scene whose lines cost no more than they may.
+    fn paced(&mut self, paced: Paced, rooms: &mut Rooms) {
+        let background = paced.suite.background();
+        if paced.suite.texture().is_some() {
+            let mut scene = rooms.scene.scene();
+            paced.build(&mut scene).expect(LARGE);
+            let renderer = rooms.lines.renderer(rooms.caches.textured);
+            return self.send(&scene, &mut renderer.paced(paced.pace), background);
+        }
+        let mut scene = rooms.scene.scene();
+        paced.build(&mut scene).expect(LARGE);
+        let renderer = rooms.lines.renderer(rooms.caches.smooth);
+        self.send(&scene, &mut renderer.paced(paced.pace), background);
     }
 
     /// A shot as it says.

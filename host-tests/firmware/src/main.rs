@@ -48,7 +48,7 @@ use count::Counter;
 use frames::{draw, lines_of};
 use rooms::Rooms;
 use scanbeam::list::ListCommand;
-use scenes::{Frame, SHEETS, Sheet, frames};
+use scenes::{Frame, PACED, SHEETS, Sheet, frames};
 
 pub(crate) static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 
@@ -109,6 +109,13 @@ fn main() -> ! {
             "frame scene={name} crc={crc:08x} instructions={instructions}"
         ));
         count += 1;
+    }
+    if IS_WHOLE {
+        for paced in PACED {
+            let worst = bench::worst_line(Frame::Paced(paced), &counter, &mut rooms);
+            let name = paced.name;
+            console.line(format_args!("figure name=worst_line_{name} value={worst}"));
+        }
     }
     // What frames take; kernels lend memory from the stack.
     let stack = rooms::stack_peak();

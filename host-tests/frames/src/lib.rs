@@ -1,8 +1,10 @@
 //! The frames of the firmware as this machine draws them: their checksums, what they have, and pictures of them.
 
+mod paced;
 mod played;
 mod values;
 
+pub use paced::{PacedFrame, paced_frame};
 pub use played::played_frame;
 pub use values::{Sent, values_pictures, values_sent};
 
@@ -81,6 +83,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
         let crc = match frame {
             Frame::Suite(suite) => suite_frame(suite)?.crc(),
             Frame::InParts(suite) => in_parts_frame(suite)?.crc(),
+            Frame::Paced(paced) => paced_frame(paced)?.crc(),
             Frame::Values(values) => crc(&values_sent(values, 64)?.words),
             Frame::Played(played) => played_frame(played)?.crc(),
             Frame::B(scene) => scene_b_frame(scene)?.crc(),

@@ -108,6 +108,9 @@ fn firmware_runs_the_same_everywhere() -> Result<(), Box<dyn std::error::Error>>
                 "{sections:?}"
             );
         }
+        if profile == Profile::Release {
+            paced_lines_cost_no_more_than_they_may(&board, &measured.output);
+        }
         let frames = &measured.output.frames;
         assert_eq!(frames.len(), host.len(), "{}", board.name);
         for frame in frames {
@@ -123,6 +126,25 @@ fn firmware_runs_the_same_everywhere() -> Result<(), Box<dyn std::error::Error>>
     let again = measure(&toolchain, &M3, Profile::Release, &[])?;
     assert_eq!(again, released);
     Ok(())
+}
+
+/// The dearest line of each frame that is paced, of those whose costs are those of the board's code (X9).
+///
+/// Kills: what it costs to choose how runs are coloured is not paid for.
+fn paced_lines_cost_no_more_than_they_may(board: &Board, output: &Output) {
+    for paced in scenes::PACED {
+        let worst = output.figures[&format!("worst_line_{}", paced.name)];
+        let most = u64::from(paced.pace.most);
+        println!("{}: {worst} of {most} on {}", paced.name, board.name);
+        let is_of_board = *board != M0_PLUS || paced.name.ends_with("_m0");
+        assert!(worst > most / 4, "{} on {}", paced.name, board.name);
+        assert!(
+            !is_of_board || worst <= most,
+            "{} on {}",
+            paced.name,
+            board.name
+        );
+    }
 }
 
 /// A frame that is stepped through has the instructions that the firmware counts: but for two

@@ -27,14 +27,32 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     }
 }
 
-/// Measures a frame, and prints it.
-fn measure(name: &str, frame: Frame, counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+/// Instructions of the dearest line of a frame, to a tick.
+pub(crate) fn worst_line(frame: Frame, counter: &Counter, rooms: &mut Rooms) -> u64 {
+    let sink = clocked(frame, 1, counter, rooms);
+    let worst = sink.lines.iter().max().copied().unwrap_or_default();
+    u64::from(worst) * INSTRUCTIONS_PER_TICK
+}
+
+/// Draws a frame from so many places of a tick.
+fn clocked<'c>(
+    frame: Frame,
+    phases: u32,
+    counter: &'c Counter,
+    rooms: &mut Rooms,
+) -> Clocked<'c> {
     let mut sink = Clocked::new(counter);
-    for phase in 0..PHASES {
+    for phase in 0..phases {
         counter.wait(phase);
         sink.last = counter.ticks();
         draw(frame, 1, rooms, &mut sink);
     }
+    sink
+}
+
+/// Measures a frame, and prints it.
+fn measure(name: &str, frame: Frame, counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    let sink = clocked(frame, PHASES, counter, rooms);
     let scale = |ticks: u32| u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES);
     let pass_one = scale(sink.pass_one);
     for (row, costs) in sink.lines.chunks(ROW).enumerate() {

@@ -1,0 +1,255 @@
+//! Lines that cost no more than they may (X9).
+//!
+//! Each step asks first whether the line can pay for it, at the most that it can cost; [`Pace`] has the steps, and what
+//! comes of it where it cannot. Here triangles begin, turn and end; in `runs` is what is seen of them, and its colours.
+//!
+//! All of that hangs on lines and costs alone, not on which line was drawn before: lines in any order give the same
+//! picture.
+
+use super::line::fill_line;
+use super::pace::{Pace, Paid};
+use super::renderer::{LineError, Renderer, View};
+use super::rival::deepen;
+use super::runs::Runs;
+use super::spans::Line;
+use crate::look::{Look, WordOf};
+use crate::num::{bit, take_first};
+use crate::scene::{NONE, Scene};
+
+/// Draws a line, as [`Renderer::draw_known`] does.
+type DrawPaced<L, const WORDS: usize> =
+    fn(&mut Renderer<'_, L, WORDS>, &View<'_>, u16, &mut [WordOf<L>], WordOf<L>) -> bool;
+
+/// Checks a scene, as [`Renderer::check`] does.
+type CheckPaced<L, const WORDS: usize> =
+    fn(&Renderer<'_, L, WORDS>, &Scene<'_, '_, L>) -> Result<(), LineError>;
+
+/// What keeps lines within their cost, as functions: a program that names it nowhere does not have its code.
+#[derive(Debug)]
+pub(super) struct Pacer<L: Look, const WORDS: usize> {
+    pub(super) draw: DrawPaced<L, WORDS>,
+    /// Whether it can draw a scene.
+    pub(super) check: CheckPaced<L, WORDS>,
+    pub(super) pace: Pace,
+    pub(super) paid: Paid,
+    /// What is left for the pixels of the line that was begun last.
+    pub(super) left: u32,
+    /// The line after the one whose triangles begin next, and the first of them.
+    line: u16,
+    rest: u16,
+}
+
+/// The most lines whose triangles begin on one.
+const MOST_LINES: u32 = 8;
+
+impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
+    pub(super) fn new(pace: Pace) -> Self {
+        Self {
+            draw: |renderer, view, line, pixels, background| {
+                let Some(mut pacer) = renderer.pacer.take() else {
+                    return false;
+                };
+                let drawn = renderer.draw_paced(&mut pacer, view, line, pixels, background);
+                renderer.pacer = Some(pacer);
+                drawn
+            },
+            check: |renderer, scene| renderer.check_paced(scene),
+            pace,
+            paid: Paid::default(),
+            left: 0,
+            line: 0,
+            rest: NONE,
+        }
+    }
+
+    /// Pays for something, if that leaves as much as is said.
+    pub(super) fn pay(&mut self, cost: u32, leaves: u32) -> bool {
+        match self.left.checked_sub(cost) {
+            Some(left) if left >= leaves => {
+                self.left = left;
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Those of some slots whose sides the line can pay for; the others are given up.
+    fn pay_each(&mut self, mut slots: u32) -> u32 {
+        let mut paid = 0;
+        while slots != 0 {
+            let one = bit(take_first(&mut slots));
+            if self.pay(self.pace.turn.into(), 0) {
+                paid |= one;
+            } else {
+                self.paid.lost += 1;
+            }
+        }
+        paid
+    }
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// The same, and no line costs more than its pace allows (X9): where one would, quality is lowered, in the order that
+    /// [`Pace`] tells, and [`paid`](Renderer::paid) says what it was. Where nothing is lowered, pictures are the same.
+    ///
+    /// It wants cells for depth, and as many slots as there are triangles on a line: what finds no slot begins when one
+    /// is free. It refuses draw calls with values that few have, and neither fetches ahead nor counts:
+    /// [`LineError::Paced`]. Costs are those of lines drawn one after the other from the top; one that is drawn
+    /// further down has the same picture, and takes the time of what begins and ends above it.
+    ///
+    /// A program that names this nowhere does not have the code.
+    #[must_use]
+    pub fn paced(self, pace: Pace) -> Self {
+        Self {
+            pacer: Some(Pacer::new(pace)),
+            ..self
+        }
+    }
+
+    /// What a [paced](Renderer::paced) renderer has paid since it began a frame, or went back to a line above the last; all
+    /// 0 of another.
+    #[must_use]
+    pub fn paid(&self) -> Paid {
+        self.pacer
+            .as_ref()
+            .map_or(Paid::default(), |pacer| pacer.paid)
+    }
+
+    /// Whether a paced renderer can draw a scene.
+    fn check_paced(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
+        if scene.has_values || self.fetcher.is_some() || self.counter.is_some() {
+            return Err(LineError::Paced);
+        }
+        let (needed, have) = (usize::from(scene.screen().width()), self.depth.len());
+        if have < needed {
+            return Err(LineError::Depth { needed, have });
+        }
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn draw_paced(
+        &mut self,
+        pacer: &mut Pacer<L, WORDS>,
+        view: &View<'_>,
+        line: u16,
+        pixels: &mut [WordOf<L>],
+        background: WordOf<L>,
+    ) -> bool {
+        self.advance_paced(pacer, view, line);
+        self.counts.peak = self.counts.peak.max(self.cache.in_use());
+        let waits = pacer.rest != NONE || pacer.line <= line;
+        if self.cache.in_use() == 0 && !waits {
+            fill_line::<L>(pixels, background);
+            return false;
+        }
+        let (before, left) = (pacer.paid, pacer.left);
+        let mut out = Line {
+            deep: view.deep,
+            nearest_first: view.deep,
+            dither: self.dither,
+            view,
+            number: u32::from(line),
+            pixels,
+        };
+        let depth = core::mem::take(&mut self.depth);
+        let mut runs = Runs::of(&mut *depth);
+        if self.find_runs(pacer, &mut runs, &out) {
+            self.colour_runs(pacer, &runs, &mut out, background);
+        } else {
+            pacer.paid.left_out += out.pixels.len() as u32;
+            fill_line::<L>(out.pixels, background);
+        }
+        self.depth = depth;
+        let is_lowered = pacer.paid != before;
+        let cost = pacer.pace.most - pacer.left;
+        pacer.paid.dearest = pacer.paid.dearest.max(cost);
+        pacer.left = left;
+        pacer.paid.lines += u32::from(waits || is_lowered);
+        true
+    }
+
+    /// Brings the cache to a line, as far as each line up to it can pay for.
+    fn advance_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>, line: u16) {
+        if self.content != Some(view.content) || self.next > line + 1 {
+            self.start_anew(view);
+            (pacer.paid, pacer.line, pacer.rest) = (Paid::default(), view.first, NONE);
+        }
+        let most = pacer.pace.for_spans(view.frame.width as u32);
+        while self.next <= line {
+            let now = self.next;
+            self.next = now + 1;
+            pacer.left = most;
+            if self.cache.enter_line(now) {
+                self.change_paced(pacer, view);
+            }
+            self.begin_paced(pacer, view, now, most / 2);
+        }
+    }
+
+    /// What turns or ends on a line.
+    #[inline(never)]
+    fn change_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>) {
+        let begins_block = self.cache.begins_block();
+        for word in 0..WORDS {
+            if begins_block {
+                for (slots, turns) in self.cache.take_block(word).into_iter().zip([true, false]) {
+                    let mut asked = pacer.pay_each(slots);
+                    self.cache.give_up(word, slots & !asked);
+                    while asked != 0 {
+                        self.ask_change(view, word, take_first(&mut asked), turns);
+                    }
+                }
+            }
+        }
+        for word in 0..WORDS {
+            let turning = self.cache.take_changes(word).turning;
+            let turned = pacer.pay_each(turning);
+            self.cache.give_up(word, turning & !turned);
+            self.turn_all(view, word, turned);
+        }
+    }
+
+    /// What begins on a line, after what began above it and had to wait.
+    #[inline(never)]
+    fn begin_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>, now: u16, leaves: u32) {
+        for _ in 0..MOST_LINES {
+            let is_late = pacer.line <= now;
+            while let Some(object) = view.objects.get(usize::from(pacer.rest)) {
+                let Some(triangle) = view.triangle(object) else {
+                    return;
+                };
+                if triangle.lines().end <= i32::from(now) {
+                    if !pacer.pay(pacer.pace.span.into(), 0) {
+                        return;
+                    }
+                    pacer.paid.lost += u32::from(is_late);
+                    pacer.rest = object.next;
+                    continue;
+                }
+                let Some(slot) = self.cache.free() else {
+                    return;
+                };
+                if !pacer.pay(pacer.pace.of_begin(&triangle), leaves) {
+                    return;
+                }
+                let made = self.take_in(view, slot, pacer.rest, object, now);
+                if made != 0 {
+                    self.count_set_ups(made);
+                    self.counts.hits += 1;
+                    pacer.paid.late += u32::from(is_late);
+                    if let Some(slot) = self.cache.slot(slot).filter(|_| view.deep) {
+                        deepen::<L>(slot, view);
+                    }
+                }
+                pacer.rest = object.next;
+            }
+            if pacer.line > now {
+                break;
+            }
+            let bin = usize::from(pacer.line.wrapping_sub(view.first));
+            pacer.rest = view.bins.get(bin).copied().unwrap_or(NONE);
+            pacer.line += 1;
+        }
+    }
+}

@@ -1,0 +1,390 @@
+//! Who is seen on a [paced](super::paced) line, run by run (X9).
+//!
+//! Runs are found before any pixel is coloured, so what the colours cost is known. They lie in the cells of depth, a
+//! word each: no column has two.
+
+use super::near::{Field, NUMBER, Taken, number_of};
+use super::pace::Pace;
+use super::paced::Pacer;
+use super::renderer::Renderer;
+use super::rival::{rival_of, slope_of};
+use super::slot::Flags;
+use super::spans::{Line, Span, columns_of};
+use crate::look::{Fill, Look};
+use crate::num::{bit, take_first};
+
+/// Runs of pixels, and what they cost with all of their colours.
+pub(super) struct Runs<'c> {
+    cells: &'c mut [u32],
+    pub(super) count: usize,
+    pub(super) cost: u32,
+}
+
+/// A run of pixels of what is in a slot.
+pub(super) struct Run {
+    pub(super) slot: usize,
+    pub(super) columns: Span,
+}
+
+impl<'c> Runs<'c> {
+    pub(super) fn of(cells: &'c mut [u32]) -> Self {
+        Self {
+            cells,
+            count: 0,
+            cost: 0,
+        }
+    }
+
+    /// Adds a run that costs so much. Columns and slots have fewer than 1,024.
+    #[inline(always)]
+    fn add(&mut self, slot: usize, columns: Span, cost: u32) {
+        if let Some(cell) = self.cells.get_mut(self.count) {
+            *cell = (slot as u32) << 20 | columns.start << 10 | columns.end;
+            self.count += 1;
+            self.cost = self.cost.saturating_add(cost);
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn iter(&self) -> impl Iterator<Item = Run> {
+        let cells = self.cells.get(..self.count).unwrap_or_default();
+        cells.iter().map(|cell| Run {
+            slot: (cell >> 20) as usize,
+            columns: Span {
+                start: cell >> 10 & 1023,
+                end: cell & 1023,
+            },
+        })
+    }
+}
+
+/// Words of a mask that a span takes.
+#[inline(always)]
+fn words_of(span: Span) -> u32 {
+    (span.end >> 5).saturating_sub(span.start >> 5) + 1
+}
+
+impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
+    /// Finds the runs of all slots; `false` where the line cannot pay for finding them.
+    #[inline(never)]
+    pub(super) fn find_runs(
+        &mut self,
+        pacer: &mut Pacer<L, WORDS>,
+        runs: &mut Runs<'_>,
+        out: &Line<'_, '_, L>,
+    ) -> bool {
+        let found = self.cache.in_use() * u32::from(pacer.pace.span);
+        if !pacer.pay(found, 0) {
+            return false;
+        }
+        let words = self.find_columns(out);
+        // Once to cover them, and once more to find who is seen.
+        if !pacer.pay(2 * words * u32::from(pacer.pace.word), 0) {
+            return false;
+        }
+        let met = self.cover_columns();
+        let listed = self.add_alone(pacer, runs, met);
+        if met {
+            // So many spans cover columns in at most twice as many runs; what is compared pays for its own.
+            if !pacer.pay(2 * listed * u32::from(pacer.pace.span), 0) {
+                self.covered.clear();
+                self.over.clear();
+                return false;
+            }
+            self.over.clear();
+            // As much for colours as for finding who is seen.
+            let leaves = pacer.left / 2;
+            let sorted = self.sort_met(pacer, leaves, out);
+            self.add_met(pacer, leaves, runs, &sorted, out);
+            self.written.clear();
+        }
+        true
+    }
+
+    /// Finds the columns of all slots; how many words of masks they take.
+    #[inline(never)]
+    fn find_columns(&mut self, out: &Line<'_, '_, L>) -> u32 {
+        let mut words = 0;
+        for word in 0..WORDS {
+            let (slots, spans) = (&self.cache.slots[word], &mut self.cache.spans[word]);
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let i = take_first(&mut used) as usize & 31;
+                let span = columns_of::<L>(&slots[i], out);
+                spans[i] = span.start << 16 | span.end;
+                words += words_of(span);
+            }
+        }
+        words
+    }
+
+    /// Covers the columns of all slots; whether two share one.
+    #[inline(never)]
+    fn cover_columns(&mut self) -> bool {
+        let mut met = false;
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            while used != 0 {
+                let i = take_first(&mut used) as usize & 31;
+                let Span { start, end } = Span::of(self.cache.spans[word][i]);
+                if start < end {
+                    met |= self.covered.cover_over(&mut self.over, start, end);
+                }
+            }
+        }
+        met
+    }
+
+    /// The columns of a slot.
+    #[inline(always)]
+    fn columns(&self, number: usize) -> Span {
+        let span = self.cache.spans.as_flattened().get(number).copied();
+        Span::of(span.unwrap_or_default())
+    }
+
+    /// Adds spans that meet nobody, and lists the others; how many these are.
+    #[inline(never)]
+    fn add_alone(&mut self, pacer: &Pacer<L, WORDS>, runs: &mut Runs<'_>, met: bool) -> u32 {
+        let mut all = 0;
+        for word in 0..WORDS {
+            let mut used = self.cache.used[word];
+            let mut listed = 0;
+            while used != 0 {
+                let i = take_first(&mut used);
+                let number = word * 32 + i as usize;
+                let span = Span::of(self.cache.spans[word][i as usize & 31]);
+                if span.start >= span.end {
+                    continue;
+                }
+                if met && self.over.meets(span.start, span.end) {
+                    listed |= bit(i);
+                    all += 1;
+                } else {
+                    let cost = self.cost_of(pacer, number, span.end - span.start);
+                    runs.add(number, span, cost);
+                }
+            }
+            self.cache.listed[word] = listed;
+        }
+        all
+    }
+
+    /// What it costs to colour so many pixels of a slot.
+    #[inline(always)]
+    pub(super) fn cost_of(&self, pacer: &Pacer<L, WORDS>, number: usize, width: u32) -> u32 {
+        let Pace {
+            large, run, pixel, ..
+        } = pacer.pace;
+        let cost = u32::from(run) + u32::from(pixel) * width;
+        match self.flags(number).fill() {
+            Fill::Plain | Fill::Small => cost,
+            Fill::Wide => 2 * cost,
+            // Planes are made anew each time.
+            Fill::Thin => 2 * cost + u32::from(large),
+        }
+    }
+
+    /// What is more where a slot without a plane of depth is compared.
+    #[inline(always)]
+    fn if_thin(&self, pacer: &Pacer<L, WORDS>, number: usize) -> u32 {
+        if self.flags(number).lacks_depth() {
+            return pacer.pace.large.into();
+        }
+        0
+    }
+
+    #[inline(always)]
+    fn flags(&self, number: usize) -> Flags {
+        let slot = self.cache.slots.as_flattened().get(number);
+        Flags(slot.map_or(0, |slot| slot.flags))
+    }
+
+    /// Sorts the slots that are listed from the nearest on, if the line can pay for it, whatever their order was
+    /// on another line.
+    #[inline(never)]
+    fn sort_met(
+        &mut self,
+        pacer: &mut Pacer<L, WORDS>,
+        leaves: u32,
+        out: &Line<'_, '_, L>,
+    ) -> Sorted<WORDS> {
+        let step = u32::from(pacer.pace.step);
+        let mut sorted = Sorted {
+            keys: [[0; 32]; WORDS],
+            slots: 0,
+            is_whole: true,
+        };
+        for word in 0..WORDS {
+            let mut listed = self.cache.listed[word];
+            while listed != 0 {
+                let number = word * 32 + take_first(&mut listed) as usize;
+                let slots = sorted.slots;
+                let most = leaves + slots as u32 * step;
+                sorted.is_whole &= pacer.pay(self.if_thin(pacer, number), most);
+                let keys = sorted.keys.as_flattened_mut();
+                if sorted.is_whole {
+                    let key = self.find_key(number, out);
+                    pacer.left -= step * insert_falling(keys, slots, key);
+                } else if let Some(to) = keys.get_mut(slots) {
+                    *to = number as u32;
+                }
+                sorted.slots = slots + 1;
+            }
+        }
+        sorted
+    }
+
+    /// The nearest depth of a slot's span, or what stands for it, and its number; the farthest is kept.
+    #[inline(always)]
+    fn find_key(&mut self, number: usize, out: &Line<'_, '_, L>) -> u32 {
+        let span = self.columns(number);
+        let (Some(slot), Some(kept)) = (
+            self.cache.slots.as_flattened().get(number),
+            self.cache.far.as_flattened_mut().get_mut(number),
+        ) else {
+            return number as u32;
+        };
+        let [near, far] = slope_of::<L>(slot, span, out).range(span);
+        *kept = far;
+        near & !NUMBER | number as u32
+    }
+
+    /// Adds what is seen of the slots that are sorted. Those that may lie across what comes later are compared, while
+    /// half of what the line has is left.
+    #[inline(never)]
+    fn add_met(
+        &mut self,
+        pacer: &mut Pacer<L, WORDS>,
+        leaves: u32,
+        runs: &mut Runs<'_>,
+        sorted: &Sorted<WORDS>,
+        out: &Line<'_, '_, L>,
+    ) {
+        let mut free = out.pixels.len() as u32;
+        let keys = sorted.keys.as_flattened().get(..sorted.slots);
+        let keys = keys.unwrap_or_default();
+        for k in 0..sorted.slots {
+            let field = Field::of(self.cache, keys);
+            let Some(&key) = keys.get(k) else {
+                return;
+            };
+            let (number, span) = (number_of::<WORDS>(key), field.span(key));
+            let (Some(slot), Some(&far)) = (
+                self.cache.slots.as_flattened().get(number),
+                self.cache.far.as_flattened().get(number),
+            ) else {
+                return;
+            };
+            if free == 0 {
+                break;
+            }
+            if self.written.has_all(span.start, span.end) {
+                continue;
+            }
+            let after = Taken {
+                slots: k + 1,
+                guests: 0,
+            };
+            let rivals = match sorted.is_whole {
+                true => self.pay_rivals(pacer, &field, Behind { span, far, after }, leaves),
+                false => Rivals::TooMany,
+            };
+            let mut rest = span;
+            if let Rivals::Paid = rivals {
+                let mut taken = self.written.part(span.start, span.end);
+                let rival = rival_of::<L>(slot, span, out);
+                field.hide(rival, far, after, out, &mut taken);
+                while let Some(run) = rest.take_run(&mut taken) {
+                    self.written.cover(run.start, run.end);
+                    free -= run.end - run.start;
+                    let cost = self.cost_of(pacer, number, run.end - run.start);
+                    runs.add(number, run, cost);
+                }
+                continue;
+            }
+            while let Some(run) = rest.take_run(&mut self.written) {
+                let width = run.end - run.start;
+                free -= width;
+                runs.add(number, run, self.cost_of(pacer, number, width));
+                if let Rivals::TooMany = rivals {
+                    pacer.paid.unsorted += width;
+                }
+            }
+        }
+    }
+
+    /// Pays for comparing a span with what comes later and may be seen before it.
+    #[inline(always)]
+    fn pay_rivals(
+        &self,
+        pacer: &mut Pacer<L, WORDS>,
+        field: &Field<'_, L, WORDS>,
+        of: Behind,
+        leaves: u32,
+    ) -> Rivals {
+        let (pair, step) = (u32::from(pacer.pace.pair), u32::from(pacer.pace.step));
+        let mut cost = 0u32;
+        for &key in field.later(of.after.slots) {
+            if key | NUMBER < of.far {
+                break;
+            }
+            if !pacer.pay(step, leaves) {
+                return Rivals::TooMany;
+            }
+            if field.span(key).meets(of.span) {
+                cost += pair + self.if_thin(pacer, number_of::<WORDS>(key));
+            }
+        }
+        match cost {
+            0 => Rivals::None,
+            _ if pacer.pay(cost, leaves) => Rivals::Paid,
+            _ => Rivals::TooMany,
+        }
+    }
+}
+
+/// Inserts a key behind so many that fall; how many it has passed.
+#[inline(always)]
+fn insert_falling(keys: &mut [u32], count: usize, key: u32) -> u32 {
+    let mut keys = keys.get_mut(..=count).unwrap_or_default();
+    let mut passed = 0;
+    while let [.., before, last] = keys {
+        *last = key;
+        if *before >= key {
+            break;
+        }
+        *last = *before;
+        *before = key;
+        passed += 1;
+        keys = keys.split_last_mut().map_or(&mut [], |(_, rest)| rest);
+    }
+    if let [first] = keys {
+        *first = key;
+    }
+    passed
+}
+
+/// Slots from the nearest on, if they are sorted.
+struct Sorted<const WORDS: usize> {
+    keys: [[u32; 32]; WORDS],
+    slots: usize,
+    is_whole: bool,
+}
+
+/// A span, its farthest depth, and what comes after it.
+#[derive(Clone, Copy)]
+struct Behind {
+    span: Span,
+    far: u32,
+    after: Taken,
+}
+
+/// What comes later than a span and may be seen before it.
+enum Rivals {
+    /// Nothing.
+    None,
+    /// It is compared.
+    Paid,
+    /// More than the line can pay for.
+    TooMany,
+}

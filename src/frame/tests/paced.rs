@@ -1,0 +1,246 @@
+//! Lines that cost no more than they may (X9).
+
+use super::{Crowd, WIDE, WIDTH, lines, with_scene};
+use crate::frame::{FastMemory, LineError, Memory, Pace, Paid, Renderer};
+use crate::link::Link;
+use crate::look::{Gouraud, Look, Textured, WordOf};
+use crate::num::random::Rng;
+use crate::pixel::{PixelFormat, Rgb565, Rgb888};
+use crate::scene::{Scene, Texture};
+use std::boxed::Box;
+use std::vec::Vec;
+
+/// Costs that leave nothing out.
+const FREE: Pace = Pace {
+    most: u32::MAX,
+    ..PACE
+};
+
+const PACE: Pace = Pace {
+    most: 3_000,
+    line: 100,
+    column: 2,
+    begin: 30,
+    large: 40,
+    turn: 10,
+    span: 5,
+    word: 1,
+    step: 1,
+    pair: 40,
+    run: 20,
+    pixel: 2,
+};
+
+/// The lines of a picture in this order, what they paid, and what the cache did.
+struct Drawn<W> {
+    lines: Vec<Vec<W>>,
+    paid: Paid,
+    spilled: u32,
+}
+
+fn paced<L: Look>(
+    scene: &Scene<'_, '_, L>,
+    slots: u16,
+    pace: Pace,
+    order: &[u16],
+) -> Drawn<WordOf<L>> {
+    let mut cache = Box::new(FastMemory::<L, 7>::new());
+    cache.set_limit(slots);
+    let mut links = std::vec![Link::NONE; scene.objects()];
+    let mut depth = [0; WIDTH as usize];
+    let memory = Memory {
+        cache: &mut cache,
+        links: &mut links,
+        depth: &mut depth,
+    };
+    let mut renderer = Renderer::new(memory).paced(pace);
+    let background = L::Pixel::from_rgb8([9, 9, 9]);
+    let line = |&line: &u16| {
+        let mut pixels = std::vec![WordOf::<L>::default(); WIDTH.into()];
+        let drawn = renderer.draw_line(scene, line, &mut pixels, background);
+        drawn.unwrap();
+        pixels
+    };
+    let lines = order.iter().map(line).collect();
+    Drawn {
+        lines,
+        paid: renderer.paid(),
+        spilled: renderer.counts().spilled,
+    }
+}
+
+fn all() -> Vec<u16> {
+    (0..WIDE.height).collect()
+}
+
+/// Calls `see` with scenes of few and of many triangles, some by priority.
+fn each_scene<L: Look>(
+    texture: Option<&Texture<'_>>,
+    seed: u64,
+    mut see: impl FnMut(&Scene<'_, '_, L>, &mut Rng),
+) {
+    let mut rng = Rng(seed);
+    for round in 0..24 {
+        let count = [2, 8, 30, 80][round % 4];
+        let ranked = round % 8 > 5;
+        let crowds = [2, 1].map(|p| Crowd::new(&mut rng, count, if ranked { p } else { 0 }));
+        with_scene::<L>(WIDE, &crowds, texture, |scene| see(scene, &mut rng));
+    }
+}
+
+fn texels() -> Vec<u16> {
+    (0..64 * 64).map(|i: u16| i.wrapping_mul(37)).collect()
+}
+
+fn differing<W: PartialEq>(a: &[W], b: &[W]) -> u32 {
+    a.iter().zip(b).filter(|(a, b)| a != b).count() as u32
+}
+
+fn time_enough<L: Look>(texture: Option<&Texture<'_>>, seed: u64)
+where
+    WordOf<L>: PartialEq,
+{
+    each_scene::<L>(texture, seed, |scene, _| {
+        let (want, missed) = lines(scene, 224, true, &all());
+        assert_eq!(missed, 0);
+        let got = paced(scene, 224, FREE, &all());
+        assert!(got.lines == want);
+        let dearest = got.paid.dearest;
+        let want = Paid {
+            dearest,
+            ..Paid::default()
+        };
+        assert_eq!((got.paid, got.spilled), (want, 0));
+    });
+}
+
+/// Kills: of equal depths the triangle submitted first is seen; depths compared where spans do not meet alone; runs
+/// coloured from their own start.
+#[test]
+fn with_time_enough_pictures_are_the_same() {
+    let words = texels();
+    let texture = Texture::words(&words, 64, 64).unwrap();
+    time_enough::<Textured<Rgb565>>(Some(&texture), 151);
+    time_enough::<Gouraud<Rgb888>>(None, 152);
+}
+
+/// Kills: pixels that are not counted where spans are left out, have one colour, or join what is left of them.
+#[test]
+fn no_more_pixels_differ_than_were_paid() {
+    let mut sums = [0; 5];
+    for most in [0, 400, 700, 1_000, 1_500, 2_000, 3_000, 6_000] {
+        // Nothing begins late.
+        let pace = Pace {
+            most,
+            begin: 0,
+            large: 0,
+            turn: 0,
+            ..PACE
+        };
+        each_scene::<Gouraud<Rgb888>>(None, 153, |scene, _| {
+            let (want, _) = lines(scene, 224, true, &all());
+            let Drawn { lines, paid, .. } = paced(scene, 224, pace, &all());
+            assert_eq!((paid.late, paid.lost), (0, 0));
+            let off: Vec<u32> = lines
+                .iter()
+                .zip(&want)
+                .map(|(a, b)| differing(a, b))
+                .collect();
+            let (pixels, lines) = (off.iter().sum(), off.iter().filter(|&&n| n > 0).count());
+            assert!(
+                paid.even + paid.joined + paid.unsorted + paid.left_out >= pixels,
+                "{most}: {paid:?}, {pixels}"
+            );
+            assert!(paid.lines >= lines as u32, "{most}: {paid:?}, {lines}");
+            for (sum, part) in
+                sums.iter_mut()
+                    .zip([paid.even, paid.joined, paid.unsorted, paid.left_out, pixels])
+            {
+                *sum += part;
+            }
+        });
+    }
+    std::println!("{sums:?}");
+    assert!(sums.iter().all(|&sum| sum > 5_000), "{sums:?}");
+}
+
+/// Kills: what is left for pixels goes on to what begins; waiting triangles that are forgotten where a line is passed over.
+#[test]
+fn lines_in_any_order_pay_the_same() {
+    let (mut late, mut lost) = (0, 0);
+    for most in [400, 700, 1_500, 3_000] {
+        each_scene::<Gouraud<Rgb888>>(None, 154, |scene, rng| {
+            for slots in [2, 20, 224] {
+                let pace = Pace { most, ..PACE };
+                let want = paced(scene, slots, pace, &all());
+                let some: Vec<u16> = (0..30)
+                    .map(|_| rng.below(WIDE.height.into()) as u16)
+                    .collect();
+                let got = paced(scene, slots, pace, &some);
+                let same = some
+                    .iter()
+                    .zip(&got.lines)
+                    .all(|(&y, l)| *l == want.lines[usize::from(y)]);
+                assert!(same, "{most}, {slots} slots");
+                (late, lost) = (late + want.paid.late, lost + want.paid.lost);
+            }
+        });
+    }
+    std::println!("{late} {lost}");
+    assert!(late > 1_000 && lost > 100, "{late}, {lost}");
+}
+
+/// Kills: a triangle that waited begins with the sides of its first line; lines on which one waits are not counted.
+#[test]
+fn what_waits_for_a_line_is_drawn_below() {
+    let mut waited = 0;
+    each_scene::<Gouraud<Rgb888>>(None, 155, |scene, _| {
+        let (want, _) = lines(scene, 224, true, &all());
+        // Eight begin on a line.
+        let pace = Pace {
+            most: 150_000,
+            begin: 9_000,
+            large: 9_000,
+            column: 0,
+            line: 0,
+            ..PACE
+        };
+        let Drawn { lines, paid, .. } = paced(scene, 224, pace, &all());
+        if paid.late > 0 && paid.lost == 0 {
+            let off = lines.iter().zip(&want).filter(|(a, b)| a != b).count() as u32;
+            assert!(off <= paid.lines, "{off}: {paid:?}");
+            assert_eq!(lines.last(), want.last());
+            waited += 1;
+        }
+    });
+    assert!(waited > 3, "{waited}");
+}
+
+#[test]
+fn what_a_paced_renderer_does_not_do_is_refused() {
+    let mut rng = Rng(156);
+    let crowd = [Crowd::new(&mut rng, 3, 0)];
+    with_scene::<Gouraud<Rgb565>>(WIDE, &crowd, None, |scene| {
+        let mut cache = FastMemory::<Gouraud<Rgb565>, 1>::new();
+        let mut links = std::vec![Link::NONE; scene.objects()];
+        for cells in [0, 95, 96] {
+            let mut depth = std::vec![0; cells];
+            let memory = Memory {
+                cache: &mut cache,
+                links: &mut links,
+                depth: &mut depth,
+            };
+            let renderer = Renderer::new(memory).paced(PACE);
+            let short = LineError::Depth {
+                needed: 96,
+                have: cells,
+            };
+            let want = if cells < 96 { Err(short) } else { Ok(()) };
+            assert_eq!(renderer.check(scene), want);
+            if cells == 96 {
+                let renderer = renderer.fetching(100);
+                assert_eq!(renderer.check(scene), Err(LineError::Paced));
+            }
+        }
+    });
+}
