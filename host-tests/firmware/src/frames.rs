@@ -11,8 +11,8 @@ use scanbeam::scan_out::{Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Frame, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, TexturedLook, Values, ValuesMemory,
-    Variant, WIDTH,
+    Frame, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, TexturedLook, Values,
+    ValuesMemory, Variant, WIDTH,
 };
 
 /// Slots of the caches that are not wide.

@@ -35,12 +35,7 @@ pub(crate) fn worst_line(frame: Frame, counter: &Counter, rooms: &mut Rooms) -> 
 }
 
 /// Draws a frame from so many places of a tick.
-fn clocked<'c>(
-    frame: Frame,
-    phases: u32,
-    counter: &'c Counter,
-    rooms: &mut Rooms,
-) -> Clocked<'c> {
+fn clocked<'c>(frame: Frame, phases: u32, counter: &'c Counter, rooms: &mut Rooms) -> Clocked<'c> {
     let mut sink = Clocked::new(counter);
     for phase in 0..phases {
         counter.wait(phase);
