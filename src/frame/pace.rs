@@ -43,7 +43,7 @@ pub struct Pace {
     pub large: u16,
     /// A triangle of which a side turns.
     pub turn: u16,
-    /// A triangle that is active, and a run where not all can be coloured in full.
+    /// A triangle that is active, three times where it meets others; and a run, where not all can be coloured in full.
     pub span: u16,
     /// 32 columns that it touches, twice a line.
     pub word: u16,
@@ -51,9 +51,10 @@ pub struct Pace {
     pub step: u16,
     /// Two that are compared.
     pub pair: u16,
-    /// A run of pixels that are coloured.
+    /// A run of pixels that are coloured; twice where that is not done in the commonest way, as of large triangles, slivers and
+    /// texels in perspective.
     pub run: u16,
-    /// A pixel of it.
+    /// A pixel of it, likewise.
     pub pixel: u16,
 }
 
