@@ -60,10 +60,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let (mut one, mut more) = (Costs::default(), Costs::default());
         for Run { slot, columns } in runs.iter() {
-            let least = self.cost_of(pacer, slot, 1);
-            let all = self.cost_of(pacer, slot, columns.end - columns.start);
-            one.add(columns, least);
-            more.add(columns, all - least);
+            one.add(columns, self.cost_of(pacer, slot, 1));
+            let others = self.cost_of_others(pacer, slot, columns.end - columns.start);
+            more.add(columns, others);
         }
         let joined = one.pay(&mut pacer.left);
         let even = match joined {
@@ -71,6 +70,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             _ => CLASSES,
         };
         Colouring { joined, even }
+    }
+
+    /// What it costs to colour so many pixels of a slot, beyond the first.
+    #[inline(always)]
+    fn cost_of_others(&self, pacer: &Pacer<L, WORDS>, number: usize, width: u32) -> u32 {
+        self.cost_of(pacer, number, width) - self.cost_of(pacer, number, 1)
     }
 
     /// Colours runs, as well as the line can pay for, and the background.
@@ -83,11 +88,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         background: WordOf<L>,
     ) {
         let Colouring { joined, even } = self.choose(pacer, runs);
-        for Run { slot, columns } in runs.iter() {
+        for Run {
+            slot: number,
+            columns,
+        } in runs.iter()
+        {
             let (width, class) = (columns.end - columns.start, class_of(columns));
-            let all = self.cost_of(pacer, slot, width);
-            let least = self.cost_of(pacer, slot, 1);
-            if class < joined || class == joined && !pacer.pay(least, 0) {
+            if class < joined || class == joined && !pacer.pay(self.cost_of(pacer, number, 1), 0) {
                 self.over.cover(columns.start, columns.end);
                 pacer.paid.joined += width;
                 continue;
@@ -96,11 +103,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 self.cache.slots.as_flattened(),
                 self.cache.spans.as_flattened(),
             );
-            let (Some(slot), Some(&span)) = (slots.get(slot), spans.get(slot)) else {
+            let (Some(slot), Some(&span)) = (slots.get(number), spans.get(number)) else {
                 continue;
             };
             let (drawn, span) = (Drawn::of(slot), Span::of(span));
-            if class > even || class == even && pacer.pay(all - least, 0) {
+            if class > even
+                || class == even && pacer.pay(self.cost_of_others(pacer, number, width), 0)
+            {
                 colour_run::<L>(drawn, span, columns, out);
             } else {
                 colour_evenly::<L>(drawn, span, columns, out);

@@ -79,7 +79,7 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
     /// Whether a slot that comes later shares columns with a span, and may be nearer than `far`.
     #[inline(always)]
     pub(super) fn is_contested(&self, span: Span, far: u32, after: usize) -> bool {
-        self.meets(span, far, self.keys.get(after..).unwrap_or_default())
+        self.meets(span, far, self.later(after))
     }
 
     /// The same of slots with these keys.
@@ -106,7 +106,7 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
         out: &Line<'_, '_, L>,
         mask: &mut Mask,
     ) {
-        for &key in self.keys.get(after.slots..).unwrap_or_default() {
+        for &key in self.later(after.slots) {
             if key | NUMBER < far {
                 break;
             }
@@ -135,7 +135,7 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
         drawing: &mut Drawing<'_>,
         out: &mut Line<'_, '_, L>,
     ) -> usize {
-        let mut keys = self.keys.get(taken.slots..).unwrap_or_default();
+        let mut keys = self.later(taken.slots);
         while let [key, later @ ..] = keys {
             if until > *key {
                 break;
@@ -457,9 +457,14 @@ fn insert_falling(keys: &mut [u32], count: usize, key: u32) {
     insert(keys, count, key, |other| other > key);
 }
 
-/// Inserts a key among the first `count`, behind the last that comes before it.
+/// Inserts a key among the first `count`, behind the last that comes before it; how many come after it.
 #[inline(always)]
-pub(super) fn insert(keys: &mut [u32], count: usize, key: u32, is_before: impl Fn(u32) -> bool) {
+pub(super) fn insert(
+    keys: &mut [u32],
+    count: usize,
+    key: u32,
+    is_before: impl Fn(u32) -> bool,
+) -> u32 {
     let mut keys = keys.get_mut(..=count).unwrap_or_default();
     while let [.., from, to] = keys {
         if is_before(*from) {
@@ -471,4 +476,5 @@ pub(super) fn insert(keys: &mut [u32], count: usize, key: u32, is_before: impl F
     if let Some(to) = keys.last_mut() {
         *to = key;
     }
+    (count + 1 - keys.len()) as u32
 }

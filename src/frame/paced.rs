@@ -127,6 +127,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         Ok(())
     }
 
+    /// Draws a line, as well as it can pay for; `false` where nothing is active on it or waits for it.
     #[inline(never)]
     fn draw_paced(
         &mut self,
@@ -146,7 +147,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let (before, left) = (pacer.paid, pacer.left);
         let mut out = Line {
             deep: view.deep,
-            nearest_first: view.deep,
+            nearest_first: false,
             dither: self.dither,
             view,
             number: u32::from(line),
@@ -190,9 +191,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What turns or ends on a line.
     #[inline(never)]
     fn change_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>) {
-        let begins_block = self.cache.begins_block();
-        for word in 0..WORDS {
-            if begins_block {
+        if self.cache.begins_block() {
+            for word in 0..WORDS {
                 for (slots, turns) in self.cache.take_block(word).into_iter().zip([true, false]) {
                     let mut asked = pacer.pay_each(slots);
                     self.cache.give_up(word, slots & !asked);

@@ -3,7 +3,7 @@
 //! Runs are found before any pixel is coloured, so what the colours cost is known. They lie in the cells of depth, a
 //! word each: no column has two.
 
-use super::near::{Field, NUMBER, Taken, number_of};
+use super::near::{Field, NUMBER, Taken, insert, number_of};
 use super::pace::Pace;
 use super::paced::Pacer;
 use super::renderer::Renderer;
@@ -224,7 +224,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let keys = sorted.keys.as_flattened_mut();
                 if sorted.is_whole {
                     let key = self.find_key(number, out);
-                    pacer.left -= step * insert_falling(keys, slots, key);
+                    pacer.left -= step * insert(keys, slots, key, |other| other > key);
                 } else if let Some(to) = keys.get_mut(slots) {
                     *to = number as u32;
                 }
@@ -341,27 +341,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             _ => Rivals::TooMany,
         }
     }
-}
-
-/// Inserts a key behind so many that fall; how many it has passed.
-#[inline(always)]
-fn insert_falling(keys: &mut [u32], count: usize, key: u32) -> u32 {
-    let mut keys = keys.get_mut(..=count).unwrap_or_default();
-    let mut passed = 0;
-    while let [.., before, last] = keys {
-        *last = key;
-        if *before >= key {
-            break;
-        }
-        *last = *before;
-        *before = key;
-        passed += 1;
-        keys = keys.split_last_mut().map_or(&mut [], |(_, rest)| rest);
-    }
-    if let [first] = keys {
-        *first = key;
-    }
-    passed
 }
 
 /// Slots from the nearest on, if they are sorted.
