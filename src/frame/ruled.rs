@@ -9,7 +9,7 @@ use super::renderer::View;
 use super::rival::Slope;
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
-use crate::num::leading_zeros;
+use crate::num::few_leading_zeros;
 use crate::pixel::{blend, blend_each};
 use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, keep, test};
@@ -197,8 +197,8 @@ fn compare(
 #[inline(never)]
 pub(super) fn each_run(mut bits: u32, mut start: u32, f: &mut dyn FnMut(Span)) {
     while bits != 0 {
-        let skipped = leading_zeros(bits);
-        let pixels = leading_zeros(!(bits << (skipped & 31))).min(32 - skipped);
+        let skipped = few_leading_zeros(bits);
+        let pixels = few_leading_zeros(!(bits << (skipped & 31))).min(32 - skipped);
         start += skipped;
         let end = start + pixels;
         f(Span { start, end });

@@ -1,7 +1,7 @@
 //! What is known of faces before there are objects: their indices, and their normals (K2).
 
 use super::mesh::{Faces, Mesh, QuadSplit};
-use super::transform::unit;
+use super::transform::{unit, wide_cross};
 
 /// Which faces are dropped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -141,18 +141,20 @@ pub(crate) fn each_triangle(faces: Faces<'_>, mut f: impl FnMut(u32, [u16; 3], u
 }
 
 /// The unit normal of a face in Q1.14, from corners in Q1.30; counter-clockwise is outside.
-pub(crate) fn face_normal(p: [[i32; 3]; 3]) -> [i16; 3] {
+pub(crate) fn face_normal(corners: [[i32; 3]; 3]) -> [i16; 3] {
+    unit(wide_normal(corners, 30)).map(|c| c.to_bits())
+}
+
+/// The cross product of two sides of a face, shifted together until they have so many bits: products fit then, and small
+/// faces keep all of theirs.
+#[inline(always)]
+pub(super) fn wide_normal(p: [[i32; 3]; 3], bits: u32) -> [i64; 3] {
     let [a, b] = [1, 2].map(|k| [0, 1, 2].map(|i| i64::from(p[k][i]) - i64::from(p[0][i])));
-    // Shifted together until they have 30 bits, so that the products fit, and small faces keep
-    // all of theirs.
-    let bits = a
-        .iter()
-        .chain(&b)
-        .fold(1, |bits, d| bits | d.unsigned_abs());
-    let down = 34u32.saturating_sub(bits.leading_zeros());
-    let [a, b] = [a, b].map(|d| d.map(|d| i64::from((d >> down) as i32)));
-    let axis = |i: usize, k: usize| a[i] * b[k] - a[k] * b[i];
-    unit([axis(1, 2), axis(2, 0), axis(0, 1)]).map(|c| c.to_bits())
+    let all = a.iter().chain(&b);
+    let magnitudes = all.fold(1, |all, d| all | d.unsigned_abs());
+    let down = (64 - bits).saturating_sub(magnitudes.leading_zeros());
+    let [a, b] = [a, b].map(|d| d.map(|d| (d >> down) as i32));
+    wide_cross(a, b)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@
 use super::bounds::Sphere;
 use super::faces::{MeshError, face_normal};
 use super::mesh::{Coordinate, Faces, place_of};
-use super::transform::{Affine, unit};
+use super::transform::{Affine, cross, dot, unit};
 use core::fmt;
 
 /// Vertices of a part at most.
@@ -379,17 +379,11 @@ impl Eye {
 
 /// Whether a map turns and scales, and does not stretch or mirror: to 2^-14.
 fn is_similar(map: &Affine) -> bool {
-    let m = map.linear.mantissa.map(|m| i64::from(m) >> 1);
+    let m = map.linear.mantissa.map(|m| m >> 1);
     let row = |i: usize| [m[3 * i], m[3 * i + 1], m[3 * i + 2]];
-    let dot = |a: [i64; 3], b: [i64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     let [a, b, c] = [row(0), row(1), row(2)];
     let square = dot(a, a);
     let is_little = |value: i64| value.abs() <= square >> 14;
-    let turned = [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ];
     [
         dot(b, b) - square,
         dot(c, c) - square,
@@ -399,5 +393,5 @@ fn is_similar(map: &Affine) -> bool {
     ]
     .into_iter()
     .all(is_little)
-        && dot(turned.map(|t| t >> 30), c) > 0
+        && dot(cross(a, b), c) > 0
 }

@@ -7,7 +7,7 @@
 use super::camera::{Camera, Screen};
 use super::mesh::Coordinate;
 use super::transform::Affine;
-use crate::num::shift_round;
+use crate::num::{few_leading_zeros, mul_wide, shift_round};
 
 /// Model space to screen, for one draw call.
 #[derive(Clone, Copy, Debug)]
@@ -38,7 +38,7 @@ impl Projection {
             let m = &map.linear.mantissa[3 * i..3 * i + 3];
             let sum: u32 = m.iter().map(|m| m.unsigned_abs()).sum();
             // A power of two is reached, not gone beyond: there is a bit for that.
-            row_bits = row_bits.max(32 - sum.saturating_sub(1).leading_zeros() as i32);
+            row_bits = row_bits.max(32 - few_leading_zeros(sum.saturating_sub(1)) as i32);
         }
         let reach = (row_bits + 1 + map.linear.exponent - 30).max(map.offset.magnitude_bits()) + 1;
         let scale = 29 - reach.max(-100);
@@ -78,5 +78,5 @@ pub(crate) fn along<C: Coordinate>(row: [i32; 3], p: [C; 3], offset: i32) -> i32
 /// A number times a factor, shifted to the left; out of line, since a draw call has twelve.
 #[inline(never)]
 fn scaled(m: i32, factor: i32, shift: i32) -> i32 {
-    shift_round(i64::from(m) * i64::from(factor), shift) as i32
+    shift_round(mul_wide(m, factor), shift) as i32
 }

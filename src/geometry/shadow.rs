@@ -12,7 +12,7 @@
 //! of it, each with its own sign, give the same count as the cut itself. So the eye may be inside a
 //! shadow.
 
-use super::faces::each_triangle;
+use super::faces::{each_triangle, wide_normal};
 use super::mesh::{Coordinate, Mesh};
 use super::transform::Affine;
 use crate::num::I2F14;
@@ -132,23 +132,10 @@ impl Extrusion {
     }
 
     /// Whether a face looks at the light.
-    fn is_lit<C: Coordinate>(&self, corners: [[C; 3]; 3]) -> bool {
-        let p = corners.map(|c| c.map(|c| i64::from(c.to_q30())));
-        let mut e = [[0; 3]; 2];
-        let mut bits = 0;
-        for i in 0..3 {
-            e[0][i] = p[1][i] - p[0][i];
-            e[1][i] = p[2][i] - p[0][i];
-            bits |= e[0][i].unsigned_abs() | e[1][i].unsigned_abs();
-        }
-        // 20 bits: with the direction, no sum reaches 2^60. Exact for coordinates of 16 bits.
-        let down = 44u32.saturating_sub(bits.leading_zeros());
-        let [a, b] = e.map(|e| e.map(|c| c >> down));
-        let normal = [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ];
+    #[inline(never)]
+    fn is_lit(&self, corners: [[i32; 3]; 3]) -> bool {
+        // With the direction, no sum reaches 2^60. Exact for coordinates of 16 bits.
+        let normal = wide_normal(corners, 20);
         let dot = |i: usize| normal[i] * self.direction[i];
         dot(0) + dot(1) + dot(2) > 0
     }
@@ -163,7 +150,7 @@ impl Extrusion {
         each_triangle(mesh.faces, |_, corners, _| {
             let at = |i: usize| mesh.positions.get(usize::from(corners[i])).copied();
             if let (Some(a), Some(b), Some(c)) = (at(0), at(1), at(2)) {
-                if self.is_lit([a, b, c]) {
+                if self.is_lit([a, b, c].map(|p| p.map(C::to_q30))) {
                     f(corners, [a, b, c]);
                 }
             }

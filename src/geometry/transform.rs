@@ -4,7 +4,7 @@
 //! model of any size stands anywhere, products are exact in 64 bits before they are rounded,
 //! and floats are but taken apart: none is reckoned with, so that all targets have the same bits.
 
-use crate::num::{Block, I2F14, divide_signed, inverse_root, shift_round, sin_cos};
+use crate::num::{Block, I2F14, divide_signed, inverse_root, mul_wide, shift_round, sin_cos};
 
 /// An affine map `p -> linear p + offset`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -187,7 +187,7 @@ impl Affine {
         let mut v = [0i64; 3];
         for (i, value) in v.iter_mut().enumerate() {
             for k in 0..3 {
-                *value += i64::from(m[k * 3 + i]) * i64::from(direction[k].to_bits());
+                *value += mul_wide(m[k * 3 + i], direction[k].to_bits().into());
             }
             *value >>= 14;
         }
@@ -211,11 +211,10 @@ impl Affine {
     ///
     /// Right for rotations and uniform scales, as above.
     pub(super) fn origin_in_model(&self) -> Block<3> {
-        let m = self.linear.mantissa.map(i64::from);
-        let o = self.offset.mantissa.map(i64::from);
-        let along = [0, 1, 2].map(|i| m[i] * o[0] + m[3 + i] * o[1] + m[6 + i] * o[2]);
+        let m = &self.linear.mantissa;
+        let along = [0, 1, 2].map(|i| dot([m[i], m[3 + i], m[6 + i]], self.offset.mantissa));
         // The scale squared: the mean of the rows, times 3.
-        let square: i64 = m.iter().map(|c| c * c / 4).sum();
+        let square: i64 = m.iter().map(|&c| mul_wide(c, c) / 4).sum();
         let (along, square) = (Block::new(along, 0), Block::new([square], 0));
         // No square is below 0.
         let divisor = square.mantissa[0] as u32;
@@ -242,7 +241,7 @@ pub(super) fn unit(v: [i64; 3]) -> [I2F14; 3] {
 #[inline(never)]
 pub(super) fn unit_q30(v: [i64; 3]) -> Option<[i32; 3]> {
     let near = near_unit_q30(v);
-    let square: i64 = near.iter().map(|&c| i64::from(c) * i64::from(c)).sum();
+    let square: i64 = near.iter().map(|&c| mul_wide(c, c)).sum();
     // Half of what it lacks, of its length.
     let lacks = ((1 << 60) - square + (1 << 30)) >> 31;
     let mended = |c: i32| c + ((i64::from(c) * lacks + (1 << 29)) >> 30) as i32;
@@ -255,36 +254,40 @@ fn near_unit_q30(v: [i64; 3]) -> [i32; 3] {
     let [x, y, z] = v.map(i64::unsigned_abs);
     // The largest gets 30 bits, so its square 58 at least.
     let up = (x | y | z).leading_zeros() - 2;
-    let v = v.map(|c| (c << up) >> 32);
-    let square = v.iter().map(|c| c * c).sum::<i64>() >> 30;
+    let v = v.map(|c| ((c << up) >> 32) as i32);
+    let square = v.iter().map(|&c| mul_wide(c, c)).sum::<i64>() >> 30;
     let (root, half) = inverse_root((square as u32).max(1 << 28));
-    v.map(|c| ((((c * i64::from(root)) >> (30 - half)) + 1) >> 1) as i32)
+    v.map(|c| ((((i64::from(c) * i64::from(root)) >> (30 - half)) + 1) >> 1) as i32)
 }
 
 /// The scalar product of two vectors in Q1.30 of length up to 1.
 fn dot_q30(a: [i32; 3], b: [i32; 3]) -> i64 {
-    let [x, y, z] = [0, 1, 2].map(|i| i64::from(a[i]) * i64::from(b[i]));
-    shift_round(x + y + z, -30)
+    shift_round(dot(a, b), -30)
+}
+
+/// The scalar product.
+pub(super) fn dot(a: [i32; 3], b: [i32; 3]) -> i64 {
+    let [x, y, z] = [0, 1, 2].map(|i| mul_wide(a[i], b[i]));
+    x + y + z
 }
 
 /// The cross product of such, likewise.
+#[inline(never)]
 pub(super) fn cross(a: [i32; 3], b: [i32; 3]) -> [i32; 3] {
     wide_cross(a, b).map(|c| ((c + (1 << 29)) >> 30) as i32)
 }
 
 /// The cross product.
-#[inline(never)]
+#[inline(always)]
 pub(super) fn wide_cross(a: [i32; 3], b: [i32; 3]) -> [i64; 3] {
-    let part =
-        |i: usize, k: usize| i64::from(a[i]) * i64::from(b[k]) - i64::from(a[k]) * i64::from(b[i]);
+    let part = |i: usize, k: usize| mul_wide(a[i], b[k]) - mul_wide(a[k], b[i]);
     [part(1, 2), part(2, 0), part(0, 1)]
 }
 
 /// A matrix, row by row, times a vector.
 #[inline(never)]
 fn times(m: &[i32; 9], v: [i32; 3]) -> [i64; 3] {
-    let wide = |i: usize, k: usize| i64::from(m[3 * i + k]) * i64::from(v[k]);
-    [0, 1, 2].map(|i| wide(i, 0) + wide(i, 1) + wide(i, 2))
+    [0, 1, 2].map(|i| dot([m[3 * i], m[3 * i + 1], m[3 * i + 2]], v))
 }
 
 /// The sum of two vectors, rounded once.

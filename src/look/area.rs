@@ -1,7 +1,7 @@
 //! What the planes of a textured triangle share: its sides, and the reciprocal of its area (H4).
 
 use super::mapping::Corner;
-use crate::num::{leading_zeros, mul_high, recip, recip_16};
+use crate::num::{leading_zeros, mul_high, mul_wide, recip, recip_16};
 use crate::span::Frame;
 
 /// What the planes of a triangle share.
@@ -134,7 +134,7 @@ impl Large {
         };
         let (dx1, dy1) = (way(a.x, b.x)?, way(a.y, b.y)?);
         let (dx2, dy2) = (way(a.x, c.x)?, way(a.y, c.y)?);
-        let area = i64::from(dx1) * i64::from(dy2) - i64::from(dx2) * i64::from(dy1);
+        let area = mul_wide(dx1, dy2) - mul_wide(dx2, dy1);
         if area <= 0 {
             return None;
         }
@@ -153,7 +153,7 @@ impl Large {
     /// `64 (a b + c d) / area`, of a rise and a side each, with [`Self::FINER`] fraction bits, rounded down; `None` where 32
     /// bits do not hold it.
     fn step(&self, a: i32, b: i32, c: i32, d: i32) -> Option<i64> {
-        let sum = i64::from(a) * i64::from(b) + i64::from(c) * i64::from(d);
+        let sum = mul_wide(a, b) + mul_wide(c, d);
         let down = 33u32.saturating_sub(sum.unsigned_abs().leading_zeros());
         let product = (sum >> down) * i64::from(self.mantissa);
         let step = product >> (88 - Self::FINER).checked_sub(self.up + down)?.min(63);
@@ -175,8 +175,7 @@ impl Large {
         let way = (dx * i64::from(self.x) + dy * i64::from(self.y)) >> 6;
         let at = (i64::from(value[0]) << Self::FINER) - way;
         if let Some(Frame { width, height }) = picture {
-            let way =
-                |step: i64, by: i32| i64::from((step >> Self::FINER).max(0) as i32) * i64::from(by);
+            let way = |step: i64, by: i32| mul_wide((step >> Self::FINER).max(0) as i32, by);
             let most = (at >> Self::FINER) + way(dx, width) + way(dy, height);
             let spare = |most| leading_zeros(most).saturating_sub(2).min(Self::FINER);
             self.finer = u32::try_from(most).map_or(0, spare);

@@ -16,7 +16,7 @@ use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::{Range, Reach, Stride, reach};
 #[cfg(test)]
 use super::word_plane::Near;
-use crate::num::{leading_zeros, leading_zeros_here, mul_high, mul_high_unsigned};
+use crate::num::{few_leading_zeros, leading_zeros_here, mul_high, mul_high_unsigned};
 pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
@@ -140,7 +140,7 @@ impl Values {
             Method::Wide
         } else {
             // The largest has 30 bits. Of the 19 fraction bits of a place 11 are left.
-            let up = leading_zeros(most) & 31;
+            let up = few_leading_zeros(most) & 31;
             let q = depth.map(|d| d << (up & 31) >> 2);
             for i in 0..3 {
                 let product = |value: i32| mul_high((q[i] << 1) as i32, value) << 1;

@@ -31,7 +31,7 @@
 use super::bent::copy_arc;
 use super::fetch::{Uv, Way, copy_exact, copy_from, packed, packed_on, packed_step};
 use super::stride::{Range, Reach, Stride, reach};
-use crate::num::{leading_zeros, mul_17, mul_high, recip_16};
+use crate::num::{few_leading_zeros, leading_zeros, mul_17, mul_high, recip_16};
 use crate::scene::{Bent, Budget, Square, Texture, Wrap};
 
 /// 1/w, u/w and v/w at a pixel, or their steps, in one triangle's exponent.
@@ -61,7 +61,7 @@ impl Reciprocal {
     /// Within 2^-15 of itself, for `q` above 0.
     #[inline(always)]
     pub(super) fn of(q: u32) -> Self {
-        let shift = leading_zeros(q) & 31;
+        let shift = few_leading_zeros(q) & 31;
         // The top bit is set but where q is 0, where any number will do.
         let upper = (q << shift) >> 16 | 0x8000;
         Self {

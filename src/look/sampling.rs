@@ -15,7 +15,7 @@ use super::linear::copy_linear;
 use super::mapping::{Method, word_at};
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::Stride;
-use crate::num::{exp2, log2, mul_high};
+use crate::num::{exp2, log2, mul_high, mul_wide};
 use crate::scene::{SampledSpan, Sampling, Texture, Words};
 
 impl Sampling {
@@ -68,7 +68,7 @@ fn affine(span: &SampledSpan<'_>, run: &mut [u16], [way, down]: [Way; 2], read: 
 
 /// A quarter of the area that two ways span.
 fn area(across: Uv, down: Uv) -> u64 {
-    let product = |a: i32, b: i32| (i64::from(a) * i64::from(b)) >> 2;
+    let product = |a: i32, b: i32| mul_wide(a, b) >> 2;
     (product(across.u, down.v) - product(across.v, down.u)).unsigned_abs()
 }
 

@@ -1,7 +1,7 @@
 //! How far exact places of a span in perspective may be from each other (H4, H5, X2).
 
 use super::perspective::Reciprocal;
-use crate::num::{leading_zeros, mul_17, mul_high, mul_high_unsigned};
+use crate::num::{few_leading_zeros, mul_17, mul_high, mul_high_unsigned};
 use crate::scene::Budget;
 
 /// Pixels from one exact place to the next.
@@ -113,7 +113,7 @@ fn halvings(most: u32, least: u32) -> u32 {
     if most < least {
         return 0;
     }
-    let times = leading_zeros(least) - leading_zeros(most);
+    let times = few_leading_zeros(least) - few_leading_zeros(most);
     if most >> (times & 31) >= least {
         times
     } else {

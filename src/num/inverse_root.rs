@@ -3,7 +3,7 @@
 //! A table of 256 bytes gives 7 bits, and two Newton steps of two products each double them twice:
 //! no division and no loop, the same for all values.
 
-use super::product::{leading_zeros, mul_high_unsigned};
+use super::product::{few_leading_zeros, mul_high_unsigned};
 
 /// `2^15 / sqrt(x)` for the upper byte of a normalised number, from 0x40 on, to nearest; nothing below, so that any
 /// byte has a place.
@@ -29,7 +29,7 @@ static SEEDS: [u8; 256] = {
 #[must_use]
 pub fn inverse_root(x: u32) -> (u32, u32) {
     let x = if x == 0 { 1 } else { x };
-    let up = leading_zeros(x) & 0x1E;
+    let up = few_leading_zeros(x) & 0x1E;
     let x = x << up;
     // X = x / 2^32 in 1/4 ..< 1, and y = 2^30 / sqrt(X).
     let mut y = (SEEDS[(x >> 24) as usize] as u32) << 23;

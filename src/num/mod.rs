@@ -40,7 +40,10 @@ pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;
 pub use log::{exp2, log2};
 pub use plane::InverseArea;
-pub use product::{leading_zeros, leading_zeros_here, mul_16, mul_high, mul_high_unsigned, of_255};
+pub use product::{
+    few_leading_zeros, leading_zeros, leading_zeros_here, mul_16, mul_high, mul_high_unsigned,
+    mul_wide, of_255,
+};
 pub use quotient::{divide, divide_signed, quotient_16, slope_and_rest};
 pub use recip::recip;
 pub use recip16::{mul_17, mul_recip_16, of_height, recip_16, slope_of};

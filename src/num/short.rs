@@ -35,6 +35,12 @@ pub(super) const fn high(a: i32, b: i32) -> i32 {
     ah * bh + (first >> 16) + (second >> 16)
 }
 
+/// `a b`: five multiplications.
+#[inline(always)]
+pub(super) const fn wide(a: i32, b: i32) -> i64 {
+    (high(a, b) as i64) << 32 | a.wrapping_mul(b) as u32 as i64
+}
+
 /// `floor(a b / 2^32)` without signs.
 #[inline(always)]
 pub(super) const fn high_unsigned(a: u32, b: u32) -> u32 {
@@ -118,6 +124,22 @@ pub(super) const fn newton(a: u32, seed: u32, rest: u32) -> u32 {
     ((seed << 14) as i32).wrapping_add(step) as u32
 }
 
+/// [`leading_zeros`] below 6, by a table of the upper six bits.
+#[inline(always)]
+pub(super) fn few_zeros(x: u32) -> Option<u32> {
+    static ZEROS: [u8; 64] = {
+        let mut zeros = [0; 64];
+        let mut upper = 1u32;
+        while upper < 64 {
+            zeros[upper as usize] = (upper << 26).leading_zeros() as u8;
+            upper += 1;
+        }
+        zeros
+    };
+    let upper = x >> 26;
+    (upper != 0).then(|| u32::from(ZEROS[upper as usize]))
+}
+
 /// Bits set in none of the upper places: with all below the first one set, 33 numbers are left, and times `SPREAD` each
 /// has upper bits that no other has.
 #[inline(always)]
@@ -171,6 +193,7 @@ mod tests {
             let (a, b) = (any(&mut rng), any(&mut rng));
             let wide = i64::from(a) * i64::from(b);
             assert_eq!(high(a, b), (wide >> 32) as i32, "{a} {b}");
+            assert_eq!(super::wide(a, b), wide, "{a} {b}");
             let (ua, ub) = (a as u32, b as u32);
             let unsigned = u64::from(ua) * u64::from(ub);
             assert_eq!(high_unsigned(ua, ub), (unsigned >> 32) as u32, "{ua} {ub}");
@@ -238,6 +261,8 @@ mod tests {
             let x = 1u32 << bit;
             for x in [x, x - 1, x | rng.below(x.max(1))] {
                 assert_eq!(leading_zeros(x), x.leading_zeros(), "{x:#x}");
+                let few = (x.leading_zeros() < 6).then(|| x.leading_zeros());
+                assert_eq!(few_zeros(x), few, "{x:#x}");
             }
         }
     }

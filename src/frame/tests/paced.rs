@@ -216,6 +216,98 @@ fn what_waits_for_a_line_is_drawn_below() {
     assert!(waited > 3, "{waited}");
 }
 
+/// Triangles that face the eye, all as far away, by the columns and lines of their corners, about.
+fn facing(corners: &[[[i32; 2]; 3]]) -> Crowd {
+    let mut rng = Rng(157);
+    let mut crowd = Crowd::new(&mut rng, corners.len() as u16, 0);
+    for (position, at) in crowd.positions.iter_mut().zip(corners.as_flattened()) {
+        // A pixel is 2.2 / 60 wide.
+        let across = |pixels: i32| (pixels * 601) as i16;
+        *position = [across(at[0] - 48), across(20 - at[1]), 0];
+    }
+    crowd
+}
+
+const LEFT: [[i32; 2]; 3] = [[4, 2], [44, 36], [4, 38]];
+const RIGHT: [[i32; 2]; 3] = [[52, 2], [92, 36], [52, 38]];
+
+/// Kills: of spans as near as each other the one in the later slot is seen, as what is as near as a span is far is not
+/// compared with it.
+#[test]
+fn of_triangles_that_are_as_near_the_first_is_seen() {
+    let below = LEFT.map(|[x, y]| [x + 9, y + 1]);
+    for triangles in [[LEFT, below], [below, LEFT]] {
+        with_scene::<Gouraud<Rgb888>>(WIDE, &[facing(&triangles)], None, |scene| {
+            let (want, _) = lines(scene, 224, true, &all());
+            assert!(paced(scene, 224, FREE, &all()).lines == want);
+        });
+    }
+}
+
+/// Kills: triangles that cannot turn are not counted, or turn all the same.
+#[test]
+fn triangles_that_cannot_turn_are_lost() {
+    let turning = |[a, b, _]: [[i32; 2]; 3]| [a, [b[0], 20], [a[0], 38]];
+    let crowds = [facing(&[turning(LEFT), turning(RIGHT)])];
+    let pace = Pace {
+        turn: 50_000,
+        most: 40_000,
+        ..PACE
+    };
+    with_scene::<Gouraud<Rgb888>>(WIDE, &crowds, None, |scene| {
+        let (want, _) = lines(scene, 224, true, &all());
+        let Drawn { lines, paid, .. } = paced(scene, 224, pace, &all());
+        assert_eq!(paid.lost, 2);
+        assert!(lines[..19] == want[..19]);
+        let empty = [Rgb888::from_rgb8([9; 3]); WIDTH as usize];
+        assert!(want[30] != empty && lines[30] == empty);
+    });
+}
+
+/// Kills: an even run has the colour of its first pixel; all runs of a class are even where one has to be, or none is.
+#[test]
+fn runs_are_even_where_the_line_cannot_pay_for_them() {
+    let crowds = [facing(&[LEFT, RIGHT])];
+    // A run and a half of 20 pixels.
+    let pace = Pace {
+        most: 3_000,
+        line: 0,
+        column: 0,
+        begin: 0,
+        large: 0,
+        turn: 0,
+        span: 0,
+        word: 0,
+        run: 0,
+        pixel: 100,
+        ..PACE
+    };
+    let mut seen = 0;
+    with_scene::<Gouraud<Rgb888>>(WIDE, &crowds, None, |scene| {
+        let (want, _) = lines(scene, 224, true, &all());
+        let got = paced(scene, 224, pace, &all()).lines;
+        for (want, got) in want.iter().zip(&got) {
+            // Both begin in column 4 of their half.
+            let [width, other] = [&want[..48], &want[48..]]
+                .map(|half| half.iter().filter(|&&w| w != want[0]).count());
+            if other != width || !(16..29).contains(&width) {
+                continue;
+            }
+            let [left, right] = [0, 48].map(|half| {
+                let (want, got) = (&want[half..][..48], &got[half..][..48]);
+                let middle = want[4 + width / 2];
+                let is_even = got[4..][..width].iter().all(|&w| w == middle);
+                assert!(want[4..][..width].iter().any(|&w| w != middle));
+                assert!(is_even || got == want);
+                is_even
+            });
+            assert!(left != right, "{width}");
+            seen += 1;
+        }
+    });
+    assert!(seen > 5, "{seen}");
+}
+
 #[test]
 fn what_a_paced_renderer_does_not_do_is_refused() {
     let mut rng = Rng(156);
