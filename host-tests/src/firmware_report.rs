@@ -8,7 +8,7 @@ use crate::firmware::{
 };
 use crate::frames::{FrameCounts, host_counts, host_frames};
 use crate::image_out::{make_folder, write_atomically, write_image};
-use crate::{flashed, profile_report, sizes};
+use crate::{flashed, paced_report, profile_report, sizes};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -25,6 +25,9 @@ pub fn run(args: &FirmwareArgs) -> Result<bool, Box<dyn Error>> {
     }
     if args.sizes {
         return sizes::run(args).map(|()| true);
+    }
+    if args.paced {
+        return paced_report::run(args);
     }
     if let Some(frame) = &args.profile {
         return profile_report::run(frame, args).map(|()| true);

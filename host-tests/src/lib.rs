@@ -23,6 +23,7 @@ pub mod flashed;
 pub mod golden;
 pub mod lists;
 pub mod memory_model;
+pub mod paced_report;
 pub mod plan;
 pub mod plot;
 pub mod profile_report;

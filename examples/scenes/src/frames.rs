@@ -26,6 +26,29 @@ pub enum Frame {
     Model(Shot),
 }
 
+impl Frame {
+    /// Whether a frame of [`unhurried`] has textures.
+    #[must_use]
+    pub fn is_textured(&self) -> bool {
+        match self {
+            Self::Suite(suite) | Self::Paced(Paced { suite, .. }) => suite.texture().is_some(),
+            Self::B(_) => true,
+            _ => false,
+        }
+    }
+}
+
+/// The frames that may be paced, by their renderers and sizes, each once.
+pub fn unhurried() -> impl Iterator<Item = (&'static str, Frame)> {
+    frames().filter(|(_, frame)| match frame {
+        Frame::Suite(_) | Frame::B(_) => true,
+        // Those with the costs of M0+ code are the same scenes.
+        Frame::Paced(paced) => !paced.name.ends_with("_m0"),
+        Frame::Shot(how) => *how == Variant::of(how.shot),
+        _ => false,
+    })
+}
+
 /// Every frame, in the order in which they are drawn: the suite, and of it what is drawn in parts and what is paced, what few draw calls have, lists, all other shots,
 /// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, and one by the hardware model.
 pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {

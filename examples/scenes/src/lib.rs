@@ -26,7 +26,7 @@ mod texels;
 mod values;
 
 pub use contours::{CONTOURED, ContourLook, Contours};
-pub use frames::{Frame, frames};
+pub use frames::{Frame, frames, unhurried};
 pub use in_parts::{CutMemory, IN_PARTS, InParts};
 pub use lamps::{lamplit_teapot, teapot_lamps};
 pub use listed::{

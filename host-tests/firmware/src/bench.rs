@@ -21,7 +21,7 @@ mod methods;
 mod triangle;
 mod units;
 
-pub(crate) use lines::{Listed, worst_line};
+pub(crate) use lines::{Listed, run_unhurried, worst_line};
 
 use crate::console::Console;
 use crate::count::Counter;

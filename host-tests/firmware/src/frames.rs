@@ -3,7 +3,7 @@
 use crate::rooms::{LINES_PER_TRANSFER, Rooms};
 use core::convert::Infallible;
 use core::task::Poll;
-use scanbeam::frame::{Interleave, draw_frame};
+use scanbeam::frame::{Interleave, Pace, draw_frame};
 use scanbeam::list::ListCommand;
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
@@ -44,12 +44,28 @@ pub(crate) const fn lines_of(frame: Frame) -> u16 {
 
 /// Draws a frame, so many lines a transfer where it does not say that itself, and hands what is sent, in order, to `to`.
 /// Drawing twice gives the same bytes.
-#[inline(never)]
 pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Receives) {
+    draw_at_pace(frame, lines, None, rooms, to);
+}
+
+/// The same of a frame that may be paced, one line a transfer, whose lines may cost what they like, but pay.
+pub(crate) fn draw_unhurried(frame: Frame, rooms: &mut Rooms, to: &mut dyn Receives) {
+    draw_at_pace(frame, 1, Some(Pace::GOURAUD_M4), rooms, to);
+}
+
+#[inline(never)]
+fn draw_at_pace(
+    frame: Frame,
+    lines: u16,
+    pace: Option<Pace>,
+    rooms: &mut Rooms,
+    to: &mut dyn Receives,
+) {
     let buffers = rooms.buffers.take().expect("the last frame gave them back");
     let mut pump = Pump::new(Emit::new(to), buffers);
     let mut sent = Sent {
         lines,
+        pace,
         pump: &mut pump,
     };
     match frame {
@@ -82,6 +98,8 @@ pub(crate) fn draw(frame: Frame, lines: u16, rooms: &mut Rooms, to: &mut dyn Rec
 struct Sent<'p, 'e> {
     /// Lines of a transfer.
     lines: u16,
+    /// What its lines may cost.
+    pace: Option<Pace>,
     pump: &'p mut Pump<Emit<'e>>,
 }
 
@@ -94,8 +112,8 @@ impl Sent<'_, '_> {
     fn smooth(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, SmoothLook>) {
         let mut scene = rooms.scene.scene();
         build(&mut scene).expect(LARGE);
-        let mut renderer = rooms.lines.renderer(rooms.caches.smooth);
-        self.send(&scene, &mut renderer, background);
+        let renderer = rooms.lines.renderer(rooms.caches.smooth);
+        self.send_paced(&scene, renderer, background);
     }
 
     /// A scene with textures.
@@ -103,23 +121,19 @@ impl Sent<'_, '_> {
     fn textured(&mut self, rooms: &mut Rooms, background: [u8; 3], build: Build<'_, TexturedLook>) {
         let mut scene = rooms.scene.scene();
         build(&mut scene).expect(LARGE);
-        let mut renderer = rooms.lines.renderer(rooms.caches.textured);
-        self.send(&scene, &mut renderer, background);
+        let renderer = rooms.lines.renderer(rooms.caches.textured);
+        self.send_paced(&scene, renderer, background);
     }
 
     /// A scene whose lines cost no more than they may.
     fn paced(&mut self, paced: Paced, rooms: &mut Rooms) {
         let background = paced.suite.background();
+        self.pace = self.pace.or(Some(paced.pace));
         if paced.suite.texture().is_some() {
-            let mut scene = rooms.scene.scene();
-            paced.build(&mut scene).expect(LARGE);
-            let renderer = rooms.lines.renderer(rooms.caches.textured);
-            return self.send(&scene, &mut renderer.paced(paced.pace), background);
+            self.textured(rooms, background, &|scene| paced.build(scene));
+        } else {
+            self.smooth(rooms, background, &|scene| paced.build(scene));
         }
-        let mut scene = rooms.scene.scene();
-        paced.build(&mut scene).expect(LARGE);
-        let renderer = rooms.lines.renderer(rooms.caches.smooth);
-        self.send(&scene, &mut renderer.paced(paced.pace), background);
     }
 
     /// A shot as it says.
@@ -182,6 +196,20 @@ impl Sent<'_, '_> {
         let background = Rgb565Be::from_rgb8(shot.background());
         let sent = draw_model_frame(&scene, &mut renderer, self.pump, background, self.lines);
         assert!(sent.is_ok(), "{LARGE}");
+    }
+
+    /// Draws all lines of a scene, which cost what they may, where that is said.
+    #[inline(never)]
+    fn send_paced<L: Look<Pixel = Rgb565Be>, const WORDS: usize>(
+        &mut self,
+        scene: &Scene<'_, '_, L>,
+        mut renderer: Renderer<'_, L, WORDS>,
+        background: [u8; 3],
+    ) {
+        match self.pace {
+            Some(pace) => self.send(scene, &mut renderer.paced(pace), background),
+            None => self.send(scene, &mut renderer, background),
+        }
     }
 
     /// Draws all lines of a scene.

@@ -17,6 +17,7 @@
 //! drawn twice, once to hash it and once to count it, so that hashing is not counted; both must
 //! give the same number of bytes. Kernels, units, lines and growth are there where the host says `bench`;
 //! `costs` are those of lines one after the other, from the `first` of this row on. Exit code 0 only if everything held.
+//! Where the host says `paced`, there are `lines` alone, of renderers that are paced and have time enough.
 //! Where the host says `scene`, there is one frame, of the words that it has laid into flash, with its lines and figures.
 #![no_std]
 #![no_main]
@@ -65,6 +66,11 @@ fn main() -> ! {
     let mut counter = Counter::start(peripherals.SYST);
     if IS_WHOLE && profile::asks_scene() {
         flashed::run(&counter, &mut console);
+        console::exit(true);
+    }
+    if IS_WHOLE && profile::asks_paced() {
+        bench::run_unhurried(&counter, &mut console, &mut Rooms::take());
+        console.line(format_args!("done frames=0"));
         console::exit(true);
     }
     let mut all_hold = true;

@@ -66,6 +66,11 @@ pub(crate) fn asks_bench() -> bool {
     says(1, "bench")
 }
 
+/// Whether the host asks for lines that may cost what they like alone: `qemu-firmware paced`.
+pub(crate) fn asks_paced() -> bool {
+    says(1, "paced")
+}
+
 /// Whether the host asks for the scene that it has laid into flash: `qemu-firmware scene`.
 pub(crate) fn asks_scene() -> bool {
     says(1, "scene")

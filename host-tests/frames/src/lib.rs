@@ -4,7 +4,7 @@ mod paced;
 mod played;
 mod values;
 
-pub use paced::{PacedFrame, paced_frame};
+pub use paced::{PacedFrame, paced_frame, reckoned_lines};
 pub use played::played_frame;
 pub use values::{Sent, values_pictures, values_sent};
 
@@ -65,9 +65,7 @@ impl Drawn {
     /// # Errors
     /// When it has another size than a shot.
     pub fn picture(&self) -> Result<Picture, Box<dyn Error>> {
-        let rgb = self.words.iter().copied().flat_map(Rgb565Be::to_rgb8);
-        let picture = Picture::new(WIDTH.into(), HEIGHT.into(), rgb.collect());
-        Ok(picture.ok_or("a frame of another size")?)
+        picture_of(&self.words)
     }
 }
 
@@ -104,6 +102,13 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
         all.insert(name, crc);
     }
     Ok(all)
+}
+
+/// A picture of the words of a shot.
+fn picture_of(words: &[u16]) -> Result<Picture, Box<dyn Error>> {
+    let rgb = words.iter().copied().flat_map(Rgb565Be::to_rgb8);
+    let picture = Picture::new(WIDTH.into(), HEIGHT.into(), rgb.collect());
+    Ok(picture.ok_or("a frame of another size")?)
 }
 
 /// The CRC-32 of words in scan-out order.

@@ -1,11 +1,12 @@
 //! Frames whose lines cost no more than they may, beside the same with time enough.
 
-use crate::{ROOM, crc, said};
+use crate::{Picture, ROOM, crc, picture_of, said};
 use host_support::rooms::{LineRooms, SceneRooms};
-use scanbeam::frame::Paid;
+use scanbeam::Scene;
+use scanbeam::frame::{Pace, Paid};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scenes::{OBJECTS, Paced, Shot, SmoothLook, TexturedLook};
+use scenes::{Frame, OBJECTS, Paced, Shot, ShotError, SmoothLook, TexturedLook};
 use std::error::Error;
 
 /// A frame that is paced.
@@ -24,6 +25,14 @@ impl PacedFrame {
     #[must_use]
     pub fn crc(&self) -> u32 {
         crc(&self.words)
+    }
+
+    /// Pictures of the renderer that takes its time, and of the one that is paced.
+    ///
+    /// # Errors
+    /// When they have another size than a shot.
+    pub fn pictures(&self) -> Result<[Picture; 2], Box<dyn Error>> {
+        Ok([picture_of(&self.unpaced)?, picture_of(&self.words)?])
     }
 
     /// How many pixels are not those of a renderer that takes its time.
@@ -76,4 +85,52 @@ fn drawn<L: Look<Pixel = Rgb565Be>>(paced: Paced) -> Result<PacedFrame, Box<dyn 
         unpaced,
         paid,
     })
+}
+
+/// What each line of a frame is reckoned to cost, one after the other from the top, where it may cost what it likes.
+///
+/// # Errors
+/// When it does not fit the memory that it asks for, or is none of [`unhurried`](scenes::unhurried).
+pub fn reckoned_lines(frame: Frame, costs: Pace) -> Result<Vec<u32>, Box<dyn Error>> {
+    match frame {
+        Frame::Suite(suite) if suite.texture().is_some() => {
+            reckoned::<TexturedLook>(costs, |scene| suite.build(scene))
+        }
+        Frame::Suite(suite) => reckoned::<SmoothLook>(costs, |scene| suite.build(scene)),
+        Frame::Paced(paced) if paced.suite.texture().is_some() => {
+            reckoned::<TexturedLook>(costs, |scene| paced.build(scene))
+        }
+        Frame::Paced(paced) => reckoned::<SmoothLook>(costs, |scene| paced.build(scene)),
+        Frame::Shot(how) => {
+            reckoned::<SmoothLook>(costs, |scene| how.shot.build_shaded(how.shading, scene))
+        }
+        Frame::B(how) => reckoned::<TexturedLook>(costs, |scene| how.build(scene)),
+        _ => Err("this frame is not paced".into()),
+    }
+}
+
+fn reckoned<L: Look<Pixel = Rgb565Be>>(
+    costs: Pace,
+    build: impl FnOnce(&mut Scene<'_, 'static, L>) -> Result<(), ShotError>,
+) -> Result<Vec<u32>, Box<dyn Error>> {
+    let screen = Shot::screen();
+    let mut memory = SceneRooms::new(ROOM, screen.height());
+    let mut scene = memory.scene::<L>(screen);
+    said("a paced frame", build(&mut scene))?;
+    let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, screen.width());
+    let mut renderer = lines.renderer().paced(Pace {
+        most: u32::MAX,
+        ..costs
+    });
+    let mut line = vec![0; screen.width().into()];
+    // What is empty pays that as well, but is not among what was drawn.
+    let least = u32::from(costs.line) + u32::from(costs.column) * u32::from(screen.width());
+    let mut reckoned = Vec::new();
+    // From the last one up: what was paid begins anew with each.
+    for y in scene.lines().rev() {
+        renderer.draw_line(&scene, y, &mut line, 0)?;
+        reckoned.push(renderer.paid().dearest.max(least));
+    }
+    reckoned.reverse();
+    Ok(reckoned)
 }

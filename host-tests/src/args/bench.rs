@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub struct FirmwareArgs {
     /// Instead of the test scenes: a scene file, .json, or a list that `bake` has made, .list
     #[arg(value_name = "SCENE.json", conflicts_with_all = [
-        "bench", "bless", "sizes", "markdown", "symbols", "profile", "function", "output",
+        "bench", "bless", "sizes", "markdown", "symbols", "paced", "profile", "function", "output",
     ])]
     pub scene: Option<PathBuf>,
     /// Print the figures as JSON
@@ -32,6 +32,9 @@ pub struct FirmwareArgs {
     /// With the sizes also the largest functions of each program
     #[arg(long, requires = "sizes")]
     pub symbols: bool,
+    /// Instead: hold the costs of paced lines against what lines take, and print the least that would do
+    #[arg(long, conflicts_with_all = ["bench", "sizes", "profile", "output"])]
+    pub paced: bool,
     /// Instead: step through one frame, or that of a scene file or a list, and print where its instructions go, by function
     #[arg(long, value_name = "FRAME", conflicts_with_all = ["bench", "sizes", "output"])]
     pub profile: Option<String>,

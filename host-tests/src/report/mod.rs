@@ -4,6 +4,7 @@
 //! frames: those are the recorded ones that `firmware --bench` is held against.
 
 pub mod effects;
+pub mod paced;
 pub mod page;
 pub mod scene_files;
 
@@ -42,6 +43,7 @@ pub fn run(args: &ReportArgs) -> Result<(), Box<dyn Error>> {
     errors(&mut page)?;
     effects::effects(&mut page)?;
     scene_files::scene_files(&mut page)?;
+    paced::paced(&mut page)?;
     accuracy_plots(&mut page)?;
     cache(&mut page)?;
     costs(&mut page)?;

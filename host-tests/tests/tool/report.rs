@@ -3,6 +3,7 @@
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use host_tests::report::effects::effects;
+use host_tests::report::paced::paced;
 use host_tests::report::page::{Page, escaped, marked_up};
 use host_tests::report::scene_files::{files, scene_files};
 use host_tests::report::{cache, errors, memory, shots};
@@ -30,13 +31,14 @@ fn no_picture_is_missing() {
     errors(&mut page).unwrap();
     effects(&mut page).unwrap();
     scene_files(&mut page).unwrap();
+    paced(&mut page).unwrap();
     cache(&mut page).unwrap();
     memory(&mut page);
     let page = page.finish();
     let sources = values(&page, " src");
     // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, 20 by draw calls,
-    // and the scene files, each named.
-    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 20 + 5);
+    // the scene files, each named, and 8 frames that are paced, beside the same with time enough.
+    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 20 + 5 + 16);
     for file in files().unwrap() {
         let name = file.file_name().unwrap().to_str().unwrap();
         assert!(page.contains(&format!("<code>{name}</code>: ")), "{name}");

@@ -6,11 +6,11 @@
 
 use crate::console::Console;
 use crate::count::{Counter, INSTRUCTIONS_PER_TICK, PHASES};
-use crate::frames::{Receives, draw};
+use crate::frames::{Receives, draw, draw_unhurried};
 use crate::rooms::Rooms;
 use core::fmt;
 use core::hint::black_box;
-use scenes::{Frame, HEIGHT, frames};
+use scenes::{Frame, HEIGHT, frames, unhurried};
 
 /// Lines of a row that is printed.
 const ROW: usize = 16;
@@ -34,6 +34,18 @@ pub(crate) fn worst_line(frame: Frame, counter: &Counter, rooms: &mut Rooms) -> 
     u64::from(worst) * INSTRUCTIONS_PER_TICK
 }
 
+/// Prints what lines cost that may cost what they like, but pay, to a tick.
+pub(crate) fn run_unhurried(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
+    for (name, frame) in unhurried() {
+        let mut sink = Clocked::new(counter);
+        sink.last = counter.ticks();
+        draw_unhurried(frame, rooms, &mut sink);
+        print(name, &sink, console, |ticks| {
+            u64::from(ticks) * INSTRUCTIONS_PER_TICK
+        });
+    }
+}
+
 /// Draws a frame from so many places of a tick.
 fn clocked<'c>(frame: Frame, phases: u32, counter: &'c Counter, rooms: &mut Rooms) -> Clocked<'c> {
     let mut sink = Clocked::new(counter);
@@ -48,7 +60,13 @@ fn clocked<'c>(frame: Frame, phases: u32, counter: &'c Counter, rooms: &mut Room
 /// Measures a frame, and prints it.
 fn measure(name: &str, frame: Frame, counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     let sink = clocked(frame, PHASES, counter, rooms);
-    let scale = |ticks: u32| u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES);
+    print(name, &sink, console, |ticks| {
+        u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES)
+    });
+}
+
+/// Prints what was measured, times what a tick is.
+fn print(name: &str, sink: &Clocked<'_>, console: &mut Console, scale: fn(u32) -> u64) {
     let pass_one = scale(sink.pass_one);
     for (row, costs) in sink.lines.chunks(ROW).enumerate() {
         console.line(format_args!(
