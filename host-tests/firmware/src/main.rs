@@ -62,13 +62,19 @@ fn main() -> ! {
     if let Some(success) = profile::asked(&mut console) {
         console::exit(success);
     }
+    if !IS_WHOLE && ["bench", "paced", "scene"].into_iter().any(profile::asks) {
+        console.line(format_args!(
+            "where everything is checked, there are frames alone"
+        ));
+        console::exit(false);
+    }
     let peripherals = Peripherals::take().expect("main runs once");
     let mut counter = Counter::start(peripherals.SYST);
-    if IS_WHOLE && profile::asks_scene() {
+    if IS_WHOLE && profile::asks("scene") {
         flashed::run(&counter, &mut console);
         console::exit(true);
     }
-    if IS_WHOLE && profile::asks_paced() {
+    if IS_WHOLE && profile::asks("paced") {
         bench::run_unhurried(&counter, &mut console, &mut Rooms::take());
         console.line(format_args!("done frames=0"));
         console::exit(true);
@@ -126,7 +132,7 @@ fn main() -> ! {
     // What frames take; kernels lend memory from the stack.
     let stack = rooms::stack_peak();
 
-    if IS_WHOLE && profile::asks_bench() {
+    if IS_WHOLE && profile::asks("bench") {
         bench::run(&counter, &mut console, &mut rooms);
         bench_texture::run(&counter, &mut console);
         bench_depth::run(&counter, &mut console);

@@ -61,19 +61,10 @@ pub(crate) fn marked(draw: &mut dyn FnMut(&mut dyn Receives)) {
     black_box(bytes);
 }
 
-/// Whether the host asks for kernels, units, lines and growth too: `qemu-firmware bench`.
-pub(crate) fn asks_bench() -> bool {
-    says(1, "bench")
-}
-
-/// Whether the host asks for lines that may cost what they like alone: `qemu-firmware paced`.
-pub(crate) fn asks_paced() -> bool {
-    says(1, "paced")
-}
-
-/// Whether the host asks for the scene that it has laid into flash: `qemu-firmware scene`.
-pub(crate) fn asks_scene() -> bool {
-    says(1, "scene")
+/// Whether the host asks for something beyond frames: `bench` for kernels, units, lines and growth too, `paced` for lines
+/// that may cost what they like alone, `scene` for the scene that it has laid into flash alone.
+pub(crate) fn asks(what: &str) -> bool {
+    says(1, what)
 }
 
 /// Whether that scene is to be stepped through: `qemu-firmware scene profile`.

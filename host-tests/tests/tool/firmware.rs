@@ -119,6 +119,10 @@ fn firmware_runs_the_same_everywhere() -> Result<(), Box<dyn std::error::Error>>
             let here = host.get(frame.scene.as_str());
             assert_eq!(here, Some(&frame.crc), "{} on {}", frame.scene, board.name);
         }
+        if profile == Profile::Checked {
+            let asked = measure(&toolchain, &board, profile, &["bench"]).expect_err("it has none");
+            assert!(asked.to_string().contains("frames alone"), "{asked}");
+        }
         if (board, profile) == (M3, Profile::Release) {
             released = Some(measured);
         }
