@@ -161,6 +161,7 @@ pub(super) fn wide_normal(p: [[i32; 3]; 3], bits: u32) -> [i64; 3] {
 mod tests {
     use super::*;
     use crate::geometry::QuadSplit::Corner0To2;
+    use crate::num::random::Rng;
 
     const PLACES: [[i16; 3]; 4] = [[0; 3]; 4];
 
@@ -171,6 +172,33 @@ mod tests {
             colours: &[],
             faces,
         })
+    }
+
+    /// Kills: sides in the other order; more bits than products hold, and fewer than small faces have.
+    #[test]
+    fn normals_of_faces_of_any_size_are_those_of_f64() {
+        let mut rng = Rng(83);
+        let mut seen = 0;
+        for i in 0..40_000 {
+            let corners = [(); 3].map(|()| [(); 3].map(|()| (rng.bits() as i32) >> (i % 30)));
+            let side =
+                |k: usize| [0, 1, 2].map(|i| f64::from(corners[k][i]) - f64::from(corners[0][i]));
+            let (a, b) = (side(1), side(2));
+            let across = |i: usize, k: usize| a[i] * b[k] - a[k] * b[i];
+            let normal = [across(1, 2), across(2, 0), across(0, 1)];
+            let length = |v: [f64; 3]| v.iter().map(|c| c * c).sum::<f64>().sqrt();
+            if length(normal) <= 0.01 * length(a) * length(b) {
+                continue;
+            }
+            let got = face_normal(corners);
+            for axis in 0..3 {
+                let want = normal[axis] / length(normal) * 16384.0;
+                let off = f64::from(got[axis]) - want;
+                assert!(off.abs() < 0.51, "{corners:?}: {got:?}, {want}");
+            }
+            seen += 1;
+        }
+        assert!(seen > 35_000, "{seen}");
     }
 
     /// Kills: strips of two or an odd number that are let in, and a count of their triangles without its end.
