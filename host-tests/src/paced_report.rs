@@ -6,10 +6,7 @@
 //! Beside each cost stands the least that it could be, all others as they are: how tight it is, on these lines.
 
 use crate::args::FirmwareArgs;
-use crate::firmware::{
-    Board, COMPARER, DEFAULT_TIMEOUT, FirmwareError, LinesRun, M0_PLUS, Output, Profile, Toolchain,
-    build, run_words,
-};
+use crate::firmware::{Board, FirmwareError, LinesRun, M0_PLUS, Profile, Toolchain, measure};
 use crate::frames::reckoned_lines;
 use comfy_table::{CellAlignment, Table, presets::UTF8_FULL_CONDENSED};
 use scanbeam::frame::Pace;
@@ -17,7 +14,6 @@ use scenes::{Frame, unhurried};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::error::Error;
-use std::path::Path;
 
 /// Measures on each board that is asked for, and prints; `false` where a line takes more than was paid for it.
 ///
@@ -55,10 +51,8 @@ pub fn unhurried_lines(
     toolchain: &Toolchain,
     board: &Board,
 ) -> Result<BTreeMap<String, Vec<u64>>, FirmwareError> {
-    let elf = build(toolchain, board, Profile::Release, COMPARER, &[])?;
-    let words = [COMPARER, "paced"];
-    let said = run_words(board, &elf, DEFAULT_TIMEOUT, &words, Path::new("."))?;
-    let lines = Output::parse(&said)?.lines.into_iter();
+    let measured = measure(toolchain, board, Profile::Release, &["paced"])?;
+    let lines = measured.output.lines.into_iter();
     Ok(lines
         .map(|LinesRun { scene, costs, .. }| (scene, costs))
         .collect())

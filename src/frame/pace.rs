@@ -17,7 +17,8 @@ use crate::span::{Size, Triangle};
 /// | | where all have, runs join what is left of them, the narrowest first |
 ///
 /// The costs below are instructions at `opt-level` 3: in 23 scenes of all kinds no line took more than was paid for it, half
-/// of them took less than three quarters; `scanbeam firmware --paced` measures that again. Where chips wait for memory, a line takes more cycles than instructions, as a measurement there tells. No
+/// of them took less than three quarters; `scanbeam firmware --paced` measures that again. Where chips wait for memory, a
+/// line takes more cycles than instructions, as a measurement there tells. No
 /// cost covers a [`Shader`](crate::look::Shader), light at pixels or texels that are filtered: for these, `run` and `pixel`
 /// have to be raised. A line costs `line` and a `column` each in any case.
 ///

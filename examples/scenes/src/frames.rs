@@ -43,7 +43,7 @@ pub fn unhurried() -> impl Iterator<Item = (&'static str, Frame)> {
     frames().filter(|(_, frame)| match frame {
         Frame::Suite(_) | Frame::B(_) => true,
         // Those with the costs of M0+ code are the same scenes.
-        Frame::Paced(paced) => !paced.name.ends_with("_m0"),
+        Frame::Paced(paced) => !paced.is_in_m0_code(),
         Frame::Shot(how) => *how == Variant::of(how.shot),
         _ => false,
     })

@@ -66,6 +66,12 @@ impl Paced {
         }
     }
 
+    /// Whether its costs are those of M0+ code.
+    #[must_use]
+    pub fn is_in_m0_code(&self) -> bool {
+        self.name.ends_with("_m0")
+    }
+
     /// Draws it into `scene`, as [`Suite::build`] does.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use scanbeam::Scene;
 use scanbeam::frame::{Pace, Paid};
 use scanbeam::look::Look;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scenes::{Frame, OBJECTS, Paced, Shot, ShotError, SmoothLook, TexturedLook};
+use scenes::{Frame, OBJECTS, Paced, Shot, SmoothLook, TexturedLook};
 use std::error::Error;
 
 /// A frame that is paced.
@@ -92,31 +92,32 @@ fn drawn<L: Look<Pixel = Rgb565Be>>(paced: Paced) -> Result<PacedFrame, Box<dyn 
 /// # Errors
 /// When it does not fit the memory that it asks for, or is none of [`unhurried`](scenes::unhurried).
 pub fn reckoned_lines(frame: Frame, costs: Pace) -> Result<Vec<u32>, Box<dyn Error>> {
+    if frame.is_textured() {
+        reckoned::<TexturedLook>(frame, costs)
+    } else {
+        reckoned::<SmoothLook>(frame, costs)
+    }
+}
+
+/// Draws such a frame into a scene.
+fn build<L: Look>(frame: Frame, scene: &mut Scene<'_, '_, L>) -> Result<(), String> {
     match frame {
-        Frame::Suite(suite) if suite.texture().is_some() => {
-            reckoned::<TexturedLook>(costs, |scene| suite.build(scene))
-        }
-        Frame::Suite(suite) => reckoned::<SmoothLook>(costs, |scene| suite.build(scene)),
-        Frame::Paced(paced) if paced.suite.texture().is_some() => {
-            reckoned::<TexturedLook>(costs, |scene| paced.build(scene))
-        }
-        Frame::Paced(paced) => reckoned::<SmoothLook>(costs, |scene| paced.build(scene)),
-        Frame::Shot(how) => {
-            reckoned::<SmoothLook>(costs, |scene| how.shot.build_shaded(how.shading, scene))
-        }
-        Frame::B(how) => reckoned::<TexturedLook>(costs, |scene| how.build(scene)),
+        Frame::Suite(suite) => said(suite.name(), suite.build(scene)),
+        Frame::Paced(paced) => said(paced.name, paced.build(scene)),
+        Frame::Shot(how) => said(how.name, how.shot.build_shaded(how.shading, scene)),
+        Frame::B(how) => said(how.name, how.build(scene)),
         _ => Err("this frame is not paced".into()),
     }
 }
 
 fn reckoned<L: Look<Pixel = Rgb565Be>>(
+    frame: Frame,
     costs: Pace,
-    build: impl FnOnce(&mut Scene<'_, 'static, L>) -> Result<(), ShotError>,
 ) -> Result<Vec<u32>, Box<dyn Error>> {
     let screen = Shot::screen();
     let mut memory = SceneRooms::new(ROOM, screen.height());
     let mut scene = memory.scene::<L>(screen);
-    said("a paced frame", build(&mut scene))?;
+    build(frame, &mut scene)?;
     let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, screen.width());
     let mut renderer = lines.renderer().paced(Pace {
         most: u32::MAX,

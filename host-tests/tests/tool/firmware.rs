@@ -142,7 +142,7 @@ fn paced_lines_cost_no_more_than_they_may(board: &Board, output: &Output) {
         let worst = output.figures[&format!("worst_line_{}", paced.name)];
         let most = u64::from(paced.pace.most);
         println!("{}: {worst} of {most} on {}", paced.name, board.name);
-        let is_of_board = *board != M0_PLUS || paced.name.ends_with("_m0");
+        let is_of_board = *board != M0_PLUS || paced.is_in_m0_code();
         assert!(worst > most / 4, "{} on {}", paced.name, board.name);
         assert!(
             !is_of_board || worst <= most,

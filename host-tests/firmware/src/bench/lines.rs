@@ -29,7 +29,7 @@ pub(super) fn run(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
 
 /// Instructions of the dearest line of a frame, to a tick.
 pub(crate) fn worst_line(frame: Frame, counter: &Counter, rooms: &mut Rooms) -> u64 {
-    let sink = clocked(frame, 1, counter, rooms);
+    let sink = clocked(1, counter, |to| draw(frame, 1, rooms, to));
     let worst = sink.lines.iter().max().copied().unwrap_or_default();
     u64::from(worst) * INSTRUCTIONS_PER_TICK
 }
@@ -37,9 +37,7 @@ pub(crate) fn worst_line(frame: Frame, counter: &Counter, rooms: &mut Rooms) -> 
 /// Prints what lines cost that may cost what they like, but pay, to a tick.
 pub(crate) fn run_unhurried(counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
     for (name, frame) in unhurried() {
-        let mut sink = Clocked::new(counter);
-        sink.last = counter.ticks();
-        draw_unhurried(frame, rooms, &mut sink);
+        let sink = clocked(1, counter, |to| draw_unhurried(frame, rooms, to));
         print(name, &sink, console, |ticks| {
             u64::from(ticks) * INSTRUCTIONS_PER_TICK
         });
@@ -47,19 +45,19 @@ pub(crate) fn run_unhurried(counter: &Counter, console: &mut Console, rooms: &mu
 }
 
 /// Draws a frame from so many places of a tick.
-fn clocked<'c>(frame: Frame, phases: u32, counter: &'c Counter, rooms: &mut Rooms) -> Clocked<'c> {
+fn clocked(phases: u32, counter: &Counter, mut draw: impl FnMut(&mut dyn Receives)) -> Clocked<'_> {
     let mut sink = Clocked::new(counter);
     for phase in 0..phases {
         counter.wait(phase);
         sink.last = counter.ticks();
-        draw(frame, 1, rooms, &mut sink);
+        draw(&mut sink);
     }
     sink
 }
 
 /// Measures a frame, and prints it.
 fn measure(name: &str, frame: Frame, counter: &Counter, console: &mut Console, rooms: &mut Rooms) {
-    let sink = clocked(frame, PHASES, counter, rooms);
+    let sink = clocked(PHASES, counter, |to| draw(frame, 1, rooms, to));
     print(name, &sink, console, |ticks| {
         u64::from(ticks) * INSTRUCTIONS_PER_TICK / u64::from(PHASES)
     });
