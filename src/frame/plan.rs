@@ -8,6 +8,7 @@ use super::renderer::{Renderer, View};
 use super::spans::{Drawn, Line, colour_run, columns_of};
 use super::thin::MARGIN;
 use crate::look::Look;
+use core::hint::black_box;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Colours spans in the order of the last line, where nobody has been before, up to a line that is full; whether
@@ -85,7 +86,8 @@ fn is_one_surface(view: &View<'_>, a: u16, b: u16) -> bool {
     // Both go clockwise: a side that they share is walked either way.
     let sides = |c: [u16; 3]| [(c[0], c[1]), (c[1], c[2]), (c[2], c[0])];
     let others = sides(b.corner);
-    sides(a.corner)
+    // Nine comparisons, in a loop.
+    black_box(&sides(a.corner)[..])
         .iter()
         .any(|&(from, to)| others.contains(&(to, from)))
 }

@@ -38,19 +38,25 @@ impl Light {
             .sum();
         // Beyond 1 all levels are alike.
         let dot = dot.clamp(-1 << 28, 1 << 28) as i32;
-        level(dot, self.ambient.min(U1F15::ONE))
+        level(cosine(dot), self.ambient.min(U1F15::ONE))
     }
 
     /// The same where the direction is a unit vector and the ambient level at most 1, as those of
     /// a light in model space are.
-    #[inline]
+    #[inline(always)]
     fn level_of_unit(&self, normal: [i16; 3]) -> U1F15 {
+        level(self.cosine(normal), self.ambient)
+    }
+
+    /// The product of a normal with the direction where that is a unit vector, in Q15.
+    #[inline(always)]
+    fn cosine(&self, normal: [i16; 3]) -> i32 {
         let l = self.direction;
         let mut dot = 0i32;
         for i in 0..3 {
             dot += i32::from(normal[i]) * i32::from(l[i].to_bits());
         }
-        level(dot, self.ambient)
+        cosine(dot)
     }
 
     /// In the space of a model, by the map from there to the world.
@@ -67,14 +73,32 @@ impl Light {
     pub(crate) fn lit(&self, tint: &Tint, normal: [i16; 3]) -> Colour {
         tint.lit(self.level_of_unit(normal).to_bits())
     }
+
+    /// The same as a word, where one that the light does not reach is known.
+    #[inline(always)]
+    pub(crate) fn lit_or(&self, dark: u32, tint: &Tint, normal: [i16; 3]) -> u32 {
+        match self.cosine(normal) {
+            ..=0 => dark,
+            cosine => tint.lit(level(cosine, self.ambient).to_bits()).word(),
+        }
+    }
 }
 
-/// The level of a surface whose normal has this product with the light's direction, in Q28; the
+/// Q28 to Q15.
+#[inline(always)]
+fn cosine(dot: i32) -> i32 {
+    (dot + (1 << 12)) >> 13
+}
+
+/// The level of a surface whose normal has this product with the light's direction, in Q15; the
 /// ambient level is at most 1.
 #[inline(always)]
-fn level(dot: i32, ambient: U1F15) -> U1F15 {
-    // Q28 to Q15; a normal a little longer than 1 must not lift the level above 1.
-    let lambert = ((dot + (1 << 12)) >> 13).clamp(0, 1 << 15) as u32;
+fn level(cosine: i32, ambient: U1F15) -> U1F15 {
+    if cosine <= 0 {
+        return ambient;
+    }
+    // A normal a little longer than 1 must not lift the level above 1.
+    let lambert = cosine.min(1 << 15) as u32;
     let ambient = u32::from(ambient.to_bits());
     let level = ambient + ((((1 << 15) - ambient) * lambert + (1 << 14)) >> 15);
     U1F15::from_bits(level as u16)

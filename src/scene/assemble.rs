@@ -6,7 +6,9 @@
 use super::alpha::{self, Alphas};
 use super::check::{check_alphas, check_draw};
 use super::lights::Lamps;
-use super::pass::{Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, light_all, top_first};
+use super::pass::{
+    Lost, Normals, Pass, WordOfNormal, colour_all, colour_of, light_all, light_each, top_first,
+};
 use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
@@ -284,9 +286,10 @@ impl<'t, L> Scene<'_, 't, L> {
             return colour_all(colour, vertices);
         }
         match &pass.light {
-            Some(light) if mesh.colours.is_empty() && !mesh.normals.is_empty() => {
-                light_all(light, &pass.tint, mesh.normals, vertices);
-            }
+            Some(light) if !mesh.normals.is_empty() => match mesh.colours {
+                [] => light_all(light, &pass.tint, mesh.normals, vertices),
+                colours => light_each(light, &scale, mesh.normals, colours, vertices),
+            },
             _ => {
                 for (i, vertex) in vertices.iter_mut().enumerate() {
                     if vertex.is_used() {

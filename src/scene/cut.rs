@@ -9,6 +9,7 @@
 use super::project::{Point, View, beyond};
 use crate::geometry::Colour;
 use crate::num::divide;
+use core::hint::black_box;
 use heapless::Vec;
 
 /// A corner on its way through the planes.
@@ -33,9 +34,18 @@ impl Corner {
         Self {
             point,
             colour,
+            ..Self::of_vertex(Self::CUT)
+        }
+    }
+
+    /// A vertex of the mesh, of which nothing else is known yet.
+    pub(super) fn of_vertex(vertex: u16) -> Self {
+        Self {
+            point: Point::default(),
+            colour: 0,
             texel: [0; 2],
             alpha: 0,
-            vertex: Self::CUT,
+            vertex,
         }
     }
 }
@@ -74,7 +84,8 @@ fn cut_by(corners: &[Corner; 3], view: &View, planes: &[u32], f: &mut dyn FnMut(
     let (mut polygon, mut kept) = (&mut polygon, &mut kept);
     // Three of seven places: it cannot be full.
     let _ = polygon.extend_from_slice(corners);
-    for &plane in planes {
+    // One copy of the loop, for any number of them.
+    for &plane in black_box(planes) {
         let is_within = |corner: &Corner| view.within(plane, corner.point) >= 0;
         if plane != 0 && !polygon.iter().all(is_within) {
             cut(polygon, view, plane, kept);

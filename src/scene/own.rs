@@ -4,7 +4,7 @@ use super::alpha;
 use super::assemble::bin_of;
 use super::cut::{Corner, cut_all};
 use super::pass::{Own, Pass, colour_of};
-use super::project::{Point, View};
+use super::project::View;
 use super::{Full, NONE, Object, Scene, TexturePlace, Vertex};
 use crate::geometry::{Coordinate, Mesh, Scale};
 use core::hint::black_box;
@@ -24,17 +24,21 @@ impl<L> Scene<'_, '_, L> {
         if self.leaves_out(corners, pass) {
             return;
         }
-        let points = corners.map(|i| pass.view.point_of(mesh.positions, i.into()));
-        let beyond = points.map(|point| pass.view.beyond(point));
-        if beyond[0] & beyond[1] & beyond[2] != 0 {
+        // Loops over slices of any length: what is rare is not there three times.
+        let mut corners = corners.map(Corner::of_vertex);
+        let (mut every, mut any) = (u32::MAX, 0);
+        for corner in black_box(corners.as_mut_slice()) {
+            corner.point = pass.view.point_of(mesh.positions, corner.vertex.into());
+            let beyond = pass.view.beyond(corner.point);
+            (every, any) = (every & beyond, any | beyond);
+        }
+        if every != 0 {
             pass.culled += 1;
             return;
         }
-        let any = beyond[0] | beyond[1] | beyond[2];
-        let corners = [0, 1, 2].map(|k| {
-            let i = usize::from(corners[k]);
-            corner_of(mesh, i, points[k], colour, pass, &self.scale)
-        });
+        for corner in black_box(corners.as_mut_slice()) {
+            dress(mesh, colour, pass, &self.scale, corner);
+        }
         let before = self.objects.len();
         let mut lost = None;
         if any == 0 {
@@ -78,7 +82,10 @@ impl<L> Scene<'_, '_, L> {
         pass: &Pass<'_>,
     ) -> Result<(), Full> {
         let vertices = self.shared(pass);
-        let own = [0, 1, 2].map(|i| own_of(&piece[i], whole, vertices, pass));
+        let mut own = [Own::EMPTY; 3];
+        for (own, corner) in own.iter_mut().zip(black_box(piece.as_slice())) {
+            *own = own_of(corner, whole, vertices, pass);
+        }
         self.file_own(&own, pass)
     }
 
@@ -125,23 +132,19 @@ impl<L> Scene<'_, '_, L> {
     }
 }
 
-/// A corner of a face that the camera sees at a point, of a colour, or lit; out of line, since a face has three.
+/// Gives a corner the colour that it has, or is lit with, its place on the texture and its alpha.
 #[inline(never)]
-fn corner_of<C: Coordinate>(
+fn dress<C: Coordinate>(
     mesh: &Mesh<'_, C>,
-    i: usize,
-    point: Point,
     colour: Option<u32>,
     pass: &Pass<'_>,
     scale: &Scale,
-) -> Corner {
-    Corner {
-        point,
-        colour: colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale)),
-        texel: pass.texel(i),
-        alpha: pass.alpha(i),
-        vertex: i as u16,
-    }
+    corner: &mut Corner,
+) {
+    let i = usize::from(corner.vertex);
+    corner.colour = colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale));
+    corner.texel = pass.texel(i);
+    corner.alpha = pass.alpha(i);
 }
 
 /// Gives points of corners of a mesh all bits.

@@ -30,6 +30,15 @@ pub(super) struct Own {
     pub(super) alpha: u16,
 }
 
+impl Own {
+    /// Nothing yet.
+    pub(super) const EMPTY: Self = Self {
+        vertex: Vertex::EMPTY,
+        place: TexturePlace::EMPTY,
+        alpha: 0,
+    };
+}
+
 /// The word of a normal, turned from its model to the camera; and of what has none.
 pub(crate) type WordOfNormal = fn(&Affine, Option<[i16; 3]>) -> u32;
 
@@ -108,12 +117,28 @@ pub(super) fn top_first(
 #[inline(never)]
 pub(super) fn light_all(light: &Light, tint: &Tint, normals: &[[i16; 3]], vertices: &mut [Vertex]) {
     let (light, tint) = (*light, *tint);
+    let dark = tint.lit(light.ambient.to_bits()).word();
     for (vertex, &normal) in vertices.iter_mut().zip(normals) {
-        if !vertex.is_used() {
-            continue;
+        if vertex.is_used() {
+            vertex.colour = light.lit_or(dark, &tint, normal);
         }
-        let lit = light.lit(&tint, normal);
-        vertex.colour = lit.word();
+    }
+}
+
+/// The same, each of its own colour.
+#[inline(never)]
+pub(super) fn light_each(
+    light: &Light,
+    scale: &Scale,
+    normals: &[[i16; 3]],
+    colours: &[[u8; 3]],
+    vertices: &mut [Vertex],
+) {
+    let (light, scale) = (*light, *scale);
+    for ((vertex, &normal), &colour) in vertices.iter_mut().zip(normals).zip(colours) {
+        if vertex.is_used() {
+            vertex.colour = light.lit(&Tint::new(colour, &scale), normal).word();
+        }
     }
 }
 
