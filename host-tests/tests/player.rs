@@ -150,17 +150,24 @@ impl Contents {
 
 #[test]
 fn baked_lists_are_what_the_same_calls_draw() {
-    for list in [Played::Teapot, Played::Crate] {
+    for list in [Played::Teapot, Played::Crate, Played::CrateOwn] {
         let words = list.list().unwrap();
         let contents = contents(words);
         let palettes = contents.palettes(words);
         let bytes: Vec<u8> = words.iter().flat_map(|word| word.to_ne_bytes()).collect();
         let textures = contents.textures(&bytes, &palettes);
-        let begin = Played::settings().draw;
+        let PlayerSettings {
+            draw: begin,
+            textures: own,
+            ..
+        } = list.settings();
         let want = begun::<Skinned>(&list.camera().unwrap(), |scene| {
             for table in &contents.tables {
                 let matrix = table.matrix.as_ref().map_or(Affine::IDENTITY, Affine::from);
-                let texture = table.material.texture.map(|number| &textures[&number]);
+                let texture = table.material.texture.map(|number| {
+                    let own = own.get(usize::from(number)).copied().flatten();
+                    own.unwrap_or(&textures[&number])
+                });
                 let places: Vec<[i32; 2]> = (table.places.iter())
                     .map(|[u, v]| {
                         let (w, h) = texture.map_or((1, 1), |t| (t.width(), t.height()));
@@ -197,7 +204,7 @@ fn baked_lists_are_what_the_same_calls_draw() {
             let mut kept = Kept::new(vertices, indices);
             let mut player = kept.player::<Skinned>(PlayerSettings {
                 budget: Budget::EXACT,
-                ..Played::settings()
+                ..list.settings()
             });
             let got = begun::<Skinned>(&list.camera().unwrap(), |scene| {
                 player.start(0);
@@ -399,7 +406,7 @@ fn a_list_that_is_cut_by_its_budget_goes_on_where_it_stood() {
     let list = Played::Teapot.list().unwrap();
     let camera = Played::Teapot.camera().unwrap();
     let mut kept = Kept::new(255, 1536);
-    let mut player = kept.player::<Smooth>(Played::settings());
+    let mut player = kept.player::<Smooth>(Played::Teapot.settings());
     let whole = begun::<Smooth>(&camera, |scene| {
         player.start(0);
         played(&mut player, list, scene, PLENTY).unwrap();
@@ -432,7 +439,7 @@ fn what_is_out_of_sight_is_passed_over() {
     for (eye, skipped) in [([0.0, 1.2, 2.6], 1), ([0.0, 1.2, 12.0], 0)] {
         let camera = scanbeam::Camera::look_at(eye, at, up, 300.0, 0.1, 100.0).unwrap();
         let mut kept = Kept::new(255, 1536);
-        let mut player = kept.player::<Smooth>(Played::settings());
+        let mut player = kept.player::<Smooth>(Played::Teapot.settings());
         begun::<Smooth>(&camera, |scene| {
             player.start(0);
             played(&mut player, list, scene, PLENTY).unwrap();
@@ -461,7 +468,7 @@ fn settings_grant_a_window() {
             played(&mut player, list, scene, PLENTY).unwrap();
         })
     };
-    let settings = Played::settings();
+    let settings = Played::Teapot.settings();
     let all = draw(settings);
     let cut = draw(PlayerSettings {
         window: Some(window),

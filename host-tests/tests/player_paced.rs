@@ -45,7 +45,7 @@ fn lists_are_paced_as_calls_are() {
         indices: &mut lent.2,
         ..PlayerMemory::default()
     };
-    let mut player = Player::new(memory, Played::settings());
+    let mut player = Player::new(memory, Played::Teapot.settings());
     let mut rooms = SceneRooms::new(ROOM, Shot::screen().height());
     let mut scene = rooms.scene::<SmoothLook>(Shot::screen());
     let counts = played.play(&mut player, ListCommand::Start(0), &mut scene);

@@ -240,7 +240,7 @@ fn places_of_16_bits_are_the_same_in_memory_of_32() {
     let list = Played::Teapot.list().unwrap();
     let camera = Played::Teapot.camera().unwrap();
     let mut kept = Kept::new(255, 1536);
-    let mut player = kept.player::<Smooth>(Played::settings());
+    let mut player = kept.player::<Smooth>(Played::Teapot.settings());
     let want = begun::<Smooth>(&camera, |scene| {
         player.start(0);
         played(&mut player, list, scene, PLENTY).unwrap();
@@ -248,7 +248,7 @@ fn places_of_16_bits_are_the_same_in_memory_of_32() {
     });
     let got = begun::<Smooth>(&camera, |scene| {
         assert_eq!(
-            play(list, Played::settings(), [255, 1536], scene),
+            play(list, Played::Teapot.settings(), [255, 1536], scene),
             Halt::End
         );
     });

@@ -1,5 +1,6 @@
 //! Textures of lists as values of the rooms: forms, palettes, transparent texels, and the memory that they take (H7).
 
+mod own;
 mod samples;
 mod tables;
 

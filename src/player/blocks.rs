@@ -4,7 +4,7 @@ use super::gather::Refusal;
 use super::lights;
 use super::play::{Player, Stage};
 use super::state::Drawer;
-use super::textures::Asked;
+use super::textures::{Asked, Listed};
 use crate::geometry::{Affine, Camera, Coordinate, Eye, Meshlet, Sphere};
 use crate::list::{
     Bounds, Cone, Flow, Id, Instruction, Layout, Lent, LightWords, ListError, Material, Missing,
@@ -133,7 +133,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         drawer.gather(self.casts.as_mut(), |out| self.gather.flush(words, out))
     }
 
-    /// The texture that the material names, and the palette that this one names now.
+    /// The texture that the material names: of the settings, or of the list with the palette that it names now.
     fn find_texture(&mut self, words: impl Words<'t>) -> Result<(), Reason> {
         self.state.is_stale = false;
         self.state.texture = None;
@@ -143,6 +143,10 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let Some(number) = self.state.material.texture else {
             return Ok(());
         };
+        if let Some(Some(texture)) = self.settings.textures.get(usize::from(number)) {
+            self.state.texture = Some(Listed::own(texture));
+            return Ok(());
+        }
         let pair = self.names.pair(number).map_err(|none| match none {
             NoTexture::Palette => Reason::NoPalette(number),
             _ => Reason::NoTexture(number),

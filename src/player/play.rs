@@ -71,8 +71,13 @@ pub struct PlayerSettings<'m, 't> {
     pub window: Option<Window>,
     /// How far texels may be from their places where a block has PRSP; elsewhere [`Budget::FAST`].
     pub budget: Budget,
-    /// How texels are taken; `None`: the nearest one.
+    /// How texels of the list are taken; `None`: the nearest one.
     pub sampling: Option<Sampling>,
+    /// What materials mean by the number 0, 1 and so on, whatever the list has by that number; `None`, and beyond the
+    /// last: the list's. These may be [computed](Texture::computed) (H17), or lie in blocks behind a
+    /// [cache](crate::scene::BlockCache) (B1, B5); they keep their wrap and the way in which their texels are taken, and
+    /// one that has a mask is blended by its alphas.
+    pub textures: &'m [Option<&'t Texture<'t>>],
     /// The lights whose shadows what is drawn casts, for players [`with_shadows`](Player::with_shadows) alone; what has a
     /// [`shadow`](Draw::shadow) itself casts none.
     pub casts: &'m [ShadowLight],
@@ -106,6 +111,7 @@ impl Default for PlayerSettings<'_, '_> {
             window: None,
             budget: Budget::BALANCED,
             sampling: None,
+            textures: &[],
             casts: &[],
             on_violation: OnViolation::GoOn,
             control: None,
@@ -124,7 +130,7 @@ impl Default for PlayerSettings<'_, '_> {
 /// | LIGHT 0, white, alone on what is matt | `light` |
 /// | LIGHT 0 to 7, highlights, where memory has a [`LightRoom`](super::LightRoom) | `lights` |
 /// | MATERIAL | `colour`, `cull`, `blend` of its opacity; not lit: no light |
-/// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so |
+/// | TEXTURE, PALETTE | `texture`: texels where they lie, a palette as the panel has it; what has alpha 0 is transparent; filtered if the settings say so; or one of the [settings](PlayerSettings::textures) |
 /// | alphas of vertices, where memory has [room](PlayerMemory::alphas) for them | `alphas`; where one is below 255, a `blend` by them |
 /// | texels of other alphas, and of the D bit | a [mask](crate::scene::Texture::masked); with alphas, a `blend` by them |
 /// | PRSP | the budget of the settings for texture places, else 1/2 texel |

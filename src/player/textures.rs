@@ -61,12 +61,22 @@ struct Key {
     is_mask: bool,
 }
 
-/// A texture that was made.
+/// A texture that was made, or is the application's.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Listed<'t> {
     pub(super) texture: &'t Texture<'t>,
     /// Whether texels are neither opaque nor transparent.
     pub(super) is_translucent: bool,
+}
+
+impl<'t> Listed<'t> {
+    /// One of the application's.
+    pub(super) fn own(texture: &'t Texture<'t>) -> Self {
+        Self {
+            texture,
+            is_translucent: texture.mask().is_some(),
+        }
+    }
 }
 
 /// A texture that is to be drawn with.

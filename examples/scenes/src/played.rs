@@ -1,4 +1,5 @@
-//! Baked lists in the rooms `scene`, `look` and `frame`: the teapot, and a crate with its textures (H7, H11).
+//! Baked lists in the rooms `scene`, `look` and `frame`: the teapot, and a crate with its textures (H7, H11), or with a
+//! computed one in place of one of them (H17).
 
 use crate::listed::{crate_list, teapot_list, teapot_meshlets_list};
 use crate::{CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, Shot};
@@ -6,7 +7,7 @@ use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerSettings, RunCounts};
 use scanbeam::list::{Budget, Halt, ListCommand, ListError};
 use scanbeam::look::Look;
-use scanbeam::scene::{BeginError, Draw, Scene};
+use scanbeam::scene::{BeginError, Checker, Draw, Scene, Texture};
 use scanbeam::{Affine, Camera, CameraError, Light};
 
 /// A list that is played.
@@ -18,14 +19,30 @@ pub enum Played {
     TeapotMeshlets,
     /// The crate, textured and lit.
     Crate,
+    /// The same, with a texture of the application in place of its first one.
+    CrateOwn,
 }
 
 /// Their names.
-pub const PLAYED: [(&str, Played); 3] = [
+pub const PLAYED: [(&str, Played); 4] = [
     ("teapot_list", Played::Teapot),
     ("teapot_list_meshlets", Played::TeapotMeshlets),
     ("crate_list", Played::Crate),
+    ("crate_list_own", Played::CrateOwn),
 ];
+
+/// Squares in the panel's order of bytes.
+static SQUARES: Checker = Checker {
+    colours: [0x041F_u16.to_be(), 0xFFE0_u16.to_be()],
+    log_side: 1,
+};
+
+static CHECKED: Texture<'static> = match Texture::computed(&SQUARES, 16, 16) {
+    Ok(texture) => texture,
+    Err(_) => panic!("powers of two"),
+};
+/// What the number 0 means.
+static OWN: [Option<&Texture<'static>>; 1] = [Some(&CHECKED)];
 
 /// Numbers of the crate's two textures and their palettes.
 pub const PLAYED_NAMES: usize = 4;
@@ -56,7 +73,7 @@ impl Played {
         match self {
             Self::Teapot => teapot_list(),
             Self::TeapotMeshlets => teapot_meshlets_list(),
-            Self::Crate => crate_list(),
+            Self::Crate | Self::CrateOwn => crate_list(),
         }
     }
 
@@ -65,15 +82,19 @@ impl Played {
     pub const fn sizes(self) -> [usize; 2] {
         match self {
             Self::Teapot | Self::TeapotMeshlets => [LIST_TABLE, LIST_INDICES],
-            Self::Crate => [CRATE_TABLE, CRATE_INDICES],
+            Self::Crate | Self::CrateOwn => [CRATE_TABLE, CRATE_INDICES],
         }
     }
 
     /// How it begins: where [`Shot::Teapot`] stands, in its light.
     #[must_use]
-    pub fn settings() -> PlayerSettings<'static, 'static> {
+    pub fn settings(self) -> PlayerSettings<'static, 'static> {
         let settings = PlayerSettings::default();
         PlayerSettings {
+            textures: match self {
+                Self::CrateOwn => &OWN,
+                _ => &[],
+            },
             draw: Draw {
                 model: Affine::rotation_y(0.6),
                 light: Light::new([0.3, 0.8, 0.6], 0.2),
@@ -90,7 +111,7 @@ impl Played {
     pub fn camera(self) -> Result<Camera, CameraError> {
         let eye = match self {
             Self::Teapot | Self::TeapotMeshlets => [0.0, 1.2, 2.6],
-            Self::Crate => [0.3, 1.7, 2.4],
+            Self::Crate | Self::CrateOwn => [0.3, 1.7, 2.4],
         };
         Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 100.0)
     }

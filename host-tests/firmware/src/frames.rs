@@ -229,8 +229,9 @@ impl Sent<'_, '_> {
     fn played(&mut self, played: Played, rooms: &mut Rooms) {
         let (begin, background) = (ListCommand::Start(0), played.background());
         match played {
-            Played::Crate => {
+            Played::Crate | Played::CrateOwn => {
                 let mut scene = rooms.scene.scene();
+                rooms.wood.set(played.settings());
                 played
                     .play(&mut rooms.wood, begin, &mut scene)
                     .expect(LARGE);

@@ -170,8 +170,8 @@ impl Rooms {
                 vertices: lend!(".slow", u16, CutMemory::VERTICES, 0),
             },
             shown: lend!(".slow", u32, VALUES_SHOWN, 0),
-            teapot: Player::new(teapot_memory(), Played::settings()),
-            wood: Player::new(crate_memory(), Played::settings()),
+            teapot: Player::new(teapot_memory(), Played::Teapot.settings()),
+            wood: Player::new(crate_memory(), Played::Crate.settings()),
             buffers: Some([lend!(".dma", u16, WORDS, 0), lend!(".dma", u16, WORDS, 0)]),
         }
     }

@@ -15,7 +15,7 @@ use std::error::Error;
 pub fn played_frame(played: Played) -> Result<Drawn, Box<dyn Error>> {
     match played {
         Played::Teapot | Played::TeapotMeshlets => played_as::<SmoothLook>(played),
-        Played::Crate => played_as::<TexturedLook>(played),
+        Played::Crate | Played::CrateOwn => played_as::<TexturedLook>(played),
     }
 }
 
@@ -37,7 +37,7 @@ fn played_as<L: Look<Pixel = Rgb565Be>>(played: Played) -> Result<Drawn, Box<dyn
         texels: &mut texels,
         ..PlayerMemory::default()
     };
-    let mut player = Player::new(memory, Played::settings());
+    let mut player = Player::new(memory, played.settings());
     drawn::<L>(played.background(), |scene| {
         match played.play(&mut player, ListCommand::Start(0), scene) {
             Ok(_) => Ok(()),

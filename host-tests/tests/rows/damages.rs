@@ -42,7 +42,7 @@ const PARTS: [Damage; 10] = [
     ("K9", "| host; ", "| "),
     ("K9", "| host; ", "| no host: it is hard; "),
     ("K9", "QEMU `frame values_shadows`; ", ""),
-    ("H17", "no lists: ", "nothing: "),
+    ("K6", "no lists: ", "nothing: "),
     ("K9", "; tool `render --shadows`", ""),
     ("K9", "; tool", "; tool `render`; tool"),
     (

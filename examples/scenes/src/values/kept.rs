@@ -195,7 +195,7 @@ impl Rest<'_> {
         };
         let settings = PlayerSettings {
             window,
-            ..Played::settings()
+            ..Played::Crate.settings()
         };
         let mut player = Player::new(lent, settings);
         let camera = Played::Crate.camera().map_err(ShotError::Camera)?;

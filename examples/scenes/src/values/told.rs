@@ -98,7 +98,7 @@ impl Rest<'_> {
             texels: &mut texels,
             ..PlayerMemory::default()
         };
-        let mut player = Player::new(memory, Played::settings());
+        let mut player = Player::new(memory, Played::Crate.settings());
         let camera = Played::Crate.camera().map_err(ShotError::Camera)?;
         scene.begin(&camera).map_err(ShotError::Begin)?;
         player.command(ListCommand::Start(from));
