@@ -11,6 +11,7 @@ use host_tests::{
     accuracy, bench, boards, budgets, cache_report, compress, demo, draw, firmware_report, plan,
     report, stdio, tell, trace, view,
 };
+use scanbeam::frame::Paid;
 use std::error::Error;
 use std::process::ExitCode;
 
@@ -103,6 +104,22 @@ impl Picture {
                 "note: triangles, or pieces of them, that stretch over more than 4096 texels, drawn without their texture: {untextured}"
             );
         }
+        if let Some(paid) = self.drawn.paid.filter(|paid| paid.lines > 0) {
+            let Paid {
+                even,
+                joined,
+                unsorted,
+                left_out,
+                late,
+                lost,
+                ..
+            } = paid;
+            tell!(
+                "note: {} lines would have cost too much: pixels of even runs {even}, of runs joined to others {joined}, \
+                 not compared {unsorted}, left out {left_out}; triangles late {late}, lost {lost}",
+                paid.lines
+            );
+        }
         if args.cache > draw::MOST_SLOTS {
             tell!(
                 "note: a renderer's cache has at most {} slots: the picture is the same with any number",
@@ -161,6 +178,10 @@ fn render(args: &RenderArgs) -> Result<(), Box<dyn Error>> {
         Method::Interp(InterpArg::Model) => TextureSet::default(),
         _ => TextureSet::load(&model, args.texture.as_deref())?.with_levels(args.levels.is_on()),
     };
+    if args.pace.is_some() && args.levels.is_on() && !textures.is_empty() {
+        let model = args.model.display();
+        return Err(format!("{model}: with --pace textures need --levels off").into());
+    }
     let (view, format, crew) = (args.view(), args.format(), args.crew());
     let effects = args.effects();
     let are_seen = effects.are_seen(&model, &view);

@@ -418,3 +418,28 @@ fn stats_have_every_key_of_the_contract() {
     assert_eq!(number("/pixels_shaded"), covered as u64);
     assert_eq!(desk.files(), ["m.obj", "o.png", "s.json"]);
 }
+
+/// Kills: a pace that is not handed on, and figures that are not those of the picture.
+#[test]
+fn a_pace_lowers_quality_and_tells_what_was_paid() {
+    let desk = Desk::new(sheet(14));
+    let flags = "render m.obj -o o.png --size 320x240 --format rgb565 --stats s.json";
+    let whole = desk.drawn(flags);
+    assert_eq!(figures(&desk)["paid"], serde_json::Value::Null);
+    let paid = |key: &str| figures(&desk)["paid"][key].as_u64().unwrap();
+    assert!(desk.drawn(&format!("{flags} --pace 4000000")) == whole);
+    assert!(paid("dearest") > 2280 && paid("lines") == 0);
+    let (frame, text) = desk.told(&format!("{flags} --pace 12000"));
+    let [lines, even, joined, unsorted] = ["lines", "even", "joined", "unsorted"].map(paid);
+    let [left_out, late, lost] = ["left_out", "late", "lost"].map(paid);
+    let told = format!(
+        "note: {lines} lines would have cost too much: pixels of even runs {even}, of runs joined to others {joined}, not \
+         compared {unsorted}, left out {left_out}; triangles late {late}, lost {lost}\n"
+    );
+    assert_eq!(text, told);
+    assert!(lines > 50 && even > 1000 && joined > 1000, "{text}");
+    assert!((9_000..=12_000).contains(&paid("dearest")));
+    let pairs = frame.rgb().chunks(3).zip(whole.rgb().chunks(3));
+    let differ = pairs.filter(|(a, b)| a != b).count();
+    assert!(differ > 1000, "{differ}");
+}

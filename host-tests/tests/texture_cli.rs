@@ -114,6 +114,10 @@ fn textures_that_cannot_be_read_are_refused() {
         &format!("{DRAW} --texture t.png --interp model"),
         "--texture",
     );
+    desk.refused(
+        &format!("{DRAW} --texture t.png --format rgb565 --pace 9000"),
+        "--levels off",
+    );
     desk.refused(&format!("{DRAW} --texture t.png --filter cubic"), "cubic");
     desk.refused(&format!("{DRAW} --texture"), "--texture");
     desk.write("bare.obj", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n");

@@ -33,7 +33,7 @@ pub use textured::{FilterArg, Skins, TextureSet, TextureSetError};
 use crate::choice::{DEFAULT_SLOTS, DepthArg};
 use host_support::image_out::Frame;
 use host_support::mock::{HostLine, MockError, MockFrameBuffer};
-use scanbeam::frame::{FrameError, FrameUse};
+use scanbeam::frame::{FrameError, FrameUse, Paid};
 use scanbeam::scan_out::Pump;
 use scanbeam::scene::CacheReads;
 use scanbeam::stats::SpanCounts;
@@ -55,6 +55,8 @@ pub struct CrewSettings {
     pub counts: bool,
     /// How what is seen is found.
     pub depth: DepthArg,
+    /// The most that a line may cost, in instructions of M4 code, if there is a limit.
+    pub pace: Option<u32>,
 }
 
 impl Default for CrewSettings {
@@ -65,6 +67,7 @@ impl Default for CrewSettings {
             prefetch: 0,
             counts: false,
             depth: DepthArg::Auto,
+            pace: None,
         }
     }
 }
@@ -154,6 +157,8 @@ pub struct Drawn {
     pub overfull: Option<Overfull>,
     /// What caches of texels did, all together; `None` where there are none.
     pub texels: Option<CacheReads>,
+    /// What was paid for lines not to cost too much; `None` where there is no limit.
+    pub paid: Option<Paid>,
 }
 
 impl Drawn {
@@ -200,6 +205,18 @@ impl Drawn {
                 "line_bytes": figures.line_bytes,
             },
         });
+        if let Some(paid) = &self.paid {
+            all["paid"] = json!({
+                "lines": paid.lines,
+                "even": paid.even,
+                "joined": paid.joined,
+                "unsorted": paid.unsorted,
+                "left_out": paid.left_out,
+                "late": paid.late,
+                "lost": paid.lost,
+                "dearest": paid.dearest,
+            });
+        }
         if let Some(texels) = &self.texels {
             all["texel_cache"] = json!({
                 "reads": texels.reads,

@@ -9,7 +9,7 @@ use host_support::image_out::Frame;
 use host_support::mock::MockFrameBuffer;
 use host_support::reference::View;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::frame::{FastMemory, FrameUse};
+use scanbeam::frame::{FastMemory, FrameUse, Pace, Paid};
 use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::Pump;
@@ -140,6 +140,8 @@ pub(crate) struct Took {
     pub(crate) spans: Option<SpanCounts>,
     /// Bytes of fast memory.
     pub(crate) fast_bytes: usize,
+    /// What was paid for lines not to cost too much.
+    pub(crate) paid: Option<Paid>,
 }
 
 impl Took {
@@ -158,6 +160,7 @@ impl Took {
             },
             spans: Some(spans),
             fast_bytes,
+            paid: None,
         }
     }
 }
@@ -216,6 +219,7 @@ where
         spans: None,
         figures: Figures::default(),
         overfull: None,
+        paid: None,
         counted,
         step,
         by,
@@ -237,6 +241,7 @@ where
         figures: parts.figures,
         overfull: parts.overfull,
         texels: None,
+        paid: parts.paid,
     })
 }
 
@@ -270,9 +275,16 @@ where
                 true => rooms.renderer().counting(),
                 false => rooms.renderer(),
             };
-            match job.crew.prefetch {
+            let renderer = match job.crew.prefetch {
                 0 => renderer,
                 bytes => renderer.fetching(bytes),
+            };
+            match job.crew.pace {
+                None => renderer,
+                Some(most) => renderer.paced(Pace {
+                    most,
+                    ..costs::<L>()
+                }),
             }
         })
         .collect();
@@ -288,11 +300,22 @@ where
             .for_each(|renderer| all += renderer.spans());
         all
     });
+    // One renderer alone has a pace.
+    let paid = job.crew.pace.and(renderers.first());
     Ok(Took {
         used: used.map_err(DrawFailure::Display)?,
         spans,
         fast_bytes: usize::from(count) * fast,
+        paid: paid.map(Renderer::paid),
     })
+}
+
+/// Costs in M4 code.
+fn costs<L: Look>() -> Pace {
+    match L::TEXTURED {
+        true => Pace::TEXTURED_M4,
+        false => Pace::GOURAUD_M4,
+    }
 }
 
 /// A picture as its parts become ready.
@@ -302,6 +325,7 @@ struct Parts<'c, 't, L, F: PixelFormat> {
     spans: Option<SpanCounts>,
     figures: Figures,
     overfull: Option<Overfull>,
+    paid: Option<Paid>,
     counted: &'c [Option<&'c Chunk>],
     step: &'c mut Step<'c, 't, L>,
     by: &'c mut Drawer<'c, 't, L, F>,
@@ -353,6 +377,9 @@ impl<'t, L: Look<Pixel = F>, F: PixelFormat> Parts<'_, 't, L, F> {
             add(&mut self.used, &took.used);
             if let Some(spans) = took.spans {
                 *self.spans.get_or_insert_default() += spans;
+            }
+            if let Some(paid) = took.paid {
+                add_paid(self.paid.get_or_insert_default(), &paid);
             }
             self.figures.add(job, &scene, lines, took.fast_bytes);
             start += count;
@@ -435,6 +462,18 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.scan_out.stall_polls += one.scan_out.stall_polls;
     all.scan_out.lines_unsent += one.scan_out.lines_unsent;
     all.scan_out.bytes_unsent += one.scan_out.bytes_unsent;
+}
+
+/// Adds what was paid in another part.
+fn add_paid(all: &mut Paid, one: &Paid) {
+    all.lines += one.lines;
+    all.even += one.even;
+    all.joined += one.joined;
+    all.unsorted += one.unsorted;
+    all.left_out += one.left_out;
+    all.late += one.late;
+    all.lost += one.lost;
+    all.dearest = all.dearest.max(one.dearest);
 }
 
 impl Figures {

@@ -125,6 +125,9 @@ pub struct RenderArgs {
     /// Bytes a line that each renderer fetches ahead into its cache
     #[arg(long, value_name = "BYTES", default_value_t = 0)]
     pub prefetch: u32,
+    /// Most that a line may cost, in instructions of a Cortex-M4; where one would cost more, quality is lowered
+    #[arg(long, value_name = "COST")]
+    pub pace: Option<u32>,
     /// Also write figures of the frame, as JSON
     #[arg(long, value_name = "OUT.json")]
     pub stats: Option<PathBuf>,
@@ -163,8 +166,10 @@ impl RenderArgs {
             renderers: self.renderers,
             slots: self.cache,
             prefetch: self.prefetch,
-            counts: self.stats.is_some(),
+            // What has a pace counts nothing else.
+            counts: self.stats.is_some() && self.pace.is_none(),
             depth: self.depth,
+            pace: self.pace,
         }
     }
 
@@ -199,9 +204,9 @@ impl RenderArgs {
             return Err(format!("{method} has no --depth: its own is what it is"));
         }
         let crew = (self.cache, self.renderers, self.prefetch, self.quality);
-        if crew != (DEFAULT_SLOTS, 1, 0, None) {
+        if crew != (DEFAULT_SLOTS, 1, 0, None) || self.pace.is_some() {
             return Err(format!(
-                "{method} has no --cache, --renderers, --prefetch or --quality"
+                "{method} has no --cache, --renderers, --prefetch, --pace or --quality"
             ));
         }
         if self.texture.is_some() || self.has_effects() {
@@ -217,11 +222,29 @@ impl RenderArgs {
         Ok(())
     }
 
+    /// Whether the rest goes with a pace.
+    fn check_pace(&self) -> Result<(), String> {
+        let crew = (self.renderers, self.prefetch, self.depth);
+        if self.pace.is_some() && crew != (1, 0, DepthArg::Auto) {
+            return Err("--pace has no --renderers, --prefetch or --depth".into());
+        }
+        let has_costs = self.filter == FilterArg::Nearest && !self.has_effects();
+        if self.pace.is_some() && !(has_costs && self.format() == PixelFormatArg::Rgb565) {
+            return Err(
+                "--pace needs --format rgb565, --dither off, --filter nearest, and no --specular, --shadows on or \
+                 --shade phong: no other costs are known"
+                    .into(),
+            );
+        }
+        Ok(())
+    }
+
     pub(super) fn check(&self) -> Result<(), String> {
         if self.dither.is_on() && self.picture.format != PixelFormatArg::Rgb565 {
             return Err("--dither on needs --format rgb565".into());
         }
         self.check_method()?;
+        self.check_pace()?;
         let is_grey = [PixelFormatArg::Grey8, PixelFormatArg::Mono].contains(&self.picture.format);
         if is_grey && self.texture.is_some() {
             return Err("--texture needs --format rgb888, rgb565 or xrgb8888".into());

@@ -128,6 +128,7 @@ fn every_flag_arrives() {
         prefetch: 99,
         counts: true,
         depth: DepthArg::Z32,
+        pace: None,
     };
     assert_eq!((view.crew(), view.method()), (crew, Method::DrawCalls));
     assert_eq!(view.stats, Some(PathBuf::from("s.json")));

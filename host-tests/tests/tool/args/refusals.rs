@@ -177,6 +177,24 @@ fn refusals_say_what_is_wrong() {
         refusal("--shadows on --depth priority"),
         "error: --depth priority has no --shadows on, which are found by depth"
     );
+    for flags in ["--renderers 2", "--prefetch 8", "--depth z32"] {
+        assert_eq!(
+            refusal(&format!("--pace 9000 --format rgb565 {flags}")),
+            "error: --pace has no --renderers, --prefetch or --depth"
+        );
+    }
+    for flags in [
+        "",
+        "--format grey8",
+        "--format rgb565 --dither on",
+        "--format rgb565 --filter bilinear",
+        "--format rgb565 --shadows on",
+        "--format rgb565 --specular 1,2",
+        "--format rgb565 --shade phong",
+    ] {
+        let line = refusal(&format!("--pace 9000 {flags}"));
+        assert!(line.ends_with("no other costs are known"), "{line}");
+    }
     for method in [
         "--interp plane",
         "--interp model",
@@ -186,19 +204,23 @@ fn refusals_say_what_is_wrong() {
         for (flags, what) in [
             (
                 "--cache 3",
-                "has no --cache, --renderers, --prefetch or --quality",
+                "has no --cache, --renderers, --prefetch, --pace or --quality",
             ),
             (
                 "--renderers 2",
-                "has no --cache, --renderers, --prefetch or --quality",
+                "has no --cache, --renderers, --prefetch, --pace or --quality",
             ),
             (
                 "--prefetch 8",
-                "has no --cache, --renderers, --prefetch or --quality",
+                "has no --cache, --renderers, --prefetch, --pace or --quality",
+            ),
+            (
+                "--pace 9000",
+                "has no --cache, --renderers, --prefetch, --pace or --quality",
             ),
             (
                 "--quality fast",
-                "has no --cache, --renderers, --prefetch or --quality",
+                "has no --cache, --renderers, --prefetch, --pace or --quality",
             ),
             (
                 "--shadows on",
