@@ -76,7 +76,8 @@ pub struct Paid {
     pub left_out: u32,
     /// Triangles that began on a line below their first.
     pub late: u32,
-    /// Triangles that ended while they waited, or were given up because a side could not turn.
+    /// Triangles that ended while they waited, or were given up because a side could not turn. What waits on the last line
+    /// still is not among them, and where a line cannot pay for a `span` nobody is told to have ended.
     pub lost: u32,
     /// What the dearest line was reckoned to cost: [`Pace::most`] at most.
     pub dearest: u32,
