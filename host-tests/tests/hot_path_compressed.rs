@@ -1,7 +1,7 @@
 //! Textures of 4 bits a texel (H7): what a block shows against real numbers, pictures of them against those of the same
 //! texels in memory, caches of all sizes, what is loaded ahead, and what is refused.
 
-use crate::common::Rng;
+use crate::common::{Rng, leaked};
 use crate::hot::{Corner, LineRooms, SceneRooms, camera, draw_with, frame, line};
 use host_tests::compress::{Blocks, Texel, samples};
 use host_tests::say;
@@ -14,10 +14,6 @@ use scanbeam::scene::{
 use scanbeam::{Cull, Screen};
 use std::collections::BTreeSet;
 use std::path::Path;
-
-fn leaked<T>(value: T) -> &'static T {
-    Box::leak(Box::new(value))
-}
 
 fn words(count: usize) -> &'static mut [CacheWord] {
     let words: Vec<_> = (0..count).map(|_| CacheWord::new()).collect();

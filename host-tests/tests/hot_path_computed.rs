@@ -2,7 +2,7 @@
 //! those of the same texels in memory, whatever else a call asks for, and a cache counts what a model of it counts that
 //! follows every texel asked for.
 
-use crate::common::Rng;
+use crate::common::{Rng, leaked};
 use crate::hot::{Corner, LineRooms, SceneRooms, Smooth, WordOf, camera, draw_with, frame, line};
 use scanbeam::look::{Look, Textured};
 use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
@@ -18,10 +18,6 @@ const BUDGETS: [Budget; 3] = [Budget::FAST, Budget::BALANCED, Budget::EXACT];
 
 fn screen() -> Screen {
     Screen::new(96, 64).expect("a screen")
-}
-
-fn leaked<T>(value: T) -> &'static T {
-    Box::leak(Box::new(value))
 }
 
 /// Any words.

@@ -10,6 +10,7 @@ mod formats;
 mod hardware;
 mod interp;
 mod models;
+mod pace;
 mod parts;
 pub mod places;
 mod prepared;
@@ -206,16 +207,7 @@ impl Drawn {
             },
         });
         if let Some(paid) = &self.paid {
-            all["paid"] = json!({
-                "lines": paid.lines,
-                "even": paid.even,
-                "joined": paid.joined,
-                "unsorted": paid.unsorted,
-                "left_out": paid.left_out,
-                "late": paid.late,
-                "lost": paid.lost,
-                "dearest": paid.dearest,
-            });
+            all["paid"] = pace::to_json(paid);
         }
         if let Some(texels) = &self.texels {
             all["texel_cache"] = json!({

@@ -4,12 +4,12 @@
 use crate::choice::DepthArg;
 use crate::counted::{count_triangles, lines_of_faces};
 use crate::prepared::Chunk;
-use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display};
+use crate::{CrewSettings, DrawFailure, Drawn, Figures, MOST_SLOTS, Overfull, crew, display, pace};
 use host_support::image_out::Frame;
 use host_support::mock::MockFrameBuffer;
 use host_support::reference::View;
 use host_support::rooms::{LineRooms, Room, SceneRooms};
-use scanbeam::frame::{FastMemory, FrameUse, Pace, Paid};
+use scanbeam::frame::{FastMemory, FrameUse, Paid};
 use scanbeam::look::Look;
 use scanbeam::pixel::PixelFormat;
 use scanbeam::scan_out::Pump;
@@ -279,13 +279,7 @@ where
                 0 => renderer,
                 bytes => renderer.fetching(bytes),
             };
-            match job.crew.pace {
-                None => renderer,
-                Some(most) => renderer.paced(Pace {
-                    most,
-                    ..costs::<L>()
-                }),
-            }
+            pace::paced(renderer, job.crew.pace)
         })
         .collect();
     let background = F::from_rgb8(job.background);
@@ -308,14 +302,6 @@ where
         fast_bytes: usize::from(count) * fast,
         paid: paid.map(Renderer::paid),
     })
-}
-
-/// Costs in M4 code.
-fn costs<L: Look>() -> Pace {
-    match L::TEXTURED {
-        true => Pace::TEXTURED_M4,
-        false => Pace::GOURAUD_M4,
-    }
 }
 
 /// A picture as its parts become ready.
@@ -379,7 +365,7 @@ impl<'t, L: Look<Pixel = F>, F: PixelFormat> Parts<'_, 't, L, F> {
                 *self.spans.get_or_insert_default() += spans;
             }
             if let Some(paid) = took.paid {
-                add_paid(self.paid.get_or_insert_default(), &paid);
+                pace::add(self.paid.get_or_insert_default(), &paid);
             }
             self.figures.add(job, &scene, lines, took.fast_bytes);
             start += count;
@@ -462,18 +448,6 @@ fn add(all: &mut FrameUse, one: &FrameUse) {
     all.scan_out.stall_polls += one.scan_out.stall_polls;
     all.scan_out.lines_unsent += one.scan_out.lines_unsent;
     all.scan_out.bytes_unsent += one.scan_out.bytes_unsent;
-}
-
-/// Adds what was paid in another part.
-fn add_paid(all: &mut Paid, one: &Paid) {
-    all.lines += one.lines;
-    all.even += one.even;
-    all.joined += one.joined;
-    all.unsorted += one.unsorted;
-    all.left_out += one.left_out;
-    all.late += one.late;
-    all.lost += one.lost;
-    all.dearest = all.dearest.max(one.dearest);
 }
 
 impl Figures {

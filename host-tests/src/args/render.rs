@@ -203,8 +203,8 @@ impl RenderArgs {
         if matches!(method, Method::Interp(_)) && self.depth != DepthArg::Auto {
             return Err(format!("{method} has no --depth: its own is what it is"));
         }
-        let crew = (self.cache, self.renderers, self.prefetch, self.quality);
-        if crew != (DEFAULT_SLOTS, 1, 0, None) || self.pace.is_some() {
+        let crew = (self.cache, self.renderers, self.prefetch);
+        if crew != (DEFAULT_SLOTS, 1, 0) || (self.pace, self.quality) != (None, None) {
             return Err(format!(
                 "{method} has no --cache, --renderers, --prefetch, --pace or --quality"
             ));
@@ -224,12 +224,14 @@ impl RenderArgs {
 
     /// Whether the rest goes with a pace.
     fn check_pace(&self) -> Result<(), String> {
-        let crew = (self.renderers, self.prefetch, self.depth);
-        if self.pace.is_some() && crew != (1, 0, DepthArg::Auto) {
+        if self.pace.is_none() {
+            return Ok(());
+        }
+        if (self.renderers, self.prefetch, self.depth) != (1, 0, DepthArg::Auto) {
             return Err("--pace has no --renderers, --prefetch or --depth".into());
         }
-        let has_costs = self.filter == FilterArg::Nearest && !self.has_effects();
-        if self.pace.is_some() && !(has_costs && self.format() == PixelFormatArg::Rgb565) {
+        let is_plain = self.format() == PixelFormatArg::Rgb565 && !self.has_effects();
+        if !is_plain || self.filter != FilterArg::Nearest {
             return Err(
                 "--pace needs --format rgb565, --dither off, --filter nearest, and no --specular, --shadows on or \
                  --shade phong: no other costs are known"

@@ -4,6 +4,11 @@
 pub mod changes;
 pub mod solid;
 
+/// A value that is never given back.
+pub fn leaked<T>(value: T) -> &'static T {
+    Box::leak(Box::new(value))
+}
+
 /// xorshift64*: small, and the same everywhere.
 #[derive(Clone, Debug)]
 pub struct Rng(u64);

@@ -2,12 +2,12 @@
 
 use super::samples::sample;
 use super::{Skinned, call_quad, call_quad_as, draw_quad};
-use crate::common::Rng;
+use crate::common::{Rng, leaked};
 use crate::listing::PLENTY;
 use crate::played::{Kept, drawn, played};
 use host_tests::lists::writer::ListWriter;
 use scanbeam::input::PlayerSettings;
-use scanbeam::list::{Flow, Halt, ListError, Reason, State, TexelForm};
+use scanbeam::list::{Flow, Halt, Lent, ListError, Reason, State, TexelForm};
 use scanbeam::scene::{
     Blend, BlockCache, Blocked, Budget, CacheWord, Checker, MaskTexel, Sampling, Texture, Wrap,
 };
@@ -51,10 +51,6 @@ fn listed(
     halt.map(|_| picture)
 }
 
-fn leaked<T>(value: T) -> &'static mut T {
-    Box::leak(Box::new(value))
-}
-
 /// Kills: textures of settings that are passed over, are another number's, have another wrap or another filter.
 #[test]
 fn textures_of_settings_stand_in_place_of_those_of_lists() {
@@ -64,7 +60,7 @@ fn textures_of_settings_stand_in_place_of_those_of_lists() {
         .collect();
     let words: &'static [u16] = words.leak();
     let plain = Texture::words(words, 64, 32).unwrap();
-    let fast: &'static mut [CacheWord] = leaked([const { CacheWord::new() }; 64]);
+    let fast = Box::leak(Box::new([const { CacheWord::new() }; 64]));
     let cache = leaked(BlockCache::new(plain, Blocked::new(2, 2).unwrap(), fast).unwrap());
     let own = [
         plain,
@@ -76,7 +72,7 @@ fn textures_of_settings_stand_in_place_of_those_of_lists() {
     ];
     let mut pictures = Vec::new();
     for texture in own {
-        let texture: &'static Texture<'static> = leaked(texture);
+        let texture = leaked(texture);
         let want = call_quad(texture, Budget::BALANCED);
         // In place of the list's, and of one that it does not have.
         assert!(listed(1, &[None, Some(texture)]) == Ok(want.clone()));
@@ -114,11 +110,11 @@ fn textures_of_settings_are_blended_by_their_masks() {
 /// Kills: numbers that are not in the settings and are drawn with something.
 #[test]
 fn what_settings_do_not_have_is_the_lists() {
-    let checker: &Texture<'_> = leaked(Texture::computed(&CHECKER, 64, 32).unwrap());
+    let checker = leaked(Texture::computed(&CHECKER, 64, 32).unwrap());
     for textures in [&[Some(checker), None, None][..], &[Some(checker)], &[]] {
         let reason = |number| listed(number, textures).unwrap_err().reason;
         // There is room for none.
-        assert_eq!(reason(1), Reason::Lent(scanbeam::list::Lent::Textures));
+        assert_eq!(reason(1), Reason::Lent(Lent::Textures));
         assert_eq!(reason(2), Reason::NoTexture(2));
     }
 }
