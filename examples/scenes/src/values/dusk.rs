@@ -1,6 +1,7 @@
-//! A ball and a cube of flat faces, whose light is a place on a ramp, over water: indices, and a palette for each line
-//! (H18).
+//! A ball and a cube of flat faces, whose light is a place on a ramp, over water, and two octahedra of a list, one of them
+//! in a number of its own: indices, and a palette for each line (H18).
 
+use super::octahedron::{numbered, octahedron};
 use super::scenes::{at, light, uncoloured};
 use super::{IndexedLook, VALUES_HEIGHT, scenes::draw_all};
 use crate::ShotError;
@@ -50,5 +51,13 @@ pub(super) fn dusk(scene: &mut Scene<'_, 'static, IndexedLook>) -> Result<(), Sh
         shading: Shading::Flat,
         ..ball
     };
-    draw_all(scene, &[ball, cube])
+    draw_all(scene, &[ball, cube])?;
+    let turned = |place| Affine::rotation_x(0.4).then(&at(0.3, place));
+    let lit = Draw {
+        model: turned([0.1, 0.75, 0.5]),
+        ..cube
+    };
+    octahedron(scene, &lit, &[])?;
+    let model = turned([0.25, -0.3, 1.0]);
+    numbered(scene, &Draw { model, ..cube })
 }

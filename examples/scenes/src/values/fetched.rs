@@ -1,14 +1,21 @@
-//! Floors and cubes whose texels are computed, and others whose texels lie in blocks of slow memory behind a small cache
-//! (H17, B1, B5).
+//! Floors and cubes whose texels are computed, and others whose texels lie in blocks of slow memory behind a small cache,
+//! beside a crate of a list one of whose textures they are (H17, B1, B5).
 
+use super::listed::{Rooms, wooden_crate};
 use super::sampled::{cube, floor};
-use super::scenes::{PANEL, draw_all};
+use super::scenes::{PANEL, at, draw_all, light};
+use super::{DRAWS, Rest, ValuesError, background, values_screen};
 use crate::ShotError;
 use crate::TEXELS_F_PANEL;
 use crate::looks::TexturedLook;
+use scanbeam::Affine;
+use scanbeam::frame::{FastMemory, Renderer, draw_frame};
+use scanbeam::input::PlayerSettings;
 use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma};
 use scanbeam::scene::{
-    BlockCache, Blocked, CacheWord, Checker, Gradient, Sampling, Scene, Texels, Texture, Wrap,
+    BlockCache, Blocked, CacheWord, Checker, Draw, DrawState, Gradient, Sampling, Scene, Texels,
+    Texture, Wrap,
 };
 
 static CHECKER: Checker = Checker {
@@ -79,8 +86,41 @@ pub(super) fn computed(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(
     draw_all(scene, &calls)
 }
 
+impl Rest<'_> {
+    /// Lays texels in blocks, and sends the scene that reads them through a cache.
+    #[inline(never)]
+    pub(super) fn send_blocks<D>(
+        self,
+        cache: &mut FastMemory<TexturedLook>,
+        pump: &mut Pump<D>,
+    ) -> Result<(), ValuesError<D::Error>>
+    where
+        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
+    {
+        let (mut slow, mut rooms) = (Slow::new(), Rooms::EMPTY);
+        let texels = slow.cache()?;
+        let cached = texels.texture();
+        let mut draws = [const { DrawState::EMPTY }; DRAWS];
+        let (memory, lines, _) = self.lend(&mut draws, cache);
+        let mut scene = Scene::new(values_screen(), memory);
+        blocks(&mut scene, &cached)?;
+        let settings = PlayerSettings {
+            textures: &[Some(&cached)],
+            draw: Draw {
+                model: Affine::rotation_y(0.7).then(&at(0.4, [0.5, 0.75, -0.6])),
+                light: light(),
+                ..PlayerSettings::default().draw
+            },
+            ..PlayerSettings::default()
+        };
+        wooden_crate(&mut scene, settings, &mut rooms)?;
+        draw_frame(&scene, &mut Renderer::new(lines), pump, background(), 3)?;
+        Ok(())
+    }
+}
+
 /// Makes the scene of texels behind a cache, and of some that are not.
-pub(super) fn blocks<'t>(
+fn blocks<'t>(
     scene: &mut Scene<'_, 't, TexturedLook>,
     cached: &'t Texture<'t>,
 ) -> Result<(), ShotError> {

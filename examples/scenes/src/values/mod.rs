@@ -5,7 +5,7 @@
 //! |---|---|
 //! | `values_phong` | a ball and a ribbon that are lit at each pixel, one of them dithered |
 //! | `values_texels` | a cube and a grille whose texels are lit at each pixel, one of them dithered |
-//! | `values_dusk` | a ball and a cube of indices, by a palette for each line |
+//! | `values_dusk` | a ball, a cube and octahedra of a list, of indices, by a palette for each line |
 //! | `values_bands` | heights as contour bands, by a look of its own |
 //! | `values_mirror` | a teapot that reflects its surroundings |
 //! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
@@ -16,7 +16,7 @@
 //! | `values_master` | the scene of blends with all switched off that can be |
 //! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
 //! | `values_computed` | a floor and cubes of computed texels, nearest, mixed and with holes |
-//! | `values_blocks` | a floor and a cube whose texels lie in blocks behind a small cache |
+//! | `values_blocks` | floors, cubes and a crate of a list, with texels in blocks behind a small cache |
 //! | `values_compressed` | floors and cubes of compressed texels: through a cache, mixed, alone, and with holes |
 //! | `values_shadows` | two cubes, an octahedron of a list, a ribbon, a floor and a pane in the shadows of two lights |
 //! | `values_points` | points of three sizes and corners on the screen, textured, by a camera that looks aside |
@@ -27,11 +27,12 @@
 //! | `values_told` | what becomes of damaged lists, and what frames, lists and queues tell, as squares |
 
 mod alpha;
-mod cast;
 mod compressed;
 mod dusk;
 mod fetched;
 mod kept;
+mod listed;
+mod octahedron;
 mod points;
 mod sampled;
 mod scenes;
@@ -45,7 +46,7 @@ use alpha::alpha;
 pub use compressed::STONE;
 use compressed::{cache, compressed, empty, pressed};
 use dusk::{Dusk, dusk};
-use fetched::{Slow, blocks, computed};
+use fetched::computed;
 use points::points;
 use sampled::{levels, sampled, textures};
 use scanbeam::frame::{
@@ -373,24 +374,6 @@ impl<'m> Rest<'m> {
         let textures = textures(&levels)?;
         self.send(Values::Sampled, cache, pump, |scene, _| {
             sampled(scene, &textures)
-        })
-    }
-
-    /// Lays texels in blocks, and sends the scene that reads them through a cache.
-    #[inline(never)]
-    fn send_blocks<D>(
-        self,
-        cache: &mut FastMemory<TexturedLook>,
-        pump: &mut Pump<D>,
-    ) -> Result<(), ValuesError<D::Error>>
-    where
-        D: ScanoutDma<Buf: LineBuf<Word = u16>>,
-    {
-        let mut slow = Slow::new();
-        let texels = slow.cache()?;
-        let cached = texels.texture();
-        self.send(Values::Blocks, cache, pump, |scene, _| {
-            blocks(scene, &cached)
         })
     }
 

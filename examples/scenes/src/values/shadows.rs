@@ -1,7 +1,7 @@
-//! Two cubes, an octahedron of a list, a ribbon and a pane over a floor, in two lights: what light from everywhere makes of them, the volumes of both
-//! lights, and what each light adds where it is not in the way (K9).
+//! Two cubes, an octahedron of a list, a ribbon and a pane over a floor, in two lights: what light from everywhere makes
+//! of them, the volumes of both lights, and what each light adds where it is not in the way (K9).
 
-use super::cast::octahedron;
+use super::octahedron::octahedron;
 use super::scenes::{at, camera, uncoloured};
 use crate::ShotError;
 use crate::looks::SmoothLook;
@@ -106,7 +106,12 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, SmoothLook>) -> Result<(), 
         direction: lit.direction,
         reach: 5,
     });
-    octahedron(scene, &dark, &casts)?;
+    let turned = Affine::rotation_x(0.4).then(&at(0.3, [-0.7, 0.35, -0.4]));
+    let thrown = Draw {
+        model: turned,
+        ..dark
+    };
+    octahedron(scene, &thrown, &casts)?;
     for ((lit, lamp), cast) in [warm, cold].into_iter().zip(&LAMPS).zip(&casts) {
         for model in &cubes {
             throw(scene, model, cast)?;
@@ -119,7 +124,8 @@ pub(super) fn shadows(scene: &mut Scene<'_, 'static, SmoothLook>) -> Result<(), 
             ..dark
         };
         draw_all(scene, &adds)?;
-        octahedron(scene, &adds, &[])?;
+        let model = turned;
+        octahedron(scene, &Draw { model, ..adds }, &[])?;
     }
     let pane = Draw {
         model: Affine::rotation_y(0.9).then(&at(0.2, [-0.75, 0.05, 0.8])),

@@ -3,17 +3,15 @@
 //! (B3), how often a queue was full, and what `kept.rs` has. Squares come through two queues (K17).
 
 use super::kept::KEPT;
+use super::listed::{Rooms, with_player};
 use super::{DRAWS, Rest, VALUES_HEIGHT, ValuesError, background, values_screen};
-use crate::{
-    CRATE_INDICES, CRATE_TABLE, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, Played, ShotError,
-    TexturedLook,
-};
+use crate::{Played, ShotError, TexturedLook};
 use core::ops::Range;
 use core::task::Poll;
 use scanbeam::event::{Event, EventFlags, EventSet, Notice};
 use scanbeam::frame::{FastMemory, Interleave, Memory as LineMemory, Renderer, draw_frame};
-use scanbeam::input::{Command, Input, InputQueue, Player, PlayerMemory, Refused, TextureRoom};
-use scanbeam::list::{Budget, Flow, Halt, Header, Id, ListCommand, TextureSlot};
+use scanbeam::input::{Command, Input, InputQueue, Refused};
+use scanbeam::list::{Budget, Flow, Halt, Header, Id, ListCommand};
 use scanbeam::mesh::QuadSplit;
 use scanbeam::scan_out::{LineBuf, Pump, ScanoutDma};
 use scanbeam::scene::{Draw, DrawState, Memory, Scene};
@@ -74,6 +72,7 @@ impl Rest<'_> {
     /// What becomes of a list that begins at a word: where it halts each time, what it told, and what the scene has of it.
     fn answer(&mut self, list: &[u32], from: u32) -> Result<u32, ShotError> {
         let flags = EventFlags::new(EventSet::ALL);
+        let mut rooms = Rooms::EMPTY;
         let mut draws = [const { DrawState::EMPTY }; DRAWS];
         let memory = Memory {
             vertices: self.vertices,
@@ -83,43 +82,28 @@ impl Rest<'_> {
             draws: &mut draws,
         };
         let mut scene = Scene::<TexturedLook>::new(values_screen(), memory);
-        let (mut positions, mut normals) = ([[0; 3]; CRATE_TABLE], [[0; 3]; CRATE_TABLE]);
-        let (mut places, mut indices) = ([[0; 2]; CRATE_TABLE], [0; CRATE_INDICES]);
-        let names = [const { TextureSlot::new() }; PLAYED_NAMES];
-        let mut textures = [const { TextureRoom::EMPTY }; PLAYED_TEXTURES];
-        let mut texels = [0; PLAYED_TEXELS];
-        let memory = PlayerMemory {
-            positions: &mut positions,
-            normals: &mut normals,
-            indices: &mut indices,
-            places: &mut places,
-            names: &names,
-            textures: &mut textures,
-            texels: &mut texels,
-            ..PlayerMemory::default()
-        };
-        let mut player = Player::new(memory, Played::Crate.settings());
         let camera = Played::Crate.camera().map_err(ShotError::Camera)?;
         scene.begin(&camera).map_err(ShotError::Begin)?;
-        player.command(ListCommand::Start(from));
         let (mut answer, mut budget) = (Answer::default(), Budget::of(4096));
         let mut hear = |notice: Notice| flags.raise(notice.event);
-        loop {
-            let run = player.run(list, &mut scene, &mut budget, &mut hear);
-            answer.add_events(flags.take());
-            match run {
-                Ok(halt) => answer.add(halt as u32),
-                Err(error) => {
-                    answer.add(error.offset);
-                    answer.add(error.block.map_or(99, |block| block as u32));
+        let counts = with_player(Played::Crate.settings(), &mut rooms, |player| {
+            player.command(ListCommand::Start(from));
+            loop {
+                let run = player.run(list, &mut scene, &mut budget, &mut hear);
+                answer.add_events(flags.take());
+                match run {
+                    Ok(halt) => answer.add(halt as u32),
+                    Err(error) => {
+                        answer.add(error.offset);
+                        answer.add(error.block.map_or(99, |block| block as u32));
+                    }
                 }
+                if !matches!(run, Ok(Halt::Paused | Halt::Sync)) {
+                    break player.counts();
+                }
+                player.command(ListCommand::Resume);
             }
-            if !matches!(run, Ok(Halt::Paused | Halt::Sync)) {
-                break;
-            }
-            player.command(ListCommand::Resume);
-        }
-        let counts = player.counts();
+        });
         for count in [counts.triangles, counts.dropped, scene.objects() as u32] {
             answer.add(count);
         }

@@ -1,13 +1,12 @@
-//! An octahedron of a list, which casts the shadows of the scene's lights.
+//! An octahedron of a list: it casts the shadows of the scene's lights (K9), or is a number of a palette (H18).
 
-use super::scenes::at;
 use super::told::{flow, header};
 use crate::ShotError;
-use crate::looks::SmoothLook;
-use scanbeam::Affine;
 use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerMemory, PlayerSettings};
 use scanbeam::list::{Budget, Flow, Halt, Header, Id, ListCommand};
+use scanbeam::look::Look;
+use scanbeam::pixel::Index8;
 use scanbeam::scene::{Draw, Scene, Shading, ShadowEdge, ShadowLight, ShadowMemory};
 
 const CORNERS: u16 = 6;
@@ -45,9 +44,46 @@ static OCTAHEDRON: [u32; 18] = [
     flow(Flow::End),
 ];
 
+/// Words of a material.
+const MATERIAL: usize = 4;
+/// What the octahedron is in a list that says it itself.
+const NUMBER: u8 = 160;
+
+/// The same list behind a material: not lit, in the colour of [`NUMBER`].
+static NUMBERED: [u32; MATERIAL + OCTAHEDRON.len()] = {
+    let [r, g, b] = Index8::colour(NUMBER);
+    let mut words = [0; MATERIAL + OCTAHEDRON.len()];
+    words[0] = header(Id::State, 5 << 8);
+    words[1] = u32::from_le_bytes([r, g, b, 255]).to_le();
+    words[3] = 2_u32.to_le();
+    let mut at = 0;
+    while at < OCTAHEDRON.len() {
+        words[MATERIAL + at] = OCTAHEDRON[at];
+        at += 1;
+    }
+    words
+};
+
 /// Draws it as the scene draws what else is in it; it casts the shadows of these lights.
-pub(super) fn octahedron(
-    scene: &mut Scene<'_, 'static, SmoothLook>,
+pub(super) fn octahedron<L: Look>(
+    scene: &mut Scene<'_, 'static, L>,
+    dressed: &Draw<'_, 'static>,
+    casts: &[ShadowLight],
+) -> Result<(), ShotError> {
+    play(&OCTAHEDRON, scene, dressed, casts)
+}
+
+/// Draws it in the colour of its number.
+pub(super) fn numbered<L: Look>(
+    scene: &mut Scene<'_, 'static, L>,
+    dressed: &Draw<'_, 'static>,
+) -> Result<(), ShotError> {
+    play(&NUMBERED, scene, dressed, &[])
+}
+
+fn play<L: Look>(
+    list: &'static [u32],
+    scene: &mut Scene<'_, 'static, L>,
     dressed: &Draw<'_, 'static>,
     casts: &[ShadowLight],
 ) -> Result<(), ShotError> {
@@ -58,7 +94,6 @@ pub(super) fn octahedron(
     };
     let settings = PlayerSettings {
         draw: Draw {
-            model: Affine::rotation_x(0.4).then(&at(0.3, [-0.7, 0.35, -0.4])),
             shading: Shading::Flat,
             ..*dressed
         },
@@ -72,12 +107,7 @@ pub(super) fn octahedron(
     };
     let mut player = Player::new(memory, settings).with_shadows(volume);
     player.command(ListCommand::Start(0));
-    let run = player.run(
-        &OCTAHEDRON[..],
-        scene,
-        &mut Budget::of(64),
-        &mut |_: Notice| {},
-    );
+    let run = player.run(list, scene, &mut Budget::of(64), &mut |_: Notice| {});
     match run {
         Ok(Halt::End) if player.counts().dropped == 0 => Ok(()),
         other => Err(ShotError::List(other)),
