@@ -231,7 +231,8 @@ impl Mapping {
     #[must_use]
     pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
         let places = corners.map(|c| TexturePlace::new(c.texel, [0; 2]));
-        if let Some(plane) = Near::of(corners, &places).word_plane(texture, budget) {
+        if let Some(plane) = Near::of(corners, &places).word_plane(texture, texture.spare(), budget)
+        {
             let mut mapping = Self::EMPTY;
             mapping.planes[0] = plane;
             return Some(mapping);
@@ -286,6 +287,11 @@ impl Mapping {
     ) {
         match texture.sampling() {
             None => self.draw_any(run, place, texture, budget),
+            // Places in one word serve all levels.
+            Some(_) if self.method == Method::Word => {
+                let level = texture.texels_of(self.planes[1][0] as usize);
+                self.draw_any(run, place, level, budget);
+            }
             Some(sampling) => self.draw_sampled(run, place, texture, sampling, words),
         }
     }
@@ -381,7 +387,7 @@ impl Mapping {
             columns: place.span..place.end,
             column: place.column,
         };
-        (sampling.0)(&span, run);
+        (sampling.draw)(&span, run);
     }
 
     #[inline(always)]

@@ -23,8 +23,8 @@ use super::word_plane::Near;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
-use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, TexturePlace, Vertex, Words};
-use crate::span::{Size, Triangle, across, down};
+use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, Words};
+use crate::span::{Size, Triangle};
 use core::marker::PhantomData;
 use core::slice::from_mut;
 
@@ -157,25 +157,6 @@ impl<F: Texel> Textured<F> {
         [corner(0), corner(1), corner(2)]
     }
 
-    /// The same as [`Near`] has them.
-    #[inline(always)]
-    fn near<'a>(triangle: &Triangle<'_>, texture: &'a [TexturePlace; 3]) -> Near<'a> {
-        let [a, b, c] = triangle.vertex;
-        let fine = texture.map(TexturePlace::fine);
-        let way = |vertex: &Vertex| vertex.place.wrapping_sub(a.place);
-        let (d1, d2) = (way(b), way(c));
-        let side = |way: i32, i: usize, axis: usize| 8 * way + (fine[i][axis] - fine[0][axis]);
-        const FIRST: i32 = 64 * ORIGIN + 32;
-        Near {
-            x: 8 * (a.place & 0xFFFF) as i32 + fine[0][0] - FIRST,
-            y: 8 * (a.place >> 16) as i32 + fine[0][1] - FIRST,
-            dx: [side(across(d1), 1, 0), side(across(d2), 2, 0)],
-            dy: [side(down(d1), 1, 1), side(down(d2), 2, 1)],
-            depth: [a.depth, b.depth, c.depth],
-            texture,
-        }
-    }
-
     /// Planes of the shade: how they are evaluated; `None` in full light.
     #[inline(always)]
     fn set_up_shade(
@@ -215,8 +196,8 @@ impl<F: Texel> Textured<F> {
         let state = draws.states.get(usize::from(planes.draw));
         if let Some((texture, budget)) = state.and_then(DrawState::texture) {
             let places = triangle.textures();
-            let near = Self::near(triangle, &places);
-            if let Some(plane) = near.word_plane(texture, budget) {
+            let near = Near::new(triangle.vertex, &places);
+            if let Some(plane) = near.word_plane(texture, texture.spare(), budget) {
                 planes.mapping.method = Method::Word;
                 planes.mapping.planes[0] = plane;
                 planes.mapped = true;
@@ -232,7 +213,7 @@ impl<F: Texel> Textured<F> {
         }
     }
 
-    /// The mapping of a triangle that [`Near`] does not serve; whether the triangle is too thin for planes.
+    /// The mapping of a triangle that [`Near`] does not serve at once; whether the triangle is too thin for planes.
     #[inline(never)]
     fn set_up_mapping(
         triangle: &Triangle<'_>,
@@ -240,6 +221,16 @@ impl<F: Texel> Textured<F> {
         budget: Budget,
         planes: &mut Planes,
     ) -> bool {
+        let word = texture.sampling().and_then(|sampling| sampling.word);
+        let leveled =
+            word.and_then(|of| of(triangle.vertex, &triangle.textures(), texture, budget));
+        if let Some([at, right, below, level]) = leveled {
+            let mapping = &mut planes.mapping;
+            mapping.method = Method::Word;
+            (mapping.planes[0], mapping.planes[1][0]) = ([at, right, below], level);
+            planes.mapped = true;
+            return false;
+        }
         let corners = Self::corners(triangle);
         let Some(values) = Values::new(&corners, texture, budget) else {
             return false;

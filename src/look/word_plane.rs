@@ -6,8 +6,10 @@
 #[cfg(test)]
 use super::mapping::Corner;
 use super::mapping::is_affine;
+use super::sampling::level_of;
 use crate::num::{leading_zeros_here, mul_16, recip_16};
-use crate::scene::{Budget, Texture, TexturePlace, Wrap};
+use crate::scene::{Budget, ORIGIN, Texture, TexturePlace, Vertex, Wrap};
+use crate::span::{across, down};
 
 /// What [`Method::Word`](super::mapping::Method::Word) asks of a triangle: corners as differences from the first one's, which is kept whole.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +26,25 @@ pub struct Near<'a> {
 }
 
 impl<'a> Near<'a> {
+    /// Of corners and their places.
+    #[inline(always)]
+    #[must_use]
+    pub fn new([a, b, c]: [&Vertex; 3], texture: &'a [TexturePlace; 3]) -> Self {
+        let fine = texture.map(TexturePlace::fine);
+        let way = |vertex: &Vertex| vertex.place.wrapping_sub(a.place);
+        let (d1, d2) = (way(b), way(c));
+        let side = |way: i32, i: usize, axis: usize| 8 * way + (fine[i][axis] - fine[0][axis]);
+        const FIRST: i32 = 64 * ORIGIN + 32;
+        Self {
+            x: 8 * (a.place & 0xFFFF) as i32 + fine[0][0] - FIRST,
+            y: 8 * (a.place >> 16) as i32 + fine[0][1] - FIRST,
+            dx: [side(across(d1), 1, 0), side(across(d2), 2, 0)],
+            dy: [side(down(d1), 1, 1), side(down(d2), 2, 1)],
+            depth: [a.depth, b.depth, c.depth],
+            texture,
+        }
+    }
+
     #[cfg(test)]
     #[must_use]
     pub fn of(corners: &[Corner; 3], texture: &'a [TexturePlace; 3]) -> Self {
@@ -39,18 +60,18 @@ impl<'a> Near<'a> {
     }
 
     /// [`Method::Word`](super::mapping::Method::Word)'s plane, where a triangle may have it: the places of both axes at the picture's first pixel,
-    /// and their steps.
+    /// and their steps. Of the texture's places so many bits are [spare](Texture::spare).
     #[inline(always)]
     #[must_use]
-    pub fn word_plane(&self, texture: &Texture<'_>, budget: Budget) -> Option<[u32; 3]> {
+    pub fn word_plane(&self, texture: &Texture<'_>, spare: u8, budget: Budget) -> Option<[u32; 3]> {
         let Self { x, y, dx, dy, .. } = *self;
         let way = |i: usize| {
             let magnitude = |d: i32| d ^ (d >> 31);
             magnitude(dx[i]).saturating_add(magnitude(dy[i]))
         };
         // Rounded steps stay within 1/20 texel of the place.
-        let pixels = if texture.is_tiny() { 50 } else { 25 };
-        if way(0).max(way(1)) >= pixels << 6 || !texture.is_small() || !budget.is_coarse() {
+        let pixels = if spare > 1 { 50 } else { 25 };
+        if way(0).max(way(1)) >= pixels << 6 || spare == 0 || !budget.is_coarse() {
             return None;
         }
         let area = dx[0] * dy[1] - dx[1] * dy[0];
@@ -83,6 +104,35 @@ impl<'a> Near<'a> {
             .wrapping_sub(right.wrapping_mul((x >> 6) as u32))
             .wrapping_sub(below.wrapping_mul((y >> 6) as u32));
         Some([at, right, below])
+    }
+}
+
+impl Near<'_> {
+    /// The same of a texture with levels of detail, and the triangle's level.
+    #[must_use]
+    pub fn leveled(&self, texture: &Texture<'_>, budget: Budget) -> Option<[u32; 4]> {
+        let [at, right, below] = self.word_plane(texture, texture.spare_of_sides(), budget)?;
+        Some([at, right, below, self.level(texture.levels())])
+    }
+
+    /// The level, of so many below the texture.
+    fn level(&self, levels: usize) -> u32 {
+        let Self { dx, dy, .. } = *self;
+        let [a, b, c] = self.texture.map(coarse);
+        let rise = |texel: [i32; 2], axis: usize| texel[axis].wrapping_sub(a[axis]);
+        let product = |one: usize, other: usize| rise(b, one).wrapping_mul(rise(c, other));
+        let texels = product(0, 1).abs_diff(product(1, 0));
+        let pixels = dx[0]
+            .wrapping_mul(dy[1])
+            .wrapping_sub(dx[1].wrapping_mul(dy[0])) as u32;
+        let [up, pixels_up] = [texels, pixels].map(u32::leading_zeros);
+        let (Some(most), Some(pixels)) = (texels.checked_shl(up), pixels.checked_shl(pixels_up))
+        else {
+            return 0;
+        };
+        // The one has 16 fraction bits, the other 12.
+        let log = pixels_up as i32 - up as i32 - i32::from(most < pixels) - 4;
+        level_of(log, levels) as u32
     }
 }
 

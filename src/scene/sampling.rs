@@ -3,17 +3,25 @@
 //! What they do is in room `look`. A texture leads there by a function, so that a program which names no
 //! [`Sampling`] does not have the code.
 
-use super::Texture;
+use super::{Budget, Texture, TexturePlace, Vertex};
 use core::ops::Range;
 
 /// A way from places on a texture to colours, for [`Texture::sampled`].
 #[derive(Clone, Copy, Debug)]
-pub struct Sampling(pub(crate) fn(&SampledSpan<'_>, &mut [u16]));
+pub struct Sampling {
+    pub(crate) draw: fn(&SampledSpan<'_>, &mut [u16]),
+    /// How places of a small triangle become one word, where such have fraction bits enough.
+    pub(crate) word: Option<WordOf>,
+}
+
+/// From a triangle's corners to its plane and its level.
+pub(crate) type WordOf =
+    fn([&Vertex; 3], &[TexturePlace; 3], &Texture<'_>, Budget) -> Option<[u32; 4]>;
 
 /// How texture coordinates are found along a span.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub(crate) enum Method {
-    /// Affine: one plane of one word, v above u, 16 bits of the period each.
+    /// Affine: one plane of one word, v above u, 16 bits of the period each; then the level of a texture that has some.
     #[default]
     Word,
     /// Affine: planes of u and v.

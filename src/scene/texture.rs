@@ -114,8 +114,7 @@ pub struct Texture<'t> {
     pub(super) sides: Sides,
     /// The power of two of both sides of what is [`Bent`]; else 0.
     square: u8,
-    /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none, nor where texels are
-    /// sampled.
+    /// [`Sides::spare`], but none where texels are sampled.
     pub(super) spare: u8,
     pub(super) wrap: Wrap,
     pub(super) key: Option<u16>,
@@ -150,6 +149,20 @@ impl Sides {
 
     pub(super) const fn texels(self) -> usize {
         1 << (self.log_width + self.log_height)
+    }
+
+    /// Spare bits of places in one word: 2 where no side is above 128, 1 up to 256, else none.
+    const fn spare(self) -> u8 {
+        let longest = if self.log_width > self.log_height {
+            self.log_width
+        } else {
+            self.log_height
+        };
+        match longest {
+            0..=7 => 2,
+            8 => 1,
+            _ => 0,
+        }
     }
 }
 
@@ -202,20 +215,11 @@ impl<'t> Texture<'t> {
             (Form::Index8(..) | Form::Index4(..), log @ 5..=7) => log,
             _ => 0,
         };
-        let longest = if sides.log_width > sides.log_height {
-            sides.log_width
-        } else {
-            sides.log_height
-        };
         Self {
             form,
             sides,
             square,
-            spare: match longest {
-                0..=7 => 2,
-                8 => 1,
-                _ => 0,
-            },
+            spare: sides.spare(),
             wrap: Wrap::Repeat,
             key: None,
             sampling: None,
@@ -336,11 +340,10 @@ impl<'t> Texture<'t> {
         if self.has_mask_of_other_levels(coarser.len()) {
             return Err(TextureError::Mask);
         }
-        let sampling = Some(sampling);
         Ok(Self {
-            sampling,
-            coarser,
             spare: 0,
+            sampling: Some(sampling),
+            coarser,
             ..self
         })
     }
@@ -358,12 +361,18 @@ impl<'t> Texture<'t> {
 
     /// One of its levels, 0 for itself, with its wrap and its key.
     pub(crate) fn level(&self, level: usize) -> Self {
-        let coarser = level.checked_sub(1).and_then(|i| self.coarser.get(i));
         Self {
             wrap: self.wrap,
             key: self.key,
-            ..*coarser.unwrap_or(self)
+            ..*self.texels_of(level)
         }
+    }
+
+    /// The same as it was lent: with a wrap and a key that mean nothing.
+    #[inline(always)]
+    pub(crate) fn texels_of(&self, level: usize) -> &Self {
+        let coarser = level.checked_sub(1).and_then(|i| self.coarser.get(i));
+        coarser.unwrap_or(self)
     }
 
     /// The word of texels that are transparent.
@@ -405,18 +414,16 @@ impl<'t> Texture<'t> {
         self.sides.log_height as u32
     }
 
-    /// Whether places fit into one word: no side is above 256, and the nearest texel of this size is taken.
+    /// Spare bits of places in one word, where that is how places are found; else none.
     #[inline(always)]
     #[must_use]
-    pub(crate) const fn is_small(&self) -> bool {
-        self.spare > 0
+    pub(crate) const fn spare(&self) -> u8 {
+        self.spare
     }
 
-    /// Whether places in one word have a bit to spare: no side is above 128.
-    #[inline(always)]
-    #[must_use]
-    pub(crate) const fn is_tiny(&self) -> bool {
-        self.spare > 1
+    /// The same of a texture that has levels of detail.
+    pub(crate) const fn spare_of_sides(&self) -> u8 {
+        self.sides.spare()
     }
 
     /// The power of two of both sides where it is [`bent`](Self::bent); else 0.
