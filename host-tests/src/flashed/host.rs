@@ -1,11 +1,12 @@
 //! The words of a scene drawn on this machine, and what memory they need.
 
+use super::blocks::Blocks;
 use super::memory::{DRAW_BYTES, VOLUME_BYTES, list_bytes, slow_bytes};
-use super::tally::{Meshes, PassOne, Tally, WORDS};
+use super::tally::{Built, Listed, Meshes, PassOne, Tally, WORDS};
 use super::too_large;
 use crate::draw::twice;
 use crate::rooms::{self, LineRooms, SceneRooms};
-use scanbeam::input::{LightRoom, Player, PlayerMemory, TextureRoom};
+use scanbeam::input::{LightRoom, Player, PlayerMemory, RunCounts, TextureRoom};
 use scanbeam::light::{DirectionalLight, Lighting, PixelLamps};
 use scanbeam::list::{Lent, ListCommand, Reason, TextureSlot};
 use scanbeam::look::Look;
@@ -39,6 +40,8 @@ pub struct Shown {
     pub pixels: Vec<u16>,
     /// Draw calls.
     pub calls: u32,
+    /// Vertices of their meshes.
+    pub vertices: u32,
     /// Triangles that were submitted; those that were filed are in the head's room.
     pub triangles: u32,
     /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
@@ -334,6 +337,7 @@ impl<'t> Called<'_, 't> {
                 Ok(Built {
                     draws: self.counts.states(),
                     meshes: self.meshes(),
+                    listed: None,
                 })
             },
         );
@@ -393,17 +397,11 @@ fn played<L: Look<Pixel = Rgb565Be>>(
         lights: Some(&mut lights),
     };
     let mut player = Player::<L>::new(memory, list.settings());
+    let blocks = Blocks::of(list.words).map_err(other)?;
     let background = Rgb565Be::from_rgb8(head.background);
     let done = drawn::<L>(head, lend, (background, false), |scene, camera| {
         let played = list.play(&mut player, ListCommand::Start(0), camera, scene);
-        let counts = played.map_err(Refused::from)?;
-        Ok(Built {
-            draws: counts.draws.max(1),
-            meshes: Meshes {
-                vertices: counts.vertices,
-                ..Meshes::default()
-            },
-        })
+        Ok(built(played.map_err(Refused::from)?, &blocks))
     });
     let (shown, pixels) = done?;
     let slow_bytes = shown.slow_bytes + list_bytes(&list.room);
@@ -414,12 +412,20 @@ fn played<L: Look<Pixel = Rgb565Be>>(
     })
 }
 
-/// What was put into a scene.
-struct Built {
-    /// States of draw calls.
-    draws: u32,
-    /// What they are of.
-    meshes: Meshes,
+/// What a player has put into a scene from a list of such blocks.
+fn built(counts: RunCounts, blocks: &Blocks) -> Built {
+    Built {
+        draws: counts.draws.max(1),
+        meshes: Meshes {
+            vertices: counts.vertices,
+            ..blocks.meshes
+        },
+        listed: Some(Listed {
+            blocks: counts.blocks,
+            triangles: counts.triangles,
+            white: blocks.white,
+        }),
+    }
 }
 
 /// Draws what `build` makes over a background, with shadows or without.
@@ -441,7 +447,8 @@ fn drawn<'t, L: Look>(
     };
     let mut memory = SceneRooms::new(lent, height);
     let mut scene = memory.scene::<L>(screen);
-    let Built { draws, meshes } = build(&mut scene, &camera)?;
+    let built = build(&mut scene, &camera)?;
+    let draws = built.draws;
     let mut lines = LineRooms::<L, WORDS>::new(scene.objects(), width);
     if has_shadows {
         lines = lines.with_counts();
@@ -462,13 +469,14 @@ fn drawn<'t, L: Look>(
         },
         ..*head
     };
-    let pass_one = PassOne::of(&scene, draws, meshes);
+    let pass_one = PassOne::of(&scene, built);
     let tallies = Tally::count_all(&scene, pass_one, slots, background);
     let shown = Shown {
         tallies: tallies.map_err(other)?,
         head,
         pixels: Vec::new(),
         calls: draws,
+        vertices: built.meshes.vertices,
         triangles: scene.assembled().triangles,
         slow_bytes: slow_bytes(&Head { room, ..head }, DRAW_BYTES),
     };

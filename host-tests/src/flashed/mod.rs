@@ -11,11 +11,13 @@
 //! |---|---|
 //! | `host.rs` | the words drawn here, and what memory they need |
 //! | `list.rs` | a list as words |
+//! | `blocks.rs` | what its blocks say, counted |
 //! | `memory.rs` | bytes that it is lent |
 //! | `shape.rs` | triangles by their sizes and textures |
 //! | `tally.rs` | what a scene does on its lines, counted |
 //! | `report.rs` | what was measured, as a table and as JSON |
 
+pub mod blocks;
 pub mod host;
 pub mod list;
 pub mod memory;

@@ -25,6 +25,28 @@ pub struct Meshes {
     pub lights: u32,
 }
 
+/// What was put into a scene.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Built {
+    /// States of draw calls.
+    pub draws: u32,
+    /// What they are of.
+    pub meshes: Meshes,
+    /// Where a list was played.
+    pub listed: Option<Listed>,
+}
+
+/// What a player of a list does beside that.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Listed {
+    /// Blocks.
+    pub blocks: u32,
+    /// Triangles.
+    pub triangles: u32,
+    /// Vertices that one white light falls on.
+    pub white: u32,
+}
+
 /// What pass one does.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct PassOne {
@@ -40,16 +62,24 @@ pub struct PassOne {
     pub own: u32,
     /// Triangles that were filed.
     pub filed: u32,
+    /// Where a list is played.
+    pub listed: Option<Listed>,
 }
 
 impl PassOne {
-    /// Of a scene of so many draw calls.
+    /// Of a scene that was built.
     #[must_use]
-    pub fn of<L: Look>(scene: &Scene<'_, '_, L>, draws: u32, meshes: Meshes) -> Self {
+    pub fn of<L: Look>(scene: &Scene<'_, '_, L>, built: Built) -> Self {
         let all = scene.assembled();
+        let Built {
+            draws,
+            meshes,
+            listed,
+        } = built;
         Self {
             draws,
             meshes,
+            listed,
             culled: all.culled,
             clipped: all.clipped,
             own: (scene.vertices() as u32).saturating_sub(meshes.vertices),

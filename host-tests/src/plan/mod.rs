@@ -9,7 +9,7 @@
 //!
 //! | file | there |
 //! |---|---|
-//! | `shapes.rs`, `samples.rs` | the scenes that costs are measured on |
+//! | `shapes.rs`, `samples.rs`, `lists.rs` | the scenes and lists that costs are measured on |
 //! | `model.rs` | works of a frame, and what one of each takes |
 //! | `record.rs` | the record of it, and how it is written |
 //! | `scope.rs` | which scenes have their instructions reckoned |
@@ -18,6 +18,7 @@
 //! | `report.rs` | all of it as a table and as JSON |
 
 pub mod chips;
+pub mod lists;
 pub mod model;
 pub mod program;
 pub mod record;
@@ -140,7 +141,11 @@ impl Plan {
     /// As [`run`].
     pub fn of(file: &Path, slots: u16, record: &Record) -> Result<Self, Box<dyn Error>> {
         let (flashed, beyond, is_usual) = match is_list(file) {
-            true => (Flashed::load(file)?, Some("lists"), false),
+            true => {
+                let flashed = Flashed::load(file)?;
+                let beyond = scope::of_list(&flashed)?;
+                (flashed, beyond, true)
+            }
             false => {
                 let loaded = Loaded::load(file)?;
                 (

@@ -41,26 +41,43 @@ pub struct Measured {
 #[must_use]
 pub fn pass_one_works(pass: &PassOne) -> Works {
     let meshes = &pass.meshes;
-    let all = [
-        ("frame", 1.0),
+    let white = pass.listed.map_or(0, |listed| listed.white);
+    let lit = f64::from(meshes.lit - white.min(meshes.lit));
+    let of_meshes = [
         ("draw call", pass.draws.into()),
         ("vertex", meshes.vertices.into()),
-        ("vertex lit", meshes.lit.into()),
-        (
-            "vertex and light",
-            f64::from(meshes.lit) * f64::from(meshes.lights),
-        ),
+        ("vertex lit", lit),
+        ("vertex and light", lit * f64::from(meshes.lights)),
+    ];
+    let all = [
+        ("frame", 1.0),
         ("vertex with texels", meshes.placed.into()),
         ("face not seen", pass.culled.into()),
         ("face cut", pass.clipped.into()),
         ("vertex of a cut", pass.own.into()),
         ("face filed", pass.filed.into()),
     ];
-    all.map(|(name, count)| (name.to_owned(), count)).into()
+    let mut works: Works = all.map(|(name, count)| (name.to_owned(), count)).into();
+    // What a player gathers first is not drawn as what lies ready.
+    let from = if pass.listed.is_some() { "list: " } else { "" };
+    for (name, count) in of_meshes {
+        works.insert(format!("{from}{name}"), count);
+    }
+    if let Some(listed) = pass.listed {
+        for (name, count) in [
+            ("block", listed.blocks),
+            ("triangle", listed.triangles),
+            ("vertex in white light", listed.white),
+        ] {
+            works.insert(format!("{from}{name}"), count.into());
+        }
+    }
+    works
 }
 
-/// The works of a line of so many pixels.
-fn line_works(line: &LineTally, shares: &Shares, width: u16) -> Works {
+/// The works of a line.
+fn line_works(line: &LineTally, shares: &Shares, tally: &Tally) -> Works {
+    let width = tally.width;
     let (spans, cache) = (line.spans, line.cache);
     let all = f64::from(spans.spans);
     let hidden = part(spans.spans_hidden, spans.spans);
@@ -98,13 +115,18 @@ fn line_works(line: &LineTally, shares: &Shares, width: u16) -> Works {
         ("move into slot", cache.moved_in.into()),
     ];
     let mut works: Works = of_line.map(|(name, count)| (name.to_owned(), count)).into();
+    add(&mut works, kind_works(shares, [1.0 - hidden, seen]));
+    works
+}
+
+/// The works of triangles of each kind, of whose spans and pixels such parts are drawn.
+fn kind_works(shares: &Shares, [spans, pixels]: [f64; 2]) -> Works {
+    let mut works = Works::new();
     for (name, share) in NAMES.iter().zip(shares) {
-        works.insert(format!("{name}: set-up"), share.starts.into());
-        works.insert(
-            format!("{name}: span"),
-            f64::from(share.spans) * (1.0 - hidden),
-        );
-        works.insert(format!("{name}: pixel"), f64::from(share.pixels) * seen);
+        let mut add = |what: &str, count: f64| works.insert(format!("{name}: {what}"), count);
+        add("set-up", share.starts.into());
+        add("span", f64::from(share.spans) * spans);
+        add("pixel", f64::from(share.pixels) * pixels);
     }
     works
 }
@@ -125,7 +147,7 @@ fn works_of_lines(tally: &Tally, from: usize, end: usize) -> Works {
     let mut works = Works::new();
     let lines = tally.lines.iter().zip(&tally.shares);
     for (line, shares) in lines.take(end).skip(from) {
-        add(&mut works, line_works(line, shares, tally.width));
+        add(&mut works, line_works(line, shares, tally));
     }
     works
 }

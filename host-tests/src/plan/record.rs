@@ -1,7 +1,7 @@
 //! What works take, on record: `host-tests/figures/plan.json`, written by `plan --bless`.
 
 use super::model::{Costs, Equations, Measured, Parts, reckon, works};
-use super::samples::{Sample, samples, write};
+use super::samples::{Sample, Source, samples, write};
 use crate::figures::gate::{minor, release};
 use crate::firmware::{BOARDS, Toolchain};
 use crate::flashed::memory::slow_bytes;
@@ -92,13 +92,17 @@ struct Taken {
     draws: usize,
 }
 
-/// A scene, read from a file in a folder.
+/// A sample, read from a file in a folder.
 ///
 /// # Errors
 /// When it cannot be drawn.
 pub fn load(folder: &Path, sample: &Sample) -> Result<Flashed, Box<dyn Error>> {
-    let file = folder.join("sample.json");
-    std::fs::write(&file, sample.scene.to_string())?;
+    let (name, bytes) = match &sample.source {
+        Source::Scene(scene) => ("sample.json", scene.to_string().into_bytes()),
+        Source::List(list) => ("sample.list", list.to_bytes(folder)?),
+    };
+    let file = folder.join(name);
+    std::fs::write(&file, bytes)?;
     Flashed::load(&file).map_err(|error| format!("{}: {error}", sample.name).into())
 }
 

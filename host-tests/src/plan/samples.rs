@@ -1,6 +1,7 @@
 //! The scenes that costs are measured on: shapes near and far, few and many, plain and textured, over each other and apart.
 
 use crate::image_out::{Frame, write_image};
+use crate::plan::lists::{self, ListSample};
 use crate::plan::shapes::Shape;
 use serde_json::{Value, json};
 use std::collections::HashSet;
@@ -13,13 +14,28 @@ use std::path::{Path, PathBuf};
 pub struct Sample {
     /// What it is called in the record.
     pub name: String,
-    /// Its words, as a scene file.
-    pub scene: Value,
+    /// What is drawn.
+    pub source: Source,
     shapes: Vec<Shape>,
 }
 
+/// What a sample is.
+#[derive(Debug, Clone)]
+pub enum Source {
+    /// The words of a scene file.
+    Scene(Value),
+    /// A list that is baked.
+    List(ListSample),
+}
+
+/// Their textures: squares of two colours, and waves of many.
+const SQUARES: &str = "squares.png";
+const WAVES: &str = "waves.png";
+
 /// The longest side of a texture of theirs.
 pub const LONGEST_SIDE: u32 = 128;
+/// The shortest one that is drawn alike.
+pub const SHORTEST_SIDE: u32 = 32;
 
 /// How surfaces look.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,14 +65,14 @@ impl Style {
     const fn texture(self) -> Option<&'static str> {
         match self {
             Self::Smooth | Self::Unlit => None,
-            Self::Lit => Some("squares.png"),
-            Self::Texels => Some("waves.png"),
+            Self::Lit => Some(SQUARES),
+            Self::Texels => Some(WAVES),
         }
     }
 }
 
 /// One shape, seen from a distance and a height.
-const SINGLES: [(Shape, f64, f64); 14] = [
+pub(super) const SINGLES: [(Shape, f64, f64); 14] = [
     (Shape::Ball(6, 8), 2.4, 0.3),
     (Shape::Ball(8, 12), 3.4, 0.5),
     (Shape::Ball(14, 20), 2.2, 0.2),
@@ -151,6 +167,11 @@ pub fn samples(folder: &Path) -> Vec<Sample> {
             );
         }
     }
+    all.extend(lists::samples().into_iter().map(|(name, list)| Sample {
+        name: format!("{name} of a list"),
+        shapes: vec![list.shape],
+        source: Source::List(list),
+    }));
     all
 }
 
@@ -164,11 +185,11 @@ pub fn write(folder: &Path, all: &[Sample]) -> Result<(), Box<dyn Error>> {
         let frame = Frame::new(side, side, texels.collect()).ok_or("the sides of a texture")?;
         Ok::<(), Box<dyn Error>>(write_image(&folder.join(name), &frame)?)
     };
-    texture("squares.png", 64, &|x, y| match (x ^ y) & 8 {
+    texture(SQUARES, 64, &|x, y| match (x ^ y) & 8 {
         0 => [220, 200, 90],
         _ => [60, 90, 160],
     })?;
-    texture("waves.png", LONGEST_SIDE, &|x, y| {
+    texture(WAVES, LONGEST_SIDE, &|x, y| {
         let wave = |at: u32, by: f64| {
             128.0 + 120.0 * (f64::from(at) * TAU / f64::from(LONGEST_SIDE) * by).sin()
         };
@@ -264,7 +285,7 @@ impl Maker {
         }
         Sample {
             name: format!("{}, {name}", self.style.name()),
-            scene,
+            source: Source::Scene(scene),
             shapes: self.shapes,
         }
     }

@@ -1,13 +1,22 @@
-//! Which scenes have their instructions reckoned: those whose draw calls have nothing but colours, lights and textures.
+//! Which scenes have their instructions reckoned: those whose draw calls have nothing but colours, lights and textures, and
+//! lists of tables that have colours and lights.
 
-use super::samples::LONGEST_SIDE;
+use super::samples::{LONGEST_SIDE, SHORTEST_SIDE};
+use crate::flashed::Flashed;
+use crate::flashed::blocks::Blocks;
 use crate::scene_file::{Item, Loaded, SceneFile, ShadeKind};
+use scene_flash::{Head, List};
+use std::error::Error;
 
-/// Whether no texture of a scene is larger than those that costs were measured on.
+/// Whether all textures of a scene are squares as those that costs were measured on.
 #[must_use]
 pub fn has_usual_textures(loaded: &Loaded) -> bool {
     let mut images = loaded.parts.iter().flat_map(|part| part.textures.images());
-    images.all(|image| image.width.max(image.height) <= LONGEST_SIDE)
+    images.all(|image| is_usual([image.width, image.height]))
+}
+
+fn is_usual([width, height]: [u32; 2]) -> bool {
+    width == height && (SHORTEST_SIDE..=LONGEST_SIDE).contains(&width)
 }
 
 /// What a scene has of which no costs are on record; `None` where it has nothing.
@@ -41,7 +50,19 @@ pub fn beyond(scene: &SceneFile) -> Option<&'static str> {
     of_scene.or_else(|| objects.iter().find_map(|object| first(&of_object(object))))
 }
 
-fn of_object(object: &Item) -> [(bool, &'static str); 14] {
+/// What a list has of which no costs are on record, if anything.
+///
+/// # Errors
+/// When it is none.
+pub fn of_list(flashed: &Flashed) -> Result<Option<&'static str>, Box<dyn Error>> {
+    let (_, mut reader) = Head::read(&flashed.words)?;
+    let blocks = Blocks::of(List::read(&mut reader)?.words)?;
+    let is_each_once = flashed.shown.vertices == blocks.meshes.vertices;
+    let several = (!is_each_once).then_some("tables that are drawn several times, or not at all");
+    Ok(blocks.beyond.or(several))
+}
+
+fn of_object(object: &Item) -> [(bool, &'static str); 15] {
     let Item {
         model: _,
         scale: _,
@@ -54,8 +75,7 @@ fn of_object(object: &Item) -> [(bool, &'static str); 14] {
         cached,
         reflection,
         filter,
-        // Pictures of a texture's levels cost what the texture costs.
-        levels: _,
+        levels,
         quality,
         application,
         shade,
@@ -83,6 +103,7 @@ fn of_object(object: &Item) -> [(bool, &'static str); 14] {
         (reflection.is_some(), "reflections"),
         (filter.is_some(), "filters of textures"),
         (quality.is_some(), "qualities of textures"),
+        (*levels == Some(false), "textures without levels"),
         (application.is_some(), "applications of textures"),
         (*shade == Some(ShadeKind::Flat), "flat faces"),
         (specular.is_some(), "highlights"),

@@ -2,6 +2,7 @@
 //! same bits.
 
 mod lists;
+mod planned_lists;
 mod plans;
 
 use host_tests::firmware::{BOARDS, Board, M4, Measured, Output, Section, Sections, Toolchain};

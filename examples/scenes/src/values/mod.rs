@@ -14,7 +14,7 @@
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
-//! | `values_sampled` | a floor in levels of detail, cubes whose texels are mixed |
+//! | `values_sampled` | a floor and balls in levels of detail, cubes whose texels are mixed |
 //! | `values_computed` | a floor and cubes of computed texels, nearest, mixed and with holes |
 //! | `values_blocks` | floors, cubes and a crate of a list, with texels in blocks behind a small cache |
 //! | `values_compressed` | floors and cubes of compressed texels: through a cache, mixed, alone, and with holes |

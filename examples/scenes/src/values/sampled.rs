@@ -1,10 +1,11 @@
-//! A floor in levels of detail that reaches to the horizon, and cubes near enough to show single texels: one whose texels
-//! are mixed, one whose are not, and one with holes (H6).
+//! A floor in levels of detail that reaches to the horizon, balls of small triangles in such levels, and cubes near enough
+//! to show single texels: one whose texels are mixed, one whose are not, and one with holes (H6).
 
 use super::scenes::{GRILLE, PANEL, at, draw_all, light, uncoloured};
 use crate::ShotError;
 use crate::looks::TexturedLook;
-use crate::{CUBE, PLACES_F};
+use crate::scene_b::PLACES;
+use crate::{CUBE, PLACES_F, SPHERE};
 use scanbeam::look::halved;
 use scanbeam::pixel::Rgb565Be;
 use scanbeam::scene::{Budget, Draw, Sampling, Scene, Skin, Texture};
@@ -86,6 +87,19 @@ pub(super) fn cube<'t>(texture: &'t Texture<'t>, angle: f32, place: [f32; 3]) ->
     }
 }
 
+/// A ball of small triangles at a place, of so much of its size.
+fn ball<'t>(texture: &'t Texture<'t>, size: f32, place: [f32; 3]) -> Draw<'static, 't> {
+    Draw {
+        model: at(size, place),
+        texture: Some(Skin {
+            texture,
+            places: &PLACES,
+            budget: Budget::BALANCED,
+        }),
+        ..Draw::new(uncoloured(SPHERE))
+    }
+}
+
 /// Makes the scene.
 pub(super) fn sampled<'t>(
     scene: &mut Scene<'_, 't, TexturedLook>,
@@ -97,6 +111,8 @@ pub(super) fn sampled<'t>(
         cube(sharp, 0.5, [-0.1, 0.0, 1.2]),
         cube(&PANEL, 0.9, [0.8, 0.2, 0.8]),
         cube(holes, 0.2, [-0.7, 0.3, 0.6]),
+        ball(near, 0.45, [-0.3, 0.75, -1.0]),
+        ball(near, 0.2, [0.55, 0.75, -0.5]),
     ];
     draw_all(scene, &calls)
 }
