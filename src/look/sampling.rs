@@ -55,7 +55,7 @@ const MOST: usize = Texture::MAX_SIDE.trailing_zeros() as usize;
 fn draw(span: &SampledSpan<'_>, run: &mut [u16], read: Read) {
     match span.method {
         Method::Perspective => span.perspective(run, read),
-        // Places in one word are drawn as they are.
+        // Places in one word are drawn without a question for levels.
         Method::Word | Method::Wide => affine(span, run, span.affine_way(), read),
     }
 }

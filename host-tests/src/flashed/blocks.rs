@@ -1,9 +1,8 @@
-//! What the blocks of a list say, counted as they lie.
+//! What the blocks of a list say, counted as they lie, up to its end.
 
 use super::tally::Meshes;
 use scanbeam::list::{
-    Field, Flow, Header, Instruction, LightWords, ListError, Material, State, VertexFormat,
-    read_block,
+    Field, Flow, Header, Instruction, LightWords, Material, State, VertexFormat, read_block,
 };
 
 /// What a list has in its blocks, each once.
@@ -26,11 +25,9 @@ struct Walk {
 }
 
 impl Blocks {
-    /// Of a list.
-    ///
-    /// # Errors
-    /// When a block is malformed.
-    pub fn of(list: &[u32]) -> Result<Self, ListError> {
+    /// Of a list, up to its end.
+    #[must_use]
+    pub fn of(list: &[u32]) -> Self {
         let mut walk = Walk {
             all: Self::default(),
             format: VertexFormat::default(),
@@ -39,12 +36,19 @@ impl Blocks {
         };
         let mut at = 0;
         while (at as usize) < list.len() {
-            let block = read_block(list, at, &walk.format)?;
+            let Ok(block) = read_block(list, at, &walk.format) else {
+                // It is not played, or the list would be refused.
+                walk.all.beyond = walk.all.beyond.or(Some("words between blocks"));
+                break;
+            };
+            if block.instruction == Instruction::Flow(Flow::End) {
+                break;
+            }
             let found = walk.block(&block.instruction);
             walk.all.beyond = walk.all.beyond.or(found);
             at += block.words;
         }
-        Ok(walk.all)
+        walk.all
     }
 }
 
@@ -57,7 +61,8 @@ impl Walk {
                 None
             }
             Instruction::Indexed(_) | Instruction::Later => None,
-            Instruction::Flow(Flow::End | Flow::Pause | Flow::Sync | Flow::Interrupt(_)) => None,
+            Instruction::Flow(Flow::Pause | Flow::Sync) => None,
+            Instruction::Flow(Flow::Interrupt(_)) => Some("interrupts of lists"),
             Instruction::Flow(_) => Some("jumps of lists"),
             Instruction::State(state) => self.state(state),
             Instruction::Short(_) | Instruction::Quads(_) => Some("vertices without a table"),

@@ -397,7 +397,7 @@ fn played<L: Look<Pixel = Rgb565Be>>(
         lights: Some(&mut lights),
     };
     let mut player = Player::<L>::new(memory, list.settings());
-    let blocks = Blocks::of(list.words).map_err(other)?;
+    let blocks = Blocks::of(list.words);
     let background = Rgb565Be::from_rgb8(head.background);
     let done = drawn::<L>(head, lend, (background, false), |scene, camera| {
         let played = list.play(&mut player, ListCommand::Start(0), camera, scene);

@@ -56,7 +56,7 @@ pub fn beyond(scene: &SceneFile) -> Option<&'static str> {
 /// When it is none.
 pub fn of_list(flashed: &Flashed) -> Result<Option<&'static str>, Box<dyn Error>> {
     let (_, mut reader) = Head::read(&flashed.words)?;
-    let blocks = Blocks::of(List::read(&mut reader)?.words)?;
+    let blocks = Blocks::of(List::read(&mut reader)?.words);
     let is_each_once = flashed.shown.vertices == blocks.meshes.vertices;
     let several = (!is_each_once).then_some("tables that are drawn several times, or not at all");
     Ok(blocks.beyond.or(several))

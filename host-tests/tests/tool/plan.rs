@@ -279,7 +279,9 @@ fn what_is_not_reckoned_of_lists_is_told() -> Tried {
         opacity: 254,
         ..Material::default()
     })?;
-    let jump = words_of(&|writer| writer.flow(Flow::JumpRelative(0)))?;
+    // Over a word that is no block.
+    let mut jump = words_of(&|writer| writer.flow(Flow::JumpRelative(1)))?;
+    jump.push(u32::MAX);
     let window = Window {
         left: 0,
         top: 0,
