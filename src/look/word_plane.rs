@@ -122,9 +122,7 @@ impl Near<'_> {
         let rise = |texel: [i32; 2], axis: usize| texel[axis].wrapping_sub(a[axis]);
         let product = |one: usize, other: usize| rise(b, one).wrapping_mul(rise(c, other));
         let texels = product(0, 1).abs_diff(product(1, 0));
-        let pixels = dx[0]
-            .wrapping_mul(dy[1])
-            .wrapping_sub(dx[1].wrapping_mul(dy[0])) as u32;
+        let pixels = (dx[0] * dy[1] - dx[1] * dy[0]) as u32;
         let [up, pixels_up] = [texels, pixels].map(u32::leading_zeros);
         let (Some(most), Some(pixels)) = (texels.checked_shl(up), pixels.checked_shl(pixels_up))
         else {

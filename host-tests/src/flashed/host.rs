@@ -40,8 +40,8 @@ pub struct Shown {
     pub pixels: Vec<u16>,
     /// Draw calls.
     pub calls: u32,
-    /// Vertices of their meshes.
-    pub vertices: u32,
+    /// What its player did, where it is a list.
+    pub listed: Option<Listed>,
     /// Triangles that were submitted; those that were filed are in the head's room.
     pub triangles: u32,
     /// Bytes of slow memory that it takes, here, where pointers are wider than on the boards.
@@ -414,6 +414,8 @@ fn played<L: Look<Pixel = Rgb565Be>>(
 
 /// What a player has put into a scene from a list of such blocks.
 fn built(counts: RunCounts, blocks: &Blocks) -> Built {
+    let is_each_once = counts.vertices == blocks.meshes.vertices;
+    let several = (!is_each_once).then_some("tables that are drawn several times, or not at all");
     Built {
         draws: counts.draws.max(1),
         meshes: Meshes {
@@ -424,6 +426,7 @@ fn built(counts: RunCounts, blocks: &Blocks) -> Built {
             blocks: counts.blocks,
             triangles: counts.triangles,
             white: blocks.white,
+            beyond: blocks.beyond.or(several),
         }),
     }
 }
@@ -476,7 +479,7 @@ fn drawn<'t, L: Look>(
         head,
         pixels: Vec::new(),
         calls: draws,
-        vertices: built.meshes.vertices,
+        listed: built.listed,
         triangles: scene.assembled().triangles,
         slow_bytes: slow_bytes(&Head { room, ..head }, DRAW_BYTES),
     };

@@ -45,6 +45,8 @@ pub struct Listed {
     pub triangles: u32,
     /// Vertices that one white light falls on.
     pub white: u32,
+    /// What the list has that has no costs on record.
+    pub beyond: Option<&'static str>,
 }
 
 /// What pass one does.

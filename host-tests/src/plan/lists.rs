@@ -3,7 +3,7 @@
 use super::samples::SINGLES;
 use super::shapes::Shape;
 use crate::lists::bake::{BakeSettings, bake};
-use crate::lists::writer::ListWriter;
+use crate::lists::writer::{ListWriter, WriteError};
 use crate::model::Model;
 use scanbeam::list::{CameraWords, LightWords, State};
 use std::error::Error;
@@ -62,29 +62,7 @@ impl ListSample {
     pub fn to_bytes(&self, folder: &Path) -> Result<Vec<u8>, Box<dyn Error>> {
         let model = Model::load(&folder.join(self.shape.file()))?;
         let baked = bake(&model, &BakeSettings::default())?;
-        let mut memory = [0; 64];
-        let mut writer = ListWriter::new(&mut memory);
-        writer.state(&State::Camera(self.camera()))?;
-        for (number, light) in (0..).zip(self.lights()) {
-            writer.state(&State::Light {
-                number,
-                light: *light,
-            })?;
-        }
-        let words = writer.words().iter().chain(&baked.words);
-        Ok(words.flat_map(|word| word.to_ne_bytes()).collect())
-    }
-
-    fn camera(&self) -> CameraWords {
-        CameraWords {
-            eye: self.eye.map(|c| c as f32),
-            at: [0.0; 3],
-            up: [0.0, 1.0, 0.0],
-            // An angle of 45 degrees.
-            focal: 289.7,
-            near: 0.1,
-            far: 100.0,
-        }
+        Ok(seen(&baked.words, camera(self.eye), self.lights())?)
     }
 
     fn lights(&self) -> &'static [LightWords] {
@@ -109,4 +87,39 @@ impl ListSample {
             Style::Smooth => &[WARM, COLD],
         }
     }
+}
+
+/// A camera at a place that looks at the middle, at an angle of 45 degrees.
+#[must_use]
+pub fn camera(eye: [f64; 3]) -> CameraWords {
+    CameraWords {
+        eye: eye.map(|c| c as f32),
+        at: [0.0; 3],
+        up: [0.0, 1.0, 0.0],
+        focal: 289.7,
+        near: 0.1,
+        far: 100.0,
+    }
+}
+
+/// The bytes of a list that begins with a camera and lights.
+///
+/// # Errors
+/// When these do not fit 64 words.
+pub fn seen(
+    list: &[u32],
+    camera: CameraWords,
+    lights: &[LightWords],
+) -> Result<Vec<u8>, WriteError> {
+    let mut memory = [0; 64];
+    let mut writer = ListWriter::new(&mut memory);
+    writer.state(&State::Camera(camera))?;
+    for (number, light) in (0..).zip(lights) {
+        writer.state(&State::Light {
+            number,
+            light: *light,
+        })?;
+    }
+    let words = writer.words().iter().chain(list);
+    Ok(words.flat_map(|word| word.to_ne_bytes()).collect())
 }

@@ -143,7 +143,7 @@ impl Plan {
         let (flashed, beyond, is_usual) = match is_list(file) {
             true => {
                 let flashed = Flashed::load(file)?;
-                let beyond = scope::of_list(&flashed)?;
+                let beyond = flashed.shown.listed.and_then(|listed| listed.beyond);
                 (flashed, beyond, true)
             }
             false => {

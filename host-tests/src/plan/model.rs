@@ -75,9 +75,8 @@ pub fn pass_one_works(pass: &PassOne) -> Works {
     works
 }
 
-/// The works of a line.
-fn line_works(line: &LineTally, shares: &Shares, tally: &Tally) -> Works {
-    let width = tally.width;
+/// The works of a line of so many pixels.
+fn line_works(line: &LineTally, shares: &Shares, width: u16) -> Works {
     let (spans, cache) = (line.spans, line.cache);
     let all = f64::from(spans.spans);
     let hidden = part(spans.spans_hidden, spans.spans);
@@ -115,18 +114,13 @@ fn line_works(line: &LineTally, shares: &Shares, tally: &Tally) -> Works {
         ("move into slot", cache.moved_in.into()),
     ];
     let mut works: Works = of_line.map(|(name, count)| (name.to_owned(), count)).into();
-    add(&mut works, kind_works(shares, [1.0 - hidden, seen]));
-    works
-}
-
-/// The works of triangles of each kind, of whose spans and pixels such parts are drawn.
-fn kind_works(shares: &Shares, [spans, pixels]: [f64; 2]) -> Works {
-    let mut works = Works::new();
     for (name, share) in NAMES.iter().zip(shares) {
-        let mut add = |what: &str, count: f64| works.insert(format!("{name}: {what}"), count);
-        add("set-up", share.starts.into());
-        add("span", f64::from(share.spans) * spans);
-        add("pixel", f64::from(share.pixels) * pixels);
+        works.insert(format!("{name}: set-up"), share.starts.into());
+        works.insert(
+            format!("{name}: span"),
+            f64::from(share.spans) * (1.0 - hidden),
+        );
+        works.insert(format!("{name}: pixel"), f64::from(share.pixels) * seen);
     }
     works
 }
@@ -147,7 +141,7 @@ fn works_of_lines(tally: &Tally, from: usize, end: usize) -> Works {
     let mut works = Works::new();
     let lines = tally.lines.iter().zip(&tally.shares);
     for (line, shares) in lines.take(end).skip(from) {
-        add(&mut works, line_works(line, shares, tally));
+        add(&mut works, line_works(line, shares, tally.width));
     }
     works
 }

@@ -1,12 +1,8 @@
-//! Which scenes have their instructions reckoned: those whose draw calls have nothing but colours, lights and textures, and
-//! lists of tables that have colours and lights.
+//! Which scenes have their instructions reckoned: those whose draw calls have nothing but colours, lights and textures.
+//! Of lists those whose tables have colours and lights: see [`Blocks`](crate::flashed::blocks::Blocks).
 
 use super::samples::{LONGEST_SIDE, SHORTEST_SIDE};
-use crate::flashed::Flashed;
-use crate::flashed::blocks::Blocks;
 use crate::scene_file::{Item, Loaded, SceneFile, ShadeKind};
-use scene_flash::{Head, List};
-use std::error::Error;
 
 /// Whether all textures of a scene are squares as those that costs were measured on.
 #[must_use]
@@ -48,18 +44,6 @@ pub fn beyond(scene: &SceneFile) -> Option<&'static str> {
         (lights.iter().any(|light| light.shadows), "shadows"),
     ]);
     of_scene.or_else(|| objects.iter().find_map(|object| first(&of_object(object))))
-}
-
-/// What a list has of which no costs are on record, if anything.
-///
-/// # Errors
-/// When it is none.
-pub fn of_list(flashed: &Flashed) -> Result<Option<&'static str>, Box<dyn Error>> {
-    let (_, mut reader) = Head::read(&flashed.words)?;
-    let blocks = Blocks::of(List::read(&mut reader)?.words);
-    let is_each_once = flashed.shown.vertices == blocks.meshes.vertices;
-    let several = (!is_each_once).then_some("tables that are drawn several times, or not at all");
-    Ok(blocks.beyond.or(several))
 }
 
 fn of_object(object: &Item) -> [(bool, &'static str); 15] {

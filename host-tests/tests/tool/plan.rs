@@ -8,6 +8,7 @@ use host_tests::image_out::{Frame, write_image};
 use host_tests::lists::read_list;
 use host_tests::lists::writer::{ListWriter, WriteError};
 use host_tests::plan::chips::CHIPS;
+use host_tests::plan::lists::camera;
 use host_tests::plan::model::{Costs, Equations, Parts, Works, reckon, works};
 use host_tests::plan::program::code_of;
 use host_tests::plan::record::{Record, SLOTS, load, tally};
@@ -305,12 +306,8 @@ fn what_is_not_reckoned_of_lists_is_told() -> Tried {
     // It looks away, so that the teapot is out of sight.
     let away = words_of(&|writer| {
         writer.state(&State::Camera(CameraWords {
-            eye: [0.0, 0.0, 3.0],
             at: [0.0, 0.0, 6.0],
-            up: [0.0, 1.0, 0.0],
-            focal: 280.0,
-            near: 0.1,
-            far: 100.0,
+            ..camera([0.0, 0.0, 3.0])
         }))
     })?;
     let several = Some("tables that are drawn several times, or not at all");

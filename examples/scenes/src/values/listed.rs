@@ -1,4 +1,4 @@
-//! The crate's list in small frames: what a player of it is lent.
+//! Lists in small frames: how they are played, and what a player of the crate's is lent.
 
 use crate::looks::TexturedLook;
 use crate::{
@@ -7,6 +7,7 @@ use crate::{
 use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use scanbeam::list::{Budget, Halt, ListCommand, TextureSlot};
+use scanbeam::look::Look;
 use scanbeam::scene::Scene;
 
 /// Room for the textures of the crate.
@@ -51,11 +52,21 @@ pub(super) fn wooden_crate<'t>(
     // It is aligned, so it is there.
     let list = Played::Crate.list().unwrap_or_default();
     with_player(settings, rooms, |player| {
-        player.command(ListCommand::Start(0));
-        let run = player.run(list, scene, &mut Budget::of(4096), &mut |_: Notice| {});
-        match run {
-            Ok(Halt::End) if player.counts().dropped == 0 => Ok(()),
-            other => Err(ShotError::List(other)),
-        }
+        play_whole(player, list, scene, Budget::of(4096))
     })
+}
+
+/// Plays a list to its end.
+pub(super) fn play_whole<'t, L: Look>(
+    player: &mut Player<'_, 't, L>,
+    list: &'t [u32],
+    scene: &mut Scene<'_, 't, L>,
+    mut budget: Budget,
+) -> Result<(), ShotError> {
+    player.command(ListCommand::Start(0));
+    let run = player.run(list, scene, &mut budget, &mut |_: Notice| {});
+    match run {
+        Ok(Halt::End) if player.counts().dropped == 0 => Ok(()),
+        other => Err(ShotError::List(other)),
+    }
 }

@@ -1,10 +1,10 @@
 //! An octahedron of a list: it casts the shadows of the scene's lights (K9), or is a number of a palette (H18).
 
+use super::listed::play_whole;
 use super::told::{flow, header};
 use crate::ShotError;
-use scanbeam::event::Notice;
 use scanbeam::input::{Player, PlayerMemory, PlayerSettings};
-use scanbeam::list::{Budget, Flow, Halt, Header, Id, ListCommand};
+use scanbeam::list::{Budget, Flow, Header, Id};
 use scanbeam::look::Look;
 use scanbeam::pixel::Index8;
 use scanbeam::scene::{Draw, Scene, Shading, ShadowEdge, ShadowLight, ShadowMemory};
@@ -106,10 +106,5 @@ fn play<L: Look>(
         faces: &mut [[0; 3]; 3 * FACES as usize],
     };
     let mut player = Player::new(memory, settings).with_shadows(volume);
-    player.command(ListCommand::Start(0));
-    let run = player.run(list, scene, &mut Budget::of(64), &mut |_: Notice| {});
-    match run {
-        Ok(Halt::End) if player.counts().dropped == 0 => Ok(()),
-        other => Err(ShotError::List(other)),
-    }
+    play_whole(&mut player, list, scene, Budget::of(64))
 }

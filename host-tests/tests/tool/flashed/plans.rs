@@ -48,6 +48,16 @@ pub(super) fn bytes_are_as_planned(flashed: &Flashed, board: &Measured) -> Tried
     Ok(())
 }
 
+/// A ball of any number of pieces, by a number between two.
+pub(super) fn ball(next: &mut impl FnMut(f64, f64) -> f64) -> Shape {
+    Shape::Ball(next(8.0, 24.0) as u32, next(10.0, 32.0) as u32)
+}
+
+/// Likewise a ring.
+pub(super) fn ring(next: &mut impl FnMut(f64, f64) -> f64) -> Shape {
+    Shape::Ring(next(12.0, 40.0) as u32, next(8.0, 24.0) as u32)
+}
+
 /// Scenes that no cost was measured on: other shapes in other places, by random numbers.
 fn scenes(folder: &Path, count: u32) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     let mut rng = crate::common::Rng::new(0x9A11);
@@ -56,8 +66,8 @@ fn scenes(folder: &Path, count: u32) -> Result<Vec<PathBuf>, Box<dyn Error>> {
     for number in 0..count {
         let mut next = |from: f64, to: f64| rng.between(from, to);
         let shapes = [
-            Shape::Ball(next(8.0, 24.0) as u32, next(10.0, 32.0) as u32),
-            Shape::Ring(next(12.0, 40.0) as u32, next(8.0, 24.0) as u32),
+            ball(&mut next),
+            ring(&mut next),
             Shape::Land(next(20.0, 40.0) as u32),
             Shape::Cube(next(2.0, 6.0) as u32),
         ];
