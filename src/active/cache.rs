@@ -203,8 +203,14 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     /// A slot that is free.
     #[inline(always)]
     pub(crate) fn free(&self) -> Option<usize> {
-        for (word, &used) in self.used.iter().enumerate() {
-            let mut free = !used;
+        self.free_beside(&[0; WORDS])
+    }
+
+    /// The same of slots that are not withheld.
+    #[inline(always)]
+    pub(crate) fn free_beside(&self, withheld: &[u32; WORDS]) -> Option<usize> {
+        for (word, (&used, &withheld)) in self.used.iter().zip(withheld).enumerate() {
+            let mut free = !(used | withheld);
             if free != 0 {
                 let slot = word * 32 + take_first(&mut free) as usize;
                 return (slot + usize::from(self.unused) < 32 * WORDS).then_some(slot);

@@ -11,6 +11,7 @@ use crate::span::{Size, Triangle};
 /// |---|---|
 /// | sides turn | a triangle whose side cannot turn is given up |
 /// | triangles begin, while half of what the line has is left, and a slot is free | others wait for the next line |
+/// | those of 7 lines below begin, while all that may be seen can be paid for | they begin further down |
 /// | columns are found | the line has the background alone |
 /// | spans that meet are sorted and compared, while half of what is left then is there | the nearest depth of a span on the line says who is seen, or where they could not be sorted its slot |
 /// | runs of pixels that are seen are coloured | runs have the colour of their middle, the narrowest first |
@@ -87,9 +88,9 @@ impl Pace {
     /// [`Gouraud`](crate::look::Gouraud) in M4 and M3 code; there is no limit.
     pub const GOURAUD_M4: Self = Self {
         most: u32::MAX,
-        line: 1000,
+        line: 1050,
         column: 4,
-        begin: 610,
+        begin: 640,
         large: 1400,
         turn: 130,
         span: 104,
@@ -101,8 +102,8 @@ impl Pace {
     };
     /// The same in M0+ code.
     pub const GOURAUD_M0: Self = Self {
-        line: 1300,
-        begin: 1090,
+        line: 1350,
+        begin: 1120,
         large: 2700,
         turn: 240,
         span: 200,
@@ -115,7 +116,7 @@ impl Pace {
     };
     /// [`Textured`](crate::look::Textured) in M4 and M3 code, with texels that are not filtered; there is no limit.
     pub const TEXTURED_M4: Self = Self {
-        begin: 1700,
+        begin: 1730,
         large: 3050,
         run: 330,
         pixel: 14,
@@ -123,7 +124,7 @@ impl Pace {
     };
     /// The same in M0+ code.
     pub const TEXTURED_M0: Self = Self {
-        begin: 3500,
+        begin: 3550,
         large: 7700,
         run: 700,
         pixel: 14,
@@ -136,6 +137,15 @@ impl Pace {
             Size::Tiny => self.begin,
             _ => self.large,
         })
+    }
+
+    /// The most that so many triangles may cost on a line so wide, where each meets one other.
+    pub(super) fn of_active(&self, count: u32, width: u32) -> u32 {
+        if count == 0 {
+            return 0;
+        }
+        let each = 3 * u32::from(self.span) + u32::from(self.pair) + 2 * u32::from(self.run);
+        count * each + 2 * u32::from(self.pixel) * width
     }
 
     /// What a line so wide has left for what is on it.

@@ -11,10 +11,12 @@ use super::pace::{Pace, Paid};
 use super::renderer::{LineError, Renderer, View};
 use super::rival::deepen;
 use super::runs::Runs;
+use super::slot::Active;
 use super::spans::Line;
+use crate::active::Cache;
 use crate::look::{Look, WordOf};
 use crate::num::{bit, take_first};
-use crate::scene::{NONE, Scene};
+use crate::scene::{NONE, Object, Scene};
 
 /// Draws a line, as [`Renderer::draw_known`] does.
 type DrawPaced<L, const WORDS: usize> =
@@ -37,10 +39,14 @@ pub(super) struct Pacer<L: Look, const WORDS: usize> {
     /// The line after the one whose triangles begin next, and the first of them.
     line: u16,
     rest: u16,
+    /// Slots of triangles that have begun above their first line, by that line, and all of them: they are not active
+    /// before it.
+    ahead: [[u32; WORDS]; LINES as usize],
+    withheld: [u32; WORDS],
 }
 
-/// The most lines whose triangles begin on one.
-const MOST_LINES: u32 = 8;
+/// How many lines' triangles have begun after each line, where there was time: its own, and those below.
+const LINES: u16 = 8;
 
 impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
     pub(super) fn new(pace: Pace) -> Self {
@@ -59,7 +65,28 @@ impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
             left: 0,
             line: 0,
             rest: NONE,
+            ahead: [[0; WORDS]; LINES as usize],
+            withheld: [0; WORDS],
         }
+    }
+
+    /// Forgets all lines, to begin at the first.
+    fn start(&mut self, first: u16) {
+        self.paid = Paid::default();
+        (self.line, self.rest) = (first, NONE);
+        self.ahead = [[0; WORDS]; LINES as usize];
+        self.withheld = [0; WORDS];
+    }
+
+    /// Whether triangles that are on a line have not begun.
+    fn waits(&self, line: u16) -> bool {
+        self.line <= line || self.rest != NONE && self.line == line + 1
+    }
+
+    /// Notes what a line has cost in the end.
+    fn note_cost(&mut self) {
+        let cost = self.pace.most - self.left;
+        self.paid.dearest = self.paid.dearest.max(cost);
     }
 
     /// Pays for something, if that leaves as much as is said.
@@ -85,6 +112,32 @@ impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
             }
         }
         paid
+    }
+
+    /// Gives up slots of a word, active or not.
+    fn give_up(&mut self, cache: &mut Cache<Active<L::Planes>, WORDS>, word: usize, slots: u32) {
+        cache.give_up(word, slots);
+        self.withheld[word] &= !slots;
+        for line in &mut self.ahead {
+            line[word] &= !slots;
+        }
+    }
+
+    /// Withholds a slot until a line.
+    fn withhold(&mut self, cache: &mut Cache<Active<L::Planes>, WORDS>, slot: usize, line: u16) {
+        let (word, one) = (slot >> 5, bit(slot as u32));
+        cache.used[word] &= !one;
+        self.withheld[word] |= one;
+        self.ahead[usize::from(line % LINES)][word] |= one;
+    }
+
+    /// What was withheld until a line is active from now on.
+    fn arrive(&mut self, cache: &mut Cache<Active<L::Planes>, WORDS>, line: u16) {
+        for word in 0..WORDS {
+            let slots = core::mem::take(&mut self.ahead[usize::from(line % LINES)][word]);
+            cache.used[word] |= slots;
+            self.withheld[word] &= !slots;
+        }
     }
 }
 
@@ -139,9 +192,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     ) -> bool {
         self.advance_paced(pacer, view, line);
         self.counts.peak = self.counts.peak.max(self.cache.in_use());
-        let waits = pacer.rest != NONE || pacer.line <= line;
+        let waits = pacer.waits(line);
         if self.cache.in_use() == 0 && !waits {
             fill_line::<L>(pixels, background);
+            pacer.note_cost();
             return false;
         }
         let (before, left) = (pacer.paid, pacer.left);
@@ -163,8 +217,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         self.depth = depth;
         let is_lowered = pacer.paid != before;
-        let cost = pacer.pace.most - pacer.left;
-        pacer.paid.dearest = pacer.paid.dearest.max(cost);
+        pacer.note_cost();
         pacer.left = left;
         pacer.paid.lines += u32::from(waits || is_lowered);
         true
@@ -174,7 +227,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn advance_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>, line: u16) {
         if self.content != Some(view.content) || self.next > line + 1 {
             self.start_anew(view);
-            (pacer.paid, pacer.line, pacer.rest) = (Paid::default(), view.first, NONE);
+            pacer.start(view.first);
         }
         let most = pacer.pace.for_spans(view.frame.width as u32);
         while self.next <= line {
@@ -184,6 +237,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             if self.cache.enter_line(now) {
                 self.change_paced(pacer, view);
             }
+            pacer.arrive(self.cache, now);
             self.begin_paced(pacer, view, now, most / 2);
         }
     }
@@ -195,7 +249,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             for word in 0..WORDS {
                 for (slots, turns) in self.cache.take_block(word).into_iter().zip([true, false]) {
                     let mut asked = pacer.pay_each(slots);
-                    self.cache.give_up(word, slots & !asked);
+                    pacer.give_up(self.cache, word, slots & !asked);
                     while asked != 0 {
                         self.ask_change(view, word, take_first(&mut asked), turns);
                     }
@@ -205,51 +259,77 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for word in 0..WORDS {
             let turning = self.cache.take_changes(word).turning;
             let turned = pacer.pay_each(turning);
-            self.cache.give_up(word, turning & !turned);
+            pacer.give_up(self.cache, word, turning & !turned);
             self.turn_all(view, word, turned);
         }
     }
 
-    /// What begins on a line, after what began above it and had to wait.
+    /// What begins on a line, after what began above it and had to wait, and before what begins on lines below, as far as
+    /// the line has time for it.
     #[inline(never)]
     fn begin_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>, now: u16, leaves: u32) {
-        for _ in 0..MOST_LINES {
-            let is_late = pacer.line <= now;
+        let mut ahead = None;
+        loop {
+            let leaves = match pacer.line > now + 1 {
+                true => *ahead.get_or_insert_with(|| {
+                    let width = view.frame.width as u32;
+                    pacer.pace.of_active(self.cache.in_use(), width)
+                }),
+                false => leaves,
+            };
             while let Some(object) = view.objects.get(usize::from(pacer.rest)) {
-                let Some(triangle) = view.triangle(object) else {
+                if !self.begin_one(pacer, view, now, leaves, object) {
                     return;
-                };
-                if triangle.lines().end <= i32::from(now) {
-                    if !pacer.pay(pacer.pace.span.into(), 0) {
-                        return;
-                    }
-                    pacer.paid.lost += u32::from(is_late);
-                    pacer.rest = object.next;
-                    continue;
-                }
-                let Some(slot) = self.cache.free() else {
-                    return;
-                };
-                if !pacer.pay(pacer.pace.of_begin(&triangle), leaves) {
-                    return;
-                }
-                let made = self.take_in(view, slot, pacer.rest, object, now);
-                if made != 0 {
-                    self.count_set_ups(made);
-                    self.counts.hits += 1;
-                    pacer.paid.late += u32::from(is_late);
-                    if let Some(slot) = self.cache.slot(slot).filter(|_| view.deep) {
-                        deepen::<L>(slot, view);
-                    }
                 }
                 pacer.rest = object.next;
             }
-            if pacer.line > now {
-                break;
+            if pacer.line >= now + LINES {
+                return;
             }
             let bin = usize::from(pacer.line.wrapping_sub(view.first));
             pacer.rest = view.bins.get(bin).copied().unwrap_or(NONE);
             pacer.line += 1;
         }
+    }
+
+    /// Begins the triangle that is next, if that leaves as much as is said, and it has not ended; whether nobody has to
+    /// wait for it.
+    #[inline(always)]
+    fn begin_one(
+        &mut self,
+        pacer: &mut Pacer<L, WORDS>,
+        view: &View<'_>,
+        now: u16,
+        leaves: u32,
+        object: &Object,
+    ) -> bool {
+        let Some(triangle) = view.triangle(object) else {
+            return false;
+        };
+        let (first, is_late) = (pacer.line - 1, pacer.line <= now);
+        if triangle.lines().end <= i32::from(now) {
+            let tells = pacer.pay(pacer.pace.span.into(), 0);
+            pacer.paid.lost += u32::from(tells && is_late);
+            return tells;
+        }
+        let Some(slot) = self.cache.free_beside(&pacer.withheld) else {
+            return false;
+        };
+        if !pacer.pay(pacer.pace.of_begin(&triangle), leaves) {
+            return false;
+        }
+        let made = self.take_in(view, slot, pacer.rest, object, first.max(now));
+        if made != 0 {
+            self.count_set_ups(made);
+            self.counts.hits += 1;
+            pacer.paid.late += u32::from(is_late);
+            if let Some(slot) = self.cache.slot(slot).filter(|_| view.deep) {
+                deepen::<L>(slot, view);
+            }
+            if first > now {
+                pacer.withhold(self.cache, slot, first);
+            }
+        }
+        true
     }
 }

@@ -7,8 +7,7 @@ use crate::look::{Gouraud, Look, Textured, WordOf};
 use crate::num::random::Rng;
 use crate::pixel::{PixelFormat, Rgb565, Rgb888};
 use crate::scene::{
-    Budget, Draw, DrawState, Memory, NONE, Object, Scene, Shadow, Skin, Texture, TexturePlace,
-    Vertex,
+    Budget, Draw, DrawState, Memory, Object, Scene, Shadow, Skin, Texture, TexturePlace, Vertex,
 };
 use std::boxed::Box;
 use std::vec::Vec;
@@ -107,7 +106,8 @@ fn with_scene<L: Look>(
     let mut vertices = std::vec![Vertex::EMPTY; 4_000];
     let mut places = std::vec![TexturePlace::EMPTY; 4_000];
     let mut objects = std::vec![Object::EMPTY; 2_000];
-    let mut bins = std::vec![NONE; seen.height.into()];
+    // Behind the last line they have what another scene left.
+    let mut bins = std::vec![0; usize::from(seen.height) + 10];
     let mut draws = [DrawState::EMPTY; 6];
     let screen = Screen::new(WIDTH, seen.height).unwrap();
     let memory = Memory {

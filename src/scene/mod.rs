@@ -298,10 +298,16 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         }
     }
 
+    /// The first triangle of each line that is drawn.
+    #[inline(always)]
+    pub(crate) fn bins(&self) -> &[u16] {
+        self.bins.get(..self.lines.len()).unwrap_or_default()
+    }
+
     /// The first line from `line` on that a triangle begins on; the line after the last where none does.
     pub(crate) fn begins_from(&self, line: u16) -> u16 {
-        let bins = self.bins.get(..self.lines.len()).unwrap_or_default();
-        let mut rest = bins
+        let mut rest = self
+            .bins()
             .iter()
             .skip(usize::from(line.saturating_sub(self.lines.start)));
         match rest.position(|&head| head != NONE) {

@@ -124,13 +124,11 @@ fn reckoned<L: Look<Pixel = Rgb565Be>>(
         ..costs
     });
     let mut line = vec![0; screen.width().into()];
-    // What is empty pays that as well, but is not among what was drawn.
-    let least = u32::from(costs.line) + u32::from(costs.column) * u32::from(screen.width());
     let mut reckoned = Vec::new();
     // From the last one up: what was paid begins anew with each.
     for y in scene.lines().rev() {
         renderer.draw_line(&scene, y, &mut line, 0)?;
-        reckoned.push(renderer.paid().dearest.max(least));
+        reckoned.push(renderer.paid().dearest);
     }
     reckoned.reverse();
     Ok(reckoned)

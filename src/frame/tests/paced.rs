@@ -1,6 +1,6 @@
 //! Lines that cost no more than they may (X9).
 
-use super::{Crowd, WIDE, WIDTH, lines, with_scene};
+use super::{Crowd, Seen, WIDE, WIDTH, lines, with_scene};
 use crate::frame::{FastMemory, LineError, Memory, Pace, Paid, Renderer};
 use crate::link::Link;
 use crate::look::{Gouraud, Look, Textured, WordOf};
@@ -261,6 +261,91 @@ fn triangles_that_cannot_turn_are_lost() {
         assert!(lines[..19] == want[..19]);
         let empty = [Rgb888::from_rgb8([9; 3]); WIDTH as usize];
         assert!(want[30] != empty && lines[30] == empty);
+    });
+}
+
+/// Kills: nothing begins above its first line, or is seen there; two begin in one slot; a slot stays withheld; begun triangles
+/// are said to wait; lines without triangles leave as much as others; lines behind the last have triangles.
+#[test]
+fn what_begins_on_one_line_has_begun_above_it() {
+    let row =
+        |from: i32| (0..24).map(move |i| [[4 * i, from], [4 * i + 4, from], [4 * i, from + 6]]);
+    let tiles: Vec<_> = row(12).chain(row(26)).collect();
+    // Four begin on a line.
+    let pace = Pace {
+        most: 4_200,
+        begin: 1_000,
+        large: 1_000,
+        column: 0,
+        line: 0,
+        ..PACE
+    };
+    with_scene::<Gouraud<Rgb888>>(WIDE, &[facing(&tiles)], None, |scene| {
+        let (want, _) = lines(scene, 224, true, &all());
+        let empty = |line: usize| want[line] == want[0];
+        assert!(empty(11) && !empty(13) && empty(25) && !empty(27));
+        let Drawn { lines, paid, .. } = paced(scene, 24, pace, &all());
+        assert!(lines == want, "{paid:?}");
+        let dearest = paid.dearest;
+        let free = Paid {
+            dearest,
+            ..Paid::default()
+        };
+        assert_eq!(paid, free);
+        // A line on which nothing is takes most of what it may where there are some below, and else nothing.
+        for (line, dearest) in [(10, 4_000), (39, 0)] {
+            let paid = paced(scene, 24, pace, &[line]).paid;
+            assert_eq!((paid.lines, paid.dearest), (0, dearest));
+        }
+    });
+}
+
+/// Kills: what begins below is paid for by what is seen.
+#[test]
+fn what_is_seen_comes_before_what_begins_below() {
+    let tile = |i: i32| [[52 + 12 * i, 20], [60 + 12 * i, 20], [52 + 12 * i, 34]];
+    // A line with the large one can pay for one that begins.
+    let pace = Pace {
+        most: 3_600,
+        begin: 1_000,
+        large: 1_000,
+        pixel: 50,
+        column: 0,
+        line: 0,
+        ..PACE
+    };
+    let triangles = [LEFT, tile(0), tile(1), tile(2)];
+    with_scene::<Gouraud<Rgb888>>(WIDE, &[facing(&triangles)], None, |scene| {
+        let paid = paced(scene, 224, pace, &all()).paid;
+        let want = Paid {
+            late: 2,
+            lines: 2,
+            dearest: paid.dearest,
+            ..Paid::default()
+        };
+        assert_eq!(paid, want);
+    });
+}
+
+/// Kills: a triangle that is given up before its first line is drawn from there on all the same, or keeps its slot.
+#[test]
+fn what_is_given_up_ahead_is_not_drawn() {
+    let seen = Seen { height: 64, ..WIDE };
+    // The lines of such a picture are 12 more. As the block from 32 on begins, the first is to turn, and not yet on a line.
+    let turns = [[4, 22], [44, 50], [4, 51]];
+    let below = [[4, 34], [44, 34], [4, 48]];
+    let pace = Pace {
+        turn: 50_000,
+        most: 40_000,
+        ..PACE
+    };
+    with_scene::<Gouraud<Rgb888>>(seen, &[facing(&[turns, below])], None, |scene| {
+        let all: Vec<u16> = (0..64).collect();
+        let (want, _) = lines(scene, 224, true, &all);
+        let Drawn { lines, paid, .. } = paced(scene, 1, pace, &all);
+        assert_eq!(paid.lost, 1);
+        assert!(lines[..46] == [(); 46].map(|()| want[0].clone()));
+        assert!(want[40] != want[0] && lines[50] != want[0]);
     });
 }
 
