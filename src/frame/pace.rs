@@ -88,9 +88,9 @@ impl Pace {
     /// [`Gouraud`](crate::look::Gouraud) in M4 and M3 code; there is no limit.
     pub const GOURAUD_M4: Self = Self {
         most: u32::MAX,
-        line: 1050,
+        line: 1080,
         column: 4,
-        begin: 640,
+        begin: 620,
         large: 1400,
         turn: 130,
         span: 104,
@@ -103,7 +103,7 @@ impl Pace {
     /// The same in M0+ code.
     pub const GOURAUD_M0: Self = Self {
         line: 1350,
-        begin: 1120,
+        begin: 1100,
         large: 2700,
         turn: 240,
         span: 200,
@@ -116,7 +116,7 @@ impl Pace {
     };
     /// [`Textured`](crate::look::Textured) in M4 and M3 code, with texels that are not filtered; there is no limit.
     pub const TEXTURED_M4: Self = Self {
-        begin: 1730,
+        begin: 1700,
         large: 3050,
         run: 330,
         pixel: 14,
@@ -124,7 +124,7 @@ impl Pace {
     };
     /// The same in M0+ code.
     pub const TEXTURED_M0: Self = Self {
-        begin: 3550,
+        begin: 3500,
         large: 7700,
         run: 700,
         pixel: 14,

@@ -267,16 +267,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// What begins on a line, after what began above it and had to wait, and before what begins on lines below, as far as
     /// the line has time for it.
     #[inline(never)]
-    fn begin_paced(&mut self, pacer: &mut Pacer<L, WORDS>, view: &View<'_>, now: u16, leaves: u32) {
-        let mut ahead = None;
+    fn begin_paced(
+        &mut self,
+        pacer: &mut Pacer<L, WORDS>,
+        view: &View<'_>,
+        now: u16,
+        mut leaves: u32,
+    ) {
+        let mut is_ahead = false;
         loop {
-            let leaves = match pacer.line > now + 1 {
-                true => *ahead.get_or_insert_with(|| {
-                    let width = view.frame.width as u32;
-                    pacer.pace.of_active(self.cache.in_use(), width)
-                }),
-                false => leaves,
-            };
+            if pacer.rest != NONE && pacer.line > now + 1 && !is_ahead {
+                is_ahead = true;
+                let width = view.frame.width as u32;
+                leaves = pacer.pace.of_active(self.cache.in_use(), width);
+            }
             while let Some(object) = view.objects.get(usize::from(pacer.rest)) {
                 if !self.begin_one(pacer, view, now, leaves, object) {
                     return;
