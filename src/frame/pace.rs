@@ -11,7 +11,7 @@ use crate::span::{Size, Triangle};
 /// |---|---|
 /// | sides turn | a triangle whose side cannot turn is given up |
 /// | triangles begin, while half of what the line has is left, and a slot is free | others wait for the next line |
-/// | those of 7 lines below begin, while all that may be seen can be paid for | they begin further down |
+/// | those of 7 lines below begin, while about what is active can be paid for | they begin further down |
 /// | columns are found | the line has the background alone |
 /// | spans that meet are sorted and compared, while half of what is left then is there | the nearest depth of a span on the line says who is seen, or where they could not be sorted its slot |
 /// | runs of pixels that are seen are coloured | runs have the colour of their middle, the narrowest first |
@@ -139,13 +139,13 @@ impl Pace {
         })
     }
 
-    /// The most that so many triangles may cost on a line so wide, where each meets one other.
+    /// About what so many triangles cost on a line so wide, in the commonest way, where half of them meet others.
     pub(super) fn of_active(&self, count: u32, width: u32) -> u32 {
         if count == 0 {
             return 0;
         }
-        let each = 3 * u32::from(self.span) + u32::from(self.pair) + 2 * u32::from(self.run);
-        count * each + 2 * u32::from(self.pixel) * width
+        let each = 2 * u32::from(self.span) + u32::from(self.run);
+        count * each + u32::from(self.pixel) * width
     }
 
     /// What a line so wide has left for what is on it.
