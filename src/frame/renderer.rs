@@ -434,7 +434,7 @@ impl<'a> View<'a> {
             },
             content: scene.content(),
             first: scene.lines().start,
-            bins: scene.bins(),
+            bins: scene.bins,
             has_values: scene.has_values,
             ruled: scene.is_ruled,
             ranked: scene.is_ranked,

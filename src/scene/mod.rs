@@ -252,12 +252,13 @@ impl<'m, 't, L> Scene<'m, 't, L> {
                 height,
             });
         }
-        let have = self.bins.len();
-        let Some(bins) = self.bins.get_mut(..lines.len()) else {
-            let needed = lines.len() as u16;
+        let (needed, have) = (lines.len(), self.bins.len());
+        if have < needed {
+            let needed = needed as u16;
             return Err(BeginError::Bins { needed, have });
-        };
-        bins.fill(NONE);
+        }
+        // Behind the last line too: who looks ahead finds nothing there.
+        self.bins.fill(NONE);
         self.vertices.clear();
         self.objects.clear();
         self.draws.clear();
@@ -298,16 +299,10 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         }
     }
 
-    /// The first triangle of each line that is drawn.
-    #[inline(always)]
-    pub(crate) fn bins(&self) -> &[u16] {
-        self.bins.get(..self.lines.len()).unwrap_or_default()
-    }
-
     /// The first line from `line` on that a triangle begins on; the line after the last where none does.
     pub(crate) fn begins_from(&self, line: u16) -> u16 {
-        let mut rest = self
-            .bins()
+        let bins = self.bins.get(..self.lines.len()).unwrap_or_default();
+        let mut rest = bins
             .iter()
             .skip(usize::from(line.saturating_sub(self.lines.start)));
         match rest.position(|&head| head != NONE) {
