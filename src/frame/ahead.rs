@@ -33,7 +33,7 @@ pub(super) struct Fetcher<L: Look, const WORDS: usize> {
 impl<L: Look, const WORDS: usize> Fetcher<L, WORDS> {
     pub(super) fn new(bytes: u32) -> Self {
         Self {
-            fetch: |renderer, scene| renderer.fetch_next(&View::of(scene)),
+            fetch: |renderer, scene| renderer.fetch_next(&View::of(scene), scene.lines().end),
             arrive: |renderer, head| renderer.arrive(head),
             forget: |renderer| {
                 if let Some(ahead) = &mut renderer.fetcher {
@@ -63,14 +63,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Sets up what begins on the line after the last that was drawn, as far as the bytes go.
     #[inline(never)]
-    fn fetch_next(&mut self, view: &View<'_>) -> u32 {
+    fn fetch_next(&mut self, view: &View<'_>, end: u16) -> u32 {
         if self.content != Some(view.content) {
             self.start_anew(view);
             self.cache.before_line(view.first);
         }
         let line = self.next;
         let head = view.bins.get(usize::from(line.wrapping_sub(view.first)));
-        let (Some(&head), Some(ahead)) = (head, &mut self.fetcher) else {
+        let (Some(&head), Some(ahead)) = (head.filter(|_| line < end), &mut self.fetcher) else {
             return 0;
         };
         let mut left = ahead.bytes;

@@ -286,3 +286,26 @@ fn shadows_do_not_depend_on_the_cache() {
     }
     assert!(differing > 7, "{differing}");
 }
+
+/// Kills: what bins have behind the last line is read.
+#[test]
+fn nothing_is_fetched_behind_the_last_line() {
+    let crowd = [Crowd::new(&mut Rng(158), 3, 0)];
+    with_scene::<Gouraud<Rgb888>>(WIDE, &crowd, None, |scene| {
+        let mut cache = FastMemory::<Gouraud<Rgb888>, 1>::new();
+        let mut links = std::vec![Link::NONE; scene.objects()];
+        let memory = Lent {
+            cache: &mut cache,
+            links: &mut links,
+            depth: &mut [],
+        };
+        let mut renderer = Renderer::new(memory).fetching(100);
+        let mut pixels = [Default::default(); WIDTH as usize];
+        for (line, bytes) in [(WIDE.height - 2, 2), (WIDE.height - 1, 0)] {
+            renderer
+                .draw_line(scene, line, &mut pixels, Default::default())
+                .unwrap();
+            assert_eq!(renderer.fetch_ahead(scene), Ok(bytes), "{line}");
+        }
+    });
+}
