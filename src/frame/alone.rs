@@ -18,16 +18,23 @@ pub(super) struct Alone<P> {
 }
 
 impl<P> Alone<P> {
-    /// Without its colours: `planes` are empty.
-    #[inline(always)]
-    pub(super) fn dark(stray: &Stray<'_>, planes: P) -> Self {
+    /// Nothing yet: `planes` are empty.
+    #[inline(never)]
+    pub(super) fn empty(planes: P) -> Self {
         Self {
             planes,
-            // Its columns are known, and its depth is not.
-            flags: Flags::new(Fill::Plain, Way::PLAIN).with_depth(true),
-            object: stray.object,
-            span: stray.span,
+            flags: Flags::new(Fill::Plain, Way::PLAIN),
+            object: 0,
+            span: Span { start: 0, end: 0 },
         }
+    }
+
+    /// Becomes a triangle whose colours are not asked for.
+    #[inline(always)]
+    pub(super) fn darken(&mut self, stray: &Stray<'_>) {
+        (self.object, self.span) = (stray.object, stray.span);
+        // Its columns are known, and its depth is not.
+        self.flags = Flags::new(Fill::Plain, Way::PLAIN).with_depth(true);
     }
 
     /// As it is drawn.
@@ -41,13 +48,14 @@ impl<P> Alone<P> {
     }
 }
 
-/// What has no slot, set up for one line.
+/// Sets up what has no slot for one line, where it will be read: planes are not copied.
 #[inline(never)]
 pub(super) fn set_up_stray<L: Look>(
     stray: &Stray<'_>,
+    alone: &mut Alone<L::Planes>,
     counts: &mut CacheUse,
     out: &Line<'_, '_, L>,
-) -> Alone<L::Planes> {
+) {
     let triangle = &stray.triangle;
     let area = triangle.area();
     let size = triangle.size(area);
@@ -58,39 +66,26 @@ pub(super) fn set_up_stray<L: Look>(
         area,
         draws: &out.view.draws,
     };
-    // Its planes are made where they are given back, so that nothing is copied.
-    let mut alone = Alone::dark(stray, L::EMPTY);
+    alone.darken(stray);
     let fill = L::set_up(&of, &mut alone.planes);
-    alone.flags = Flags::new(fill, Way::PLAIN).with_depth(true);
+    alone.flags = alone.flags.with_fill(fill);
     if out.view.dithers(stray.object) {
         alone.flags = alone.flags.with_values();
     }
     counts.set_ups += 1;
-    alone
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// What has no slot, set up for one line; `None` where it has no pixels there.
-    #[inline(never)]
-    pub(super) fn set_up_alone(
-        &mut self,
-        object: u16,
-        out: &Line<'_, '_, L>,
-    ) -> Option<Alone<L::Planes>> {
-        let stray = out.stray(object)?;
-        Some(set_up_stray::<L>(&stray, &mut self.counts, out))
-    }
-
     /// Colours what has no slot, where nobody is yet; `false` as soon as one meets another.
     #[inline(never)]
     pub(super) fn draw_all_alone(&mut self, out: &mut Line<'_, '_, L>) -> bool {
         let mut walk = Walk::of(self.cache.spilled);
-        let mut misses = 0;
+        let (mut alone, mut misses) = (Alone::empty(L::EMPTY), 0);
         while let Some(stray) = self.next_stray(&mut walk, out) {
             if self.covered.cover(stray.span.start, stray.span.end) != 0 {
                 return false;
             }
-            let alone = set_up_stray::<L>(&stray, &mut self.counts, out);
+            set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
             colour::<L>(alone.drawn(), alone.span, out);
             misses += 1;
         }

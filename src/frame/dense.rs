@@ -5,7 +5,7 @@
 //! the one submitted last is coloured last. Where fewer cells of depth are lent than a line has columns, the line is
 //! drawn in parts.
 
-use super::alone::set_up_stray;
+use super::alone::{Alone, set_up_stray};
 use super::guests::{CELLS, Stray, Walk};
 use super::near::{drawn_in, number_of};
 use super::renderer::Renderer;
@@ -219,8 +219,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let counts = &mut self.counts;
         let mut alone = None;
         part.each_seen(rival, |run| {
-            let alone = alone.get_or_insert_with(|| set_up_stray::<L>(stray, counts, out));
-            colour_seen_run::<L>(alone.drawn(), rival.span, run, mask, out);
+            if alone.is_none() {
+                let alone = alone.insert(Alone::empty(L::EMPTY));
+                set_up_stray::<L>(stray, alone, counts, out);
+            }
+            if let Some(alone) = &alone {
+                colour_seen_run::<L>(alone.drawn(), rival.span, run, mask, out);
+            }
         }) > 0
     }
 }

@@ -3,7 +3,7 @@
 //! A guest is set up for its line alone, and only where some of it is seen. Where there are more than the cells have
 //! room for, the nearest depth of each column is kept there instead (`dense`).
 
-use super::alone::set_up_stray;
+use super::alone::{Alone, set_up_stray};
 use super::near::{Drawing, Field, Taken, colour_free, colour_rest};
 use super::renderer::{Renderer, View};
 use super::rival::{Rival, Slope, thin_slope};
@@ -156,7 +156,8 @@ fn colour_guest<L: Look>(
         object,
         span,
     };
-    let alone = set_up_stray::<L>(&stray, drawing.counts, out);
+    let mut alone = Alone::empty(L::EMPTY);
+    set_up_stray::<L>(&stray, &mut alone, drawing.counts, out);
     let drawn = alone.drawn();
     if let Some(taken) = taken {
         return colour_free::<L>(drawing.mask, taken, drawn, span, out);

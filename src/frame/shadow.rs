@@ -249,7 +249,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Takes the spans of a step in order of submission: of so many slots that are listed, and what has none between
     /// them.
     fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, L>) {
-        let mut slow = self.first_spilled();
+        let (mut slow, mut alone) = (self.first_spilled(), Alone::empty(L::EMPTY));
         let keys = self.cache.order.as_flattened().get(..slots);
         let first = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
         for k in first.. {
@@ -258,7 +258,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let key = key.filter(|key| key >> 24 == step);
             let object = key.map_or(u32::MAX, |key| key >> 8 & 0xFFFF);
             while slow.object() < object {
-                self.take_alone(slow, step, out);
+                self.take_alone(slow, step, &mut alone, out);
                 slow = self.after(slow);
             }
             let Some(key) = key else {
@@ -279,11 +279,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = out.view.state_of(slot) else {
             return;
         };
-        let known = Known {
-            plane: slot.item.depth,
-            cells: self.depth,
-            written: &mut self.written,
-        };
+        let known = Known::new(slot.item.depth, self.depth, &mut self.written);
         let drawn = Drawn::of(slot);
         let ruled = Ruled { drawn, span, state };
         if let Some(counter) = &self.counter {
@@ -292,7 +288,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         take::<L>(ruled, known, self.volumes, out);
     }
 
-    fn take_alone(&mut self, at: Spilled, step: Step, out: &mut Line<'_, '_, L>) {
+    /// Takes the span of what has no slot, which is set up in `alone`, if it is of a step.
+    fn take_alone(
+        &mut self,
+        at: Spilled,
+        step: Step,
+        alone: &mut Alone<L::Planes>,
+        out: &mut Line<'_, '_, L>,
+    ) {
         let state = self.spilled_state(at, out.view);
         let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
             return;
@@ -300,16 +303,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(stray) = self.spilled_stray(at, out) else {
             return;
         };
-        let mut alone = match state.role() {
-            Role::Front(_) | Role::Back(_) => Alone::dark(&stray, L::EMPTY),
-            _ => set_up_stray::<L>(&stray, &mut self.counts, out),
-        };
-        let plane = Self::find_depth(&mut alone, out.view);
-        let known = Known {
-            plane,
-            cells: self.depth,
-            written: &mut self.written,
-        };
+        match state.role() {
+            Role::Front(_) | Role::Back(_) => alone.darken(&stray),
+            _ => set_up_stray::<L>(&stray, alone, &mut self.counts, out),
+        }
+        let plane = Self::find_depth(alone, out.view);
+        let known = Known::new(plane, self.depth, &mut self.written);
         let (drawn, span) = (alone.drawn(), alone.span);
         let ruled = Ruled { drawn, span, state };
         if let Some(counter) = &self.counter {

@@ -35,6 +35,17 @@ pub(super) struct Known<'a> {
     pub(super) written: &'a mut Mask,
 }
 
+impl<'a> Known<'a> {
+    #[inline(always)]
+    pub(super) fn new(plane: [u32; 3], cells: &'a mut [u32], written: &'a mut Mask) -> Self {
+        Self {
+            plane,
+            cells,
+            written,
+        }
+    }
+}
+
 /// A triangle as it is drawn: from a slot, or set up for one line.
 #[derive(Clone, Copy)]
 pub(super) struct Drawn<'a, P> {

@@ -4,7 +4,7 @@
 //! the figures do not hang on the order in which spans are drawn, nor on who has a slot. On a line with values each span
 //! is counted as it comes, before it is drawn: its depths are compared with a copy of the cells.
 
-use super::alone::set_up_stray;
+use super::alone::{Alone, set_up_stray};
 use super::guests::Stray;
 use super::renderer::Renderer;
 use super::rival::{Rival, rival_of};
@@ -181,11 +181,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 continue;
             };
             let (drawn, span) = (Drawn::of(slot), Span::of(span));
-            let known = Known {
-                plane: slot.item.depth,
-                cells: self.depth,
-                written: &mut self.written,
-            };
+            let known = Known::new(slot.item.depth, self.depth, &mut self.written);
             let ruled = Ruled { drawn, span, state };
             count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
         }
@@ -205,14 +201,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         };
         // What it takes to count is not counted.
-        let mut alone = set_up_stray::<L>(&stray, &mut CacheUse::default(), out);
+        let mut alone = Alone::empty(L::EMPTY);
+        set_up_stray::<L>(&stray, &mut alone, &mut CacheUse::default(), out);
         let plane = Self::find_depth(&mut alone, out.view);
         let (drawn, span) = (alone.drawn(), alone.span);
-        let known = Known {
-            plane,
-            cells: self.depth,
-            written: &mut self.written,
-        };
+        let known = Known::new(plane, self.depth, &mut self.written);
         let ruled = Ruled { drawn, span, state };
         count_span::<L>(&mut self.spans, ruled, Some(&known), false, out);
     }

@@ -8,6 +8,7 @@
 //!
 //! No memory is lent for this: a pile lies on the stack.
 
+use super::alone::{Alone, set_up_stray};
 use super::renderer::Renderer;
 use super::rival::{Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
@@ -37,11 +38,12 @@ struct Pane {
 type Key = (u32, u16);
 
 impl Pane {
+    /// Where there is none: zeros, so that no constant is copied.
     const NONE: Self = Self {
         span: Span { start: 0, end: 0 },
         depth: Slope { at: 0, step: 0 },
         object: 0,
-        slot: NO_SLOT,
+        slot: 0,
     };
 
     fn key(&self, column: u32) -> Key {
@@ -335,18 +337,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let slot = &slots[number & 31];
             (Drawn::of(slot), slot.item.depth)
         } else {
-            let Some(found) = self.set_up_alone(pane.object, out) else {
+            let Some(stray) = out.stray(pane.object) else {
                 return;
             };
-            alone = found;
+            alone = Alone::empty(L::EMPTY);
+            set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
             let plane = Self::find_depth(&mut alone, out.view);
             (alone.drawn(), plane)
         };
-        let known = Known {
-            plane,
-            cells: self.depth,
-            written: &mut self.written,
-        };
+        let known = Known::new(plane, self.depth, &mut self.written);
         draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
     }
 }

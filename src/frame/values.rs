@@ -6,7 +6,7 @@
 //! submission, compared where spans meet or where values compare, then what has to do with shadows (see `shadow`), then
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
-use super::alone::set_up_stray;
+use super::alone::{Alone, set_up_stray};
 use super::line::fill_line;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
@@ -166,11 +166,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         let drawn = Drawn::of(slot);
         let ruled = Ruled { drawn, span, state };
-        let known = is_compared.then_some(Known {
-            plane: slot.item.depth,
-            cells: self.depth,
-            written: &mut self.written,
-        });
+        let known =
+            is_compared.then_some(Known::new(slot.item.depth, self.depth, &mut self.written));
         if let Some(counter) = &self.counter {
             let is_alone = !self.over.meets(span.start, span.end);
             (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
@@ -194,7 +191,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(stray) = self.spilled_stray(at, out) else {
             return after;
         };
-        let mut alone = set_up_stray::<L>(&stray, &mut self.counts, out);
+        let mut alone = Alone::empty(L::EMPTY);
+        set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
         let span = alone.span;
         let is_compared = self.met && self.over.meets(span.start, span.end);
         let plane = if is_compared {
@@ -204,11 +202,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let drawn = alone.drawn();
         let ruled = Ruled { drawn, span, state };
-        let known = is_compared.then_some(Known {
-            plane,
-            cells: self.depth,
-            written: &mut self.written,
-        });
+        let known = is_compared.then_some(Known::new(plane, self.depth, &mut self.written));
         if let Some(counter) = &self.counter {
             let is_alone = !self.over.meets(span.start, span.end);
             (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);

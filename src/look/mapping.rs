@@ -37,7 +37,7 @@ pub struct Corner {
 }
 
 /// What a triangle keeps of its texture coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mapping {
     /// What the planes are.
     pub method: Method,
@@ -217,10 +217,10 @@ pub fn word_at([at, right, below]: &[u32; 3], place: Place) -> u32 {
 }
 
 impl Mapping {
-    /// That of no triangle.
+    /// That of no triangle: zeros, as all empty planes are.
     pub const EMPTY: Self = Self {
         method: Method::Word,
-        reach: Reach::NONE,
+        reach: Reach { line: 0, arc: 0 },
         quick: 0,
         base: [0; 2],
         planes: [[0; 3]; 3],

@@ -28,7 +28,7 @@ pub trait Look: Sized {
     type Pixel: PixelFormat;
     /// What a triangle keeps of its colours.
     type Planes: Copy + core::fmt::Debug;
-    /// The planes of no triangle.
+    /// The planes of no triangle: zeros, so that no constant is copied.
     #[doc(hidden)]
     const EMPTY: Self::Planes;
     /// Whether vertices have texture places.

@@ -54,12 +54,6 @@ pub struct Reach {
     pub arc: u8,
 }
 
-impl Default for Reach {
-    fn default() -> Self {
-        Self::NONE
-    }
-}
-
 impl Reach {
     /// Where every pixel has a place of its own.
     pub const NONE: Self = Self { line: 1, arc: 0 };

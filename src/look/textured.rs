@@ -376,7 +376,7 @@ impl<F: Texel> Look for Textured<F> {
         shade: [0; 8],
         mapping: Mapping::EMPTY,
         draw: 0,
-        shaded: None,
+        shaded: Some(Fill::Plain),
         mapped: false,
     };
     const TEXTURED: bool = true;
@@ -400,6 +400,7 @@ impl<F: Texel> Look for Textured<F> {
         };
         planes.mapping.method = values.method;
         planes.mapping.base = values.base;
+        planes.mapping.reach = Reach::NONE;
         for (plane, of) in planes.mapping.planes.iter_mut().zip(values.of) {
             let [at, step] = span.line(of.map(i64::from));
             *plane = [at, step, 0];

@@ -319,7 +319,7 @@ fn any_numbers_are_drawn_without_a_panic() {
         };
         let corners = [corner(), corner(), corner()];
         let budget = Budget::new(bits() as u16);
-        let mut mapping = Mapping::new(&corners, &texture, budget).unwrap_or_default();
+        let mut mapping = Mapping::new(&corners, &texture, budget).unwrap_or(Mapping::EMPTY);
         let pixels = bits() as usize % run.len();
         let at = span(bits(), pixels, bits());
         draw_mapped(&mapping, &mut run[..pixels], at, &texture, budget);
