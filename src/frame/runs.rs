@@ -177,11 +177,19 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         } = pacer.pace;
         let cost = u32::from(run) + u32::from(pixel) * width;
         match self.flags(number).fill() {
-            Fill::Plain | Fill::Small => cost,
-            Fill::Wide => 2 * cost,
+            Fill::Wide if self.is_dear(number) => 2 * cost,
+            Fill::Plain | Fill::Small | Fill::Wide => cost,
             // Planes are made anew each time.
             Fill::Thin => 2 * cost + u32::from(large),
         }
+    }
+
+    /// Whether the look of a slot says so of its span.
+    #[inline(always)]
+    fn is_dear(&self, number: usize) -> bool {
+        let slot = self.cache.slots.as_flattened().get(number);
+        let Span { start, end } = self.columns(number);
+        slot.is_none_or(|slot| L::is_dear(&slot.item.planes, end - start))
     }
 
     /// What is more where a slot without a plane of depth is compared.

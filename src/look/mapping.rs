@@ -44,7 +44,7 @@ pub struct Mapping {
     /// In perspective, how far exact places may be apart.
     pub reach: Reach,
     /// How many pixels of a span are drawn with exact places at its ends alone: that, or none where the texture or the
-    /// budget does not allow places in one word.
+    /// budget does not allow texels at one go.
     pub quick: u8,
     /// What comes on top of what the planes give, to the right and down, in steps of [`GRAIN`] texels.
     pub base: [i16; 2],
@@ -201,7 +201,7 @@ impl Values {
         let step = mapping.planes[2][1] as i32;
         let log = texture.repeated();
         mapping.reach = reach(low as u32, step, [of(0), of(1)], budget, log);
-        if budget.is_coarse() && log != 0 {
+        if budget.is_coarse() && log != 0 && texture.is_of_words() {
             // Rounded steps stay within 1/32 texel.
             let exact = 16u8 << (8 - log).min(2);
             mapping.quick = mapping.reach.line.min(exact) + 1;
@@ -294,6 +294,11 @@ impl Mapping {
             }
             Some(sampling) => self.draw_sampled(run, place, texture, sampling, words),
         }
+    }
+
+    /// Whether all of a span of so many pixels is drawn at one go, within a coarse budget.
+    pub fn is_quick(&self, pixels: u32) -> bool {
+        self.quick > 0 && pixels <= u32::from(self.quick.max(self.reach.arc))
     }
 
     /// How a square that repeats is drawn in a span.

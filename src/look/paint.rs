@@ -84,6 +84,13 @@ pub trait Look: Sized {
         Self::fill(fill, planes, at, draws, run);
     }
 
+    /// Whether spans of the kind [`Fill::Wide`] of so many pixels take about twice as long as most.
+    #[doc(hidden)]
+    fn is_dear(planes: &Self::Planes, pixels: u32) -> bool {
+        let _ = (planes, pixels);
+        true
+    }
+
     /// [`fill`](Look::fill), dithered or not, where pixels have 16 bits and the look dithers. Of a draw call whose texture
     /// has transparent texels, up to 32 pixels; a bit for each that is not a hole, the first the top one.
     #[doc(hidden)]

@@ -1,5 +1,6 @@
 //! Textured looks against plain references: f64, or integers of any width.
 
+mod dear;
 mod ends;
 mod runs;
 mod triangles;

@@ -439,6 +439,14 @@ impl<F: Texel> Look for Textured<F> {
         Self::fill_shaded(planes, at, draws, run);
     }
 
+    fn is_dear(planes: &Planes, pixels: u32) -> bool {
+        match planes.shaded {
+            None => !planes.mapping.is_quick(pixels),
+            Some(Fill::Small) => pixels > u32::from(planes.mapping.quick),
+            _ => true,
+        }
+    }
+
     #[inline(never)]
     fn fill_opaque(
         fill: Fill,

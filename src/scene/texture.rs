@@ -447,6 +447,12 @@ impl<'t> Texture<'t> {
         }
     }
 
+    /// Whether its texels are words, of which the nearest is taken.
+    #[inline(always)]
+    pub(crate) fn is_of_words(&self) -> bool {
+        self.sampling.is_none() && matches!(self.form, Form::Words(_))
+    }
+
     /// The rows, if it is one of the squares that have loops of their own, and the nearest texel is taken.
     #[inline(always)]
     pub(crate) fn plain_square(&self) -> Option<Square<'t>> {

@@ -179,6 +179,30 @@ fn what_a_word_is_taken_for_ends_where_its_steps_would_err_more() {
     }
 }
 
+/// What a line is reckoned to cost hangs on it (X9). Kills: long spans, exact budgets, what does not repeat or indices
+/// that are drawn at one go.
+#[test]
+fn what_is_drawn_at_one_go_is_known_by_its_pixels() {
+    let words = coordinates();
+    let bytes = [0; 1 << 14];
+    let texture = Texture::words(&words, 256, 256).unwrap();
+    let indices = Texture::index8(&bytes, &[0; 256], 128, 128).unwrap();
+    let of = |texture: &Texture<'_>, budget| {
+        Mapping::new(&right_angle(64 * 250, 1 << 22), texture, budget).unwrap()
+    };
+    let mapping = of(&texture, Budget::FAST);
+    let most = u32::from(mapping.reach.arc);
+    assert!(most > u32::from(mapping.quick) && mapping.quick > 0);
+    assert!(mapping.is_quick(1) && mapping.is_quick(most) && !mapping.is_quick(most + 1));
+    for (texture, budget) in [
+        (texture, Budget::EXACT),
+        (texture.wrapping(Wrap::Mirror), Budget::FAST),
+        (indices, Budget::FAST),
+    ] {
+        assert!(!of(&texture, budget).is_quick(1));
+    }
+}
+
 #[test]
 fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
     let words = coordinates();

@@ -1,0 +1,85 @@
+//! Which spans are reckoned to cost twice as much as others (X9).
+
+use crate::geometry::{Faces, Mesh};
+use crate::look::{Fill, Look, Primitive, Textured};
+use crate::pixel::Rgb565;
+use crate::scene::{
+    Budget, Draw, DrawState, Draws, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace,
+    Vertex,
+};
+use crate::span::{Frame, Triangle};
+use std::vec::Vec;
+
+/// The pixels up to which spans of a triangle in perspective are not dear, so many pixels each way, with these colours
+/// of corners.
+fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
+    let corner = |x: u32, y: u32, colour: u32| Vertex {
+        place: (8 * (ORIGIN as u32 + y)) << 16 | (8 * (ORIGIN as u32 + x)),
+        depth: (1 << 27) + (x << 19),
+        colour,
+    };
+    let [a, b, c] = colours;
+    let vertices = [
+        corner(8, 8, a),
+        corner(8 + size, 8, b),
+        corner(8, 8 + size, c),
+    ];
+    let places = [[0, 0], [size, 0], [0, size]]
+        .map(|texel| TexturePlace::new(texel.map(|t| (t as i32) << 14), [0; 2]));
+    let object = Object {
+        corner: [0, 1, 2],
+        next: NONE,
+    };
+    let triangle = Triangle {
+        vertex: [&vertices[0], &vertices[1], &vertices[2]],
+        object: &object,
+        places: &places,
+        frame: Frame {
+            width: 320,
+            height: 240,
+        },
+    };
+    let mesh = Mesh::<i16> {
+        positions: &[],
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&[]),
+    };
+    let skin = Skin {
+        texture,
+        places: &[],
+        budget: Budget::FAST,
+    };
+    let call = Draw {
+        texture: Some(skin),
+        ..Draw::new(mesh)
+    };
+    let states = [DrawState::new(0, &call, Master::ALL)];
+    let (area, mut planes) = (triangle.area(), Textured::<Rgb565>::EMPTY);
+    let of = Primitive {
+        triangle: &triangle,
+        object: 0,
+        size: triangle.size(area),
+        area,
+        draws: &Draws::new(&states),
+    };
+    assert_eq!(Textured::<Rgb565>::set_up(&of, &mut planes), Fill::Wide);
+    let dear = (1..200).position(|pixels| Textured::<Rgb565>::is_dear(&planes, pixels));
+    dear.unwrap_or(200) as u32
+}
+
+/// Kills: parabolas with a shade, or shades of large triangles, that are not dear; and such without a shade that are.
+#[test]
+fn spans_in_perspective_are_dear_where_they_are_long_or_shaded() {
+    let words: Vec<u16> = (0..=u16::MAX).collect();
+    let texture = Texture::words(&words, 64, 64).unwrap();
+    let full = Textured::<Rgb565>::SCALE.full_word();
+    let (even, uneven) = ([full / 2; 3], [full, full / 2, full / 3]);
+    let small = [[full; 3], even, uneven].map(|colours| most_of(50, colours, &texture));
+    let large = [[full; 3], even, uneven].map(|colours| most_of(150, colours, &texture));
+    for [bright, even, uneven] in [small, large] {
+        assert!(bright > even && even > 1, "{small:?} {large:?}");
+        assert!(uneven <= even, "{small:?} {large:?}");
+    }
+    assert_eq!((small[2], large[2]), (small[1], 0), "{small:?} {large:?}");
+}
