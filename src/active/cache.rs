@@ -145,8 +145,8 @@ impl core::ops::AddAssign for CacheUse {
 }
 
 impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
-    /// A cache of empty slots, all zeros but for what the item has, so that a static takes no flash. It has to be
-    /// [cleared](Cache::clear) before it is used.
+    /// A cache of empty slots, zeros if the item is, as those of all looks are, so that a static takes no flash. It has to
+    /// be [cleared](Cache::clear) before it is used.
     #[must_use]
     pub(crate) const fn with(item: T) -> Self {
         let slot = Slot {

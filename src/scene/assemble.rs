@@ -83,7 +83,7 @@ impl<'t, L> Scene<'_, 't, L> {
         submitted: u32,
         file: impl FnOnce(&mut Self, &mut Pass<'_>) -> Result<(), DrawError>,
     ) -> Result<(), DrawError> {
-        let Some(camera) = self.camera else {
+        let Some(camera) = &self.camera else {
             return Err(DrawError::NotBegun);
         };
         check_draw(draw, textured, word_of.is_some())?;
@@ -118,7 +118,7 @@ impl<'t, L> Scene<'_, 't, L> {
             _ => None,
         };
         let mut pass = Pass {
-            view: View::new(&camera, self.screen, &draw.model),
+            view: View::new(camera, self.screen, &draw.model),
             light,
             lamps: lamps.as_ref(),
             normals: word_of.map(|word| Normals {
