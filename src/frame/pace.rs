@@ -54,7 +54,8 @@ pub struct Pace {
     /// Two that are compared.
     pub pair: u16,
     /// A run of pixels that are coloured; twice where that is not done in the commonest way, as of large triangles, slivers and
-    /// texels in perspective, but for short spans of squares that repeat, within a coarse budget.
+    /// texels in perspective, but for short spans of squares that repeat, within a coarse budget; half for texels of small
+    /// triangles without a shade.
     pub run: u16,
     /// A pixel of it, likewise.
     pub pixel: u16,

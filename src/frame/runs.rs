@@ -177,19 +177,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         } = pacer.pace;
         let cost = u32::from(run) + u32::from(pixel) * width;
         match self.flags(number).fill() {
-            Fill::Wide if self.is_dear(number) => 2 * cost,
-            Fill::Plain | Fill::Small | Fill::Wide => cost,
             // Planes are made anew each time.
             Fill::Thin => 2 * cost + u32::from(large),
+            fill if L::TEXTURED => cost * self.halves(number, fill) / 2,
+            Fill::Plain | Fill::Small => cost,
+            Fill::Wide => 2 * cost,
         }
     }
 
-    /// Whether the look of a slot says so of its span.
+    /// How many halves of what most spans take that of a slot does.
     #[inline(always)]
-    fn is_dear(&self, number: usize) -> bool {
+    fn halves(&self, number: usize, fill: Fill) -> u32 {
         let slot = self.cache.slots.as_flattened().get(number);
         let Span { start, end } = self.columns(number);
-        slot.is_none_or(|slot| L::is_dear(&slot.item.planes, end - start))
+        slot.map_or(2, |slot| L::halves(fill, &slot.item.planes, end - start))
     }
 
     /// What is more where a slot without a plane of depth is compared.

@@ -296,9 +296,10 @@ impl Mapping {
         }
     }
 
-    /// Whether all of a span of so many pixels is drawn at one go, within a coarse budget.
-    pub fn is_quick(&self, pixels: u32) -> bool {
-        self.quick > 0 && pixels <= u32::from(self.quick.max(self.reach.arc))
+    /// Whether all of a span of so many pixels is drawn at one go, straight or along an arc, within a coarse budget.
+    pub fn is_quick(&self, pixels: u32, along_arcs: bool) -> bool {
+        let arc = if along_arcs { self.reach.arc } else { 0 };
+        self.quick > 0 && pixels <= u32::from(self.quick.max(arc))
     }
 
     /// How a square that repeats is drawn in a span.

@@ -84,11 +84,14 @@ pub trait Look: Sized {
         Self::fill(fill, planes, at, draws, run);
     }
 
-    /// Whether spans of the kind [`Fill::Wide`] of so many pixels take about twice as long as most.
+    /// How many halves of what most spans take one of so many pixels does, of a look with textures.
     #[doc(hidden)]
-    fn is_dear(planes: &Self::Planes, pixels: u32) -> bool {
+    fn halves(fill: Fill, planes: &Self::Planes, pixels: u32) -> u32 {
         let _ = (planes, pixels);
-        true
+        match fill {
+            Fill::Plain | Fill::Small => 2,
+            Fill::Wide | Fill::Thin => 4,
+        }
     }
 
     /// [`fill`](Look::fill), dithered or not, where pixels have 16 bits and the look dithers. Of a draw call whose texture

@@ -25,8 +25,7 @@ use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
 use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, Words};
 use crate::span::{Size, Triangle};
-use core::marker::PhantomData;
-use core::slice::from_mut;
+use core::{marker::PhantomData, slice::from_mut};
 
 /// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`](crate::pixel::Rgb565),
 /// [`Rgb565Be`](crate::pixel::Rgb565Be) or [`Rgb565Le`](crate::pixel::Rgb565Le), and texels have the same order of bytes;
@@ -376,7 +375,7 @@ impl<F: Texel> Look for Textured<F> {
         shade: [0; 8],
         mapping: Mapping::EMPTY,
         draw: 0,
-        shaded: Some(Fill::Plain),
+        shaded: Some(Fill::Plain), // A zero, as all of it.
         mapped: false,
     };
     const TEXTURED: bool = true;
@@ -439,11 +438,12 @@ impl<F: Texel> Look for Textured<F> {
         Self::fill_shaded(planes, at, draws, run);
     }
 
-    fn is_dear(planes: &Planes, pixels: u32) -> bool {
-        match planes.shaded {
-            None => !planes.mapping.is_quick(pixels),
-            Some(Fill::Small) => pixels > u32::from(planes.mapping.quick),
-            _ => true,
+    fn halves(fill: Fill, planes: &Planes, pixels: u32) -> u32 {
+        match (fill, planes.shaded) {
+            (Fill::Plain, shade) => 1 + u32::from(shade.is_some()),
+            (_, None) if planes.mapping.is_quick(pixels, true) => 2,
+            (_, Some(Fill::Small)) if planes.mapping.is_quick(pixels, false) => 2,
+            _ => 4,
         }
     }
 

@@ -10,12 +10,18 @@ use crate::scene::{
 use crate::span::{Frame, Triangle};
 use std::vec::Vec;
 
-/// The pixels up to which spans of a triangle in perspective are not dear, so many pixels each way, with these colours
-/// of corners.
-fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
+type Lit = Textured<Rgb565>;
+
+/// A triangle of so many pixels each way, nearer by so much a pixel, with these colours of corners, set up.
+fn set_up(
+    size: u32,
+    slope: u32,
+    colours: [u32; 3],
+    texture: &Texture<'_>,
+) -> (Fill, <Lit as Look>::Planes) {
     let corner = |x: u32, y: u32, colour: u32| Vertex {
         place: (8 * (ORIGIN as u32 + y)) << 16 | (8 * (ORIGIN as u32 + x)),
-        depth: (1 << 27) + (x << 19),
+        depth: (1 << 27) + x * slope,
         colour,
     };
     let [a, b, c] = colours;
@@ -55,7 +61,7 @@ fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
         ..Draw::new(mesh)
     };
     let states = [DrawState::new(0, &call, Master::ALL)];
-    let (area, mut planes) = (triangle.area(), Textured::<Rgb565>::EMPTY);
+    let (area, mut planes) = (triangle.area(), Lit::EMPTY);
     let of = Primitive {
         triangle: &triangle,
         object: 0,
@@ -63,9 +69,29 @@ fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
         area,
         draws: &Draws::new(&states),
     };
-    assert_eq!(Textured::<Rgb565>::set_up(&of, &mut planes), Fill::Wide);
-    let dear = (1..200).position(|pixels| Textured::<Rgb565>::is_dear(&planes, pixels));
+    (Lit::set_up(&of, &mut planes), planes)
+}
+
+/// The pixels up to which spans of a triangle in perspective are not dear.
+fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
+    let (fill, planes) = set_up(size, 1 << 19, colours, texture);
+    assert_eq!(fill, Fill::Wide);
+    let dear = (1..200).position(|pixels| Lit::halves(fill, &planes, pixels) > 2);
     dear.unwrap_or(200) as u32
+}
+
+/// Kills: texels of a small triangle that cost as much without a shade as with one, or no more with one.
+#[test]
+fn what_is_small_costs_half_without_a_shade() {
+    let words: Vec<u16> = (0..=u16::MAX).collect();
+    let texture = Texture::words(&words, 64, 64).unwrap();
+    let full = Lit::SCALE.full_word();
+    let halves = [full, full / 2].map(|colour| {
+        let (fill, planes) = set_up(20, 0, [colour; 3], &texture);
+        assert_eq!(fill, Fill::Plain);
+        Lit::halves(fill, &planes, 10)
+    });
+    assert_eq!(halves, [1, 2]);
 }
 
 /// Kills: parabolas with a shade, or shades of large triangles, that are not dear; and such without a shade that are.
@@ -73,7 +99,7 @@ fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
 fn spans_in_perspective_are_dear_where_they_are_long_or_shaded() {
     let words: Vec<u16> = (0..=u16::MAX).collect();
     let texture = Texture::words(&words, 64, 64).unwrap();
-    let full = Textured::<Rgb565>::SCALE.full_word();
+    let full = Lit::SCALE.full_word();
     let (even, uneven) = ([full / 2; 3], [full, full / 2, full / 3]);
     let small = [[full; 3], even, uneven].map(|colours| most_of(50, colours, &texture));
     let large = [[full; 3], even, uneven].map(|colours| most_of(150, colours, &texture));

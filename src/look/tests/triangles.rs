@@ -193,13 +193,14 @@ fn what_is_drawn_at_one_go_is_known_by_its_pixels() {
     let mapping = of(&texture, Budget::FAST);
     let most = u32::from(mapping.reach.arc);
     assert!(most > u32::from(mapping.quick) && mapping.quick > 0);
-    assert!(mapping.is_quick(1) && mapping.is_quick(most) && !mapping.is_quick(most + 1));
+    let are_quick = [1, most, most + 1].map(|pixels| mapping.is_quick(pixels, true));
+    assert_eq!(are_quick, [true, true, false]);
     for (texture, budget) in [
         (texture, Budget::EXACT),
         (texture.wrapping(Wrap::Mirror), Budget::FAST),
         (indices, Budget::FAST),
     ] {
-        assert!(!of(&texture, budget).is_quick(1));
+        assert!(!of(&texture, budget).is_quick(1, true));
     }
 }
 
