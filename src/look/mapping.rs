@@ -251,7 +251,7 @@ impl Mapping {
     /// Copies a square's texels into `run`, which begins at `place` of the picture, if its span is drawn at one go.
     #[inline(always)]
     pub fn draw_short(&self, run: &mut [u16], place: Place, square: Square<'_>) -> bool {
-        match self.short(place) {
+        match self.short(place.pixels()) {
             Short::Straight => self.draw_straight(run, place, square),
             Short::Arc => self.draw_arc(run, place, square),
             Short::No => return false,
@@ -298,14 +298,14 @@ impl Mapping {
 
     /// Whether all of a span of so many pixels is drawn at one go, straight or along an arc, within a coarse budget.
     pub fn is_quick(&self, pixels: u32, along_arcs: bool) -> bool {
-        let arc = if along_arcs { self.reach.arc } else { 0 };
-        self.quick > 0 && pixels <= u32::from(self.quick.max(arc))
+        let short = self.short(pixels);
+        self.quick > 0 && (short == Short::Straight || along_arcs && short == Short::Arc)
     }
 
-    /// How a square that repeats is drawn in a span.
+    /// How a square that repeats is drawn in a span of so many pixels.
     #[inline(always)]
-    pub fn short(&self, place: Place) -> Short {
-        match place.pixels() {
+    pub fn short(&self, pixels: u32) -> Short {
+        match pixels {
             pixels if pixels <= u32::from(self.quick) => Short::Straight,
             pixels if pixels <= u32::from(self.reach.arc) => Short::Arc,
             _ => Short::No,

@@ -346,7 +346,7 @@ fn draw_mapped(
     texture: &Texture<'_>,
     budget: Budget,
 ) {
-    match (texture.square(), mapping.short(at)) {
+    match (texture.square(), mapping.short(at.pixels())) {
         (Some(square), Short::Straight) => mapping.draw_straight(run, at, square),
         (Some(square), Short::Arc) => mapping.draw_arc(run, at, square),
         _ => mapping.draw_any(run, at, texture, budget),

@@ -1,19 +1,16 @@
 //! Which spans are reckoned to cost twice as much as others (X9).
 
-use crate::geometry::{Faces, Mesh};
-use crate::look::{Fill, Look, Primitive, Textured};
+use super::triangles::{FRAME, OBJECT, set_up, state_of};
+use crate::look::{Fill, Look, Textured};
 use crate::pixel::Rgb565;
-use crate::scene::{
-    Budget, Draw, DrawState, Draws, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace,
-    Vertex,
-};
-use crate::span::{Frame, Triangle};
+use crate::scene::{Budget, Draws, ORIGIN, Texture, TexturePlace, Vertex};
+use crate::span::Triangle;
 use std::vec::Vec;
 
 type Lit = Textured<Rgb565>;
 
 /// A triangle of so many pixels each way, nearer by so much a pixel, with these colours of corners, set up.
-fn set_up(
+fn lit(
     size: u32,
     slope: u32,
     colours: [u32; 3],
@@ -32,49 +29,19 @@ fn set_up(
     ];
     let places = [[0, 0], [size, 0], [0, size]]
         .map(|texel| TexturePlace::new(texel.map(|t| (t as i32) << 14), [0; 2]));
-    let object = Object {
-        corner: [0, 1, 2],
-        next: NONE,
-    };
     let triangle = Triangle {
         vertex: [&vertices[0], &vertices[1], &vertices[2]],
-        object: &object,
+        object: &OBJECT,
         places: &places,
-        frame: Frame {
-            width: 320,
-            height: 240,
-        },
+        frame: FRAME,
     };
-    let mesh = Mesh::<i16> {
-        positions: &[],
-        normals: &[],
-        colours: &[],
-        faces: Faces::Triangles(&[]),
-    };
-    let skin = Skin {
-        texture,
-        places: &[],
-        budget: Budget::FAST,
-    };
-    let call = Draw {
-        texture: Some(skin),
-        ..Draw::new(mesh)
-    };
-    let states = [DrawState::new(0, &call, Master::ALL)];
-    let (area, mut planes) = (triangle.area(), Lit::EMPTY);
-    let of = Primitive {
-        triangle: &triangle,
-        object: 0,
-        size: triangle.size(area),
-        area,
-        draws: &Draws::new(&states),
-    };
-    (Lit::set_up(&of, &mut planes), planes)
+    let states = [state_of(Some(texture), Budget::FAST)];
+    set_up::<Lit>(&triangle, &Draws::new(&states))
 }
 
 /// The pixels up to which spans of a triangle in perspective are not dear.
 fn most_of(size: u32, colours: [u32; 3], texture: &Texture<'_>) -> u32 {
-    let (fill, planes) = set_up(size, 1 << 19, colours, texture);
+    let (fill, planes) = lit(size, 1 << 19, colours, texture);
     assert_eq!(fill, Fill::Wide);
     let dear = (1..200).position(|pixels| Lit::halves(fill, &planes, pixels) > 2);
     dear.unwrap_or(200) as u32
@@ -87,7 +54,7 @@ fn what_is_small_costs_half_without_a_shade() {
     let texture = Texture::words(&words, 64, 64).unwrap();
     let full = Lit::SCALE.full_word();
     let halves = [full, full / 2].map(|colour| {
-        let (fill, planes) = set_up(20, 0, [colour; 3], &texture);
+        let (fill, planes) = lit(20, 0, [colour; 3], &texture);
         assert_eq!(fill, Fill::Plain);
         Lit::halves(fill, &planes, 10)
     });

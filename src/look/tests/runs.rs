@@ -3,17 +3,13 @@
 use super::super::fetch::packed;
 use super::super::fields::fields;
 use super::super::mapping::Mapping;
-use super::super::{Fill, Gouraud, Look, Parts, Place, Primitive, Textured, ThinSpan, WordOf};
-use super::triangles::{inside, some_triangle};
+use super::super::{Fill, Gouraud, Look, Parts, Place, Textured, ThinSpan, WordOf};
+use super::triangles::{FRAME, OBJECT, inside, set_up, some_triangle, state_of};
 use super::{FRACTION, Texels, Uv, WRAPS, draw_mapped, some_texture};
-use crate::geometry::{Faces, Mesh};
 use crate::num::random::Rng;
 use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
-use crate::scene::{
-    Budget, Draw, DrawState, Draws, Master, NONE, ORIGIN, Object, Skin, Texture, TexturePlace,
-    Vertex,
-};
-use crate::span::{Frame, Triangle};
+use crate::scene::{Budget, Draws, ORIGIN, Texture, TexturePlace, Vertex};
+use crate::span::Triangle;
 use std::vec::Vec;
 
 const BUDGETS: [Budget; 4] = [
@@ -119,10 +115,6 @@ fn some_colour<L: Look>(rng: &mut Rng) -> u32 {
 fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
     let mut rng = Rng(seed);
     let mut fills = [0; 4];
-    let frame = Frame {
-        width: 320,
-        height: 240,
-    };
     for i in 0..24_000 {
         let Some(corner) = some_corners(&mut rng, [12, 40, 90, 270][i % 4]) else {
             continue;
@@ -148,47 +140,20 @@ fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
                 [0; 2],
             )
         });
-        let object = Object {
-            corner: [0, 1, 2],
-            next: NONE,
-        };
         let triangle = Triangle {
             vertex: [&vertices[0], &vertices[1], &vertices[2]],
-            object: &object,
+            object: &OBJECT,
             places: &places,
-            frame,
+            frame: FRAME,
         };
-        let mesh = Mesh::<i16> {
-            positions: &[],
-            normals: &[],
-            colours: &[],
-            faces: Faces::Triangles(&[]),
-        };
-        let skin = texture.map(|texture| Skin {
-            texture,
-            places: &[],
-            budget: BUDGETS[i % 7 % 4],
-        });
-        let call = Draw {
-            texture: skin,
-            ..Draw::new(mesh)
-        };
-        let states = [DrawState::new(0, &call, Master::ALL)];
+        let states = [state_of(texture, BUDGETS[i % 7 % 4])];
         let draws = Draws::new(&states);
-        let (area, lines, way) = (triangle.area(), triangle.lines(), triangle.way());
-        let mut planes = L::EMPTY;
-        let of = Primitive {
-            triangle: &triangle,
-            object: 0,
-            size: triangle.size(area),
-            area,
-            draws: &draws,
-        };
-        let fill = L::set_up(&of, &mut planes);
+        let (lines, way) = (triangle.lines(), triangle.way());
+        let (fill, planes) = set_up::<L>(&triangle, &draws);
         let first = (corner[0] >> 19) as i32 + 1 - ORIGIN;
         for line in (first..lines.end).step_by(if i % 4 < 2 { 1 } else { 13 }) {
             let sides = triangle.sides(way, line, lines.turn);
-            let (start, end) = sides.columns(way, line as u32, frame);
+            let (start, end) = sides.columns(way, line as u32, FRAME);
             if start >= end {
                 continue;
             }

@@ -2,10 +2,11 @@
 
 use super::super::mapping::{Corner, Mapping, Method, Values, is_affine, texels_of};
 use super::{WRAPS, coordinates, draw_mapped, off};
-use crate::look::Place;
+use crate::geometry::{Faces, Mesh};
+use crate::look::{Fill, Look, Place, Primitive};
 use crate::num::random::Rng;
-use crate::scene::{Budget, Texture, Wrap};
-use crate::span::Frame;
+use crate::scene::{Budget, Draw, DrawState, Draws, Master, NONE, Object, Skin, Texture, Wrap};
+use crate::span::{Frame, Triangle};
 use std::vec::Vec;
 
 /// A triangle of so many pixels each way, and so many texels, clockwise, at random.
@@ -25,10 +26,49 @@ pub(super) fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[
     (area > 1 << 14).then_some(c)
 }
 
-const FRAME: Frame = Frame {
+/// The picture of triangles.
+pub(super) const FRAME: Frame = Frame {
     width: 320,
     height: 240,
 };
+
+/// A triangle of three vertices.
+pub(super) const OBJECT: Object = Object {
+    corner: [0, 1, 2],
+    next: NONE,
+};
+
+/// The state of a draw call with a texture, or without.
+pub(super) fn state_of<'t>(texture: Option<&'t Texture<'t>>, budget: Budget) -> DrawState<'t> {
+    let mesh = Mesh::<i16> {
+        positions: &[],
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&[]),
+    };
+    let call = Draw {
+        texture: texture.map(|texture| Skin {
+            texture,
+            places: &[],
+            budget,
+        }),
+        ..Draw::new(mesh)
+    };
+    DrawState::new(0, &call, Master::ALL)
+}
+
+/// A triangle of the first draw call, set up by a look.
+pub(super) fn set_up<L: Look>(triangle: &Triangle<'_>, draws: &Draws<'_>) -> (Fill, L::Planes) {
+    let (area, mut planes) = (triangle.area(), L::EMPTY);
+    let of = Primitive {
+        triangle,
+        object: 0,
+        size: triangle.size(area),
+        area,
+        draws,
+    };
+    (L::set_up(&of, &mut planes), planes)
+}
 
 /// A span of so many pixels.
 fn span(column: u32, pixels: usize, line: u32) -> Place {
