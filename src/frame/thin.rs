@@ -27,7 +27,8 @@ pub(super) fn depth_plane(triangle: &Triangle<'_>) -> Option<[u32; 3]> {
         Some(plane) => plane,
         None => {
             let values = depth.map(|d| d.min(i32::MAX as u32) as i32);
-            triangle.wide_area()?.plane(values)?
+            let area = triangle.wide_area();
+            area.as_ref()?.plane(values)?
         }
     };
     let [at, dx, dy] = plane;

@@ -276,7 +276,7 @@ fn pair_planes(shares: &Shares, colour: [u32; 3], planes: &mut Planes) {
 /// A plane a channel; whether the triangle is not too thin for them.
 #[inline(never)]
 fn wide_planes(triangle: &Triangle<'_>, planes: &mut Planes) -> bool {
-    let Some(area) = triangle.wide_area() else {
+    let Some(area) = &triangle.wide_area() else {
         return false;
     };
     let corners = triangle.vertex.map(|v| wide_fields(v.colour));

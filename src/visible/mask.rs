@@ -118,14 +118,19 @@ impl Mask {
     }
 
     /// Those of `start .. end` that the mask has, and no others: half of what a copy of the mask takes.
+    ///
+    /// The loop of `each_word`: what a closure borrows is not made where it is handed over, but copied there.
     #[inline(never)]
     pub(crate) fn part(&self, start: u32, end: u32) -> Self {
-        let mut part = Self::EMPTY;
-        let zero = black_box(0);
-        for words in part.0.chunks_exact_mut(8) {
-            words.copy_from_slice(&[zero; 8]);
+        let mut part = Self([black_box(0); 32]);
+        let (mut word, last) = (word_of(start), word_of(end));
+        let mut bits = u32::MAX >> (start & 31);
+        while word != last {
+            part.0[word] = self.0[word] & bits;
+            bits = u32::MAX;
+            word = (word + 1) & 31;
         }
-        each_word(start, end, |word, bits| part.0[word] = self.0[word] & bits);
+        part.0[word] = self.0[word] & bits & !(u32::MAX >> (end & 31));
         part
     }
 
