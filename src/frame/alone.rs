@@ -1,13 +1,13 @@
 //! What has no slot: set up for one line (C5).
 
 use super::guests::{Stray, Walk};
-use super::renderer::{Renderer, View};
+use super::renderer::Renderer;
 use super::slot::Flags;
 use super::spans::{Drawn, Line, Span, colour};
 use super::thin::depth_plane;
 use crate::active::CacheUse;
 use crate::look::{Fill, Look, Primitive};
-use crate::span::Way;
+use crate::span::{Triangle, Way};
 
 /// A triangle without a slot, set up for one line.
 pub(super) struct Alone<P> {
@@ -35,6 +35,14 @@ impl<P> Alone<P> {
         (self.object, self.span) = (stray.object, stray.span);
         // Its columns are known, and its depth is not.
         self.flags = Flags::new(Fill::Plain, Way::PLAIN).with_depth(true);
+    }
+
+    /// The plane of depth of the triangle that it is.
+    #[inline(never)]
+    pub(super) fn find_depth(&mut self, triangle: &Triangle<'_>) -> [u32; 3] {
+        let plane = depth_plane(triangle);
+        self.flags = self.flags.with_depth(plane.is_none());
+        plane.unwrap_or_default()
     }
 
     /// As it is drawn.
@@ -91,14 +99,5 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         self.counts.misses += misses;
         true
-    }
-
-    /// The plane of depth of what has no slot.
-    #[inline(never)]
-    pub(super) fn find_depth(alone: &mut Alone<L::Planes>, view: &View<'_>) -> [u32; 3] {
-        let triangle = view.triangle_of(alone.object);
-        let plane = triangle.and_then(|t| depth_plane(&t));
-        alone.flags = alone.flags.with_depth(plane.is_none());
-        plane.unwrap_or_default()
     }
 }

@@ -10,6 +10,7 @@ use super::spilled::Spilled;
 use crate::active::next;
 use crate::look::Look;
 use crate::num::take_first;
+use crate::scene::DrawState;
 
 /// Inserts a key among the first `count`, which rise.
 #[inline(never)]
@@ -18,9 +19,10 @@ pub(super) fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Draws all spans from the lowest priority on, or in order of submission, what has no slot between the others.
-    pub(super) fn draw_in_order(&mut self, out: &mut Line<'_, '_, L>) {
-        let count = self.lowest_first(out.view);
+    /// Draws all spans that do not wait, in slots by their bits, from the lowest priority on, or in order of submission, what
+    /// has no slot between the others.
+    pub(super) fn draw_in_order(&mut self, waiting: [u32; WORDS], out: &mut Line<'_, '_, L>) {
+        let count = self.lowest_first(waiting, out.view);
         let at = |keys: &[[u32; 32]; WORDS], k: usize| {
             let keys = keys.as_flattened().get(..count);
             keys.and_then(|keys| keys.get(k)).copied()
@@ -45,11 +47,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Sorts the slots with a span from the lowest priority on; how many there are.
-    fn lowest_first(&mut self, view: &View<'_>) -> usize {
+    /// Sorts the slots with a span, but for some, from the lowest priority on; how many there are.
+    fn lowest_first(&mut self, waiting: [u32; WORDS], view: &View<'_>) -> usize {
         let mut count = 0;
-        for word in 0..WORDS {
-            let mut used = self.cache.used[word];
+        for (word, waiting) in waiting.into_iter().enumerate() {
+            let mut used = self.cache.used[word] & !waiting;
             while used != 0 {
                 let i = take_first(&mut used) as usize & 31;
                 let span = Span::of(self.cache.spans[word][i]);
@@ -65,18 +67,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         count
     }
 
-    /// What has no slot and this priority, from `at` on.
-    fn next_alone(&self, mut at: Spilled, rank: u32, view: &View<'_>) -> Spilled {
-        while at.is_some() && view.rank(at.object() as u16) != rank {
-            at = self.after(at);
-        }
-        at
+    /// What has no slot and this priority, has pixels on the line and does not wait, from `at` on.
+    #[inline(never)]
+    fn next_alone(&self, at: Spilled, rank: u32, view: &View<'_>) -> Spilled {
+        let is_next = |state: &DrawState<'_>| {
+            let waits = state.waits() && (self.met || state.is_in_vain());
+            !waits && (!view.ranked || u32::from(state.priority) == rank)
+        };
+        self.spilled_of(at, view, is_next)
     }
 
     /// The lowest priority above another; `fast` is that of what is in slots.
     fn level_above(&self, rank: u32, fast: Option<u32>, view: &View<'_>) -> Option<u32> {
         let (mut level, mut at) = (fast, self.cache.spilled);
-        while at.is_some() {
+        while view.ranked && at.is_some() {
             let here = view.rank(at.object());
             if here > rank && level.is_none_or(|level| here < level) {
                 level = Some(here);

@@ -41,13 +41,15 @@ struct Lights {
 }
 
 impl Lights {
-    fn add(&mut self, role: Role) {
+    /// These and that of something more.
+    fn with(mut self, role: Role) -> Self {
         match role {
             Role::None => {}
             Role::Front(light) | Role::Back(light) => self.with_volumes |= bit(light.into()),
             Role::Lit(light) => self.with_lit |= bit(light.into()),
             Role::Shadowed(light) => self.with_shadowed |= bit(light.into()),
         }
+        self
     }
 }
 
@@ -122,12 +124,12 @@ fn inexact(step: u32, down: u32) -> u32 {
 /// Counts a span of a volume, or draws one that is seen again, where depth and counts say so.
 #[inline(never)]
 fn take<L: Look>(
-    ruled: Ruled<'_, L::Planes>,
+    ruled: &Ruled<'_, L::Planes>,
     mut known: Known<'_>,
     counts: &mut [u8],
     out: &mut Line<'_, '_, L>,
 ) {
-    let Ruled { drawn, span, state } = ruled;
+    let &Ruled { drawn, span, state } = ruled;
     let [at, step] = depth_on_line::<L>(drawn, known.plane, span, out);
     let how = receives(state);
     let passes = how.passes;
@@ -162,7 +164,7 @@ fn take<L: Look>(
         for ((counts, cells), first) in parts.zip((run.start..).step_by(MOST_TESTED)) {
             let seen = receive(counts, cells, [depth_at(first), step], how);
             each_run(seen, first, &mut |part| {
-                draw_ruled::<L>(ruled, part, out, None);
+                draw_ruled::<L>(*ruled, part, out, None);
             });
         }
     }
@@ -223,7 +225,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let role = out.view.state_of(slot).map(|state| state.role());
                 let role = role.unwrap_or_default();
                 if let Some(step) = step_of(role) {
-                    lights.add(role);
+                    lights = lights.with(role);
                     deepen::<L>(slot, out.view);
                     let number = word as u32 * 32 + i;
                     let key = step << 24 | u32::from(slot.object) << 8 | number;
@@ -234,22 +236,26 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             }
         }
         let mut at = self.first_spilled();
-        while at.is_some() {
-            let role = self.spilled_state(at, out.view).map(DrawState::role);
-            let mut with = lights;
-            with.add(role.unwrap_or_default());
-            if with != lights && self.spilled_stray(at, out).is_some() {
-                lights = with;
+        loop {
+            let is_more = |state: &DrawState<'_>| lights.with(state.role()) != lights;
+            at = self.spilled_of(at, out.view, is_more);
+            if !at.is_some() {
+                return (count, lights);
+            }
+            let state = self.spilled_state(at, out.view);
+            let stray = self.spilled_stray(at, out);
+            if let (Some(state), Some(_)) = (state, stray) {
+                lights = lights.with(state.role());
             }
             at = self.after(at);
         }
-        (count, lights)
     }
 
     /// Takes the spans of a step in order of submission: of so many slots that are listed, and what has none between
     /// them.
     fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, L>) {
-        let (mut slow, mut alone) = (self.first_spilled(), Alone::empty(L::EMPTY));
+        let mut slow = self.next_of_step(self.first_spilled(), step, out.view);
+        let mut alone = Alone::empty(L::EMPTY);
         let keys = self.cache.order.as_flattened().get(..slots);
         let first = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
         for k in first.. {
@@ -258,14 +264,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let key = key.filter(|key| key >> 24 == step);
             let object = key.map_or(u32::MAX, |key| key >> 8 & 0xFFFF);
             while slow.object() < object {
-                self.take_alone(slow, step, &mut alone, out);
-                slow = self.after(slow);
+                self.take_alone(slow, &mut alone, out);
+                slow = self.next_of_step(self.after(slow), step, out.view);
             }
             let Some(key) = key else {
                 return;
             };
             self.take_slot(key as usize & 0xFF, out);
         }
+    }
+
+    /// The first of what has no slot that is of a step, from `at` on.
+    #[inline(never)]
+    fn next_of_step(&self, at: Spilled, step: Step, view: &View<'_>) -> Spilled {
+        self.spilled_of(at, view, |state| step_of(state.role()) == Some(step))
     }
 
     fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
@@ -285,35 +297,27 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if let Some(counter) = &self.counter {
             (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);
         }
-        take::<L>(ruled, known, self.volumes, out);
+        take::<L>(&ruled, known, self.volumes, out);
     }
 
-    /// Takes the span of what has no slot, which is set up in `alone`, if it is of a step.
-    fn take_alone(
-        &mut self,
-        at: Spilled,
-        step: Step,
-        alone: &mut Alone<L::Planes>,
-        out: &mut Line<'_, '_, L>,
-    ) {
+    /// Takes the span of what has no slot, which is set up in `alone`.
+    fn take_alone(&mut self, at: Spilled, alone: &mut Alone<L::Planes>, out: &mut Line<'_, '_, L>) {
         let state = self.spilled_state(at, out.view);
-        let Some(state) = state.filter(|state| step_of(state.role()) == Some(step)) else {
-            return;
-        };
-        let Some(stray) = self.spilled_stray(at, out) else {
+        let stray = self.spilled_stray(at, out);
+        let (Some(state), Some(stray)) = (state, stray) else {
             return;
         };
         match state.role() {
             Role::Front(_) | Role::Back(_) => alone.darken(&stray),
             _ => set_up_stray::<L>(&stray, alone, &mut self.counts, out),
         }
-        let plane = Self::find_depth(alone, out.view);
+        let plane = alone.find_depth(&stray.triangle);
         let known = Known::new(plane, self.depth, &mut self.written);
         let (drawn, span) = (alone.drawn(), alone.span);
         let ruled = Ruled { drawn, span, state };
         if let Some(counter) = &self.counter {
             (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);
         }
-        take::<L>(ruled, known, self.volumes, out);
+        take::<L>(&ruled, known, self.volumes, out);
     }
 }

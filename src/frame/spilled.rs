@@ -92,6 +92,41 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
+    /// The first from `at` on whose draw call is such, and that is not known to have no pixels on the line.
+    #[inline(always)]
+    pub(super) fn spilled_of(
+        &self,
+        mut at: Spilled,
+        view: &View<'_>,
+        is_such: impl Fn(&DrawState<'_>) -> bool,
+    ) -> Spilled {
+        while at.is_some() {
+            at = match self.spilled_state(at, view) {
+                Some(state) if is_such(state) => break,
+                Some(_) => self.behind_call(at, view),
+                None => self.after(at),
+            };
+        }
+        at
+    }
+
+    /// The first behind those of its draw call, whose [state](Self::spilled_state) has just been found.
+    #[inline(never)]
+    fn behind_call(&self, mut spilled: Spilled, view: &View<'_>) -> Spilled {
+        let begun = match self.kept(spilled).map_or(0, |kept| kept & 0x3FF) {
+            0 => view.draws.last_begun(),
+            begun => begun as usize,
+        };
+        let next = view.draws.states.get(begun);
+        let end = next.map_or(u32::MAX, |next| next.first.into());
+        loop {
+            spilled = self.after(spilled);
+            if spilled.object() >= end {
+                return spilled;
+            }
+        }
+    }
+
     #[inline(always)]
     fn kept(&self, spilled: Spilled) -> Option<u32> {
         self.cache.far.as_flattened().get(spilled.number).copied()

@@ -203,7 +203,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         // What it takes to count is not counted.
         let mut alone = Alone::empty(L::EMPTY);
         set_up_stray::<L>(&stray, &mut alone, &mut CacheUse::default(), out);
-        let plane = Self::find_depth(&mut alone, out.view);
+        let plane = alone.find_depth(&stray.triangle);
         let (drawn, span) = (alone.drawn(), alone.span);
         let known = Known::new(plane, self.depth, &mut self.written);
         let ruled = Ruled { drawn, span, state };

@@ -261,17 +261,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             });
         }
         let mut at = self.first_spilled();
-        while at.is_some() {
-            let state = self.spilled_state(at, out.view);
-            if state.is_some_and(DrawState::is_translucent) {
-                if let Some(stray) = self.spilled_stray(at, out) {
-                    f(Pane {
-                        span: stray.span,
-                        depth: stray.slope::<L>(out),
-                        object: stray.object,
-                        slot: NO_SLOT,
-                    });
-                }
+        loop {
+            at = self.spilled_of(at, out.view, |state| state.is_translucent());
+            if !at.is_some() {
+                return;
+            }
+            if let Some(stray) = self.spilled_stray(at, out) {
+                f(Pane {
+                    span: stray.span,
+                    depth: stray.slope::<L>(out),
+                    object: stray.object,
+                    slot: NO_SLOT,
+                });
             }
             at = self.after(at);
         }
@@ -342,7 +343,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             alone = Alone::empty(L::EMPTY);
             set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
-            let plane = Self::find_depth(&mut alone, out.view);
+            let plane = alone.find_depth(&stray.triangle);
             (alone.drawn(), plane)
         };
         let known = Known::new(plane, self.depth, &mut self.written);

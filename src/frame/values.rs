@@ -36,12 +36,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.find_slots(out);
         // Where this is so, `over` says where depth is compared.
         self.met = out.deep;
+        let mut waiting = [0; WORDS];
         if self.met {
-            self.find_compared(out);
+            waiting = self.find_compared(out);
         } else if let Some(hide) = self.shadows {
             hide(self, out);
         }
-        self.draw_in_order(out);
+        self.draw_in_order(waiting, out);
         if self.met {
             if let Some(draw) = self.shadows {
                 draw(self, out);
@@ -128,20 +129,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         false
     }
 
-    /// Adds the columns of spans in slots that compare to those where spans meet.
-    fn find_compared(&mut self, out: &Line<'_, '_, L>) {
-        for word in 0..WORDS {
+    /// Adds the columns of spans in slots that compare to those where spans meet; a bit for each slot that waits.
+    fn find_compared(&mut self, out: &Line<'_, '_, L>) -> [u32; WORDS] {
+        let mut waiting = [0; WORDS];
+        for (word, waiting) in waiting.iter_mut().enumerate() {
             let mut used = self.cache.used[word] & !self.cache.plain[word];
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
-                let slot = &self.cache.slots[word][i];
-                let span = Span::of(self.cache.spans[word][i]);
-                let has = Flags(slot.flags).has_values() && span.start < span.end;
-                if has && out.view.state_of(slot).is_some_and(DrawState::compares) {
+            while let Some(i) = self.next_with_values(word, &mut used) {
+                let state = out.view.state_of(&self.cache.slots[word][i as usize & 31]);
+                if let Some(state) = state.filter(|state| state.compares()) {
+                    let span = Span::of(self.cache.spans[word][i as usize & 31]);
                     self.over.cover(span.start, span.end);
+                    *waiting |= if state.waits() { bit(i) } else { 0 };
                 }
             }
         }
+        waiting
     }
 
     /// Draws a span in a slot.
@@ -159,9 +161,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let state = has_values.then(|| out.view.state_of(slot)).flatten();
         let state = state.unwrap_or(&DrawState::EMPTY);
         if is_compared {
-            if state.waits() {
-                return;
-            }
             deepen::<L>(slot, out.view);
         }
         let drawn = Drawn::of(slot);
@@ -185,9 +184,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(state) = self.spilled_state(at, out.view) else {
             return after;
         };
-        if state.waits() && (self.met || state.is_in_vain()) {
-            return after;
-        }
         let Some(stray) = self.spilled_stray(at, out) else {
             return after;
         };
@@ -196,7 +192,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let span = alone.span;
         let is_compared = self.met && self.over.meets(span.start, span.end);
         let plane = if is_compared {
-            Self::find_depth(&mut alone, out.view)
+            alone.find_depth(&stray.triangle)
         } else {
             [0; 3]
         };
