@@ -200,6 +200,13 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         self.used.iter().map(|word| word.count_ones()).sum()
     }
 
+    /// A slot by its number, and its columns on this line.
+    #[inline(always)]
+    pub(crate) fn at(&self, number: usize) -> Option<(&Slot<T>, u32)> {
+        let slot = self.slots.as_flattened().get(number)?;
+        Some((slot, *self.spans.as_flattened().get(number)?))
+    }
+
     /// A slot that is free.
     #[inline(always)]
     pub(crate) fn free(&self) -> Option<usize> {

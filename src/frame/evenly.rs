@@ -99,11 +99,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 pacer.paid.joined += width;
                 continue;
             }
-            let (slots, spans) = (
-                self.cache.slots.as_flattened(),
-                self.cache.spans.as_flattened(),
-            );
-            let (Some(slot), Some(&span)) = (slots.get(number), spans.get(number)) else {
+            let Some((slot, span)) = self.cache.at(number) else {
                 continue;
             };
             let (drawn, span) = (Drawn::of(slot), Span::of(span));

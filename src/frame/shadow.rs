@@ -281,18 +281,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     fn take_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
-        let (Some(slots), Some(spans)) = (
-            self.cache.slots.get(number >> 5),
-            self.cache.spans.get(number >> 5),
-        ) else {
+        let Some((slot, span)) = self.cache.at(number) else {
             return;
         };
-        let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
         let Some(state) = out.view.state_of(slot) else {
             return;
         };
         let known = Known::new(slot.item.depth, self.depth, &mut self.written);
-        let drawn = Drawn::of(slot);
+        let (drawn, span) = (Drawn::of(slot), Span::of(span));
         let ruled = Ruled { drawn, span, state };
         if let Some(counter) = &self.counter {
             (counter.shadowed)(&mut self.spans, ruled, &known, self.volumes, out);

@@ -171,10 +171,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for k in 0..slots {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize;
-            let (Some(slot), Some(&span)) = (
-                self.cache.slots.as_flattened().get(number),
-                self.cache.spans.as_flattened().get(number),
-            ) else {
+            let Some((slot, span)) = self.cache.at(number) else {
                 return;
             };
             let Some(state) = out.view.state_of(slot) else {

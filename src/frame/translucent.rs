@@ -245,13 +245,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for k in 0..count {
             let number = self.cache.order.as_flattened().get(k).copied();
             let number = number.unwrap_or_default() as usize;
-            let (Some(slots), Some(spans)) = (
-                self.cache.slots.get(number >> 5),
-                self.cache.spans.get(number >> 5),
-            ) else {
+            let Some((slot, span)) = self.cache.at(number) else {
                 return;
             };
-            let (slot, span) = (&slots[number & 31], Span::of(spans[number & 31]));
+            let span = Span::of(span);
             let [at, step] = depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out);
             f(Pane {
                 span,
@@ -334,8 +331,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let span = pane.span;
         let number = usize::from(pane.slot);
         let mut alone;
-        let (drawn, plane) = if let Some(slots) = self.cache.slots.get(number >> 5) {
-            let slot = &slots[number & 31];
+        let (drawn, plane) = if let Some((slot, _)) = self.cache.at(number) {
             (Drawn::of(slot), slot.item.depth)
         } else {
             let Some(stray) = out.stray(pane.object) else {
