@@ -116,17 +116,18 @@ impl<F: PixelFormat> Gouraud<F> {
         plane_shades(triangle, size, area, planes)
     }
 
-    /// One colour for a thin triangle whose corners differ by less than a step.
+    /// One colour for a thin triangle whose corners differ by less than a step of the format: of 5 bits, or of 8.
     #[inline(never)]
     fn even_planes(colour: [u32; 3], planes: &mut Planes) -> Option<Fill> {
         let of = colour.map(fields);
+        let step = if F::MADE_OF.is_one_word() { 32 } else { 4 };
         let mut mean = [0; 3];
         for i in 0..3 {
             let channel = of.map(|f| f[i]);
             let (low, high) = channel
                 .iter()
                 .fold((i32::MAX, 0), |(l, h), &c| (l.min(c), h.max(c)));
-            if high - low > 32 {
+            if high - low > step {
                 return None;
             }
             mean[i] = (low + high) >> 1;

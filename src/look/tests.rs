@@ -3,6 +3,7 @@
 mod dear;
 mod ends;
 mod runs;
+mod shades;
 mod triangles;
 
 use super::Place;

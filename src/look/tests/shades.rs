@@ -1,0 +1,78 @@
+//! Colours of thin triangles against those of exact planes.
+
+use super::triangles::{FRAME, OBJECT, set_up, state_of};
+use crate::look::{Fill, Gouraud, Look, Place};
+use crate::num::random::Rng;
+use crate::pixel::{PixelFormat, Rgb888, Xrgb8888};
+use crate::scene::{Budget, Draws, ORIGIN, Vertex};
+use crate::span::{Size, Triangle};
+
+/// How far one pixel of a random thin triangle is from the plane through its corners, in levels; `None` where it has no
+/// pixel in its middle, or is not thin.
+fn off<F: PixelFormat>(rng: &mut Rng) -> Option<f64> {
+    let places = [(); 3].map(|()| [(); 2].map(|()| 80 + rng.below(200) as i32));
+    let base = [(); 3].map(|()| rng.below(1_000));
+    let colours = [(); 3].map(|()| base.map(|field| field + rng.below(24)));
+    let vertices = [0, 1, 2].map(|i| {
+        let ([x, y], [red, green, blue]) = (places[i], colours[i]);
+        Vertex {
+            place: ((8 * ORIGIN + y) as u32) << 16 | (8 * ORIGIN + x) as u32,
+            depth: 1 << 27,
+            colour: red << 21 | blue << 11 | green,
+        }
+    });
+    let triangle = Triangle {
+        vertex: [&vertices[0], &vertices[1], &vertices[2]],
+        object: &OBJECT,
+        places: &[],
+        frame: FRAME,
+    };
+    let across = |to: [i32; 2], from: [i32; 2], at: [i32; 2]| {
+        (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
+    };
+    let [a, b, c] = places;
+    let area = across(b, a, c);
+    let is_top = (a[1], a[0]) < (b[1], b[0]) && (a[1], a[0]) < (c[1], c[0]);
+    if area <= 0 || !is_top || triangle.size(triangle.area()) != Size::Sharp {
+        return None;
+    }
+    let pixel = [0, 1].map(|i| (a[i] + b[i] + c[i]) / 24);
+    let at = pixel.map(|p| 8 * p + 4);
+    let parts = [across(c, b, at), across(a, c, at), across(b, a, at)];
+    let draws = [state_of(None, Budget::FAST)];
+    let draws = Draws::new(&draws);
+    let (fill, planes) = set_up::<Gouraud<F>>(&triangle, &draws);
+    if parts.iter().any(|&part| part < 0) || fill == Fill::Thin {
+        return None;
+    }
+    let [column, line] = pixel.map(|p| p as u32);
+    let place = Place {
+        span: column,
+        end: column + 1,
+        column,
+        line,
+    };
+    let mut run = [F::Word::default()];
+    Gouraud::<F>::fill(fill, &planes, place, draws.states, &mut run);
+    let got = F::to_rgb8(run[0]);
+    let offs = [0, 1, 2].map(|k| {
+        let sum: i32 = (0..3).map(|i| parts[i] * colours[i][k] as i32).sum();
+        let levels = f64::from(sum) / f64::from(area) / [8.0, 8.0, 4.0][k];
+        (f64::from(got[k]) - levels).abs()
+    });
+    Some(offs.into_iter().fold(0.0, f64::max))
+}
+
+/// Kills: one colour for all of a thin triangle whose corners differ by a step of 5 bits, where pixels have 8.
+#[test]
+fn thin_triangles_of_24_bits_have_their_colours_to_a_level() {
+    let mut rng = Rng(41);
+    let (mut count, mut worst) = (0, 0f64);
+    while count < 2_000 {
+        for off in [off::<Rgb888>(&mut rng), off::<Xrgb8888>(&mut rng)] {
+            (count, worst) = off.map_or((count, worst), |off| (count + 1, worst.max(off)));
+        }
+    }
+    std::println!("{worst} levels");
+    assert!(worst < 1.05, "{worst}");
+}
