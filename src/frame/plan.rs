@@ -42,7 +42,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The slot that is so many places from the front.
     #[inline(always)]
-    fn number_at(&self, at: usize) -> usize {
+    pub(super) fn number_at(&self, at: usize) -> usize {
         let key = self.cache.order.as_flattened().get(at).copied();
         key.unwrap_or_default() as usize & 0xFF
     }

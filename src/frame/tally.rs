@@ -169,9 +169,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn count_panes(&mut self, slots: usize, out: &Line<'_, '_, L>) {
         for k in 0..slots {
-            let number = self.cache.order.as_flattened().get(k).copied();
-            let number = number.unwrap_or_default() as usize;
-            let Some((slot, span)) = self.cache.at(number) else {
+            let Some((slot, span)) = self.cache.at(self.number_at(k)) else {
                 return;
             };
             let Some(state) = out.view.state_of(slot) else {

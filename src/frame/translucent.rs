@@ -243,8 +243,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn each_pane(&mut self, count: usize, out: &Line<'_, '_, L>, f: &mut dyn FnMut(Pane)) {
         for k in 0..count {
-            let number = self.cache.order.as_flattened().get(k).copied();
-            let number = number.unwrap_or_default() as usize;
+            let number = self.number_at(k);
             let Some((slot, span)) = self.cache.at(number) else {
                 return;
             };
