@@ -6,7 +6,7 @@
 use super::near::{insert, place_of};
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
-use super::spilled::Spilled;
+use super::spilled::{Found, Spilled};
 use crate::active::next;
 use crate::look::Look;
 use crate::num::take_first;
@@ -31,16 +31,17 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while let Some(rank) = level {
             let mut slow = self.next_alone(self.first_spilled(), rank, out.view);
             while let Some(key) = at(&self.cache.order, k).filter(|key| key >> 24 == rank) {
-                while slow.object() < key >> 8 & 0xFFFF {
-                    let after = self.draw_alone(slow, out);
-                    slow = self.next_alone(after, rank, out.view);
+                let object = key >> 8 & 0xFFFF;
+                while let Some(found) = slow.filter(|found| found.at.object() < object) {
+                    self.draw_alone(found, out);
+                    slow = self.next_alone(self.after(found.at), rank, out.view);
                 }
                 self.draw_slot(key as usize & 0xFF, out);
                 k += 1;
             }
-            while slow.is_some() {
-                let after = self.draw_alone(slow, out);
-                slow = self.next_alone(after, rank, out.view);
+            while let Some(found) = slow {
+                self.draw_alone(found, out);
+                slow = self.next_alone(self.after(found.at), rank, out.view);
             }
             let fast = at(&self.cache.order, k).map(|key| key >> 24);
             level = self.level_above(rank, fast, out.view);
@@ -69,7 +70,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// What has no slot and this priority, has pixels on the line and does not wait, from `at` on.
     #[inline(never)]
-    fn next_alone(&self, at: Spilled, rank: u32, view: &View<'_>) -> Spilled {
+    fn next_alone<'v>(&self, at: Spilled, rank: u32, view: &View<'v>) -> Option<Found<'v>> {
         let is_next = |state: &DrawState<'_>| {
             let waits = state.waits() && (self.met || state.is_in_vain());
             !waits && (!view.ranked || u32::from(state.priority) == rank)

@@ -10,7 +10,7 @@ use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
 use super::spans::{Drawn, Known, Line, Span};
-use super::spilled::Spilled;
+use super::spilled::{Found, Spilled};
 use super::tally::{cells_at, each_part, has_texels, opaque_of};
 use crate::look::Look;
 use crate::num::{bit, take_first};
@@ -238,16 +238,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut at = self.first_spilled();
         loop {
             let is_more = |state: &DrawState<'_>| lights.with(state.role()) != lights;
-            at = self.spilled_of(at, out.view, is_more);
-            if !at.is_some() {
+            let Some(found) = self.spilled_of(at, out.view, is_more) else {
                 return (count, lights);
+            };
+            if self.spilled_stray(found.at, out).is_some() {
+                lights = lights.with(found.state.role());
             }
-            let state = self.spilled_state(at, out.view);
-            let stray = self.spilled_stray(at, out);
-            if let (Some(state), Some(_)) = (state, stray) {
-                lights = lights.with(state.role());
-            }
-            at = self.after(at);
+            at = self.after(found.at);
         }
     }
 
@@ -263,9 +260,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let key = keys.and_then(|keys| keys.get(k)).copied();
             let key = key.filter(|key| key >> 24 == step);
             let object = key.map_or(u32::MAX, |key| key >> 8 & 0xFFFF);
-            while slow.object() < object {
-                self.take_alone(slow, &mut alone, out);
-                slow = self.next_of_step(self.after(slow), step, out.view);
+            while let Some(found) = slow.filter(|found| found.at.object() < object) {
+                self.take_alone(found, &mut alone, out);
+                slow = self.next_of_step(self.after(found.at), step, out.view);
             }
             let Some(key) = key else {
                 return;
@@ -276,7 +273,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The first of what has no slot that is of a step, from `at` on.
     #[inline(never)]
-    fn next_of_step(&self, at: Spilled, step: Step, view: &View<'_>) -> Spilled {
+    fn next_of_step<'v>(&self, at: Spilled, step: Step, view: &View<'v>) -> Option<Found<'v>> {
         self.spilled_of(at, view, |state| step_of(state.role()) == Some(step))
     }
 
@@ -297,10 +294,14 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 
     /// Takes the span of what has no slot, which is set up in `alone`.
-    fn take_alone(&mut self, at: Spilled, alone: &mut Alone<L::Planes>, out: &mut Line<'_, '_, L>) {
-        let state = self.spilled_state(at, out.view);
-        let stray = self.spilled_stray(at, out);
-        let (Some(state), Some(stray)) = (state, stray) else {
+    fn take_alone(
+        &mut self,
+        found: Found<'_>,
+        alone: &mut Alone<L::Planes>,
+        out: &mut Line<'_, '_, L>,
+    ) {
+        let state = found.state;
+        let Some(stray) = self.spilled_stray(found.at, out) else {
             return;
         };
         match state.role() {

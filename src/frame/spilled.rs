@@ -16,7 +16,7 @@ use crate::scene::DrawState;
 #[derive(Clone, Copy)]
 pub(super) struct Spilled {
     at: Link,
-    number: usize,
+    number: u16,
 }
 
 impl Spilled {
@@ -29,10 +29,13 @@ impl Spilled {
             u32::MAX
         }
     }
+}
 
-    pub(super) fn is_some(self) -> bool {
-        self.at.is_some()
-    }
+/// What the walk has found: a place in the chain, and the state of its draw call.
+#[derive(Clone, Copy)]
+pub(super) struct Found<'v> {
+    pub(super) at: Spilled,
+    pub(super) state: &'v DrawState<'v>,
 }
 
 /// The columns of a span, and how many draw calls began up to its own: 0 where they are too many to be kept.
@@ -69,7 +72,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 self.over.cover(start, end);
             }
             let places = self.cache.far.as_flattened_mut();
-            if let Some(place) = places.get_mut(at.number) {
+            if let Some(place) = places.get_mut(usize::from(at.number)) {
                 *place = kept(stray.span, begun);
             }
         }
@@ -88,61 +91,58 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn after(&self, Spilled { at, number }: Spilled) -> Spilled {
         Spilled {
             at: next(self.links, at),
-            number: number + 1,
+            number: number.wrapping_add(1),
         }
     }
 
     /// The first from `at` on whose draw call is such, and that is not known to have no pixels on the line.
     #[inline(always)]
-    pub(super) fn spilled_of(
+    pub(super) fn spilled_of<'v>(
         &self,
         mut at: Spilled,
-        view: &View<'_>,
+        view: &View<'v>,
         is_such: impl Fn(&DrawState<'_>) -> bool,
-    ) -> Spilled {
-        while at.is_some() {
-            at = match self.spilled_state(at, view) {
-                Some(state) if is_such(state) => break,
-                Some(_) => self.behind_call(at, view),
+    ) -> Option<Found<'v>> {
+        while at.at.is_some() {
+            let begun = self.begun(at, view);
+            at = match view.draws.states.get(begun.wrapping_sub(1)) {
+                Some(state) if is_such(state) => return Some(Found { at, state }),
+                Some(_) => self.behind_call(at, begun, view),
                 None => self.after(at),
             };
         }
-        at
+        None
     }
 
-    /// The first behind those of its draw call, whose [state](Self::spilled_state) has just been found.
+    /// The first behind those of its draw call, up to which so many have begun.
     #[inline(never)]
-    fn behind_call(&self, mut spilled: Spilled, view: &View<'_>) -> Spilled {
-        let begun = match self.kept(spilled).map_or(0, |kept| kept & 0x3FF) {
-            0 => view.draws.last_begun(),
-            begun => begun as usize,
-        };
+    fn behind_call(&self, mut at: Spilled, begun: usize, view: &View<'_>) -> Spilled {
         let next = view.draws.states.get(begun);
         let end = next.map_or(u32::MAX, |next| next.first.into());
         loop {
-            spilled = self.after(spilled);
-            if spilled.object() >= end {
-                return spilled;
+            at = self.after(at);
+            if at.object() >= end {
+                return at;
             }
         }
     }
 
     #[inline(always)]
     fn kept(&self, spilled: Spilled) -> Option<u32> {
-        self.cache.far.as_flattened().get(spilled.number).copied()
+        self.cache
+            .far
+            .as_flattened()
+            .get(usize::from(spilled.number))
+            .copied()
     }
 
-    /// The state of its draw call; `None` where it is known to have no pixels on the line.
+    /// How many draw calls began up to its own; 0 where it is known to have no pixels on the line.
     #[inline(never)]
-    pub(super) fn spilled_state<'v>(
-        &self,
-        spilled: Spilled,
-        view: &View<'v>,
-    ) -> Option<&'v DrawState<'v>> {
+    fn begun(&self, spilled: Spilled, view: &View<'_>) -> usize {
         match self.kept(spilled) {
-            Some(0) => None,
-            Some(kept) if kept & 0x3FF != 0 => view.draws.states.get((kept & 0x3FF) as usize - 1),
-            _ => view.state(spilled.at.object()),
+            Some(0) => 0,
+            Some(kept) if kept & 0x3FF != 0 => (kept & 0x3FF) as usize,
+            _ => view.draws.begun(spilled.at.object()),
         }
     }
 

@@ -257,12 +257,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             });
         }
         let mut at = self.first_spilled();
-        loop {
-            at = self.spilled_of(at, out.view, |state| state.is_translucent());
-            if !at.is_some() {
-                return;
-            }
-            if let Some(stray) = self.spilled_stray(at, out) {
+        while let Some(found) = self.spilled_of(at, out.view, |state| state.is_translucent()) {
+            if let Some(stray) = self.spilled_stray(found.at, out) {
                 f(Pane {
                     span: stray.span,
                     depth: stray.slope::<L>(out),
@@ -270,7 +266,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     slot: NO_SLOT,
                 });
             }
-            at = self.after(at);
+            at = self.after(found.at);
         }
     }
 

@@ -13,7 +13,7 @@ use super::rival::deepen;
 use super::ruled::{Ruled, draw_ruled};
 use super::slot::Flags;
 use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
-use super::spilled::Spilled;
+use super::spilled::Found;
 use crate::active::next;
 use crate::look::{Fill, Look, WordOf};
 use crate::num::{bit, take_first};
@@ -177,15 +177,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         draw_ruled::<L>(ruled, span, out, known);
     }
 
-    /// Draws a span without a slot; the next of its kind.
+    /// Draws a span without a slot.
     #[inline(never)]
-    pub(super) fn draw_alone(&mut self, at: Spilled, out: &mut Line<'_, '_, L>) -> Spilled {
-        let after = self.after(at);
-        let Some(state) = self.spilled_state(at, out.view) else {
-            return after;
-        };
-        let Some(stray) = self.spilled_stray(at, out) else {
-            return after;
+    pub(super) fn draw_alone(&mut self, found: Found<'_>, out: &mut Line<'_, '_, L>) {
+        let state = found.state;
+        let Some(stray) = self.spilled_stray(found.at, out) else {
+            return;
         };
         let mut alone = Alone::empty(L::EMPTY);
         set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
@@ -204,6 +201,5 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             (counter.span)(&mut self.spans, ruled, known.as_ref(), is_alone, out);
         }
         draw_ruled::<L>(ruled, span, out, known);
-        after
     }
 }

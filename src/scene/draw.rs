@@ -201,11 +201,6 @@ impl<'a> Draws<'a> {
         begun
     }
 
-    /// What [`begun`](Self::begun) has told last.
-    pub(crate) fn last_begun(&self) -> usize {
-        self.begun.get()
-    }
-
     /// The number of the state of an object's call: that of the last call that began at it or before.
     #[inline(always)]
     pub(crate) fn number_of(&self, object: u16) -> u16 {
