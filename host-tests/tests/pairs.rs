@@ -335,10 +335,10 @@ const OF_TEXELS: Rounding = Rounding {
     by_twos: true,
 };
 
-/// The texel as levels, times the shade of the pixel's own place.
+/// The texel as levels, times the shade of the pixel's own place: half a level each, and half a unit of blue, which has 512.
 const OF_WIDE_TEXELS: Rounding = Rounding {
-    written: 1.4,
-    sloped: 1.9,
+    written: 1.3,
+    sloped: 1.5,
     blended: 1.01,
     dithered: 0.0,
     by_twos: false,

@@ -152,8 +152,11 @@ impl<F: PixelFormat> Gouraud<F> {
     /// A run of what is not in one word.
     #[inline(never)]
     fn fill_other(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        if fill == Fill::Small && F::MADE_OF.is_one_word() {
-            return Self::fill_small(planes, place, run);
+        if fill == Fill::Small {
+            return match F::MADE_OF.is_one_word() {
+                true => Self::fill_small(planes, place, run),
+                false => Self::fill_words(planes, place, run),
+            };
         }
         // Of what is one word it is all that is left.
         let fill = if F::MADE_OF.is_one_word() {
@@ -174,6 +177,17 @@ impl<F: PixelFormat> Gouraud<F> {
         let step = planes[6];
         let word = at.word().wrapping_add(step.wrapping_mul(off));
         ramp::fill::<F>(run, Packed { word, step });
+    }
+
+    /// The same of a format of two words, which holds all bits of the planes.
+    #[inline(always)]
+    fn fill_words(planes: &Planes, place: Place, run: &mut [F::Word]) {
+        let [red_blue, green] = [0, 3].map(|i| at(planes, i, place));
+        if planes[1] | planes[4] == 0 {
+            return ramp::fill_even::<F>(run, F::pack_words(red_blue, green));
+        }
+        let pair = |[red_blue, green]: [u32; 2]| Pair { red_blue, green };
+        ramp::fill_pair::<F>(run, pair([red_blue, green]), pair([planes[1], planes[4]]));
     }
 
     /// The same of more than one part.

@@ -1,10 +1,10 @@
 //! The shade of a textured triangle: its planes, and what they are along a span.
 
-use super::Place;
 use super::course::Course;
 use super::fields::fields;
-use super::gouraud::{Planes as Shades, at};
+use super::gouraud::{Planes as Shades, at, course};
 use super::tint::Shade;
+use super::{Fill, Place};
 use crate::span::{Rise, Shares};
 
 /// The shade of a triangle within 64 pixels half a pixel beyond a place, and its step.
@@ -19,6 +19,19 @@ pub(super) fn small_shade(planes: &Shades, place: Place) -> [Shade; 2] {
         green: at(planes, 3, place),
     };
     [at, step]
+}
+
+/// The shade along a span from a place's own pixel on.
+#[inline(always)]
+pub(super) fn shade_course(fill: Fill, planes: &Shades, place: Place) -> Course {
+    let mut course = course(fill, planes, place);
+    if fill == Fill::Small {
+        // Half a pixel beyond, where it may have left its 16 bits.
+        for (value, step) in course.value.iter_mut().zip(course.step) {
+            *value = value.wrapping_sub((step >> 1) as u32) & 0x7FFF_FFFF;
+        }
+    }
+    course
 }
 
 /// Half of full light: where a shade rises by as much in a pixel, half of a step is not told from another, and spans

@@ -11,12 +11,13 @@
 //!
 //! Corners of one colour have one shade, on triangles of any size.
 
-use super::fetch::copy_from;
+use super::course::Course;
+use super::fetch::{copy_from, copy_part};
 use super::fields::is_even;
 use super::gouraud::{Planes as Shades, course, even_pair, thin_shades, wide_shades};
 use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::phong::Shine;
-use super::shades::{shade_at, shade_planes, small_shade};
+use super::shades::{shade_at, shade_course, shade_planes, small_shade};
 use super::stride::Reach;
 use super::tint::{Shade, Texel};
 use super::word_plane::Near;
@@ -48,36 +49,24 @@ pub struct Planes {
 }
 
 impl Planes {
-    /// Whether there is a shade: else there is full light.
+    /// The shade along a span from a place's pixel on; `None` in full light.
     #[inline(always)]
-    pub(super) fn is_shaded(&self) -> bool {
-        self.shaded.is_some()
-    }
-
-    /// Hands the shades of a place's pixel and of those after it to `take`, until that has enough.
-    #[inline(always)]
-    pub(super) fn each_shade(&self, place: Place, mut take: impl FnMut(Shade) -> bool) {
-        let Some(fill) = self.shaded else {
-            return;
-        };
-        if fill == Fill::Small {
-            let [shade, step] = small_shade(&self.shade, place);
-            let mut shade = shade.minus_quarter(step.times(2));
-            while take(shade) {
-                shade = shade.plus(step);
-            }
-            return;
-        }
-        let mut course = course(fill, &self.shade, place);
-        // A pixel alone has the shade of its own place.
-        while take(shade_at(&course.still(), 1)[0]) {
-            course.skip(1);
-        }
+    pub(super) fn shade_course(&self, place: Place) -> Option<Course> {
+        Some(shade_course(self.shaded?, &self.shade, place))
     }
 
     /// What transparent texels are, where there may be any.
     pub(super) fn holes(&self, draws: &[DrawState<'_>]) -> Option<Holes> {
         self.state(draws)?.holes.filter(|_| self.mapped)
+    }
+
+    /// The texels of a run of [`Fill::Plain`], by a call.
+    #[inline(always)]
+    pub(super) fn copy_plain(&self, place: Place, draws: &[DrawState<'_>], run: &mut [u16]) {
+        if let Some((texture, _)) = self.state(draws).and_then(DrawState::texture) {
+            let plane = &self.mapping.planes[0];
+            copy_part(run, texture, word_at(plane, place), plane[1]);
+        }
     }
 
     /// What the triangle's draw call says.

@@ -66,7 +66,8 @@ fn shone<F: PixelFormat, T: Texel>(
     draws: &[DrawState<'_>],
     run: &mut [F::Word],
 ) {
-    each_texels::<_, T>(planes, place, draws, run, |place, texels, run| {
+    let how = Fill::Wide;
+    each_texels::<_, T>(how, planes, place, draws, run, |place, texels, run| {
         lit::<F, T>(shine, planes, place, dithers, texels, run);
     });
 }

@@ -22,15 +22,13 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
-use crate::pixel::PixelFormat;
-use crate::pixel::threshold;
-use crate::pixel::{Rgb565, Rgb565Bytes};
+use crate::pixel::{PixelFormat, Rgb565, Rgb565Bytes, threshold};
 use core::hint::black_box as unknown;
 
 /// Light of a pixel, or its step, in two words: 16 bits a channel, full light is 2^15.
 ///
-/// Full light is 2^15. Where a channel is below 0 or above full light and 255, pixels get any colour: planes keep
-/// a margin of 64 to both ends.
+/// Where a channel is below 0 or above full light and 255, pixels get any colour: planes keep a [margin](Shade::MARGIN)
+/// to both ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub struct Shade {
     /// Red above blue. Of a step, the sum `(red << 16) + blue` of numbers with signs.
@@ -80,6 +78,9 @@ impl Masks {
 }
 
 impl Shade {
+    /// What planes have on top of the light, so that sums which err stay above 0: of 5 bits 1/16 of a step, of 8 bits half.
+    pub(super) const MARGIN: u32 = 1 << 6;
+
     /// The shade that is `by` further on.
     #[inline(always)]
     #[must_use]

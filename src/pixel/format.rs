@@ -46,7 +46,10 @@ pub trait PixelFormat {
 
     /// A pixel from 8-bit levels, rounded to nearest.
     fn from_rgb8(rgb: [u8; 3]) -> Self::Word {
-        Self::pack([0, 1, 2].map(|i| of_255(u32::from(rgb[i]) * u32::from(Self::STEPS[i])) as u8))
+        Self::pack([0, 1, 2].map(|i| match Self::STEPS[i] {
+            255 => rgb[i],
+            steps => of_255(u32::from(rgb[i]) * u32::from(steps)) as u8,
+        }))
     }
 
     /// The 8-bit levels a display shows for a pixel, rounded to nearest.

@@ -23,6 +23,7 @@ mod shots;
 mod stress;
 mod suite;
 mod texels;
+mod true_colour;
 mod values;
 
 pub use contours::{CONTOURED, ContourLook, Contours};
@@ -33,7 +34,7 @@ pub use listed::{
     CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list,
     teapot_meshlets_list,
 };
-pub use looks::{SmoothLook, TexturedLook};
+pub use looks::{SmoothLook, TexturedLook, TrueColourLook, TrueColourTexturedLook};
 pub use meshes::{CUBE, CUBE_QUADS, FINE_SPHERE, RIBBON, SPHERE, TEAPOT};
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};
@@ -52,6 +53,7 @@ pub use suite::{
     inside, layer, room_light, sphere_light, teapot_part, tilt, tilted, tilted_textured,
 };
 pub use texels::{TEXEL_SIDE, TEXELS_565};
+pub use true_colour::{TRUE_COLOUR, build_true_colour};
 pub use values::{
     IndexedLook, PhongLook, STONE, TexturedPhongLook, VALUES, VALUES_HEIGHT, VALUES_ROOM,
     VALUES_SHOWN, VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,

@@ -1,18 +1,18 @@
 //! How the frames of the test scenes are drawn here.
 
-use crate::rooms::{LINES_PER_TRANSFER, Rooms};
+use crate::rooms::{LINES_PER_TRANSFER, Rooms, SceneRooms};
 use core::convert::Infallible;
 use core::task::Poll;
 use scanbeam::frame::{Interleave, Pace, draw_frame};
 use scanbeam::list::ListCommand;
 use scanbeam::look::Look;
-use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scan_out::{Pump, ScanoutDma, Window};
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Frame, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, TexturedLook, Values,
-    ValuesMemory, Variant, WIDTH,
+    Frame, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, Suite, TexturedLook, Values,
+    ValuesMemory, Variant, WIDTH, build_true_colour,
 };
 
 /// Slots of the caches that are not wide.
@@ -37,7 +37,11 @@ impl<F: FnMut(&[u8])> Receives for F {
 /// Lines that a transfer of a frame takes.
 pub(crate) const fn lines_of(frame: Frame) -> u16 {
     match frame {
-        Frame::Suite(_) | Frame::InParts(_) | Frame::Paced(_) | Frame::Played(_) => SUITE_LINES,
+        Frame::Suite(_)
+        | Frame::InParts(_)
+        | Frame::Paced(_)
+        | Frame::Played(_)
+        | Frame::TrueColour(_) => SUITE_LINES,
         _ => LINES_PER_TRANSFER,
     }
 }
@@ -87,6 +91,14 @@ fn draw_at_pace(
         Frame::Shot(how) => sent.shot(how, rooms),
         Frame::Values(values) => sent.values(values, rooms),
         Frame::Played(played) => sent.played(played, rooms),
+        Frame::TrueColour(suite) if suite.texture().is_some() => {
+            let (scene, lines, caches) = (&mut rooms.scene, &mut rooms.lines, &mut rooms.caches);
+            sent.true_colour(suite, scene, lines.renderer(caches.true_texels));
+        }
+        Frame::TrueColour(suite) => {
+            let (scene, lines, caches) = (&mut rooms.scene, &mut rooms.lines, &mut rooms.caches);
+            sent.true_colour(suite, scene, lines.renderer(caches.true_colour));
+        }
         Frame::Model(shot) => sent.model(shot, rooms),
     }
     if let (_, [Some(a), Some(b)]) = pump.release() {
@@ -196,6 +208,26 @@ impl Sent<'_, '_> {
         let background = Rgb565Be::from_rgb8(shot.background());
         let sent = draw_model_frame(&scene, &mut renderer, self.pump, background, self.lines);
         assert!(sent.is_ok(), "{LARGE}");
+    }
+
+    /// A scene of the suite in pixels of 24 bits, a line a transfer, as it is drawn.
+    #[inline(never)]
+    fn true_colour<L: Look<Pixel = Rgb888>>(
+        &mut self,
+        suite: Suite,
+        rooms: &mut SceneRooms,
+        mut renderer: Renderer<'_, L>,
+    ) {
+        let mut scene = rooms.scene();
+        build_true_colour(suite, &mut scene).expect(LARGE);
+        let background = suite.background();
+        let mut pixels = [background; WIDTH as usize];
+        self.pump.sink_mut().to.begin();
+        for line in scene.lines() {
+            let drawn = renderer.draw_line(&scene, line, &mut pixels, background);
+            drawn.expect(LARGE);
+            self.pump.sink_mut().to.transfer(pixels.as_flattened());
+        }
     }
 
     /// Draws all lines of a scene, which cost what they may, where that is said.

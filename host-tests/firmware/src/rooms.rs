@@ -13,7 +13,7 @@ use scenes::{
     CRATE_INDICES, CRATE_TABLE, ContourLook, CutMemory, DRAWS, HEIGHT, Hits, IN_PARTS, InParts,
     IndexedLook, LIST_INDICES, LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES, PLAYED_TEXELS,
     PLAYED_TEXTURES, PhongLook, Played, Sheet, Shot, SmoothLook, Suite, TexturedLook,
-    TexturedPhongLook, VALUES_SHOWN, VERTICES, WIDTH,
+    TexturedPhongLook, TrueColourLook, TrueColourTexturedLook, VALUES_SHOWN, VERTICES, WIDTH,
 };
 
 /// Lines that one transfer takes, at most.
@@ -91,6 +91,8 @@ pub(crate) struct Caches {
     pub(crate) lit_texels: &'static mut FastMemory<TexturedPhongLook>,
     pub(crate) indexed: &'static mut FastMemory<IndexedLook>,
     pub(crate) banded: &'static mut FastMemory<ContourLook>,
+    pub(crate) true_colour: &'static mut FastMemory<TrueColourLook>,
+    pub(crate) true_texels: &'static mut FastMemory<TrueColourTexturedLook>,
 }
 
 /// What frames are drawn with.
@@ -156,6 +158,8 @@ impl Rooms {
                 lit_texels: slots!(".slow", TexturedPhongLook),
                 indexed: slots!(".slow", IndexedLook),
                 banded: slots!(".slow", ContourLook),
+                true_colour: slots!(".slow", TrueColourLook),
+                true_texels: slots!(".slow", TrueColourTexturedLook),
             },
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),

@@ -14,13 +14,13 @@ use host_support::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::Scene;
 use scanbeam::look::Look;
 use scanbeam::mesh::Meshlet;
-use scanbeam::pixel::{PixelFormat, Rgb565Be};
+use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
 use scanbeam::scene::{Assembled, Shading};
 use scanbeam::stats::SpanCounts;
 use scenes::{
     CutMemory, DRAWS, Frame, HEIGHT, InParts, OBJECTS, PhongLook, SceneB, Shot, ShotError,
-    SmoothLook, Suite, TexturedLook, TexturedPhongLook, VERTICES, WIDTH, frames, lamplit_teapot,
-    teapot_lamps,
+    SmoothLook, Suite, TexturedLook, TexturedPhongLook, TrueColourLook, TrueColourTexturedLook,
+    VERTICES, WIDTH, build_true_colour, frames, lamplit_teapot, teapot_lamps,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -86,6 +86,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
             Frame::Played(played) => played_frame(played)?.crc(),
             Frame::B(scene) => scene_b_frame(scene)?.crc(),
             Frame::Model(shot) => crc(&model_words(shot)?),
+            Frame::TrueColour(suite) => crc32fast::hash(&true_colour_bytes(suite)?),
             Frame::Shot(how) => {
                 let (shot, shading) = (how.shot, how.shading);
                 let before = known.iter().find(|one| (one.0, one.1) == (shot, shading));
@@ -203,6 +204,32 @@ fn model_words(shot: Shot) -> Result<Vec<u16>, Box<dyn Error>> {
         words.extend_from_slice(&line);
     }
     Ok(words)
+}
+
+/// Red, green and blue of a scene of the suite in pixels of 24 bits.
+///
+/// # Errors
+/// When it does not fit the memory that it asks for.
+pub fn true_colour_bytes(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
+    if suite.texture().is_some() {
+        bytes_by::<TrueColourTexturedLook>(suite)
+    } else {
+        bytes_by::<TrueColourLook>(suite)
+    }
+}
+
+fn bytes_by<L: Look<Pixel = Rgb888>>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
+    let mut memory = SceneRooms::new(ROOM, HEIGHT);
+    let mut scene: Scene<'_, '_, L> = memory.scene(Shot::screen());
+    said(suite.name(), build_true_colour(suite, &mut scene))?;
+    let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, WIDTH);
+    let mut renderer = lines.renderer();
+    let (mut pixels, mut line) = (Vec::new(), vec![[0; 3]; WIDTH.into()]);
+    for y in scene.lines() {
+        renderer.draw_line(&scene, y, &mut line, suite.background())?;
+        pixels.extend_from_slice(&line);
+    }
+    Ok(pixels.into_flattened())
 }
 
 /// The teapot with light at each pixel.

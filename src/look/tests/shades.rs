@@ -1,11 +1,21 @@
 //! Colours of thin triangles against those of exact planes.
 
 use super::triangles::{FRAME, OBJECT, set_up, state_of};
-use crate::look::{Fill, Gouraud, Look, Place};
+use crate::geometry::Colour;
+use crate::look::{Fill, Gouraud, Look, Place, Textured};
 use crate::num::random::Rng;
 use crate::pixel::{PixelFormat, Rgb888, Xrgb8888};
 use crate::scene::{Budget, Draws, ORIGIN, Vertex};
 use crate::span::{Size, Triangle};
+
+fn triangle_of(vertices: &[Vertex; 3]) -> Triangle<'_> {
+    Triangle {
+        vertex: vertices.each_ref(),
+        object: &OBJECT,
+        places: &[],
+        frame: FRAME,
+    }
+}
 
 /// How far one pixel of a random thin triangle is from the plane through its corners, in levels; `None` where it has no
 /// pixel in its middle, or is not thin.
@@ -21,12 +31,7 @@ fn off<F: PixelFormat>(rng: &mut Rng) -> Option<f64> {
             colour: red << 21 | blue << 11 | green,
         }
     });
-    let triangle = Triangle {
-        vertex: [&vertices[0], &vertices[1], &vertices[2]],
-        object: &OBJECT,
-        places: &[],
-        frame: FRAME,
-    };
+    let triangle = triangle_of(&vertices);
     let across = |to: [i32; 2], from: [i32; 2], at: [i32; 2]| {
         (to[0] - from[0]) * (at[1] - from[1]) - (to[1] - from[1]) * (at[0] - from[0])
     };
@@ -75,4 +80,42 @@ fn thin_triangles_of_24_bits_have_their_colours_to_a_level() {
     }
     std::println!("{worst} levels");
     assert!(worst < 1.05, "{worst}");
+}
+
+/// Kills: the margin of a shade taken for light, or one of another size.
+#[test]
+fn what_has_one_colour_and_no_texture_has_that_colour_in_24_bits() {
+    fn drawn<F: PixelFormat>(colour: [u8; 3]) -> [u8; 3]
+    where
+        Textured<F>: Look<Pixel = F>,
+    {
+        let colour = Colour::from_rgb8(colour, &Textured::<F>::SCALE).word();
+        let vertices = [[80, 80], [240, 80], [80, 240]].map(|[x, y]| Vertex {
+            place: ((8 * ORIGIN + y) as u32) << 16 | (8 * ORIGIN + x) as u32,
+            depth: 1 << 27,
+            colour,
+        });
+        let triangle = triangle_of(&vertices);
+        let draws = [state_of(None, Budget::FAST)];
+        let draws = Draws::new(&draws);
+        let (fill, planes) = set_up::<Textured<F>>(&triangle, &draws);
+        let mut run = [F::Word::default(); 3];
+        let place = Place {
+            span: 12,
+            end: 15,
+            column: 12,
+            line: 12,
+        };
+        Textured::<F>::fill(fill, &planes, place, draws.states, &mut run);
+        assert!(
+            run.iter()
+                .all(|word| F::to_rgb8(*word) == F::to_rgb8(run[0]))
+        );
+        F::to_rgb8(run[0])
+    }
+    for level in 0..=255 {
+        let colour = [level, 255 - level, level ^ 0x55];
+        assert_eq!(drawn::<Rgb888>(colour), colour);
+        assert_eq!(drawn::<Xrgb8888>(colour), colour);
+    }
 }
