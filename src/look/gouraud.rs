@@ -26,7 +26,8 @@ use core::marker::PhantomData;
 pub struct Gouraud<F>(PhantomData<F>);
 
 /// What a triangle keeps of its colours. Plain: one word at the picture's first pixel, its steps across and
-/// down. Small: the same of red and blue, then of green, then the packed step. Wide: see [`keep_wide`].
+/// down. Small, and plain of formats of two words: the same of red and blue, then of green, then the packed step. Wide:
+/// see [`keep_wide`].
 pub type Planes = [u32; 8];
 
 /// Bits of a plane's value at the first pixel that [`Fill::Wide`] has for others: what is left has 11 fraction bits and more.
@@ -359,7 +360,11 @@ impl<F: PixelFormat> Look for Gouraud<F> {
             Self::packed_planes(of.triangle.vertex, of.area, planes);
             return Fill::Plain;
         }
-        Self::other_planes(of.triangle, of.size, of.area, planes)
+        match Self::other_planes(of.triangle, of.size, of.area, planes) {
+            // Most triangles of formats of two words have these.
+            Fill::Small if !F::MADE_OF.is_one_word() => Fill::Plain,
+            fill => fill,
+        }
     }
 
     fn set_up_thin(span: &ThinSpan<'_>, _: u16, _: &Draws<'_>, planes: &mut Planes) {
@@ -368,15 +373,18 @@ impl<F: PixelFormat> Look for Gouraud<F> {
 
     #[inline(always)]
     fn fill_plain(planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
-        ramp::fill::<F>(run, Self::packed(planes, place));
+        match F::MADE_OF.is_one_word() {
+            true => ramp::fill::<F>(run, Self::packed(planes, place)),
+            false => Self::fill_words(planes, place, run),
+        }
     }
 
     #[inline(always)]
-    fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
+    fn fill(fill: Fill, planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
         if fill == Fill::Plain {
-            return ramp::fill::<F>(run, Self::packed(planes, place));
+            return Self::fill_plain(planes, at, draws, run);
         }
-        Self::fill_other(fill, planes, place, run);
+        Self::fill_other(fill, planes, at, run);
     }
 
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {

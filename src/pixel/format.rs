@@ -109,6 +109,13 @@ impl<const BIG: bool> Rgb565Bytes<BIG> {
     }
 }
 
+/// Repeats three bytes.
+fn fill_bytes(bytes: &mut [u8], three: [u8; 3]) {
+    for (byte, level) in bytes.iter_mut().zip(three.iter().cycle()) {
+        *byte = *level;
+    }
+}
+
 impl PixelFormat for Rgb888 {
     type Word = [u8; 3];
     const STEPS: [u16; 3] = [255; 3];
@@ -126,6 +133,20 @@ impl PixelFormat for Rgb888 {
             (green >> 24) as u8,
             (red_blue >> 8) as u8,
         ]
+    }
+
+    /// Four pixels at a time, which are three words, where there are enough of them.
+    #[inline]
+    fn fill(pixels: &mut [[u8; 3]], mut word: [u8; 3]) {
+        if pixels.len() < 16 {
+            return pixels.fill(word);
+        }
+        let bytes = pixels.as_flattened_mut();
+        let (before, words, after) = bytemuck::pod_align_to_mut::<u8, [u32; 3]>(bytes);
+        fill_bytes(before, word);
+        word.rotate_left(before.len() % 3);
+        words.fill(bytemuck::cast([word; 4]));
+        fill_bytes(after, word);
     }
 
     fn mix(old: &mut [[u8; 3]], new: &[[u8; 3]], mix: Mix) {

@@ -357,11 +357,12 @@ fn every_method_keeps_its_bound_and_the_defaults_are_on_the_frontier() {
         }
         assert!(some, "{family}: {method}");
     }
-    // Of 24 bits a pixel the renderer is not on it: a packed loop of the laboratory takes less, by more code.
+    // Of 24 bits a pixel the renderer is not on it: a packed loop of the laboratory takes less, by more code. A pixel is
+    // one more of the triangle and one less of the background, of which one takes one instruction.
     let of_24 = |row: &&Row| row.method == RENDERER && row.case.starts_with("RGB888, spans");
     assert_eq!(rows.iter().filter(of_24).count(), 2);
     for row in rows.iter().filter(of_24) {
-        assert!(row.per_pixel.is_some_and(|cost| cost < 9.0), "{row:?}");
+        assert!(row.per_pixel.is_some_and(|cost| cost < 11.5), "{row:?}");
     }
     // Colours that are kept err more, and cost more as well.
     let kept = |row: &&Row| row.family == "lines" && !row.method.ends_with("every line");

@@ -119,3 +119,40 @@ fn what_has_one_colour_and_no_texture_has_that_colour_in_24_bits() {
         assert_eq!(drawn::<Xrgb8888>(colour), colour);
     }
 }
+
+/// Kills: a channel that steps taken for one that does not, or in the place of another.
+#[test]
+fn a_channel_that_alone_changes_does_so_in_24_bits() {
+    for channel in 0..3 {
+        let vertices = [[80, 80], [240, 80], [80, 240]].map(|[x, y]| {
+            let mut rgb = [90; 3];
+            rgb[channel] = if x == 240 { 240 } else { 20 };
+            Vertex {
+                place: ((8 * ORIGIN + y) as u32) << 16 | (8 * ORIGIN + x) as u32,
+                depth: 1 << 27,
+                colour: Colour::from_rgb8(rgb, &Gouraud::<Rgb888>::SCALE).word(),
+            }
+        });
+        let draws = [state_of(None, Budget::FAST)];
+        let draws = Draws::new(&draws);
+        let (fill, planes) = set_up::<Gouraud<Rgb888>>(&triangle_of(&vertices), &draws);
+        let place = Place {
+            span: 10,
+            end: 26,
+            column: 10,
+            line: 12,
+        };
+        let mut run = [[0; 3]; 16];
+        Gouraud::<Rgb888>::fill(fill, &planes, place, draws.states, &mut run);
+        for (column, got) in (10..).zip(run) {
+            let mut want = [90.0; 3];
+            want[channel] = 20.0 + 220.0 * (f64::from(column) - 9.5) / 20.0;
+            for i in 0..3 {
+                assert!(
+                    (f64::from(got[i]) - want[i]).abs() < 1.5,
+                    "{column}: {got:?}"
+                );
+            }
+        }
+    }
+}
