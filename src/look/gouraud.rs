@@ -153,11 +153,8 @@ impl<F: PixelFormat> Gouraud<F> {
     /// A run of what is not in one word.
     #[inline(never)]
     fn fill_other(fill: Fill, planes: &Planes, place: Place, run: &mut [F::Word]) {
-        if fill == Fill::Small {
-            return match F::MADE_OF.is_one_word() {
-                true => Self::fill_small(planes, place, run),
-                false => Self::fill_words(planes, place, run),
-            };
+        if fill == Fill::Small && F::MADE_OF.is_one_word() {
+            return Self::fill_small(planes, place, run);
         }
         // Of what is one word it is all that is left.
         let fill = if F::MADE_OF.is_one_word() {
@@ -165,6 +162,9 @@ impl<F: PixelFormat> Gouraud<F> {
         } else {
             fill
         };
+        if matches!(fill, Fill::Plain | Fill::Small) {
+            return Self::fill_words(planes, place, run);
+        }
         Self::fill_wide(fill, planes, place, run);
     }
 
@@ -373,18 +373,18 @@ impl<F: PixelFormat> Look for Gouraud<F> {
 
     #[inline(always)]
     fn fill_plain(planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
-        match F::MADE_OF.is_one_word() {
-            true => ramp::fill::<F>(run, Self::packed(planes, place)),
-            false => Self::fill_words(planes, place, run),
+        if !F::MADE_OF.is_one_word() {
+            return Self::fill_words(planes, place, run);
         }
+        ramp::fill::<F>(run, Self::packed(planes, place));
     }
 
     #[inline(always)]
-    fn fill(fill: Fill, planes: &Planes, at: Place, draws: &[DrawState<'_>], run: &mut [F::Word]) {
-        if fill == Fill::Plain {
-            return Self::fill_plain(planes, at, draws, run);
+    fn fill(fill: Fill, planes: &Planes, place: Place, _: &[DrawState<'_>], run: &mut [F::Word]) {
+        if fill == Fill::Plain && F::MADE_OF.is_one_word() {
+            return ramp::fill::<F>(run, Self::packed(planes, place));
         }
-        Self::fill_other(fill, planes, at, run);
+        Self::fill_other(fill, planes, place, run);
     }
 
     fn set_up_dithered(triangle: &Triangle<'_>, planes: &mut Planes) -> Option<Fill> {
