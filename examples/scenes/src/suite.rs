@@ -172,7 +172,8 @@ static TEXTURES: [Texture<'static>; 2] = [
     texture(&TEXELS_F_PANEL, TEXEL_SIDE_F),
 ];
 
-const fn texture(texels: &'static [u16], side: u32) -> Texture<'static> {
+/// A square texture of so many texels a side.
+pub(crate) const fn texture(texels: &'static [u16], side: u32) -> Texture<'static> {
     match Texture::words(texels, side, side) {
         Ok(texture) => texture,
         Err(_) => panic!("as many texels as the sides need"),

@@ -1,5 +1,6 @@
 //! Scenes of the suite in pixels of 24 bits.
 
+use crate::suite::texture;
 use crate::{ShotError, Suite, TEXEL_SIDE, TEXEL_SIDE_F, TEXELS_565, TEXELS_F};
 use scanbeam::Scene;
 use scanbeam::look::Look;
@@ -17,13 +18,6 @@ static TEXTURES: [Texture<'static>; 2] = [
     texture(&TEXELS_565, TEXEL_SIDE),
     texture(&TEXELS_F, TEXEL_SIDE_F),
 ];
-
-const fn texture(texels: &'static [u16], side: u32) -> Texture<'static> {
-    match Texture::words(texels, side, side) {
-        Ok(texture) => texture,
-        Err(_) => panic!("as many texels as the sides need"),
-    }
-}
 
 /// Draws a scene as [`Suite::build`] does.
 ///

@@ -1,4 +1,4 @@
-//! Colours of thin triangles against those of exact planes.
+//! Colours of pixels of 24 bits against those of exact planes.
 
 use super::triangles::{FRAME, OBJECT, set_up, state_of};
 use crate::geometry::Colour;
