@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `renderer` | what draws lines: its memory, its errors |
 //! | `advance` | from line to line: which triangles begin, turn and end |
+//! | `quads` | of these, those of four corners |
 //! | `ahead` | triangles set up before their line comes |
 //! | `alone` | a triangle without a slot |
 //! | `line` | one line: who is seen, and its pixels |
@@ -48,6 +49,7 @@ mod pace;
 mod paced;
 mod palette;
 mod plan;
+mod quads;
 mod rank;
 mod relay;
 mod renderer;

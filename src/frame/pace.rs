@@ -91,7 +91,7 @@ impl Pace {
         most: u32::MAX,
         line: 1080,
         column: 4,
-        begin: 620,
+        begin: 640,
         large: 1400,
         turn: 130,
         span: 104,
@@ -104,7 +104,7 @@ impl Pace {
     /// The same in M0+ code.
     pub const GOURAUD_M0: Self = Self {
         line: 1350,
-        begin: 1100,
+        begin: 1110,
         large: 2700,
         turn: 240,
         span: 200,
@@ -117,7 +117,7 @@ impl Pace {
     };
     /// [`Textured`](crate::look::Textured) in M4 and M3 code, with texels that are not filtered; there is no limit.
     pub const TEXTURED_M4: Self = Self {
-        begin: 1700,
+        begin: 1750,
         large: 3050,
         run: 330,
         pixel: 14,
@@ -125,17 +125,18 @@ impl Pace {
     };
     /// The same in M0+ code.
     pub const TEXTURED_M0: Self = Self {
-        begin: 3500,
+        begin: 3530,
         large: 7700,
-        run: 700,
+        run: 760,
         pixel: 14,
         ..Self::GOURAUD_M0
     };
 
-    /// What it costs that a triangle begins.
-    pub(super) fn of_begin(&self, triangle: &Triangle<'_>) -> u32 {
+    /// What it costs that a triangle begins, or a parallelogram.
+    #[inline(always)]
+    pub(super) fn of_begin(&self, triangle: &Triangle<'_>, is_quad: bool) -> u32 {
         u32::from(match triangle.size(triangle.area()) {
-            Size::Tiny => self.begin,
+            Size::Tiny if !is_quad => self.begin,
             _ => self.large,
         })
     }

@@ -75,7 +75,7 @@ impl<P> Seen<'_, P> {
             return Some(rival_of::<L>(slot, self.span, out));
         }
         let stray = Stray {
-            triangle: out.view.triangle_of(self.object)?,
+            triangle: out.view.figure_of(self.object, L::TEXTURED)?,
             object: self.object,
             span: self.span,
         };

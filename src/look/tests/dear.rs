@@ -4,7 +4,7 @@ use super::triangles::{FRAME, OBJECT, set_up, state_of};
 use crate::look::{Fill, Look, Textured};
 use crate::pixel::Rgb565;
 use crate::scene::{Budget, Draws, ORIGIN, Texture, TexturePlace, Vertex};
-use crate::span::Triangle;
+use crate::span::{Tables, Triangle};
 use std::vec::Vec;
 
 type Lit = Textured<Rgb565>;
@@ -32,7 +32,11 @@ fn lit(
     let triangle = Triangle {
         vertex: [&vertices[0], &vertices[1], &vertices[2]],
         object: &OBJECT,
-        places: &places,
+        second: None,
+        tables: &Tables {
+            vertices: &[],
+            places: &places,
+        },
         frame: FRAME,
     };
     let states = [state_of(Some(texture), Budget::FAST)];
