@@ -265,13 +265,13 @@ mod tests {
     const PLACES: [[i32; 2]; 4] = [[0, 64 << 8], [64 << 8, 64 << 8], [64 << 8, 0], [0, 0]];
     const FACES: [[u16; 3]; 2] = [[0, 1, 2], [0, 2, 3]];
 
-    /// The triangles of such a mesh, turned about y, and how many are filed under lines.
+    /// The triangles of such a mesh, turned about y, how many are filed under lines, and the first of these.
     fn drawn(
         (positions, places): (&[[i16; 3]; 4], &[[i32; 2]; 4]),
         colours: &[[u8; 3]],
         faces: &[[u16; 3]],
         (turn, away, budget): (f32, f32, Budget),
-    ) -> (Vec<FiledTriangle>, usize) {
+    ) -> (Vec<FiledTriangle>, usize, Option<usize>) {
         let (mut vertices, mut records) = ([Vertex::EMPTY; 8], [TexturePlace::EMPTY; 8]);
         let (mut objects, mut bins) = ([Object::EMPTY; 4], [NONE; 240]);
         let mut states = [DrawState::EMPTY; 1];
@@ -310,20 +310,22 @@ mod tests {
                 (filed, at) = (filed + 1, object.next);
             }
         }
-        (scene.triangles().collect(), filed)
+        let first = scene.bins.iter().position(|&head| head != NONE);
+        (scene.triangles().collect(), filed, first)
     }
 
     /// What is joined is read as both triangles.
     ///
     /// Kills: the lower triangle that stays under its line, the upper one that leaves it, corners of a second record that
-    /// are read as they lie there, and each of the questions that a pair is asked.
+    /// are read as they lie there, and the questions for texture, colours, depths, thickness and size.
     #[test]
     fn parallelograms_in_perspective_are_joined_and_nothing_else_is() {
         let of = |mesh, colours: &[_], faces: &[_], view| {
-            let (triangles, filed) = drawn(mesh, colours, faces, view);
+            let (triangles, filed, first) = drawn(mesh, colours, faces, view);
             let (turn, away, _) = view;
             let exact = drawn(mesh, colours, faces, (turn, away, Budget::EXACT));
-            assert_eq!((&triangles, exact.1), (&exact.0, exact.0.len()));
+            assert_eq!((&triangles, first), (&exact.0, exact.2));
+            assert_eq!(exact.1, exact.0.len());
             triangles.len() - filed
         };
         let square = (&SQUARE, &PLACES);
