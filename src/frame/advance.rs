@@ -7,7 +7,7 @@ use crate::link::Link;
 use crate::look::{Look, Primitive};
 use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object};
-use crate::span::{Entry, Sides, Triangle, Way, end_line};
+use crate::span::{Way, end_line};
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Brings the cache to a line of the picture.
@@ -82,10 +82,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// A side of a slot gives way to the third one.
     #[inline(always)]
     fn turn(&mut self, view: &View<'_>, word: usize, i: u32) {
-        let object = self.cache.slots[word][i as usize & 31].object;
-        if L::TEXTURED && view.may_be_quad(object) && self.turn_quad(view, word, i) {
-            return;
-        }
         let slot = &mut self.cache.slots[word][i as usize & 31];
         let Some(object) = view.objects.get(usize::from(slot.object)) else {
             return;
@@ -93,13 +89,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let way = Flags(slot.flags).way();
         let end = if way == Way::PLAIN {
             let [_, b, c] = object.corner;
-            let at = |i: u16| view.tables.vertices.get(usize::from(i)).map(|v| v.place);
+            let at = |i: u16| view.vertices.get(usize::from(i)).map(|v| v.place);
             let (Some(b), Some(c)) = (at(b), at(c)) else {
                 return;
             };
             end_line(slot.item.sides.turn_plain([b, c]))
         } else {
-            let Some(triangle) = view.triangle_of(slot.object) else {
+            let Some(triangle) = view.triangle(object) else {
                 return;
             };
             slot.item.sides.turn(&triangle, way);
@@ -113,10 +109,6 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// A slot whose side turns, or that ends, far down: asks its triangle for the line.
     #[inline(never)]
     pub(super) fn ask_change(&mut self, view: &View<'_>, word: usize, i: u32, turns: bool) {
-        let object = self.cache.slots[word][i as usize & 31].object;
-        if L::TEXTURED && view.may_be_quad(object) && self.ask_quad(view, word, i) {
-            return;
-        }
         let slot = &self.cache.slots[word][i as usize & 31];
         if let Some(triangle) = view.triangle_of(slot.object) {
             let lines = triangle.lines();
@@ -179,32 +171,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         object: &Object,
         line: u16,
     ) -> u32 {
-        if L::TEXTURED && view.may_be_quad(number) {
-            let quad = view.quad(number, object);
-            if quad.is_some() {
-                return self.take_in_quad(view, slot, number, quad, line);
-            }
-        }
-        let corners = view.corners(object, None);
-        self.take_in_by(view, slot, number, corners, |triangle, sides| {
-            triangle.enter(line, sides)
-        })
-    }
-
-    /// [`take_in`](Renderer::take_in) of what is entered so.
-    #[inline(always)]
-    pub(super) fn take_in_by(
-        &mut self,
-        view: &View<'_>,
-        slot: usize,
-        number: u16,
-        corners: Option<Triangle<'_>>,
-        enter: impl FnOnce(&Triangle<'_>, &mut Sides) -> Entry,
-    ) -> u32 {
-        let (Some(triangle), Some(kept)) = (corners, self.cache.slot(slot)) else {
+        let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot)) else {
             return 0;
         };
-        let entry = enter(&triangle, &mut kept.item.sides);
+        let entry = triangle.enter(line, &mut kept.item.sides);
         if entry.change() == 0 {
             return 0;
         }

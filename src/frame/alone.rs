@@ -7,7 +7,7 @@ use super::spans::{Drawn, Line, Span, colour};
 use super::thin::depth_plane;
 use crate::active::CacheUse;
 use crate::look::{Fill, Look, Primitive};
-use crate::span::{Size, Triangle, Way};
+use crate::span::{Triangle, Way};
 
 /// A triangle without a slot, set up for one line.
 pub(super) struct Alone<P> {
@@ -66,10 +66,7 @@ pub(super) fn set_up_stray<L: Look>(
 ) {
     let triangle = &stray.triangle;
     let area = triangle.area();
-    let size = match triangle.second {
-        Some(_) if L::TEXTURED => Size::Large,
-        _ => triangle.size(area),
-    };
+    let size = triangle.size(area);
     let of = Primitive {
         triangle,
         object: stray.object,

@@ -22,7 +22,7 @@ impl Surface {
         view: &View<'_>,
     ) -> Option<Self> {
         let triangle = view.triangle_of(object)?;
-        let of = alphas.of(triangle.object, view.tables.vertices);
+        let of = alphas.of(triangle.object, view.vertices);
         let ends = thin_span(&triangle, span, line);
         Some(Self(ends.line(
             of.map(|alpha| i64::from(alpha) << (Self::FRACTION - 8)),

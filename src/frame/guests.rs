@@ -148,7 +148,7 @@ fn colour_guest<L: Look>(
     out: &mut Line<'_, '_, L>,
 ) {
     let (object, span) = (rival.object, rival.span);
-    let Some(triangle) = out.view.figure_of(object, L::TEXTURED) else {
+    let Some(triangle) = out.view.triangle_of(object) else {
         return;
     };
     let stray = Stray {
@@ -199,20 +199,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn next_stray<'v>(
         &mut self,
         walk: &mut Walk,
-        out: &Line<'v, '_, L>,
+        out: &Line<'_, 'v, L>,
     ) -> Option<Stray<'v>> {
         let line = out.number as i32;
         while walk.at.is_some() {
             let object = walk.at.object();
-            let triangle = out.view.figure_of(object, L::TEXTURED)?;
-            let (end, after) = (triangle.end(L::TEXTURED), next(self.links, walk.at));
-            if end <= line {
+            let triangle = out.view.triangle_of(object)?;
+            let (lines, after) = (triangle.lines(), next(self.links, walk.at));
+            if lines.end <= line {
                 self.cache.relink(walk.before, after, self.links);
                 walk.at = after;
                 continue;
             }
             (walk.before, walk.at) = (walk.at, after);
-            let stray = Stray::on_line(triangle, object, out.number, L::TEXTURED);
+            let stray = Stray::on_line(triangle, object, out.number);
             if stray.is_some() {
                 return stray;
             }
@@ -273,7 +273,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     }
 }
 
-impl<'v, L: Look> Line<'v, '_, L> {
+impl<'v, L: Look> Line<'_, 'v, L> {
     /// What has no slot, by its number; `None` where it has no pixels on the line.
     #[inline(always)]
     pub(super) fn stray(&self, object: u16) -> Option<Stray<'v>> {
@@ -284,20 +284,15 @@ impl<'v, L: Look> Line<'v, '_, L> {
 impl<'v> Stray<'v> {
     /// [`Line::stray`]: one copy for lines of all words.
     #[inline(never)]
-    fn of(object: u16, view: &'v View<'v>, line: u32) -> Option<Self> {
-        Self::on_line(view.figure_of(object, true)?, object, line, true)
+    fn of(object: u16, view: &View<'v>, line: u32) -> Option<Self> {
+        Self::on_line(view.triangle_of(object)?, object, line)
     }
 
     #[inline(always)]
-    fn on_line(triangle: Triangle<'v>, object: u16, line: u32, quads: bool) -> Option<Self> {
-        let (start, end) = match triangle.fourth() {
-            Some(fourth) if quads => triangle.columns_of_quad(fourth, line),
-            _ => {
-                let way = triangle.way();
-                let sides = triangle.sides(way, line as i32, triangle.lines().turn);
-                sides.columns(way, line, triangle.frame)
-            }
-        };
+    fn on_line(triangle: Triangle<'v>, object: u16, line: u32) -> Option<Self> {
+        let way = triangle.way();
+        let sides = triangle.sides(way, line as i32, triangle.lines().turn);
+        let (start, end) = sides.columns(way, line, triangle.frame);
         let span = Span { start, end };
         (start < end).then_some(Self {
             triangle,
@@ -308,7 +303,7 @@ impl<'v> Stray<'v> {
 
     /// Whether the triangle has no pixels on this line and those to come.
     pub(super) fn has_ended<L: Look>(&self, out: &Line<'_, '_, L>) -> bool {
-        self.triangle.end(L::TEXTURED) <= out.number as i32
+        self.triangle.lines().end <= out.number as i32
     }
 
     /// As one of those that compete for columns.

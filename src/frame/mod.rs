@@ -4,7 +4,6 @@
 //! |---|---|
 //! | `renderer` | what draws lines: its memory, its errors |
 //! | `advance` | from line to line: which triangles begin, turn and end |
-//! | `quads` | of these, those of four corners |
 //! | `ahead` | triangles set up before their line comes |
 //! | `alone` | a triangle without a slot |
 //! | `line` | one line: who is seen, and its pixels |
@@ -49,7 +48,6 @@ mod pace;
 mod paced;
 mod palette;
 mod plan;
-mod quads;
 mod rank;
 mod relay;
 mod renderer;

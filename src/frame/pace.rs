@@ -91,7 +91,7 @@ impl Pace {
         most: u32::MAX,
         line: 1080,
         column: 4,
-        begin: 640,
+        begin: 620,
         large: 1400,
         turn: 130,
         span: 104,
@@ -104,7 +104,7 @@ impl Pace {
     /// The same in M0+ code.
     pub const GOURAUD_M0: Self = Self {
         line: 1350,
-        begin: 1110,
+        begin: 1100,
         large: 2700,
         turn: 240,
         span: 200,
@@ -117,7 +117,7 @@ impl Pace {
     };
     /// [`Textured`](crate::look::Textured) in M4 and M3 code, with texels that are not filtered; there is no limit.
     pub const TEXTURED_M4: Self = Self {
-        begin: 1750,
+        begin: 1700,
         large: 3050,
         run: 330,
         pixel: 14,
@@ -125,18 +125,17 @@ impl Pace {
     };
     /// The same in M0+ code.
     pub const TEXTURED_M0: Self = Self {
-        begin: 3530,
+        begin: 3500,
         large: 7700,
-        run: 760,
+        run: 700,
         pixel: 14,
         ..Self::GOURAUD_M0
     };
 
-    /// What it costs that a triangle begins, or a parallelogram.
-    #[inline(always)]
-    pub(super) fn of_begin(&self, triangle: &Triangle<'_>, is_quad: bool) -> u32 {
+    /// What it costs that a triangle begins.
+    pub(super) fn of_begin(&self, triangle: &Triangle<'_>) -> u32 {
         u32::from(match triangle.size(triangle.area()) {
-            Size::Tiny if !is_quad => self.begin,
+            Size::Tiny => self.begin,
             _ => self.large,
         })
     }

@@ -307,11 +307,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         leaves: u32,
         object: &Object,
     ) -> bool {
-        let Some(triangle) = view.figure(pacer.rest, object, L::TEXTURED) else {
+        let Some(triangle) = view.triangle(object) else {
             return false;
         };
         let (first, is_late) = (pacer.line - 1, pacer.line <= now);
-        if triangle.end(L::TEXTURED) <= i32::from(now) {
+        if triangle.lines().end <= i32::from(now) {
             let tells = pacer.pay(pacer.pace.span.into(), 0);
             pacer.paid.lost += u32::from(tells && is_late);
             return tells;
@@ -319,8 +319,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(slot) = self.cache.free_beside(&pacer.withheld) else {
             return false;
         };
-        let is_quad = L::TEXTURED && triangle.second.is_some();
-        if !pacer.pay(pacer.pace.of_begin(&triangle, is_quad), leaves) {
+        if !pacer.pay(pacer.pace.of_begin(&triangle), leaves) {
             return false;
         }
         let made = self.take_in(view, slot, pacer.rest, object, first.max(now));

@@ -8,7 +8,6 @@ use super::renderer::{Renderer, View};
 use super::spans::{Drawn, Line, colour_run, columns_of};
 use super::thin::MARGIN;
 use crate::look::Look;
-use crate::scene::range;
 use core::hint::black_box;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -61,22 +60,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let Some(slot) = self.cache.slots.as_flattened().get(self.number_at(k)) else {
                 return false;
             };
-            let Some(figure) = out.view.figure_of(slot.object, L::TEXTURED) else {
+            let Some(triangle) = out.view.triangle_of(slot.object) else {
                 return false;
             };
-            let [mut far, mut near] = range(figure.vertex.map(|v| v.depth));
-            if let Some(fourth) = figure.fourth().filter(|_| L::TEXTURED) {
-                let depth = fourth.vertex.depth;
-                (far, near) = (far.min(depth), near.max(depth));
-            }
+            let [a, b, c] = triangle.vertex.map(|v| v.depth);
             // Planes are raised by a margin, and err by less.
-            let limit = near + 2 * MARGIN;
+            let limit = a.max(b).max(c) + 2 * MARGIN;
             let meets = front < limit && !is_one_surface(out.view, before, slot.object);
             if farthest < limit || meets {
                 return false;
             }
             farthest = farthest.min(front);
-            (front, before) = (far, slot.object);
+            (front, before) = (a.min(b).min(c), slot.object);
         }
         true
     }

@@ -9,12 +9,11 @@ use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::link::Link;
 use crate::look::{Look, Place, WordOf};
-use crate::scene::{Content, DrawState, Draws, Master, Object, Scene};
-use crate::span::{Edge, Frame, Sides, Tables};
+use crate::scene::{Content, DrawState, Draws, Master, Object, Scene, TexturePlace, Vertex};
+use crate::span::{Edge, Frame, Sides, Triangle};
 use crate::stats::SpanCounts;
 use crate::visible::Mask;
 use core::fmt;
-use core::ops::Range;
 
 /// The object cache of a renderer: `32 WORDS` slots, best in the fastest memory there is, as a static.
 ///
@@ -401,7 +400,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 /// A scene as pass two reads it.
 #[derive(Clone, Debug)]
 pub struct View<'a> {
-    pub(super) tables: Tables<'a>,
+    pub(super) vertices: &'a [Vertex],
+    pub(super) places: &'a [TexturePlace],
     pub(super) objects: &'a [Object],
     pub(super) draws: Draws<'a>,
     pub(super) frame: Frame,
@@ -415,8 +415,6 @@ pub struct View<'a> {
     pub(super) ruled: bool,
     /// Whether the scene is drawn by priority.
     pub(super) ranked: bool,
-    /// From the first object of four corners to behind the last.
-    pub(super) quads: Range<u16>,
     /// Whether depths are compared, where there is memory for them.
     pub(super) deep: bool,
 }
@@ -426,10 +424,8 @@ impl<'a> View<'a> {
     pub(super) fn of<L>(scene: &'a Scene<'_, '_, L>) -> Self {
         let screen = scene.screen();
         Self {
-            tables: Tables {
-                vertices: scene.vertices.as_slice(),
-                places: scene.places,
-            },
+            vertices: scene.vertices.as_slice(),
+            places: scene.places,
             objects: scene.objects.as_slice(),
             draws: Draws::new(scene.draws.as_slice()),
             frame: Frame {
@@ -442,7 +438,6 @@ impl<'a> View<'a> {
             has_values: scene.has_values,
             ruled: scene.is_ruled,
             ranked: scene.is_ranked,
-            quads: scene.quads.clone(),
             deep: scene.master.has(Master::DEPTH) && !scene.is_ranked,
         }
     }
@@ -474,5 +469,24 @@ impl<'a> View<'a> {
     #[inline(always)]
     pub(super) fn dithers(&self, object: u16) -> bool {
         self.has_values && self.state(object).is_some_and(|state| state.dithers)
+    }
+
+    /// The corners of a triangle.
+    #[inline(always)]
+    pub(super) fn triangle(&self, object: &'a Object) -> Option<Triangle<'a>> {
+        let [a, b, c] = object.corner;
+        let at = |i: u16| self.vertices.get(usize::from(i));
+        Some(Triangle {
+            vertex: [at(a)?, at(b)?, at(c)?],
+            object,
+            places: self.places,
+            frame: self.frame,
+        })
+    }
+
+    /// The corners of a triangle by its number.
+    #[inline(always)]
+    pub(super) fn triangle_of(&self, object: u16) -> Option<Triangle<'a>> {
+        self.triangle(self.objects.get(usize::from(object))?)
     }
 }

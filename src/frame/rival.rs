@@ -108,7 +108,7 @@ impl Rival {
 /// The plane of depth of what is in a slot, from now on.
 #[inline(never)]
 fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
-    let triangle = view.figure_of(slot.object, L::TEXTURED);
+    let triangle = view.triangle_of(slot.object);
     let plane = triangle.and_then(|t| depth_plane(&t));
     slot.flags = Flags(slot.flags).with_depth(plane.is_none()).0;
     slot.item.depth = plane.unwrap_or_default();

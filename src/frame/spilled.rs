@@ -151,7 +151,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn spilled_stray<'v>(
         &self,
         spilled: Spilled,
-        out: &Line<'v, '_, L>,
+        out: &Line<'_, 'v, L>,
     ) -> Option<Stray<'v>> {
         let object = spilled.at.object();
         let Some(kept) = self.kept(spilled) else {
@@ -159,7 +159,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         let span = span_of(kept);
         (span.start < span.end).then_some(Stray {
-            triangle: out.view.figure_of(object, L::TEXTURED)?,
+            triangle: out.view.triangle_of(object)?,
             object,
             span,
         })

@@ -75,7 +75,7 @@ impl<P> Seen<'_, P> {
             return Some(rival_of::<L>(slot, self.span, out));
         }
         let stray = Stray {
-            triangle: out.view.figure_of(self.object, L::TEXTURED)?,
+            triangle: out.view.triangle_of(self.object)?,
             object: self.object,
             span: self.span,
         };

@@ -11,20 +11,30 @@
 
 use super::Place;
 use super::area::Area;
-pub use super::corner::{Corner, Corners};
 use super::fetch::{Uv, Way, copy, copy_exact, copy_wide};
 use super::perspective::{Homogeneous, Perspective, Within};
 use super::stride::{Range, Reach, Stride, reach};
 #[cfg(test)]
 use super::word_plane::Near;
-use crate::num::{few_leading_zeros, mul_high};
+use crate::num::{few_leading_zeros, leading_zeros_here, mul_high, mul_high_unsigned};
 pub(crate) use crate::scene::Method;
 #[cfg(test)]
 use crate::scene::TexturePlace;
-use crate::scene::{
-    Budget, SampledSpan, Sampling, Square, Stretch, Texture, Words, is_affine, range,
-};
+use crate::scene::{Budget, SampledSpan, Sampling, Square, Stretch, Texture, Words};
 use crate::span::Frame;
+
+/// A corner of a triangle; corners go clockwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Corner {
+    /// To the right of the centre of the picture's first pixel, 1/64 pixel, below 2^20 either way.
+    pub x: i32,
+    /// Down from there, likewise.
+    pub y: i32,
+    /// 1/w in any unit, 1 ..< 2^31.
+    pub depth: u32,
+    /// Place on the texture, to the right and down: texels with 14 fraction bits, modulo 2^18.
+    pub texel: [i32; 2],
+}
 
 /// What a triangle keeps of its texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,27 +84,36 @@ pub struct Values {
     pub of: [[i32; 3]; 3],
     /// On each axis, the least and the most of the places at the corners, as in [`Uv`].
     pub places: [[i32; 2]; 2],
-    /// In perspective, the least 1/w of all corners, as in the third plane.
-    least: i32,
+}
+
+/// Least and most of three numbers.
+#[inline(always)]
+fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+/// Whether u and v may be taken as linear on the screen: `width (max - min) <= 4 budget min`, of
+/// the depths, for a triangle of `width` on the texture, with 14 fraction bits. See [`perspective`](super::perspective).
+#[inline(always)]
+#[must_use]
+pub fn is_affine(width: u32, depth: [u32; 3], budget: Budget) -> bool {
+    let [least, most] = range(depth);
+    let up = leading_zeros_here(most) & 31;
+    // Both sides by 2^-21, the left one rounded up.
+    let off = mul_high_unsigned(width << 5, (most - least) << up);
+    let may = mul_high_unsigned(budget.for_curves() << 13, least << up);
+    most == least || off < may
 }
 
 impl Values {
-    /// The values of a triangle, or of a parallelogram that has it and a fourth corner; `None` where it is wider than
-    /// 4,096 texels, or a depth is not in 1 ..< 2^31.
+    /// The values of a triangle; `None` where it is wider than 4,096 texels, or a depth is not in
+    /// 1 ..< 2^31.
     #[inline(never)]
     #[must_use]
-    pub fn new(corners: &Corners, texture: &Texture<'_>, budget: Budget) -> Option<Self> {
-        let fourth = &corners.fourth;
-        let corners = &corners.three;
-        let mut stretch = Stretch::of(&corners.map(|c| c.texel))?;
+    pub fn new(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Self> {
+        let Stretch { ways, width } = Stretch::of(&corners.map(|c| c.texel))?;
         let depth = corners.map(|c| c.depth);
-        let [mut least, mut most] = range(depth);
-        if let Some(fourth) = fourth {
-            stretch = stretch.and(corners[0].texel, fourth.texel)?;
-            (least, most) = (least.min(fourth.depth), most.max(fourth.depth));
-        }
-        let Stretch { ways, width } = stretch;
-        let range = [least, most];
+        let [least, most] = range(depth);
         if least == 0 || most >> 31 != 0 {
             return None;
         }
@@ -117,14 +136,12 @@ impl Values {
             }
             places[axis] = [least, least + (high - low)].map(|e| e << 5);
         }
-        let mut least = 0;
-        let method = if is_affine(width, range, budget) {
+        let method = if is_affine(width, depth, budget) {
             Method::Wide
         } else {
             // The largest has 30 bits. Of the 19 fraction bits of a place 11 are left.
             let up = few_leading_zeros(most) & 31;
             let q = depth.map(|d| d << (up & 31) >> 2);
-            least = (range[0] << (up & 31) >> 2) as i32;
             for i in 0..3 {
                 let product = |value: i32| mul_high((q[i] << 1) as i32, value) << 1;
                 (of[0][i], of[1][i]) = (product(of[0][i]), product(of[1][i]));
@@ -137,7 +154,6 @@ impl Values {
             base,
             of,
             places,
-            least,
         })
     }
 
@@ -176,7 +192,7 @@ impl Values {
     /// How far exact places may be apart, from planes that are made.
     #[inline(always)]
     fn stride(&self, finer: u32, mapping: &mut Mapping, texture: &Texture<'_>, budget: Budget) {
-        let low = self.least.min(i32::MAX >> finer) << finer;
+        let low = range(self.of[2])[0].min(i32::MAX >> finer) << finer;
         let of = |axis: usize| {
             let [low, high] = self.places[axis];
             let step = mapping.planes[axis][1] as i32;
@@ -221,14 +237,7 @@ impl Mapping {
             mapping.planes[0] = plane;
             return Some(mapping);
         }
-        let values = Values::new(
-            &Corners {
-                three: *corners,
-                fourth: None,
-            },
-            texture,
-            budget,
-        )?;
+        let values = Values::new(corners, texture, budget)?;
         let frame = Frame {
             width: 320,
             height: 240,

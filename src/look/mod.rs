@@ -11,7 +11,6 @@
 //! | `phong`, `textured_phong` | normals linear between vertices, lit at each pixel; texels lit so |
 //! | `shaded` | pixels by a function of one's own, from parameters of vertices |
 //! | `ramp` | the loops over pixels that all looks share |
-//! | `corner` | corners as a mapping wants them |
 //! | `mapping` | texture coordinates of a triangle: affine or in perspective, and its planes |
 //! | `word_plane` | both coordinates of a small affine triangle in one word |
 //! | `fetch` | texels along a way that is linear on the texture |
@@ -28,7 +27,6 @@
 
 mod area;
 mod bent;
-mod corner;
 mod course;
 mod dither;
 mod fetch;

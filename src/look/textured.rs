@@ -15,7 +15,7 @@ use super::course::Course;
 use super::fetch::{copy_from, copy_part};
 use super::fields::is_even;
 use super::gouraud::{Planes as Shades, course, even_pair, thin_shades, wide_shades};
-use super::mapping::{Corners, Mapping, Method, Values, word_at};
+use super::mapping::{Corner, Mapping, Method, Values, word_at};
 use super::phong::Shine;
 use super::shades::{shade_at, shade_course, shade_planes, small_shade};
 use super::stride::Reach;
@@ -24,7 +24,7 @@ use super::word_plane::Near;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
-use crate::scene::{Budget, DrawState, Draws, Holes, Texture, Words};
+use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, Words};
 use crate::span::{Size, Triangle};
 use core::{marker::PhantomData, slice::from_mut};
 
@@ -128,6 +128,23 @@ fn even_shade(colour: u32, planes: &mut Shades) -> Option<Fill> {
 const SHADE_RUN: u32 = 64;
 
 impl<F: Texel> Textured<F> {
+    /// The corners as a mapping wants them: fine places from the centre of the picture's first pixel.
+    #[inline(always)]
+    fn corners(triangle: &Triangle<'_>) -> [Corner; 3] {
+        const FIRST: i32 = 64 * ORIGIN + 32;
+        let corner = |i: usize| {
+            let (vertex, texture) = (triangle.vertex[i], triangle.texture(i));
+            let fine = texture.fine();
+            Corner {
+                x: 8 * (vertex.place & 0xFFFF) as i32 + fine[0] - FIRST,
+                y: 8 * (vertex.place >> 16) as i32 + fine[1] - FIRST,
+                depth: vertex.depth.clamp(1, i32::MAX as u32),
+                texel: texture.texel(),
+            }
+        };
+        [corner(0), corner(1), corner(2)]
+    }
+
     /// Planes of the shade: how they are evaluated; `None` in full light.
     #[inline(always)]
     fn set_up_shade(
@@ -184,26 +201,6 @@ impl<F: Texel> Textured<F> {
         }
     }
 
-    /// A parallelogram: its corners have one colour, and it is neither thin nor small and affine.
-    #[inline(never)]
-    fn set_up_quad(
-        triangle: &Triangle<'_>,
-        object: u16,
-        draws: &Draws<'_>,
-        planes: &mut Planes,
-    ) -> Fill {
-        planes.draw = draws.number_of(object);
-        planes.shaded = even_shade(triangle.vertex[0].colour, &mut planes.shade);
-        planes.mapped = false;
-        planes.mapping.quick = 0;
-        planes.mapping.reach = Reach::NONE;
-        let state = draws.states.get(usize::from(planes.draw));
-        if let Some((texture, budget)) = state.and_then(DrawState::texture) {
-            Self::set_up_mapping(triangle, texture, budget, planes);
-        }
-        Fill::Wide
-    }
-
     /// The mapping of a triangle that [`Near`] does not serve at once; whether the triangle is too thin for planes.
     #[inline(never)]
     fn set_up_mapping(
@@ -212,8 +209,7 @@ impl<F: Texel> Textured<F> {
         budget: Budget,
         planes: &mut Planes,
     ) -> bool {
-        let sampling = texture.sampling().filter(|_| triangle.second.is_none());
-        let word = sampling.and_then(|sampling| sampling.word);
+        let word = texture.sampling().and_then(|sampling| sampling.word);
         let leveled =
             word.and_then(|of| of(triangle.vertex, &triangle.textures(), texture, budget));
         if let Some([at, right, below, level]) = leveled {
@@ -223,12 +219,12 @@ impl<F: Texel> Textured<F> {
             planes.mapped = true;
             return false;
         }
-        let corners = Corners::of(triangle);
+        let corners = Self::corners(triangle);
         let Some(values) = Values::new(&corners, texture, budget) else {
             return false;
         };
         planes.mapped = values.planes(
-            &corners.three,
+            &corners,
             triangle.frame,
             texture,
             budget,
@@ -376,9 +372,6 @@ impl<F: Texel> Look for Textured<F> {
 
     #[inline(always)]
     fn set_up(of: &Primitive<'_>, planes: &mut Planes) -> Fill {
-        if of.triangle.second.is_some() {
-            return Self::set_up_quad(of.triangle, of.object, of.draws, planes);
-        }
         Self::set_up_all(of.triangle, of.object, of.size, of.area, of.draws, planes)
     }
 
@@ -390,7 +383,7 @@ impl<F: Texel> Look for Textured<F> {
         let Some((texture, budget)) = state.and_then(DrawState::texture) else {
             return;
         };
-        let Some(values) = Values::new(&Corners::of(span.triangle), texture, budget) else {
+        let Some(values) = Values::new(&Self::corners(span.triangle), texture, budget) else {
             return;
         };
         planes.mapping.method = values.method;

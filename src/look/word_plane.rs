@@ -5,9 +5,10 @@
 
 #[cfg(test)]
 use super::mapping::Corner;
+use super::mapping::is_affine;
 use super::sampling::level_of;
 use crate::num::{leading_zeros_here, mul_16, recip_16};
-use crate::scene::{Budget, ORIGIN, Texture, TexturePlace, Vertex, Wrap, is_affine, range};
+use crate::scene::{Budget, ORIGIN, Texture, TexturePlace, Vertex, Wrap};
 use crate::span::{across, down};
 
 /// What [`Method::Word`](super::mapping::Method::Word) asks of a triangle: corners as differences from the first one's, which is kept whole.
@@ -83,7 +84,7 @@ impl<'a> Near<'a> {
         // Two pixels; on thinner ones steps grow.
         if area < 4 << 12
             || width >= 128 << 8
-            || !is_affine(width << TexturePlace::FINER, range(self.depth), budget)
+            || !is_affine(width << TexturePlace::FINER, self.depth, budget)
             || texture.wrap() != Wrap::Repeat && !lies_inside(self.texture, texture)
         {
             return None;

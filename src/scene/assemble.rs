@@ -52,16 +52,11 @@ impl<'t, L> Scene<'_, 't, L> {
         let is_flat = draw.shading == Shading::Flat && !self.is_plain(draw);
         let is_volume = draw.is_volume();
         let file = |scene: &mut Self, pass: &mut Pass<'_>| {
-            let first = scene.objects.len();
             scene.share(mesh, moved, pass);
-            if is_volume {
-                return scene.file_volume(mesh, pass);
+            match is_volume {
+                true => scene.file_volume(mesh, pass),
+                false => scene.file(is_flat, mesh, pass),
             }
-            scene.file(is_flat, mesh, pass)?;
-            if textured && !is_flat {
-                scene.join_quads(mesh, pass, first);
-            }
-            Ok(())
         };
         self.assemble_by(draw, textured, word_of, triangles(mesh.faces), file)
     }

@@ -1,7 +1,5 @@
 //! How exact a texture is drawn (X2).
 
-use crate::num::{leading_zeros_here, mul_high_unsigned};
-
 /// How far a texel may be from its place, in texels with 8 fraction bits: 0 to 256 texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Budget(u16);
@@ -50,25 +48,6 @@ impl Budget {
             self.texels()
         }
     }
-}
-
-/// Whether u and v may be taken as linear on the screen: `width (most - least) <= 4 budget least`, of
-/// the least and the most of the depths, for a figure of `width` on the texture, with 14 fraction bits. See
-/// [`perspective`](crate::look).
-#[inline(always)]
-#[must_use]
-pub fn is_affine(width: u32, [least, most]: [u32; 2], budget: Budget) -> bool {
-    let up = leading_zeros_here(most) & 31;
-    // Both sides by 2^-21, the left one rounded up.
-    let off = mul_high_unsigned(width << 5, (most - least) << up);
-    let may = mul_high_unsigned(budget.for_curves() << 13, least << up);
-    most == least || off < may
-}
-
-/// Least and most of three numbers.
-#[inline(always)]
-pub(crate) fn range<T: Ord + Copy>([a, b, c]: [T; 3]) -> [T; 2] {
-    [a.min(b).min(c), a.max(b).max(c)]
 }
 
 /// What fixed point may add between exact places, in texels with 8 fraction bits: 1/16 texel.

@@ -7,7 +7,6 @@
 //! | `project` | vertices to the screen |
 //! | `assemble` | meshes into triangles under their first lines |
 //! | `meshlets` | meshes in parts, of which what is turned away is left out |
-//! | `quads` | pairs of these that are one parallelogram |
 //! | `own` | triangles with vertices of their own |
 //! | `check` | what is wrong with a draw call |
 //! | `pass` | a draw call while its faces are filed: its view and its lights |
@@ -52,7 +51,6 @@ mod meshlets;
 mod own;
 mod pass;
 mod project;
-mod quads;
 mod read;
 mod record;
 mod sampling;
@@ -72,7 +70,6 @@ pub use blend::{Blend, BlendMode, Factor};
 pub use block::Blocked;
 pub use block_cache::{BlockCache, CacheError, CacheReads, CacheWord};
 pub use budget::Budget;
-pub(crate) use budget::{is_affine, range};
 pub use compressed::Compressed;
 pub use computed::{Checker, Gradient, TexelWay, Texels};
 pub use depth::{DepthFunction, DepthTest};
@@ -193,8 +190,6 @@ pub struct Scene<'m, 't, L> {
     pub(crate) is_ranked: bool,
     /// Whether a draw call has to do with shadows.
     pub(crate) has_shadows: bool,
-    /// The numbers from the first parallelogram to behind the last.
-    pub(crate) quads: Range<u16>,
     /// What draw calls have to do without.
     pub(crate) master: Master,
     pub(crate) assembled: Assembled,
@@ -220,7 +215,6 @@ impl<'m, 't, L> Scene<'m, 't, L> {
             is_ruled: false,
             is_ranked: false,
             has_shadows: false,
-            quads: 0..0,
             master: Master::ALL,
             assembled: Assembled::default(),
             generation: 0,
@@ -274,7 +268,6 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.is_ruled = false;
         self.is_ranked = false;
         self.has_shadows = false;
-        self.quads = 0..0;
         self.assembled = Assembled::default();
         self.generation = self.generation.wrapping_add(1);
         Ok(())

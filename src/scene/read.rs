@@ -1,6 +1,6 @@
 //! What pass one has filed, as anyone may read it: a model of other hardware, a tool, a proof.
 
-use super::record::{ORIGIN, TexturePlace, Vertex};
+use super::record::{ORIGIN, Object, TexturePlace, Vertex};
 use super::{DrawState, Scene};
 use crate::geometry::Colour;
 use core::ops::Range;
@@ -103,11 +103,11 @@ impl<'t, L> Scene<'_, 't, L> {
     pub fn triangles(&self) -> impl DoubleEndedIterator<Item = FiledTriangle> + ExactSizeIterator {
         let (vertices, draws) = (self.vertices.as_slice(), self.draws.as_slice());
         let objects = self.objects.as_slice().iter().enumerate();
-        objects.map(move |(number, object)| {
+        objects.map(move |(number, Object { corner, .. })| {
             let after = draws.partition_point(|draw| usize::from(draw.first) <= number);
             let call = after.saturating_sub(1);
             let state = draws.get(call).unwrap_or(&DrawState::EMPTY);
-            let corners = self.corners_of(number, object).map(|vertex| {
+            let corners = corner.map(|vertex| {
                 let at = usize::from(vertex);
                 let vertex = vertices.get(at).unwrap_or(&Vertex::EMPTY);
                 let place = self.places.get(at).filter(|_| state.texture.is_some());

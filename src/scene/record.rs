@@ -134,22 +134,6 @@ impl Stretch {
         }
         (width <= 4096 << 14).then_some(Self { ways, width })
     }
-
-    /// The same with a fourth place; the first corner's is told again.
-    #[inline(never)]
-    pub(crate) fn and(self, first: [i32; 2], fourth: [i32; 2]) -> Option<Self> {
-        let Self {
-            mut ways,
-            mut width,
-        } = self;
-        for axis in 0..2 {
-            let way = fourth[axis].wrapping_sub(first[axis]);
-            let [low, high] = [ways[axis][0].min(way), ways[axis][1].max(way)];
-            ways[axis] = [low, high];
-            width = width.max(high.wrapping_sub(low) as u32);
-        }
-        (width <= 4096 << 14).then_some(Self { ways, width })
-    }
 }
 
 /// The first line whose centre lies at or below a place, in guard space.
@@ -164,8 +148,7 @@ pub(crate) fn first_line(place: u32) -> i32 {
 pub struct Object {
     /// Vertices, the topmost first (of two the left one), clockwise on the screen.
     pub(crate) corner: [u16; 3],
-    /// The triangle that was filed under the same line before this one, or [`NONE`]; its own number in a
-    /// [second](Object::second) record, which is filed under none.
+    /// The triangle that was filed under the same line before this one, or [`NONE`].
     pub(crate) next: u16,
 }
 
@@ -175,28 +158,6 @@ impl Object {
         corner: [0; 3],
         next: 0,
     };
-
-    /// The second record of a parallelogram, of its number.
-    pub(crate) fn second(number: u16, fourth: u16, owner: u16, behind: u16) -> Self {
-        Self {
-            corner: [fourth, owner, behind],
-            next: number,
-        }
-    }
-
-    /// Of the second record of a parallelogram, by its own number, the number of the first, which has three corners: just
-    /// before it or behind.
-    #[inline(always)]
-    pub(crate) fn owner(&self, number: u16) -> Option<u16> {
-        (self.next == number).then_some(self.corner[1])
-    }
-
-    /// Of such a record the fourth corner, and that behind which it comes clockwise.
-    #[inline(always)]
-    pub(crate) fn fourth(&self) -> [u16; 2] {
-        let [fourth, _, behind] = self.corner;
-        [fourth, behind]
-    }
 }
 
 /// The end of a chain of objects.

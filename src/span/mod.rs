@@ -5,18 +5,13 @@
 //! | `edge` | the sides of a triangle on a line |
 //! | `plane` | planes of small triangles |
 //! | `triangle` | how large a triangle is, and what follows from it |
-//! | `quad` | the sides of a parallelogram |
 
 mod edge;
 mod plane;
-mod quad;
-#[cfg(test)]
-mod tests;
 mod triangle;
 
 pub use edge::{Edge, Frame};
 pub(crate) use edge::{across, down};
 pub use plane::{Rise, Shares};
-pub(crate) use quad::Walked;
 pub(crate) use triangle::end_line;
-pub use triangle::{Entry, Sides, Size, Tables, Triangle, Way};
+pub use triangle::{Sides, Size, Triangle, Way};

@@ -9,19 +9,10 @@ use crate::scene::{ORIGIN, Object, TexturePlace, Vertex, first_line};
 #[derive(Clone, Copy, Debug)]
 pub struct Triangle<'a> {
     pub(crate) vertex: [&'a Vertex; 3],
-    /// The numbers of the corners.
+    /// The numbers of the corners, and the texture places of all vertices: looked up where a look asks.
     pub(crate) object: &'a Object,
-    /// Where there is one, it is a parallelogram, and has the planes and the area of three of its corners.
-    pub(crate) second: Option<&'a Object>,
-    pub(crate) tables: &'a Tables<'a>,
-    pub(crate) frame: Frame,
-}
-
-/// All vertices, and their texture places: looked up where a look asks.
-#[derive(Clone, Copy, Debug)]
-pub struct Tables<'a> {
-    pub(crate) vertices: &'a [Vertex],
     pub(crate) places: &'a [TexturePlace],
+    pub(crate) frame: Frame,
 }
 
 /// The way of evaluating planes, from the cheapest on.
@@ -61,19 +52,8 @@ impl Way {
     pub(crate) const INDIRECT: u8 = Self::CROSSES | Kind::Divided as u8;
     const CROSSES: u8 = 4;
 
-    pub(super) const fn new(kind: Kind, crosses: bool) -> Self {
+    const fn new(kind: Kind, crosses: bool) -> Self {
         Self(kind as u8 | if crosses { Self::CROSSES } else { 0 })
-    }
-
-    /// Of sides of a kind within columns, in units of 1/8 pixel.
-    #[inline(always)]
-    pub(super) fn within(kind: Kind, low: i32, high: i32, frame: Frame) -> Self {
-        let crosses = low < 8 * ORIGIN || high > 8 * (ORIGIN + frame.width);
-        let wide = 8 * frame.wide_left();
-        if crosses && (low < wide || high >= wide + 8 * 1023) {
-            return Self::new(Kind::Divided, crosses);
-        }
-        Self::new(kind, crosses)
     }
 
     #[inline(always)]
@@ -108,17 +88,7 @@ pub struct Entry {
 }
 
 impl Entry {
-    pub(super) const TURNS: u32 = 1 << 31;
-
-    /// Of what has pixels; a change where a side turns with a bit more.
-    #[inline(always)]
-    pub(super) fn new(area: u32, size: Size, way: Way, change: u32) -> Self {
-        let bits = size as u32 | u32::from(way.0) << 8 | change << 16;
-        Self { area, bits }
-    }
-
-    /// Of what has none.
-    pub(crate) const NONE: Self = Self { area: 0, bits: 0 };
+    const TURNS: u32 = 1 << 31;
 
     #[inline(always)]
     pub(crate) fn size(self) -> Size {
@@ -167,7 +137,7 @@ impl Triangle<'_> {
     #[inline(always)]
     pub(crate) fn texture(&self, corner: usize) -> TexturePlace {
         let number = usize::from(self.object.corner[corner]);
-        self.tables.places.get(number).copied().unwrap_or_default()
+        self.places.get(number).copied().unwrap_or_default()
     }
 
     /// Where the corners lie on their texture.
@@ -235,16 +205,7 @@ impl Triangle<'_> {
         Shares::new(area, self.places())
     }
 
-    /// The line after the last; `quads` where it may be a parallelogram.
-    #[inline(always)]
-    pub(crate) fn end(&self, quads: bool) -> i32 {
-        match self.fourth() {
-            Some(fourth) if quads => self.end_of_quad(fourth),
-            _ => self.lines().end,
-        }
-    }
-
-    /// The turn and the end of three corners.
+    /// The turn and the end.
     #[inline(always)]
     pub(crate) fn lines(&self) -> Lines {
         let (b, c) = (self.place(1), self.place(2));
@@ -284,16 +245,17 @@ impl Triangle<'_> {
         let mut change = lines.end as u32;
         if line >= lines.turn {
             if lines.end <= line {
-                return Entry::NONE;
+                return Entry { area: 0, bits: 0 };
             }
             self.turn_sides(way, sides);
             if lines.end == line + 1 && way == Way::PLAIN && sides.is_empty(line as u32) {
-                return Entry::NONE;
+                return Entry { area: 0, bits: 0 };
             }
         } else if lines.turn < lines.end {
             change = lines.turn as u32 | Entry::TURNS >> 16;
         }
-        Entry::new(area, size, way, change)
+        let bits = size as u32 | u32::from(way.0) << 8 | change << 16;
+        Entry { area, bits }
     }
 
     #[inline(always)]
@@ -381,11 +343,17 @@ impl Triangle<'_> {
         let frame = self.frame;
         let x = self.places().map(|p| (p & 0xFFFF) as i32);
         let (low, high) = (x[0].min(x[1]).min(x[2]), x[0].max(x[1]).max(x[2]));
-        Way::within(self.kind(), low, high, frame)
+        let kind = self.kind();
+        let crosses = low < 8 * ORIGIN || high > 8 * (ORIGIN + frame.width);
+        let wide = 8 * frame.wide_left();
+        if crosses && (low < wide || high >= wide + 8 * 1023) {
+            return Way::new(Kind::Divided, crosses);
+        }
+        Way::new(kind, crosses)
     }
 
     #[inline(always)]
-    pub(super) fn origin(&self, way: Way) -> i32 {
+    fn origin(&self, way: Way) -> i32 {
         if way.crosses() {
             self.frame.wide_left()
         } else {
@@ -475,5 +443,58 @@ impl Sides {
             column.min(frame.width).max(0) as u32
         };
         (of(self.left), of(self.right))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::NONE;
+
+    /// The size of a triangle with its first corner at the picture's first pixel, and the others so far from there.
+    fn size(to: [[u32; 2]; 2]) -> Size {
+        let first = 8 * ORIGIN as u32;
+        let vertices = [[0; 2], to[0], to[1]].map(|[x, y]| Vertex {
+            place: (first + y) << 16 | (first + x),
+            depth: 0,
+            colour: 0,
+        });
+        let triangle = Triangle {
+            vertex: [&vertices[0], &vertices[1], &vertices[2]],
+            object: &Object {
+                corner: [0, 1, 2],
+                next: NONE,
+            },
+            places: &[],
+            frame: Frame {
+                width: 320,
+                height: 240,
+            },
+        };
+        triangle.size(triangle.area())
+    }
+
+    /// Kills: other limits of an area, of the way to a corner, and of sides.
+    #[test]
+    fn sizes_end_where_they_say() {
+        for (to, want) in [
+            ([[223, 0], [0, 2]], Size::Tiny),
+            ([[224, 0], [0, 2]], Size::Thin),
+            ([[220, 1], [184, 2]], Size::Tiny),
+            ([[220, 1], [185, 2]], Size::Thin),
+            ([[199, 0], [0, 1]], Size::Tiny),
+            ([[200, 0], [0, 1]], Size::Thin),
+            ([[128, 0], [0, 1]], Size::Tiny),
+            ([[127, 0], [0, 1]], Size::Sharp),
+            ([[32, 0], [0, 1]], Size::Sharp),
+            ([[31, 0], [0, 1]], Size::Thin),
+            ([[256, 0], [0, 4]], Size::Small),
+            ([[341, 0], [0, 3]], Size::Thin),
+            ([[511, 0], [0, 8]], Size::Small),
+            ([[512, 0], [0, 8]], Size::Large),
+            ([[0, 512], [8, 512]], Size::Large),
+        ] {
+            assert_eq!(size(to), want, "{to:?}");
+        }
     }
 }

@@ -33,11 +33,11 @@ pub const PACED: [Paced; 8] = [
     Paced::new("teapot_paced", Suite::Teapot, TEAPOT_EYE, 30_000),
     Paced::new("inside_paced", Suite::Inside, INSIDE_EYE, 40_000),
     Paced::new("b_paced", Suite::B, B_EYE, 30_000),
-    Paced::new("f_paced", Suite::F, F_EYE, 25_000),
+    Paced::new("f_paced", Suite::F, F_EYE, 30_000),
     Paced::new("teapot_paced_m0", Suite::Teapot, TEAPOT_EYE, 50_000).in_m0_code(),
     Paced::new("inside_paced_m0", Suite::Inside, INSIDE_EYE, 65_000).in_m0_code(),
     Paced::new("b_paced_m0", Suite::B, B_EYE, 50_000).in_m0_code(),
-    Paced::new("f_paced_m0", Suite::F, F_EYE, 42_000).in_m0_code(),
+    Paced::new("f_paced_m0", Suite::F, F_EYE, 50_000).in_m0_code(),
 ];
 
 impl Paced {

@@ -4,7 +4,7 @@ use super::triangles::{FRAME, OBJECT, set_up, state_of};
 use crate::look::{Fill, Look, Textured};
 use crate::pixel::Rgb565;
 use crate::scene::{Budget, Draws, ORIGIN, Texture, TexturePlace, Vertex};
-use crate::span::{Tables, Triangle};
+use crate::span::Triangle;
 use std::vec::Vec;
 
 type Lit = Textured<Rgb565>;
@@ -32,11 +32,7 @@ fn lit(
     let triangle = Triangle {
         vertex: [&vertices[0], &vertices[1], &vertices[2]],
         object: &OBJECT,
-        second: None,
-        tables: &Tables {
-            vertices: &[],
-            places: &places,
-        },
+        places: &places,
         frame: FRAME,
     };
     let states = [state_of(Some(texture), Budget::FAST)];

@@ -9,7 +9,7 @@ use super::{FRACTION, Texels, Uv, WRAPS, draw_mapped, some_texture};
 use crate::num::random::Rng;
 use crate::pixel::{Rgb565, Rgb565Be, Rgb888};
 use crate::scene::{Budget, Draws, ORIGIN, Texture, TexturePlace, Vertex};
-use crate::span::{Tables, Triangle};
+use crate::span::Triangle;
 use std::vec::Vec;
 
 const BUDGETS: [Budget; 4] = [
@@ -143,11 +143,7 @@ fn spans_of<L: Look>(texture: Option<&Texture<'_>>, seed: u64) -> [u32; 4] {
         let triangle = Triangle {
             vertex: [&vertices[0], &vertices[1], &vertices[2]],
             object: &OBJECT,
-            second: None,
-            tables: &Tables {
-                vertices: &[],
-                places: &places,
-            },
+            places: &places,
             frame: FRAME,
         };
         let states = [state_of(texture, BUDGETS[i % 7 % 4])];

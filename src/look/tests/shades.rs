@@ -6,17 +6,13 @@ use crate::look::{Fill, Gouraud, Look, Place, Textured};
 use crate::num::random::Rng;
 use crate::pixel::{PixelFormat, Rgb888, Xrgb8888};
 use crate::scene::{Budget, Draws, ORIGIN, Vertex};
-use crate::span::{Size, Tables, Triangle};
+use crate::span::{Size, Triangle};
 
 fn triangle_of(vertices: &[Vertex; 3]) -> Triangle<'_> {
     Triangle {
         vertex: vertices.each_ref(),
         object: &OBJECT,
-        second: None,
-        tables: &Tables {
-            vertices: &[],
-            places: &[],
-        },
+        places: &[],
         frame: FRAME,
     }
 }

@@ -1,24 +1,13 @@
 //! Whole triangles: their texels against exact perspective, and what is refused.
 
-use super::super::mapping::{Corner, Corners, Mapping, Method, Values, texels_of};
+use super::super::mapping::{Corner, Mapping, Method, Values, is_affine, texels_of};
 use super::{WRAPS, coordinates, draw_mapped, off};
 use crate::geometry::{Faces, Mesh};
 use crate::look::{Fill, Look, Place, Primitive};
 use crate::num::random::Rng;
-use crate::scene::{
-    Budget, Draw, DrawState, Draws, Master, NONE, Object, Skin, Texture, Wrap, is_affine, range,
-};
+use crate::scene::{Budget, Draw, DrawState, Draws, Master, NONE, Object, Skin, Texture, Wrap};
 use crate::span::{Frame, Triangle};
 use std::vec::Vec;
-
-/// The values of a triangle.
-fn values_of(corners: &[Corner; 3], texture: &Texture<'_>, budget: Budget) -> Option<Values> {
-    let corners = Corners {
-        three: *corners,
-        fourth: None,
-    };
-    Values::new(&corners, texture, budget)
-}
 
 /// A triangle of so many pixels each way, and so many texels, clockwise, at random.
 pub(super) fn some_triangle(rng: &mut Rng, pixels: f64, texels: f64) -> Option<[Corner; 3]> {
@@ -273,7 +262,7 @@ fn what_is_wider_than_4096_texels_or_has_no_depth_is_refused() {
             corner(0, 6400, far),
         ]
     };
-    let values = |c: &[Corner; 3]| values_of(c, &texture, Budget::FAST);
+    let values = |c: &[Corner; 3]| Values::new(c, &texture, Budget::FAST);
     let most = 4096 << 14;
     for way in [most - 1, most, -most] {
         let [a, b, _] = values(&of(way)).unwrap().of[0];
@@ -317,7 +306,7 @@ fn corners_share_an_exponent() {
             depth: (0.999 * 2f64.powi(31 - far as i32) / (1.0 + (ratio - 1.0) * rng.unit())) as u32,
             texel: [base + rng.unit() * wide, rng.unit() * 50.0].map(|t| (t * 16_384.0) as i32),
         });
-        let Some(values) = values_of(&corners, &texture, Budget::EXACT) else {
+        let Some(values) = Values::new(&corners, &texture, Budget::EXACT) else {
             panic!("{corners:?}");
         };
         if values.method != Method::Perspective {
@@ -369,7 +358,7 @@ fn affine_is_what_the_bound_allows() {
         let budget = Budget::new([32, 64, 128, 40_000][(width / 64 % 4) as usize]);
         let is = f64::from(width) / 64.0 * (f64::from(depth[2].max(most)) - least);
         let may = 4.0 * f64::from(budget.for_curves()) * least;
-        let got = is_affine(width, range(depth), budget);
+        let got = is_affine(width, depth, budget);
         assert!(is <= may || !got, "{width} {depth:?}");
         doubt += u32::from(is <= may && !got);
         yes += u32::from(got);
