@@ -13,7 +13,8 @@ use scanbeam::frame::{FastMemory, Memory as LineMemory, Renderer};
 use scanbeam::look::Textured;
 use scanbeam::pixel::{PixelFormat, Rgb565};
 use scanbeam::scene::{
-    Budget, Draw, DrawState, Memory, Object, Scene, Skin, Texture, TexturePlace, Vertex,
+    Blend, Budget, DepthFunction, DepthTest, Draw, DrawState, Memory, Object, Scene, Skin, Texture,
+    TexturePlace, Vertex,
 };
 use scanbeam::{Affine, Camera, Cull, Faces, Light, Link, Mesh, Screen};
 use scenes::{CUBE, PLACES_F};
@@ -333,6 +334,86 @@ fn textured_pictures_do_not_depend_on_cache_or_order() {
                 assert!(picture(budget, slots, light, &down()) == whole, "{slots}");
             }
             assert!(picture(budget, 64, light, &jumbled) == whole);
+        }
+    }
+}
+
+/// Pixels of a textured square in perspective that show it once, and that show it twice: it is drawn again, added where
+/// its depth is equal, with corners of these colours.
+fn drawn_twice(eye: [f32; 3], budget: Budget, colours: &[[u8; 3]; 4]) -> [usize; 2] {
+    const ONCE: u16 = 0x2104;
+    const POSITIONS: [[i16; 3]; 4] = [
+        [-8_000, -8_000, 0],
+        [8_000, -8_000, 0],
+        [8_000, 8_000, 0],
+        [-8_000, 8_000, 0],
+    ];
+    const PLACES: [[i32; 2]; 4] = [[0, 64 << 8], [64 << 8; 2], [64 << 8, 0], [0; 2]];
+    let words = vec![ONCE; (SIDE * SIDE) as usize];
+    let texture = Texture::words(&words, SIDE, SIDE).unwrap();
+    let (mut vertices, mut places) = ([Vertex::EMPTY; 8], [TexturePlace::EMPTY; 8]);
+    let (mut objects, mut bins) = ([Object::EMPTY; 4], [0; HEIGHT]);
+    let mut draws = [DrawState::EMPTY; 2];
+    let memory = Memory {
+        vertices: &mut vertices,
+        places: &mut places,
+        objects: &mut objects,
+        bins: &mut bins,
+        draws: &mut draws,
+    };
+    let mut scene = Scene::<Textured<Rgb565>>::new(Screen::new(320, 240).unwrap(), memory);
+    let camera = Camera::look_at(eye, [0.0; 3], [0.0, 1.0, 0.0], 320.0, 0.1, 100.0);
+    scene.begin(&camera.unwrap()).unwrap();
+    let skin = Skin {
+        texture: &texture,
+        places: &PLACES,
+        budget,
+    };
+    let square = |colours| Draw {
+        texture: Some(skin),
+        ..Draw::new(Mesh {
+            positions: &POSITIONS,
+            normals: &[],
+            colours,
+            faces: Faces::Triangles(&[[0, 1, 2], [0, 2, 3]]),
+        })
+    };
+    scene.draw(&square(&[])).unwrap();
+    let again = Draw {
+        depth: DepthTest::new(DepthFunction::EQUAL).without_write(),
+        blend: Some(Blend::add(255)),
+        ..square(colours)
+    };
+    scene.draw(&again).unwrap();
+    let mut cache = Box::new(FastMemory::<Textured<Rgb565>>::new());
+    let (mut links, mut depth) = ([Link::NONE; 4], [0; WIDTH]);
+    let mut renderer = Renderer::new(LineMemory {
+        cache: &mut cache,
+        links: &mut links,
+        depth: &mut depth,
+    });
+    let (mut pixels, mut counts) = ([0; WIDTH], [0; 2]);
+    for line in down() {
+        let drawn = renderer.draw_line(&scene, line, &mut pixels, BACKGROUND);
+        drawn.unwrap();
+        for &pixel in pixels.iter().filter(|&&pixel| pixel != BACKGROUND) {
+            counts[usize::from(pixel != ONCE)] += 1;
+        }
+    }
+    counts
+}
+
+/// Kills: two triangles that share a plane of depth where they are drawn in one way, and not where in another.
+#[test]
+fn a_surface_that_is_drawn_again_is_as_far_everywhere() {
+    let uneven = [[255; 3], [255; 3], [255; 3], [200, 255, 255]];
+    for budget in [Budget::FAST, Budget::BALANCED, Budget::EXACT] {
+        for eye in [[0.7, 0.5, 1.8], [-0.9, 0.6, 1.5], [0.2, 1.3, 1.4]] {
+            for colours in [[[255; 3]; 4], uneven] {
+                let [once, twice] = drawn_twice(eye, budget, &colours);
+                assert_eq!(once, 0, "{budget:?} {eye:?} {colours:?}");
+                assert!(twice > 20_000, "{twice}");
+            }
         }
     }
 }
