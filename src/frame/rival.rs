@@ -61,8 +61,8 @@ impl Slope {
 
 impl Rival {
     /// Whether this is seen in a column that both have, and not the other.
-    fn hides(self, other: Self, column: u32) -> bool {
-        let of = |rival: Self| (rival.slope.at(column), rival.object);
+    fn hides(&self, other: &Self, column: u32) -> bool {
+        let of = |rival: &Self| (rival.slope.at(column), rival.object);
         of(self) > of(other)
     }
 
@@ -83,9 +83,23 @@ impl Rival {
         }
         let start = self.span.start.max(other.span.start);
         let end = self.span.end.min(other.span.end);
+        let (first, turned) = self.turn(&other, Span { start, end });
+        let hidden = if first {
+            Span { start, end: turned }
+        } else {
+            Span { start: turned, end }
+        };
+        (hidden.start < hidden.end).then_some(hidden)
+    }
+
+    /// Whether this is seen in the first of some columns that both have, and the one from which on it is not so, or
+    /// the end.
+    #[inline(always)]
+    pub(super) fn turn(&self, other: &Self, columns: Span) -> (bool, u32) {
+        let Span { start, end } = columns;
         let first = self.hides(other, start);
         if first == self.hides(other, end - 1) {
-            return first.then_some(Span { start, end });
+            return (first, end);
         }
         // From `same` on it is as in the first column, from `turned` on as in the last.
         let (mut same, mut turned) = (start, end - 1);
@@ -97,11 +111,7 @@ impl Rival {
                 turned = middle;
             }
         }
-        Some(if first {
-            Span { start, end: turned }
-        } else {
-            Span { start: turned, end }
-        })
+        (first, turned)
     }
 }
 

@@ -1,25 +1,27 @@
 //! Spans that what is behind shines through: from far to near, pixel by pixel, any number of them (K11, H9).
 //!
-//! They are drawn after all that is opaque. The panes of a line are gathered into a pile, and drawn by stretches of at
-//! most 32 columns: those of a stretch are put into one order if they have one on all of it, by their depths at both ends
-//! of what two have in common: depth is linear along a line. Where they cross, the stretch is halved; a single column
-//! always has an order. Where a pile does not hold all, it takes those of fewer columns, and of a single column as many
-//! piles as it takes are drawn. Of equal depths the one submitted first is behind.
+//! They are drawn after all that is opaque. The panes of a line are gathered into a pile, and drawn by stretches, which
+//! are as long as few panes share them. Of each two of a stretch one is behind at the first column that they have in
+//! common; where it no longer is, as depth is linear along a line, the stretch ends. Then one after the other is drawn of
+//! which none that is behind it waits. Where there is none such, the stretch is halved; a single column always has an
+//! order. Where a pile does not hold all, it takes those of fewer columns, and of a single column as many piles as it
+//! takes are drawn. Of equal depths the one submitted first is behind.
 //!
 //! No memory is lent for this: a pile lies on the stack.
 
 use super::alone::{Alone, set_up_stray};
 use super::renderer::Renderer;
-use super::rival::{Slope, deepen};
+use super::rival::{Rival, Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
 use crate::look::Look;
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
-use core::cmp::Ordering;
 
-/// Columns of a stretch.
+/// Columns of a stretch that many panes share.
 const STRETCH: u32 = 32;
+/// So many are few.
+const FEW: u32 = 16;
 /// Panes of a pile: a word has a bit for each.
 const PANES: usize = 32;
 /// No slot.
@@ -28,9 +30,7 @@ const NO_SLOT: u16 = u16::MAX;
 /// A span that waits to be drawn.
 #[derive(Clone, Copy)]
 struct Pane {
-    span: Span,
-    depth: Slope,
-    object: u16,
+    rival: Rival,
     slot: u16,
 }
 
@@ -40,27 +40,16 @@ type Key = (u32, u16);
 impl Pane {
     /// Where there is none: zeros, so that no constant is copied.
     const NONE: Self = Self {
-        span: Span { start: 0, end: 0 },
-        depth: Slope { at: 0, step: 0 },
-        object: 0,
+        rival: Rival {
+            span: Span { start: 0, end: 0 },
+            slope: Slope { at: 0, step: 0 },
+            object: 0,
+        },
         slot: 0,
     };
 
     fn key(&self, column: u32) -> Key {
-        (self.depth.at(column), self.object)
-    }
-
-    /// Whether this pane is behind another on all that they have in common of a stretch; `None` where they cross.
-    /// Panes that have nothing in common have no order, which is equal.
-    fn order(&self, other: &Self, stretch: Span) -> Option<Ordering> {
-        let first = self.span.start.max(other.span.start).max(stretch.start);
-        let end = self.span.end.min(other.span.end).min(stretch.end);
-        if first >= end {
-            return Some(Ordering::Equal);
-        }
-        let at = |column: u32| self.key(column).cmp(&other.key(column));
-        let order = at(first);
-        (order == at(end - 1)).then_some(order)
+        (self.rival.slope.at(column), self.rival.object)
     }
 }
 
@@ -81,6 +70,8 @@ struct Pile {
     is_short: bool,
     /// Numbers of panes, those behind first.
     order: [u8; PANES],
+    /// The panes that are behind each of a stretch: a bit for each.
+    behind: [u32; PANES],
 }
 
 impl Pile {
@@ -89,11 +80,8 @@ impl Pile {
         count: 0,
         is_short: false,
         order: [0; PANES],
+        behind: [0; PANES],
     };
-
-    fn pane(&self, number: u32) -> &Pane {
-        &self.panes[number as usize % PANES]
-    }
 
     /// Takes a pane, if it is to be taken.
     #[inline(never)]
@@ -101,14 +89,15 @@ impl Pile {
         let mut at = self.count;
         match take {
             Take::Window(window) => {
-                if pane.span.end <= window.start || pane.span.start >= window.end {
+                if !pane.rival.span.meets(window) {
                     return;
                 }
             }
             Take::Column(column, after) => {
                 let key = pane.key(column);
                 let is_drawn = after.is_some_and(|after| key <= after);
-                if column < pane.span.start || column >= pane.span.end || is_drawn {
+                let Span { start, end } = pane.rival.span;
+                if column < start || column >= end || is_drawn {
                     return;
                 }
                 let panes = self.panes.get(..self.count).unwrap_or_default();
@@ -131,27 +120,43 @@ impl Pile {
     #[inline(never)]
     fn next_stretch(&self, from: u32, until: u32) -> Option<(Span, u32)> {
         let panes = self.panes.get(..self.count).unwrap_or_default();
-        let ahead = |pane: &&Pane| pane.span.end > from;
-        let start = panes.iter().filter(ahead).map(|pane| pane.span.start);
+        let ahead = |pane: &&Pane| pane.rival.span.end > from;
+        let start = panes.iter().filter(ahead).map(|pane| pane.rival.span.start);
         let start = start.min()?.max(from);
-        let end = until.min(start + STRETCH);
-        let has_columns = |pane: &Pane| pane.span.end > start && pane.span.start < end;
-        let mut set = 0;
-        for (number, pane) in (0..).zip(panes) {
-            if has_columns(pane) {
-                set |= bit(number);
+        let mut part = Span { start, end: until };
+        while part.start < part.end {
+            let mut set = 0;
+            for (number, pane) in (0..).zip(panes) {
+                if pane.rival.span.meets(part) {
+                    set |= bit(number);
+                }
             }
+            let columns = part.end - part.start;
+            if columns <= STRETCH || set.count_ones() <= FEW {
+                return Some((part, set));
+            }
+            part.end = part.start + STRETCH.max(columns / 2);
         }
-        (start < end).then_some((Span { start, end }, set))
+        None
     }
 
-    /// Brings those of a set into order from far to near; how many they are, or `None` where they have no order on
-    /// all of a stretch.
+    /// Brings those of a set into order from far to near, and ends a stretch before two of them cross; how many they
+    /// are, or `None` where they have no order on all of it.
     #[inline(never)]
-    fn sort(&mut self, set: u32, stretch: Span) -> Option<usize> {
+    fn sort(&mut self, set: u32, part: &mut Span) -> Option<usize> {
+        self.find_behind(set, part);
         let (mut rest, mut count) = (set, 0);
         while rest != 0 {
-            let first = self.farthest(rest, stretch)?;
+            let mut tried = rest;
+            let first = loop {
+                if tried == 0 {
+                    return None;
+                }
+                let number = take_first(&mut tried);
+                if self.behind[number as usize % PANES] & rest == 0 {
+                    break number;
+                }
+            };
             rest &= !bit(first);
             *self.order.get_mut(count)? = first as u8;
             count += 1;
@@ -159,24 +164,32 @@ impl Pile {
         Some(count)
     }
 
-    /// One of a set that none of the others is behind.
-    fn farthest(&self, set: u32, stretch: Span) -> Option<u32> {
-        let (mut tried, mut others) = (0, set);
-        let mut first = take_first(&mut others);
-        while others != 0 {
-            let number = take_first(&mut others);
-            let other = self.pane(number);
-            if other.order(self.pane(first), stretch)? == Ordering::Less {
-                // Where each is behind another there is no order.
-                tried |= bit(first);
-                if tried & bit(number) != 0 {
-                    return None;
+    /// Finds which panes of a set are behind which, and ends a stretch before any two cross.
+    fn find_behind(&mut self, set: u32, part: &mut Span) {
+        self.behind = [0; PANES];
+        let mut rest = set;
+        while rest != 0 {
+            let a = take_first(&mut rest) as usize % PANES;
+            let (rival, mut others) = (self.panes[a].rival, rest);
+            while others != 0 {
+                let b = take_first(&mut others) as usize % PANES;
+                let other = &self.panes[b].rival;
+                let start = rival.span.start.max(other.span.start).max(part.start);
+                let end = rival.span.end.min(other.span.end).min(part.end);
+                if start >= end {
+                    continue;
                 }
-                first = number;
-                others = set & !bit(number);
+                let (is_before, turned) = rival.turn(other, Span { start, end });
+                if turned < end {
+                    part.end = turned;
+                }
+                if is_before {
+                    self.behind[a] |= bit(b as u32);
+                } else {
+                    self.behind[b] |= bit(a as u32);
+                }
             }
         }
-        Some(first)
     }
 }
 
@@ -250,9 +263,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let span = Span::of(span);
             let [at, step] = depth_on_line::<L>(Drawn::of(slot), slot.item.depth, span, out);
             f(Pane {
-                span,
-                depth: Slope { at, step },
-                object: slot.object,
+                rival: Rival {
+                    span,
+                    slope: Slope { at, step },
+                    object: slot.object,
+                },
                 slot: number as u16,
             });
         }
@@ -260,9 +275,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         while let Some(found) = self.spilled_of(at, out.view, |state| state.is_translucent()) {
             if let Some(stray) = self.spilled_stray(found.at, out) {
                 f(Pane {
-                    span: stray.span,
-                    depth: stray.slope::<L>(out),
-                    object: stray.object,
+                    rival: Rival {
+                        span: stray.span,
+                        slope: stray.slope::<L>(out),
+                        object: stray.object,
+                    },
                     slot: NO_SLOT,
                 });
             }
@@ -282,9 +299,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let mut start = window.start;
         while let Some((mut part, set)) = pile.next_stretch(start, window.end) {
             start = loop {
-                if let Some(count) = pile.sort(set, part) {
+                if let Some(count) = pile.sort(set, &mut part) {
                     for number in pile.order.iter().take(count) {
-                        self.draw_pane(*pile.pane(u32::from(*number)), part, out);
+                        let pane = &pile.panes[usize::from(*number) % PANES];
+                        if pane.rival.span.meets(part) {
+                            self.draw_pane(pane, part, out);
+                        }
                     }
                     break part.end;
                 }
@@ -308,7 +328,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         loop {
             self.gather_panes(pile, count, Take::Column(column.start, after), out);
             for pane in pile.panes.iter().take(pile.count) {
-                self.draw_pane(*pane, column, out);
+                self.draw_pane(pane, column, out);
                 after = Some(pane.key(column.start));
             }
             if !pile.is_short {
@@ -319,23 +339,23 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Draws some columns of a pane.
     #[inline(never)]
-    fn draw_pane(&mut self, pane: Pane, part: Span, out: &mut Line<'_, '_, L>) {
-        let Some(state) = out.view.state(pane.object) else {
-            return;
-        };
-        let span = pane.span;
+    fn draw_pane(&mut self, pane: &Pane, part: Span, out: &mut Line<'_, '_, L>) {
+        let Rival { span, object, .. } = pane.rival;
         let number = usize::from(pane.slot);
         let mut alone;
-        let (drawn, plane) = if let Some((slot, _)) = self.cache.at(number) {
-            (Drawn::of(slot), slot.item.depth)
+        let (drawn, plane, state) = if let Some((slot, _)) = self.cache.at(number) {
+            (Drawn::of(slot), slot.item.depth, out.view.state_of(slot))
         } else {
-            let Some(stray) = out.stray(pane.object) else {
+            let Some(stray) = out.stray(object) else {
                 return;
             };
             alone = Alone::empty(L::EMPTY);
             set_up_stray::<L>(&stray, &mut alone, &mut self.counts, out);
             let plane = alone.find_depth(&stray.triangle);
-            (alone.drawn(), plane)
+            (alone.drawn(), plane, out.view.state(object))
+        };
+        let Some(state) = state else {
+            return;
         };
         let known = Known::new(plane, self.depth, &mut self.written);
         draw_ruled::<L>(Ruled { drawn, span, state }, part, out, Some(known));
