@@ -3,11 +3,11 @@
 //! By priority no depth is kept: what is higher is drawn over what is lower, and among equal ones what was submitted
 //! later over what was before.
 
-use super::near::{insert, place_of};
+use super::near::insert;
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
 use super::spilled::{Found, Spilled};
-use crate::active::next;
+use crate::active::CacheSlot;
 use crate::look::Look;
 use crate::num::take_first;
 use crate::scene::DrawState;
@@ -16,6 +16,16 @@ use crate::scene::DrawState;
 #[inline(never)]
 pub(super) fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
     insert(keys, count, key, |other| other < key);
+}
+
+/// The priority of what is in a slot, if the scene is drawn by it.
+fn rank_of<T>(view: &View<'_>, slot: &CacheSlot<T>) -> u32 {
+    let state = if view.ranked {
+        view.state_of(slot)
+    } else {
+        None
+    };
+    state.map_or(0, |state| state.priority.into())
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -58,8 +68,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let span = Span::of(self.cache.spans[word][i]);
                 if span.start < span.end {
                     // Its priority, the number of the object, and its own.
-                    let object = self.cache.slots[word][i].object;
-                    let key = place_of(view, object) | (word * 32 + i) as u32;
+                    let slot = &self.cache.slots[word][i];
+                    let object = u32::from(slot.object);
+                    let key = rank_of(view, slot) << 24 | object << 8 | (word * 32 + i) as u32;
                     insert_rising(self.cache.order.as_flattened_mut(), count, key);
                     count += 1;
                 }
@@ -80,14 +91,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// The lowest priority above another; `fast` is that of what is in slots.
     fn level_above(&self, rank: u32, fast: Option<u32>, view: &View<'_>) -> Option<u32> {
-        let (mut level, mut at) = (fast, self.cache.spilled);
-        while view.ranked && at.is_some() {
-            let here = view.rank(at.object());
-            if here > rank && level.is_none_or(|level| here < level) {
-                level = Some(here);
-            }
-            at = next(self.links, at);
+        if !view.ranked {
+            return fast;
         }
-        level
+        let (mut level, mut at) = (fast, self.first_spilled());
+        loop {
+            let is_next = |state: &DrawState<'_>| {
+                let here = u32::from(state.priority);
+                here > rank && level.is_none_or(|level| here < level)
+            };
+            let Some(found) = self.spilled_of(at, view, is_next) else {
+                return level;
+            };
+            level = Some(found.state.priority.into());
+            at = self.after(found.at);
+        }
     }
 }

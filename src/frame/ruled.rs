@@ -292,10 +292,8 @@ fn find_alphas<L: Look>(
         L::fill_mask(ink.planes, at, view.draws.states, texels);
     }
     for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
-        *alpha = PixelAlpha {
-            surface: ink.surface.map_or(255, |surface| surface.at(column)),
-            texel: MaskTexel::of_word(texel),
-        };
+        let surface = ink.surface.map_or(255, |surface| surface.at(column));
+        *alpha = PixelAlpha::new(surface, MaskTexel::of_word(texel));
     }
 }
 
@@ -308,14 +306,14 @@ fn undither<L: Look>(
     alphas: &[PixelAlpha],
     run: &mut [WordOf<L>],
 ) {
-    if !alphas.iter().any(|alpha| alpha.texel.is_undithered()) {
+    if !alphas.iter().any(|alpha| alpha.texel().is_undithered()) {
         return;
     }
     let mut plain = [WordOf::<L>::default(); MOST_TESTED];
     let plain = &mut plain[..run.len()];
     L::fill_opaque(ink.fill, ink.planes, at, view.draws.states, false, plain);
     for ((pixel, &plain), alpha) in run.iter_mut().zip(&*plain).zip(alphas) {
-        if alpha.texel.is_undithered() {
+        if alpha.texel().is_undithered() {
             *pixel = plain;
         }
     }

@@ -18,13 +18,15 @@ fn mix_of(mode: BlendMode) -> Option<Mix> {
 /// Blends `new` pixels over `old` ones, as many as both have.
 #[inline(never)]
 pub(crate) fn blend<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend) {
+    blend_all::<F>(old, new, blend);
+}
+
+#[inline(always)]
+fn blend_all<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend) {
     match mix_of(blend.mode) {
+        Some(Mix::Filter(0) | Mix::Add(0) | Mix::Subtract(0)) => {}
         Some(mix) if blend.channels == Blend::ALL => F::mix(old, new, mix),
-        mix => {
-            for (old, &new) in old.iter_mut().zip(new) {
-                *old = single::<F>(*old, new, blend, mix);
-            }
-        }
+        mix => by_levels::<F>(old, new, blend, mix),
     }
 }
 
@@ -42,8 +44,16 @@ pub(crate) fn blend_each<F: PixelFormat>(
         let (Some(old), Some(new)) = (old.get_mut(from..end), new.get(from..)) else {
             return;
         };
-        blend::<F>(old, new, how.by(*alpha));
+        blend_all::<F>(old, new, how.by(*alpha));
         from = end;
+    }
+}
+
+/// Blends in a way that formats have none for.
+#[inline(never)]
+fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend, mix: Option<Mix>) {
+    for (old, &new) in old.iter_mut().zip(new) {
+        *old = single::<F>(*old, new, blend, mix);
     }
 }
 

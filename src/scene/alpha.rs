@@ -59,28 +59,41 @@ impl MaskTexel {
     }
 }
 
-/// What a pixel is blended by, beside the blend of its call.
+/// What a pixel is blended by, beside the blend of its call: the texel's word, and above it the alpha of the vertices,
+/// 255 for 1. In one word, as runs of equal ones are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct PixelAlpha {
-    /// That of the vertices, 255 for 1.
-    pub(crate) surface: u8,
-    pub(crate) texel: MaskTexel,
-}
+pub(crate) struct PixelAlpha(u32);
 
 impl PixelAlpha {
-    pub(crate) const OPAQUE: Self = Self {
-        surface: 255,
-        texel: MaskTexel::OPAQUE,
-    };
+    pub(crate) const OPAQUE: Self = Self::new(255, MaskTexel::OPAQUE);
+
+    #[inline(always)]
+    pub(crate) const fn new(surface: u8, texel: MaskTexel) -> Self {
+        Self((surface as u32) << 16 | texel.0 as u32)
+    }
+
+    /// That of the vertices.
+    #[inline(always)]
+    pub(super) const fn surface(self) -> u8 {
+        (self.0 >> 16) as u8
+    }
+
+    /// What the texel says.
+    #[inline(always)]
+    pub(crate) const fn texel(self) -> MaskTexel {
+        MaskTexel(self.0 as u16)
+    }
 
     /// That of the texel, 255 for 1.
+    #[inline(always)]
     pub(super) const fn of_texel(self) -> u8 {
-        self.texel.0 as u8
+        self.0 as u8
     }
 
     /// Both alphas and a third one, rounded once.
+    #[inline(always)]
     pub(super) const fn times(self, alpha: u8) -> u8 {
-        let all = self.surface as u32 * self.of_texel() as u32 * alpha as u32;
+        let all = self.surface() as u32 * self.of_texel() as u32 * alpha as u32;
         // By 2^47 / 255^2, rounded up: the quotient is exact.
         (mul_high_unsigned(all + 255 * 255 / 2, 0x8101_8203) >> 15) as u8
     }
@@ -220,10 +233,7 @@ mod tests {
     fn three_alphas_are_rounded_once() {
         for surface in 0..=255 {
             for texel in 0..=surface {
-                let both = PixelAlpha {
-                    surface,
-                    texel: MaskTexel(texel.into()),
-                };
+                let both = PixelAlpha::new(surface, MaskTexel(texel.into()));
                 for alpha in 0..=texel {
                     let all = u32::from(surface) * u32::from(texel) * u32::from(alpha);
                     let exact = (all + 255 * 255 / 2) / (255 * 255);

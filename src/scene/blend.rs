@@ -56,8 +56,8 @@ impl Factor {
     fn by(self, alpha: PixelAlpha) -> Self {
         let texel = alpha.of_texel();
         match self {
-            Self::SourceAlpha => Self::Constant(alpha.surface),
-            Self::InverseSourceAlpha => Self::Constant(255 - alpha.surface),
+            Self::SourceAlpha => Self::Constant(alpha.surface()),
+            Self::InverseSourceAlpha => Self::Constant(255 - alpha.surface()),
             Self::TextureAlpha => Self::Constant(texel),
             Self::InverseTextureAlpha => Self::Constant(255 - texel),
             Self::Constant(_) | Self::Destination | Self::InverseDestination => self,
@@ -112,14 +112,15 @@ impl Blend {
     }
 
     /// What it is for a pixel of these alphas, which they are multiplied into.
+    #[inline(always)]
     pub(crate) fn by(self, alpha: PixelAlpha) -> Self {
         let mode = match self.mode {
             BlendMode::Filter(own) | BlendMode::Add(own) | BlendMode::Subtract(own)
-                if alpha.texel.is_added() =>
+                if alpha.texel().is_added() =>
             {
                 BlendMode::Add(alpha.times(own))
             }
-            BlendMode::Half | BlendMode::Factors { .. } if alpha.texel.is_added() => {
+            BlendMode::Half | BlendMode::Factors { .. } if alpha.texel().is_added() => {
                 BlendMode::Add(alpha.times(255))
             }
             BlendMode::Filter(own) => BlendMode::Filter(alpha.times(own)),
