@@ -12,6 +12,9 @@ pub(super) struct Surface([u32; 2]);
 impl Surface {
     const FRACTION: u32 = 22;
 
+    /// Of what has no alphas.
+    pub(super) const OPAQUE: Self = Self([255 << Self::FRACTION, 0]);
+
     /// Of a span of a triangle on a line.
     #[inline(never)]
     pub(super) fn of(

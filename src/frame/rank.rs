@@ -95,16 +95,15 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return fast;
         }
         let (mut level, mut at) = (fast, self.first_spilled());
-        loop {
-            let is_next = |state: &DrawState<'_>| {
+        while at.is_some() {
+            if let Some(state) = self.state_at(at, view) {
                 let here = u32::from(state.priority);
-                here > rank && level.is_none_or(|level| here < level)
-            };
-            let Some(found) = self.spilled_of(at, view, is_next) else {
-                return level;
-            };
-            level = Some(found.state.priority.into());
-            at = self.after(found.at);
+                if here > rank && level.is_none_or(|level| here < level) {
+                    level = Some(here);
+                }
+            }
+            at = self.after(at);
         }
+        level
     }
 }

@@ -61,8 +61,9 @@ impl Slope {
 
 impl Rival {
     /// Whether this is seen in a column that both have, and not the other.
-    fn hides(&self, other: &Self, column: u32) -> bool {
-        let of = |rival: &Self| (rival.slope.at(column), rival.object);
+    #[inline(always)]
+    pub(super) fn hides(self, other: Self, column: u32) -> bool {
+        let of = |rival: Self| (rival.slope.at(column), rival.object);
         of(self) > of(other)
     }
 
@@ -83,35 +84,46 @@ impl Rival {
         }
         let start = self.span.start.max(other.span.start);
         let end = self.span.end.min(other.span.end);
-        let (first, turned) = self.turn(&other, Span { start, end });
-        let hidden = if first {
+        let first = self.hides(other, start);
+        if first == self.hides(other, end - 1) {
+            return first.then_some(Span { start, end });
+        }
+        let turned = self.turned(other, first, Span { start, end });
+        Some(if first {
             Span { start, end: turned }
         } else {
             Span { start: turned, end }
-        };
-        (hidden.start < hidden.end).then_some(hidden)
+        })
     }
 
-    /// Whether this is seen in the first of some columns that both have, and the one from which on it is not so, or
-    /// the end.
+    /// Of columns that both have, the first in which this is not seen as it is in the first of all, `first`; in the last
+    /// it is not so either.
     #[inline(always)]
-    pub(super) fn turn(&self, other: &Self, columns: Span) -> (bool, u32) {
-        let Span { start, end } = columns;
-        let first = self.hides(other, start);
-        if first == self.hides(other, end - 1) {
-            return (first, end);
+    pub(super) fn turned(self, other: Self, first: bool, Span { start, end }: Span) -> u32 {
+        let [this, that] = [self, other].map(|rival| rival.slope);
+        let seen_of_equal = u32::from(self.object > other.object);
+        // Above 0 where this is seen: between columns that differ in it, depths are less than 2^31 apart.
+        let mut nearer = Slope {
+            at: (this.at.wrapping_sub(that.at)).wrapping_add(seen_of_equal),
+            step: this.step.wrapping_sub(that.step),
+        };
+        if !first {
+            nearer.at = 1_u32.wrapping_sub(nearer.at);
+            nearer.step = nearer.step.wrapping_neg();
         }
         // From `same` on it is as in the first column, from `turned` on as in the last.
         let (mut same, mut turned) = (start, end - 1);
-        while turned - same > 1 {
+        loop {
             let middle = (same + turned) / 2;
-            if self.hides(other, middle) == first {
+            if middle == same {
+                return turned;
+            }
+            if nearer.at(middle) as i32 > 0 {
                 same = middle;
             } else {
                 turned = middle;
             }
         }
-        (first, turned)
     }
 }
 
@@ -177,6 +189,7 @@ mod tests {
     use crate::num::random::Rng;
     use std::vec::Vec;
 
+    /// Kills: a column that turns one too early or too late, and of equal depths the one that was submitted first.
     #[test]
     fn who_is_seen_is_told_for_each_column() {
         let mut rng = Rng(11);
@@ -188,10 +201,21 @@ mod tests {
                     start,
                     end: start + 1 + rng.below([3, 40][round % 2]),
                 };
-                let slope = Slope {
+                let mut slope = Slope {
                     at: (1 << 20) + rng.below(64),
                     step: rng.below(7).wrapping_sub(3),
                 };
+                if round % 7 == 0 {
+                    // From any depth to any other, the nearest and none at all among them.
+                    let [from, to] = [(); 2].map(|()| match rng.below(3) {
+                        0 => 0,
+                        1 => 1 << 31,
+                        _ => rng.below(1 << 31),
+                    });
+                    let steps = i64::from((span.end - span.start - 1).max(1));
+                    slope.step = ((i64::from(to) - i64::from(from)) / steps) as u32;
+                    slope.at = from.wrapping_sub(slope.step.wrapping_mul(span.start));
+                }
                 Rival {
                     span,
                     slope,

@@ -13,6 +13,7 @@ use crate::num::few_leading_zeros;
 use crate::pixel::{blend, blend_each};
 use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, keep, test};
+use core::hint::black_box;
 
 /// A span of a triangle, and the values of its draw call.
 #[derive(Clone, Copy)]
@@ -29,7 +30,7 @@ pub(super) struct Ink<'a, P> {
     span: Span,
     blend: Option<Blend>,
     dithers: bool,
-    surface: Option<Surface>,
+    surface: Surface,
 }
 
 /// Colours those pixels between `from` and `to` that the values let through; without depth nothing is compared.
@@ -100,7 +101,8 @@ pub(super) fn ink_of<'a, L: Look>(
         dithers: state.dithers,
         surface: state
             .alphas
-            .and_then(|alphas| Surface::of(alphas, drawn.object, span, out.number, out.view)),
+            .and_then(|alphas| Surface::of(alphas, drawn.object, span, out.number, out.view))
+            .unwrap_or(Surface::OPAQUE),
     }
 }
 
@@ -291,9 +293,10 @@ fn find_alphas<L: Look>(
     if L::TEXTURED && state.has_mask {
         L::fill_mask(ink.planes, at, view.draws.states, texels);
     }
-    for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
-        let surface = ink.surface.map_or(255, |surface| surface.at(column));
-        *alpha = PixelAlpha::new(surface, MaskTexel::of_word(texel));
+    // Lengths that the compiler knows would be unrolled.
+    let (alphas, texels) = (black_box(alphas), black_box(&*texels));
+    for ((alpha, &texel), column) in alphas.iter_mut().zip(texels).zip(at.column..) {
+        *alpha = PixelAlpha::new(ink.surface.at(column), MaskTexel::of_word(texel));
     }
 }
 
@@ -312,7 +315,8 @@ fn undither<L: Look>(
     let mut plain = [WordOf::<L>::default(); MOST_TESTED];
     let plain = &mut plain[..run.len()];
     L::fill_opaque(ink.fill, ink.planes, at, view.draws.states, false, plain);
-    for ((pixel, &plain), alpha) in run.iter_mut().zip(&*plain).zip(alphas) {
+    let (run, plain, alphas) = (black_box(run), black_box(&*plain), black_box(alphas));
+    for ((pixel, &plain), alpha) in run.iter_mut().zip(plain).zip(alphas) {
         if alpha.texel().is_undithered() {
             *pixel = plain;
         }

@@ -20,6 +20,12 @@ pub(super) struct Spilled {
 }
 
 impl Spilled {
+    /// Whether it is not behind the last.
+    #[inline(always)]
+    pub(super) fn is_some(self) -> bool {
+        self.at.is_some()
+    }
+
     /// The object; `u32::MAX` behind the last.
     #[inline(always)]
     pub(super) fn object(self) -> u32 {
@@ -125,6 +131,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 return at;
             }
         }
+    }
+
+    /// The state of its draw call; `None` where it is known to have no pixels on the line.
+    #[inline(always)]
+    pub(super) fn state_at<'v>(&self, at: Spilled, view: &View<'v>) -> Option<&'v DrawState<'v>> {
+        view.draws.states.get(self.begun(at, view).checked_sub(1)?)
     }
 
     #[inline(always)]

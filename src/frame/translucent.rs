@@ -70,8 +70,6 @@ struct Pile {
     is_short: bool,
     /// Numbers of panes, those behind first.
     order: [u8; PANES],
-    /// The panes that are behind each of a stretch: a bit for each.
-    behind: [u32; PANES],
 }
 
 impl Pile {
@@ -80,7 +78,6 @@ impl Pile {
         count: 0,
         is_short: false,
         order: [0; PANES],
-        behind: [0; PANES],
     };
 
     /// Takes a pane, if it is to be taken.
@@ -119,16 +116,23 @@ impl Pile {
     /// The next columns that panes have, from `from` on, and these panes as a set; `None` where there are none.
     #[inline(never)]
     fn next_stretch(&self, from: u32, until: u32) -> Option<(Span, u32)> {
-        let panes = self.panes.get(..self.count).unwrap_or_default();
-        let ahead = |pane: &&Pane| pane.rival.span.end > from;
-        let start = panes.iter().filter(ahead).map(|pane| pane.rival.span.start);
-        let start = start.min()?.max(from);
-        let mut part = Span { start, end: until };
+        let (mut ahead, mut start) = (0, u32::MAX);
+        for (number, pane) in (0..).zip(self.panes.iter().take(self.count)) {
+            if pane.rival.span.end > from {
+                ahead |= bit(number);
+                start = start.min(pane.rival.span.start);
+            }
+        }
+        let mut part = Span {
+            start: start.max(from),
+            end: until,
+        };
         while part.start < part.end {
-            let mut set = 0;
-            for (number, pane) in (0..).zip(panes) {
-                if pane.rival.span.meets(part) {
-                    set |= bit(number);
+            let (mut set, mut rest) = (ahead, ahead);
+            while rest != 0 {
+                let number = take_first(&mut rest);
+                if self.panes[number as usize % PANES].rival.span.start >= part.end {
+                    set &= !bit(number);
                 }
             }
             let columns = part.end - part.start;
@@ -144,49 +148,46 @@ impl Pile {
     /// are, or `None` where they have no order on all of it.
     #[inline(never)]
     fn sort(&mut self, set: u32, part: &mut Span) -> Option<usize> {
-        self.find_behind(set, part);
-        let (mut rest, mut count) = (set, 0);
-        while rest != 0 {
-            let mut tried = rest;
-            let first = loop {
-                if tried == 0 {
-                    return None;
-                }
-                let number = take_first(&mut tried);
-                if self.behind[number as usize % PANES] & rest == 0 {
-                    break number;
-                }
-            };
-            rest &= !bit(first);
-            *self.order.get_mut(count)? = first as u8;
-            count += 1;
+        let mut behind = [0; PANES];
+        if set & set.wrapping_sub(1) != 0 {
+            self.find_behind(set, part, &mut behind);
         }
-        Some(count)
+        let (mut rest, mut tried, mut count) = (set, set, 0);
+        while tried != 0 {
+            let number = take_first(&mut tried);
+            if behind[number as usize % PANES] & rest == 0 {
+                rest &= !bit(number);
+                tried = rest;
+                *self.order.get_mut(count)? = number as u8;
+                count += 1;
+            }
+        }
+        (rest == 0).then_some(count)
     }
 
-    /// Finds which panes of a set are behind which, and ends a stretch before any two cross.
-    fn find_behind(&mut self, set: u32, part: &mut Span) {
-        self.behind = [0; PANES];
+    /// Finds the panes of a set that are behind each, a bit for each, and ends a stretch before any two cross.
+    #[inline(always)]
+    fn find_behind(&self, set: u32, part: &mut Span, behind: &mut [u32; PANES]) {
         let mut rest = set;
         while rest != 0 {
             let a = take_first(&mut rest) as usize % PANES;
             let (rival, mut others) = (self.panes[a].rival, rest);
             while others != 0 {
                 let b = take_first(&mut others) as usize % PANES;
-                let other = &self.panes[b].rival;
+                let other = self.panes[b].rival;
                 let start = rival.span.start.max(other.span.start).max(part.start);
                 let end = rival.span.end.min(other.span.end).min(part.end);
                 if start >= end {
                     continue;
                 }
-                let (is_before, turned) = rival.turn(other, Span { start, end });
-                if turned < end {
-                    part.end = turned;
+                let is_before = rival.hides(other, start);
+                if is_before != rival.hides(other, end - 1) {
+                    part.end = rival.turned(other, is_before, Span { start, end });
                 }
                 if is_before {
-                    self.behind[a] |= bit(b as u32);
+                    behind[a] |= bit(b as u32);
                 } else {
-                    self.behind[b] |= bit(a as u32);
+                    behind[b] |= bit(a as u32);
                 }
             }
         }

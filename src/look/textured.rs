@@ -26,7 +26,7 @@ use crate::geometry::Scale;
 use crate::pixel::PixelFormat;
 use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, Words};
 use crate::span::{Size, Triangle};
-use core::{marker::PhantomData, slice::from_mut};
+use core::{hint::black_box, marker::PhantomData, slice::from_mut};
 
 /// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`](crate::pixel::Rgb565),
 /// [`Rgb565Be`](crate::pixel::Rgb565Be) or [`Rgb565Le`](crate::pixel::Rgb565Le), and texels have the same order of bytes;
@@ -462,7 +462,8 @@ impl<F: Texel> Look for Textured<F> {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());
             shade(&mut colours[..count]);
-            for (texel, colour) in run.iter_mut().zip(colours) {
+            // A length that the compiler knows would be unrolled.
+            for (texel, &colour) in run.iter_mut().zip(black_box(&colours[..])) {
                 if *texel == holes.key {
                     *texel = colour;
                 }

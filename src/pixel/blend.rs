@@ -49,51 +49,67 @@ pub(crate) fn blend_each<F: PixelFormat>(
     }
 }
 
-/// Blends in a way that formats have none for.
+/// Blends in a way that formats have none for, by levels; channels that are not written keep theirs.
 #[inline(never)]
 fn by_levels<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend, mix: Option<Mix>) {
-    for (old, &new) in old.iter_mut().zip(new) {
-        *old = single::<F>(*old, new, blend, mix);
-    }
-}
-
-/// One pixel over another, by their levels; channels that are not written keep theirs.
-fn single<F: PixelFormat>(old: F::Word, new: F::Word, blend: Blend, mix: Option<Mix>) -> F::Word {
-    let mut word = [new];
-    if let Some(mix) = mix {
-        word = [old];
-        F::mix(&mut word, &[new], mix);
-    }
-    let (o, mut n) = (F::to_rgb8(old), F::to_rgb8(word[0]));
-    for (i, (&o, n)) in o.iter().zip(&mut n).enumerate() {
-        if blend.channels >> i & 1 == 0 {
-            *n = o;
-        } else if let BlendMode::Factors {
+    let factors = match blend.mode {
+        BlendMode::Factors {
             source,
             destination,
-        } = blend.mode
-        {
-            *n = sum(*n, factor(source, o), o, factor(destination, o));
+        } => [source, destination],
+        _ => [Factor::ONE, Factor::ZERO],
+    };
+    let [source, destination] = factors.map(Linear::of);
+    for (old, &new) in old.iter_mut().zip(new) {
+        let mut word = [new];
+        if let Some(mix) = mix {
+            word = [*old];
+            F::mix(&mut word, &[new], mix);
         }
+        let (o, mut n) = (F::to_rgb8(*old), F::to_rgb8(word[0]));
+        for (i, (&o, n)) in o.iter().zip(&mut n).enumerate() {
+            if blend.channels >> i & 1 == 0 {
+                *n = o;
+            } else if mix.is_none() {
+                *n = sum(*n, source.at(o), o, destination.at(o));
+            }
+        }
+        *old = F::from_rgb8(n);
     }
-    F::from_rgb8(n)
 }
 
 /// A level times a factor and another times another, at most full.
-fn sum(new: u8, source: u8, old: u8, destination: u8) -> u8 {
-    let both = u32::from(new) * u32::from(source) + u32::from(old) * u32::from(destination);
+#[inline(always)]
+fn sum(new: u8, source: u32, old: u8, destination: u32) -> u8 {
+    let both = u32::from(new) * source + u32::from(old) * destination;
     of_255(both).min(255) as u8
 }
 
-/// A factor where `old` is the level that is there.
-fn factor(factor: Factor, old: u8) -> u8 {
-    match factor {
-        Factor::Constant(value) => value,
-        Factor::Destination => old,
-        Factor::InverseDestination => 255 - old,
-        // Where no pixel has an alpha of its own, all are opaque.
-        Factor::SourceAlpha | Factor::TextureAlpha => 255,
-        Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => 0,
+/// A factor, which is linear in the level that is there: 255 for 1.
+#[derive(Clone, Copy)]
+struct Linear {
+    at_0: u32,
+    slope: u32,
+}
+
+impl Linear {
+    fn of(factor: Factor) -> Self {
+        let even = |at_0: u8| (u32::from(at_0), 0);
+        let (at_0, slope) = match factor {
+            Factor::Constant(value) => even(value),
+            Factor::Destination => (0, 1),
+            Factor::InverseDestination => (255, u32::MAX),
+            // Where no pixel has an alpha of its own, all are opaque.
+            Factor::SourceAlpha | Factor::TextureAlpha => even(255),
+            Factor::InverseSourceAlpha | Factor::InverseTextureAlpha => even(0),
+        };
+        Self { at_0, slope }
+    }
+
+    /// Its value where `old` is the level that is there.
+    #[inline(always)]
+    fn at(self, old: u8) -> u32 {
+        self.slope.wrapping_mul(old.into()).wrapping_add(self.at_0)
     }
 }
 

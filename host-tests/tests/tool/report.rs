@@ -36,9 +36,9 @@ fn no_picture_is_missing() {
     memory(&mut page);
     let page = page.finish();
     let sources = values(&page, " src");
-    // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, 20 by draw calls,
+    // 8 shots, 4 of scene B, 5 more of the suite, 6 pictures with their errors, 4 effects, 2 small frames, 21 by draw calls,
     // the scene files, each named, and 8 frames that are paced, beside the same with time enough.
-    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 20 + 5 + 16);
+    assert_eq!(sources.len(), 8 + 4 + 5 + 12 + 4 + 2 + 21 + 5 + 16);
     for file in files().unwrap() {
         let name = file.file_name().unwrap().to_str().unwrap();
         assert!(page.contains(&format!("<code>{name}</code>: ")), "{name}");

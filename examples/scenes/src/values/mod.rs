@@ -11,6 +11,7 @@
 //! | `values_holes` | a cube with holes around a ball, a decal and texels as they are |
 //! | `values_dither` | smooth and textured surfaces, dithered |
 //! | `values_alpha` | a fading ribbon, cubes of rings that are clear, added or not dithered, cut and flat ones |
+//! | `values_again` | textured cubes that are drawn again where they are as far: lit, added, seen through |
 //! | `values_blends` | panes of all modes, scissors, depth tests, several lights, flat faces |
 //! | `values_ranked` | the same by priority |
 //! | `values_master` | the scene of blends with all switched off that can be |
@@ -26,6 +27,7 @@
 //! | `values_doubled` | the teapot of the suite, its lines and columns doubled on their way out |
 //! | `values_told` | what becomes of damaged lists, and what frames, lists and queues tell, as squares |
 
+mod again;
 mod alpha;
 mod compressed;
 mod dusk;
@@ -42,6 +44,7 @@ mod told;
 use crate::ShotError;
 use crate::contours::ContourLook;
 use crate::looks::{SmoothLook, TexturedLook};
+use again::again;
 use alpha::alpha;
 pub use compressed::STONE;
 use compressed::{cache, compressed, empty, pressed};
@@ -105,6 +108,8 @@ pub enum Values {
     Dither,
     /// Alphas of vertices and texels.
     Alpha,
+    /// Textures where depth is equal.
+    Again,
     /// Blends, scissors, depth tests, lights.
     Blends,
     /// The same by priority.
@@ -136,7 +141,7 @@ pub enum Values {
 }
 
 /// Their names, and which frame each is.
-pub const VALUES: [(&str, Values); 22] = [
+pub const VALUES: [(&str, Values); 23] = [
     ("values_phong", Values::Phong),
     ("values_texels", Values::Texels),
     ("values_dusk", Values::Dusk),
@@ -145,6 +150,7 @@ pub const VALUES: [(&str, Values); 22] = [
     ("values_holes", Values::Holes),
     ("values_dither", Values::Dither),
     ("values_alpha", Values::Alpha),
+    ("values_again", Values::Again),
     ("values_blends", Values::Blends),
     ("values_ranked", Values::Ranked),
     ("values_master", Values::Master),
@@ -266,6 +272,7 @@ impl Values {
             Self::Mirror => rest.send(self, lent.textured, pump, |scene, _| mirror(scene)),
             Self::Holes => rest.send(self, lent.textured, pump, |scene, _| holes(scene)),
             Self::Alpha => rest.send(self, lent.textured, pump, |scene, _| alpha(scene)),
+            Self::Again => rest.send(self, lent.textured, pump, |scene, _| again(scene)),
             Self::Points => rest.send(self, lent.textured, pump, |scene, _| points(scene)),
             Self::Dither => rest.send(self, lent.textured, pump, |scene, _| dither(scene)),
             Self::Blends | Self::Ranked | Self::Master => {
