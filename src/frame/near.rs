@@ -24,7 +24,13 @@ use crate::visible::{Mask, Part};
 /// lowest bits are those of a key.
 #[inline(never)]
 pub(super) fn place_of(view: &View<'_>, object: u16) -> u32 {
-    view.rank(object) << 24 | u32::from(object) << 8
+    place(view.rank(object), object)
+}
+
+/// The same where the priority is known.
+#[inline(always)]
+pub(super) fn place(rank: u32, object: u16) -> u32 {
+    rank << 24 | u32::from(object) << 8
 }
 
 /// The lowest bits of a key: a slot's number.

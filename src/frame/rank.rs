@@ -3,7 +3,7 @@
 //! By priority no depth is kept: what is higher is drawn over what is lower, and among equal ones what was submitted
 //! later over what was before.
 
-use super::near::insert;
+use super::near::{insert, place};
 use super::renderer::{Renderer, View};
 use super::spans::{Line, Span};
 use super::spilled::{Found, Spilled};
@@ -20,11 +20,7 @@ pub(super) fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
 
 /// The priority of what is in a slot, if the scene is drawn by it.
 fn rank_of<T>(view: &View<'_>, slot: &CacheSlot<T>) -> u32 {
-    let state = if view.ranked {
-        view.state_of(slot)
-    } else {
-        None
-    };
+    let state = view.ranked.then(|| view.state_of(slot)).flatten();
     state.map_or(0, |state| state.priority.into())
 }
 
@@ -69,8 +65,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 if span.start < span.end {
                     // Its priority, the number of the object, and its own.
                     let slot = &self.cache.slots[word][i];
-                    let object = u32::from(slot.object);
-                    let key = rank_of(view, slot) << 24 | object << 8 | (word * 32 + i) as u32;
+                    let key = place(rank_of(view, slot), slot.object) | (word * 32 + i) as u32;
                     insert_rising(self.cache.order.as_flattened_mut(), count, key);
                     count += 1;
                 }

@@ -24,6 +24,9 @@ pub(super) struct Rival {
     pub(super) object: u16,
 }
 
+/// A depth, and the number of the object.
+pub(super) type Key = (u32, u16);
+
 impl Slope {
     /// What stands for a depth where there is none: its place in the order of all triangles.
     #[inline(always)]
@@ -60,11 +63,16 @@ impl Slope {
 }
 
 impl Rival {
+    /// Where it stands among those of a column: what is less is behind.
+    #[inline(always)]
+    pub(super) fn key(self, column: u32) -> Key {
+        (self.slope.at(column), self.object)
+    }
+
     /// Whether this is seen in a column that both have, and not the other.
     #[inline(always)]
     pub(super) fn hides(self, other: Self, column: u32) -> bool {
-        let of = |rival: Self| (rival.slope.at(column), rival.object);
-        of(self) > of(other)
+        self.key(column) > other.key(column)
     }
 
     /// Adds to a mask the columns in which both are and this is seen.

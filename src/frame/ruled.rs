@@ -315,6 +315,7 @@ fn undither<L: Look>(
     let mut plain = [WordOf::<L>::default(); MOST_TESTED];
     let plain = &mut plain[..run.len()];
     L::fill_opaque(ink.fill, ink.planes, at, view.draws.states, false, plain);
+    // As above.
     let (run, plain, alphas) = (black_box(run), black_box(&*plain), black_box(alphas));
     for ((pixel, &plain), alpha) in run.iter_mut().zip(plain).zip(alphas) {
         if alpha.texel().is_undithered() {

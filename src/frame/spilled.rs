@@ -29,7 +29,7 @@ impl Spilled {
     /// The object; `u32::MAX` behind the last.
     #[inline(always)]
     pub(super) fn object(self) -> u32 {
-        if self.at.is_some() {
+        if self.is_some() {
             self.at.object().into()
         } else {
             u32::MAX
@@ -109,7 +109,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         view: &View<'v>,
         is_such: impl Fn(&DrawState<'_>) -> bool,
     ) -> Option<Found<'v>> {
-        while at.at.is_some() {
+        while at.is_some() {
             let begun = self.begun(at, view);
             at = match view.draws.states.get(begun.wrapping_sub(1)) {
                 Some(state) if is_such(state) => return Some(Found { at, state }),

@@ -11,7 +11,7 @@
 
 use super::alone::{Alone, set_up_stray};
 use super::renderer::Renderer;
-use super::rival::{Rival, Slope, deepen};
+use super::rival::{Key, Rival, Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
 use crate::look::Look;
@@ -34,9 +34,6 @@ struct Pane {
     slot: u16,
 }
 
-/// Where a pane stands among those of a column: what is less is behind.
-type Key = (u32, u16);
-
 impl Pane {
     /// Where there is none: zeros, so that no constant is copied.
     const NONE: Self = Self {
@@ -47,10 +44,6 @@ impl Pane {
         },
         slot: 0,
     };
-
-    fn key(&self, column: u32) -> Key {
-        (self.rival.slope.at(column), self.rival.object)
-    }
 }
 
 /// Which panes a pile takes.
@@ -91,14 +84,14 @@ impl Pile {
                 }
             }
             Take::Column(column, after) => {
-                let key = pane.key(column);
+                let key = pane.rival.key(column);
                 let is_drawn = after.is_some_and(|after| key <= after);
                 let Span { start, end } = pane.rival.span;
                 if column < start || column >= end || is_drawn {
                     return;
                 }
                 let panes = self.panes.get(..self.count).unwrap_or_default();
-                at = panes.partition_point(|pane| pane.key(column) < key);
+                at = panes.partition_point(|pane| pane.rival.key(column) < key);
             }
         }
         if self.count == PANES {
@@ -338,7 +331,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.gather_panes(pile, count, Take::Column(column.start, after), out);
             for pane in pile.panes.iter().take(pile.count) {
                 self.draw_pane(pane, column, out);
-                after = Some(pane.key(column.start));
+                after = Some(pane.rival.key(column.start));
             }
             if !pile.is_short {
                 return;
@@ -412,7 +405,7 @@ mod tests {
                     for &number in &pile.order[..count] {
                         let pane = pile.panes[usize::from(number)];
                         if pane.rival.span.start <= column && column < pane.rival.span.end {
-                            order[column as usize].push(pane.key(column));
+                            order[column as usize].push(pane.rival.key(column));
                         }
                     }
                 }
@@ -425,7 +418,10 @@ mod tests {
                     let Span { start, end } = pane.rival.span;
                     start <= column && column < end
                 };
-                let mut want: Vec<Key> = panes.filter(has).map(|pane| pane.key(column)).collect();
+                let mut want: Vec<Key> = panes
+                    .filter(has)
+                    .map(|pane| pane.rival.key(column))
+                    .collect();
                 want.sort();
                 assert_eq!(order, want, "{round} {column}");
             }

@@ -59,6 +59,7 @@ pub(crate) fn test(cells: &mut [u32], at: u32, step: u32, test: DepthTest) -> u3
     if kept == orders.all {
         keep(cells, at, step);
     } else if kept != 0 {
+        // A length that the compiler knows would be unrolled.
         for cell in black_box(cells) {
             if kept >> 31 != 0 {
                 *cell = depth;

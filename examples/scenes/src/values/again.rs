@@ -1,5 +1,5 @@
-//! Textured cubes that are drawn again where they are as far as before: one is lit by a second call, one has another
-//! texture added, and one is seen through, twice.
+//! Textured cubes that are drawn again where they are as far as before: one is lit by a second call, one has its texture
+//! added by one, and one is seen through, twice.
 
 use super::scenes::{PANEL, at, draw_all, light, uncoloured};
 use crate::looks::TexturedLook;
@@ -28,6 +28,7 @@ fn equal() -> DepthTest {
     DepthTest::new(DepthFunction::EQUAL).without_write()
 }
 
+/// A cube and its light, a cube and its texture, and one that is drawn twice over them.
 pub(super) fn again(scene: &mut Scene<'_, 'static, TexturedLook>) -> Result<(), ShotError> {
     let first = cube(0.5, 0.62, [-0.5, 0.1, 0.9]);
     // All that is there times the light: what is missed stays as it was.
