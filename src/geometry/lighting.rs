@@ -159,6 +159,8 @@ struct Lamp {
     /// Lp Kd and Lp Ks, 1 is 2^15; below 4.
     diffuse: [u32; 3],
     specular: [u32; 3],
+    /// Whether there is any of the latter.
+    is_mirrored: bool,
 }
 
 /// Lights times a material, in the space of the normals that they fall on.
@@ -166,7 +168,6 @@ struct Lamp {
 pub struct Lamps {
     lamps: [Lamp; Lighting::MAX_LIGHTS],
     count: u8,
-    shiny: bool,
     shininess: u16,
     /// Where no light reaches.
     base: Shine,
@@ -182,16 +183,17 @@ impl Lamps {
         };
         let mut lamps = [Lamp::default(); Lighting::MAX_LIGHTS];
         for (lamp, light) in lamps.iter_mut().zip(lighting.lights) {
+            let specular = times(&light.colour, &material.specular);
             *lamp = Lamp {
                 towards: turn(light.direction),
                 diffuse: times(&light.colour, &material.diffuse),
-                specular: times(&light.colour, &material.specular),
+                specular,
+                is_mirrored: specular != [0; 3],
             };
         }
         Self {
             lamps,
             count: lighting.lights.len() as u8,
-            shiny: lamps.iter().any(|lamp| lamp.specular != [0; 3]),
             shininess: material.shininess,
             base: Shine {
                 factor: times(&lighting.ambient, &material.ambient),
@@ -202,44 +204,65 @@ impl Lamps {
 
     /// Whether light only multiplies colours: nothing is mirrored, and nothing shines by itself.
     pub(super) fn is_matt(&self) -> bool {
-        !self.shiny && self.base.more == [0; 3]
+        !self.lamps.iter().any(|lamp| lamp.is_mirrored) && self.base.more == [0; 3]
     }
 
     /// What falls on a surface with this normal, about unit length in Q1.14, seen by an eye that
     /// lies this way: any length, the largest component in 2^14 ..= 2^15, or all 0.
     #[inline]
-    pub(super) fn shine(&self, normal: [i16; 3], eye: impl FnOnce() -> [i32; 3]) -> Shine {
-        let glance = self
-            .shiny
-            .then(|| Glance::new(normal.map(i32::from), eye()));
-        self.falls(normal, glance.as_ref())
+    pub(super) fn shine(&self, normal: [i16; 3], eye: impl Fn() -> [i32; 3]) -> Shine {
+        // Of a normal that is longer than 1 more than 1, which its square mends in what is mirrored.
+        let cosine = |sum: i32| sum.min((1 << 29) - 1);
+        self.falls(normal, 0, cosine, || Glance::new(normal, eye()))
     }
 
-    /// The same of what [is matt](Self::is_matt).
-    #[inline]
-    pub(super) fn matt(&self, normal: [i16; 3]) -> Shine {
-        self.falls(normal, None)
-    }
-
+    /// The same of a normal of any length in 15 fraction bits or less; light that is mirrored as little as `dim` says is
+    /// none.
     #[inline(always)]
-    fn falls(&self, normal: [i16; 3], glance: Option<&Glance>) -> Shine {
+    pub(super) fn shine_any(
+        &self,
+        normal: [i16; 3],
+        dim: u32,
+        eye: impl Fn() -> [i32; 3],
+    ) -> Shine {
+        let length = Length::of(normal);
+        let glance = || Glance::of_length(normal, &length, eye());
+        self.falls(normal, dim, |sum| length.divides(sum), glance)
+    }
+
+    /// `cosine` makes N.L in Q28, below 2, of a sum above 0 of products by 2^-16.
+    #[inline(always)]
+    fn falls(
+        &self,
+        normal: [i16; 3],
+        dim: u32,
+        cosine: impl Fn(i32) -> i32,
+        glance: impl Fn() -> Glance,
+    ) -> Shine {
         let mut shine = self.base;
+        let mut seen = None;
         for lamp in self.lamps.iter().take(usize::from(self.count)) {
-            // Q44 to Q28; of a normal that is longer than 1 more than 1, which its square mends in what is mirrored.
             let part = |i: usize| mul_16(lamp.towards[i], normal[i]);
-            let cosine = (part(0) + part(1) + part(2)).min((1 << 29) - 1);
-            if cosine <= 0 {
+            let sum = part(0) + part(1) + part(2);
+            if sum <= 0 {
                 continue;
             }
+            let cosine = cosine(sum);
             let level = ((cosine.min((1 << 28) - 1) + (1 << 12)) >> 13) as u32;
             // 17 and 16 bits; the sum of 8 lights has 20.
             for i in 0..3 {
                 shine.factor[i] += (lamp.diffuse[i] * level) >> 15;
             }
-            let Some(glance) = glance else {
+            // Asked of each: what is the same for all has the compiler write the loop out eight times.
+            if !lamp.is_mirrored {
                 continue;
-            };
-            let mirrored = glance.mirrored(cosine, lamp.towards);
+            }
+            let glance = seen.get_or_insert_with(&glance);
+            let rest = glance.mirrored(cosine, lamp.towards);
+            if glance.is_below(rest, dim) {
+                continue;
+            }
+            let mirrored = glance.divides(rest);
             let level = ((power(mirrored, self.shininess) >> 16) + 1) >> 1;
             for i in 0..3 {
                 shine.more[i] += (lamp.specular[i] * level) >> 15;
@@ -247,48 +270,117 @@ impl Lamps {
         }
         shine
     }
+
+    /// What R.V may be at most for light that is mirrored to round to none, in 1/256; its square in Q30.
+    pub(super) fn dim(&self) -> u32 {
+        // Some units more than it may be by rounding.
+        let is_none = |part: u32| power((part << 24) + (1 << 20), self.shininess) >> 16 == 0;
+        let more = |part: u32, bit: u32| {
+            if is_none(part | bit) {
+                part | bit
+            } else {
+                part
+            }
+        };
+        let part = (0..8).rev().map(|i| 1 << i).fold(0, more);
+        (part * part) << 14
+    }
+}
+
+/// The length of a normal in units of 2^-15 or less: 1 / length = root 2^(half - 46).
+struct Length {
+    root: u32,
+    half: u32,
+}
+
+impl Length {
+    #[inline(always)]
+    fn of(normal: [i16; 3]) -> Self {
+        let (root, half) = inverse_root(square(normal.map(i32::from)));
+        Self { root, half }
+    }
+
+    /// A Q28 cosine of a sum above 0 of products of the normal and a unit vector in Q1.30, by 2^-16.
+    #[inline(always)]
+    fn divides(&self, sum: i32) -> i32 {
+        // Below 2^30 after the shift.
+        mul_high_unsigned((sum as u32) << self.half, self.root) as i32
+    }
+}
+
+/// The square of a vector of at most 15 bits each.
+#[inline(always)]
+fn square(v: [i32; 3]) -> u32 {
+    v.iter().map(|c| (c * c) as u32).sum()
 }
 
 /// What all lights share where a surface is looked at.
 struct Glance {
     /// The eye's vector with 15 fraction bits.
     eye: [i32; 3],
-    /// N.V / |N|^2, with 14 fraction bits beyond those that the eye's vector came with.
+    /// N.V / |N|^2, of unit length N.V / |N|, with 14 fraction bits beyond those that the eye's vector came with.
     across: i32,
-    /// 1 / |V| = root 2^(half - 46).
-    root: u32,
-    half: u32,
+    /// |V|^2.
+    square: u32,
 }
 
 impl Glance {
-    #[inline]
-    fn new(n: [i32; 3], eye: [i32; 3]) -> Self {
-        // Each at most 2^30.
-        let square = |v: [i32; 3]| v.iter().map(|c| (c * c) as u32).sum::<u32>();
-        let (root, half) = inverse_root(square(eye));
-        // 1 / |N|^2 in Q28, to the first order. Of no normal it is 2, which has no sign in 32 bits, but there the sum is 0.
-        let mend = (2u32 << 28).saturating_sub(square(n));
+    /// A quarter of N.V.
+    #[inline(always)]
+    fn along(n: [i16; 3], eye: [i32; 3]) -> i32 {
         // A normal may be any number: two bits less, and the sum fits.
-        let part = |i: usize| (n[i] * eye[i]) >> 2;
-        let along = part(0) + part(1) + part(2);
+        let part = |i: usize| (i32::from(n[i]) * eye[i]) >> 2;
+        part(0) + part(1) + part(2)
+    }
+
+    /// With a normal of about unit length in Q1.14.
+    #[inline]
+    fn new(n: [i16; 3], eye: [i32; 3]) -> Self {
+        // 1 / |N|^2 in Q28, to the first order. Of no normal it is 2, which has no sign in 32 bits, but there the sum is 0.
+        let mend = (2u32 << 28).saturating_sub(square(n.map(i32::from)));
+        let across = mul_high(Self::along(n, eye), (mend << 2) as i32) << 4;
+        Self::across(eye, across)
+    }
+
+    /// With a normal of any length.
+    #[inline(always)]
+    fn of_length(n: [i16; 3], length: &Length, eye: [i32; 3]) -> Self {
+        let along = Self::along(n, eye) << length.half;
+        Self::across(eye, mul_high(along, (length.root >> 1) as i32) << 3)
+    }
+
+    #[inline(always)]
+    fn across(eye: [i32; 3], across: i32) -> Self {
         Self {
             eye: eye.map(|c| c << 15),
-            across: mul_high(along, (mend << 2) as i32) << 4,
-            root,
-            half,
+            across,
+            square: square(eye),
         }
     }
 
-    /// R.V as a 32-bit fraction, 0 where it is negative; of N.L in Q28, below 2.
-    #[inline]
+    /// R.V with 13 fraction bits beyond those that the eye's vector came with, 0 where it is negative; of N.L in Q28,
+    /// below 2.
+    #[inline(always)]
     fn mirrored(&self, cosine: i32, towards: [i32; 3]) -> u32 {
-        // Both with 13 fraction bits beyond those that the eye's vector came with.
         let forth = mul_high(cosine << 2, self.across) << 2;
         let part = |i: usize| mul_high(self.eye[i], towards[i]);
         // |V| is below 2^16, so R.V |V| is below 2^29 where the normal is unit length.
-        let rest = (forth - (part(0) + part(1) + part(2))).max(0);
-        let cosine = mul_high_unsigned((rest as u32) << 2, self.root);
-        let up = 3 + self.half;
+        (forth - (part(0) + part(1) + part(2))).max(0) as u32
+    }
+
+    /// Whether that is surely less than a part of |V|, whose square is in Q30: no root is needed.
+    #[inline(always)]
+    fn is_below(&self, rest: u32, part: u32) -> bool {
+        mul_high_unsigned(rest << 2, rest << 2) < mul_high_unsigned(self.square, part)
+    }
+
+    /// That by |V|, as a 32-bit fraction.
+    #[inline(always)]
+    fn divides(&self, rest: u32) -> u32 {
+        // 1 / |V| = root 2^(half - 46).
+        let (root, half) = inverse_root(self.square);
+        let cosine = mul_high_unsigned(rest << 2, root);
+        let up = 3 + half;
         if cosine >> (32 - up) != 0 {
             return u32::MAX;
         }

@@ -31,7 +31,6 @@ pub use mesh::{Coordinate, Faces, Mesh, QuadSplit};
 pub(crate) use meshlet::Eye;
 pub use meshlet::{CutError, Meshlet, Meshlets};
 pub use pixel_lamps::PixelLamps;
-pub(crate) use pixel_lamps::unit_normal;
 pub(crate) use project::{Projection, along};
 pub(crate) use shadow::Extrusion;
 pub use shadow::{ShadowEdge, ShadowLight, ShadowMemory, ShadowRoom};

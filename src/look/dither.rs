@@ -13,7 +13,7 @@ use crate::pixel::{PixelFormat, threshold};
 type Raised = [[Pair; 4]; 4];
 
 /// So many of 32 parts of a step of a channel of 16 bits, of which a format keeps so many.
-const fn parts_of(parts: i32, steps: u16) -> i32 {
+pub(super) const fn parts_of(parts: i32, steps: u16) -> i32 {
     (parts * (1 << steps.leading_zeros())) >> 5
 }
 

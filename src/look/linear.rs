@@ -1,7 +1,9 @@
 //! The weighted mean of the four nearest texels (H6), and levels of detail made of means.
 //!
-//! Instructions a pixel (rustc 1.95, opt-level 3, counted in QEMU; `firmware --profile values_sampled`), in runs of 5
-//! pixels, all in: 100 of words that repeat on a Cortex-M4, 86 of them in the loop, and 135 on a Cortex-M0+.
+//! Four texels are read once for all pixels of a run that lie between them. Instructions a pixel (rustc 1.95, opt-level 3,
+//! counted in QEMU) of words that repeat, on a Cortex-M4 and in Cortex-M0+ code: 34 and 49, and 47 and 65 for each
+//! four texels (`firmware --profile examples/scene-files/court.json`). In runs of 5 pixels with other texels each it is
+//! 94 and 135, all in (`--profile values_sampled`).
 
 use super::fetch::{FRACTION, Way};
 use super::tint::Texel;
@@ -34,17 +36,42 @@ fn joined<const SWAPPED: bool>(sum: u32) -> u16 {
     (two | two >> 16) as u16
 }
 
+/// The square between the middles of four texels, as sums of fields in 32 parts.
+struct Square<const SWAPPED: bool> {
+    first: u32,
+    across: u32,
+    below: u32,
+    turn: u32,
+}
+
+impl<const SWAPPED: bool> Square<SWAPPED> {
+    #[inline(always)]
+    fn of(four: [u16; 4]) -> Self {
+        // Modulo 2^32 no field of the sum is lost, whatever the differences borrow from each other.
+        let [a, b, c, d] = four.map(apart::<SWAPPED>);
+        let (across, below) = (b.wrapping_sub(a), c.wrapping_sub(a));
+        Self {
+            first: a << 5,
+            across: across << 1,
+            below: below << 1,
+            turn: d.wrapping_sub(b).wrapping_sub(below),
+        }
+    }
+
+    /// The right ones with `right` parts of 16, the lower ones with `down`.
+    #[inline(always)]
+    fn at(&self, right: u32, down: u32) -> u16 {
+        let both = self.turn.wrapping_mul((right * down + 4) >> 3);
+        let one = self.across.wrapping_mul(right).wrapping_add(self.first);
+        let two = self.below.wrapping_mul(down).wrapping_add(one);
+        joined::<SWAPPED>(two.wrapping_add(both))
+    }
+}
+
 /// Four texels, the right ones with `right` parts of 16, the lower ones with `down`.
 #[inline(always)]
 fn mixed<const SWAPPED: bool>(four: [u16; 4], right: u32, down: u32) -> u16 {
-    // Modulo 2^32 no field of the sum is lost, whatever the differences borrow from each other.
-    let [a, b, c, d] = four.map(apart::<SWAPPED>);
-    let across = b.wrapping_sub(a).wrapping_mul(2 * right);
-    let below = c.wrapping_sub(a).wrapping_mul(2 * down);
-    let turn = a.wrapping_sub(b).wrapping_sub(c).wrapping_add(d);
-    let both = turn.wrapping_mul((right * down + 4) >> 3);
-    let sum = (a << 5).wrapping_add(across).wrapping_add(below);
-    joined::<SWAPPED>(sum.wrapping_add(both))
+    Square::<SWAPPED>::of(four).at(right, down)
 }
 
 /// Columns or rows of a texture.
@@ -56,17 +83,19 @@ struct Side {
 }
 
 impl Side {
-    /// The two texels about a place, and how many of 16 parts the second one has.
+    /// The first of the two texels about a place, and how many of 16 parts the second one has.
     #[inline(always)]
-    fn pair(self, at: i32) -> ([usize; 2], u32) {
+    fn first(self, at: i32) -> (i32, u32) {
         // Texels lie in the middle of their squares.
         let low = at.wrapping_sub(1 << (FRACTION - 1));
-        let first = (low >> FRACTION).wrapping_add(self.base);
         let part = (low >> (FRACTION - 4)) as u32 & 15;
-        (
-            [first, first.wrapping_add(1)].map(|texel| self.folded(texel)),
-            part,
-        )
+        ((low >> FRACTION).wrapping_add(self.base), part)
+    }
+
+    /// A texel and the one behind it.
+    #[inline(always)]
+    fn pair(self, first: i32) -> [usize; 2] {
+        [first, first.wrapping_add(1)].map(|texel| self.folded(texel))
     }
 
     /// What the wrap shows for any texel.
@@ -129,9 +158,14 @@ fn copy_repeated<const SWAPPED: bool>(
     // With four bits below the texel.
     let (right, down) = (28 - log_width, 28 - log_height);
     let (last, all) = ((1u32 << log_width) - 1, words.len() as u32 - 1);
-    for pixel in run {
-        let (across, along) = (u >> right, v >> down);
-        let (column, row) = (across >> 4, along >> 4 << log_width);
+    let mut pixels = run.iter_mut();
+    let (mut across, mut along) = (u >> right, v >> down);
+    let Some(mut pixel) = pixels.next() else {
+        return;
+    };
+    loop {
+        let place = [across >> 4, along >> 4];
+        let (column, row) = (place[0], place[1] << log_width);
         let (next, below) = ((column + 1) & last, (row + last + 1) & all);
         let texel = |at: u32| words.get(at as usize).copied();
         // One after the other: of four the compiler would keep some in memory.
@@ -147,9 +181,21 @@ fn copy_repeated<const SWAPPED: bool>(
         let Some(d) = texel(below | next) else {
             return;
         };
-        *pixel = mixed::<SWAPPED>([a, b, c, d], across & 15, along & 15);
-        u = u.wrapping_add(du);
-        v = v.wrapping_add(dv);
+        let square = Square::<SWAPPED>::of([a, b, c, d]);
+        // Pixels between the same four texels.
+        loop {
+            *pixel = square.at(across & 15, along & 15);
+            let Some(more) = pixels.next() else {
+                return;
+            };
+            pixel = more;
+            u = u.wrapping_add(du);
+            v = v.wrapping_add(dv);
+            (across, along) = (u >> right, v >> down);
+            if [across >> 4, along >> 4] != place {
+                break;
+            }
+        }
     }
 }
 
@@ -165,9 +211,15 @@ fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
         _ => word,
     };
     let mut at = way.at;
-    for pixel in run {
-        let ([left, right], across) = columns.pair(at.u);
-        let ([upper, lower], down) = rows.pair(at.v);
+    let mut pixels = run.iter_mut();
+    let (mut column, mut across) = columns.first(at.u);
+    let (mut row, mut down) = rows.first(at.v);
+    let Some(mut pixel) = pixels.next() else {
+        return;
+    };
+    loop {
+        let place = [column, row];
+        let ([left, right], [upper, lower]) = (columns.pair(column), rows.pair(row));
         let texel =
             |column: usize, row: usize| texture.form.get(row << texture.log_width() | column);
         let (Some(a), Some(b), Some(c), Some(d)) = (
@@ -179,14 +231,26 @@ fn copy_any(run: &mut [u16], texture: &Texture<'_>, way: Way, of: Words) {
             return;
         };
         let four = [a, b, c, d];
-        let mean = |four: [u16; 4]| order(mixed::<false>(four.map(order), across, down));
-        let nearest = four[usize::from(across >= 8) + 2 * usize::from(down >= 8)];
-        *pixel = match texture.key() {
-            _ if of == Words::Masks => mixed_masks(four, nearest, across, down),
-            None => mean(four),
-            Some(key) => opaque(four, nearest, key, mean),
-        };
-        at = at.plus(way.step);
+        // Pixels between the same four texels.
+        loop {
+            let mean = |four: [u16; 4]| order(mixed::<false>(four.map(order), across, down));
+            let nearest = four[usize::from(across >= 8) + 2 * usize::from(down >= 8)];
+            *pixel = match texture.key() {
+                _ if of == Words::Masks => mixed_masks(four, nearest, across, down),
+                None => mean(four),
+                Some(key) => opaque(four, nearest, key, mean),
+            };
+            let Some(more) = pixels.next() else {
+                return;
+            };
+            pixel = more;
+            at = at.plus(way.step);
+            (column, across) = columns.first(at.u);
+            (row, down) = rows.first(at.v);
+            if [column, row] != place {
+                break;
+            }
+        }
     }
 }
 

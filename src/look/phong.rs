@@ -15,12 +15,11 @@
 //! The colour is that of the draw call. Meshes without normals are lit as if they all looked at the eye. A call without
 //! lamps is drawn as [`Gouraud`] draws it, bit for bit.
 
-use super::dither::dithered;
+use super::dither::parts_of;
 use super::fields::{is_even, wide_fields};
 use super::gouraud::{Gouraud, Planes as Three, even_pair, thin_shades, wide_at, wide_shades};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
-use crate::geometry::{Affine, PixelLamps, Scale, unit_normal};
-use crate::num::mul_high_unsigned;
+use crate::geometry::{Affine, PixelLamps, Scale};
 use crate::pixel::{PixelFormat, threshold};
 use crate::scene::{DrawState, Draws, WordOfNormal};
 use crate::span::Triangle;
@@ -44,8 +43,8 @@ pub struct Planes {
 
 /// A normal of length 1 in a field of 11 bits, which has 1024 in its middle; in one of 10 bits it is half of that.
 const LENGTH: i32 = 1000;
-/// Nothing in each field, with the bits below it that planes have.
-const MIDDLE: u32 = 1 << 30;
+/// Nothing in each field, with the bits below it that planes have, 15 of which are rounded off.
+const MIDDLE: u32 = (1 << 30) - (1 << 14);
 
 /// The word of a normal of a model, as the camera sees it.
 pub(crate) fn word_of(turn: &Affine, normal: Option<[i16; 3]>) -> u32 {
@@ -58,25 +57,18 @@ pub(crate) fn word_of(turn: &Affine, normal: Option<[i16; 3]>) -> u32 {
     eleven(x) << 21 | ten << 11 | eleven(y)
 }
 
-/// The normal of three planes' values.
+/// The normal of three planes' values, with 15 fraction bits: no component of a normal of length 1 is beyond 32,000.
 #[inline(always)]
-fn normal_of(value: [u32; 3]) -> [i32; 3] {
-    value.map(|v| v.wrapping_sub(MIDDLE) as i32)
+fn normal_of(value: [u32; 3]) -> [i16; 3] {
+    value.map(|v| (v.wrapping_sub(MIDDLE) as i32 >> 15) as i16)
 }
 
-/// A pixel of channels of 16.16 steps and one half, raised by so many of 32 parts of a step.
-fn pixel<F: PixelFormat>(channels: [i32; 3], parts: i32) -> F::Word {
-    let sixteen = |i: usize| {
-        let bits = 16 - F::STEPS[i].leading_zeros();
-        dithered(channels[i] as u32 >> bits, parts, F::STEPS[i])
-    };
-    F::pack_words(sixteen(0) << 16 | sixteen(2), sixteen(1) << 16)
-}
-
-/// A 255th, rounded down: by 2^39 / 255, rounded up. Where a product has no upper half a division is a call.
+/// A pixel of channels of 16 bits, raised by so many of 32 parts of a step, 16 of them for the nearest.
 #[inline(always)]
-fn divided_by_255(number: u32) -> u32 {
-    mul_high_unsigned(number, 0x8080_8081) >> 7
+fn pixel<F: PixelFormat>(channels: [u32; 3], parts: i32) -> F::Word {
+    // Below a whole step, so that no channel gets more than 16 bits.
+    let raised = |i: usize| channels[i] + parts_of(parts, F::STEPS[i]) as u32;
+    F::pack_words(raised(0) << 16 | raised(2), raised(1) << 16)
 }
 
 /// What shines on the pixels of a draw call, and the colour that it falls on.
@@ -104,14 +96,19 @@ impl<'t> Shine<'t> {
         self.lamps.matt(normal, self.colour, scale)
     }
 
-    /// The call's colour in 16.16 steps of the format.
-    pub(super) fn steps<F: PixelFormat>(&self) -> [u32; 3] {
-        let steps = |i: usize| u32::from(self.colour[i]) * u32::from(F::STEPS[i]);
-        [0, 1, 2].map(|i| divided_by_255((steps(i) << 16) + 127))
+    /// The call's colour in channels of 16 bits of the format.
+    #[inline(always)]
+    pub(super) fn channels<F: PixelFormat>(&self) -> [u32; 3] {
+        [0, 1, 2].map(|i| {
+            let full = u32::from(F::STEPS[i]) << F::STEPS[i].leading_zeros();
+            let product = u32::from(self.colour[i]) * full;
+            // A 255th of it, to the nearest.
+            (product + (product >> 8) + (product >> 16) + 128) >> 8
+        })
     }
 }
 
-/// Lights a run of pixels from a place on, dithered or not; `own` is the colour of each, in 16.16 steps and one half.
+/// Lights a run of pixels from a place on, dithered or not; `own` is the colour of each, in channels of 16 bits.
 #[inline(always)]
 pub(super) fn light<F: PixelFormat>(
     shine: &Shine<'_>,
@@ -119,20 +116,18 @@ pub(super) fn light<F: PixelFormat>(
     place: Place,
     dithers: bool,
     run: &mut [F::Word],
-    mut own: impl FnMut() -> [i32; 3],
+    mut own: impl FnMut() -> [u32; 3],
 ) {
     // What is dithered is dithered in 16 bits.
     let dithers = dithers && F::MADE_OF.is_one_word();
     let [mut value, steps] = wide_at(planes, place);
     for (pixel, column) in run.iter_mut().zip(place.column..) {
-        let normal = unit_normal(normal_of(value));
         let at = [column, place.line];
-        let lit = shine.lamps.lit(normal, at, own(), F::STEPS);
-        let parts = if dithers {
-            threshold(column, place.line)
-        } else {
-            0
-        };
+        let lit = shine.lamps.lit(normal_of(value), at, own(), F::STEPS);
+        let mut parts = 16;
+        if dithers {
+            parts += threshold(column, place.line);
+        }
         *pixel = self::pixel::<F>(lit, parts);
         for (value, step) in value.iter_mut().zip(steps) {
             *value = value.wrapping_add(step);
@@ -150,7 +145,7 @@ fn lit<F: PixelFormat>(
     run: &mut [F::Word],
 ) {
     if let Some(shine) = Shine::of(planes.draw, draws) {
-        let colour = shine.steps::<F>().map(|steps| steps as i32 + (1 << 15));
+        let colour = shine.channels::<F>();
         light::<F>(&shine, &planes.of, place, dithers, run, || colour);
     }
 }
@@ -228,19 +223,5 @@ impl<F: PixelFormat> Look for Phong<F> {
             return u32::MAX;
         }
         Gouraud::<F>::fill_opaque(fill, &planes.of, at, draws, dithers, run)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::divided_by_255;
-
-    /// Kills: a factor that is rounded the other way.
-    #[test]
-    fn all_products_of_bytes_are_divided_exactly() {
-        for product in 0..=255 * 255u32 {
-            let number = (product << 16) + 127;
-            assert_eq!(divided_by_255(number), number / 255, "{product}");
-        }
     }
 }

@@ -21,13 +21,11 @@ use core::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedPhong<F>(PhantomData<F>);
 
-/// A texel of 8 bits a channel times a colour in 16.16 steps, and one half.
-fn times(texel: [u8; 3], colour: [u32; 3]) -> [i32; 3] {
-    [0, 1, 2].map(|i| {
-        let product = u32::from(texel[i]) * colour[i];
-        // A 255th of it, but for three units of 2^-16 steps.
-        ((product >> 8) + (product >> 16) + (product >> 24) + (1 << 15)) as i32
-    })
+/// What a level of 255 is multiplied by for 256 times that part of a channel of 16 bits: all of it for 255, and less than
+/// a unit more for others.
+#[inline(always)]
+fn for_levels(channel: u32) -> u32 {
+    channel + (((channel + 254) * 0x8081) >> 23)
 }
 
 /// Sets a triangle up; of one that is lit a vertex's colour is its normal, and the planes of the shade are the normal's.
@@ -49,11 +47,11 @@ fn lit<F: PixelFormat, T: Texel>(
     texels: &[u16],
     run: &mut [F::Word],
 ) {
-    let colour = shine.steps::<F>();
+    let colour = shine.channels::<F>().map(for_levels);
     let mut texels = texels.iter();
     light::<F>(shine, planes.shades(), place, dithers, run, || {
         let texel = texels.next().map_or([255; 3], |&texel| T::to_rgb8(texel));
-        times(texel, colour)
+        [0, 1, 2].map(|i| (u32::from(texel[i]) * colour[i]) >> 8)
     });
 }
 
@@ -162,3 +160,21 @@ lit!(
     Rgb888: Rgb565,
     Xrgb8888: Rgb565
 );
+
+#[cfg(test)]
+mod tests {
+    use super::for_levels;
+
+    /// Kills: a 255th that is rounded down, and one of too few bits.
+    #[test]
+    fn levels_of_a_channel_are_parts_of_it() {
+        for channel in 0..=255 << 8 {
+            let factor = for_levels(channel);
+            assert_eq!((255 * factor) >> 8, channel);
+            for level in (0..=255).step_by(15) {
+                let (got, exact) = ((level * factor) >> 8, level * channel / 255);
+                assert!(got == exact || got == exact + 1, "{level} of {channel}");
+            }
+        }
+    }
+}

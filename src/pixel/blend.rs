@@ -18,11 +18,6 @@ fn mix_of(mode: BlendMode) -> Option<Mix> {
 /// Blends `new` pixels over `old` ones, as many as both have.
 #[inline(never)]
 pub(crate) fn blend<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend) {
-    blend_all::<F>(old, new, blend);
-}
-
-#[inline(always)]
-fn blend_all<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], blend: Blend) {
     match mix_of(blend.mode) {
         Some(Mix::Filter(0) | Mix::Add(0) | Mix::Subtract(0)) => {}
         Some(mix) if blend.channels == Blend::ALL => F::mix(old, new, mix),
@@ -38,13 +33,49 @@ pub(crate) fn blend_each<F: PixelFormat>(
     how: Blend,
     alphas: &[PixelAlpha],
 ) {
+    match mix_of(how.mode) {
+        Some(mix) if how.channels == Blend::ALL && mix != Mix::Half => {
+            mix_each::<F>(old, new, mix, alphas);
+        }
+        _ => blend_runs::<F>(old, new, how, alphas),
+    }
+}
+
+/// Pixel by pixel, as [`Blend::by`] says: few follow each other with the same alpha.
+#[inline(always)]
+fn mix_each<F: PixelFormat>(old: &mut [F::Word], new: &[F::Word], mix: Mix, alphas: &[PixelAlpha]) {
+    let own = match mix {
+        Mix::Filter(own) | Mix::Add(own) | Mix::Subtract(own) => own,
+        Mix::Half => return,
+    };
+    for ((old, &new), alpha) in old.iter_mut().zip(new).zip(alphas) {
+        let level = alpha.times(own);
+        let mix = match mix {
+            Mix::Filter(_) if !alpha.texel().is_added() => Mix::Filter(level),
+            Mix::Subtract(_) if !alpha.texel().is_added() => Mix::Subtract(level),
+            _ => Mix::Add(level),
+        };
+        if level != 0 {
+            *old = F::mix_one(*old, new, mix);
+        }
+    }
+}
+
+/// In runs of equal alphas.
+#[inline(always)]
+fn blend_runs<F: PixelFormat>(
+    old: &mut [F::Word],
+    new: &[F::Word],
+    how: Blend,
+    alphas: &[PixelAlpha],
+) {
     let mut from = 0;
     while let Some([alpha, more @ ..]) = alphas.get(from..) {
         let end = from + 1 + more.iter().take_while(|other| *other == alpha).count();
         let (Some(old), Some(new)) = (old.get_mut(from..end), new.get(from..)) else {
             return;
         };
-        blend_all::<F>(old, new, how.by(*alpha));
+        blend::<F>(old, new, how.by(*alpha));
         from = end;
     }
 }
@@ -117,7 +148,28 @@ impl Linear {
 mod tests {
     use super::*;
     use crate::num::random::Rng;
-    use crate::pixel::{PixelFormat, Rgb565};
+    use crate::pixel::{PixelFormat, Rgb565, Rgb565Be};
+
+    /// Kills: fields that borrow from each other, parts of 31, a sum that wraps, light that is taken from the wrong one.
+    #[test]
+    fn one_pixel_is_mixed_as_many_are() {
+        let mut rng = Rng(10);
+        for _ in 0..40_000 {
+            let alpha = rng.below(256) as u8;
+            let mix = match rng.below(4) {
+                0 => Mix::Filter(alpha),
+                1 => Mix::Half,
+                2 => Mix::Add(alpha),
+                _ => Mix::Subtract(alpha),
+            };
+            let [old, new] = [(); 2].map(|()| rng.below(1 << 16) as u16);
+            let mut words = [old; 2];
+            Rgb565::mix(&mut words, &[new; 2], mix);
+            assert_eq!(words, [Rgb565::mix_one(old, new, mix); 2], "{mix:?}");
+            let swapped = Rgb565Be::mix_one(old.to_be(), new.to_be(), mix);
+            assert_eq!(u16::from_be(swapped), words[0], "{mix:?}");
+        }
+    }
 
     /// Killed by: a factor of the other colour, a sum that is not held at full, a channel mask whose bits are swapped.
     #[test]

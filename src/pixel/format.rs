@@ -1,7 +1,7 @@
 //! How a pixel looks in the line buffer, byte order included (K12).
 
 use super::mix::{Mix, mix_levels};
-use super::mix_565::mix_565;
+use super::mix_565::{mix_565, mix_one};
 use super::mix_bytes::mix_bytes;
 use super::{MadeOf, between};
 use crate::num::of_255;
@@ -34,6 +34,18 @@ pub trait PixelFormat {
         Self: Sized,
     {
         mix_levels::<Self>(old, new, mix);
+    }
+
+    /// Blends one new pixel over an old one.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn mix_one(old: Self::Word, new: Self::Word, mix: Mix) -> Self::Word
+    where
+        Self: Sized,
+    {
+        let mut word = [old];
+        Self::mix(&mut word, &[new], mix);
+        word[0]
     }
 
     /// The sum of two pixels, each channel at most its full light.
@@ -207,6 +219,11 @@ impl PixelFormat for Rgb565 {
         mix_565(old, new, |pair| pair, mix);
     }
 
+    #[inline(always)]
+    fn mix_one(old: u16, new: u16, mix: Mix) -> u16 {
+        mix_one(old, new, mix)
+    }
+
     /// All channels at once, with room above each for its carry.
     #[inline(always)]
     fn add(a: u16, b: u16) -> u16 {
@@ -267,6 +284,12 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
         } else {
             mix_565(old, new, swapped_halves, mix);
         }
+    }
+
+    #[inline(always)]
+    fn mix_one(old: u16, new: u16, mix: Mix) -> u16 {
+        let [old, new] = [old, new].map(Self::in_memory);
+        Self::in_memory(mix_one(old, new, mix))
     }
 
     #[inline(always)]

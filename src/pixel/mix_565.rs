@@ -4,7 +4,7 @@
 //! others work on all six fields at once: what two fields have in common, and half of what they
 //! have not, is their mean, which cannot overflow; its top bit says whether their sum would.
 
-use super::Mix;
+use super::{Mix, PixelFormat, Rgb565};
 
 /// The low bit of every field.
 const LOW: u32 = 0x0821_0821;
@@ -67,6 +67,24 @@ fn mix_pair(old: u32, new: u32, mix: Mix) -> u32 {
     };
     // All of 32 parts are the pixel itself.
     flip ^ add(flip ^ old, filter(0, new, of_32(alpha)))
+}
+
+/// One pixel over another, both in the order of numbers, to the same bits as [`mix_pair`].
+#[inline(always)]
+pub(super) fn mix_one(old: u16, new: u16, mix: Mix) -> u16 {
+    // All fields have room in one word.
+    let apart = |word: u16| (u32::from(word) | u32::from(word) << 16) & ODD;
+    let filter = |old: u32, a: u32| {
+        let fields = part(old, apart(new), a, HALF_ODD) >> 5 & ODD;
+        (fields | fields >> 16) as u16
+    };
+    let (alpha, flip) = match mix {
+        Mix::Filter(alpha) => return filter(apart(old), of_32(alpha)),
+        Mix::Half => return half(old.into(), new.into()) as u16,
+        Mix::Add(alpha) => (alpha, 0),
+        Mix::Subtract(alpha) => (alpha, u16::MAX),
+    };
+    flip ^ Rgb565::add(flip ^ old, filter(0, of_32(alpha)))
 }
 
 /// Blends pixels of 16 bits, two at a time, brought into the order of numbers and back.

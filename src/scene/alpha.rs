@@ -54,7 +54,7 @@ impl MaskTexel {
         self.0 & Self::UNDITHERED != 0
     }
 
-    pub(super) const fn is_added(self) -> bool {
+    pub(crate) const fn is_added(self) -> bool {
         self.0 & Self::ADDED != 0
     }
 }
@@ -92,7 +92,7 @@ impl PixelAlpha {
 
     /// Both alphas and a third one, rounded once.
     #[inline(always)]
-    pub(super) const fn times(self, alpha: u8) -> u8 {
+    pub(crate) const fn times(self, alpha: u8) -> u8 {
         let all = self.surface() as u32 * self.of_texel() as u32 * alpha as u32;
         // By 2^47 / 255^2, rounded up: the quotient is exact.
         (mul_high_unsigned(all + 255 * 255 / 2, 0x8101_8203) >> 15) as u8

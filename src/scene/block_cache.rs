@@ -302,14 +302,28 @@ impl<'m> BlockCache<'m> {
         let from = first as usize & (self.words.len() - 1);
         let words = self.words.get(from..from + texels as usize);
         let words = words.unwrap_or_default();
-        let form = match &self.slow {
-            Slow::Stored(form) => form,
-            Slow::Compressed(slow, load) => return load(slow, index, self.block, upper, words),
-        };
-        for (at, word) in (first..).zip(words) {
-            word.set(upper, form.get(at as usize).unwrap_or_default());
+        // Its texel as it was read: in the cache another core may have put another block over it.
+        match &self.slow {
+            Slow::Compressed(slow, load) => load(slow, index, self.block, upper, words),
+            Slow::Stored(Form::Words(slow)) => {
+                let block = slow.get(first as usize..).unwrap_or_default();
+                for (word, &texel) in words.iter().zip(block) {
+                    word.set(upper, texel);
+                }
+                slow.get(index as usize).copied().unwrap_or_default()
+            }
+            Slow::Stored(form) => {
+                let mut own = 0;
+                for (at, word) in (first..).zip(words) {
+                    let texel = form.get(at as usize).unwrap_or_default();
+                    word.set(upper, texel);
+                    if at == index {
+                        own = texel;
+                    }
+                }
+                own
+            }
         }
-        form.get(index as usize).unwrap_or_default()
     }
 
     /// The texels of a run, in blocks of this layout, that of the cache. The upper part is found once a block: for each

@@ -131,6 +131,18 @@ impl Texels for Gradient {
             (a + (((b - a) * part + 128) >> 8)) as u8
         }))
     }
+
+    /// A column's word is made once for all texels of it that follow each other.
+    fn fetch(&self, run: &mut [u16], way: TexelWay) {
+        let mut last = None;
+        for (pixel, [column, row]) in run.iter_mut().zip(way) {
+            *pixel = match last {
+                Some((same, word)) if same == column => word,
+                _ => self.texel(column, row),
+            };
+            last = Some((column, *pixel));
+        }
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,9 @@ use core::hint::black_box;
 /// Most pixels that are asked for in one go.
 pub(crate) const MOST: usize = 32;
 
+/// What is seen through and hidden by what is nearer.
+const SEEN: DepthTest = DepthTest::HIDES.without_write();
+
 /// How up to [`MOST`] depths compare with their cells: a bit for each pixel, the first the top one.
 #[derive(Clone, Copy)]
 struct Orders {
@@ -54,6 +57,12 @@ impl Orders {
 /// bit for each pixel that is seen, the first the top one.
 #[inline(never)]
 pub(crate) fn test(cells: &mut [u32], at: u32, step: u32, test: DepthTest) -> u32 {
+    // Most calls hide what is farther, or are seen through and keep nothing.
+    match test {
+        DepthTest::HIDES => return hide(cells, at, step),
+        SEEN => return see(cells, at, step),
+        _ => {}
+    }
     let orders = Orders::of(cells, at, step);
     let (mut kept, mut depth) = (orders.passing(test.depth_if), at);
     if kept == orders.all {
@@ -69,6 +78,35 @@ pub(crate) fn test(cells: &mut [u32], at: u32, step: u32, test: DepthTest) -> u3
         }
     }
     orders.passing(test.colour_if)
+}
+
+/// The same of depths that are seen where they are at least as near, each of which `keep` may keep.
+#[inline(always)]
+fn nearer(cells: &mut [u32], at: u32, step: u32, keep: impl Fn(&mut u32, u32)) -> u32 {
+    let (mut seen, mut depth) = (0u32, at);
+    let count = cells.len().min(MOST) as u32;
+    for cell in cells {
+        seen <<= 1;
+        if depth >= *cell {
+            keep(cell, depth);
+            seen |= 1;
+        }
+        depth = depth.wrapping_add(step);
+    }
+    // Of no cells no bit is set, whatever it is shifted by.
+    seen << (32u32.wrapping_sub(count) & 31)
+}
+
+/// [`test`] of what is kept where it is seen, in one pass.
+#[inline(never)]
+fn hide(cells: &mut [u32], at: u32, step: u32) -> u32 {
+    nearer(cells, at, step, |cell, depth| *cell = depth)
+}
+
+/// [`test`] of what is not kept.
+#[inline(never)]
+fn see(cells: &mut [u32], at: u32, step: u32) -> u32 {
+    nearer(cells, at, step, |_, _| {})
 }
 
 /// Keeps depths from `at` on by `step`.

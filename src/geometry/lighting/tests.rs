@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::num::random::Rng;
+use core::slice;
 use fixed::types::I2F30;
 use std::vec::Vec;
 
@@ -199,6 +200,7 @@ fn normals_longer_than_one_mirror_what_their_direction_does() {
     let mut rng = Rng(11);
     let lamp = Lamp {
         specular: [1 << 15; 3],
+        is_mirrored: true,
         ..Lamp::default()
     };
     let (mut worst, mut longer) = (0f64, 0);
@@ -216,7 +218,6 @@ fn normals_longer_than_one_mirror_what_their_direction_does() {
                 ..lamp
             }; 8],
             count: 1,
-            shiny: true,
             shininess: 1000,
             base: Shine {
                 factor: [0; 3],
@@ -255,6 +256,26 @@ fn a_power_is_a_power() {
     assert_eq!(power(u32::MAX, 1000), u32::MAX);
     assert_eq!(power(0, 0), u32::MAX);
     assert_eq!(power(0, 7), 0);
+}
+
+/// Kills: a bound that is a step too high, and one that is far too low.
+#[test]
+fn light_that_is_too_dim_to_be_mirrored_is_none() {
+    for shininess in (0..=1000).chain([4_000, u16::MAX]) {
+        let material = Material::shiny(1.0, shininess);
+        let light = DirectionalLight::new([0.0, 0.0, 1.0], [1.0; 3]).unwrap();
+        let lighting = Lighting::new(slice::from_ref(&light), [U1F15::ZERO; 3], material).unwrap();
+        let dim = Lamps::new(&lighting, |_| [0, 0, 1 << 30]).dim();
+        let part = (dim >> 14).isqrt();
+        assert_eq!((part * part) << 14, dim);
+        let level = |base: u32| ((power(base, shininess) >> 16) + 1) >> 1;
+        assert!(
+            part == 0 || level((part << 24) + (1 << 10)) == 0,
+            "{shininess}"
+        );
+        let above = (part + 2).min(255) << 24;
+        assert!(part >= 254 || level(above) > 0, "{shininess}");
+    }
 }
 
 /// Whatever numbers come in, nothing overflows, and channels stop at full level (P4).
@@ -343,6 +364,7 @@ fn a_light_that_grazes_a_surface_shines_in_it() {
             towards: [sine, 1 << 30, 0],
             diffuse: [1 << 15; 3],
             specular: [1 << 15; 3],
+            is_mirrored: true,
         };
         let base = Shine {
             factor: [0; 3],
@@ -351,7 +373,6 @@ fn a_light_that_grazes_a_surface_shines_in_it() {
         let lamps = Lamps {
             lamps,
             count: 1,
-            shiny: true,
             shininess: 1,
             base,
         };
