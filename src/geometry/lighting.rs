@@ -216,8 +216,8 @@ impl Lamps {
         self.falls(normal, 0, cosine, || Glance::new(normal, eye()))
     }
 
-    /// The same of a normal of any length in 15 fraction bits or less; light that is mirrored as little as `dim` says is
-    /// none.
+    /// The same of a normal of any length in 15 fraction bits or less; light that is mirrored as little as `dim` says
+    /// is none.
     #[inline(always)]
     pub(super) fn shine_any(
         &self,

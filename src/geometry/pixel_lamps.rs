@@ -1,4 +1,10 @@
-//! What shines on pixels: lights and a material as a camera sees them, and normals of unit length (K10).
+//! What shines on pixels: lights and a material as a camera sees them (K10).
+//!
+//! Normals come in any length, with 15 fraction bits, as planes give them: one root divides what they are multiplied
+//! with. The way to the eye has 15 bits too, a step across the picture from pixel to pixel.
+//!
+//! Measured against the formula in `f64` on normals of 0.7 to 1 times their length at corners (see the tests): at most
+//! 0.14 levels of 255 with powers up to 64, 0.23 up to 255, 0.41 up to 1000; shorter ones have fewer bits.
 
 use super::camera::{Camera, Screen};
 use super::colour::{Scale, Tint};
@@ -221,7 +227,7 @@ mod tests {
         }
     }
 
-    /// The largest difference from f64 in levels of 255, of normals between so long and 1 and formats with so many steps.
+    /// The largest difference from f64 in levels of 255, of normals of such lengths and formats with so many steps.
     fn worst(seed: u64, powers: &[u16], lengths: [f64; 2], steps: [u16; 3]) -> f64 {
         let mut rng = Rng(seed);
         let mut worst = 0f64;
@@ -265,11 +271,11 @@ mod tests {
         [0, 1, 2].map(|i| f64::from(got[i]) / f64::from(1 << steps[i].leading_zeros()))
     }
 
-    /// Bounds are what no one of 40 seeds was beyond: 0.135, 0.222, 0.404, 0.432 and 1.045 levels. A short normal has fewer
-    /// bits; what it came from has fewer still.
+    /// Bounds are what no one of 40 seeds was beyond: 0.135, 0.222, 0.404, 0.432 and 1.045 levels. A short normal has
+    /// fewer bits; what it came from has fewer still.
     ///
-    /// Kills: a root that is halved once too often, a half that is not added to the way to the eye, a light whose mirror
-    /// is given up too early.
+    /// Kills: a root that is halved once too often, a way to the eye that is cut off, a light whose mirror is given up
+    /// too early.
     #[test]
     fn pixels_are_lit_as_in_f64() {
         for (powers, lengths, bound) in [

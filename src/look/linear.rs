@@ -1,7 +1,7 @@
 //! The weighted mean of the four nearest texels (H6), and levels of detail made of means.
 //!
-//! Four texels are read once for all pixels of a run that lie between them. Instructions a pixel (rustc 1.95, opt-level 3,
-//! counted in QEMU) of words that repeat, on a Cortex-M4 and in Cortex-M0+ code: 34 and 49, and 47 and 65 for each
+//! Four texels are read once for all pixels of a run that lie between them. Instructions a pixel (rustc 1.95, opt-level
+//! 3, counted in QEMU) of words that repeat, on a Cortex-M4 and in Cortex-M0+ code: 34 and 49, and 47 and 65 for each
 //! four texels (`firmware --profile examples/scene-files/court.json`). In runs of 5 pixels with other texels each it is
 //! 94 and 135, all in (`--profile values_sampled`).
 

@@ -31,8 +31,8 @@ impl Sampling {
 
     /// The weighted mean of the four nearest texels of the level that fits, with 4 bits of weight each way.
     ///
-    /// A pixel takes 94 instructions on a Cortex-M4 and 135 on a Cortex-M0+ where texels are words that repeat, in runs of
-    /// 5 pixels, all in; 34 and 49 where it lies between the same four texels as the one before. Of texels that are
+    /// A pixel takes 94 instructions on a Cortex-M4 and 135 on a Cortex-M0+ where texels are words that repeat, in runs
+    /// of 5 pixels, all in; 34 and 49 where it lies between the same four texels as the one before. Of texels that are
     /// transparent the nearest alone counts, and it counts for those beside it.
     pub const LINEAR: Self = Self {
         draw: |span, run| draw(span, run, copy_linear),

@@ -21,8 +21,8 @@ use core::marker::PhantomData;
 #[derive(Clone, Copy, Debug)]
 pub struct TexturedPhong<F>(PhantomData<F>);
 
-/// What a level of 255 is multiplied by for 256 times that part of a channel of 16 bits: all of it for 255, and less than
-/// a unit more for others.
+/// What a level of 255 is multiplied by for 256 times that part of a channel of 16 bits: all of it for 255, and less
+/// than a unit more for others.
 #[inline(always)]
 fn for_levels(channel: u32) -> u32 {
     channel + (((channel + 254) * 0x8081) >> 23)

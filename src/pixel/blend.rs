@@ -150,7 +150,7 @@ mod tests {
     use crate::num::random::Rng;
     use crate::pixel::{PixelFormat, Rgb565, Rgb565Be};
 
-    /// Kills: fields that borrow from each other, parts of 31, a sum that wraps, light that is taken from the wrong one.
+    /// Kills: fields that borrow from each other, parts of 31, a sum that wraps, light taken from the wrong one.
     #[test]
     fn one_pixel_is_mixed_as_many_are() {
         let mut rng = Rng(10);
