@@ -453,4 +453,4 @@ pub(super) fn fifteen_bits(v: [i32; 3]) -> [i32; 3] {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -1,8 +1,9 @@
 //! Light at each pixel: normals linear between vertices, lit anew in every pixel (K10).
 //!
 //! In place of a colour, a vertex's word has its normal as the camera sees it: three planes take its components along
-//! the line, exact in each pixel, and there it is made unit length and lit by [`PixelLamps`](crate::light::PixelLamps), which is the formula of
-//! [`Lighting`](crate::light::Lighting). The way to the eye is the ray through the pixel, so no depth is needed.
+//! the line, exact in each pixel, and there it is lit, whatever its length, by
+//! [`PixelLamps`](crate::light::PixelLamps), which is the formula of [`Lighting`](crate::light::Lighting). The way to
+//! the eye is the ray through the pixel, so no depth is needed.
 //!
 //! | | |
 //! |---|---|

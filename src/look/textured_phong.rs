@@ -11,6 +11,7 @@ use super::textured_wide::{each_holed, each_texels};
 use super::tint::Texel;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
+use crate::num::of_255;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb565Le, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, Draws, WordOfNormal};
 use core::marker::PhantomData;
@@ -25,7 +26,7 @@ pub struct TexturedPhong<F>(PhantomData<F>);
 /// than a unit more for others.
 #[inline(always)]
 fn for_levels(channel: u32) -> u32 {
-    channel + (((channel + 254) * 0x8081) >> 23)
+    channel + of_255(channel + 127)
 }
 
 /// Sets a triangle up; of one that is lit a vertex's colour is its normal, and the planes of the shade are the normal's.

@@ -9,12 +9,24 @@
 use super::PixelFormat;
 
 /// Where the fields of RGB565 are when four bits are free above each: green, red, blue.
-const FIELDS_565: u32 = 0x07E0_F81F;
+pub(super) const FIELDS_565: u32 = 0x07E0_F81F;
 
 /// The fields of a pixel of RGB565, apart.
 #[inline(always)]
+pub(super) const fn apart_565(word: u16) -> u32 {
+    (word as u32 | (word as u32) << 16) & FIELDS_565
+}
+
+/// The pixel of fields that are apart, with nothing else between them.
+#[inline(always)]
+pub(super) const fn joined_565(fields: u32) -> u16 {
+    (fields | fields >> 16) as u16
+}
+
+/// The fields of a pixel of RGB565, as [`PixelFormat::widen`] has them.
+#[inline(always)]
 pub(super) const fn widen_565(word: u16) -> [u32; 2] {
-    [(word as u32 | (word as u32) << 16) & FIELDS_565, 0]
+    [apart_565(word), 0]
 }
 
 /// The pixel of fields of 16 times its steps, to the nearest step.
@@ -22,8 +34,7 @@ pub(super) const fn widen_565(word: u16) -> [u32; 2] {
 pub(super) const fn narrow_565([wide, _]: [u32; 2]) -> u16 {
     /// Half a step of each field.
     const HALVES: u32 = 8 << 21 | 8 << 11 | 8;
-    let fields = (wide + HALVES) >> 4 & FIELDS_565;
-    (fields | fields >> 16) as u16
+    joined_565((wide + HALVES) >> 4 & FIELDS_565)
 }
 
 /// A sent line: its pixels lie a quarter of a drawn one away from the drawn ones' centres, so that

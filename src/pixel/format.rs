@@ -227,13 +227,11 @@ impl PixelFormat for Rgb565 {
     /// All channels at once, with room above each for its carry.
     #[inline(always)]
     fn add(a: u16, b: u16) -> u16 {
-        let apart = |word: u16| (u32::from(word) << 16 | u32::from(word)) & 0x07E0_F81F;
-        let sum = apart(a) + apart(b);
+        let sum = between::apart_565(a) + between::apart_565(b);
         // Of what has overflown all bits are set: 5 below the carry, of green one more.
         let over = sum & 0x0801_0020;
         let full = (over - (over >> 5)) | over >> 6 & 0x0020_0000;
-        let sum = (sum | full) & 0x07E0_F81F;
-        (sum | sum >> 16) as u16
+        between::joined_565((sum | full) & between::FIELDS_565)
     }
 
     fn to_rgb8(word: u16) -> [u8; 3] {

@@ -4,6 +4,7 @@
 //! others work on all six fields at once: what two fields have in common, and half of what they
 //! have not, is their mean, which cannot overflow; its top bit says whether their sum would.
 
+use super::between::{apart_565, joined_565};
 use super::{Mix, PixelFormat, Rgb565};
 
 /// The low bit of every field.
@@ -73,13 +74,9 @@ fn mix_pair(old: u32, new: u32, mix: Mix) -> u32 {
 #[inline(always)]
 pub(super) fn mix_one(old: u16, new: u16, mix: Mix) -> u16 {
     // All fields have room in one word.
-    let apart = |word: u16| (u32::from(word) | u32::from(word) << 16) & ODD;
-    let filter = |old: u32, a: u32| {
-        let fields = part(old, apart(new), a, HALF_ODD) >> 5 & ODD;
-        (fields | fields >> 16) as u16
-    };
+    let filter = |old: u32, a: u32| joined_565(part(old, apart_565(new), a, HALF_ODD) >> 5 & ODD);
     let (alpha, flip) = match mix {
-        Mix::Filter(alpha) => return filter(apart(old), of_32(alpha)),
+        Mix::Filter(alpha) => return filter(apart_565(old), of_32(alpha)),
         Mix::Half => return half(old.into(), new.into()) as u16,
         Mix::Add(alpha) => (alpha, 0),
         Mix::Subtract(alpha) => (alpha, u16::MAX),

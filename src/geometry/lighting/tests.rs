@@ -23,11 +23,11 @@ impl Rng {
     }
 }
 
-fn times(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(in crate::geometry) fn times(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn unit(v: [f64; 3]) -> [f64; 3] {
+pub(in crate::geometry) fn unit(v: [f64; 3]) -> [f64; 3] {
     let length = times(v, v).sqrt();
     v.map(|c| c / length)
 }
