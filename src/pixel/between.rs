@@ -23,12 +23,6 @@ pub(super) const fn joined_565(fields: u32) -> u16 {
     (fields | fields >> 16) as u16
 }
 
-/// The fields of a pixel of RGB565, as [`PixelFormat::widen`] has them.
-#[inline(always)]
-pub(super) const fn widen_565(word: u16) -> [u32; 2] {
-    [apart_565(word), 0]
-}
-
 /// The pixel of fields of 16 times its steps, to the nearest step.
 #[inline(always)]
 pub(super) const fn narrow_565([wide, _]: [u32; 2]) -> u16 {

@@ -247,7 +247,7 @@ impl PixelFormat for Rgb565 {
 
     #[inline(always)]
     fn widen(word: u16) -> [u32; 2] {
-        between::widen_565(word)
+        [between::apart_565(word), 0]
     }
 
     #[inline(always)]
@@ -314,7 +314,7 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
 
     #[inline(always)]
     fn widen(word: u16) -> [u32; 2] {
-        between::widen_565(Self::in_memory(word))
+        [between::apart_565(Self::in_memory(word)), 0]
     }
 
     #[inline(always)]
