@@ -1,10 +1,10 @@
 //! What the small frames that the firmware draws have to show, to compare anything (X1, X2).
 
-use host_tests::frames::values_sent;
+use host_tests::frames::{bytes_in_format, values_sent};
 use host_tests::say;
 use scanbeam::event::Event;
-use scanbeam::pixel::{PixelFormat, Rgb565Be};
-use scenes::{VALUES, Values};
+use scanbeam::pixel::{PixelFormat, Rgb565, Rgb565Be, Rgb888, Xrgb8888};
+use scenes::{InFormat, VALUES, Values};
 use std::collections::BTreeSet;
 
 /// What few draw calls have: each frame has it, whatever the number of slots.
@@ -81,4 +81,34 @@ fn answers_are_many_and_those_that_are_known_are_right() {
     let [stalls, halts, lines] = [40, 41, 42].map(told);
     assert!(stalls[0] > 0 && stalls[1..] == [0; 2], "{stalls:?}");
     assert!(halts != [0; 3] && lines != [0; 3]);
+}
+
+/// The levels of a scene whose pixels are words of `N` bytes.
+fn levels_in<const N: usize>(format: InFormat, levels: fn([u8; N]) -> [u8; 3]) -> Vec<[u8; 3]> {
+    let bytes = bytes_in_format(format).unwrap();
+    let words = bytes.chunks(N).map(|word| word.try_into().unwrap());
+    words.map(levels).collect()
+}
+
+/// Words of 24 bits hold what bytes do; grey is what the weights make of numbers, but for a step of each.
+#[test]
+fn formats_show_the_same_scenes() {
+    let bytes = levels_in(InFormat::LitBytes, Rgb888::to_rgb8);
+    let colours: BTreeSet<_> = bytes.iter().collect();
+    assert!(colours.len() > 5_000, "{}", colours.len());
+    let words = |word| Xrgb8888::to_rgb8(u32::from_ne_bytes(word));
+    assert!(bytes == levels_in(InFormat::LitWords, words));
+
+    let numbers = levels_in(InFormat::Numbers, |word| {
+        Rgb565::to_rgb8(u16::from_ne_bytes(word))
+    });
+    let grey = levels_in(InFormat::Grey, |[level]| [level; 3]);
+    let mut most = 0;
+    for ([r, g, b], [level, ..]) in numbers.iter().map(|rgb| rgb.map(u32::from)).zip(&grey) {
+        let of_numbers = (77 * r + 150 * g + 29 * b + 128) >> 8;
+        most = most.max(of_numbers.abs_diff(u32::from(*level)));
+    }
+    say!("grey is up to {most} levels off that of RGB565");
+    let levels: BTreeSet<_> = grey.iter().collect();
+    assert!(levels.len() > 50 && most <= 8, "{} levels", levels.len());
 }

@@ -16,9 +16,7 @@ pub struct Slot<T> {
     /// The object's number.
     pub(crate) object: u16,
     /// What the owner of the slots wants to know of an object.
-    pub(crate) flags: u8,
-    /// How many draw calls began up to that of this object, or of the one before it; 0 where they are more than 255.
-    pub(crate) draw: u8,
+    pub(crate) known: u16,
     /// Not at the beginning: what lies there is loaded from an address of its own.
     pub(crate) item: T,
 }
@@ -152,8 +150,7 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
         let slot = Slot {
             item,
             object: 0,
-            flags: 0,
-            draw: 0,
+            known: 0,
         };
         const { assert!(32 * WORDS < 0xFF, "at most 224 slots") };
         Self {

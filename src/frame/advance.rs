@@ -86,7 +86,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let Some(object) = view.objects.get(usize::from(slot.object)) else {
             return;
         };
-        let way = Flags(slot.flags).way();
+        let way = Flags::of(slot).way();
         let end = if way == Way::PLAIN {
             let [_, b, c] = object.corner;
             let at = |i: u16| view.vertices.get(usize::from(i)).map(|v| v.place);
@@ -189,7 +189,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let fill = L::set_up(&of, planes);
         let flags = Flags::new(fill, entry.way());
         kept.object = number;
-        kept.flags = flags.0;
+        kept.known = flags.0.into();
         let change = Change {
             line: entry.change(),
             turns: entry.turns(),

@@ -30,8 +30,7 @@ struct Run<'c> {
 
 impl Part<'_> {
     fn run_of(&mut self, rival: Rival) -> Option<Run<'_>> {
-        let (start, end) = (self.columns.start, self.columns.end);
-        let (start, end) = (rival.span.start.max(start), rival.span.end.min(end));
+        let Span { start, end } = rival.span.within(self.columns);
         let first = self.columns.start;
         let cells = (start.checked_sub(first)? as usize)..(end.checked_sub(first)? as usize);
         Some(Run {

@@ -1,11 +1,10 @@
 //! The colours of runs, as well as a [paced](super::paced) line can pay for them (X9).
 
-use super::line::fill_line;
 use super::paced::Pacer;
 use super::renderer::Renderer;
 use super::runs::{Run, Runs};
 use super::spans::{Drawn, Line, Span, colour_run};
-use crate::look::{Look, WordOf};
+use crate::look::{Look, WordOf, fill_even};
 use crate::num::leading_zeros;
 
 /// Classes of runs by width: 1 column, 2 to 3, 4 to 7, and so on to 1,023; the first is class 1.
@@ -148,6 +147,6 @@ fn colour_evenly<L: Look>(
 /// One colour for columns.
 fn fill_columns<L: Look>(start: u32, end: u32, colour: WordOf<L>, pixels: &mut [WordOf<L>]) {
     if let Some(pixels) = pixels.get_mut(start as usize..end as usize) {
-        fill_line::<L>(pixels, colour);
+        fill_even::<L::Pixel>(pixels, colour);
     }
 }

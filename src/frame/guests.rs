@@ -128,7 +128,8 @@ impl<L: Look, const WORDS: usize> Field<'_, L, WORDS> {
             drawing.hidden += 1;
             return;
         }
-        if !self.is_contested(rival.span, far, after.slots) && self.guest_key(after.guests) < far {
+        let later = self.later(after.slots);
+        if !self.meets(rival.span, far, later) && self.guest_key(after.guests) < far {
             return colour_guest::<L>(rival, None, drawing, out);
         }
         let mut taken = drawing.mask.part(start, end);

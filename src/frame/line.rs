@@ -50,7 +50,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         self.advance(view, line);
         if self.cache.is_empty() {
-            fill_line::<L>(pixels, background);
+            fill_even::<L::Pixel>(pixels, background);
             return false;
         }
         let mut out = Line {
@@ -92,7 +92,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn fill_rest(&mut self, pixels: &mut [WordOf<L>], background: WordOf<L>) {
         self.covered.take_free(pixels.len() as u32, |from, to| {
             if let Some(run) = pixels.get_mut(from as usize..to as usize) {
-                fill_line::<L>(run, background);
+                fill_even::<L::Pixel>(run, background);
             }
         });
     }
@@ -156,10 +156,4 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         0
     }
-}
-
-/// Pixels of one colour.
-#[inline(always)]
-pub(super) fn fill_line<L: Look>(pixels: &mut [WordOf<L>], colour: WordOf<L>) {
-    fill_even::<L::Pixel>(pixels, colour);
 }

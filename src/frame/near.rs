@@ -82,15 +82,9 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
         Span::of(span.unwrap_or_default())
     }
 
-    /// Whether a slot that comes later shares columns with a span, and may be nearer than `far`.
+    /// Whether a slot with one of these keys, which fall, shares columns with a span, and may be nearer than `far`.
     #[inline(always)]
-    pub(super) fn is_contested(&self, span: Span, far: u32, after: usize) -> bool {
-        self.meets(span, far, self.later(after))
-    }
-
-    /// The same of slots with these keys.
-    #[inline(always)]
-    fn meets(&self, span: Span, far: u32, later: &[u32]) -> bool {
+    pub(super) fn meets(&self, span: Span, far: u32, later: &[u32]) -> bool {
         for &key in later {
             if key | NUMBER < far {
                 break;
@@ -321,6 +315,12 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// are.
     #[inline(never)]
     pub(super) fn sort_slots(&mut self, out: &Line<'_, '_, L>) -> usize {
+        self.sort_by(|renderer, key| renderer.key_on_line(key, out))
+    }
+
+    /// Sorts the slots that are listed by new keys, which fall then, from the last line's order on; how many they are.
+    #[inline(always)]
+    pub(super) fn sort_by(&mut self, mut key_of: impl FnMut(&mut Self, u32) -> u32) -> usize {
         let (listed, before) = (self.cache.listed, self.append_new());
         let mut count = 0;
         let mut last = u32::MAX;
@@ -329,7 +329,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let key = self.cache.order.as_flattened()[k % (32 * WORDS)];
             let number = number_of::<WORDS>(key);
             if listed[number >> 5] & bit(number as u32 & 31) != 0 {
-                self.insert_slot(key, count, &mut last, out);
+                let key = key_of(self, key);
+                if key > last {
+                    insert_falling(self.cache.order.as_flattened_mut(), count, key);
+                } else {
+                    self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = key;
+                    last = key;
+                }
                 count += 1;
             }
         }
@@ -355,29 +361,21 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         count
     }
 
-    /// Finds the span of a slot and puts it into its place among so many that are sorted; one without pixels keeps
-    /// its key, where that is a depth.
+    /// Finds the span of a slot, and its new key; one without pixels keeps its own, where that is a depth.
     #[inline(always)]
-    fn insert_slot(&mut self, mut key: u32, count: usize, last: &mut u32, out: &Line<'_, '_, L>) {
+    fn key_on_line(&mut self, key: u32, out: &Line<'_, '_, L>) -> u32 {
         let number = number_of::<WORDS>(key);
         let slot = &self.cache.slots.as_flattened()[number];
-        if out.nearest_first && Flags(slot.flags).is_usual() {
+        if out.nearest_first && Flags::of(slot).is_usual() {
             let sides = &slot.item.sides;
             let span = Span {
                 start: sides.left.column(out.number),
                 end: sides.right.column(out.number),
             };
             let slope = Slope::of_plane(slot.item.depth, out.number);
-            key = self.keep_span(key, span, slope);
-        } else {
-            key = self.find_other(key, out);
+            return self.keep_span(key, span, slope);
         }
-        if key > *last {
-            insert_falling(self.cache.order.as_flattened_mut(), count, key);
-        } else {
-            self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = key;
-            *last = key;
-        }
+        self.find_other(key, out)
     }
 
     /// Keeps the span of a slot and its farthest depth; its key, as it was where the span is empty.

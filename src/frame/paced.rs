@@ -6,7 +6,6 @@
 //! All of that hangs on lines and costs alone, not on which line was drawn before: lines in any order give the same
 //! picture.
 
-use super::line::fill_line;
 use super::pace::{Pace, Paid};
 use super::renderer::{LineError, Renderer, View};
 use super::rival::deepen;
@@ -14,7 +13,7 @@ use super::runs::Runs;
 use super::slot::Active;
 use super::spans::Line;
 use crate::active::Cache;
-use crate::look::{Look, WordOf};
+use crate::look::{Look, WordOf, fill_even};
 use crate::num::{bit, take_first};
 use crate::scene::{NONE, Object, Scene};
 
@@ -194,7 +193,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.counts.peak = self.counts.peak.max(self.cache.in_use());
         let waits = pacer.waits(line);
         if self.cache.in_use() == 0 && !waits {
-            fill_line::<L>(pixels, background);
+            fill_even::<L::Pixel>(pixels, background);
             pacer.note_cost();
             return false;
         }
@@ -213,7 +212,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.colour_runs(pacer, &runs, &mut out, background);
         } else {
             pacer.paid.left_out += out.pixels.len() as u32;
-            fill_line::<L>(out.pixels, background);
+            fill_even::<L::Pixel>(out.pixels, background);
         }
         self.depth = depth;
         let is_lowered = pacer.paid != before;

@@ -3,7 +3,7 @@
 use super::ahead::Fetcher;
 use super::paced::Pacer;
 use super::ruled::colour_dithered;
-use super::slot::Active;
+use super::slot::{Active, begun_of};
 use super::spans::{Drawn, Line};
 use super::tally::Counter;
 use crate::active::{Cache, CacheSlot, CacheUse};
@@ -451,7 +451,7 @@ impl<'a> View<'a> {
     /// The same of an object in a slot that knows how many calls have begun up to its own.
     #[inline(never)]
     pub(super) fn state_of<T>(&self, slot: &CacheSlot<T>) -> Option<&'a DrawState<'a>> {
-        match slot.draw.checked_sub(1) {
+        match begun_of(slot).checked_sub(1) {
             Some(at) => self.draws.states.get(usize::from(at)),
             None => self.state(slot.object),
         }

@@ -87,11 +87,10 @@ impl Rival {
     /// linear.
     #[inline(always)]
     pub(super) fn hidden_of(self, other: Self) -> Option<Span> {
-        if !self.span.meets(other.span) {
+        let Span { start, end } = self.span.within(other.span);
+        if start >= end {
             return None;
         }
-        let start = self.span.start.max(other.span.start);
-        let end = self.span.end.min(other.span.end);
         let first = self.hides(other, start);
         if first == self.hides(other, end - 1) {
             return first.then_some(Span { start, end });
@@ -140,14 +139,14 @@ impl Rival {
 fn find_depth<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
     let triangle = view.triangle_of(slot.object);
     let plane = triangle.and_then(|t| depth_plane(&t));
-    slot.flags = Flags(slot.flags).with_depth(plane.is_none()).0;
+    Flags::of(slot).with_depth(plane.is_none()).keep(slot);
     slot.item.depth = plane.unwrap_or_default();
 }
 
 /// Finds the depth of a slot, unless it is known.
 #[inline(always)]
 pub(super) fn deepen<L: Look>(slot: &mut CacheSlot<Active<L::Planes>>, view: &View<'_>) {
-    if !Flags(slot.flags).is_deep() {
+    if !Flags::of(slot).is_deep() {
         find_depth::<L>(slot, view);
     }
 }
@@ -162,7 +161,7 @@ pub(super) fn slope_of<L: Look>(
     if !out.deep {
         return Slope::of_place(out.view, slot.object);
     }
-    if Flags(slot.flags).lacks_depth() {
+    if Flags::of(slot).lacks_depth() {
         return thin_slope(slot.object, span, out.view, out.number);
     }
     Slope::of_plane(slot.item.depth, out.number)

@@ -14,6 +14,7 @@ use crate::pixel::{blend, blend_each};
 use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, keep, test};
 use core::hint::black_box;
+use core::ops::Range;
 
 /// A span of a triangle, and the values of its draw call.
 #[derive(Clone, Copy)]
@@ -48,13 +49,10 @@ pub(super) fn draw_ruled<L: Look>(
         Some(known) => depth_on_line::<L>(drawn, known.plane, span, out),
         None => [0; 2],
     };
-    let (start, end) = (part.start.max(span.start), part.end.min(span.end));
-    for run in state.cut(out.number, start..end) {
-        let run = Span {
-            start: run.start,
-            end: run.end,
-        };
-        if run.start >= run.end {
+    let part = span.within(part);
+    for Range { start, end } in state.cut(out.number, part.start..part.end) {
+        let run = Span { start, end };
+        if start >= end {
             continue;
         }
         if state.is_by_pixel() {

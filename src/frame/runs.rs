@@ -205,7 +205,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(always)]
     fn flags(&self, number: usize) -> Flags {
         let slot = self.cache.slots.as_flattened().get(number);
-        Flags(slot.map_or(0, |slot| slot.flags))
+        slot.map_or(Flags(0), Flags::of)
     }
 
     /// Sorts the slots that are listed from the nearest on, if the line can pay for it, whatever their order was

@@ -68,14 +68,8 @@ where
     L: Look,
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
-    draw_frame_overlaid(
-        scene,
-        renderer,
-        pump,
-        background,
-        lines_per_transfer,
-        |_, _| {},
-    )
+    let none = |_, _: &mut [WordOf<L>]| {};
+    draw_frame_overlaid(scene, renderer, pump, background, lines_per_transfer, none)
 }
 
 /// Draws and sends all lines of `scene` as [`draw_frame`] does, with what `overlay` paints over each of them (K14), of
@@ -96,13 +90,9 @@ where
     D: ScanoutDma<Buf: LineBuf<Word = WordOf<L>>>,
 {
     let mut lines = Lines::new(scene, background, overlay);
-    send(
-        scene,
-        renderer,
-        pump,
-        lines_per_transfer,
-        |renderer, line, pixels| lines.draw(renderer, line, pixels),
-    )
+    send(scene, renderer, pump, lines_per_transfer, |by, line, to| {
+        lines.draw(by, line, to)
+    })
 }
 
 /// The lines of a frame as they are drawn: what they read of the scene, once a frame, what is behind them, and what

@@ -5,7 +5,7 @@
 //! line of counts serves all lights.
 
 use super::alone::{Alone, set_up_stray};
-use super::rank::insert_rising;
+use super::near::insert;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, cells_of, depth_on_line, draw_ruled, each_run};
@@ -17,6 +17,7 @@ use crate::num::{bit, take_first};
 use crate::scene::{DepthFunction, DrawState, Role};
 use crate::stats::{SpanCounts, SpanPixels};
 use crate::visible::{MOST_TESTED, Receives, count, receive, settle};
+use core::ops::Range;
 
 /// What is done with spans of a light, in this order: volumes are counted, then what is seen again is drawn.
 ///
@@ -134,12 +135,9 @@ fn take<L: Look>(
     let how = receives(state);
     let passes = how.passes;
     let inexact = inexact(step, known.plane[2]);
-    for run in state.cut(out.number, span.start..span.end) {
-        let run = Span {
-            start: run.start,
-            end: run.end,
-        };
-        if run.start >= run.end {
+    for Range { start, end } in state.cut(out.number, span.start..span.end) {
+        let run = Span { start, end };
+        if start >= end {
             continue;
         }
         let counts = counts.get_mut(run.start as usize..run.end as usize);
@@ -168,6 +166,12 @@ fn take<L: Look>(
             });
         }
     }
+}
+
+/// Inserts a key among the first `count`, which rise.
+#[inline(never)]
+fn insert_rising(keys: &mut [u32], count: usize, key: u32) {
+    insert(keys, count, key, |other| other < key);
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
@@ -214,10 +218,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Lists the slots that have to do with shadows by their steps, and of a step in order of submission, and finds their
-    /// depth; how many there are, and the lights of all spans.
+    /// Lists the slots that have to do with shadows behind those in order, by their steps, and of a step in order of
+    /// submission, and finds their depth; how many there are, and the lights of all spans.
     fn list_shadows(&mut self, out: &Line<'_, '_, L>) -> (usize, Lights) {
-        let (mut count, mut lights) = (0, Lights::default());
+        let (first, mut count) = (usize::from(self.nearest), 0);
+        let mut lights = Lights::default();
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while let Some(i) = self.next_with_values(word, &mut others) {
@@ -229,8 +234,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                     deepen::<L>(slot, out.view);
                     let number = word as u32 * 32 + i;
                     let key = step << 24 | u32::from(slot.object) << 8 | number;
-                    let keys = self.cache.order.as_flattened_mut();
-                    insert_rising(keys, count, key);
+                    let keys = self.cache.order.as_flattened_mut().get_mut(first..);
+                    insert_rising(keys.unwrap_or_default(), count, key);
                     count += 1;
                 }
             }
@@ -253,10 +258,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn take_step(&mut self, step: Step, slots: usize, out: &mut Line<'_, '_, L>) {
         let mut slow = self.next_of_step(self.first_spilled(), step, out.view);
         let mut alone = Alone::empty(L::EMPTY);
-        let keys = self.cache.order.as_flattened().get(..slots);
-        let first = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
-        for k in first.. {
-            let keys = self.cache.order.as_flattened().get(..slots);
+        let first = usize::from(self.nearest);
+        let keys = self.cache.order.as_flattened().get(first..first + slots);
+        let before = keys.map_or(0, |keys| keys.partition_point(|key| key >> 24 < step));
+        for k in first + before.. {
+            let keys = self.cache.order.as_flattened().get(..first + slots);
             let key = keys.and_then(|keys| keys.get(k)).copied();
             let key = key.filter(|key| key >> 24 == step);
             let object = key.map_or(u32::MAX, |key| key >> 8 & 0xFFFF);

@@ -1,5 +1,6 @@
 //! A triangle in a slot of the cache: 64 bytes with smooth colours.
 
+use crate::active::CacheSlot;
 use crate::look::Fill;
 use crate::span::{Sides, Way};
 
@@ -18,15 +19,33 @@ pub struct Active<P> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Flags(pub(super) u8);
 
+/// How many draw calls began up to that of an object in a slot; 0 where nobody has asked, or they are more than 255.
+#[inline(always)]
+pub(super) fn begun_of<T>(slot: &CacheSlot<T>) -> u8 {
+    (slot.known >> 8) as u8
+}
+
 impl Flags {
     const NO_DEPTH: u8 = 1 << 5;
     const WAY: u32 = 2;
-    const VALUES: u8 = 1 << 6;
-    const DEEP: u8 = 1 << 7;
+    const VALUES: u8 = 1 << 7;
+    const DEEP: u8 = 1 << 6;
 
     #[inline(always)]
     pub(super) fn new(fill: Fill, way: Way) -> Self {
         Self(fill as u8 | way.0 << Self::WAY)
+    }
+
+    /// Those of what is in a slot.
+    #[inline(always)]
+    pub(super) fn of<T>(slot: &CacheSlot<T>) -> Self {
+        Self(slot.known as u8)
+    }
+
+    /// Keeps them in the slot.
+    #[inline(always)]
+    pub(super) fn keep<T>(self, slot: &mut CacheSlot<T>) {
+        slot.known = slot.known & 0xFF00 | u16::from(self.0);
     }
 
     /// Whether the triangle is drawn in the commonest way.

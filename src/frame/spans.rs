@@ -89,7 +89,7 @@ pub(super) fn columns_of<L: Look>(
     slot: &CacheSlot<Active<L::Planes>>,
     out: &Line<'_, '_, L>,
 ) -> Span {
-    let (flags, sides) = (Flags(slot.flags), &slot.item.sides);
+    let (flags, sides) = (Flags::of(slot), &slot.item.sides);
     let (start, end) = if flags.is_direct() {
         (
             sides.left.column(out.number),
@@ -108,7 +108,7 @@ pub(super) fn colour_slot<L: Look>(
     span: u32,
     out: &mut Line<'_, '_, L>,
 ) {
-    let (span, flags) = (Span::of(span), Flags(slot.flags));
+    let (span, flags) = (Span::of(span), Flags::of(slot));
     let is_usual = match L::TEXTURED {
         true => !flags.is_other(),
         false => flags.is_coloured_plainly(),
@@ -192,7 +192,7 @@ impl<'a, P> Drawn<'a, P> {
     pub(super) fn of(slot: &'a CacheSlot<Active<P>>) -> Self {
         Self {
             planes: &slot.item.planes,
-            flags: Flags(slot.flags),
+            flags: Flags::of(slot),
             object: slot.object,
         }
     }
@@ -214,6 +214,15 @@ impl Span {
     #[inline(always)]
     pub(super) fn meets(self, other: Self) -> bool {
         self.start < other.end && other.start < self.end
+    }
+
+    /// What two spans share; it may be empty.
+    #[inline(always)]
+    pub(super) fn within(self, other: Self) -> Self {
+        Self {
+            start: self.start.max(other.start),
+            end: self.end.min(other.end),
+        }
     }
 
     /// The first run of the span that a mask has not, which it has from now on; the span is what lies behind it then.

@@ -70,7 +70,7 @@ impl<P> Seen<'_, P> {
     fn rival<L: Look<Planes = P>>(&self, out: &Line<'_, '_, L>) -> Option<Rival> {
         let slot = self
             .slot
-            .filter(|slot| !out.deep || Flags(slot.flags).is_deep());
+            .filter(|slot| !out.deep || Flags::of(slot).is_deep());
         if let Some(slot) = slot {
             return Some(rival_of::<L>(slot, self.span, out));
         }
@@ -168,7 +168,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Counts what is translucent on a line that is drawn by depth: all else is drawn, and none of it changes depths.
     #[inline(never)]
     fn count_panes(&mut self, slots: usize, out: &Line<'_, '_, L>) {
-        for k in 0..slots {
+        let first = usize::from(self.nearest);
+        for k in first..first + slots {
             let Some((slot, span)) = self.cache.at(self.number_at(k)) else {
                 return;
             };

@@ -184,8 +184,7 @@ impl Pile {
             while others != 0 {
                 let b = take_first(&mut others) as usize % PANES;
                 let other = self.panes[b].rival;
-                let start = rival.span.start.max(other.span.start).max(part.start);
-                let end = rival.span.end.min(other.span.end).min(part.end);
+                let Span { start, end } = rival.span.within(other.span).within(*part);
                 if start >= end {
                     continue;
                 }
@@ -242,9 +241,9 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
     }
 
-    /// Lists the slots of translucent spans, and finds their depth; how many there are.
+    /// Lists the slots of translucent spans behind those in order, and finds their depth; how many there are.
     fn list_translucent(&mut self, out: &Line<'_, '_, L>) -> usize {
-        let mut count = 0;
+        let (mut count, first) = (0, usize::from(self.nearest));
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while let Some(i) = self.next_with_values(word, &mut others) {
@@ -252,7 +251,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 let state = out.view.state_of(slot);
                 if state.is_some_and(DrawState::is_translucent) {
                     deepen::<L>(slot, out.view);
-                    if let Some(place) = self.cache.order.as_flattened_mut().get_mut(count) {
+                    if let Some(place) = self.cache.order.as_flattened_mut().get_mut(first + count)
+                    {
                         *place = word as u32 * 32 + i;
                         count += 1;
                     }
@@ -266,7 +266,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn each_pane(&mut self, count: usize, out: &Line<'_, '_, L>, f: &mut dyn FnMut(Pane)) {
         for k in 0..count {
-            let number = self.number_at(k);
+            let number = self.number_at(usize::from(self.nearest) + k);
             let Some((slot, span)) = self.cache.at(number) else {
                 return;
             };

@@ -7,15 +7,14 @@
 //! what is translucent (see `translucent`). Without depth all is drawn in order of submission.
 
 use super::alone::{Alone, set_up_stray};
-use super::line::fill_line;
 use super::renderer::{Renderer, View};
 use super::rival::deepen;
 use super::ruled::{Ruled, draw_ruled};
-use super::slot::Flags;
+use super::slot::{Flags, begun_of};
 use super::spans::{Drawn, Known, Line, Span, colour, columns_of};
 use super::spilled::Found;
 use crate::active::next;
-use crate::look::{Fill, Look, WordOf};
+use crate::look::{Fill, Look, WordOf, fill_even};
 use crate::num::{bit, take_first};
 use crate::scene::DrawState;
 
@@ -29,13 +28,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if !out.view.ruled || !self.is_ruled(out) {
             return false;
         }
-        fill_line::<L>(out.pixels, background);
+        fill_even::<L::Pixel>(out.pixels, background);
         if self.cache.spilled.is_some() {
             self.keep_strays(out);
         }
         self.find_slots(out);
         // Where this is so, `over` says where depth is compared.
-        self.met = out.deep;
+        (self.met, self.lasting) = (out.deep, false);
         let mut waiting = [0; WORDS];
         if self.met {
             waiting = self.find_compared(out);
@@ -53,35 +52,33 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         self.over.clear();
         self.written.clear();
         self.met = false;
-        // What was kept of an order of slots has been written over.
-        (self.nearest, self.lasting) = (0, false);
-        self.ordered = [0; WORDS];
         true
     }
 
-    /// Marks the slots whose draw calls have values. Nobody asks where they are filled, which is nearly always in a
-    /// scene without any.
+    /// Marks the slots whose draw calls have values, each once. Nobody asks where they are filled, which is nearly always
+    /// in a scene without any.
     fn mark_values(&mut self, view: &View<'_>) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             while used != 0 {
                 let i = take_first(&mut used);
                 let slot = &mut self.cache.slots[word][i as usize & 31];
-                if Flags(slot.flags).has_values() {
+                if begun_of(slot) != 0 || Flags::of(slot).has_values() {
                     continue;
                 }
-                slot.draw = u8::try_from(view.draws.begun(slot.object)).unwrap_or(0);
+                let begun = u8::try_from(view.draws.begun(slot.object)).unwrap_or(0);
+                slot.known |= u16::from(begun) << 8;
                 let Some(state) = view.state_of(slot).filter(|state| state.has_values()) else {
                     continue;
                 };
-                let mut flags = Flags(slot.flags).with_values();
+                let mut flags = Flags::of(slot).with_values();
                 if state.dithers && flags.fill() == Fill::Plain {
                     let triangle = view.triangle_of(slot.object);
                     let finer =
                         triangle.and_then(|t| L::set_up_dithered(&t, &mut slot.item.planes));
                     flags = finer.map_or(flags, |fill| flags.with_fill(fill));
                 }
-                slot.flags = flags.0;
+                flags.keep(slot);
                 self.cache.plain[word] &= !bit(i);
             }
         }
@@ -92,7 +89,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     pub(super) fn next_with_values(&self, word: usize, set: &mut u32) -> Option<u32> {
         while *set != 0 {
             let i = take_first(set);
-            let flags = Flags(self.cache.slots[word][i as usize & 31].flags);
+            let flags = Flags::of(&self.cache.slots[word][i as usize & 31]);
             let span = Span::of(self.cache.spans[word][i as usize & 31]);
             if flags.has_values() && span.start < span.end {
                 return Some(i);
@@ -108,7 +105,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
             while others != 0 {
                 let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
-                if Flags(slot.flags).has_values() && rules(out.view.state_of(slot)) {
+                if Flags::of(slot).has_values() && rules(out.view.state_of(slot)) {
                     let Span { start, end } = columns_of::<L>(slot, out);
                     if start < end {
                         return true;
@@ -146,7 +143,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         waiting
     }
 
-    /// Draws a span in a slot.
+    /// Draws a span in a slot, if it has one.
     #[inline(never)]
     pub(super) fn draw_slot(&mut self, number: usize, out: &mut Line<'_, '_, L>) {
         let (word, i) = (number >> 5, number & 31);
@@ -156,8 +153,11 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             return;
         };
         let (slot, span) = (&mut slots[i], Span::of(spans[i]));
+        if span.start >= span.end {
+            return;
+        }
         let is_compared = self.met && self.over.meets(span.start, span.end);
-        let has_values = Flags(slot.flags).has_values();
+        let has_values = Flags::of(slot).has_values();
         let state = has_values.then(|| out.view.state_of(slot)).flatten();
         let state = state.unwrap_or(&DrawState::EMPTY);
         if is_compared {

@@ -112,12 +112,14 @@ impl PixelLamps {
         if long | more[0] | more[1] | more[2] == 0 {
             return [0, 1, 2].map(|i| (own[i] * factor[i]) >> 15);
         }
-        [0, 1, 2].map(|i| {
+        let bright = |i: usize| {
             let (steps, below) = (u32::from(steps[i]), steps[i].leading_zeros());
             // 24 and 29 bits.
             let part = mul_high_unsigned(own[i] << 8, factor[i] << 9);
             (part + ((more[i] * steps) >> (15 - below))).min(steps << below)
-        })
+        };
+        // Not mapped: in a program with several formats that would be called.
+        [bright(0), bright(1), bright(2)]
     }
 }
 

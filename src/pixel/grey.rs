@@ -6,6 +6,8 @@
 //! ([`mono_row`], e-paper and most memory LCDs) or by pages of 8 lines ([`mono_page`], SSD1306
 //! and its like). A transfer of 8 lines has what a page needs.
 
+use super::mix::Mix;
+use super::mix_bytes::mix_bytes;
 use super::{MadeOf, PixelFormat};
 
 /// One byte, 0 black to 255 white.
@@ -40,6 +42,10 @@ impl PixelFormat for Grey8 {
     #[inline(always)]
     fn add(a: u8, b: u8) -> u8 {
         a.saturating_add(b)
+    }
+
+    fn mix(old: &mut [u8], new: &[u8], mix: Mix) {
+        mix_bytes(old, new, mix);
     }
 
     fn to_rgb8(word: u8) -> [u8; 3] {

@@ -5,7 +5,7 @@
 //! | `format` | how a pixel looks in the line buffer: RGB565 in three orders of bytes, RGB888 |
 //! | `xrgb`, `grey`, `indexed` | 32-bit words; 8 bits of grey and 1 bit made of it; numbers of a palette, which may differ from line to line |
 //! | `blend`, `mix` | a new pixel and the one that is there become one: by any blend, by a mode |
-//! | `mix_565`, `mix_bytes` | two pixels of 16 bits in a register; four channels of 8 |
+//! | `mix_565`, `mix_bytes` | two pixels of 16 bits in a register; four channels of 8, or four pixels of grey |
 //! | `between` | lines and columns doubled |
 //! | `ordered` | the order of a 4 x 4 dither |
 //!

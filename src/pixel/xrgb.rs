@@ -1,5 +1,7 @@
 //! Eight bits a channel in a 32-bit word, for frame buffers and parallel panels (H10).
 
+use super::mix::Mix;
+use super::mix_bytes::mix_bytes;
 use super::{MadeOf, PixelFormat};
 
 /// Red in bits 23..16, green in 15..8, blue in 7..0; the upper 8 bits are 0.
@@ -19,6 +21,11 @@ impl PixelFormat for Xrgb8888 {
     #[inline(always)]
     fn pack_words(red_blue: u32, green: u32) -> u32 {
         red_blue >> 8 & 0x00FF_00FF | green >> 16 & 0xFF00
+    }
+
+    fn mix(old: &mut [u32], new: &[u32], mix: Mix) {
+        let (old, new) = (bytemuck::cast_slice_mut(old), bytemuck::cast_slice(new));
+        mix_bytes(old, new, mix);
     }
 
     fn to_rgb8(word: u32) -> [u8; 3] {

@@ -1,8 +1,8 @@
 //! The frames that are drawn on the host and on every target, by name.
 
 use crate::{
-    IN_PARTS, PACED, PLAYED, Paced, Played, SCENES_B, SHOTS, STRESS, SUITE, SceneB, Shot, Suite,
-    TRUE_COLOUR, VALUES, VARIANTS, Values, Variant,
+    IN_FORMATS, IN_PARTS, InFormat, PACED, PLAYED, Paced, Played, SCENES_B, SHOTS, STRESS, SUITE,
+    SceneB, Shot, Suite, VALUES, VARIANTS, Values, Variant,
 };
 
 /// What a frame is.
@@ -12,8 +12,8 @@ pub enum Frame {
     Suite(Suite),
     /// A scene of the suite whose mesh is drawn in parts.
     InParts(Suite),
-    /// A scene of the suite in pixels of 24 bits.
-    TrueColour(Suite),
+    /// A scene in other pixels than an SPI panel's.
+    Format(InFormat),
     /// A scene of the suite whose lines cost no more than they may.
     Paced(Paced),
     /// A small frame of what few draw calls have.
@@ -52,8 +52,8 @@ pub fn unhurried() -> impl Iterator<Item = (&'static str, Frame)> {
 }
 
 /// Every frame, in the order in which they are drawn: the suite, and of it what is drawn in parts and what is paced, what few draw calls have, lists, all other shots,
-/// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, what has
-/// 24 bits, and one by the hardware model.
+/// those of stress too, then what the cache and its renderers must not change, and faces of one colour, scene B, other
+/// pixels, and one by the hardware model.
 pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
     let suite = SUITE.map(|suite| (suite.name(), Frame::Suite(suite)));
     let parts = IN_PARTS.map(|(name, suite)| (name, Frame::InParts(suite)));
@@ -71,6 +71,6 @@ pub fn frames() -> impl Iterator<Item = (&'static str, Frame)> {
         .chain(played)
         .chain(shots.map(|how| (how.name, Frame::Shot(how))))
         .chain(SCENES_B.map(|scene| (scene.name, Frame::B(scene))))
-        .chain(TRUE_COLOUR.map(|(name, suite)| (name, Frame::TrueColour(suite))))
+        .chain(IN_FORMATS.map(|(name, scene)| (name, Frame::Format(scene))))
         .chain([("teapot_model", Frame::Model(Shot::Teapot))])
 }

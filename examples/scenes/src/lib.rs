@@ -8,6 +8,7 @@
 #![forbid(unsafe_code)]
 
 mod contours;
+mod formats;
 mod frames;
 mod in_parts;
 mod lamps;
@@ -23,10 +24,13 @@ mod shots;
 mod stress;
 mod suite;
 mod texels;
-mod true_colour;
 mod values;
 
 pub use contours::{CONTOURED, ContourLook, Contours};
+pub use formats::{
+    GreyLook, IN_FORMATS, InFormat, LitBytesLook, LitWordsLook, NumbersLook, build_in_format,
+    build_lit, build_smooth,
+};
 pub use frames::{Frame, frames, unhurried};
 pub use in_parts::{CutMemory, IN_PARTS, InParts};
 pub use lamps::{lamplit_teapot, teapot_lamps};
@@ -53,7 +57,6 @@ pub use suite::{
     inside, layer, room_light, sphere_light, teapot_part, tilt, tilted, tilted_textured,
 };
 pub use texels::{TEXEL_SIDE, TEXELS_565};
-pub use true_colour::{TRUE_COLOUR, build_true_colour};
 pub use values::{
     IndexedLook, PhongLook, STONE, TexturedPhongLook, VALUES, VALUES_HEIGHT, VALUES_ROOM,
     VALUES_SHOWN, VALUES_WIDTH, Values, ValuesError, ValuesMemory, values_screen,

@@ -6,13 +6,14 @@ use core::task::Poll;
 use scanbeam::frame::{Interleave, Pace, draw_frame};
 use scanbeam::list::ListCommand;
 use scanbeam::look::Look;
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scan_out::{Pump, ScanoutDma, Window};
+use scanbeam::scene::DrawState;
 use scanbeam::{Renderer, Scene};
 use scanbeam_model::{ModelRenderer, PipeMemory, draw_model_frame};
 use scenes::{
-    Frame, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, Suite, TexturedLook, Values,
-    ValuesMemory, Variant, WIDTH, build_true_colour,
+    Frame, InFormat, Paced, Played, SUITE_LINES, Shot, ShotError, SmoothLook, Suite, TexturedLook,
+    Values, ValuesMemory, Variant, WIDTH, build_in_format, build_lit, build_smooth, teapot_lamps,
 };
 
 /// Slots of the caches that are not wide.
@@ -41,7 +42,7 @@ pub(crate) const fn lines_of(frame: Frame) -> u16 {
         | Frame::InParts(_)
         | Frame::Paced(_)
         | Frame::Played(_)
-        | Frame::TrueColour(_) => SUITE_LINES,
+        | Frame::Format(_) => SUITE_LINES,
         _ => LINES_PER_TRANSFER,
     }
 }
@@ -91,14 +92,7 @@ fn draw_at_pace(
         Frame::Shot(how) => sent.shot(how, rooms),
         Frame::Values(values) => sent.values(values, rooms),
         Frame::Played(played) => sent.played(played, rooms),
-        Frame::TrueColour(suite) if suite.texture().is_some() => {
-            let (scene, lines, caches) = (&mut rooms.scene, &mut rooms.lines, &mut rooms.caches);
-            sent.true_colour(suite, scene, lines.renderer(caches.true_texels));
-        }
-        Frame::TrueColour(suite) => {
-            let (scene, lines, caches) = (&mut rooms.scene, &mut rooms.lines, &mut rooms.caches);
-            sent.true_colour(suite, scene, lines.renderer(caches.true_colour));
-        }
+        Frame::Format(format) => sent.in_format(format, rooms),
         Frame::Model(shot) => sent.model(shot, rooms),
     }
     if let (_, [Some(a), Some(b)]) = pump.release() {
@@ -210,23 +204,68 @@ impl Sent<'_, '_> {
         assert!(sent.is_ok(), "{LARGE}");
     }
 
-    /// A scene of the suite in pixels of 24 bits, a line a transfer, as it is drawn.
+    /// A scene in other pixels than those of the pump.
     #[inline(never)]
-    fn true_colour<L: Look<Pixel = Rgb888>>(
+    fn in_format(&mut self, format: InFormat, rooms: &mut Rooms) {
+        let (scene, lines, caches) = (&mut rooms.scene, &mut rooms.lines, &mut rooms.caches);
+        match format {
+            InFormat::Suite(suite) if suite.texture().is_some() => {
+                self.suite_in_format(suite, scene, lines.renderer(caches.true_texels));
+            }
+            InFormat::Suite(suite) => {
+                self.suite_in_format(suite, scene, lines.renderer(caches.true_colour));
+            }
+            InFormat::LitBytes => self.lit(scene, lines.renderer(caches.lit_bytes)),
+            InFormat::LitWords => self.lit(scene, lines.renderer(caches.lit_words)),
+            InFormat::Grey => self.smooth_in_format(scene, lines.renderer(caches.grey)),
+            InFormat::Numbers => self.smooth_in_format(scene, lines.renderer(caches.numbers)),
+        }
+    }
+
+    #[inline(never)]
+    fn suite_in_format<L: Look>(
         &mut self,
         suite: Suite,
         rooms: &mut SceneRooms,
-        mut renderer: Renderer<'_, L>,
+        renderer: Renderer<'_, L>,
     ) {
         let mut scene = rooms.scene();
-        build_true_colour(suite, &mut scene).expect(LARGE);
-        let background = suite.background();
+        build_in_format(suite, &mut scene).expect(LARGE);
+        self.pixels(&scene, renderer, suite.background());
+    }
+
+    #[inline(never)]
+    fn smooth_in_format<L: Look>(&mut self, rooms: &mut SceneRooms, renderer: Renderer<'_, L>) {
+        let mut scene = rooms.scene();
+        build_smooth(&mut scene).expect(LARGE);
+        self.pixels(&scene, renderer, Suite::Teapot.background());
+    }
+
+    /// With light at each pixel, which lives as long as the draw states.
+    #[inline(never)]
+    fn lit<L: Look>(&mut self, rooms: &mut SceneRooms, renderer: Renderer<'_, L>) {
+        let lamps = teapot_lamps().expect(LARGE);
+        let mut draws = [const { DrawState::EMPTY }; 4];
+        let mut scene = rooms.lent(&mut draws);
+        build_lit(&lamps, &mut scene).expect(LARGE);
+        self.pixels(&scene, renderer, Suite::Teapot.background());
+    }
+
+    /// All lines of a scene as they are drawn, a line a transfer.
+    fn pixels<L: Look>(
+        &mut self,
+        scene: &Scene<'_, '_, L>,
+        mut renderer: Renderer<'_, L>,
+        background: [u8; 3],
+    ) {
+        let background = L::Pixel::from_rgb8(background);
         let mut pixels = [background; WIDTH as usize];
         self.pump.sink_mut().to.begin();
         for line in scene.lines() {
-            let drawn = renderer.draw_line(&scene, line, &mut pixels, background);
+            let drawn = renderer.draw_line(scene, line, &mut pixels, background);
             drawn.expect(LARGE);
-            self.pump.sink_mut().to.transfer(pixels.as_flattened());
+            let bytes = bytemuck::cast_slice(&pixels);
+            self.pump.sink_mut().to.transfer(bytes);
         }
     }
 

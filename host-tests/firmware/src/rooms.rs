@@ -10,10 +10,11 @@ use scanbeam::mesh::Meshlet;
 use scanbeam::scene::{DrawState, Memory, Object, TexturePlace, Vertex};
 use scanbeam::{Link, Scene, Screen};
 use scenes::{
-    CRATE_INDICES, CRATE_TABLE, ContourLook, CutMemory, DRAWS, HEIGHT, Hits, IN_PARTS, InParts,
-    IndexedLook, LIST_INDICES, LIST_TABLE, OBJECTS, Octasphere, PLAYED_NAMES, PLAYED_TEXELS,
-    PLAYED_TEXTURES, PhongLook, Played, Sheet, Shot, SmoothLook, Suite, TexturedLook,
-    TexturedPhongLook, TrueColourLook, TrueColourTexturedLook, VALUES_SHOWN, VERTICES, WIDTH,
+    CRATE_INDICES, CRATE_TABLE, ContourLook, CutMemory, DRAWS, GreyLook, HEIGHT, Hits, IN_PARTS,
+    InParts, IndexedLook, LIST_INDICES, LIST_TABLE, LitBytesLook, LitWordsLook, NumbersLook,
+    OBJECTS, Octasphere, PLAYED_NAMES, PLAYED_TEXELS, PLAYED_TEXTURES, PhongLook, Played, Sheet,
+    Shot, SmoothLook, Suite, TexturedLook, TexturedPhongLook, TrueColourLook,
+    TrueColourTexturedLook, VALUES_SHOWN, VERTICES, WIDTH,
 };
 
 /// Lines that one transfer takes, at most.
@@ -42,6 +43,21 @@ impl SceneRooms {
     /// An empty scene of the size of a shot.
     pub(crate) fn scene<L: Look>(&mut self) -> Scene<'_, 'static, L> {
         self.sized(Shot::screen())
+    }
+
+    /// One whose draw states are lent.
+    pub(crate) fn lent<'a, 't, L: Look>(
+        &'a mut self,
+        draws: &'a mut [DrawState<'t>],
+    ) -> Scene<'a, 't, L> {
+        let memory = Memory {
+            vertices: self.vertices,
+            places: self.places,
+            objects: self.objects,
+            bins: self.bins,
+            draws,
+        };
+        Scene::new(Shot::screen(), memory)
     }
 
     /// One of that size.
@@ -93,6 +109,10 @@ pub(crate) struct Caches {
     pub(crate) banded: &'static mut FastMemory<ContourLook>,
     pub(crate) true_colour: &'static mut FastMemory<TrueColourLook>,
     pub(crate) true_texels: &'static mut FastMemory<TrueColourTexturedLook>,
+    pub(crate) lit_bytes: &'static mut FastMemory<LitBytesLook>,
+    pub(crate) lit_words: &'static mut FastMemory<LitWordsLook>,
+    pub(crate) grey: &'static mut FastMemory<GreyLook>,
+    pub(crate) numbers: &'static mut FastMemory<NumbersLook>,
 }
 
 /// What frames are drawn with.
@@ -160,6 +180,10 @@ impl Rooms {
                 banded: slots!(".slow", ContourLook),
                 true_colour: slots!(".slow", TrueColourLook),
                 true_texels: slots!(".slow", TrueColourTexturedLook),
+                lit_bytes: slots!(".slow", LitBytesLook),
+                lit_words: slots!(".slow", LitWordsLook),
+                grey: slots!(".slow", GreyLook),
+                numbers: slots!(".slow", NumbersLook),
             },
             model: [
                 lend!(".slow", u64, WIDTH as usize, 0),

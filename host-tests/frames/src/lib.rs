@@ -14,13 +14,14 @@ use host_support::rooms::{LineRooms, Room, SceneRooms};
 use scanbeam::Scene;
 use scanbeam::look::Look;
 use scanbeam::mesh::Meshlet;
-use scanbeam::pixel::{PixelFormat, Rgb565Be, Rgb888};
+use scanbeam::pixel::{PixelFormat, Rgb565Be};
 use scanbeam::scene::{Assembled, Shading};
 use scanbeam::stats::SpanCounts;
 use scenes::{
-    CutMemory, DRAWS, Frame, HEIGHT, InParts, OBJECTS, PhongLook, SceneB, Shot, ShotError,
-    SmoothLook, Suite, TexturedLook, TexturedPhongLook, TrueColourLook, TrueColourTexturedLook,
-    VERTICES, WIDTH, build_true_colour, frames, lamplit_teapot, teapot_lamps,
+    CutMemory, DRAWS, Frame, GreyLook, HEIGHT, InFormat, InParts, LitBytesLook, LitWordsLook,
+    NumbersLook, OBJECTS, PhongLook, SceneB, Shot, ShotError, SmoothLook, Suite, TexturedLook,
+    TexturedPhongLook, TrueColourLook, TrueColourTexturedLook, VERTICES, WIDTH, build_in_format,
+    build_lit, build_smooth, frames, lamplit_teapot, teapot_lamps,
 };
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -86,7 +87,7 @@ pub fn host_frames() -> Result<BTreeMap<&'static str, u32>, Box<dyn Error>> {
             Frame::Played(played) => played_frame(played)?.crc(),
             Frame::B(scene) => scene_b_frame(scene)?.crc(),
             Frame::Model(shot) => crc(&model_words(shot)?),
-            Frame::TrueColour(suite) => crc32fast::hash(&true_colour_bytes(suite)?),
+            Frame::Format(format) => crc32fast::hash(&bytes_in_format(format)?),
             Frame::Shot(how) => {
                 let (shot, shading) = (how.shot, how.shading);
                 let before = known.iter().find(|one| (one.0, one.1) == (shot, shading));
@@ -206,30 +207,52 @@ fn model_words(shot: Shot) -> Result<Vec<u16>, Box<dyn Error>> {
     Ok(words)
 }
 
-/// Red, green and blue of a scene of the suite in pixels of 24 bits.
+/// The bytes of a scene in other pixels than an SPI panel's, as this machine has them in memory.
 ///
 /// # Errors
 /// When it does not fit the memory that it asks for.
-pub fn true_colour_bytes(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
-    if suite.texture().is_some() {
-        bytes_by::<TrueColourTexturedLook>(suite)
-    } else {
-        bytes_by::<TrueColourLook>(suite)
+pub fn bytes_in_format(format: InFormat) -> Result<Vec<u8>, Box<dyn Error>> {
+    match format {
+        InFormat::Suite(suite) if suite.texture().is_some() => {
+            suite_bytes::<TrueColourTexturedLook>(suite)
+        }
+        InFormat::Suite(suite) => suite_bytes::<TrueColourLook>(suite),
+        InFormat::LitBytes => lit_bytes::<LitBytesLook>(),
+        InFormat::LitWords => lit_bytes::<LitWordsLook>(),
+        InFormat::Grey => smooth_bytes::<GreyLook>(),
+        InFormat::Numbers => smooth_bytes::<NumbersLook>(),
     }
 }
 
-fn bytes_by<L: Look<Pixel = Rgb888>>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
+fn suite_bytes<L: Look>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
+    bytes_by::<L>(suite.background(), |scene| build_in_format(suite, scene))
+}
+
+fn smooth_bytes<L: Look>() -> Result<Vec<u8>, Box<dyn Error>> {
+    bytes_by::<L>(Suite::Teapot.background(), build_smooth)
+}
+
+fn lit_bytes<L: Look>() -> Result<Vec<u8>, Box<dyn Error>> {
+    let lamps = teapot_lamps().map_err(|error| format!("{error:?}"))?;
+    bytes_by::<L>(Suite::Teapot.background(), |scene| build_lit(&lamps, scene))
+}
+
+fn bytes_by<'t, L: Look>(
+    background: [u8; 3],
+    build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), ShotError>,
+) -> Result<Vec<u8>, Box<dyn Error>> {
     let mut memory = SceneRooms::new(ROOM, HEIGHT);
-    let mut scene: Scene<'_, '_, L> = memory.scene(Shot::screen());
-    said(suite.name(), build_true_colour(suite, &mut scene))?;
+    let mut scene: Scene<'_, 't, L> = memory.scene(Shot::screen());
+    build(&mut scene).map_err(|error| format!("{error:?}"))?;
     let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, WIDTH);
     let mut renderer = lines.renderer();
-    let (mut pixels, mut line) = (Vec::new(), vec![[0; 3]; WIDTH.into()]);
+    let background = L::Pixel::from_rgb8(background);
+    let (mut bytes, mut line) = (Vec::new(), vec![background; WIDTH.into()]);
     for y in scene.lines() {
-        renderer.draw_line(&scene, y, &mut line, suite.background())?;
-        pixels.extend_from_slice(&line);
+        renderer.draw_line(&scene, y, &mut line, background)?;
+        bytes.extend_from_slice(bytemuck::cast_slice(&line));
     }
-    Ok(pixels.into_flattened())
+    Ok(bytes)
 }
 
 /// The teapot with light at each pixel.
