@@ -190,7 +190,7 @@ pub struct Renderer<'m, L: Look, const WORDS: usize = 2> {
     pub(super) written: Mask,
     /// Whether spans met on the last line.
     pub(super) met: bool,
-    /// How many slots the last line had in order from the nearest on.
+    /// How many slots the last line had in order: from the nearest on, or, on one with values, from the one drawn last on.
     pub(super) nearest: u16,
     /// These, a bit each.
     pub(super) ordered: [u32; WORDS],

@@ -13,19 +13,9 @@ use crate::{
     CUBE, PLACES_F, SPHERE, ShotError, Suite, TEXEL_SIDE, TEXEL_SIDE_F, TEXELS_565, TEXELS_F,
 };
 use scanbeam::light::PixelLamps;
-use scanbeam::look::{Gouraud, Look, TexturedPhong};
-use scanbeam::pixel::{Grey8, Rgb565, Rgb888, Xrgb8888};
+use scanbeam::look::Look;
 use scanbeam::scene::{Blend, Budget, Draw, Shading, Skin, Texture};
 use scanbeam::{Affine, Light, Mesh, Scene};
-
-/// Texels lit at each pixel in 24 bits.
-pub type LitBytesLook = TexturedPhong<Rgb888>;
-/// The same in words of 32 bits.
-pub type LitWordsLook = TexturedPhong<Xrgb8888>;
-/// Smooth grey.
-pub type GreyLook = Gouraud<Grey8>;
-/// Smooth colours in numbers of 16 bits.
-pub type NumbersLook = Gouraud<Rgb565>;
 
 /// A scene, and what its pixels are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

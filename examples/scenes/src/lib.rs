@@ -27,10 +27,7 @@ mod texels;
 mod values;
 
 pub use contours::{CONTOURED, ContourLook, Contours};
-pub use formats::{
-    GreyLook, IN_FORMATS, InFormat, LitBytesLook, LitWordsLook, NumbersLook, build_in_format,
-    build_lit, build_smooth,
-};
+pub use formats::{IN_FORMATS, InFormat, build_in_format, build_lit, build_smooth};
 pub use frames::{Frame, frames, unhurried};
 pub use in_parts::{CutMemory, IN_PARTS, InParts};
 pub use lamps::{lamplit_teapot, teapot_lamps};
@@ -38,7 +35,10 @@ pub use listed::{
     CRATE_INDICES, CRATE_TABLE, LIST_INDICES, LIST_TABLE, crate_list, teapot_list,
     teapot_meshlets_list,
 };
-pub use looks::{SmoothLook, TexturedLook, TrueColourLook, TrueColourTexturedLook};
+pub use looks::{
+    GreyLook, LitBytesLook, LitWordsLook, NumbersLook, SmoothLook, TexturedLook, TrueColourLook,
+    TrueColourTexturedLook,
+};
 pub use meshes::{CUBE, CUBE_QUADS, FINE_SPHERE, RIBBON, SPHERE, TEAPOT};
 pub use mirror::SURROUNDINGS;
 pub use octasphere::{OCTASPHERES, Octasphere};

@@ -114,8 +114,8 @@ fn position(corner: &Corner, screen: Screen) -> V3 {
 }
 
 impl Call {
-    /// Red, green and blue of the corners, lit, 0 to 255.
-    fn colours(&self, screen: Screen) -> [V3; 3] {
+    /// Red, green and blue of the corners, lit, 0 to 255; `None` where it is not known which side a light comes from.
+    fn colours(&self, screen: Screen) -> Option<[V3; 3]> {
         let at = self.corners.each_ref().map(|c| position(c, screen));
         let side = |i: usize| [0, 1, 2].map(|k| at[i][k] - at[0][k]);
         let (a, b) = (side(1), side(2));
@@ -124,7 +124,8 @@ impl Call {
             a[2] * b[0] - a[0] * b[2],
             a[0] * b[1] - a[1] * b[0],
         ]);
-        [0, 1, 2].map(|i| {
+        let mut colours = [[0.0; 3]; 3];
+        for (i, lit) in colours.iter_mut().enumerate() {
             let from = if self.is_flat { 0 } else { i };
             let own = self.colour.unwrap_or(self.corners[from].colour);
             let normal = if self.is_flat {
@@ -133,12 +134,13 @@ impl Call {
                 self.normals[i]
             };
             // The eye is where all is seen from.
-            self.lit(own.map(f64::from), normal, unit(at[from].map(|c| -c)))
-        })
+            *lit = self.lit(own.map(f64::from), normal, unit(at[from].map(|c| -c)))?;
+        }
+        Some(colours)
     }
 
-    fn lit(&self, own: V3, normal: V3, eye: V3) -> V3 {
-        match &self.light {
+    fn lit(&self, own: V3, normal: V3, eye: V3) -> Option<V3> {
+        Some(match &self.light {
             Light64::None => own,
             Light64::One(towards, ambient) => {
                 let level = ambient + (1.0 - ambient) * dot(normal, *towards).max(0.0);
@@ -148,6 +150,10 @@ impl Call {
                 let mut sum = [0.0; 3];
                 for (towards, colour) in lights {
                     let falls = dot(normal, *towards);
+                    // What comes from along a surface is mirrored by it as a whole, or not at all.
+                    if *specular > 0.0 && falls.abs() < 2e-4 {
+                        return None;
+                    }
                     if falls <= 0.0 {
                         continue;
                     }
@@ -159,7 +165,7 @@ impl Call {
                 }
                 sum.map(|c| c.min(255.0))
             }
-        }
+        })
     }
 
     fn covers(&self, x: u16, y: u16, screen: Screen) -> bool {
@@ -281,7 +287,7 @@ impl Call {
 
     /// The levels that a pixel may get; `None` where too many texels may be shown.
     fn levels(&self, at: [u16; 2], world: &World<'_>) -> Option<[Range; 3]> {
-        let colours = self.colours(world.screen);
+        let colours = self.colours(world.screen)?;
         let places = self.corners.map(|c| c.at);
         let (part, step) = weights(places, at[0].into(), at[1].into());
         let of = |part: V3| [0, 1, 2].map(|i| (0..3).map(|k| part[k] * colours[k][i]).sum());
