@@ -45,11 +45,11 @@ pub struct FrameCounts {
     pub spans: SpanCounts,
 }
 
-/// A frame: its words in scan-out order, and what it has.
+/// A frame: its words in scan-out order, as an SPI panel takes them when nothing else is said, and what it has.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Drawn {
-    /// As an SPI panel takes them.
-    pub words: Vec<u16>,
+pub struct Drawn<W = u16> {
+    /// From left to right, and down.
+    pub words: Vec<W>,
     /// Of triangles and spans.
     pub counts: FrameCounts,
 }
@@ -225,34 +225,30 @@ pub fn bytes_in_format(format: InFormat) -> Result<Vec<u8>, Box<dyn Error>> {
 }
 
 fn suite_bytes<L: Look>(suite: Suite) -> Result<Vec<u8>, Box<dyn Error>> {
-    bytes_by::<L>(suite.background(), |scene| build_in_format(suite, scene))
+    bytes_by::<L>(suite.background(), |scene| {
+        said(suite.name(), build_in_format(suite, scene))
+    })
 }
 
 fn smooth_bytes<L: Look>() -> Result<Vec<u8>, Box<dyn Error>> {
-    bytes_by::<L>(Suite::Teapot.background(), build_smooth)
+    bytes_by::<L>(Suite::Teapot.background(), |scene| {
+        said("smooth", build_smooth(scene))
+    })
 }
 
 fn lit_bytes<L: Look>() -> Result<Vec<u8>, Box<dyn Error>> {
     let lamps = teapot_lamps().map_err(|error| format!("{error:?}"))?;
-    bytes_by::<L>(Suite::Teapot.background(), |scene| build_lit(&lamps, scene))
+    bytes_by::<L>(Suite::Teapot.background(), |scene| {
+        said("lit", build_lit(&lamps, scene))
+    })
 }
 
 fn bytes_by<'t, L: Look>(
     background: [u8; 3],
-    build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), ShotError>,
+    build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), String>,
 ) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut memory = SceneRooms::new(ROOM, HEIGHT);
-    let mut scene: Scene<'_, 't, L> = memory.scene(Shot::screen());
-    build(&mut scene).map_err(|error| format!("{error:?}"))?;
-    let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, WIDTH);
-    let mut renderer = lines.renderer();
-    let background = L::Pixel::from_rgb8(background);
-    let (mut bytes, mut line) = (Vec::new(), vec![background; WIDTH.into()]);
-    for y in scene.lines() {
-        renderer.draw_line(&scene, y, &mut line, background)?;
-        bytes.extend_from_slice(bytemuck::cast_slice(&line));
-    }
-    Ok(bytes)
+    let drawn = drawn(background, build)?;
+    Ok(bytemuck::cast_slice(&drawn.words).to_vec())
 }
 
 /// The teapot with light at each pixel.
@@ -309,18 +305,20 @@ fn said(name: &str, built: Result<(), ShotError>) -> Result<(), String> {
     built.map_err(|error| format!("{name}: {error:?}"))
 }
 
+type WordOf<L> = <<L as Look>::Pixel as PixelFormat>::Word;
+
 /// A scene that `build` makes.
-fn drawn<'t, L: Look<Pixel = Rgb565Be>>(
+fn drawn<'t, L: Look>(
     background: [u8; 3],
     build: impl FnOnce(&mut Scene<'_, 't, L>) -> Result<(), String>,
-) -> Result<Drawn, Box<dyn Error>> {
+) -> Result<Drawn<WordOf<L>>, Box<dyn Error>> {
     let screen = Shot::screen();
     let mut memory = SceneRooms::new(ROOM, screen.height());
     let mut scene = memory.scene(screen);
     build(&mut scene)?;
     let mut lines: LineRooms<L> = LineRooms::new(OBJECTS, screen.width());
     let mut renderer = lines.renderer().counting();
-    let background = Rgb565Be::from_rgb8(background);
+    let background = L::Pixel::from_rgb8(background);
     let (mut words, mut line) = (Vec::new(), vec![background; screen.width().into()]);
     for y in scene.lines() {
         renderer.draw_line(&scene, y, &mut line, background)?;
