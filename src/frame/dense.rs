@@ -12,6 +12,7 @@ use super::renderer::Renderer;
 use super::rival::{Rival, rival_of};
 use super::spans::{Drawn, Line, Span, colour_run};
 use crate::look::Look;
+use crate::num::rolled;
 use crate::visible::Mask;
 
 /// Columns of a line that have cells, the first one's cell first.
@@ -49,6 +50,7 @@ impl Part<'_> {
         };
         let mut depth = run.depth;
         for cell in run.cells {
+            rolled();
             *cell = depth.max(*cell);
             depth = depth.wrapping_add(run.step);
         }
@@ -111,10 +113,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             };
             cells.fill(0);
             let mut part = Part {
-                columns: Span {
-                    start: start as u32,
-                    end: end as u32,
-                },
+                columns: Span::new(start as u32, end as u32),
                 cells,
             };
             self.find_nearest(slots, &mut part, out);

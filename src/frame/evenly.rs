@@ -134,10 +134,7 @@ fn colour_evenly<L: Look>(
     out: &mut Line<'_, '_, L>,
 ) {
     let middle = (run.start + run.end) / 2;
-    let one = Span {
-        start: middle,
-        end: middle + 1,
-    };
+    let one = Span::new(middle, middle + 1);
     colour_run::<L>(drawn, span, one, out);
     if let Some(&colour) = out.pixels.get(middle as usize) {
         fill_columns::<L>(run.start, run.end, colour, out.pixels);

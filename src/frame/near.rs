@@ -17,8 +17,9 @@ use super::slot::{Active, Flags};
 use super::spans::{Drawn, Line, Span, colour_run, colour_slot, columns_of};
 use crate::active::{Cache, CacheSlot, CacheUse};
 use crate::look::Look;
-use crate::num::{bit, take_first};
+use crate::num::{bit, rolled, take_first};
 use crate::visible::{Mask, Part};
+use core::mem::replace;
 
 /// The place of a triangle in the order of priority, and of submission where that is equal: what is seen is higher. The
 /// lowest bits are those of a key.
@@ -51,7 +52,7 @@ pub(super) struct Field<'a, L: Look, const WORDS: usize> {
 }
 
 /// How many spans have been taken from a field.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(super) struct Taken {
     pub(super) slots: usize,
     pub(super) guests: usize,
@@ -85,8 +86,9 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
     /// Whether a slot with one of these keys, which fall, shares columns with a span, and may be nearer than `far`.
     #[inline(always)]
     pub(super) fn meets(&self, span: Span, far: u32, later: &[u32]) -> bool {
+        let far = far & !NUMBER;
         for &key in later {
-            if key | NUMBER < far {
+            if key < far {
                 break;
             }
             if self.span(key).meets(span) {
@@ -126,63 +128,54 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
         }
     }
 
-    /// Draws spans of slots from one on, as long as they come before a key; how many slots are taken then.
+    /// Draws spans of slots as long as they come before a key, and takes all that is left of a line that is full.
     #[inline(always)]
     fn draw_slots(
         &self,
-        mut taken: Taken,
+        taken: &mut Taken,
         until: u32,
         drawing: &mut Drawing<'_>,
         out: &mut Line<'_, '_, L>,
-    ) -> usize {
+    ) {
         let mut keys = self.later(taken.slots);
         while let [key, later @ ..] = keys {
             if until > *key {
                 break;
             }
             keys = later;
-            taken.slots = self.keys.len() - later.len();
-            self.draw_slot(*key, later, until, taken, drawing, out);
-        }
-        self.keys.len() - keys.len()
-    }
-
-    /// Draws the span of a slot before what comes later.
-    #[inline(always)]
-    fn draw_slot(
-        &self,
-        key: u32,
-        later: &[u32],
-        guest_key: u32,
-        taken: Taken,
-        drawing: &mut Drawing<'_>,
-        out: &mut Line<'_, '_, L>,
-    ) {
-        let number = number_of::<WORDS>(key);
-        let (Some(slot), Some(&word), Some(&far)) = (
-            self.cache.slots.as_flattened().get(number),
-            self.cache.spans.as_flattened().get(number),
-            self.cache.far.as_flattened().get(number),
-        ) else {
-            return;
-        };
-        let span = Span::of(word);
-        if span.end == 0 {
-            return;
-        }
-        let next = later.first().copied().unwrap_or_default();
-        if guest_key >= far || next | NUMBER >= far && self.meets(span, far, later) {
-            drawing.hidden += 1;
-            return self.draw_contested(slot, span, far, taken, drawing, out);
-        }
-        match drawing.mask.cover_new(span.start, span.end) {
-            Part::None => colour_slot::<L>(slot, word, out),
-            Part::Some => {
-                drawing.hidden += 1;
-                colour_rest::<L>(drawing.mask, Drawn::of(slot), span, out);
+            let number = number_of::<WORDS>(*key);
+            let (Some(slot), Some(&word), Some(&far)) = (
+                self.cache.slots.as_flattened().get(number),
+                self.cache.spans.as_flattened().get(number),
+                self.cache.far.as_flattened().get(number),
+            ) else {
+                break;
+            };
+            let span = Span::of(word);
+            if span.end == 0 {
+                continue;
             }
-            Part::All => drawing.hidden += 1,
+            if until >= far || self.meets(span, far, later) {
+                drawing.hidden += 1;
+                let slots = self.keys.len() - later.len();
+                self.draw_contested(slot, span, far, Taken { slots, ..*taken }, drawing, out);
+                continue;
+            }
+            let part = drawing.mask.cover_new(span.start, span.end);
+            if part == Part::None {
+                colour_slot::<L>(slot, word, out);
+                continue;
+            }
+            drawing.hidden += 1;
+            if part == Part::Some {
+                colour_rest::<L>(drawing.mask, Drawn::of(slot), span, out);
+            } else if drawing.mask.is_full(out.pixels.len() as u32) {
+                drawing.hidden += later.len() + self.guests - taken.guests;
+                taken.guests = self.guests;
+                break;
+            }
         }
+        taken.slots = self.keys.len() - keys.len();
     }
 
     /// Draws a span before what comes later, of which some may be seen before it.
@@ -321,43 +314,51 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Sorts the slots that are listed by new keys, which fall then, from the last line's order on; how many they are.
     #[inline(always)]
     pub(super) fn sort_by(&mut self, mut key_of: impl FnMut(&mut Self, u32) -> u32) -> usize {
-        let (listed, before) = (self.cache.listed, self.append_new());
-        let mut count = 0;
+        // The limit is known to hold; so no index is looked at again.
+        let count = self.renew_order().min(32 * WORDS);
         let mut last = u32::MAX;
-        for k in 0..before {
-            // Below the number of slots in any case, so that no index is looked at again.
-            let key = self.cache.order.as_flattened()[k % (32 * WORDS)];
-            let number = number_of::<WORDS>(key);
-            if listed[number >> 5] & bit(number as u32 & 31) != 0 {
-                let key = key_of(self, key);
-                if key > last {
-                    insert_falling(self.cache.order.as_flattened_mut(), count, key);
-                } else {
-                    self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = key;
-                    last = key;
-                }
-                count += 1;
+        for k in 0..count {
+            let key = self.cache.order.as_flattened()[k];
+            let key = key_of(self, key);
+            if key > last {
+                insert_falling(self.cache.order.as_flattened_mut(), k, key);
+            } else {
+                self.cache.order.as_flattened_mut()[k] = key;
+                last = key;
             }
         }
-        self.nearest = count as u16;
         count
     }
 
-    /// Appends the slots that are listed and not in the last line's order to it; how many it has now. All that are
-    /// listed will be in it.
-    #[inline(always)]
-    fn append_new(&mut self) -> usize {
+    /// Takes slots that are not listed out of the last line's order, and appends those that were not in it; how many it
+    /// has now.
+    #[inline(never)]
+    fn renew_order(&mut self) -> usize {
+        let (order, listed) = (self.cache.order.as_flattened_mut(), self.cache.listed);
+        let before = replace(&mut self.ordered, listed);
         let mut count = usize::from(self.nearest);
+        if (0..WORDS).any(|word| before[word] & !listed[word] != 0) {
+            let mut kept = 0;
+            for k in 0..count.min(32 * WORDS) {
+                let key = order[k];
+                let number = number_of::<WORDS>(key);
+                if listed[number >> 5] & bit(number as u32 & 31) != 0 {
+                    order[kept % (32 * WORDS)] = key;
+                    kept += 1;
+                }
+                rolled();
+            }
+            count = kept;
+        }
         for word in 0..WORDS {
-            let listed = self.cache.listed[word];
-            let mut new = listed & !self.ordered[word];
-            self.ordered[word] = listed;
+            let mut new = listed[word] & !before[word];
             while new != 0 {
-                let number = word as u32 * 32 + take_first(&mut new);
-                self.cache.order.as_flattened_mut()[count % (32 * WORDS)] = number;
+                order[count % (32 * WORDS)] = word as u32 * 32 + take_first(&mut new);
                 count += 1;
+                rolled();
             }
         }
+        self.nearest = count as u16;
         count
     }
 
@@ -368,10 +369,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let slot = &self.cache.slots.as_flattened()[number];
         if out.nearest_first && Flags::of(slot).is_usual() {
             let sides = &slot.item.sides;
-            let span = Span {
-                start: sides.left.column(out.number),
-                end: sides.right.column(out.number),
-            };
+            let span = Span::new(
+                sides.left.column(out.number),
+                sides.right.column(out.number),
+            );
             let slope = Slope::of_plane(slot.item.depth, out.number);
             return self.keep_span(key, span, slope);
         }
@@ -440,13 +441,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             counts: &mut self.counts,
             hidden: 0,
         };
-        let mut taken = Taken {
-            slots: 0,
-            guests: 0,
-        };
+        let mut taken = Taken::default();
         let mut guest_key = field.guest_key(0);
         loop {
-            taken.slots = field.draw_slots(taken, guest_key, &mut drawing, out);
+            field.draw_slots(&mut taken, guest_key, &mut drawing, out);
             if taken.guests >= guests {
                 return drawing.hidden;
             }

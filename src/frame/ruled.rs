@@ -9,7 +9,7 @@ use super::renderer::View;
 use super::rival::Slope;
 use super::spans::{Drawn, Known, Line, Span, thin_depth, thin_planes};
 use crate::look::{Fill, Look, Place, WordOf};
-use crate::num::few_leading_zeros;
+use crate::num::{few_leading_zeros, rolled};
 use crate::pixel::{blend, blend_each};
 use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, keep, test};
@@ -294,6 +294,7 @@ fn find_alphas<L: Look>(
     // Lengths that the compiler knows would be unrolled.
     let (alphas, texels) = (black_box(alphas), black_box(&*texels));
     for ((alpha, &texel), column) in alphas.iter_mut().zip(texels).zip(at.column..) {
+        rolled();
         *alpha = PixelAlpha::new(ink.surface.at(column), MaskTexel::of_word(texel));
     }
 }
@@ -316,6 +317,7 @@ fn undither<L: Look>(
     // As above.
     let (run, plain, alphas) = (black_box(run), black_box(&*plain), black_box(alphas));
     for ((pixel, &plain), alpha) in run.iter_mut().zip(plain).zip(alphas) {
+        rolled();
         if alpha.texel().is_undithered() {
             *pixel = plain;
         }

@@ -50,10 +50,7 @@ impl<'c> Runs<'c> {
         let cells = self.cells.get(..self.count).unwrap_or_default();
         cells.iter().map(|cell| Run {
             slot: (cell >> 20) as usize,
-            columns: Span {
-                start: cell >> 10 & 1023,
-                end: cell & 1023,
-            },
+            columns: Span::new(cell >> 10 & 1023, cell & 1023),
         })
     }
 }

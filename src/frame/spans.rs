@@ -73,10 +73,7 @@ pub(super) fn thin_depth(object: u16, span: Span, view: &View<'_>, line: u32) ->
 pub(super) fn thin_planes<L: Look>(object: u16, at: Place, view: &View<'_>) -> L::Planes {
     let mut planes = L::EMPTY;
     if let Some(triangle) = view.triangle_of(object) {
-        let span = Span {
-            start: at.span,
-            end: at.end,
-        };
+        let span = Span::new(at.span, at.end);
         let ends = thin_span(&triangle, span, at.line);
         L::set_up_thin(&ends, object, &view.draws, &mut planes);
     }
@@ -199,6 +196,11 @@ impl<'a, P> Drawn<'a, P> {
 }
 
 impl Span {
+    #[inline(always)]
+    pub(super) const fn new(start: u32, end: u32) -> Self {
+        Self { start, end }
+    }
+
     /// The place of a column of the span on a line.
     #[inline(always)]
     pub(super) fn place(self, column: u32, line: u32) -> Place {
@@ -219,10 +221,7 @@ impl Span {
     /// What two spans share; it may be empty.
     #[inline(always)]
     pub(super) fn within(self, other: Self) -> Self {
-        Self {
-            start: self.start.max(other.start),
-            end: self.end.min(other.end),
-        }
+        Self::new(self.start.max(other.start), self.end.min(other.end))
     }
 
     /// The first run of the span that a mask has not, which it has from now on; the span is what lies behind it then.

@@ -50,10 +50,7 @@ fn kept(Span { start, end }: Span, begun: usize) -> u32 {
 }
 
 fn span_of(kept: u32) -> Span {
-    Span {
-        start: kept >> 21,
-        end: kept >> 10 & 0x7FF,
-    }
+    Span::new(kept >> 21, kept >> 10 & 0x7FF)
 }
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {

@@ -15,7 +15,7 @@ use super::rival::{Key, Rival, Slope, deepen};
 use super::ruled::{Ruled, depth_on_line, draw_ruled};
 use super::spans::{Drawn, Known, Line, Span};
 use crate::look::Look;
-use crate::num::{bit, take_first};
+use crate::num::{bit, rolled, take_first};
 use crate::scene::DrawState;
 
 /// Columns of a stretch that many panes share.
@@ -38,7 +38,7 @@ impl Pane {
     /// Where there is none: zeros, so that no constant is copied.
     const NONE: Self = Self {
         rival: Rival {
-            span: Span { start: 0, end: 0 },
+            span: Span::new(0, 0),
             slope: Slope { at: 0, step: 0 },
             object: 0,
         },
@@ -111,18 +111,17 @@ impl Pile {
     fn next_stretch(&self, from: u32, until: u32) -> Option<(Span, u32)> {
         let (mut ahead, mut start) = (0, u32::MAX);
         for (number, pane) in (0..).zip(self.panes.iter().take(self.count)) {
+            rolled();
             if pane.rival.span.end > from {
                 ahead |= bit(number);
                 start = start.min(pane.rival.span.start);
             }
         }
-        let mut part = Span {
-            start: start.max(from),
-            end: until,
-        };
+        let mut part = Span::new(start.max(from), until);
         while part.start < part.end {
             let (mut set, mut rest) = (ahead, ahead);
             while rest != 0 {
+                rolled();
                 let number = take_first(&mut rest);
                 if self.panes[number as usize % PANES].rival.span.start >= part.end {
                     set &= !bit(number);
@@ -163,6 +162,7 @@ impl Pile {
         }
         let (mut rest, mut tried, mut count) = (set, set, 0);
         while tried != 0 {
+            rolled();
             let number = take_first(&mut tried);
             if behind[number as usize % PANES] & rest == 0 {
                 rest &= !bit(number);
@@ -220,10 +220,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn draw_piles(&mut self, count: usize, out: &mut Line<'_, '_, L>) {
         let until = out.pixels.len() as u32;
         let mut pile = Pile::EMPTY;
-        let mut window = Span {
-            start: 0,
-            end: until,
-        };
+        let mut window = Span::new(0, until);
         while window.start < window.end {
             self.gather_panes(&mut pile, count, Take::Window(window), out);
             if !pile.is_short {
@@ -234,10 +231,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             } else {
                 self.draw_column(&mut pile, count, window, out);
             }
-            window = Span {
-                start: window.end,
-                end: until,
-            };
+            window = Span::new(window.end, until);
         }
     }
 

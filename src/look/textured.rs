@@ -23,6 +23,7 @@ use super::tint::{Shade, Texel};
 use super::word_plane::Near;
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
+use crate::num::rolled;
 use crate::pixel::PixelFormat;
 use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, Words};
 use crate::span::{Size, Triangle};
@@ -464,6 +465,7 @@ impl<F: Texel> Look for Textured<F> {
             shade(&mut colours[..count]);
             // A length that the compiler knows would be unrolled.
             for (texel, &colour) in run.iter_mut().zip(black_box(&colours[..])) {
+                rolled();
                 if *texel == holes.key {
                     *texel = colour;
                 }

@@ -3,7 +3,7 @@
 //! Matrices and planes of a camera span many magnitudes; a shared power of two keeps every
 //! product exact in 64 bits and needs no float.
 //!
-//! This is set-up, so its size counts: loops have a second way out, which keeps compilers from unrolling them.
+//! This is set-up, so its size counts: loops are kept rolled.
 
 /// `N` numbers `mantissa[i] 2^(exponent - 30)`.
 ///
@@ -88,6 +88,7 @@ impl<const N: usize> Block<N> {
 fn normalise(value: &[i64], mantissa: &mut [i32]) -> Option<i32> {
     let mut bits = 0u64;
     for v in value {
+        super::rolled();
         bits |= v.unsigned_abs();
     }
     if bits == 0 {
@@ -109,10 +110,8 @@ fn shift_all(value: &[i64], shift: i32, mantissa: &mut [i32]) -> u32 {
     // With a bit more below, by which it is rounded. To the right it is by 33 at most, and what is left has 32 bits: a
     // shift needs no more than two registers.
     let (up, down) = ((shift + 1).max(0), (-shift - 1).max(0));
-    for (i, m) in mantissa.iter_mut().enumerate() {
-        let Some(&v) = value.get(i) else {
-            break;
-        };
+    for (m, &v) in mantissa.iter_mut().zip(value) {
+        super::rolled();
         let v = if down >= 32 { v >> 32 } else { v };
         let twice = ((v >> (down & 31)) as i32) << up;
         *m = (twice >> 1) + (twice & 1);
@@ -130,15 +129,14 @@ const LEAST: i32 = -90;
 fn mantissas(value: &[f32], mantissa: &mut [i32]) -> i32 {
     let mut largest = 1;
     for v in value {
+        super::rolled();
         largest = largest.max(v.to_bits() << 1 >> 24);
         if largest == 0xFF {
             break;
         }
     }
-    for (i, m) in mantissa.iter_mut().enumerate() {
-        let Some(v) = value.get(i) else {
-            break;
-        };
+    for (m, v) in mantissa.iter_mut().zip(value) {
+        super::rolled();
         let bits = v.to_bits();
         let exponent = bits >> 23 & 0xFF;
         // The smallest have no leading bit.

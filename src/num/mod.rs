@@ -34,7 +34,7 @@ mod recip16;
 mod short;
 mod sine;
 
-pub use bits::{bit, take_first};
+pub use bits::{bit, rolled, take_first};
 pub use block::{Block, rounded, shift_round};
 pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;

@@ -58,22 +58,15 @@ fn each(old: &mut [u8], new: &[u8], f: impl Fn(u32, u32) -> u32) {
 pub(in super::super) fn mix_bytes(old: &mut [u8], new: &[u8], mix: Mix) {
     let count = old.len().min(new.len());
     let (old, new) = (&mut old[..count], &new[..count]);
-    match mix {
-        Mix::Filter(alpha) => {
-            let a = of_256(alpha);
-            each(old, new, |o, n| filter(o, n, a));
-        }
-        Mix::Half => each(old, new, half),
-        Mix::Add(255) => each(old, new, add),
-        Mix::Add(alpha) => {
-            let a = of_256(alpha);
-            each(old, new, |o, n| add(o, filter(0, n, a)));
-        }
+    let (alpha, flip) = match mix {
+        Mix::Filter(alpha) => return each(old, new, |o, n| filter(o, n, of_256(alpha))),
+        Mix::Half => return each(old, new, half),
+        Mix::Add(alpha) => (alpha, 0),
         // What is missing to full grows.
-        Mix::Subtract(255) => each(old, new, |o, n| !add(!o, n)),
-        Mix::Subtract(alpha) => {
-            let a = of_256(alpha);
-            each(old, new, |o, n| !add(!o, filter(0, n, a)));
-        }
-    }
+        Mix::Subtract(alpha) => (alpha, u32::MAX),
+    };
+    // All of 256 parts are the byte itself.
+    each(old, new, |o, n| {
+        flip ^ add(flip ^ o, filter(0, n, of_256(alpha)))
+    });
 }

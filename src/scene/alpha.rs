@@ -6,7 +6,7 @@
 //! anything for it, and no look knows of it. A mask is a texture of the same places.
 
 use super::{Form, Object, Texture, TextureError, Vertex};
-use crate::num::mul_high_unsigned;
+use crate::num::{mul_high_unsigned, rolled};
 
 /// What a mask says of the texel at its place: how opaque it is, whether it is dithered, whether it is added.
 ///
@@ -212,6 +212,7 @@ fn record(bytes: [u8; A_RECORD]) -> Vertex {
 #[inline(never)]
 pub(super) fn keep(alphas: &[u8], records: &mut [Vertex]) {
     for (alphas, slot) in alphas.chunks(A_RECORD).zip(records) {
+        rolled();
         let mut bytes = [0; A_RECORD];
         bytes[..alphas.len()].copy_from_slice(alphas);
         *slot = record(bytes);

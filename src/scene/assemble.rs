@@ -15,6 +15,7 @@ use super::{
     Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Vertex,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
+use crate::num::rolled;
 use core::ops::Range;
 
 /// Which vertices of a mesh are moved.
@@ -423,6 +424,7 @@ impl<'t, L> Scene<'_, 't, L> {
             while *head != NONE && usize::from(*head) >= objects {
                 let object = self.objects.as_slice().get(usize::from(*head));
                 *head = object.map_or(NONE, |object| object.next);
+                rolled();
             }
         }
         self.objects.truncate(objects);

@@ -5,6 +5,7 @@ use super::project::View;
 use super::texgen::Generated;
 use super::{Full, TexturePlace, Vertex};
 use crate::geometry::{Affine, Colour, Coordinate, Cull, Light, Mesh, Scale, Tint};
+use crate::num::rolled;
 
 /// What of a mesh found no room.
 #[derive(Clone, Copy, Default)]
@@ -146,6 +147,7 @@ pub(super) fn light_each(
 #[inline(never)]
 pub(super) fn colour_all(colour: u32, vertices: &mut [Vertex]) {
     for vertex in vertices {
+        rolled();
         vertex.colour = colour;
     }
 }

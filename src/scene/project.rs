@@ -104,6 +104,19 @@ impl View {
         }
     }
 
+    /// A position's vertex, which is not lit yet, and its finer place; `all` is false from the first that does not lie
+    /// within the planes.
+    #[inline(always)]
+    fn vertex<C: Coordinate>(&self, position: [C; 3], all: &mut bool) -> (Vertex, [i32; 2]) {
+        let p = self.point(position);
+        if self.is_within(p) {
+            let on = self.project(p);
+            return (Vertex::unused(on.place, on.depth), on.fine);
+        }
+        *all = false;
+        (self.outside(p.x, p.y, p.z), [0; 2])
+    }
+
     /// Nine products.
     #[inline(always)]
     pub(super) fn point<C: Coordinate>(&self, p: [C; 3]) -> Point {
@@ -285,14 +298,7 @@ pub(super) fn project_all<C: Coordinate>(
     let view = *view;
     let mut all = true;
     for (vertex, &position) in vertices.iter_mut().zip(positions) {
-        let p = view.point(position);
-        if view.is_within(p) {
-            let on = view.project(p);
-            *vertex = Vertex::unused(on.place, on.depth);
-        } else {
-            *vertex = view.outside(p.x, p.y, p.z);
-            all = false;
-        }
+        (*vertex, _) = view.vertex(position, &mut all);
     }
     all
 }
@@ -310,16 +316,9 @@ pub(super) fn project_textured<C: Coordinate>(
     let mut all = true;
     let out = vertices.iter_mut().zip(places);
     for ((vertex, place), (&position, &texel)) in out.zip(positions.iter().zip(texels)) {
-        let p = view.point(position);
-        if view.is_within(p) {
-            let on = view.project(p);
-            *vertex = Vertex::unused(on.place, on.depth);
-            *place = TexturePlace::of_mesh(texel, on.fine);
-        } else {
-            *vertex = view.outside(p.x, p.y, p.z);
-            *place = TexturePlace::of_mesh(texel, [0; 2]);
-            all = false;
-        }
+        let fine;
+        (*vertex, fine) = view.vertex(position, &mut all);
+        *place = TexturePlace::of_mesh(texel, fine);
     }
     all
 }
@@ -344,16 +343,9 @@ pub(super) fn project_listed<C: Coordinate>(
         if !vertex.is_waiting() {
             continue;
         }
-        let p = view.point(position);
-        if view.is_within(p) {
-            let on = view.project(p);
-            *vertex = Vertex::unused(on.place, on.depth);
-            placed(i, on.fine);
-        } else {
-            *vertex = view.outside(p.x, p.y, p.z);
-            placed(i, [0; 2]);
-            all = false;
-        }
+        let fine;
+        (*vertex, fine) = view.vertex(position, &mut all);
+        placed(i, fine);
     }
     all
 }

@@ -4,7 +4,7 @@
 //! covered, and where the background is. The first column of a word is its top bit: a span within one
 //! word, as 85 % of those of small triangles are, takes 13 instructions on a Cortex-M4.
 
-use crate::num::leading_zeros;
+use crate::num::{leading_zeros, rolled};
 use core::hint::black_box;
 
 /// Columns of one line, up to 1,024.
@@ -44,6 +44,7 @@ fn each_word(start: u32, end: u32, mut f: impl FnMut(usize, u32)) {
     let mut word = first;
     let mut bits = u32::MAX >> (start & 31);
     while word != last {
+        rolled();
         f(word, bits);
         bits = u32::MAX;
         word = (word + 1) & 31;
@@ -127,6 +128,7 @@ impl Mask {
         let (mut word, last) = (word_of(start), word_of(end));
         let mut bits = u32::MAX >> (start & 31);
         while word != last {
+            rolled();
             part.0[word] = self.0[word] & bits;
             bits = u32::MAX;
             word = (word + 1) & 31;
@@ -183,6 +185,7 @@ impl Mask {
             if part == Part::Some {
                 let mut fresh = bits & !self.0[word];
                 while fresh != 0 {
+                    rolled();
                     let first = leading_zeros(fresh);
                     fresh &= !(0x8000_0000 >> (first & 31));
                     new(word * 32 + first as usize);
@@ -245,6 +248,12 @@ impl Mask {
         let mut lack = 0;
         each_word(start, end, |word, bits| lack |= bits & !self.0[word]);
         lack == 0
+    }
+
+    /// Whether the mask has the first `width` columns, of 32 and more: told soon where it lacks one of these.
+    #[inline(always)]
+    pub(crate) fn is_full(&self, width: u32) -> bool {
+        self.0[0] == u32::MAX && self.has_all(0, width)
     }
 
     /// How many of `start .. end` the mask has.
@@ -312,6 +321,7 @@ impl Mask {
         let mut bits = u32::MAX >> (start & 31);
         let mut free = bits & !self.0[at];
         while free == 0 && at < last {
+            rolled();
             at += 1;
             free = !self.0[at];
         }
@@ -322,6 +332,7 @@ impl Mask {
         bits = u32::MAX >> (first & 31);
         let mut taken = bits & self.0[at];
         while taken == 0 && at < last {
+            rolled();
             self.0[at] |= bits;
             bits = u32::MAX;
             at += 1;
@@ -357,6 +368,10 @@ mod tests {
                 assert_eq!(mask.meets(start, end), hits > 0);
                 let mut other = mask;
                 assert_eq!(mask.has_all(start, end), old.is_empty());
+                let full = plain.iter().position(|&taken| !taken).unwrap_or(1023);
+                for width in [32, full, full + 1].map(|width| width.clamp(32, 1023)) {
+                    assert_eq!(mask.is_full(width as u32), full >= width);
+                }
                 assert_eq!(mask.count(start, end) as usize, hits);
                 assert_eq!(other.cover(start, end) != 0, hits > 0);
                 assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);

@@ -1,5 +1,6 @@
 //! The depth test of a draw call that has one of its own (H9): answers in bits.
 
+use crate::num::rolled;
 use crate::scene::{DepthFunction, DepthTest};
 use core::hint::black_box;
 
@@ -86,6 +87,7 @@ fn nearer(cells: &mut [u32], at: u32, step: u32, keep: impl Fn(&mut u32, u32)) -
     let (mut seen, mut depth) = (0u32, at);
     let count = cells.len().min(MOST) as u32;
     for cell in cells {
+        rolled();
         seen <<= 1;
         if depth >= *cell {
             keep(cell, depth);

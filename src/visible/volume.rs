@@ -4,6 +4,7 @@
 //! seen from inside: where they do not balance, the pixel is in shadow. Counts are modulo 256.
 
 use super::MOST_TESTED;
+use crate::num::rolled;
 use crate::scene::DepthFunction;
 
 /// A pixel in shadow, once counts are [`settled`](settle): the lowest bit.
@@ -24,6 +25,7 @@ pub(crate) fn count(
     // Nearly all volumes are in front of what is there.
     if passes == DepthFunction::NEARER {
         for (count, &cell) in counts.iter_mut().zip(cells) {
+            rolled();
             if depth > cell {
                 *count = count.wrapping_add(change);
             }
@@ -31,11 +33,8 @@ pub(crate) fn count(
         }
         return;
     }
-    // A loop of one end would be unrolled.
-    for (i, count) in counts.iter_mut().enumerate() {
-        let Some(cell) = cells.get(i) else {
-            return;
-        };
+    for (count, cell) in counts.iter_mut().zip(cells) {
+        rolled();
         if passes.passes(depth.cmp(cell)) {
             *count = count.wrapping_add(change);
         }
@@ -48,11 +47,13 @@ pub(crate) fn count(
 pub(crate) fn settle(counts: &mut [u8]) {
     let (head, words, tail) = bytemuck::pod_align_to_mut::<u8, u32>(counts);
     for word in words {
+        rolled();
         // Bit 7 of each byte says whether any of its bits is set.
         let any = ((*word & 0x7F7F_7F7F) + 0x7F7F_7F7F) | *word;
         *word = any >> 7 & 0x0101_0101;
     }
     for count in head.iter_mut().chain(tail) {
+        rolled();
         *count = u8::from(*count != 0);
     }
 }
