@@ -86,11 +86,20 @@ pub fn is_for_others(condition: &Expr) -> bool {
     matches!(condition, Expr::Path(path) if path.path.is_ident("SHORT"))
 }
 
-/// Whether leaving a statement out leaves a call out, and nothing else.
+/// Whether leaving a statement out leaves a call out, and nothing else. What only tells compilers to keep a loop short is
+/// none.
 #[must_use]
 pub fn is_call(expression: &Expr) -> bool {
     match expression {
-        Expr::Call(_) | Expr::MethodCall(_) => true,
+        Expr::Call(call) => match &*call.func {
+            Expr::Path(name) => name
+                .path
+                .segments
+                .last()
+                .is_none_or(|n| n.ident != "rolled"),
+            _ => true,
+        },
+        Expr::MethodCall(_) => true,
         Expr::Try(inner) => is_call(&inner.expr),
         _ => false,
     }

@@ -397,6 +397,10 @@ mod tests {
                 "an end of `a.e - 1`"
             ]
         );
+        assert_eq!(
+            all("fn f() { rolled(); num::rolled(); num::rolls(); }"),
+            ["`f` returns `()`", "without `num::rolls()`"]
+        );
     }
 
     /// Kills: modules of tests that are looked for in the wrong folder.
