@@ -43,6 +43,13 @@ pub(super) fn number_of<const WORDS: usize>(key: u32) -> usize {
     (key & NUMBER) as usize % (32 * WORDS)
 }
 
+/// Of keys, which fall, those of spans that may be nearer than `far`.
+#[inline(always)]
+pub(super) fn nearer(keys: &[u32], far: u32) -> impl Iterator<Item = u32> + '_ {
+    let far = far & !NUMBER;
+    keys.iter().copied().take_while(move |&key| key >= far)
+}
+
 /// What is sorted: so many slots, and what has no slot in cells.
 pub(super) struct Field<'a, L: Look, const WORDS: usize> {
     cache: &'a Cache<Active<L::Planes>, WORDS>,
@@ -86,16 +93,7 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
     /// Whether a slot with one of these keys, which fall, shares columns with a span, and may be nearer than `far`.
     #[inline(always)]
     pub(super) fn meets(&self, span: Span, far: u32, later: &[u32]) -> bool {
-        let far = far & !NUMBER;
-        for &key in later {
-            if key < far {
-                break;
-            }
-            if self.span(key).meets(span) {
-                return true;
-            }
-        }
-        false
+        nearer(later, far).any(|key| self.span(key).meets(span))
     }
 
     /// Adds to a mask the columns in which something that comes later is seen before `rival`.
@@ -108,10 +106,7 @@ impl<'a, L: Look, const WORDS: usize> Field<'a, L, WORDS> {
         out: &Line<'_, '_, L>,
         mask: &mut Mask,
     ) {
-        for &key in self.later(after.slots) {
-            if key | NUMBER < far {
-                break;
-            }
+        for key in nearer(self.later(after.slots), far) {
             let (slots, span) = (self.cache.slots.as_flattened(), self.span(key));
             match slots.get(number_of::<WORDS>(key)) {
                 Some(slot) if span.meets(rival.span) => {

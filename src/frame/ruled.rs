@@ -13,7 +13,6 @@ use crate::num::{few_leading_zeros, rolled};
 use crate::pixel::{blend, blend_each};
 use crate::scene::{Blend, DepthTest, DrawState, MaskTexel, PixelAlpha};
 use crate::visible::{MOST_TESTED, Part, keep, test};
-use core::hint::black_box;
 use core::ops::Range;
 
 /// A span of a triangle, and the values of its draw call.
@@ -291,9 +290,7 @@ fn find_alphas<L: Look>(
     if L::TEXTURED && state.has_mask {
         L::fill_mask(ink.planes, at, view.draws.states, texels);
     }
-    // Lengths that the compiler knows would be unrolled.
-    let (alphas, texels) = (black_box(alphas), black_box(&*texels));
-    for ((alpha, &texel), column) in alphas.iter_mut().zip(texels).zip(at.column..) {
+    for ((alpha, &texel), column) in alphas.iter_mut().zip(&*texels).zip(at.column..) {
         rolled();
         *alpha = PixelAlpha::new(ink.surface.at(column), MaskTexel::of_word(texel));
     }
@@ -314,9 +311,7 @@ fn undither<L: Look>(
     let mut plain = [WordOf::<L>::default(); MOST_TESTED];
     let plain = &mut plain[..run.len()];
     L::fill_opaque(ink.fill, ink.planes, at, view.draws.states, false, plain);
-    // As above.
-    let (run, plain, alphas) = (black_box(run), black_box(&*plain), black_box(alphas));
-    for ((pixel, &plain), alpha) in run.iter_mut().zip(plain).zip(alphas) {
+    for ((pixel, &plain), alpha) in run.iter_mut().zip(&*plain).zip(alphas) {
         rolled();
         if alpha.texel().is_undithered() {
             *pixel = plain;

@@ -3,7 +3,7 @@
 //! Runs are found before any pixel is coloured, so what the colours cost is known. They lie in the cells of depth, a
 //! word each: no column has two.
 
-use super::near::{Field, NUMBER, Taken, insert, number_of};
+use super::near::{Field, NUMBER, Taken, insert, nearer, number_of};
 use super::pace::Pace;
 use super::paced::Pacer;
 use super::renderer::Renderer;
@@ -330,10 +330,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     ) -> Rivals {
         let (pair, step) = (u32::from(pacer.pace.pair), u32::from(pacer.pace.step));
         let mut cost = 0u32;
-        for &key in field.later(of.after.slots) {
-            if key | NUMBER < of.far {
-                break;
-            }
+        for key in nearer(field.later(of.after.slots), of.far) {
             if !pacer.pay(step, leaves) {
                 return Rivals::TooMany;
             }

@@ -5,14 +5,6 @@
 //! Either way members come out in rising order, so the same sets give the same pictures.
 
 use super::short::SHORT;
-use core::hint::black_box;
-
-/// Keeps the loop around it short: most compilers write out four rounds of one that has no call, which on the cores this
-/// is for takes flash, and time where there are one or two.
-#[inline(always)]
-pub fn rolled() {
-    black_box(());
-}
 
 /// The set of one member, 0 to 31.
 #[inline(always)]

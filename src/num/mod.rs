@@ -31,10 +31,11 @@ mod quotient;
 pub(crate) mod random;
 mod recip;
 mod recip16;
+mod rolled;
 mod short;
 mod sine;
 
-pub use bits::{bit, rolled, take_first};
+pub use bits::{bit, take_first};
 pub use block::{Block, rounded, shift_round};
 pub use fixed::types::{I2F14, U1F15};
 pub use inverse_root::inverse_root;
@@ -47,6 +48,7 @@ pub use product::{
 pub use quotient::{divide, divide_signed, quotient_16, slope_and_rest};
 pub use recip::recip;
 pub use recip16::{mul_17, mul_recip_16, of_height, recip_16, slope_of};
+pub use rolled::rolled;
 pub use short::SHORT;
 pub use sine::sin_cos;
 
