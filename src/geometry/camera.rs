@@ -87,7 +87,7 @@ impl Screen {
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
     /// World to camera: x right, y down, z ahead.
-    pub(super) view: Affine,
+    pub(crate) view: Affine,
     /// The same, sheared by `shift`: what is in the middle of the picture is on the axis.
     pub(super) seen: Affine,
     /// Where the middle of the picture is, from where the camera looks: right and down, in 1/8 pixel.
@@ -147,11 +147,6 @@ impl Camera {
     pub const MOST_FAR: f32 = (1u32 << Self::FAR_BITS) as f32;
     /// As a power of two.
     const FAR_BITS: i32 = 16;
-
-    /// World to camera.
-    pub(crate) fn view(&self) -> &Affine {
-        &self.view
-    }
 
     /// A camera at `eye` that looks at `at` with `up` upwards, right-handed, world units.
     ///

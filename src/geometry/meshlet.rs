@@ -67,7 +67,7 @@ pub struct Meshlets<'a> {
     parts: &'a [Meshlet],
     vertices: &'a [u16],
     /// More than any number of a vertex.
-    end: usize,
+    pub(crate) end: usize,
 }
 
 /// Why a mesh cannot be cut.
@@ -195,11 +195,6 @@ impl<'a> Meshlets<'a> {
     #[must_use]
     pub const fn vertices(&self) -> &'a [u16] {
         self.vertices
-    }
-
-    /// How many vertices a mesh must have.
-    pub(crate) const fn end(&self) -> usize {
-        self.end
     }
 }
 

@@ -1,7 +1,9 @@
 //! A colour along a span, and a span in parts of 16 pixels, at whose beginnings its colour is reckoned anew.
 
 use super::ramp::{self, Packed, Pair};
+use crate::num::rolled;
 use crate::pixel::PixelFormat;
+use core::hint::black_box;
 
 /// A colour along a span: red, green and blue with 20, 20 and 21 bits below a field's unit, their steps to the next
 /// pixel, and these in one word.
@@ -41,7 +43,7 @@ impl Course {
     pub(super) fn even<F: PixelFormat>(&self) -> F::Word {
         let at = self.pair();
         if F::MADE_OF.is_one_word() {
-            return F::of_word(at.word());
+            return F::of_word(at.word(Pair::FIELDS));
         }
         F::pack_words(at.red_blue, at.green)
     }
@@ -112,26 +114,38 @@ impl Course {
         let (mut at, mut sixteen) = (self.pair(), self.pair_step(4));
         // Green has the lower half for itself.
         (at.green, sixteen.green) = (self.value[1] << 1, (self.step[1] << 5) as u32);
-        let (at, step) = (at.plus(sixteen.times(further)), self.packed);
-        InParts { at, sixteen, step }
+        InParts::new(at.plus(sixteen.times(further)), sixteen, self.packed)
     }
 }
 
 /// A colour at an anchor, its step to the next anchor, and to the next pixel in one word.
+///
+/// The former are pairs in one, green above red and blue: the compiler would keep multiples of two.
 #[derive(Clone, Copy)]
 pub(super) struct InParts {
-    pub(super) at: Pair,
-    pub(super) sixteen: Pair,
-    pub(super) step: u32,
+    at: u64,
+    sixteen: u64,
+    step: u32,
 }
 
 impl InParts {
+    #[inline(always)]
+    pub(super) fn new(at: Pair, mut sixteen: Pair, step: u32) -> Self {
+        // What goes down carries into green each time.
+        sixteen.green = sixteen.green.wrapping_sub(sixteen.red_blue >> 31);
+        let [at, sixteen] =
+            [at, sixteen].map(|pair| u64::from(pair.green) << 32 | u64::from(pair.red_blue));
+        Self { at, sixteen, step }
+    }
+
     /// The colour so many pixels behind an anchor, and on to the next one.
     #[inline(always)]
-    fn next(&mut self, off: u32) -> Packed {
+    fn next(&mut self, off: u32, fields: [u32; 2]) -> Packed {
         let Self { at, sixteen, step } = *self;
-        self.at = at.plus(sixteen);
-        let word = at.word().wrapping_add(step.wrapping_mul(off));
+        self.at = at.wrapping_add(sixteen);
+        let (red_blue, green) = (at as u32, (at >> 32) as u32);
+        let word = Pair { red_blue, green }.word(fields);
+        let word = word.wrapping_add(step.wrapping_mul(off));
         Packed { word, step }
     }
 
@@ -141,27 +155,61 @@ impl InParts {
         if run.len() > 16 - off as usize {
             return self.fill_long::<F>(run, off);
         }
-        ramp::fill::<F>(run, self.next(off));
+        ramp::fill::<F>(run, self.next(off, Pair::FIELDS));
     }
 
     /// The same of more than one part.
     #[inline(never)]
     pub(super) fn fill_long<F: PixelFormat>(&self, run: &mut [F::Word], off: u32) {
-        let mut parts = *self;
-        let pixels = if off == 0 { 0 } else { 16 - off as usize };
+        let (mut parts, fields) = (*self, black_box(Pair::FIELDS));
+        let pixels = (off.wrapping_neg() & 15) as usize;
         let (first, rest) = run.split_at_mut(pixels.min(run.len()));
         if !first.is_empty() {
-            ramp::fill::<F>(first, parts.next(off));
+            ramp::fill::<F>(first, parts.next(off, fields));
         }
         let mut sixteens = rest.chunks_exact_mut(16);
         for part in sixteens.by_ref() {
+            rolled();
             if let Ok(part) = <&mut [F::Word; 16]>::try_from(part) {
-                ramp::fill_sixteen::<F>(part, parts.next(0));
+                ramp::fill_sixteen::<F>(part, parts.next(0, fields));
             }
         }
         let last = sixteens.into_remainder();
         if !last.is_empty() {
-            ramp::fill::<F>(last, parts.next(0));
+            ramp::fill::<F>(last, parts.next(0, fields));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::num::random::Rng;
+
+    /// Kills: a step down that carries into green, and parts that are not those of two words.
+    #[test]
+    fn joined_words_go_on_as_two() {
+        let mut rng = Rng(5);
+        for _ in 0..2000 {
+            let channel = |rng: &mut Rng| (0x8000 + rng.bits() % 0x4000, rng.bits() % 0x201);
+            let (red, blue) = (channel(&mut rng), channel(&mut rng));
+            let (green, down) = (rng.bits() >> 1, rng.bits() & 3);
+            let way = |step: u32, bit: u32| (step ^ bit.wrapping_neg()).wrapping_add(bit);
+            let mut at = Pair {
+                red_blue: red.0 << 16 | blue.0,
+                green,
+            };
+            let sixteen = Pair {
+                red_blue: (way(red.1, down & 1) << 16).wrapping_add(way(blue.1, down >> 1)),
+                green: way(rng.bits() % 0x100_0000, rng.bits() & 1),
+            };
+            let mut parts = InParts::new(at, sixteen, 3);
+            for _ in 0..20 {
+                let word = at.word(Pair::FIELDS).wrapping_add(6);
+                assert_eq!(parts.next(2, Pair::FIELDS).word, word);
+                assert_eq!((parts.at >> 32) as u32, at.plus(sixteen).green);
+                at = at.plus(sixteen);
+            }
         }
     }
 }

@@ -176,7 +176,7 @@ impl<F: PixelFormat> Gouraud<F> {
             return Self::fill_small_long(planes, place, run);
         }
         let step = planes[6];
-        let word = at.word().wrapping_add(step.wrapping_mul(off));
+        let word = at.word(Pair::FIELDS).wrapping_add(step.wrapping_mul(off));
         ramp::fill::<F>(run, Packed { word, step });
     }
 
@@ -196,14 +196,13 @@ impl<F: PixelFormat> Gouraud<F> {
     fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
         let (at, off) = Self::at_anchor(planes, place);
         if planes[1] | planes[4] == 0 {
-            return ramp::fill_even::<F>(run, F::of_word(at.word()));
+            return ramp::fill_even::<F>(run, F::of_word(at.word(Pair::FIELDS)));
         }
         let sixteen = Pair {
             red_blue: planes[1] << 4,
             green: planes[4] << 4,
         };
-        let step = planes[6];
-        InParts { at, sixteen, step }.fill_long::<F>(run, off);
+        InParts::new(at, sixteen, planes[6]).fill_long::<F>(run, off);
     }
 
     /// Both words of [`Fill::Small`] at the last pixel at or before a place that is a multiple of 16 from its span's first

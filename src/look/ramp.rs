@@ -23,10 +23,13 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// The upper bits of the fields, in one word of colour.
+    /// What is in a word of colour of red and of blue.
+    pub(super) const FIELDS: [u32; 2] = [0xFFE0_0000, 0xFFC0];
+
+    /// The upper bits of the fields, in one word of colour, by what [those](Self::FIELDS) are.
     #[inline(always)]
-    pub(super) fn word(self) -> u32 {
-        self.red_blue & 0xFFE0_0000 | (self.red_blue & 0xFFC0) << 5 | self.green >> 21
+    pub(super) fn word(self, [red, blue]: [u32; 2]) -> u32 {
+        self.red_blue & red | (self.red_blue & blue) << 5 | self.green >> 21
     }
 
     #[inline(always)]
@@ -108,9 +111,6 @@ pub(super) fn fill<F: PixelFormat>(run: &mut [F::Word], ramp: Packed) {
 #[cfg_attr(short_multiply, inline(never))]
 #[cfg_attr(not(short_multiply), inline(always))]
 pub(super) fn fill_sixteen<F: PixelFormat>(run: &mut [F::Word; 16], mut ramp: Packed) {
-    if !cfg!(short_multiply) {
-        ramp.step = black_box(ramp.step);
-    }
     fill_chunk::<F, 16>(run, &mut ramp);
 }
 

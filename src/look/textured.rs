@@ -27,7 +27,7 @@ use crate::num::rolled;
 use crate::pixel::PixelFormat;
 use crate::scene::{Budget, DrawState, Draws, Holes, ORIGIN, Texture, Words};
 use crate::span::{Size, Triangle};
-use core::{hint::black_box, marker::PhantomData, slice::from_mut};
+use core::{marker::PhantomData, slice::from_mut};
 
 /// The look of textures, shaded smoothly, in the pixel format `F`: [`Rgb565`](crate::pixel::Rgb565),
 /// [`Rgb565Be`](crate::pixel::Rgb565Be) or [`Rgb565Le`](crate::pixel::Rgb565Le), and texels have the same order of bytes;
@@ -38,7 +38,7 @@ pub struct Textured<F>(PhantomData<F>);
 /// What a triangle keeps of its texture and its shade.
 #[derive(Clone, Copy, Debug)]
 pub struct Planes {
-    shade: Shades,
+    pub(super) shade: Shades,
     mapping: Mapping,
     /// The number of its draw state.
     draw: u16,
@@ -102,15 +102,6 @@ impl Planes {
             None => Some(Fill::Plain),
         };
         even.is_none()
-    }
-
-    /// The planes of the shade.
-    pub(super) fn shades(&self) -> &Shades {
-        &self.shade
-    }
-
-    pub(super) fn shades_mut(&mut self) -> &mut Shades {
-        &mut self.shade
     }
 }
 
@@ -463,8 +454,7 @@ impl<F: Texel> Look for Textured<F> {
             let mut colours = [0xFFFF; 32];
             let count = run.len().min(colours.len());
             shade(&mut colours[..count]);
-            // A length that the compiler knows would be unrolled.
-            for (texel, &colour) in run.iter_mut().zip(black_box(&colours[..])) {
+            for (texel, &colour) in run.iter_mut().zip(&colours) {
                 rolled();
                 if *texel == holes.key {
                     *texel = colour;

@@ -34,7 +34,7 @@ fn set_up<F: PixelFormat, T: Texel>(of: &Primitive<'_>, planes: &mut Planes) -> 
     let fill = Textured::<T>::set_up(of, planes);
     // The planes of small triangles have too few bits.
     if fill != Fill::Thin && planes.light::<F>(of.triangle, of.draws.states) {
-        return wide_shades(of.triangle, planes.shades_mut());
+        return wide_shades(of.triangle, &mut planes.shade);
     }
     fill
 }
@@ -50,7 +50,7 @@ fn lit<F: PixelFormat, T: Texel>(
 ) {
     let colour = shine.channels::<F>().map(for_levels);
     let mut texels = texels.iter();
-    light::<F>(shine, planes.shades(), place, dithers, run, || {
+    light::<F>(shine, &planes.shade, place, dithers, run, || {
         let texel = texels.next().map_or([255; 3], |&texel| T::to_rgb8(texel));
         [0, 1, 2].map(|i| (u32::from(texel[i]) * colour[i]) >> 8)
     });

@@ -9,10 +9,10 @@ use super::textured::{Planes, Textured};
 use super::tint::{Shade, Texel};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
 use crate::geometry::Scale;
-use crate::num::mul_high;
+use crate::num::{mul_high, rolled};
 use crate::pixel::{PixelFormat, Rgb565, Rgb888, Xrgb8888};
 use crate::scene::{DrawState, Draws, Holes};
-use core::hint::black_box as unknown;
+use core::hint::black_box;
 
 /// The look that fetches texels.
 type Texels = Textured<Rgb565>;
@@ -64,10 +64,11 @@ impl Light {
 /// Texels as pixels, in light of which each pixel has a step more.
 #[inline(always)]
 fn light<F: PixelFormat>(mut light: Light, step: Light, texels: &[u16], run: &mut [F::Word]) {
-    // Unknown to the compiler, which would make more copies of the loop, with sums of its own.
-    let half = unknown(1 << 23);
+    // Not added up with what is known of the light.
+    let half = black_box(1 << 23);
     for (&texel, pixel) in texels.iter().zip(run) {
-        *pixel = light.on::<F>(texel, unknown(half));
+        *pixel = light.on::<F>(texel, half);
+        rolled();
         for (light, step) in light.0.iter_mut().zip(step.0) {
             *light = light.wrapping_add(step);
         }

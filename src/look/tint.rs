@@ -22,6 +22,7 @@
 //! light a pixel; at most one 5-bit step, which is two of green, up to 1/35. Beyond, a pixel is
 //! shaded as one that is half a pixel away.
 
+use crate::num::rolled;
 use crate::pixel::{PixelFormat, Rgb565, Rgb565Bytes, threshold};
 use core::hint::black_box as unknown;
 
@@ -203,13 +204,12 @@ fn even_long<const SWAPPED: bool>(run: &mut [u16], shade: Shade, step: Shade) {
 #[inline(always)]
 fn even_fours<const SWAPPED: bool>(
     run: &mut [u16],
-    [red, green, blue]: [u32; 3],
+    by: [u32; 3],
     [first, second]: [Masks; 2],
 ) -> &mut [u16] {
     let mut fours = run.chunks_exact_mut(4);
     for four in fours.by_ref() {
-        // Unknown to the compiler, which would make more copies of the loop.
-        let by = [red, green, unknown(blue)];
+        rolled();
         if let [a, b, c, d] = four {
             pair::<SWAPPED>(a, b, by, first);
             pair::<SWAPPED>(c, d, by, second);
@@ -294,9 +294,8 @@ fn dithered<const SWAPPED: bool>(
     for (pixel, column) in run.iter_mut().zip(column..) {
         let m = MASKS.raising(raised::<SWAPPED>([column, line]));
         *pixel = tinted::<SWAPPED>(u32::from(*pixel), held(shade), m) as u16;
-        // Unknown to the compiler, which would make more copies of the loop.
-        shade.red_blue = shade.red_blue.wrapping_add(unknown(step.red_blue));
-        shade.green = shade.green.wrapping_add(step.green);
+        shade = shade.plus(step);
+        rolled();
     }
 }
 

@@ -211,7 +211,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         if !draw.is_one_sided() || !self.passes_over() {
             return;
         }
-        let find = || Eye::new(&draw.model, camera.view());
+        let find = || Eye::new(&draw.model, &camera.view);
         let eye = *self.state.eye.get_or_insert_with(find);
         if eye.is_some_and(|eye| eye.is_behind(&Meshlet::from(cone))) {
             self.pass_over(words, cone.words);

@@ -106,7 +106,7 @@ impl<'t, L> Scene<'_, 't, L> {
         let is_plain = self.is_plain(draw);
         let colour = if is_replaced { [255; 3] } else { draw.colour };
         let tint = Tint::new(colour, &self.scale);
-        let (model, view) = (&draw.model, camera.view());
+        let (model, view) = (&draw.model, &camera.view);
         let lamps = draw.lights.map(|lights| Lamps::new(lights, model, view));
         let light = draw.light.filter(|_| lamps.is_none());
         let light = light.map(|light| light.in_model(model));
@@ -123,7 +123,7 @@ impl<'t, L> Scene<'_, 't, L> {
             light,
             lamps: lamps.as_ref(),
             normals: word_of.map(|word| Normals {
-                turn: draw.model.then(camera.view()),
+                turn: draw.model.then(&camera.view),
                 word,
             }),
             tint,

@@ -34,7 +34,7 @@ impl<'t, L> Scene<'_, 't, L> {
             ..draw.mesh
         };
         let draw = &Draw { mesh, ..*draw };
-        if mesh.positions.len() < meshlets.end() {
+        if mesh.positions.len() < meshlets.end {
             return Err(DrawError::Mesh(MeshError::Meshlets));
         }
         let Some(camera) = self.camera else {
@@ -46,7 +46,7 @@ impl<'t, L> Scene<'_, 't, L> {
         }
         check_alphas(draw.alphas, mesh.positions.len())?;
         let eye = match draw.is_one_sided() {
-            true => Eye::new(&draw.model, camera.view()),
+            true => Eye::new(&draw.model, &camera.view),
             false => None,
         };
         let seen = Seen { camera, draw, eye };

@@ -151,7 +151,7 @@ mod tests {
                 .then(&placed);
             let eye = [0.0, 1.0, 5.0];
             let camera = Camera::look_at(eye, [0.3, 0.2, 0.0], [0.0, 1.0, 0.0], 100.0, 0.1, 900.0);
-            let turn = model.then(camera.unwrap().view());
+            let turn = model.then(&camera.unwrap().view);
             // Turns of the crate itself are looked at elsewhere.
             let rows = turn
                 .rows_q14()
@@ -186,7 +186,7 @@ mod tests {
         let (eye, up) = ([0.0, 0.0, 5.0], [0.0, 1.0, 0.0]);
         let camera = Camera::look_at(eye, [0.0; 3], up, 100.0, 0.1, 100.0).unwrap();
         let texture = Texture::words(&TEXELS, 64, 32).unwrap();
-        let by = (TexGen::SPHERE.0)(camera.view(), &texture);
+        let by = (TexGen::SPHERE.0)(&camera.view, &texture);
         const ONE: i16 = 1 << 14;
         let place = |normal| sphere_place(&by, normal).map(|c| f64::from(c) / 256.0);
         assert_eq!(place([0, 0, ONE]), [32.0, 16.0]);
