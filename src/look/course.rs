@@ -42,9 +42,6 @@ impl Course {
     #[inline(always)]
     pub(super) fn even<F: PixelFormat>(&self) -> F::Word {
         let at = self.pair();
-        if F::MADE_OF.is_one_word() {
-            return F::of_word(at.word(Pair::FIELDS));
-        }
         F::pack_words(at.red_blue, at.green)
     }
 
@@ -81,13 +78,6 @@ impl Course {
         keeps(0) & keeps(1) & keeps(2)
     }
 
-    /// The pair of words so many pixels on from an anchor, and their steps.
-    #[inline(always)]
-    fn pair_on(&self, off: u32) -> [Pair; 2] {
-        let step = self.pair_step(0);
-        [self.pair().plus(step.times(off)), step]
-    }
-
     /// Hands `f` a run that begins so many pixels behind the span's first one, in parts up to each 16th pixel of the span,
     /// with the pair of words at the first of each and their steps.
     #[inline(always)]
@@ -102,7 +92,8 @@ impl Course {
         while !rest.is_empty() {
             let pixels = rest.len().min(16 - off as usize);
             let (part, after) = rest.split_at_mut(pixels);
-            f(part, self.pair_on(off));
+            let step = self.pair_step(0);
+            f(part, [self.pair().plus(step.times(off)), step]);
             self.skip(16);
             (rest, off) = (after, 0);
         }

@@ -196,13 +196,10 @@ impl<F: PixelFormat> Gouraud<F> {
     fn fill_small_long(planes: &Planes, place: Place, run: &mut [F::Word]) {
         let (at, off) = Self::at_anchor(planes, place);
         if planes[1] | planes[4] == 0 {
-            return ramp::fill_even::<F>(run, F::of_word(at.word(Pair::FIELDS)));
+            return ramp::fill_even::<F>(run, F::pack_words(at.red_blue, at.green));
         }
-        let sixteen = Pair {
-            red_blue: planes[1] << 4,
-            green: planes[4] << 4,
-        };
-        InParts::new(at, sixteen, planes[6]).fill_long::<F>(run, off);
+        let [red_blue, green] = [planes[1], planes[4]].map(|step| step << 4);
+        InParts::new(at, Pair { red_blue, green }, planes[6]).fill_long::<F>(run, off);
     }
 
     /// Both words of [`Fill::Small`] at the last pixel at or before a place that is a multiple of 16 from its span's first

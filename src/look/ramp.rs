@@ -2,7 +2,7 @@
 //!
 //! Runs of up to 16 pixels are straight code, entered behind a jump by length as far from its end as there are pixels:
 //! 4 instructions a pixel on a Cortex-M4, 5 where the bytes are swapped, and some 20 for the call; longer ones go in
-//! chunks of 8 without an end test, 5.4 a pixel. `black_box`, once a chunk, keeps loops from being unrolled and their
+//! chunks of 8 without an end test, 5 a pixel. `black_box`, once a chunk, keeps loops from being unrolled and their
 //! steps from being multiplied out.
 
 use crate::pixel::PixelFormat;
@@ -47,14 +47,6 @@ impl Pair {
             green: self.green.wrapping_add(step.green),
         }
     }
-}
-
-/// A pixel, and one step on.
-#[inline(always)]
-fn next<F: PixelFormat>(ramp: &mut Packed) -> F::Word {
-    let pixel = F::of_word(ramp.word);
-    ramp.word = ramp.word.wrapping_add(ramp.step);
-    pixel
 }
 
 /// A jump into straight code: after `$jump` has left the block of a label, what stands at that label is done and then
@@ -140,11 +132,15 @@ pub(crate) fn fill_even<F: PixelFormat>(run: &mut [F::Word], word: F::Word) {
     F::fill(run, word);
 }
 
-/// Colours so many pixels in straight code.
+/// Colours an even number of pixels in straight code.
 #[inline(always)]
 fn fill_chunk<F: PixelFormat, const N: usize>(run: &mut [F::Word; N], ramp: &mut Packed) {
-    for pixel in run {
-        *pixel = next::<F>(ramp);
+    for two in run.chunks_exact_mut(2) {
+        let next = ramp.word.wrapping_add(ramp.step);
+        if let [a, b] = two {
+            [*a, *b] = F::of_words([ramp.word, next]);
+        }
+        ramp.word = next.wrapping_add(ramp.step);
     }
 }
 

@@ -4,7 +4,7 @@ use super::mix::{Mix, mix_levels};
 use super::mix_565::{mix_565, mix_one};
 use super::mix_bytes::mix_bytes;
 use super::{MadeOf, between};
-use crate::num::of_255;
+use crate::num::{SHORT, of_255};
 
 /// How a pixel looks in the line buffer, and how it is made of a colour and of other pixels.
 pub trait PixelFormat {
@@ -76,6 +76,13 @@ pub trait PixelFormat {
     #[inline(always)]
     fn of_word(word: u32) -> Self::Word {
         Self::pack_words(word & 0xFFE0_0000 | word >> 5 & 0xFFC0, word << 21)
+    }
+
+    /// Two pixels from a word of colour each.
+    #[doc(hidden)]
+    #[inline(always)]
+    fn of_words(words: [u32; 2]) -> [Self::Word; 2] {
+        words.map(Self::of_word)
     }
 
     /// The fields of a pixel, each with four bits free above it.
@@ -310,6 +317,17 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
         let is_native = BIG == cfg!(target_endian = "big");
         // Of a pixel that is there twice, the bytes between are its own swapped.
         (if is_native { twice } else { twice >> 8 }) as u16
+    }
+
+    #[inline(always)]
+    fn of_words(words: [u32; 2]) -> [u16; 2] {
+        if BIG == cfg!(target_endian = "big") || SHORT {
+            return words.map(Self::of_word);
+        }
+        // Folded by a product: rotated, the fields would be taken apart, and put in the halves one by one.
+        let [a, b] = words.map(|word| (word & 0xF81F_07E0).wrapping_mul(0x1_0001));
+        let both = swapped_halves(b & 0xFFFF_0000 | a >> 16);
+        [both as u16, (both >> 16) as u16]
     }
 
     #[inline(always)]
