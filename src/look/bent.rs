@@ -4,6 +4,7 @@
 //! of indices of 8 bits 12 on a Cortex-M4 and 22 on a Cortex-M0+, of 4 bits 16 and 27.
 
 use super::fetch::texel;
+use crate::num::rolled;
 use crate::scene::{Bent, Form, Square, Texture};
 use core::hint::black_box as unknown;
 
@@ -42,7 +43,8 @@ fn copy_square<const SIDE: usize>(
         }
     }
     for pixel in eights.into_remainder() {
-        draw(pixel, unknown(turn));
+        rolled();
+        draw(pixel, turn);
     }
 }
 

@@ -15,15 +15,6 @@ pub(super) struct Course {
 }
 
 impl Course {
-    /// The colour here, without a step.
-    #[inline(always)]
-    pub(super) fn still(&self) -> Self {
-        Self {
-            step: [0; 3],
-            ..*self
-        }
-    }
-
     /// So many pixels on.
     #[inline(always)]
     pub(super) fn skip(&mut self, pixels: u32) {

@@ -138,7 +138,7 @@ fn fill_chunk<F: PixelFormat, const N: usize>(run: &mut [F::Word; N], ramp: &mut
     for two in run.chunks_exact_mut(2) {
         let next = ramp.word.wrapping_add(ramp.step);
         if let [a, b] = two {
-            [*a, *b] = F::of_words([ramp.word, next]);
+            F::set_two([a, b], [ramp.word, next]);
         }
         ramp.word = next.wrapping_add(ramp.step);
     }

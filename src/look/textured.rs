@@ -315,7 +315,11 @@ impl<F: Texel> Textured<F> {
             let way = step.times(skipped as usize);
             if dithers {
                 // Each pixel has the shade of its own place.
-                let [own, _] = shade_at(&course.still(), 1);
+                let still = Course {
+                    step: [0; 3],
+                    ..course
+                };
+                let [own, _] = shade_at(&still, 1);
                 F::tint_dithered(run, own.plus(way), step, [at.column, at.line]);
             } else {
                 Self::shade_part(run, at, [half.plus(way), step]);

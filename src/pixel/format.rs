@@ -78,11 +78,11 @@ pub trait PixelFormat {
         Self::pack_words(word & 0xFFE0_0000 | word >> 5 & 0xFFC0, word << 21)
     }
 
-    /// Two pixels from a word of colour each.
+    /// Sets two pixels to words of colour.
     #[doc(hidden)]
     #[inline(always)]
-    fn of_words(words: [u32; 2]) -> [Self::Word; 2] {
-        words.map(Self::of_word)
+    fn set_two([a, b]: [&mut Self::Word; 2], [first, second]: [u32; 2]) {
+        (*a, *b) = (Self::of_word(first), Self::of_word(second));
     }
 
     /// The fields of a pixel, each with four bits free above it.
@@ -320,14 +320,15 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     }
 
     #[inline(always)]
-    fn of_words(words: [u32; 2]) -> [u16; 2] {
+    fn set_two([a, b]: [&mut u16; 2], words: [u32; 2]) {
         if BIG == cfg!(target_endian = "big") || SHORT {
-            return words.map(Self::of_word);
+            (*a, *b) = (Self::of_word(words[0]), Self::of_word(words[1]));
+            return;
         }
         // Folded by a product: rotated, the fields would be taken apart, and put in the halves one by one.
-        let [a, b] = words.map(|word| (word & 0xF81F_07E0).wrapping_mul(0x1_0001));
-        let both = swapped_halves(b & 0xFFFF_0000 | a >> 16);
-        [both as u16, (both >> 16) as u16]
+        let [first, second] = words.map(|word| (word & 0xF81F_07E0).wrapping_mul(0x1_0001));
+        let both = swapped_halves(second & 0xFFFF_0000 | first >> 16);
+        (*a, *b) = (both as u16, (both >> 16) as u16);
     }
 
     #[inline(always)]
