@@ -36,7 +36,7 @@ fn copy_square<const SIDE: usize>(
     };
     let mut eights = run.chunks_exact_mut(8);
     for eight in eights.by_ref() {
-        // Unknown to the compiler, which would else make several copies of the loop.
+        // Unknown to the compiler, which would keep multiples of it.
         let turn = unknown(turn);
         if let Ok(eight) = <&mut [u16; 8]>::try_from(eight) {
             eight.iter_mut().for_each(|pixel| draw(pixel, turn));

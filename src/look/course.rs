@@ -102,7 +102,8 @@ impl Course {
 
 /// A colour at an anchor, its step to the next anchor, and to the next pixel in one word.
 ///
-/// The former are pairs in one, green above red and blue: the compiler would keep multiples of two.
+/// The first two are pairs in one number each, green above red and blue: of two numbers, which the compiler sees through,
+/// it would also step the one that is shifted, and run out of registers.
 #[derive(Clone, Copy)]
 pub(super) struct InParts {
     at: u64,
@@ -113,7 +114,7 @@ pub(super) struct InParts {
 impl InParts {
     #[inline(always)]
     pub(super) fn new(at: Pair, mut sixteen: Pair, step: u32) -> Self {
-        // What goes down carries into green each time.
+        // Red and blue that go down carry one into green at each step: green steps by one less.
         sixteen.green = sixteen.green.wrapping_sub(sixteen.red_blue >> 31);
         let [at, sixteen] =
             [at, sixteen].map(|pair| u64::from(pair.green) << 32 | u64::from(pair.red_blue));
@@ -143,6 +144,7 @@ impl InParts {
     /// The same of more than one part.
     #[inline(never)]
     pub(super) fn fill_long<F: PixelFormat>(&self, run: &mut [F::Word], off: u32) {
+        // Masks that the compiler knows would be made anew for each part.
         let (mut parts, fields) = (*self, black_box(Pair::FIELDS));
         let pixels = (off.wrapping_neg() & 15) as usize;
         let (first, rest) = run.split_at_mut(pixels.min(run.len()));

@@ -23,10 +23,11 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// What is in a word of colour of red and of blue.
+    /// The masks of red and of blue: their bits that a word of colour has.
     pub(super) const FIELDS: [u32; 2] = [0xFFE0_0000, 0xFFC0];
 
-    /// The upper bits of the fields, in one word of colour, by what [those](Self::FIELDS) are.
+    /// The upper bits of the fields, in one word of colour. The masks are always [`FIELDS`](Self::FIELDS): who hides them
+    /// from the compiler keeps them in registers.
     #[inline(always)]
     pub(super) fn word(self, [red, blue]: [u32; 2]) -> u32 {
         self.red_blue & red | (self.red_blue & blue) << 5 | self.green >> 21

@@ -121,6 +121,9 @@ pub type Rgb565Be = Rgb565Bytes<true>;
 pub type Rgb565Le = Rgb565Bytes<false>;
 
 impl<const BIG: bool> Rgb565Bytes<BIG> {
+    /// Whether that is the order of the processor.
+    const IS_NATIVE: bool = BIG == cfg!(target_endian = "big");
+
     /// A native word with its bytes in the stated order, and back.
     #[inline(always)]
     const fn in_memory(word: u16) -> u16 {
@@ -284,7 +287,7 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
     }
 
     fn mix(old: &mut [u16], new: &[u16], mix: Mix) {
-        if BIG == cfg!(target_endian = "big") {
+        if Self::IS_NATIVE {
             mix_565(old, new, |pair| pair, mix);
         } else {
             mix_565(old, new, swapped_halves, mix);
@@ -313,20 +316,20 @@ impl<const BIG: bool> PixelFormat for Rgb565Bytes<BIG> {
 
     #[inline(always)]
     fn of_word(word: u32) -> u16 {
-        let twice = twice_565(word);
-        let is_native = BIG == cfg!(target_endian = "big");
         // Of a pixel that is there twice, the bytes between are its own swapped.
-        (if is_native { twice } else { twice >> 8 }) as u16
+        (twice_565(word) >> if Self::IS_NATIVE { 0 } else { 8 }) as u16
     }
 
     #[inline(always)]
     fn set_two([a, b]: [&mut u16; 2], words: [u32; 2]) {
-        if BIG == cfg!(target_endian = "big") || SHORT {
+        if Self::IS_NATIVE || SHORT {
             (*a, *b) = (Self::of_word(words[0]), Self::of_word(words[1]));
             return;
         }
-        // Folded by a product: rotated, the fields would be taken apart, and put in the halves one by one.
-        let [first, second] = words.map(|word| (word & 0xF81F_07E0).wrapping_mul(0x1_0001));
+        // A product puts both halves of a word in the upper one. Of a rotation the compiler would keep each field
+        // apart, and put it in its half alone.
+        let fields = between::FIELDS_565.rotate_left(16);
+        let [first, second] = words.map(|word| (word & fields).wrapping_mul(0x1_0001));
         let both = swapped_halves(second & 0xFFFF_0000 | first >> 16);
         (*a, *b) = (both as u16, (both >> 16) as u16);
     }
@@ -351,6 +354,6 @@ fn swapped_halves(word: u32) -> u32 {
 /// A pixel in both halves of a word: the upper bits of the three fields, each at its place in one half or the other.
 #[inline(always)]
 fn twice_565(word: u32) -> u32 {
-    let fields = word & 0xF81F_07E0;
+    let fields = word & between::FIELDS_565.rotate_left(16);
     fields | fields.rotate_right(16)
 }
