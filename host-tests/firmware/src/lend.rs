@@ -26,8 +26,10 @@ macro_rules! lend {
         }
         // SAFETY: `TAKEN` lets one caller ever come here, so this is the only reference.
         let room: &'static mut Room = unsafe { &mut *(&raw mut ROOM) };
-        for element in room.iter_mut() {
+        // A length that the compiler does not know, and a loop kept rolled: it would write out dozens of rounds.
+        for element in core::hint::black_box(&mut room[..]) {
             element.write($value);
+            core::hint::black_box(());
         }
         // SAFETY: every element was written just above.
         let lent: &'static mut [$element] =
