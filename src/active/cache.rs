@@ -215,8 +215,8 @@ impl<T: Copy, const WORDS: usize> Cache<T, WORDS> {
     pub(crate) fn free_beside(&self, withheld: &[u32; WORDS]) -> Option<usize> {
         for (word, (&used, &withheld)) in self.used.iter().zip(withheld).enumerate() {
             let mut free = !(used | withheld);
-            if free != 0 {
-                let slot = word * 32 + take_first(&mut free) as usize;
+            if let Some(i) = take_first(&mut free) {
+                let slot = word * 32 + i as usize;
                 return (slot + usize::from(self.unused) < 32 * WORDS).then_some(slot);
             }
         }

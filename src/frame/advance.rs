@@ -64,8 +64,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for word in 0..WORDS {
             let waiting = self.cache.take_block(word);
             for (mut slots, turns) in waiting.into_iter().zip([true, false]) {
-                while slots != 0 {
-                    self.ask_change(view, word, take_first(&mut slots), turns);
+                while let Some(i) = take_first(&mut slots) {
+                    self.ask_change(view, word, i, turns);
                 }
             }
         }
@@ -74,8 +74,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Slots of a word of which a side turns.
     #[inline(never)]
     pub(super) fn turn_all(&mut self, view: &View<'_>, word: usize, mut turning: u32) {
-        while turning != 0 {
-            self.turn(view, word, take_first(&mut turning));
+        while let Some(i) = take_first(&mut turning) {
+            self.turn(view, word, i);
         }
     }
 
@@ -171,7 +171,10 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         object: &Object,
         line: u16,
     ) -> u32 {
-        let (Some(triangle), Some(kept)) = (view.triangle(object), self.cache.slot(slot)) else {
+        let Some(kept) = self.cache.slot(slot) else {
+            return 0;
+        };
+        let Some(triangle) = view.triangle(object) else {
             return 0;
         };
         let entry = triangle.enter(line, &mut kept.item.sides);

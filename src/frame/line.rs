@@ -119,8 +119,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         // Unknown to the compiler, which would else reckon from the cache's beginning, and load word by word.
         let slots = black_box(&self.cache.slots[word]);
         let line = out.number;
-        while plain != 0 {
-            let slot = &slots[take_first(&mut plain) as usize & 31];
+        while let Some(i) = take_first(&mut plain) {
+            let slot = &slots[i as usize & 31];
             let sides = &slot.item.sides;
             let (start, end) = (sides.left.column(line), sides.right.column(line));
             if start >= end {
@@ -143,8 +143,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     #[inline(never)]
     fn draw_others(&mut self, out: &mut Line<'_, '_, L>, word: usize, mut others: u32) -> u32 {
         let slots = black_box(&self.cache.slots[word]);
-        while others != 0 {
-            let slot = &slots[take_first(&mut others) as usize & 31];
+        while let Some(i) = take_first(&mut others) {
+            let slot = &slots[i as usize & 31];
             let Span { start, end } = columns_of::<L>(slot, out);
             if start < end {
                 let met = self.covered.cover(start, end);

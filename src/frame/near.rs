@@ -251,8 +251,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
             self.lasting = !self.changed && !self.dense && self.lasts(out);
             return;
         }
-        let met = self.find_all(out);
-        let alone = self.colour_alone(met, out);
+        self.find_all(out);
+        let alone = self.colour_alone(out);
         let (slots, hidden) = self.draw_listed(out);
         self.written.clear();
         self.over.clear();
@@ -276,23 +276,24 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
 
     /// Colours spans that meet nobody, and lists the others; how many were coloured.
     #[inline(never)]
-    fn colour_alone(&mut self, met: bool, out: &mut Line<'_, '_, L>) -> usize {
+    fn colour_alone(&mut self, out: &mut Line<'_, '_, L>) -> usize {
         let mut alone = 0;
         for word in 0..WORDS {
             let (slots, spans) = (&self.cache.slots[word], &self.cache.spans[word]);
             let mut used = self.cache.used[word];
-            let mut listed = used;
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
+            let mut listed = 0;
+            while let Some(i) = take_first(&mut used) {
+                let i = i as usize & 31;
                 let span = Span::of(spans[i]);
-                if span.start < span.end {
-                    if met && self.over.meets(span.start, span.end) {
-                        continue;
-                    }
+                if span.start >= span.end {
+                    continue;
+                }
+                if self.over.meets(span.start, span.end) {
+                    listed |= bit(i as u32);
+                } else {
                     colour_slot::<L>(&slots[i], spans[i], out);
                     alone += 1;
                 }
-                listed &= !bit(i as u32);
             }
             self.cache.listed[word] = listed;
         }
@@ -347,8 +348,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         }
         for word in 0..WORDS {
             let mut new = listed[word] & !before[word];
-            while new != 0 {
-                order[count % (32 * WORDS)] = word as u32 * 32 + take_first(&mut new);
+            while let Some(i) = take_first(&mut new) {
+                order[count % (32 * WORDS)] = word as u32 * 32 + i;
                 count += 1;
                 rolled();
             }

@@ -102,8 +102,8 @@ impl<L: Look, const WORDS: usize> Pacer<L, WORDS> {
     /// Those of some slots whose sides the line can pay for; the others are given up.
     fn pay_each(&mut self, mut slots: u32) -> u32 {
         let mut paid = 0;
-        while slots != 0 {
-            let one = bit(take_first(&mut slots));
+        while let Some(i) = take_first(&mut slots) {
+            let one = bit(i);
             if self.pay(self.pace.turn.into(), 0) {
                 paid |= one;
             } else {
@@ -249,8 +249,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
                 for (slots, turns) in self.cache.take_block(word).into_iter().zip([true, false]) {
                     let mut asked = pacer.pay_each(slots);
                     pacer.give_up(self.cache, word, slots & !asked);
-                    while asked != 0 {
-                        self.ask_change(view, word, take_first(&mut asked), turns);
+                    while let Some(i) = take_first(&mut asked) {
+                        self.ask_change(view, word, i, turns);
                     }
                 }
             }

@@ -105,8 +105,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for word in 0..WORDS {
             let (slots, spans) = (&self.cache.slots[word], &mut self.cache.spans[word]);
             let mut used = self.cache.used[word];
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
+            while let Some(i) = take_first(&mut used) {
+                let i = i as usize & 31;
                 let span = columns_of::<L>(&slots[i], out);
                 spans[i] = span.start << 16 | span.end;
                 words += words_of(span);
@@ -118,18 +118,18 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Covers the columns of all slots; whether two share one.
     #[inline(never)]
     fn cover_columns(&mut self) -> bool {
-        let mut met = false;
+        let mut met = 0;
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
-            while used != 0 {
-                let i = take_first(&mut used) as usize & 31;
+            while let Some(i) = take_first(&mut used) {
+                let i = i as usize & 31;
                 let Span { start, end } = Span::of(self.cache.spans[word][i]);
                 if start < end {
                     met |= self.covered.cover_over(&mut self.over, start, end);
                 }
             }
         }
-        met
+        met != 0
     }
 
     /// The columns of a slot.
@@ -146,8 +146,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
             let mut listed = 0;
-            while used != 0 {
-                let i = take_first(&mut used);
+            while let Some(i) = take_first(&mut used) {
                 let number = word * 32 + i as usize;
                 let span = Span::of(self.cache.spans[word][i as usize & 31]);
                 if span.start >= span.end {
@@ -222,8 +221,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         };
         for word in 0..WORDS {
             let mut listed = self.cache.listed[word];
-            while listed != 0 {
-                let number = word * 32 + take_first(&mut listed) as usize;
+            while let Some(i) = take_first(&mut listed) {
+                let number = word * 32 + i as usize;
                 let slots = sorted.slots;
                 let most = leaves + slots as u32 * step;
                 sorted.is_whole &= pacer.pay(self.if_thin(pacer, number), most);

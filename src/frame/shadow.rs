@@ -187,14 +187,13 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         if self.counter.is_some() {
             // What nobody sees is counted too, but not what it takes.
             let (mut in_vain, counts) = (lights.with_shadowed & !lit, self.counts);
-            while in_vain != 0 {
+            while let Some(i) = take_first(&mut in_vain) {
                 self.volumes.fill(0);
-                self.take_step(2 * take_first(&mut in_vain) + 1, slots, out);
+                self.take_step(2 * i + 1, slots, out);
             }
             self.counts = counts;
         }
-        while lit != 0 {
-            let light = take_first(&mut lit);
+        while let Some(light) = take_first(&mut lit) {
             self.volumes.fill(0);
             if lights.with_volumes & bit(light) != 0 {
                 self.take_step(2 * light, slots, out);
@@ -208,8 +207,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn hide_shadows(&mut self, view: &View<'_>) {
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
-            while others != 0 {
-                let i = take_first(&mut others) as usize & 31;
+            while let Some(i) = take_first(&mut others) {
+                let i = i as usize & 31;
                 let state = view.state_of(&self.cache.slots[word][i]);
                 if state.is_some_and(DrawState::is_in_vain) {
                     self.cache.spans[word][i] = 0;

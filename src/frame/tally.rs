@@ -88,8 +88,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn each_span(&self, out: &Line<'_, '_, L>, f: &mut dyn FnMut(&Seen<'_, L::Planes>)) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
-            while used != 0 {
-                let slot = &self.cache.slots[word][take_first(&mut used) as usize & 31];
+            while let Some(i) = take_first(&mut used) {
+                let slot = &self.cache.slots[word][i as usize & 31];
                 let span = columns_of::<L>(slot, out);
                 if span.start < span.end {
                     f(&Seen {

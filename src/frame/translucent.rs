@@ -120,9 +120,8 @@ impl Pile {
         let mut part = Span::new(start.max(from), until);
         while part.start < part.end {
             let (mut set, mut rest) = (ahead, ahead);
-            while rest != 0 {
+            while let Some(number) = take_first(&mut rest) {
                 rolled();
-                let number = take_first(&mut rest);
                 if self.panes[number as usize % PANES].rival.span.start >= part.end {
                     set &= !bit(number);
                 }
@@ -161,9 +160,8 @@ impl Pile {
             self.find_behind(set, part, &mut behind);
         }
         let (mut rest, mut tried, mut count) = (set, set, 0);
-        while tried != 0 {
+        while let Some(number) = take_first(&mut tried) {
             rolled();
-            let number = take_first(&mut tried);
             if behind[number as usize % PANES] & rest == 0 {
                 rest &= !bit(number);
                 tried = rest;
@@ -178,11 +176,11 @@ impl Pile {
     #[inline(always)]
     fn find_behind(&self, set: u32, part: &mut Span, behind: &mut [u32; PANES]) {
         let mut rest = set;
-        while rest != 0 {
-            let a = take_first(&mut rest) as usize % PANES;
+        while let Some(i) = take_first(&mut rest) {
+            let a = i as usize % PANES;
             let (rival, mut others) = (self.panes[a].rival, rest);
-            while others != 0 {
-                let b = take_first(&mut others) as usize % PANES;
+            while let Some(i) = take_first(&mut others) {
+                let b = i as usize % PANES;
                 let other = self.panes[b].rival;
                 let Span { start, end } = rival.span.within(other.span).within(*part);
                 if start >= end {

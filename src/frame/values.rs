@@ -60,8 +60,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     fn mark_values(&mut self, view: &View<'_>) {
         for word in 0..WORDS {
             let mut used = self.cache.used[word];
-            while used != 0 {
-                let i = take_first(&mut used);
+            while let Some(i) = take_first(&mut used) {
                 let slot = &mut self.cache.slots[word][i as usize & 31];
                 if begun_of(slot) != 0 || Flags::of(slot).has_values() {
                     continue;
@@ -87,8 +86,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
     /// Takes the next slot of a word that has values and pixels on the line out of a set.
     #[inline(always)]
     pub(super) fn next_with_values(&self, word: usize, set: &mut u32) -> Option<u32> {
-        while *set != 0 {
-            let i = take_first(set);
+        while let Some(i) = take_first(set) {
             let flags = Flags::of(&self.cache.slots[word][i as usize & 31]);
             let span = Span::of(self.cache.spans[word][i as usize & 31]);
             if flags.has_values() && span.start < span.end {
@@ -103,8 +101,8 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         let rules = |state: Option<&DrawState<'_>>| state.is_some_and(DrawState::rules);
         for word in 0..WORDS {
             let mut others = self.cache.used[word] & !self.cache.plain[word];
-            while others != 0 {
-                let slot = &self.cache.slots[word][take_first(&mut others) as usize & 31];
+            while let Some(i) = take_first(&mut others) {
+                let slot = &self.cache.slots[word][i as usize & 31];
                 if Flags::of(slot).has_values() && rules(out.view.state_of(slot)) {
                     let Span { start, end } = columns_of::<L>(slot, out);
                     if start < end {

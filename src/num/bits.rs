@@ -5,6 +5,7 @@
 //! Either way members come out in rising order, so the same sets give the same pictures.
 
 use super::short::SHORT;
+use core::num::NonZeroU32;
 
 /// The set of one member, 0 to 31.
 #[inline(always)]
@@ -29,29 +30,33 @@ const fn top_bit(member: u32) -> u32 {
     0x8000_0000 >> (member & 31)
 }
 
-/// Takes the lowest member out of a set that is not empty.
+/// Takes the lowest member out of a set, if it has any.
 #[inline(always)]
-pub fn take_first(set: &mut u32) -> u32 {
+pub fn take_first(set: &mut u32) -> Option<u32> {
     if SHORT { take_low(set) } else { take_top(set) }
 }
 
 /// [`take_first`] of a set of [`low_bit`]s.
 #[inline(always)]
-fn take_low(set: &mut u32) -> u32 {
+fn take_low(set: &mut u32) -> Option<u32> {
     let low = *set & set.wrapping_neg();
-    *set ^= low;
-    number_of(low)
+    let first = (low != 0).then(|| number_of(low));
+    *set &= set.wrapping_sub(1);
+    first
 }
 
 /// [`take_first`] of a set of [`top_bit`]s.
 #[inline(always)]
-fn take_top(set: &mut u32) -> u32 {
-    let first = set.leading_zeros();
+fn take_top(set: &mut u32) -> Option<u32> {
+    let first = NonZeroU32::new(*set)?.leading_zeros();
     *set &= !top_bit(first);
-    first
+    Some(first)
 }
 
 /// The number of the one bit of a word, by a de Bruijn sequence.
+///
+/// A table of the numbers alone the compiler takes for a count of zeros: it puts one of its own beside each, and asks
+/// for 0 first.
 #[inline(always)]
 fn number_of(low: u32) -> u32 {
     const SEQUENCE: u32 = 0x077C_B531;
@@ -59,12 +64,12 @@ fn number_of(low: u32) -> u32 {
         let mut numbers = [0; 32];
         let mut i = 0;
         while i < 32 {
-            numbers[(SEQUENCE.wrapping_mul(1 << i) >> 27) as usize] = i as u8;
+            numbers[(SEQUENCE.wrapping_mul(1 << i) >> 27) as usize] = 32 + i as u8;
             i += 1;
         }
         numbers
     };
-    u32::from(NUMBER[(SEQUENCE.wrapping_mul(low) >> 27) as usize])
+    u32::from(NUMBER[(SEQUENCE.wrapping_mul(low) >> 27) as usize]) & 31
 }
 
 #[cfg(test)]
@@ -74,7 +79,7 @@ mod tests {
     use std::vec::Vec;
 
     /// All sets of members of which each is in one of four, whichever end they begin at.
-    fn come_out(bit: impl Fn(u32) -> u32, take: impl Fn(&mut u32) -> u32) {
+    fn come_out(bit: impl Fn(u32) -> u32, take: impl Fn(&mut u32) -> Option<u32>) {
         let mut rng = Rng(4);
         for _ in 0..10_000 {
             let members = rng.bits() & rng.bits();
@@ -82,8 +87,8 @@ mod tests {
             let mut set = members.iter().fold(0, |set, i| set | bit(*i));
             assert_eq!(set.count_ones() as usize, members.len());
             let mut out = Vec::new();
-            while set != 0 {
-                out.push(take(&mut set));
+            while let Some(member) = take(&mut set) {
+                out.push(member);
             }
             assert_eq!(out, members);
         }

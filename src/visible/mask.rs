@@ -89,9 +89,9 @@ impl Mask {
         hit
     }
 
-    /// Covers `start .. end`, and in `over` those that were covered already; whether any was.
+    /// Covers `start .. end`, and in `over` those that were covered already; not 0 where one of them was.
     #[inline(always)]
-    pub(crate) fn cover_over(&mut self, over: &mut Self, start: u32, end: u32) -> bool {
+    pub(crate) fn cover_over(&mut self, over: &mut Self, start: u32, end: u32) -> u32 {
         if is_in_one(start, end) {
             let bits = between(start, end);
             let i = word_of(start);
@@ -99,15 +99,14 @@ impl Mask {
             self.0[i] |= bits;
             if hit != 0 {
                 over.0[i] |= hit;
-                return true;
             }
-            return false;
+            return hit;
         }
         self.cover_over_words(over, start, end)
     }
 
     #[inline(never)]
-    fn cover_over_words(&mut self, over: &mut Self, start: u32, end: u32) -> bool {
+    fn cover_over_words(&mut self, over: &mut Self, start: u32, end: u32) -> u32 {
         let mut any = 0;
         each_word(start, end, |word, bits| {
             let hit = self.0[word] & bits;
@@ -115,7 +114,7 @@ impl Mask {
             over.0[word] |= hit;
             any |= hit;
         });
-        any != 0
+        any
     }
 
     /// Those of `start .. end` that the mask has, and no others: 43 instructions on a Cortex-M4, a third of what the
@@ -374,7 +373,10 @@ mod tests {
                 }
                 assert_eq!(mask.count(start, end) as usize, hits);
                 assert_eq!(other.cover(start, end) != 0, hits > 0);
-                assert_eq!(mask.cover_over(&mut over, start, end), hits > 0);
+                let mut twice = Mask::EMPTY;
+                assert_eq!({ mask }.cover_over(&mut twice, start, end) != 0, hits > 0);
+                assert_eq!(twice.count(0, 1023) as usize, hits);
+                assert_eq!(mask.cover_over(&mut over, start, end) != 0, hits > 0);
                 assert_eq!(mask, other);
                 let mut new = Vec::new();
                 let how = part.cover_part(start, end, |c| new.push(c));
