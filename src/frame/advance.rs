@@ -171,10 +171,7 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         object: &Object,
         line: u16,
     ) -> u32 {
-        let Some(kept) = self.cache.slot(slot) else {
-            return 0;
-        };
-        let Some(triangle) = view.triangle(object) else {
+        let (Some(kept), Some(triangle)) = (self.cache.slot(slot), view.triangle(object)) else {
             return 0;
         };
         let entry = triangle.enter(line, &mut kept.item.sides);
