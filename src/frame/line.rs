@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use core::hint::black_box;
 
 impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
-    /// Draws a line of the picture over a background; `false` where nothing is active on it. Every pixel is
+    /// Draws a line of the picture over a background; `false` only where that is all that is on it. Every pixel is
     /// written.
     ///
     /// # Errors

@@ -328,19 +328,20 @@ impl<L: Look, const WORDS: usize> Renderer<'_, L, WORDS> {
         leaves: u32,
     ) -> Rivals {
         let (pair, step) = (u32::from(pacer.pace.pair), u32::from(pacer.pace.step));
-        let mut cost = 0u32;
+        let (mut cost, mut meets) = (0u32, false);
         for key in nearer(field.later(of.after.slots), of.far) {
             if !pacer.pay(step, leaves) {
                 return Rivals::TooMany;
             }
             if field.span(key).meets(of.span) {
+                meets = true;
                 cost += pair + self.if_thin(pacer, number_of::<WORDS>(key));
             }
         }
-        match cost {
-            0 => Rivals::None,
-            _ if pacer.pay(cost, leaves) => Rivals::Paid,
-            _ => Rivals::TooMany,
+        match meets {
+            false => Rivals::None,
+            true if pacer.pay(cost, leaves) => Rivals::Paid,
+            true => Rivals::TooMany,
         }
     }
 }

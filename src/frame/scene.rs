@@ -50,6 +50,8 @@ impl<'m, 't, L: Look> Scene<'m, 't, L> {
         if draw.is_volume() || !sphere.is_outside(camera, self.screen, &self.lines, &draw.model) {
             return self.draw(draw).map(|()| true);
         }
+        self.check_shadow(draw.shadow, draw.priority)?;
+        self.is_ranked |= draw.priority != 0;
         let skipped = triangles(draw.mesh.faces);
         let done = &mut self.assembled;
         done.triangles += skipped;

@@ -12,6 +12,7 @@ use crate::scene::{
 use std::boxed::Box;
 use std::vec::Vec;
 
+mod kept;
 mod paced;
 
 const WIDTH: u16 = 96;

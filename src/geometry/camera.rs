@@ -211,7 +211,8 @@ impl Camera {
     ///
     /// The part that begins at a column `x` of a picture of `whole` columns and has `part` of them is seen by
     /// `x + part / 2 - whole / 2` to the right. Vertices are rounded in each part for itself, so edges of neighbours may
-    /// be 1/8 pixel apart.
+    /// be 1/8 pixel apart; from a shift of a focal length on, and for a model that is far larger than its distance, by
+    /// more: what reaches far to the side leaves depth fewer bits.
     ///
     /// # Errors
     /// [`CameraError::Shift`] when that is not within 8,192 pixels and 64 focal lengths each way.

@@ -75,14 +75,27 @@ fn light<F: PixelFormat>(mut light: Light, step: Light, texels: &[u16], run: &mu
     }
 }
 
-/// Texels as pixels: those at `place`, times the triangle's shade.
+/// Texels as pixels: those at `place`, times the triangle's shade. That begins anew every 64 pixels of the span, wherever
+/// the run begins: its steps are rounded.
 fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mut [F::Word]) {
-    let Some(course) = planes.shade_course(place) else {
+    let part = place.skipped() as usize % AT_ONCE;
+    let column = place.column - part as u32;
+    let Some(course) = planes.shade_course(Place { column, ..place }) else {
         return light::<F>(Light::FULL, Light::NONE, texels, run);
     };
     let margin = (Shade::MARGIN << 15) as i32;
     let at = course.value.map(|at| (at as i32).wrapping_sub(margin));
-    light::<F>(Light::of(at), Light::of(course.step), texels, run);
+    let (mut first, step) = (Light::of(at), Light::of(course.step));
+    for (light, step) in first.0.iter_mut().zip(step.0) {
+        *light = light.wrapping_add(step.wrapping_mul(part as u32));
+    }
+    let pixels = run.len().min(AT_ONCE - part);
+    let (run, rest) = run.split_at_mut(pixels);
+    light::<F>(first, step, texels, run);
+    if let (false, Some(texels)) = (rest.is_empty(), texels.get(pixels..)) {
+        let column = place.column + pixels as u32;
+        shade::<F>(planes, Place { column, ..place }, texels, rest);
+    }
 }
 
 /// Fetches the texels of a run, words of `T`, and calls `shade` with its parts and theirs; `how` is that of the triangle.

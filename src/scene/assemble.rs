@@ -13,6 +13,7 @@ use super::project::{View, project_all, project_textured};
 use super::texgen::project_generated;
 use super::{
     Application, Draw, DrawError, DrawState, Master, NONE, ORIGIN, Object, Scene, Shading, Vertex,
+    next_change,
 };
 use crate::geometry::{Coordinate, Cull, Faces, Mesh, MeshError, Tint, each_triangle, triangles};
 use crate::num::rolled;
@@ -89,8 +90,8 @@ impl<'t, L> Scene<'_, 't, L> {
         };
         check_draw(draw, textured, word_of.is_some())?;
         self.check_shadow(draw.shadow, draw.priority)?;
-        self.has_shadows |= draw.shadow.is_some();
         if self.master.leaves_out(draw.shadow) {
+            self.has_shadows = true;
             return Ok(());
         }
         let master = self.master.with_shadow(draw.shadow);
@@ -102,7 +103,8 @@ impl<'t, L> Scene<'_, 't, L> {
         if self.draws.push(state).is_none() {
             return Err(self.lose_call(submitted));
         }
-        self.generation = self.generation.wrapping_add(1);
+        self.has_shadows |= draw.shadow.is_some();
+        self.generation = next_change();
         let is_plain = self.is_plain(draw);
         let colour = if is_replaced { [255; 3] } else { draw.colour };
         let tint = Tint::new(colour, &self.scale);

@@ -5,7 +5,8 @@ use super::{Application, Draw};
 /// What all draw calls of a scene have to do without: a load switch for a frame that would be late.
 ///
 /// It is looked at once a draw call, by [`Scene::set_master`](super::Scene::set_master), so that whoever draws into a
-/// scene that it is lent cannot switch on what is off. Whether a call is refused does not depend on it.
+/// scene that it is lent cannot switch on what is off. Whether a call is refused does not depend on it, but that the
+/// memory lent for a volume's sides is not looked at where shadows are off.
 ///
 /// | off | what is drawn |
 /// |---|---|

@@ -99,6 +99,7 @@ use crate::geometry::{Camera, Scale, Screen};
 use crate::link::Link;
 use core::marker::PhantomData;
 use core::ops::Range;
+use core::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// The memory of a scene, lent by the application; best in large, slow RAM.
 ///
@@ -198,6 +199,14 @@ pub struct Scene<'m, 't, L> {
     look: PhantomData<L>,
 }
 
+/// The number of a change among those of all scenes, so that none is taken for another that had the same memory before.
+fn next_change() -> u32 {
+    static CHANGES: AtomicU32 = AtomicU32::new(0);
+    let number = CHANGES.load(Relaxed).wrapping_add(1);
+    CHANGES.store(number, Relaxed);
+    number
+}
+
 impl<'m, 't, L> Scene<'m, 't, L> {
     /// [`new`](Scene::new), for pixels of these steps.
     pub(crate) fn with_scale(screen: Screen, memory: Memory<'m, 't>, scale: Scale) -> Self {
@@ -225,7 +234,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
     /// What draw calls have to do without from now on; depth, while lines are drawn, by the last that was set (H13).
     pub fn set_master(&mut self, master: Master) {
         self.master = master;
-        self.generation = self.generation.wrapping_add(1);
+        self.generation = next_change();
     }
 
     /// Forgets what was drawn, and draws all lines from now on as `camera` sees them.
@@ -269,7 +278,7 @@ impl<'m, 't, L> Scene<'m, 't, L> {
         self.is_ranked = false;
         self.has_shadows = false;
         self.assembled = Assembled::default();
-        self.generation = self.generation.wrapping_add(1);
+        self.generation = next_change();
         Ok(())
     }
 

@@ -137,7 +137,7 @@ impl<'t, L> Scene<'_, 't, L> {
             ..*draw
         };
         let faces: &[[usize; 3]] = match size {
-            0 => return Ok(()),
+            0 => &[],
             1 => &[[0, 1, 2]],
             _ => &[[0, 1, 3], [1, 2, 3]],
         };

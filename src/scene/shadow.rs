@@ -216,7 +216,7 @@ impl<'t, L> Scene<'_, 't, L> {
     }
 
     /// Whether a call of this shadow and priority may be drawn beside those that were.
-    pub(super) fn check_shadow(
+    pub(crate) fn check_shadow(
         &self,
         shadow: Option<Shadow>,
         priority: u8,
