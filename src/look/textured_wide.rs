@@ -5,6 +5,7 @@
 //! of a texel's steps and of the levels that one is worth in the shade of the pixel, rounded once. On a Cortex-M4 that
 //! takes 23 instructions a pixel, and 17 in full light.
 
+use super::course::Course;
 use super::textured::{Planes, Textured};
 use super::tint::{Shade, Texel};
 use super::{Fill, Look, Place, Primitive, ThinSpan};
@@ -75,26 +76,53 @@ fn light<F: PixelFormat>(mut light: Light, step: Light, texels: &[u16], run: &mu
     }
 }
 
-/// Texels as pixels: those at `place`, times the triangle's shade. That begins anew every 64 pixels of the span, wherever
-/// the run begins: its steps are rounded.
-fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mut [F::Word]) {
-    let part = place.skipped() as usize % AT_ONCE;
-    let column = place.column - part as u32;
-    let Some(course) = planes.shade_course(Place { column, ..place }) else {
-        return light::<F>(Light::FULL, Light::NONE, texels, run);
-    };
+/// The light where a shade's course begins, and its step.
+#[inline(always)]
+fn lights(course: &Course) -> [Light; 2] {
     let margin = (Shade::MARGIN << 15) as i32;
     let at = course.value.map(|at| (at as i32).wrapping_sub(margin));
-    let (mut first, step) = (Light::of(at), Light::of(course.step));
-    for (light, step) in first.0.iter_mut().zip(step.0) {
-        *light = light.wrapping_add(step.wrapping_mul(part as u32));
+    [Light::of(at), Light::of(course.step)]
+}
+
+/// Texels as pixels: up to 64 at `place`, times the triangle's shade. Out of line: where it is called there are no registers
+/// left for it.
+#[inline(never)]
+fn shade<F: PixelFormat>(planes: &Planes, place: Place, texels: &[u16], run: &mut [F::Word]) {
+    if place.skipped() as usize % AT_ONCE != 0 {
+        return shade_part::<F>(planes, &place, texels, run);
     }
-    let pixels = run.len().min(AT_ONCE - part);
-    let (run, rest) = run.split_at_mut(pixels);
+    let Some(course) = planes.shade_course(place) else {
+        return light::<F>(Light::FULL, Light::NONE, texels, run);
+    };
+    let [first, step] = lights(&course);
     light::<F>(first, step, texels, run);
-    if let (false, Some(texels)) = (rest.is_empty(), texels.get(pixels..)) {
-        let column = place.column + pixels as u32;
-        shade::<F>(planes, Place { column, ..place }, texels, rest);
+}
+
+/// The same of any run: the shade, whose steps are rounded, begins anew every 64 pixels of the span.
+#[inline(never)]
+fn shade_part<F: PixelFormat>(
+    planes: &Planes,
+    place: &Place,
+    mut texels: &[u16],
+    mut run: &mut [F::Word],
+) {
+    let mut place = *place;
+    while !run.is_empty() {
+        let part = place.skipped() as usize % AT_ONCE;
+        let pixels = run.len().min(AT_ONCE - part);
+        place.column -= part as u32;
+        let Some(course) = planes.shade_course(place) else {
+            return light::<F>(Light::FULL, Light::NONE, texels, run);
+        };
+        let (now, rest) = run.split_at_mut(pixels);
+        let [mut first, step] = lights(&course);
+        for (light, step) in first.0.iter_mut().zip(step.0) {
+            *light = light.wrapping_add(step.wrapping_mul(part as u32));
+        }
+        light::<F>(first, step, texels, now);
+        texels = texels.get(pixels..).unwrap_or_default();
+        place.column += AT_ONCE as u32;
+        run = rest;
     }
 }
 

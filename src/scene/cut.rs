@@ -22,12 +22,12 @@ pub(super) struct Corner {
     /// The alpha, with 8 fraction bits: it follows edges as the colour does.
     pub(super) alpha: u16,
     /// The vertex of the mesh; [`Corner::CUT`] where a plane made the corner.
-    pub(super) vertex: u32,
+    pub(super) vertex: u16,
 }
 
 impl Corner {
-    /// No vertex.
-    pub(super) const CUT: u32 = u32::MAX;
+    /// No vertex, or the last that a mesh can have.
+    pub(super) const CUT: u16 = u16::MAX;
 
     /// A corner that a plane made, of nothing but a colour.
     pub(super) fn cut(point: Point, colour: u32) -> Self {
@@ -39,7 +39,7 @@ impl Corner {
     }
 
     /// A vertex of the mesh, of which nothing else is known yet.
-    pub(super) fn of_vertex(vertex: u32) -> Self {
+    pub(super) fn of_vertex(vertex: u16) -> Self {
         Self {
             point: Point::default(),
             colour: 0,

@@ -25,10 +25,10 @@ impl<L> Scene<'_, '_, L> {
             return;
         }
         // Loops over slices of any length: what is rare is not there three times.
-        let mut corners = corners.map(|i| Corner::of_vertex(i.into()));
+        let mut corners = corners.map(Corner::of_vertex);
         let (mut every, mut any) = (u32::MAX, 0);
         for corner in black_box(corners.as_mut_slice()) {
-            corner.point = pass.view.point_of(mesh.positions, corner.vertex as usize);
+            corner.point = pass.view.point_of(mesh.positions, corner.vertex.into());
             let beyond = pass.view.beyond(corner.point);
             (every, any) = (every & beyond, any | beyond);
         }
@@ -141,7 +141,7 @@ fn dress<C: Coordinate>(
     scale: &Scale,
     corner: &mut Corner,
 ) {
-    let i = corner.vertex as usize;
+    let i = usize::from(corner.vertex);
     corner.colour = colour.unwrap_or_else(|| colour_of(mesh, i, pass, scale));
     corner.texel = pass.texel(i);
     corner.alpha = pass.alpha(i);
@@ -151,7 +151,7 @@ fn dress<C: Coordinate>(
 #[inline(never)]
 fn make_finer<C: Coordinate>(mesh: &Mesh<'_, C>, corners: &mut [Corner], view: &View) {
     for corner in corners {
-        if let Some(&at) = mesh.positions.get(corner.vertex as usize) {
+        if let Some(&at) = mesh.positions.get(usize::from(corner.vertex)) {
             corner.point = view.finer(at.map(C::to_q30), corner.point);
         }
     }
@@ -162,12 +162,13 @@ fn make_finer<C: Coordinate>(mesh: &Mesh<'_, C>, corners: &mut [Corner], view: &
 #[inline(never)]
 fn own_of(corner: &Corner, whole: &[Corner], vertices: &[Vertex], pass: &Pass<'_>) -> Own {
     // What is no new corner is where others see it, who may not be cut.
-    let (point, finer) = match whole.iter().find(|one| one.vertex == corner.vertex) {
+    let is_whole = |one: &&Corner| one.vertex == corner.vertex && one.vertex != Corner::CUT;
+    let (point, finer) = match whole.iter().find(is_whole) {
         Some(seen) => (seen.point, 0),
         None => (corner.point, pass.view.finer),
     };
     let mut on = pass.view.project_finer(point, finer);
-    let known = vertices.get(corner.vertex as usize);
+    let known = vertices.get(usize::from(corner.vertex));
     if let Some(known) = known.filter(|known| known.place != Vertex::OUTSIDE) {
         (on.place, on.depth) = (known.place, known.depth);
     }
