@@ -214,7 +214,7 @@ fn by_calls<L: Look<Pixel = Rgb565Be>>(
     measure(&head, (tell.0, &mut *tell.1), &mut |to| {
         stage.frame(cache, to, &mut |camera, scene| called.build(camera, scene));
     });
-    figures(&regions, FastMemory::<L>::SLOT_BYTES, tell.1);
+    figures(&regions, cache, tell.1);
 }
 
 #[inline(never)]
@@ -244,11 +244,7 @@ fn by_indices(
             stage.buffers = Some([a, b]);
         }
     });
-    figures(
-        &regions,
-        FastMemory::<scenes::IndexedLook>::SLOT_BYTES,
-        tell.1,
-    );
+    figures(&regions, cache, tell.1);
 }
 
 #[inline(never)]
@@ -272,7 +268,7 @@ fn by_list<L: Look<Pixel = Rgb565Be>>(
             begin = ListCommand::Restart;
         });
     });
-    figures(&regions, FastMemory::<L>::SLOT_BYTES, tell.1);
+    figures(&regions, cache, tell.1);
 }
 
 fn player_memory(room: &ListRoom, regions: &mut Regions) -> PlayerMemory<'static, 'static> {
@@ -341,11 +337,10 @@ fn measure(head: &Head, tell: Tell<'_>, frame: &mut dyn FnMut(&mut dyn Receives)
 }
 
 /// Prints what was lent.
-fn figures(regions: &Regions, slot_bytes: usize, console: &mut Console) {
-    const SLOTS: usize = 64;
+fn figures<L: Look>(regions: &Regions, cache: &FastMemory<L>, console: &mut Console) {
     for (name, value) in [
         ("slow_bytes", regions.slow.lent),
-        ("fast_bytes", regions.fast.lent + SLOTS * slot_bytes),
+        ("fast_bytes", regions.fast.lent + size_of_val(cache)),
         ("line_bytes", regions.dma.lent),
     ] {
         console.line(format_args!("figure name={name} value={value}"));

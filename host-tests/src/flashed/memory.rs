@@ -67,12 +67,6 @@ pub fn fast_bytes(head: &Head, counts: Option<&Counts>) -> usize {
         + CACHED * caches * size_of::<CacheWord>()
 }
 
-/// Bytes of a slot.
-#[must_use]
-pub const fn slot_bytes<L: Look>() -> usize {
-    FastMemory::<L>::SLOT_BYTES
-}
-
 /// Bytes of an object cache of so many slots, rounded up to whole words of 32, with what it keeps beside them.
 #[must_use]
 pub fn cache_bytes<L: Look>(slots: u16) -> usize {

@@ -220,15 +220,12 @@ fn row(kind: Kind, tally: &Tally) -> Row {
 /// Sizes of the object cache of a look.
 #[derive(Debug, Clone, Copy)]
 pub struct CacheSizes {
-    /// Bytes of a slot.
-    pub slot: usize,
     of: fn(u16) -> usize,
 }
 
 impl CacheSizes {
     fn of<L: Look>() -> Self {
         Self {
-            slot: memory::slot_bytes::<L>(),
             of: memory::cache_bytes::<L>,
         }
     }

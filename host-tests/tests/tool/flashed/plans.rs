@@ -24,7 +24,8 @@ fn held(file: &Path) -> Result<Option<f64>, Box<dyn Error>> {
     Ok(worst.map(f64::from_bits))
 }
 
-/// Kills: a state of a draw call that is larger on record than on the boards. What few scenes have is among the examples:
+/// Kills: a state of a draw call that is larger on record than on the boards, a cache without what it keeps beside its
+/// slots. What few scenes have is among the examples:
 /// counts of shadows, doubled lines, caches of texels, indices.
 pub(super) fn bytes_are_as_planned(flashed: &Flashed, board: &Measured) -> Tried {
     let figure = |name: &str| board.output.figures[name] as usize;
@@ -36,9 +37,8 @@ pub(super) fn bytes_are_as_planned(flashed: &Flashed, board: &Measured) -> Tried
         true => assert!(slow >= figure("slow_bytes"), "{name}: {slow}"),
         false => assert_eq!(slow, figure("slow_bytes"), "{name}"),
     }
-    // The firmware prints its slots, without what the cache keeps beside them.
-    let slots = usize::from(SLOTS) * CacheSizes::of_kind(flashed.shown.head.kind).slot;
-    let fast = flashed.rest_of_fast_bytes()? + slots;
+    let cache = CacheSizes::of_kind(flashed.shown.head.kind).bytes(SLOTS);
+    let fast = flashed.rest_of_fast_bytes()? + cache;
     assert_eq!(fast, figure("fast_bytes"), "{name}");
     assert_eq!(
         line_bytes(&flashed.shown.head),
