@@ -5,10 +5,11 @@ use crate::common::Rng;
 use crate::hot::cover::L;
 use crate::hot::{LineRooms, SceneRooms, frame};
 use scanbeam::frame::{FastMemory, LineError, Memory as LineMemory, Renderer};
-use scanbeam::look::Gouraud;
-use scanbeam::pixel::Rgb888;
+use scanbeam::look::{Gouraud, Textured};
+use scanbeam::pixel::{Rgb565, Rgb888};
 use scanbeam::scene::{
-    BeginError, Draw, DrawError, DrawState, Full, Memory, Object, Scene, TexturePlace, Vertex,
+    BeginError, Budget, Draw, DrawError, DrawState, Full, Memory, Object, Scene, Shading, Skin,
+    Texture, TexturePlace, Vertex,
 };
 use scanbeam::{Affine, Camera, Cull, Faces, Link, Mesh, Screen};
 use scenes::{CUBE, TEAPOT};
@@ -87,6 +88,46 @@ fn no_memory_at_all() {
         assert_eq!(scene.assembled().dropped, 12);
         let empty = frame(&scene, 0, true, [7; 3]);
         assert!(empty.iter().flatten().all(|p| *p == [7; 3]));
+    }
+}
+
+/// Kills: vertices that are said to be full where their places on a texture are.
+#[test]
+fn places_that_are_full_are_named() {
+    static TEXTURE: Texture = match Texture::words(&[9; 64], 8, 8) {
+        Ok(texture) => texture,
+        Err(_) => panic!("8 x 8 texels"),
+    };
+    let triangle = Mesh {
+        positions: &[[-2048i16, -2048, 0], [2048, -2048, 0], [0, 2048, 0]],
+        normals: &[],
+        colours: &[],
+        faces: Faces::Triangles(&[[0, 1, 2]]),
+    };
+    for shading in [Shading::Smooth, Shading::Flat] {
+        for (places, full) in [(0, true), (2, true), (6, false)] {
+            let mut rooms = SceneRooms::new(99, 9, 32, 1);
+            rooms.places.truncate(places);
+            let mut scene = rooms.scene::<Textured<Rgb565>>(screen());
+            scene.begin(&camera()).unwrap();
+            let drawn = scene.draw(&Draw {
+                texture: Some(Skin {
+                    texture: &TEXTURE,
+                    places: &[[0; 2]; 3],
+                    budget: Budget::BALANCED,
+                }),
+                shading,
+                ..open(triangle)
+            });
+            let error = DrawError::Full {
+                memory: Full::Places,
+                triangles: 1,
+                first_face: 0,
+            };
+            assert_eq!(drawn, if full { Err(error) } else { Ok(()) }, "{places}");
+            let start = "scene: the memory of places is full: ";
+            assert!(error.to_string().starts_with(start), "{error}");
+        }
     }
 }
 

@@ -266,3 +266,38 @@ fn what_stretches_over_too_many_texels_is_told_of_its_block() {
     let told = of(Event::Untextured, &notices);
     assert_eq!(told, [(at[1], 1), (at[2], 1)]);
 }
+
+/// Kills: triangles whose places on a texture find no room, and that nobody tells.
+#[test]
+fn what_has_no_room_for_its_places_is_told_of_its_block() {
+    let mut memory = vec![0; 256];
+    let mut writer = ListWriter::new(&mut memory);
+    let block = lists::texture(TexelForm::Rgb565, 1);
+    writer.bulk(&State::Texture(block), &[0; 8]).unwrap();
+    let at = 4 * lists::draw_textured(&mut writer);
+    writer.flow(Flow::End).unwrap();
+    let list = writer.words();
+    let camera = Camera::look_at([0.0, 0.0, 4.0], [0.0; 3], [0.0, 1.0, 0.0], 60.0, 0.5, 9.0);
+    for (places, lost) in [(0, vec![(at, 1)]), (3, vec![])] {
+        let room = Room {
+            vertices: 99,
+            places,
+            objects: 9,
+            draws: 9,
+        };
+        let mut kept = Kept::new(64, 96);
+        let mut notices: Vec<Notice> = Vec::new();
+        let screen = Screen::new(96, 72).unwrap();
+        picture(screen, room, 0, |scene: &mut Scene<'_, '_, _>| {
+            scene.begin(&camera.unwrap())?;
+            let mut player = kept.player::<Textured<Rgb565Be>>(PlayerSettings::default());
+            player.start(0);
+            let tell = &mut |n: Notice| notices.push(n);
+            let halt = player.run(list, scene, &mut PLENTY.clone(), tell);
+            assert_eq!(halt, Ok(Halt::End));
+            Ok(())
+        })
+        .unwrap();
+        assert_eq!(of(Event::Full, &notices), lost, "{places}");
+    }
+}

@@ -7,9 +7,14 @@ use crate::geometry::{Coordinate, Faces, MeshError, check_mesh};
 pub(super) fn check_alphas(alphas: &[u8], vertices: usize) -> Result<(), DrawError> {
     match alphas.len() {
         0 => Ok(()),
-        count if count == vertices => Ok(()),
-        _ => Err(DrawError::Mesh(MeshError::AttributeLength)),
+        count => as_many(count, vertices),
     }
+}
+
+/// Whether there are as many values as vertices.
+fn as_many(values: usize, vertices: usize) -> Result<(), DrawError> {
+    let error = DrawError::Mesh(MeshError::AttributeLength);
+    (values == vertices).then_some(()).ok_or(error)
 }
 
 /// Whether a mesh is one, and whether the look has what a draw call asks for: textures, light at corners or at pixels.
@@ -19,30 +24,20 @@ pub(super) fn check_draw<C: Coordinate>(
     lit_at_pixels: bool,
 ) -> Result<(), DrawError> {
     let mesh = &draw.mesh;
+    let is_filed_at_once = draw.shading == Shading::Smooth && draw.shadow.is_none();
     // Indices of triangles are looked at on the way.
-    let is_looked_at = matches!(mesh.faces, Faces::Triangles(_));
-    let is_filed_at_once = is_looked_at && draw.shading == Shading::Smooth;
-    let below = if is_filed_at_once && draw.shadow.is_none() {
-        0
-    } else {
-        usize::MAX
-    };
+    let is_late = is_filed_at_once && matches!(mesh.faces, Faces::Triangles(_));
+    let below = if is_late { 0 } else { usize::MAX };
     check_mesh(mesh, below).map_err(DrawError::Mesh)?;
     let at_corners = draw.light.is_some() || draw.lights.is_some() || !mesh.colours.is_empty();
     if draw.lamps.is_some() && (at_corners || !lit_at_pixels) {
         return Err(DrawError::Light);
     }
-    match draw.texture {
-        Some(_) if !textured => Err(DrawError::Untextured),
-        Some(skin) => {
-            let places = match draw.texgen {
-                Some(_) => mesh.normals.len(),
-                None => skin.places.len(),
-            };
-            let fits = places == mesh.positions.len();
-            let error = DrawError::Mesh(MeshError::AttributeLength);
-            fits.then_some(()).ok_or(error)
-        }
-        None => Ok(()),
-    }
+    let places = match (draw.texture, draw.texgen) {
+        (Some(_), _) if !textured => return Err(DrawError::Untextured),
+        (Some(_), Some(_)) => mesh.normals.len(),
+        (Some(skin), None) => skin.places.len(),
+        (None, _) => return Ok(()),
+    };
+    as_many(places, mesh.positions.len())
 }

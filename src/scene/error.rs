@@ -65,6 +65,8 @@ impl core::error::Error for BeginError {}
 pub enum Full {
     /// That of the vertices.
     Vertices,
+    /// That of the places of vertices on textures.
+    Places,
     /// That of the triangles.
     Objects,
     /// That of the draw calls.
@@ -160,6 +162,7 @@ impl fmt::Display for DrawError {
             } => {
                 let memory = match memory {
                     Full::Vertices => "vertices",
+                    Full::Places => "places",
                     Full::Objects => "objects",
                     Full::Draws => "draws",
                 };

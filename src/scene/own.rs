@@ -113,7 +113,7 @@ impl<L> Scene<'_, '_, L> {
         if pass.texels.is_some() {
             let Some(places) = self.places.get_mut(base..base + 3) else {
                 self.vertices.truncate(base);
-                return Err(Full::Vertices);
+                return Err(Full::Places);
             };
             for (place, own) in places.iter_mut().zip(own) {
                 *place = own.place;
