@@ -230,9 +230,11 @@ fn scenes_that_are_not_begun_or_do_not_fit_say_so() {
         lines
             .renderer()
             .draw_line(&scene, 0, &mut pixels, BACKGROUND),
-        Err(LineError::Line { line: 0 })
+        Err(LineError::NotBegun)
     );
+    assert_eq!(frame_error(&scene), Some(LineError::NotBegun));
     scene.begin(&camera()).unwrap();
+    assert_eq!(frame_error(&scene), None);
     draw(&mut scene, &some, Cull::None).unwrap();
     let want = picture(&scene);
     for (start, end) in [(0, 31), (30, 31), (5, 5), (9, 3), (0, u16::MAX)] {
@@ -252,6 +254,8 @@ fn scenes_that_are_not_begun_or_do_not_fit_say_so() {
         have: 30,
     };
     assert_eq!(scene.begin(&camera()), Err(error));
+    let said = frame_error(&scene).expect("it has no lines");
+    assert_eq!(said.to_string(), "renderer: the scene was not begun");
     scene.begin_lines(&camera(), 1..31).unwrap();
     for (width, height) in [(1_017, 8), (8, 1_017), (8_192, 8_192)] {
         let large = Screen::new(width, height).unwrap();
@@ -326,6 +330,18 @@ impl LineWriter for Sink {
     fn write(&mut self, _: Window, words: &[[u8; 3]]) -> Result<(), Self::Error> {
         self.0.extend(words);
         Ok(())
+    }
+}
+
+/// Why a frame of an empty scene is not drawn.
+fn frame_error(scene: &Scene<'_, '_, L>) -> Option<LineError> {
+    let words = [(); 2].map(|()| vec![[0; 3]; 40].leak());
+    let mut pump = Pump::new(Blocking::over(Sink(Vec::new())), words);
+    let mut lines = LineRooms::fitting(scene, 4, true);
+    match draw_frame(scene, &mut lines.renderer(), &mut pump, BACKGROUND, 1) {
+        Ok(_) => None,
+        Err(FrameError::Line(error)) => Some(error),
+        Err(other) => panic!("{other}"),
     }
 }
 

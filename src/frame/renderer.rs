@@ -118,11 +118,14 @@ pub enum LineError {
         /// The line that was due.
         line: u16,
     },
+    /// The scene was not begun, or its begin failed.
+    NotBegun,
 }
 
 impl fmt::Display for LineError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::NotBegun => f.write_str("renderer: the scene was not begun"),
             Self::Links { needed, have } => write!(
                 f,
                 "renderer: {needed} triangles need as many links, there are {have}"
@@ -336,8 +339,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
     /// Whether the renderer can draw `scene`.
     ///
     /// # Errors
-    /// What is too short, or that a draw call has values and the renderer is [`plain`](Renderer::plain), or a shadow
-    /// and the renderer is not made [`with_shadows`](Renderer::with_shadows).
+    /// That the scene was not begun, what is too short, or that a draw call has values and the renderer is
+    /// [`plain`](Renderer::plain), or a shadow and the renderer is not made [`with_shadows`](Renderer::with_shadows).
     pub fn check(&self, scene: &Scene<'_, '_, L>) -> Result<(), LineError> {
         if scene.has_values {
             self.values.ok_or(LineError::Values)?;
@@ -356,7 +359,8 @@ impl<'m, L: Look, const WORDS: usize> Renderer<'m, L, WORDS> {
         if have != 0 && have < needed {
             return Err(LineError::Depth { needed, have });
         }
-        Ok(())
+        let is_begun = scene.lines.end > 0;
+        is_begun.then_some(()).ok_or(LineError::NotBegun)
     }
 }
 
