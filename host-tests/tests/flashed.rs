@@ -75,6 +75,27 @@ fn more_than_the_flash_holds_is_refused_with_how_much_it_is() {
     );
 }
 
+/// Kills: a model that is read as a list, and a refusal that does not name the file.
+#[test]
+fn what_is_neither_a_scene_nor_a_list_is_named() {
+    let desk = Desk::new("v -1 -1 0\n");
+    let not_a_list = ": is not a list: `render` draws models and scene files\n";
+    fs::write(desk.path("other.list"), "# no list").unwrap();
+    for line in [
+        "run-list m.obj -o o.png",
+        "disassemble m.obj",
+        "firmware other.list",
+    ] {
+        let said = desk.refused(line);
+        assert!(said.ends_with(not_a_list), "{said}");
+    }
+    for line in ["plan m.obj", "firmware m.obj"] {
+        let said = desk.refused(line);
+        let want = "m.obj: is neither a scene file, .json, nor a list, .list\n";
+        assert!(said.ends_with(want), "{said}");
+    }
+}
+
 /// Kills: a list that is cut off and drawn as far as it goes, and bytes that are no words.
 #[test]
 fn lists_that_are_cut_off_are_refused() {

@@ -388,16 +388,28 @@ fn links_are_written_through() {
         let picture = host_tests::image_out::read_image(&desk.path(target)).unwrap();
         assert_eq!((picture.width(), picture.height()), (9, 9), "{link}");
     }
-    // In a circle, and to what is no file.
+    // In a circle.
     symlink("e.png", desk.path("d.png")).unwrap();
     symlink("d.png", desk.path("e.png")).unwrap();
     assert!(
         desk.refused("render m.obj -o d.png")
             .contains("in a circle")
     );
-    symlink("/dev/null", desk.path("f.png")).unwrap();
-    assert!(
-        desk.refused("render m.obj -o f.png")
-            .contains("no ordinary file")
-    );
+}
+
+/// Kills: a file that is made beside a pipe or a device, or takes its place.
+#[cfg(target_os = "linux")]
+#[test]
+fn pipes_and_devices_are_written_as_they_are() {
+    let desk = Desk::new(TRIANGLE);
+    let output = desk.run("render m.obj -o a.png --size 9x9 --stats /dev/stdout");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let figures: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(figures["objects_in"], 1);
+    std::os::unix::fs::symlink("/dev/null", desk.path("f.png")).unwrap();
+    assert_eq!(said(&desk, "render m.obj -o f.png --size 9x9"), "");
+    assert!(fs::read(desk.path("f.png")).unwrap().is_empty());
+    let line = "render m.obj -o a.png --size 9x9 --stats /dev/full";
+    let end = "/dev/full: cannot be written: No space left on device";
+    assert!(desk.refused(line).contains(end));
 }

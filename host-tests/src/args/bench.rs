@@ -92,7 +92,10 @@ impl PlanArgs {
 fn check_scene(file: Option<&Path>) -> Result<(), String> {
     match file {
         Some(file) if !is_scene(file) && !is_list(file) => {
-            Err("SCENE.json must be a scene file, .json, or a list, .list".into())
+            let name = file.display();
+            Err(format!(
+                "{name}: is neither a scene file, .json, nor a list, .list"
+            ))
         }
         _ => Ok(()),
     }

@@ -29,6 +29,7 @@ pub mod texels;
 pub mod writer;
 
 use crate::stdio;
+use scanbeam::list::{Header, Reason};
 use std::error::Error;
 use std::fs::File;
 use std::io::Read;
@@ -40,7 +41,7 @@ pub const MAX_LIST_BYTES: u64 = 1 << 28;
 /// The words of a list file, as they lie in memory.
 ///
 /// # Errors
-/// When it cannot be read, is too large, or is not whole words.
+/// When it cannot be read, is too large, is a model or a scene file, or is not whole words.
 pub fn read_list(path: &Path) -> Result<Vec<u32>, Box<dyn Error>> {
     let wrong = |reason: String| format!("{}: {reason}", path.display());
     let mut bytes = Vec::new();
@@ -50,9 +51,22 @@ pub fn read_list(path: &Path) -> Result<Vec<u32>, Box<dyn Error>> {
     if bytes.len() as u64 > MAX_LIST_BYTES {
         return Err(wrong(format!("is larger than {MAX_LIST_BYTES} bytes")).into());
     }
+    if is_other(path, &bytes) {
+        let what = "is not a list: `render` draws models and scene files";
+        return Err(wrong(what.into()).into());
+    }
     if bytes.len() % 4 != 0 {
         return Err(wrong(format!("has {} bytes, not whole words", bytes.len())).into());
     }
     let word = |b: &[u8]| u32::from_ne_bytes([b[0], b[1], b[2], b[3]]);
     Ok(bytes.chunks_exact(4).map(word).collect())
+}
+
+/// Whether a file is none of lists, by its name or by its first word: a text may begin as a list does.
+fn is_other(path: &Path, bytes: &[u8]) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    let is = |name: &&str| extension.eq_ignore_ascii_case(name);
+    let first = bytes.first_chunk().map(|word| u32::from_ne_bytes(*word));
+    let is_unknown = |word| matches!(Header::read(word), Err(Reason::Version(_)));
+    ["obj", "gltf", "glb", "json"].iter().any(|name| is(&name)) || first.is_some_and(is_unknown)
 }

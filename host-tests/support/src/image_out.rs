@@ -1,12 +1,13 @@
 //! Pictures to files: PNG, PPM, strips, animated PNG; and a reader of the same for tests and textures.
 //!
 //! A picture is encoded whole, written to a temporary file in the same folder and renamed, so that an error leaves
-//! what was there before, and never half a file. The animated picture is an APNG: true colour, and viewers that know
+//! what was there before, and never half a file. Pipes and devices such as `/dev/stdout` are written as they are. The
+//! animated picture is an APNG: true colour, and viewers that know
 //! only PNG show its first frame.
 
 use crate::stdio;
 use std::fmt;
-use std::io::{Cursor, Write};
+use std::io::{Cursor, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use zune_jpeg::JpegDecoder;
 use zune_jpeg::errors::DecodeErrors;
@@ -160,11 +161,17 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ImageError> {
 /// A file that is written in full beside its place, but not yet there: so that several files
 /// come into being together or not at all. Dropping it leaves nothing.
 pub struct Staged<'a> {
-    file: tempfile::NamedTempFile,
     /// As it was named.
     path: &'a Path,
-    /// Where it goes.
-    place: PathBuf,
+    way: Way,
+}
+
+/// How bytes get to their place.
+enum Way {
+    /// By a file beside its place, and that place.
+    Renamed(tempfile::NamedTempFile, PathBuf),
+    /// Into the pipe or the device that is there.
+    Written(Vec<u8>),
 }
 
 impl<'a> Staged<'a> {
@@ -172,28 +179,58 @@ impl<'a> Staged<'a> {
     /// leads to: the link stays, and the file behind it is replaced.
     ///
     /// # Errors
-    /// The folder is missing, there is a folder or a device in the file's place, or anything that
+    /// The folder is missing, there is a folder or a disk in the file's place, or anything that
     /// the file system refuses.
     pub fn new(path: &'a Path, bytes: &[u8]) -> Result<Self, ImageError> {
+        if takes_bytes(path) {
+            let way = Way::Written(bytes.to_vec());
+            return Ok(Self { path, way });
+        }
         let place = behind_links(path)?;
         let file = stage(path, &place, bytes)?;
         match std::fs::metadata(&place) {
             Ok(there) if there.is_dir() => Err(ImageError::new(path, "is a folder")),
             Ok(there) if !there.is_file() => Err(ImageError::new(path, "is no ordinary file")),
-            _ => Ok(Self { file, path, place }),
+            _ => Ok(Self {
+                path,
+                way: Way::Renamed(file, place),
+            }),
         }
     }
 
-    /// Puts the file in its place.
+    /// Puts the file in its place. A reader of a pipe may go away before it has all.
     ///
     /// # Errors
     /// Anything that the file system refuses.
     pub fn commit(self) -> Result<(), ImageError> {
-        let persisted = self.file.persist(&self.place);
-        match persisted {
-            Ok(_) => Ok(()),
-            Err(error) => Err(ImageError::new(self.path, cannot("written", &error.error))),
+        let done = match self.way {
+            Way::Renamed(file, place) => file.persist(place).map(drop).map_err(|e| e.error),
+            Way::Written(bytes) => {
+                let opened = std::fs::OpenOptions::new().write(true).open(self.path);
+                opened.and_then(|mut there| there.write_all(&bytes))
+            }
+        };
+        match done {
+            Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+                Err(ImageError::new(self.path, cannot("written", &error)))
+            }
+            _ => Ok(()),
         }
+    }
+}
+
+/// Whether there is a pipe or a device that takes bytes one after the other.
+fn takes_bytes(path: &Path) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let there = std::fs::metadata(path).map(|there| there.file_type());
+        there.is_ok_and(|there| there.is_fifo() || there.is_char_device())
+    }
+    #[cfg(not(unix))]
+    {
+        let _ = path;
+        false
     }
 }
 
