@@ -125,7 +125,7 @@ impl fmt::Display for DrawError {
         match self {
             Self::NotBegun => f.write_str("scene: drawn before it was begun"),
             Self::Mesh(MeshError::AttributeLength) => {
-                f.write_str("mesh: an attribute has not as many values as there are positions")
+                f.write_str("mesh: normals, colours, places or alphas are not as many as positions")
             }
             Self::Mesh(MeshError::Index { face }) => {
                 write!(f, "mesh: face {face} names a vertex that does not exist")
