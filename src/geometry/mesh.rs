@@ -43,7 +43,7 @@ impl Coordinate for i32 {
 /// [`positions`](Mesh::positions).
 ///
 /// All vertices of the slices are moved, lit and projected, and take their place in the scene's
-/// memory, whether a face uses them or not: some 200 instructions each on a Cortex-M4. So a few faces
+/// memory, whether a face uses them or not: some 140 instructions each on a Cortex-M4. So a few faces
 /// of a large table cost the whole table; give them slices of their own vertices instead. A large mesh that is closed is
 /// cheaper in parts ([`Meshlets`](crate::mesh::Meshlets)), of which what is turned away is not moved.
 #[derive(Clone, Copy, Debug)]
