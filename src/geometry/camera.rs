@@ -5,6 +5,9 @@ use crate::num::{Block, GUARD_CENTRE, divide_signed};
 
 /// The size of the picture, 1 to 8192 pixels each way (K3).
 ///
+/// A scene is begun with at most [`LARGEST`](crate::scene::LARGEST) of them each way, and a larger picture is drawn in
+/// parts.
+///
 /// Guard space is the 8192 x 8192 pixel plane of 13.3 coordinates with the picture in its
 /// middle; everything between geometry and spans is measured in it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,7 +39,7 @@ impl core::fmt::Display for ScreenError {
 impl core::error::Error for ScreenError {}
 
 impl Screen {
-    /// A screen of `width` x `height` pixels.
+    /// A screen of `width` x `height` pixels. One scene takes at most [`LARGEST`](crate::scene::LARGEST) each way.
     ///
     /// # Errors
     /// When a side is 0 or above 8192.
