@@ -3,7 +3,7 @@
 //! | page | what it tells |
 //! |---|---|
 //! | [`first_triangle`] | a picture without a display, and what each piece of memory is for |
-//! | [`own_display`] | a sink for your panel, by a ready one, by three functions or by your DMA |
+//! | [`own_display`] | a sink for your panel, by a ready one, by functions that block or by your DMA |
 //! | [`own_memory`] | which memory goes where, and how much of it a scene needs |
 //! | [`textures`] | a textured mesh, and the byte order of its texels |
 //! | [`draw_calls`] | what else a draw call can say, lists, and what is refused |

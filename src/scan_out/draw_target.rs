@@ -47,6 +47,9 @@ impl<E: Debug> core::error::Error for DrawTargetError<E> {}
 
 /// A `DrawTarget` as a writer of lines. Column and line 0 are its point (0, 0).
 ///
+/// It owns the target: `embedded-graphics` has no `DrawTarget` for `&mut T`. A target that is lent needs a type of your own
+/// around the reference, which hands its calls on.
+///
 /// ```
 /// # struct Screen;
 /// # impl embedded_graphics_core::geometry::OriginDimensions for Screen {

@@ -6,7 +6,7 @@
 //! - [`Pump`], which holds the two line buffers and swaps them, so that one is filled while the other is sent.
 //! - [`ShownLines`] and [`ShownRuns`], which know what the display shows, so that lines, or runs of pixels
 //!   within them, which stay are not sent (X4).
-//! - [`LineWriter`] and [`Blocking`], which make a sink of three functions that block.
+//! - [`LineWriter`] and [`Blocking`], which make a sink of two or three functions that block.
 //! - [`send_doubled`], which sends four pixels for each that is drawn, interpolated between.
 //! - [`feed_line`] and [`ContinuousPanel`], for panels that read on their own clock.
 //!

@@ -1,4 +1,4 @@
-//! Sinks that are busy until a line is written, from three functions each (SPEC S5, X5).
+//! Sinks that are busy until a line is written, from two or three functions each (SPEC S5, X5).
 //!
 //! A panel on a bus without DMA, a driver of somebody else, memory that a controller scans: none of them holds a
 //! buffer while the next line is drawn. So [`LineWriter`] is all that they implement, and [`Blocking`] makes a
