@@ -26,6 +26,7 @@
 //! # use scanbeam::{look::Gouraud, pixel::{PixelFormat, Rgb565Be}, *};
 //! type Look = Gouraud<Rgb565Be>; // smooth colours, 16-bit pixels for SPI
 //!
+//! // `Box` is for the host. Firmware has no heap: it handles each error where it comes from.
 //! fn frame<D: ScanoutDma<Buf: LineBuf<Word = u16>>>(
 //!     model: Mesh,
 //!     scene: &mut Scene<'_, 'static, Look>, // Scene::new(screen, slow memory)
@@ -37,13 +38,15 @@
 //! {
 //!     let camera = Camera::look_at([0.0, 1.0, 3.0], [0.0; 3], [0.0, 1.0, 0.0], 300.0, 0.1, 10.0)?;
 //!     scene.begin(&camera)?;
-//!     scene.draw(&Draw {
+//!     let drawn = scene.draw(&Draw {
 //!         model: Affine::rotation_y(turn),
 //!         light: Light::new([-0.9, 0.8, 0.5], 0.2),
 //!         ..Draw::new(model)
-//!     })?;
+//!     });
 //!     let background = Rgb565Be::from_rgb8([24, 32, 48]);
-//!     Ok(draw_frame(scene, renderer, pump, background, 8)?) // 8 lines a transfer
+//!     let used = draw_frame(scene, renderer, pump, background, 8)?; // 8 lines a transfer
+//!     drawn?; // what did not fit in memory: the rest is shown
+//!     Ok(used)
 //! }
 //! ```
 //!
