@@ -21,7 +21,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         instruction: Instruction,
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<Step, ListError> {
-        self.counts.blocks += 1;
+        self.counts.blocks = self.counts.blocks.saturating_add(1);
         let (id, done) = match instruction {
             Instruction::State(state) => (Id::State, self.change(words, state, stage)),
             Instruction::Flow(Flow::LoadTexture { number, at }) => {
@@ -100,7 +100,8 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         if self.state.is_stale {
             self.find_texture(words)?;
         }
-        self.counts.vertices += u32::from(run.header.count);
+        let count = u32::from(run.header.count);
+        self.counts.vertices = self.counts.vertices.saturating_add(count);
         let mut drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
         let (colour, sides) = (self.state.draw.colour, drawer.sides());
         let has_alphas = self.has_alphas;
@@ -230,8 +231,9 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             .walker
             .jump(words, self.walker.position().wrapping_add(count))
         {
-            self.counts.skipped += 1;
-            self.counts.skipped_words += count;
+            let counts = &mut self.counts;
+            counts.skipped = counts.skipped.saturating_add(1);
+            counts.skipped_words = counts.skipped_words.saturating_add(count);
         }
     }
 

@@ -10,7 +10,7 @@ pub enum OnViolation {
     Stop,
 }
 
-/// What a list has done since it was started.
+/// What a list has done since it was started. A number that would be too large stays at `u32::MAX`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RunCounts {

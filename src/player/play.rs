@@ -403,11 +403,11 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
             Step::Do(_) | Step::Passed => {}
             Step::Interrupt(vector) => self.notice(stage, Event::Interrupt, u32::from(vector)),
             Step::Later => {
-                self.counts.unimplemented += 1;
+                self.counts.unimplemented = self.counts.unimplemented.saturating_add(1);
                 self.notice(stage, Event::Unimplemented, 0);
             }
             Step::Violation => {
-                self.counts.violations += 1;
+                self.counts.violations = self.counts.violations.saturating_add(1);
                 self.notice(stage, Event::AccessViolation, 0);
                 if self.settings.on_violation == OnViolation::Stop {
                     self.walker.stop();

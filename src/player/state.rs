@@ -312,13 +312,15 @@ impl<'d, 's, 'm, 't, L: Look> Drawer<'d, 's, 'm, 't, L> {
             return;
         };
         let after = scene.assembled();
-        self.counts.draws += 1;
-        self.counts.vertices += vertices as u32;
-        self.counts.triangles += after.triangles - before.triangles;
+        let counts = &mut *self.counts;
+        let triangles = after.triangles - before.triangles;
+        counts.draws = counts.draws.saturating_add(1);
+        counts.vertices = counts.vertices.saturating_add(vertices as u32);
+        counts.triangles = counts.triangles.saturating_add(triangles);
         match done {
             Ok(()) => {}
             Err(DrawError::Full { triangles, .. }) => {
-                self.counts.dropped += triangles;
+                counts.dropped = counts.dropped.saturating_add(triangles);
                 self.tell(Event::Full, block, triangles);
             }
             Err(error) => self.lack = Some(refused(error)),
