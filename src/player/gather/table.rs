@@ -82,8 +82,8 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         }
         if let (Some(slot), Some(out)) = (alpha, m.alphas.get_mut(..n)) {
             self.base = n;
-            for (alpha, at) in out.iter_mut().zip(at..) {
-                *alpha = slot.alpha(words, at);
+            for (n, alpha) in (0..).zip(out.iter_mut()) {
+                *alpha = slot.alpha(words, at.wrapping_add(n));
             }
         }
         // Room for texture places, which are unpacked when something is drawn.

@@ -26,3 +26,45 @@ fn counts_stay_at_the_largest_number() {
     let counts = player.counts();
     assert!(counts.skipped > 4_096 && counts.skipped_words == u32::MAX);
 }
+
+/// The words of a ring from this position on.
+#[derive(Clone, Copy)]
+struct From(u32, &'static [u32]);
+
+impl Words<'static> for From {
+    fn first(self) -> u32 {
+        self.0
+    }
+
+    fn end(self) -> u32 {
+        self.0.wrapping_add(self.1.len() as u32)
+    }
+
+    fn word(self, at: u32) -> u32 {
+        self.1.word(at.wrapping_sub(self.0))
+    }
+
+    fn slice(self, _: u32, _: u32) -> Option<&'static [u32]> {
+        None
+    }
+
+    fn room(self) -> Option<u32> {
+        Some(1 << 16)
+    }
+}
+
+/// Kills: alphas of a table that are looked for behind the last position.
+#[test]
+fn a_table_lies_across_the_end_of_positions() {
+    let mut table = vec![block(5, 4, SHADE)];
+    table.extend([0; 6]);
+    table.extend([0x80FF_FFFF; 4]);
+    table.extend([0; 4]);
+    for first in [0xFFFF_FFFD, 0xFFFF_FFFC, 0xFFFF_FFFB, 0xFFFF_FFF1, 0] {
+        let mut player = player(PlayerSettings::default(), Lent::SOME);
+        player.start(first);
+        let words = From(first, listed(&table));
+        assert_eq!(run(&mut player, words).0, Ok(Halt::Waiting));
+        assert_eq!(player.position(), first.wrapping_add(15));
+    }
+}
