@@ -345,7 +345,7 @@ impl TexelForm {
 /// bits 11..8 the form, bits 13..12 levels of detail less one (each half the size of the one
 /// before), bits 23..16 the palette, bit 24 clamped instead of repeated; word 2: how many words
 /// of texels follow. Texels lie row by row from the top, lowest bits first; levels one after
-/// the other, each padded to a word.
+/// the other, each padded to a word. Those below a level of one texel are not drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Texture {
     /// The argument.

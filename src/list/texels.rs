@@ -279,9 +279,11 @@ impl<'m> TextureSlots<'m> {
             false => (0, 0),
         };
         let at = texture.at.load(Ordering::Relaxed);
+        let [width, height] = [(name >> 8) as u8 & 15, (name >> 12) as u8 & 15];
         Ok(Pair {
-            levels: (at >> 30) as u8 + 1,
-            log_sides: [(name >> 8) as u8 & 15, (name >> 12) as u8 & 15],
+            // Below one texel there is no level.
+            levels: (at >> 30).min(width.max(height).into()) as u8 + 1,
+            log_sides: [width, height],
             form,
             clamped: name & CLAMPED != 0,
             at: at & (u32::MAX >> 2),

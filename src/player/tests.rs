@@ -1,6 +1,7 @@
 //! What hostile lists, small memory and settings that change do to a player.
 
 mod flow;
+mod textures;
 
 use super::{Player, PlayerMemory, PlayerSettings, TextureRoom};
 use crate::event::Notice;

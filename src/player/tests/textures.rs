@@ -1,0 +1,79 @@
+//! Textures: their levels, what refused ones keep, and settings that are others later.
+
+use super::*;
+use crate::list::{Lent as Lacking, Reason};
+use crate::scene::{Draw, Sampling};
+
+/// Texture 0 of texels of 32 bits, with sides of these logarithms.
+fn texture(log_sides: [u32; 2], levels: u32, texels: &[u32]) -> Vec<u32> {
+    let [width, height] = log_sides;
+    let form = 7 << 8 | (levels - 1) << 12;
+    let header = [state(8, 0), width | height << 4 | form, texels.len() as u32];
+    [&header, texels].concat()
+}
+
+/// Texel `n` of those that have this colour or another, and no dither of their own.
+fn texel(n: u32) -> u32 {
+    0x7F00_0000 | 0x0032_96C8u32.rotate_left(8 * (n % 3)) & 0x00FF_FFFF
+}
+
+/// The square of the corners, with all of a texture on it.
+fn square() -> Vec<u32> {
+    let mut words = vec![block(1, 4, NEW | PRSP | TEXT)];
+    let places = [0, 0x1000, 0x1000_0000, 0x1000_1000];
+    for (corner, place) in CORNERS.into_iter().zip(places) {
+        words.extend(corner);
+        words.push(place);
+    }
+    words
+}
+
+/// A list that draws a square with a texture.
+fn skinned(texture: &[u32]) -> &'static [u32] {
+    let parts = [texture, &material(Some(0)), &square(), &[flow(0)]];
+    listed(&parts.concat())
+}
+
+/// The picture of a list that a new player draws.
+fn new_picture(settings: PlayerSettings<'static, 'static>, list: &'static [u32]) -> Vec<u16> {
+    picture(&mut player(settings, Lent::SOME), list, Halt::End)
+}
+
+fn linear() -> PlayerSettings<'static, 'static> {
+    PlayerSettings {
+        sampling: Some(Sampling::LINEAR),
+        ..PlayerSettings::default()
+    }
+}
+
+/// Kills: a texture with levels below one texel that is not filtered, and memory that such levels take.
+#[test]
+fn levels_below_one_texel_are_not_drawn_with() {
+    for sides in [[0, 0], [1, 1], [1, 0], [2, 1], [0, 2]] {
+        let least = 1 + u32::max(sides[0], sides[1]);
+        let count = |levels| {
+            (0..levels).map(|l| {
+                sides
+                    .iter()
+                    .map(|s: &u32| 1 << s.saturating_sub(l))
+                    .product::<u32>()
+            })
+        };
+        let list = |levels| {
+            let texels: Vec<u32> = (0..count(levels).sum()).map(texel).collect();
+            skinned(&texture(sides, levels, &texels))
+        };
+        let want = new_picture(linear(), list(least));
+        let nearest = new_picture(PlayerSettings::default(), list(least));
+        assert_eq!(want == nearest, sides == [0, 0]);
+        for levels in least..=4 {
+            let lent = Lent {
+                textures: 1,
+                texels: count(least).sum::<u32>() as usize,
+                levels: least as usize - 1,
+            };
+            let got = picture(&mut player(linear(), lent), list(levels), Halt::End);
+            assert!(got == want, "{sides:?}, {levels}");
+        }
+    }
+}
