@@ -423,13 +423,14 @@ impl Walker {
         match instruction {
             Instruction::Short(Run { header, .. })
             | Instruction::Long(Run { header, .. })
+            | Instruction::Points(Run { header, .. })
             | Instruction::Quads(Run { header, .. }) => {
-                let goes_on = !header.new && (header.id != Id::Quads || header.rm);
+                let is_strip = header.id != Id::Points && (header.id != Id::Quads || header.rm);
                 let kept = Kept::of(header);
-                if goes_on && self.kept != Some(kept) {
+                if is_strip && !header.new && self.kept != Some(kept) {
                     return Err(self.fail(header.id, Reason::Continue));
                 }
-                self.kept = (header.id != Id::Quads || header.rm).then_some(kept);
+                self.kept = is_strip.then_some(kept);
             }
             Instruction::Table(Run { header, .. }) => {
                 self.table = Some(header.count);

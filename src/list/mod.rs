@@ -54,8 +54,8 @@
 //! A texture is found by its number when the next block draws, and its palette too.
 //!
 //! **Strips** are mended so that all triangles show the side that the first one shows. One that
-//! goes on (NEW 0) must have the same ID, SHADE, PRSP and TEXT, and no FORMAT or TABLE between; its
-//! kept vertices are taken in the state that is in force then. In INDEXED an index of all ones
+//! goes on (NEW 0) must have the same ID, SHADE, PRSP and TEXT, and no FORMAT, TABLE or other vertices between, points
+//! among them; its kept vertices are taken in the state that is in force then. In INDEXED an index of all ones
 //! ends a strip and begins another. Indices lie lowest bits first; what is left over in the last
 //! word is passed over.
 //!

@@ -1,6 +1,7 @@
 //! Counts, positions, and what goes on with what.
 
 use super::*;
+use crate::list::{Id, Reason};
 
 /// Kills: words that were passed over are added without a look at how many there are already.
 #[test]
@@ -66,5 +67,36 @@ fn a_table_lies_across_the_end_of_positions() {
         let words = From(first, listed(&table));
         assert_eq!(run(&mut player, words).0, Ok(Halt::Waiting));
         assert_eq!(player.position(), first.wrapping_add(15));
+    }
+}
+
+/// Kills: points that a strip goes on behind, without the triangles of the vertices before them.
+#[test]
+fn no_strip_goes_on_behind_points() {
+    let points = strip(&CORNERS[..1], 0)
+        .into_iter()
+        .map(|w| if w >> 28 == 1 { w + (2 << 28) } else { w });
+    let points: Vec<u32> = points.collect();
+    let mut table = vec![block(5, 4, 0)];
+    for [two, _] in CORNERS {
+        table.extend([two; 2]);
+    }
+    table.truncate(7);
+    let short = [strip(&CORNERS[..3], NEW), strip(&CORNERS[3..], 0)];
+    let indexed = [vec![block(6, 3, NEW), 0x0002_0100], vec![block(6, 1, 0), 3]];
+    for (before, [begins, goes_on], id) in
+        [(vec![], short, Id::Short), (table, indexed, Id::Indexed)]
+    {
+        let whole = [&before, &begins, &goes_on, &[flow(0)][..]].concat();
+        let mut player = player(PlayerSettings::default(), Lent::SOME);
+        assert_eq!(run(&mut player, listed(&whole)).0, Ok(Halt::End));
+        let parted = [&before, &begins, &points, &goes_on, &[flow(0)][..]].concat();
+        let error = ListError {
+            offset: 4 * (before.len() + begins.len() + points.len()) as u32,
+            block: Some(id),
+            reason: Reason::Continue,
+        };
+        player.start(0);
+        assert_eq!(run(&mut player, listed(&parted)), (Err(error), 0));
     }
 }
