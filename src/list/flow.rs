@@ -176,7 +176,7 @@ pub struct Walker {
     stop_at_end: bool,
     /// Blocks until it stops: 1, or 2 when that is done, 0 for no end.
     single: u8,
-    /// Position of the block that was read last.
+    /// Position of the block that was read last, or could not be read.
     block: u32,
     /// The end at which a ring's reader met the writer last.
     met: Option<u32>,
@@ -239,7 +239,7 @@ impl Walker {
         self.at
     }
 
-    /// Byte offset of the block that was read last.
+    /// Byte offset of the block that was read last, or could not be read.
     #[must_use]
     pub fn offset(&self) -> u32 {
         self.block.wrapping_mul(4)
@@ -332,7 +332,7 @@ impl Walker {
                 return Ok(Step::Halt(self.meet(words)));
             }
             Err(error) => {
-                self.running = false;
+                (self.block, self.running) = (self.at, false);
                 return Err(error);
             }
         };

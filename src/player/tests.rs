@@ -4,7 +4,7 @@ mod flow;
 mod textures;
 
 use super::{Player, PlayerMemory, PlayerSettings, TextureRoom};
-use crate::event::Notice;
+use crate::event::{Event, Notice};
 use crate::frame::{FastMemory, Memory as LineMemory, Renderer};
 use crate::geometry::{Camera, Screen};
 use crate::link::Link;
@@ -164,6 +164,20 @@ fn run(player: &mut Player<'static, 'static, Look>, words: impl Words<'static>) 
         done = (said, scene.objects());
     });
     done
+}
+
+/// The same, with what is told and the offsets of it.
+fn told(
+    player: &mut Player<'static, 'static, Look>,
+    words: impl Words<'static>,
+) -> (Said, Vec<(Event, u32)>) {
+    let mut told = Vec::new();
+    let mut said = Ok(Halt::Stopped);
+    drawn(|scene| {
+        let tell = &mut |notice: Notice| told.push((notice.event, notice.offset));
+        said = player.run(words, scene, &mut PLENTY.clone(), tell);
+    });
+    (said, told)
 }
 
 /// The picture of a list that is played to where it halts so.

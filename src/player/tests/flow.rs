@@ -73,10 +73,7 @@ fn a_table_lies_across_the_end_of_positions() {
 /// Kills: points that a strip goes on behind, without the triangles of the vertices before them.
 #[test]
 fn no_strip_goes_on_behind_points() {
-    let points = strip(&CORNERS[..1], 0)
-        .into_iter()
-        .map(|w| if w >> 28 == 1 { w + (2 << 28) } else { w });
-    let points: Vec<u32> = points.collect();
+    let points = [&[block(3, 1, 0)], &CORNERS[0][..]].concat();
     let mut table = vec![block(5, 4, 0)];
     for [two, _] in CORNERS {
         table.extend([two; 2]);
@@ -99,4 +96,24 @@ fn no_strip_goes_on_behind_points() {
         player.start(0);
         assert_eq!(run(&mut player, listed(&parted)), (Err(error), 0));
     }
+}
+
+/// In place, and in a ring behind what was drawn. Kills: the event of the block before.
+#[test]
+fn what_is_malformed_is_told_where_it_stands() {
+    let triangle = strip(&CORNERS[..3], NEW);
+    let at = 4 * triangle.len() as u32;
+    let bad = [0x0200_0000];
+    let mut played = player(PlayerSettings::default(), Lent::SOME);
+    let (said, told) = super::told(&mut played, listed(&[&triangle, &bad[..]].concat()));
+    assert_eq!(said.unwrap_err().offset, at);
+    assert_eq!(told, [(Event::Malformed, at)]);
+    let (mut writer, reader) = ring(64).split();
+    played.start(0);
+    writer.append(listed(&triangle)).unwrap();
+    assert_eq!(run(&mut played, reader.words()).0, Ok(Halt::Waiting));
+    writer.append(listed(&bad)).unwrap();
+    let (said, told) = super::told(&mut played, reader.words());
+    assert_eq!(said.unwrap_err().offset, at);
+    assert_eq!(told, [(Event::Malformed, at)]);
 }
