@@ -181,11 +181,23 @@ impl<'t> Shelf<'t> {
             }
             known = room.before;
         }
-        if self.free.is_empty() {
-            return Err(Reason::Lent(Lent::Textures));
-        }
+        self.fits(1, source, 0)?;
         let (made, is_translucent) = self.make::<F>(source, dithers, sampling)?;
         self.keep(made, is_translucent, key)
+    }
+
+    /// Whether there is room for so many textures of so many words each, with their levels of detail.
+    fn fits(&self, textures: usize, source: Source<'t>, words: usize) -> Result<(), Reason> {
+        let needs = [
+            (self.free.len(), 1, Lent::Textures),
+            (self.words.len(), words, Lent::Texels),
+            (self.levels.len(), source.coarser(), Lent::Levels),
+        ];
+        let lacks = |&(have, need, _): &(usize, usize, Lent)| have < textures * need;
+        match needs.into_iter().find(lacks) {
+            Some((.., lent)) => Err(Reason::Lent(lent)),
+            None => Ok(()),
+        }
     }
 
     /// Keeps a texture in a room.
@@ -262,10 +274,7 @@ impl<'t> Shelf<'t> {
                 .map_err(|_| Reason::Lent(Lent::Texels))
         };
         let made = level(0)?.wrapping(wrap);
-        let coarser = usize::from(source.pair.levels.saturating_sub(1));
-        if self.levels.len() < coarser {
-            return Err(Reason::Lent(Lent::Levels));
-        }
+        let coarser = source.coarser().min(self.levels.len());
         let (taken, rest) = core::mem::take(&mut self.levels).split_at_mut(coarser);
         self.levels = rest;
         for (number, slot) in (1..).zip(taken.iter_mut()) {
@@ -289,7 +298,7 @@ impl<'t> Shelf<'t> {
             TexelForm::Index6 => (256, 64),
             _ => (256, 256),
         };
-        self.write(panel, count, |n| {
+        self.write(source, panel, count, |n| {
             let colour = source.colours.get((n % codes) as usize);
             Colour {
                 rgba: colour.map_or([0, 0, 0, 255], |w| u32::from_le(*w).to_le_bytes()),
@@ -312,7 +321,7 @@ impl<'t> Shelf<'t> {
                 (n, level) = (n - width * height, level + 1);
             }
         };
-        self.write(panel, source.texels_above(pair.levels), |n| {
+        self.write(source, panel, source.texels_above(pair.levels), |n| {
             let (texels, n) = of(n);
             Colour {
                 rgba: texels.rgba(n),
@@ -321,14 +330,16 @@ impl<'t> Shelf<'t> {
         })
     }
 
-    /// Writes so many colours by their numbers.
+    /// Writes so many colours by their numbers. Memory is taken once there is enough for all that comes of them.
     fn write(
         &mut self,
+        source: Source<'t>,
         panel: Panel,
         count: usize,
         of: impl Fn(u32) -> Colour,
     ) -> Result<Made<'t>, Reason> {
-        let words = self.take(count)?;
+        self.fits(1, source, count)?;
+        let words = self.words.get_mut(..count).unwrap_or_default();
         let (mut has_holes, mut is_translucent, mut is_dithered) = (false, false, true);
         for (n, slot) in (0..).zip(words.iter_mut()) {
             let colour = of(n);
@@ -351,21 +362,19 @@ impl<'t> Shelf<'t> {
                 }
             }
         }
-        let masks = match is_translucent || panel.dithers && !is_dithered {
-            true => Some(self.masks(count, of)?),
-            false => None,
-        };
+        let has_masks = is_translucent || panel.dithers && !is_dithered;
+        self.fits(1 + usize::from(has_masks), source, count)?;
         Ok(Made {
-            words: Some(words),
+            words: Some(self.take(count)),
             key,
-            masks,
+            masks: has_masks.then(|| self.masks(count, of)),
             is_translucent,
         })
     }
 
     /// What is said of so many colours.
-    fn masks(&mut self, count: usize, of: impl Fn(u32) -> Colour) -> Result<&'t [u16], Reason> {
-        let masks = self.take(count)?;
+    fn masks(&mut self, count: usize, of: impl Fn(u32) -> Colour) -> &'t [u16] {
+        let masks = self.take(count);
         for (n, slot) in (0..).zip(masks.iter_mut()) {
             let colour = of(n);
             let texel = MaskTexel::alpha(colour.rgba[3]);
@@ -374,19 +383,16 @@ impl<'t> Shelf<'t> {
                 false => texel.word(),
             };
         }
-        Ok(masks)
+        masks
     }
 
-    /// So many words of the lent memory.
-    fn take(&mut self, count: usize) -> Result<&'t mut [u16], Reason> {
+    /// So many words of the lent memory, which has them.
+    fn take(&mut self, count: usize) -> &'t mut [u16] {
         let words = core::mem::take(&mut self.words);
-        if words.len() < count {
-            self.words = words;
-            return Err(Reason::Lent(Lent::Texels));
-        }
+        let count = count.min(words.len());
         let (taken, rest) = words.split_at_mut(count);
         self.words = rest;
-        Ok(taken)
+        taken
     }
 }
 
@@ -395,6 +401,11 @@ impl<'t> Source<'t> {
     fn words_of(&self, level: u8) -> &'t [u32] {
         let [from, to] = [level, level + 1].map(|l| self.pair.words_above(l) as usize);
         self.texels.get(from..to).unwrap_or_default()
+    }
+
+    /// How many levels there are below the first.
+    fn coarser(&self) -> usize {
+        usize::from(self.pair.levels.saturating_sub(1))
     }
 
     /// Texels of all levels above one of them.

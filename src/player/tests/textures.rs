@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::list::{Lent as Lacking, Reason};
-use crate::scene::{Draw, Sampling};
+use crate::scene::Sampling;
 
 /// Texture 0 of texels of 32 bits, with sides of these logarithms.
 fn texture(log_sides: [u32; 2], levels: u32, texels: &[u32]) -> Vec<u32> {
@@ -75,5 +75,37 @@ fn levels_below_one_texel_are_not_drawn_with() {
             let got = picture(&mut player(linear(), lent), list(levels), Halt::End);
             assert!(got == want, "{sides:?}, {levels}");
         }
+    }
+}
+
+/// Kills: memory that textures keep which are refused for want of another room, of words for a mask, or of levels.
+#[test]
+fn what_is_refused_keeps_no_memory() {
+    let plain = skinned(&texture([1, 1], 1, &[0, 1, 2, 2].map(texel)));
+    let masked = skinned(&texture([1, 1], 1, &[0x4000_00FF; 4]));
+    let levelled = skinned(&texture([1, 1], 2, &[0, 1, 2, 2, 1].map(texel)));
+    let both = skinned(&texture([1, 1], 2, &[0x4000_00FF; 5]));
+    let lent = |textures, texels, levels| Lent {
+        textures,
+        texels,
+        levels,
+    };
+    let want = new_picture(PlayerSettings::default(), plain);
+    for (refused, lent, lacking) in [
+        (masked, lent(1, 8, 0), Lacking::Textures),
+        (masked, lent(2, 7, 0), Lacking::Texels),
+        (levelled, lent(1, 5, 0), Lacking::Levels),
+        (both, lent(2, 10, 1), Lacking::Levels),
+    ] {
+        let mut player = player(PlayerSettings::default(), lent);
+        for _ in 0..3 {
+            let error = run(&mut player, refused).0.unwrap_err();
+            assert_eq!(error.reason, Reason::Lent(lacking));
+            player.start(0);
+        }
+        assert!(
+            picture(&mut player, plain, Halt::End) == want,
+            "{lacking:?}"
+        );
     }
 }
