@@ -59,7 +59,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         let format = self.walker.format();
         if run.header.id != Id::Indexed {
             let layout = Layout::new(format, run.header);
-            if self.settings.draw.lamps.is_some() && layout.colour.is_some() {
+            if self.state.draw.lamps.is_some() && layout.colour.is_some() {
                 return Err(Reason::Missing(Missing::LightAtVertices));
             }
         } else if self.state.texture.is_some() && self.gather.lacks_table_places() {
@@ -90,7 +90,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         run: Run,
         stage: &mut Stage<'_, '_, 't, L>,
     ) -> Result<(), Reason> {
-        if self.settings.draw.lamps.is_some() {
+        if self.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
         let offset = self.walker.offset();
@@ -257,7 +257,10 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             _ => self.draw(words, stage)?,
         }
         match state {
-            State::Matrix(matrix) => self.state.place(&Affine::from(&matrix), &self.settings),
+            State::Matrix(matrix) => {
+                let matrix = Some(Affine::from(&matrix));
+                self.state.place(matrix, &self.settings);
+            }
             State::Light { number, light } => self.light(number, light)?,
             State::LightOff { number } => {
                 lights::set(self.lights.as_deref_mut(), &mut self.state, number, None)?;
@@ -306,7 +309,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     }
 
     fn light(&mut self, number: u8, light: LightWords) -> Result<(), Reason> {
-        if self.settings.draw.lamps.is_some() {
+        if self.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
         lights::set(
@@ -319,7 +322,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
 
     fn material(&mut self, material: Material) -> Result<(), Reason> {
         // What lights of the settings fall on is for those to say, and so is light at pixels.
-        let is_theirs = self.state.has_lights() || self.settings.draw.lamps.is_some();
+        let is_theirs = self.state.has_lights() || self.state.draw.lamps.is_some();
         if material.specular != [0; 3] && (is_theirs || self.lights.is_none()) {
             return Err(Reason::Missing(Missing::Highlights));
         }

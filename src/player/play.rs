@@ -42,8 +42,8 @@ pub struct PlayerMemory<'m, 't, C = i16> {
     pub alphas: &'m mut [u8],
     /// One for each number of a texture and of a palette; none where nothing is textured.
     pub names: &'m [TextureSlot],
-    /// One for each pair of a texture and a palette that is drawn with; two where texels are neither opaque nor
-    /// transparent, or some are not dithered where the rest is.
+    /// One for each pair of a texture and a palette that is drawn with, and each [`sampling`](PlayerSettings::sampling) of
+    /// it; two where texels are neither opaque nor transparent, or some are not dithered where the rest is.
     pub textures: &'t mut [TextureRoom<'t>],
     /// Words of the panel: 2, 4, 16 or 256 for a palette of 1, 2, 4 or 8 bits, 256 for one of 6 bits, and one a texel
     /// of other forms, but for those of 16 bits in the panel's order of bytes. Twice as many where there are two
@@ -260,10 +260,14 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.reset();
     }
 
-    /// Other settings: what [`draw`](PlayerSettings::draw) says a list begins with counts from the next start on, its model
-    /// and all else from the next block on.
+    /// Other settings. They count from the next block on, with two exceptions. What [`draw`](PlayerSettings::draw) has
+    /// beside its model counts from the next start on. A [`window`](PlayerSettings::window) bounds what WINDOW asks for at
+    /// once, and cuts from the next WINDOW or start on. Textures that were made in another way are made anew, in memory of
+    /// their own.
     pub fn set(&mut self, settings: PlayerSettings<'m, 't>) {
         self.settings = settings;
+        self.state.place(self.state.matrix, &self.settings);
+        self.state.is_stale = true;
     }
 
     /// Position of the next block; what lies before it in a ring may be freed.

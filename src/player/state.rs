@@ -19,6 +19,8 @@ use crate::scene::{
 pub(super) struct State<'m, 't> {
     /// All but the mesh and the texture.
     pub(super) draw: Draw<'m, 't>,
+    /// The list's, once it has one.
+    pub(super) matrix: Option<Affine>,
     /// What falls on what is lit.
     pub(super) light: Option<Light>,
     lights: Option<&'m dyn Lights>,
@@ -46,6 +48,7 @@ impl<'m, 't> State<'m, 't> {
         };
         let mut state = Self {
             draw,
+            matrix: None,
             light: draw.light,
             lights: draw.lights,
             blend: draw.blend,
@@ -60,9 +63,10 @@ impl<'m, 't> State<'m, 't> {
     }
 
     /// The list's matrix, in the world of the settings.
-    pub(super) fn place(&mut self, matrix: &Affine, settings: &PlayerSettings<'_, '_>) {
-        self.draw.model = matrix.then(&settings.draw.model);
-        self.eye = None;
+    pub(super) fn place(&mut self, matrix: Option<Affine>, settings: &PlayerSettings<'_, '_>) {
+        let world = &settings.draw.model;
+        self.draw.model = matrix.map_or(*world, |matrix| matrix.then(world));
+        (self.matrix, self.eye) = (matrix, None);
     }
 
     /// The light from now on.

@@ -1,7 +1,8 @@
 //! Textures of a list as values of the rooms (H7).
 //!
 //! A texture is made when a block first draws with a number and its palette, and stays as long as the memory is lent:
-//! the same pair is found again, so a list that is played each frame makes its textures once. Indices of 1, 2, 4 and
+//! the same pair is found again where it is sampled and dithered alike, so a list that is played each frame makes its
+//! textures once. Indices of 1, 2, 4 and
 //! 8 bits stay where they lie, and so do texels of 16 bits where the panel has their order of bytes; palettes, and
 //! other texels, become words of the panel in memory that is lent. Where all are opaque or transparent, a word stands
 //! for those that are transparent; else there is a mask, in a room of its own, which says also which are not dithered.
@@ -13,9 +14,7 @@ use crate::scene::{MaskTexel, Sampling, Texture, TextureError, Wrap};
 /// Room for a texture that is drawn with.
 #[derive(Debug)]
 pub struct TextureRoom<'t> {
-    made: Option<Texture<'t>>,
-    is_translucent: bool,
-    key: Key,
+    kept: Option<Kept<'t>>,
     /// The one that was made before.
     before: Option<&'t Self>,
 }
@@ -23,45 +22,42 @@ pub struct TextureRoom<'t> {
 impl TextureRoom<'_> {
     /// Empty.
     pub const EMPTY: Self = Self {
-        made: None,
-        is_translucent: false,
-        key: Key {
-            texels: 0,
-            colours: 0,
-            count: 0,
-            form: TexelForm::Index1,
-            log_sides: [0; 2],
-            levels: 1,
-            clamped: false,
-            is_mask: false,
-        },
+        kept: None,
         before: None,
     };
 }
 
-impl<'t> TextureRoom<'t> {
-    fn listed(&'t self) -> Option<Listed<'t>> {
-        Some(Listed {
-            texture: self.made.as_ref()?,
+/// A texture that was made.
+#[derive(Debug)]
+struct Kept<'t> {
+    texture: Texture<'t>,
+    is_translucent: bool,
+    key: Key,
+}
+
+impl<'t> Kept<'t> {
+    fn listed(&'t self) -> Listed<'t> {
+        Listed {
+            texture: &self.texture,
             is_translucent: self.is_translucent,
-        })
+        }
     }
 }
 
-/// What tells textures apart: where texels and colours lie in memory, and how they are read.
+/// What tells textures apart: where texels and colours lie in memory, how they are read, and how they are drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Key {
     texels: usize,
     colours: usize,
-    count: u32,
-    form: TexelForm,
-    log_sides: [u8; 2],
-    levels: u8,
-    clamped: bool,
+    /// Without the positions, which another list may have for others.
+    pair: Pair,
+    dithers: bool,
+    /// The address of its code.
+    sampling: Option<usize>,
     is_mask: bool,
 }
 
-/// A texture that was made, or is the application's.
+/// A texture that is drawn with: one that was made, or the application's.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Listed<'t> {
     pub(super) texture: &'t Texture<'t>,
@@ -154,12 +150,9 @@ impl<'t> Shelf<'t> {
     pub(super) fn texture<F: PixelFormat>(
         &mut self,
         words: impl Words<'t>,
-        Asked {
-            pair,
-            dithers,
-            sampling,
-        }: Asked,
+        asked: Asked,
     ) -> Result<Listed<'t>, Reason> {
+        let pair = asked.pair;
         let in_place = |at, count| {
             let slice = words.slice(at, count);
             let readable = slice.filter(|_| cfg!(target_endian = "little"));
@@ -173,17 +166,21 @@ impl<'t> Shelf<'t> {
             },
             pair,
         };
-        let key = source.key();
+        let key = source.key(asked);
         let mut known = self.last;
         while let Some(room) = known {
-            if let (true, Some(listed)) = (room.key == key, room.listed()) {
-                return Ok(listed);
+            if let Some(kept) = room.kept.as_ref().filter(|kept| kept.key == key) {
+                return Ok(kept.listed());
             }
             known = room.before;
         }
         self.fits(1, source, 0)?;
-        let (made, is_translucent) = self.make::<F>(source, dithers, sampling)?;
-        self.keep(made, is_translucent, key)
+        let (texture, is_translucent) = self.make::<F>(source, key, asked.sampling)?;
+        self.keep(Kept {
+            texture,
+            is_translucent,
+            key,
+        })
     }
 
     /// Whether there is room for so many textures of so many words each, with their levels of detail.
@@ -201,26 +198,19 @@ impl<'t> Shelf<'t> {
     }
 
     /// Keeps a texture in a room.
-    fn keep(
-        &mut self,
-        made: Texture<'t>,
-        is_translucent: bool,
-        key: Key,
-    ) -> Result<Listed<'t>, Reason> {
+    fn keep(&mut self, kept: Kept<'t>) -> Result<Listed<'t>, Reason> {
         let full = Reason::Lent(Lent::Textures);
         let (room, free) = core::mem::take(&mut self.free)
             .split_first_mut()
             .ok_or(full)?;
         self.free = free;
         *room = TextureRoom {
-            made: Some(made),
-            is_translucent,
-            key,
+            kept: Some(kept),
             before: self.last,
         };
         let room: &'t TextureRoom<'t> = room;
         self.last = Some(room);
-        room.listed().ok_or(full)
+        room.kept.as_ref().map(Kept::listed).ok_or(full)
     }
 
     /// Makes a texture, with its levels of detail and its mask, if it has one; whether texels are neither opaque nor
@@ -228,12 +218,12 @@ impl<'t> Shelf<'t> {
     fn make<F: PixelFormat>(
         &mut self,
         source: Source<'t>,
-        dithers: bool,
+        key: Key,
         sampling: Option<Sampling>,
     ) -> Result<(Texture<'t>, bool), Reason> {
         let panel = Panel {
             word: F::texel,
-            dithers,
+            dithers: key.dithers,
         };
         let form = source.pair.form;
         let made = match form.is_indexed() {
@@ -246,12 +236,15 @@ impl<'t> Shelf<'t> {
         let Some(masks) = made.masks else {
             return Ok((texture, false));
         };
-        let mask = self.levelled(source, Some(masks), sampling)?;
-        let key = Key {
-            is_mask: true,
-            ..source.key()
+        let mask = Kept {
+            texture: self.levelled(source, Some(masks), sampling)?,
+            is_translucent: false,
+            key: Key {
+                is_mask: true,
+                ..key
+            },
         };
-        let mask = self.keep(mask, false, key)?.texture;
+        let mask = self.keep(mask)?.texture;
         // Both are made alike.
         Ok((texture.masked(mask).unwrap_or(texture), made.is_translucent))
     }
@@ -440,15 +433,19 @@ impl<'t> Source<'t> {
         }
     }
 
-    fn key(&self) -> Key {
+    fn key(&self, asked: Asked) -> Key {
+        let is_told = matches!(self.pair.form, TexelForm::Rgba | TexelForm::Rgbd5551);
         Key {
             texels: self.texels.as_ptr().addr(),
             colours: self.colours.as_ptr().addr(),
-            count: self.pair.count,
-            form: self.pair.form,
-            log_sides: self.pair.log_sides,
-            levels: self.pair.levels,
-            clamped: self.pair.clamped,
+            pair: Pair {
+                at: 0,
+                colours: 0,
+                ..self.pair
+            },
+            // Others do not say what is not dithered.
+            dithers: asked.dithers && is_told,
+            sampling: asked.sampling.map(|sampling| sampling.draw as usize),
             is_mask: false,
         }
     }

@@ -1,7 +1,9 @@
 //! Counts, positions, and what goes on with what.
 
 use super::*;
+use crate::geometry::Affine;
 use crate::list::{Id, Reason};
+use crate::scene::Draw;
 
 /// Kills: words that were passed over are added without a look at how many there are already.
 #[test]
@@ -116,4 +118,51 @@ fn what_is_malformed_is_told_where_it_stands() {
     let (said, told) = super::told(&mut played, reader.words());
     assert_eq!(said.unwrap_err().offset, at);
     assert_eq!(told, [(Event::Malformed, at)]);
+}
+
+/// Kills: a model that what is drawn has only from the next matrix on, where BOUNDS has it at once.
+#[test]
+fn another_model_counts_from_the_next_block_on() {
+    let settings = |x| {
+        let plain = PlayerSettings::default();
+        PlayerSettings {
+            draw: Draw {
+                model: Affine::placed(1.0, [x, 0.0, 0.0]).unwrap(),
+                ..plain.draw
+            },
+            ..plain
+        }
+    };
+    let square = strip(&CORNERS, NEW);
+    let near = [state(11, 0), 0, 0, 0, 1 << 29, 2, square.len() as u32];
+    // A quarter to the left.
+    let mut matrix = vec![state(2, 0), 1 << 29, 0, 0, 0, 1 << 29, 0, 0, 0, 1 << 29];
+    matrix.extend([1 | 0xFFFF_0000, (-1i32 << 29) as u32, 0, 0]);
+    for before in [vec![], matrix] {
+        for bounds in [&[][..], &near] {
+            let list = |halt: &[u32]| {
+                let rest = [bounds, &square].concat();
+                let parts = [&material(None), &before, &square[..], halt, &rest];
+                listed(&parts.concat())
+            };
+            let want = picture(
+                &mut player(settings(0.25), Lent::SOME),
+                list(&[]),
+                Halt::End,
+            );
+            let mut player = player(settings(0.0), Lent::SOME);
+            let list = list(&[flow(2)]);
+            let first = picture(&mut player, list, Halt::Sync);
+            player.set(settings(0.25));
+            let second = picture(&mut player, list, Halt::End);
+            assert!(second == want && first != want && player.counts().skipped == 0);
+            // Out of sight, by BOUNDS where there is one.
+            player.set(settings(50.0));
+            player.start(0);
+            picture(&mut player, list, Halt::Sync);
+            let unseen = picture(&mut player, list, Halt::End);
+            assert!(unseen.iter().all(|pixel| *pixel == 0));
+            assert_eq!(player.counts().skipped > 0, !bounds.is_empty());
+        }
+    }
 }

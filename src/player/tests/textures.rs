@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::list::{Lent as Lacking, Reason};
-use crate::scene::Sampling;
+use crate::scene::{Draw, Sampling};
 
 /// Texture 0 of texels of 32 bits, with sides of these logarithms.
 fn texture(log_sides: [u32; 2], levels: u32, texels: &[u32]) -> Vec<u32> {
@@ -108,4 +108,66 @@ fn what_is_refused_keeps_no_memory() {
             "{lacking:?}"
         );
     }
+}
+
+/// Kills: textures that stay sampled or dithered as they were when they were made.
+#[test]
+fn other_settings_count_for_textures_that_are_there() {
+    let plain = PlayerSettings::default();
+    let dithered = PlayerSettings {
+        draw: Draw {
+            dither: true,
+            ..plain.draw
+        },
+        ..plain
+    };
+    // D where texels stand side by side with those that have none.
+    let halves = texture([1, 1], 1, &[0xFF83_8583, 0x7F83_8583].repeat(2));
+    let grey = [state(5, 0), 0xFF6D_6B6D, 0, 7];
+    let halved = listed(&[&halves, &grey[..], &square(), &[flow(0)]].concat());
+    let coloured = skinned(&texture([1, 1], 1, &[0, 1, 2, 2].map(texel)));
+    for (list, other) in [(coloured, linear()), (halved, dithered)] {
+        let (before, want) = (new_picture(plain, list), new_picture(other, list));
+        assert!(before != want);
+        let mut player = player(plain, Lent::SOME);
+        for (settings, want) in [(plain, &before), (other, &want), (plain, &before)] {
+            player.set(settings);
+            player.start(0);
+            assert!(picture(&mut player, list, Halt::End) == *want);
+        }
+    }
+    // Both are found again, and what has no D is the same where it is dithered: there is no room for more.
+    let palette = [state(9, 0), 2, 0xFF20_4060, 0xFFC0_8040];
+    let indexed = [state(8, 0), 1 | 1 << 4, 1, 0b0110];
+    let list = skinned(&[palette, indexed].concat());
+    let lent = Lent {
+        textures: 2,
+        texels: 4,
+        levels: 0,
+    };
+    let mut player = player(plain, lent);
+    for settings in [plain, linear(), dithered, plain, linear()] {
+        player.set(settings);
+        player.start(0);
+        assert_eq!(run(&mut player, list).0, Ok(Halt::End));
+    }
+}
+
+/// Kills: a texture of the settings that was replaced.
+#[test]
+fn other_textures_of_the_settings_count_from_the_next_block_on() {
+    let own = |word| {
+        let texture = Texture::words(Vec::leak(vec![word]), 1, 1).unwrap();
+        let texture: &Texture<'_> = std::boxed::Box::leak(std::boxed::Box::new(texture));
+        PlayerSettings {
+            textures: Vec::leak(vec![Some(texture)]),
+            ..PlayerSettings::default()
+        }
+    };
+    let list = listed(&[&material(Some(0)), &square(), &[flow(2)][..], &square()].concat());
+    let mut player = player(own(0xF800), Lent::SOME);
+    let middle = usize::from(HEIGHT / 2 * WIDTH + WIDTH / 2);
+    assert_eq!(picture(&mut player, list, Halt::Sync)[middle], 0xF800);
+    player.set(own(0x001F));
+    assert_eq!(picture(&mut player, list, Halt::End)[middle], 0x001F);
 }
