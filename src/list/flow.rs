@@ -54,11 +54,15 @@ pub enum ListCommand {
     Step,
 }
 
-/// A letter box for commands from an interrupt or another core: one at a time, the last counts.
+/// A letter box for commands from an interrupt or another core, by one sender to one player: one at a time, the last
+/// counts. One that is replaced while it is taken may still be obeyed, before the last.
 #[derive(Debug, Default)]
 pub struct ListControl {
-    /// 0: none; else the command's number, from 1.
-    command: AtomicU32,
+    /// The last command: its kind in bits 2..0, and a running number, so that one who cannot swap words knows what is
+    /// new. 0: none yet.
+    sent: AtomicU32,
+    /// The one that was taken last.
+    taken: AtomicU32,
     start: AtomicU32,
 }
 
@@ -67,7 +71,8 @@ impl ListControl {
     #[must_use]
     pub const fn new() -> Self {
         Self {
-            command: AtomicU32::new(0),
+            sent: AtomicU32::new(0),
+            taken: AtomicU32::new(0),
             start: AtomicU32::new(0),
         }
     }
@@ -76,7 +81,7 @@ impl ListControl {
     pub fn send(&self, command: ListCommand) {
         let code = match command {
             ListCommand::Start(at) => {
-                self.start.store(at, Ordering::Relaxed);
+                self.start.store(at, Ordering::Release);
                 1
             }
             ListCommand::Restart => 2,
@@ -85,19 +90,20 @@ impl ListControl {
             ListCommand::StopAtEnd => 5,
             ListCommand::Step => 6,
         };
-        self.command.store(code, Ordering::Release);
+        let number = (self.sent.load(Ordering::Relaxed) | 7).wrapping_add(1);
+        self.sent.store(number | code, Ordering::Release);
     }
 
     /// Takes the command.
     #[inline]
     pub fn take(&self) -> Option<ListCommand> {
-        let code = self.command.load(Ordering::Acquire);
-        if code == 0 {
+        let sent = self.sent.load(Ordering::Acquire);
+        if sent == self.taken.load(Ordering::Relaxed) {
             return None;
         }
-        self.command.store(0, Ordering::Release);
-        Some(match code {
-            1 => ListCommand::Start(self.start.load(Ordering::Relaxed)),
+        self.taken.store(sent, Ordering::Relaxed);
+        Some(match sent & 7 {
+            1 => ListCommand::Start(self.start.load(Ordering::Acquire)),
             2 => ListCommand::Restart,
             3 => ListCommand::Resume,
             4 => ListCommand::StopNow,
@@ -168,7 +174,7 @@ impl Kept {
 }
 
 /// Where a list is being read.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Walker {
     at: u32,
     start: u32,
@@ -185,28 +191,11 @@ pub struct Walker {
     table: Option<u16>,
 }
 
-impl Default for Walker {
-    fn default() -> Self {
-        Self::new()
-    }
-}
-
 impl Walker {
     /// At word 0, stopped.
     #[must_use]
     pub fn new() -> Self {
-        Self {
-            at: 0,
-            start: 0,
-            running: false,
-            stop_at_end: false,
-            single: 0,
-            block: 0,
-            met: None,
-            format: VertexFormat::default(),
-            kept: None,
-            table: None,
-        }
+        Self::default()
     }
 
     /// Obeys a command.
