@@ -118,7 +118,8 @@ pub enum Lent {
     Vertices,
     /// For indices.
     Indices,
-    /// For places on textures.
+    /// For places on textures. Those of a table in a ring lose bits on a texture narrower than 16 texels: then there is none
+    /// for places on another, once the table was freed.
     Places,
     /// For the numbers of textures and palettes.
     Names,

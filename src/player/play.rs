@@ -270,7 +270,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
         self.state.is_stale = true;
     }
 
-    /// Position of the next block; what lies before it in a ring may be freed.
+    /// Position of the next block; what lies before it in a ring may be freed. [`Lent::Places`] says what a table must stay
+    /// for.
     #[must_use]
     pub fn position(&self) -> u32 {
         self.walker.position()

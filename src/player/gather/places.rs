@@ -14,6 +14,9 @@ pub(crate) fn texels([u, v]: [i32; 2], [width, height]: [u8; 2]) -> [i32; 2] {
     [u << width.min(15) >> 4, v << height.min(15) >> 4]
 }
 
+/// Sides whose texels are a list's places themselves.
+pub(super) const RAW: [u8; 2] = [4; 2];
+
 /// Places on the texture that a mesh is drawn with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Places<'a> {
@@ -21,7 +24,7 @@ pub(crate) enum Places<'a> {
     None,
     /// In texels with 8 fraction bits, as many as there are vertices.
     Texels(&'a [[i32; 2]]),
-    /// There was no memory for them.
+    /// There was no memory for them, or they are gone.
     Lacking,
 }
 
@@ -96,10 +99,24 @@ impl<C: Coordinate + Place> Gather<'_, C> {
         let Some(out) = self.memory.places.get_mut(..n) else {
             return Placed::Lacking;
         };
-        if table.placed != Some(sides) {
-            slot.column(words, table.at, out, |_, [u, v, _]| texels([u, v], sides));
-            table.placed = Some(sides);
+        if table.placed == Some(sides) {
+            return Placed::At(0..n);
         }
+        let first = words.first();
+        match table.placed.filter(|_| words.room().is_some()) {
+            // Of these no bits were lost.
+            Some([width, height]) if width.min(height) >= RAW[0] => {
+                for [u, v] in out {
+                    let raw = [*u >> (width - RAW[0]), *v >> (height - RAW[1])];
+                    [*u, *v] = texels(raw, sides);
+                }
+            }
+            Some(_) if table.at.wrapping_sub(first) >= words.end().wrapping_sub(first) => {
+                return Placed::Lacking;
+            }
+            _ => slot.column(words, table.at, out, |_, [u, v, _]| texels([u, v], sides)),
+        }
+        table.placed = Some(sides);
         Placed::At(0..n)
     }
 }

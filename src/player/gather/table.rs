@@ -86,10 +86,14 @@ impl<C: Coordinate + Place> Gather<'_, C> {
                 *alpha = slot.alpha(words, at.wrapping_add(n));
             }
         }
-        // Room for texture places, which are unpacked when something is drawn.
-        let placed = out.textured && table.texture.is_some();
-        if placed && m.places.len() >= n {
+        // Room for texture places, which are unpacked when something is drawn: in a ring they are gone then.
+        let texture = table.texture.filter(|_| out.textured);
+        if let (Some(slot), Some(places)) = (texture, m.places.get_mut(..n)) {
             self.base = n;
+            if words.room().is_some() {
+                slot.column(words, at, places, |_, [u, v, _]| [u, v]);
+                table.placed = Some(super::places::RAW);
+            }
         }
         table.usable = !fine;
         self.table = Some(table);

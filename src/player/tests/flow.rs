@@ -6,7 +6,7 @@ use crate::list::{Id, ListCommand, ListControl, Reason};
 use crate::scene::Draw;
 use core::sync::atomic::Ordering;
 
-const ROUNDS: u32 = 100_000;
+const ROUNDS: u32 = 4_000;
 
 /// Kills: words that were passed over are added without a look at how many there are already.
 #[test]

@@ -171,3 +171,64 @@ fn other_textures_of_the_settings_count_from_the_next_block_on() {
     player.set(own(0x001F));
     assert_eq!(picture(&mut player, list, Halt::End)[middle], 0x001F);
 }
+
+/// A texture of the settings with sides of these logarithms.
+fn gradient([width, height]: [u32; 2]) -> Option<&'static Texture<'static>> {
+    let texels = (0..1u16 << (width + height)).map(|n| n.wrapping_mul(0x9E37) | 1);
+    let texels: &[u16] = Vec::leak(texels.collect());
+    let texture = Texture::words(texels, 1 << width, 1 << height).unwrap();
+    Some(std::boxed::Box::leak(std::boxed::Box::new(texture)))
+}
+
+/// Kills: texture places that are read of a ring when something is drawn, and such that lost bits.
+#[test]
+fn a_table_that_was_freed_keeps_its_places() {
+    let sides = [[6, 6], [5, 4], [10, 4], [1, 3], [6, 6]];
+    let settings = PlayerSettings {
+        textures: Vec::leak(sides.map(gradient).to_vec()),
+        ..PlayerSettings::default()
+    };
+    let places = [0x0003_0005, 0x0207_1000, 0x1000_01FF, 0x1003_0F0D];
+    let mut table = vec![block(5, 4, PRSP | TEXT)];
+    for [x, y] in [[0, 1], [2, 3]].map(|pair| pair.map(|i: usize| CORNERS[i][0])) {
+        table.extend([x, y << 16, y >> 16]);
+    }
+    table.extend(places);
+    let faces = |texture| {
+        [
+            &material(Some(texture))[..],
+            &[block(6, 4, NEW), 0x0302_0100],
+        ]
+        .concat()
+    };
+    let mut later = vec![0; 600];
+    later[0] = block(8, 599, 0);
+    for is_freed in [false, true] {
+        let (mut writer, mut reader) = ring(1024).split();
+        let mut played = player(settings, Lent::SOME);
+        let before = if is_freed {
+            vec![&table, &later, &later]
+        } else {
+            vec![&table]
+        };
+        for words in before {
+            writer.append(listed(words)).unwrap();
+            assert_eq!(run(&mut played, reader.words()).0, Ok(Halt::Waiting));
+            if is_freed {
+                reader.free_to(played.position());
+            }
+        }
+        for number in 0..sides.len() as u32 {
+            writer.append(listed(&faces(number))).unwrap();
+            // The texture before is narrow.
+            if is_freed && number == 4 {
+                let error = run(&mut played, reader.words()).0.unwrap_err();
+                assert_eq!(error.reason, Reason::Lent(Lacking::Places));
+                break;
+            }
+            let got = picture(&mut played, reader.words(), Halt::Waiting);
+            let alone = listed(&[&table[..], &faces(number), &[flow(0)]].concat());
+            assert!(got == new_picture(settings, alone), "{is_freed}, {number}");
+        }
+    }
+}
