@@ -442,6 +442,7 @@ impl Overlay {
 /// `mantissa 2^(exponent - 30)`. Words 1 to 3: middle; word 4: radius, not negative; word 5:
 /// exponent, -128 ..= 96; word 6: how many words may be passed over when it is out of sight.
 ///
+/// The words are whole blocks; a list where they end within one is malformed from there on, once they are passed over.
 /// What is passed over sets no state, so what comes behind must not count on any from there. LONG
 /// vertices, and squares of points beyond one pixel, count as they are: the sphere has to hold them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -11,7 +11,7 @@ use crate::list::{
     NoTexture, Overlay, Place, Reason, Run, State, Step, Texture, Window, Words, read_block,
 };
 use crate::look::Look;
-use crate::scene::Scissor;
+use crate::scene::{Scissor, Shadow};
 
 impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     /// Does one block.
@@ -23,6 +23,11 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
     ) -> Result<Step, ListError> {
         self.counts.blocks = self.counts.blocks.saturating_add(1);
         let (id, done) = match instruction {
+            Instruction::Points(run) | Instruction::Long(run)
+                if matches!(self.state.draw.shadow, Some(Shadow::Volume(_))) =>
+            {
+                (run.header.id, Err(Reason::Missing(Missing::Shadows)))
+            }
             Instruction::State(state) => (Id::State, self.change(words, state, stage)),
             Instruction::Flow(Flow::LoadTexture { number, at }) => {
                 (Id::Flow, self.load(words, number, at, stage))

@@ -298,7 +298,8 @@ impl<'m, 't, L: Look, C: Coordinate + Place> Player<'m, 't, L, C> {
     ///
     /// A list that was started is first walked to its end, or as far as `budget` reaches, and nothing is drawn where
     /// that meets an error. What a budget, a pause or a ring kept from being looked at then is looked at block by
-    /// block, each before any of it is done; what stands before it is drawn.
+    /// block, each before any of it is done; what stands before it is drawn. So it is with what errs only where words are
+    /// passed over by BOUNDS or CONE, which that walk never does: they end within a block, or what follows counts on them.
     ///
     /// # Errors
     /// When a block is malformed, or asks for what there is not. The list has stopped; a start begins it again.

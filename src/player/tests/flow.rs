@@ -2,8 +2,8 @@
 
 use super::*;
 use crate::geometry::Affine;
-use crate::list::{Id, ListCommand, ListControl, Reason};
-use crate::scene::Draw;
+use crate::list::{Id, ListCommand, ListControl, Missing, Reason};
+use crate::scene::{Draw, Shadow};
 use core::sync::atomic::Ordering;
 
 const ROUNDS: u32 = 4_000;
@@ -177,8 +177,10 @@ fn the_last_command_is_obeyed() {
     std::thread::scope(|threads| {
         threads.spawn(|| {
             while done.load(Ordering::Relaxed) < ROUNDS {
-                if control.take() == Some(ListCommand::StopNow) {
-                    done.fetch_add(1, Ordering::AcqRel);
+                match control.take() {
+                    Some(ListCommand::StopNow) => _ = done.fetch_add(1, Ordering::AcqRel),
+                    Some(_) => {}
+                    None => std::thread::yield_now(),
                 }
             }
         });
@@ -200,4 +202,44 @@ fn the_last_command_is_obeyed() {
         control.send(command);
         assert_eq!([(); 2].map(|()| control.take()), [Some(command), None]);
     }
+}
+
+/// Kills: points and triangles on the screen that are refused where something else is drawn, behind what stands before.
+#[test]
+fn what_bounds_no_volume_is_refused_before_anything_is_drawn() {
+    let plain = PlayerSettings::default();
+    let settings = PlayerSettings {
+        draw: Draw {
+            shadow: Some(Shadow::Volume(0)),
+            ..plain.draw
+        },
+        ..plain
+    };
+    let triangle = strip(&CORNERS[..3], NEW);
+    let points = [&[block(3, 1, 0)], &CORNERS[0][..]].concat();
+    let long = vec![block(2, 3, NEW), 0, 0x0000_0100, 0x0100_0000];
+    for (block, id) in [(points, Id::Points), (long, Id::Long)] {
+        let list = listed(&[&triangle, &block, &[flow(0)][..]].concat());
+        let error = ListError {
+            offset: 4 * triangle.len() as u32,
+            block: Some(id),
+            reason: Reason::Missing(Missing::Shadows),
+        };
+        assert_eq!(
+            run(&mut player(settings, Lent::SOME), list),
+            (Err(error), 0)
+        );
+        assert_eq!(run(&mut player(plain, Lent::SOME), list).0, Ok(Halt::End));
+    }
+}
+
+/// Kills: words that are passed over to within a block, of which the rest is read as something else in silence.
+#[test]
+fn words_that_end_within_a_block_are_malformed_where_they_are_passed_over() {
+    let triangle = strip(&CORNERS[..3], NEW);
+    let bounds = behind(2);
+    let list = listed(&[&triangle, &bounds, &triangle, &[flow(0)][..]].concat());
+    let (said, objects) = run(&mut player(PlayerSettings::default(), Lent::SOME), list);
+    let at = 4 * (triangle.len() + bounds.len() + 2) as u32;
+    assert_eq!((said.unwrap_err().offset, objects), (at, 1));
 }
