@@ -98,13 +98,12 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
         if self.state.draw.lamps.is_some() {
             return Err(Reason::Missing(Missing::LightAtVertices));
         }
-        let offset = self.walker.offset();
-        let drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset)
-            .lit_by(self.lights.as_deref());
-        drawer.gather(self.casts.as_mut(), |out| self.gather.pause(words, out))?;
+        self.draw(words, stage)?;
+        self.gather.pause();
         if self.state.is_stale {
             self.find_texture(words)?;
         }
+        let offset = self.walker.offset();
         let count = u32::from(run.header.count);
         self.counts.vertices = self.counts.vertices.saturating_add(count);
         let mut drawer = Drawer::of(&self.state, &self.settings, &mut self.counts, stage, offset);
@@ -194,13 +193,8 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
 
     /// Passes over what a sphere holds that cannot be seen.
     fn skip(&mut self, words: impl Words<'t>, bounds: &Bounds, stage: &Stage<'_, '_, 't, L>) {
-        let Some((scene, camera)) = stage
-            .scene
-            .as_ref()
-            .and_then(|s| s.camera.as_ref().map(|c| (s, c)))
-        else {
-            return;
-        };
+        let Some(scene) = &stage.scene else { return };
+        let Some(camera) = &scene.camera else { return };
         let (sphere, scale) = (Sphere::from(bounds), Affine::scale_of(bounds));
         let model = scale.then(&self.settings.draw.model);
         if self.passes_over() && sphere.is_outside(camera, scene.screen, &scene.lines, &model) {
@@ -210,9 +204,8 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
 
     /// Passes over faces that are all seen from behind.
     fn skip_behind(&mut self, words: impl Words<'t>, cone: &Cone, stage: &Stage<'_, '_, 't, L>) {
-        let Some(camera) = stage.scene.as_ref().and_then(|scene| scene.camera) else {
-            return;
-        };
+        let Some(scene) = &stage.scene else { return };
+        let Some(camera) = &scene.camera else { return };
         let draw = &self.state.draw;
         if !draw.is_one_sided() || !self.passes_over() {
             return;
@@ -262,10 +255,7 @@ impl<'t, L: Look, C: Coordinate + Place> Player<'_, 't, L, C> {
             _ => self.draw(words, stage)?,
         }
         match state {
-            State::Matrix(matrix) => {
-                let matrix = Some(Affine::from(&matrix));
-                self.state.place(matrix, &self.settings);
-            }
+            State::Matrix(m) => self.state.place(Some(Affine::from(&m)), &self.settings),
             State::Light { number, light } => self.light(number, light)?,
             State::LightOff { number } => {
                 lights::set(self.lights.as_deref_mut(), &mut self.state, number, None)?;

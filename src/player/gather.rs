@@ -192,9 +192,8 @@ impl<'m, C: Coordinate + Place> Gather<'m, C> {
         self.strip.restart();
     }
 
-    /// Hands over what was gathered, as another kind of vertices comes that is not gathered here.
-    pub(crate) fn pause<'w>(&mut self, words: impl Words<'w>, out: &mut Out<'_, C>) {
-        self.flush(words, out);
+    /// Vertices of another kind come, which are not gathered here; what was gathered was handed over.
+    pub(crate) fn pause(&mut self) {
         self.kind = Kind::Nothing;
         self.strip.restart();
     }
