@@ -486,3 +486,6 @@ impl Walker {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,11 +2,8 @@
 
 use super::*;
 use crate::geometry::Affine;
-use crate::list::{Id, ListCommand, ListControl, Missing, Reason};
+use crate::list::{Id, Missing, Reason};
 use crate::scene::{Draw, Shadow};
-use core::sync::atomic::Ordering;
-
-const ROUNDS: u32 = 4_000;
 
 /// Kills: words that were passed over are added without a look at how many there are already.
 #[test]
@@ -167,40 +164,6 @@ fn another_model_counts_from_the_next_block_on() {
             assert!(unseen.iter().all(|pixel| *pixel == 0));
             assert_eq!(player.counts().skipped > 0, !bounds.is_empty());
         }
-    }
-}
-
-/// Kills: a command that is thrown away because it came while the one before was taken.
-#[test]
-fn the_last_command_is_obeyed() {
-    let (control, done) = (ListControl::new(), AtomicU32::new(0));
-    std::thread::scope(|threads| {
-        threads.spawn(|| {
-            while done.load(Ordering::Relaxed) < ROUNDS {
-                match control.take() {
-                    Some(ListCommand::StopNow) => _ = done.fetch_add(1, Ordering::AcqRel),
-                    Some(_) => {}
-                    None => std::thread::yield_now(),
-                }
-            }
-        });
-        for round in 0..ROUNDS {
-            control.send(ListCommand::Resume);
-            (0..round % 40).for_each(|_| std::hint::spin_loop());
-            control.send(ListCommand::StopNow);
-            let begin = std::time::Instant::now();
-            while done.load(Ordering::Acquire) == round {
-                if begin.elapsed().as_secs() > 20 {
-                    done.store(ROUNDS, Ordering::Release);
-                    panic!("round {round}");
-                }
-                std::thread::yield_now();
-            }
-        }
-    });
-    for command in [ListCommand::Start(7), ListCommand::Step] {
-        control.send(command);
-        assert_eq!([(); 2].map(|()| control.take()), [Some(command), None]);
     }
 }
 
