@@ -68,5 +68,5 @@ fn is_other(path: &Path, bytes: &[u8]) -> bool {
     let is = |name: &&str| extension.eq_ignore_ascii_case(name);
     let first = bytes.first_chunk().map(|word| u32::from_ne_bytes(*word));
     let is_unknown = |word| matches!(Header::read(word), Err(Reason::Version(_)));
-    ["obj", "gltf", "glb", "json"].iter().any(|name| is(&name)) || first.is_some_and(is_unknown)
+    ["obj", "gltf", "glb", "json"].iter().any(is) || first.is_some_and(is_unknown)
 }
