@@ -190,11 +190,12 @@ impl<'t> Shelf<'t> {
             (self.words.len(), words, Lent::Texels),
             (self.levels.len(), source.coarser(), Lent::Levels),
         ];
-        let lacks = |&(have, need, _): &(usize, usize, Lent)| have < textures * need;
-        match needs.into_iter().find(lacks) {
-            Some((.., lent)) => Err(Reason::Lent(lent)),
-            None => Ok(()),
+        for (have, need, lent) in needs {
+            if have < textures * need {
+                return Err(Reason::Lent(lent));
+            }
         }
+        Ok(())
     }
 
     /// Keeps a texture in a room.
